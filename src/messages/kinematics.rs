@@ -151,7 +151,8 @@ fn models() -> Vec<Row> {
             "`Robot<6>` of an arm of seven joints", "take `Robot<7>`";
         ModelFault::UnknownStructure(_) => ModelFault::UnknownStructure(dependent()),
             "six joints that are not independent; `ik` of seven whose first six are not",
-            "see below";
+            "change the table; seven joints have `fk` and `jacobian` all the same, six in Rust by \
+             `Robot::serial_chain`";
         ModelFault::NoConfiguration { .. } =>
             ModelFault::NoConfiguration { structure: "three parallel axes" },
             "`configuration`, `ik_configured`", "take `slot` of a solution";

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pyo3::basic::CompareOp;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyMapping};
+use pyo3::types::{PyBool, PyDict, PyMapping};
 
 use super::answers::{batch_output, pose_check};
 use super::arguments::{read_singularity_mode, thread_count};
@@ -82,7 +82,9 @@ fn read_pair<'py>(given: &Bound<'py, PyAny>) -> PyResult<(usize, Bound<'py, PyAn
         )));
     }
     let (joint, angle): (Bound<'py, PyAny>, Bound<'py, PyAny>) = pairs.get_item(0)?.extract()?;
-    let number: i64 = joint.extract().map_err(|_| {
+    // A bool is a number for Python.
+    let number = joint.extract::<i64>().ok().filter(|_| !joint.is_instance_of::<PyBool>());
+    let number = number.ok_or_else(|| {
         PyTypeError::new_err(format!("given: {joint} is not the number of a joint, from 1"))
     })?;
     let missing =

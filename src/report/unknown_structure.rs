@@ -258,7 +258,7 @@ impl fmt::Display for UnknownStructure {
                 write!(
                     f,
                     ", so that the flange moves in {freedoms} independent ways, it must be 6: \
-                     change the table, or use fk and jacobian of its joints alone"
+                     change the table"
                 )
             }
             Reason::TooShort { pattern, field, value, bound } => {

@@ -151,6 +151,7 @@ def test_cross_validation_foretells_the_error_at_fresh_poses():
     assert abs(np.sqrt(np.mean(off**2)) / foretold - 1) < 0.3
     few = irbkin.calibrate(IRB2600, q[:6], truth.fk(q[:6]))
     assert few.residuals.cross_validated is None
+    assert "cross-validated: none" in str(few)
 
 
 def test_a_base_and_a_tool_far_off_are_found():

@@ -171,6 +171,7 @@ def test_a_given_angle_outside_its_limits_leaves_no_solution_inside():
         ({8: 0.2}, irbkin.InvalidJointsError, "given: there is no joint 8, it must be 1 to 7"),
         ({0: 0.2}, irbkin.InvalidJointsError, "given: there is no joint 0, it must be 1 to 7"),
         ({"q3": 0.2}, TypeError, "q3 is not the number of a joint, from 1"),
+        ({True: 0.2}, TypeError, "True is not the number of a joint, from 1"),
         ({3: np.nan}, irbkin.InvalidJointsError, "joint 3 is NaN"),
         ({3: [0.1, 0.2]}, TypeError, "must be one real number"),
         ({1: 0.1, 3: 0.2}, ValueError, "given has 2 joints"),

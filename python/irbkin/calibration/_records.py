@@ -146,6 +146,8 @@ class Calibration(NamedTuple):
                 lines.append(
                     f"{name:15}  {figures[0]:>9} {figures[1]:>9}  {figures[2]:>9} {figures[3]:>9}"
                 )
+            else:
+                lines.append(f"{name}: none, no folds or too few measurements")
         lines.append(f"{'parameter':15}  {'correction':>12}  {'standard error':>14}")
         for each in self.parameters:
             unit = "mm" if each.unit == "m" else "mrad"

@@ -175,8 +175,10 @@ def _write_all(
             if is_one:
                 for solution in robot.ik(poses[0], q7, given=given):
                     if free := solution.free_joint:
+                        verb = "are" if "," in free.fixed else "is"
                         words = (
-                            f"slot {solution.slot}: J{free.joint} is free, {free.fixed} is fixed"
+                            f"slot {solution.slot}: J{free.joint} is free, "
+                            f"{free.fixed} {verb} fixed"
                         )
                         rows.note(f"free_joint_of_slot_{solution.slot}", free.joint, words)
         if uncertain:

@@ -1,7 +1,7 @@
 //! Regular poses in lanes: one, and a block of them.
 
 use super::method::{ByRoots, SLOTS};
-use super::regular::{Eight, One, Solved};
+use super::regular::{Regular, Solved};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::{
     Block, Columns, FOUND_INSIDE, LaneKernel, Poses, RegularSlots, SlotColumns,
@@ -18,7 +18,7 @@ impl<M: ByRoots> LaneKernel<6, SLOTS> for RootKernel<M> {
 
     type Redundancy = ();
     type Regular = RegularSlots<6, SLOTS>;
-    type Block = RegularBlock<M>;
+    type Block = RegularBlock;
 
     /// A regular pose leaves nothing to choose.
     fn for_path(&self) -> Option<Self> {
@@ -36,8 +36,8 @@ impl<M: ByRoots> LaneKernel<6, SLOTS> for RootKernel<M> {
         if !method.may_be_regular(t_first_last) {
             return None;
         }
-        let mut one = One::NEW;
-        let solved = one.solve(method, &[*t_first_last]).first()?;
+        let mut regular = Regular::new();
+        let solved = regular.solve(method, &[*t_first_last]).first()?;
         if !solved.is_regular || solved.as_slice().is_empty() {
             return None;
         }
@@ -53,15 +53,14 @@ impl<M: ByRoots> LaneKernel<6, SLOTS> for RootKernel<M> {
 }
 
 /// A block of poses with their solutions.
-pub(crate) struct RegularBlock<M: ByRoots> {
-    regular: Eight<M>,
+pub(crate) struct RegularBlock {
     slots: SlotColumns<6, SLOTS>,
 }
 
-impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock<M> {
+impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock {
     type Slots = SlotColumns<6, SLOTS>;
 
-    const NEW: Self = Self { regular: Eight::NEW, slots: SlotColumns::NEW };
+    const NEW: Self = Self { slots: SlotColumns::NEW };
 
     #[inline(always)]
     fn solve<const FUSED: bool>(
@@ -72,11 +71,12 @@ impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock<M> {
         (): (),
     ) -> Flags {
         let (frames, count, places) = different(method, poses);
-        let solved = self.regular.solve(method, &frames[..count]);
-        let mut regular = [0; LANES];
+        let mut regular = Regular::new();
+        let solved = regular.solve(method, &frames[..count]);
+        let mut are_regular = [0; LANES];
         for (lane, place) in places.into_iter().enumerate() {
             let solved = place.map(|place: usize| &solved[place]);
-            regular[lane] = u64::from(solved.is_some_and(|solved| solved.is_regular));
+            are_regular[lane] = u64::from(solved.is_some_and(|solved| solved.is_regular));
             let mut all = solved.map_or(&[][..], Solved::as_slice).iter();
             for slot in 0..SLOTS {
                 let theta = all.next();
@@ -88,7 +88,7 @@ impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock<M> {
             }
         }
         self.slots.wrap(&columns.joints);
-        regular
+        are_regular
     }
 
     #[inline(always)]

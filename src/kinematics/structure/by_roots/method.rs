@@ -15,10 +15,7 @@ pub(crate) const SLOTS: usize = MOST_SLOTS;
 /// A way to the solutions of a pose at the roots of a polynomial of the angle of one joint.
 pub(crate) trait ByRoots: Clone + Debug + PartialEq {
     /// A pose, prepared for this arm.
-    type Posed: Copy;
-
-    /// Some pose, prepared: what is in a place before there is one.
-    const NONE: Self::Posed;
+    type Posed;
 
     /// The closure of the arm's joints.
     fn closure(&self) -> &Closure;

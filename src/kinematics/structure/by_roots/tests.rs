@@ -3,14 +3,14 @@
 use std::vec::Vec;
 
 use super::method::ByRoots;
-use super::regular::{Eight, One};
+use super::regular::Regular;
 use crate::kinematics::structure::closure::Configuration;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::LANES;
 
 /// Check that each pose has the bits among eight that it has alone. Returns how many are regular.
 pub(crate) fn same_in_company<M: ByRoots>(method: &M, frames: &[Frame], name: &str) -> usize {
-    let (mut alone, mut company) = (One::NEW, Eight::NEW);
+    let (mut alone, mut company) = (Regular::new(), Regular::new());
     let mut count = 0;
     for block in frames.chunks(LANES) {
         let all = company.solve(method, block);
@@ -34,7 +34,7 @@ pub(crate) fn is_as_in_whole_search<M: ByRoots>(
     whole_search: impl FnOnce() -> (Vec<Configuration>, bool),
     name: &str,
 ) -> bool {
-    let mut regular = One::NEW;
+    let mut regular = Regular::new();
     let [solved] = regular.solve(method, &[*frame]) else { unreachable!() };
     if !solved.is_regular {
         return false;

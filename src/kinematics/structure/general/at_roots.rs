@@ -47,8 +47,6 @@ pub(crate) struct AtTarget {
 
 impl ByRoots for FirstSplit {
     type Posed = AtTarget;
-    const NONE: AtTarget =
-        AtTarget { target: Target { frame: Frame::IDENTITY }, posed: Posed::NONE };
 
     fn closure(&self) -> &Closure {
         &self.closure

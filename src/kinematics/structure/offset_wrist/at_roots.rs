@@ -37,7 +37,6 @@ pub(super) struct Served<'a, S: Simd> {
 
 impl ByRoots for Constants {
     type Posed = Frame;
-    const NONE: Frame = Frame::IDENTITY;
 
     fn closure(&self) -> &Closure {
         &self.closure

@@ -1,5 +1,6 @@
 //! Simple roots between places of an arc, before they are refined.
 
+use arrayvec::ArrayVec;
 use fearless_simd::prelude::*;
 
 use super::part::{Part, angle, middle};
@@ -20,15 +21,25 @@ pub(super) struct BracketBlock {
     signs: Column,
 }
 
+/// Blocks of brackets, at most: for sixteen roots of each of eight polynomials, and one.
+const MOST_BLOCKS: usize = 17;
+
+/// Brackets, at most.
+pub(super) const MOST_BRACKETS: usize = MOST_BLOCKS * LANES;
+
 impl BracketBlock {
-    pub(super) const NONE: Self = Self {
-        of: [0; LANES],
-        middles: [0.0; LANES],
-        lows: [0.0; LANES],
-        highs: [0.0; LANES],
-        starts: [0.0; LANES],
-        signs: [0.0; LANES],
-    };
+    /// The same bracket in every lane.
+    #[inline(always)]
+    fn splat(of: usize, [middle, low, high, start, sign]: [f64; 5]) -> Self {
+        Self {
+            of: [of; LANES],
+            middles: [middle; LANES],
+            lows: [low; LANES],
+            highs: [high; LANES],
+            starts: [start; LANES],
+            signs: [sign; LANES],
+        }
+    }
 
     /// Put a bracket in a lane.
     #[inline(always)]
@@ -37,14 +48,6 @@ impl BracketBlock {
         self.middles[lane] = middle;
         (self.lows[lane], self.highs[lane], self.starts[lane]) = (low, high, start);
         self.signs[lane] = sign;
-    }
-
-    /// Repeat the first bracket in lanes without one.
-    fn fill(&mut self, lanes: usize) {
-        let (of, bracket) = self.bracket(0);
-        for lane in lanes..LANES {
-            self.put(lane, of, bracket);
-        }
     }
 
     /// The bracket in a lane.
@@ -67,9 +70,9 @@ impl BracketBlock {
 }
 
 /// Brackets of simple roots, in blocks of lanes.
-pub(super) struct Brackets<'a> {
-    pub(super) blocks: &'a mut [BracketBlock],
-    pub(super) count: usize,
+pub(super) struct Brackets {
+    pub(super) blocks: ArrayVec<BracketBlock, MOST_BLOCKS>,
+    pub(super) count: u8,
     /// Whether there was room for all.
     pub(super) is_complete: bool,
 }
@@ -83,29 +86,22 @@ pub(super) struct Bracket<S: Simd> {
     pub(super) sign: Vector<S>,
 }
 
-impl<'a> Brackets<'a> {
-    pub(super) fn none(blocks: &'a mut [BracketBlock]) -> Self {
-        Self { blocks, count: 0, is_complete: true }
+impl Brackets {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self { blocks: ArrayVec::new(), count: 0, is_complete: true }
     }
 
-    /// Repeat the first bracket of the last block in its lanes without one.
-    pub(super) fn fill(&mut self) {
-        if let Some(last) = self.blocks.get_mut(self.count / LANES) {
-            last.fill(self.count % LANES);
-        }
-    }
-
-    /// Put those of wanted polynomials, up to eight, in another order: first the blocks that the
-    /// brackets of one polynomial fill, then the rest. Returns how many they are.
-    pub(super) fn pack(
+    /// Numbers of those of wanted polynomials, up to eight, in another order, and how many they
+    /// are: first those that fill blocks with the brackets of one polynomial, then the rest.
+    pub(super) fn packed(
         &self,
-        into: &mut [BracketBlock],
         is_wanted: impl Fn(usize) -> bool,
-    ) -> usize {
-        let all = (0..self.count).map(|index| self.blocks[index / LANES].bracket(index % LANES));
-        let all = all.filter(|(of, _)| is_wanted(*of));
+    ) -> ([u8; MOST_BRACKETS], usize) {
+        let of = |number: u8| self.blocks[usize::from(number) / LANES].of[usize::from(number) % LANES];
+        let all = (0..self.count).filter(|number| is_wanted(of(*number)));
         let mut counts = [0; LANES];
-        all.clone().for_each(|(of, _)| counts[of] += 1);
+        all.clone().for_each(|number| counts[of(number)] += 1);
         // Places of the next full one and of the next of the rest, and how many are full.
         let mut next = [[0; 2]; LANES];
         let full = counts.map(|count| count - count % LANES);
@@ -114,31 +110,51 @@ impl<'a> Brackets<'a> {
             next[of] = [first, rest];
             (first, rest) = (first + full[of], rest + counts[of] - full[of]);
         }
-        let mut left = full;
-        for (of, bracket) in all {
+        let (mut left, mut order) = (full, [0; MOST_BRACKETS]);
+        for number in all {
+            let of = of(number);
             let is_rest = usize::from(left[of] == 0);
             left[of] -= 1 - is_rest;
-            let place = next[of][is_rest];
+            order[next[of][is_rest]] = number;
             next[of][is_rest] += 1;
-            into[place / LANES].put(place % LANES, of, bracket);
         }
-        if let Some(last) = into.get_mut(rest / LANES) {
-            last.fill(rest % LANES);
+        (order, rest)
+    }
+
+    /// Up to eight with these numbers, one at least; lanes without one repeat the first.
+    pub(super) fn block(&self, numbers: &[u8]) -> BracketBlock {
+        let bracket = |lane: usize| {
+            let number = usize::from(numbers[lane]);
+            self.blocks[number / LANES].bracket(number % LANES)
+        };
+        let (of, first) = bracket(0);
+        let mut block = BracketBlock::splat(of, first);
+        for lane in 1..LANES.min(numbers.len()) {
+            let (of, bracket) = bracket(lane);
+            block.put(lane, of, bracket);
         }
-        rest
+        block
     }
 
     /// Take a root in a part of an arc, sought first at a part of the way through it, with the sign
     /// of the value before it.
     pub(super) fn push(&mut self, at: &Part, part: f64, sign: f64) {
-        let lane = self.count % LANES;
-        let Some(block) = self.blocks.get_mut(self.count / LANES) else {
-            self.is_complete = false;
-            return;
-        };
         let Part { of, arc, low, high, .. } = *at;
         let [middle, start] = [middle(arc), low + part * (high - low)];
-        block.put(lane, of, [middle, low, high, start, sign]);
+        self.put(of, [middle, low, high, start, sign]);
+    }
+
+    fn put(&mut self, of: usize, bracket: [f64; 5]) {
+        let (block, lane) = (usize::from(self.count) / LANES, usize::from(self.count) % LANES);
+        // The first of a block stands in its other lanes until there are others.
+        if lane == 0 {
+            if self.blocks.try_push(BracketBlock::splat(of, bracket)).is_err() {
+                self.is_complete = false;
+                return;
+            }
+        } else {
+            self.blocks[block].put(lane, of, bracket);
+        }
         self.count += 1;
     }
 }

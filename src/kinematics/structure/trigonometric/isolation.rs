@@ -8,10 +8,11 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
+use arrayvec::ArrayVec;
 use fearless_simd::prelude::*;
 
 use super::arcs::ARCS_OF;
-use super::brackets::{BracketBlock, Brackets};
+use super::brackets::Brackets;
 use super::clusters::Clusters;
 use super::part::{Coefficients, Part};
 use super::polynomial::TrigonometricPolynomial;
@@ -25,72 +26,40 @@ const MOST_DIVISIONS: usize = 96;
 /// A count of changes that no coefficients have: stands for an impossible sign.
 const NEVER: f64 = -1e3;
 
-/// Room for what is found, and for what is to be divided: blocks of lanes.
-pub(super) struct Room<const PARTS: usize, const BRACKETS: usize> {
-    columns: [Coefficients<Column>; PARTS],
-    parts: [[Part; LANES]; PARTS],
-    brackets: [BracketBlock; BRACKETS],
-}
-
-impl<const PARTS: usize, const BRACKETS: usize> Room<PARTS, BRACKETS> {
-    pub(super) const NEW: Self = Self {
-        columns: [[[0.0; LANES]; POWERS + 1]; PARTS],
-        parts: [[Part::NONE; LANES]; PARTS],
-        brackets: [BracketBlock::NONE; BRACKETS],
-    };
-
-    pub(super) fn space(&mut self) -> Space<'_> {
-        let Self { columns, parts, brackets } = self;
-        Space { columns, parts: parts.as_flattened_mut(), brackets }
-    }
-}
-
-/// The same, of any size.
-pub(super) struct Space<'a> {
-    columns: &'a mut [Coefficients<Column>],
-    parts: &'a mut [Part],
-    brackets: &'a mut [BracketBlock],
-}
-
-impl Space<'_> {
-    /// A search in it, which has found nothing yet.
-    pub(super) fn search<'a, 'c>(&'a mut self, clusters: Clusters<'c>) -> Search<'a, 'c> {
-        let Self { columns, parts, brackets } = self;
-        let parts = Parts { columns, all: parts, count: 0 };
-        Search { parts, brackets: Brackets::none(brackets), clusters }
-    }
-}
+/// Blocks of parts that wait for their division, at most: for one polynomial four are enough, and
+/// parts are divided before there are more of several.
+const MOST_BLOCKS: usize = 6;
 
 /// What is found, and what is to be divided.
-pub(super) struct Search<'a, 'c> {
-    parts: Parts<'a>,
-    pub(super) brackets: Brackets<'a>,
-    clusters: Clusters<'c>,
+pub(super) struct Search<'a> {
+    parts: Parts,
+    brackets: &'a mut Brackets,
+    clusters: Clusters<'a>,
 }
 
 /// Parts to be divided, in blocks of lanes.
-struct Parts<'a> {
-    columns: &'a mut [Coefficients<Column>],
-    all: &'a mut [Part],
-    count: usize,
+struct Parts {
+    columns: ArrayVec<Coefficients<Column>, MOST_BLOCKS>,
+    all: ArrayVec<Part, { MOST_BLOCKS * LANES }>,
 }
 
-impl Parts<'_> {
-    fn push(&mut self, coefficients: &Coefficients<f64>, part: Part) {
-        let columns = &mut self.columns[self.count / LANES];
-        for j in 0..=POWERS {
-            // The first of a block stands in its other lanes until there are others.
-            if self.count.is_multiple_of(LANES) {
-                columns[j] = [coefficients[j]; LANES];
-            }
-            columns[j][self.count % LANES] = coefficients[j];
-        }
-        self.all[self.count] = part;
-        self.count += 1;
+impl Parts {
+    #[inline(always)]
+    fn new() -> Self {
+        Self { columns: ArrayVec::new(), all: ArrayVec::new() }
     }
 
-    fn is_full(&self) -> bool {
-        self.count == self.all.len()
+    fn push(&mut self, coefficients: &Coefficients<f64>, part: Part) {
+        let (block, lane) = (self.all.len() / LANES, self.all.len() % LANES);
+        if lane == 0 {
+            // The first of a block stands in its other lanes until there are others.
+            self.columns.push(coefficients.map(|coefficient| [coefficient; LANES]));
+        } else {
+            for (column, coefficient) in self.columns[block].iter_mut().zip(coefficients) {
+                column[lane] = *coefficient;
+            }
+        }
+        self.all.push(part);
     }
 
     /// Divide a block by de Casteljau's algorithm, and remove it: the last full one. Returns its
@@ -101,16 +70,16 @@ impl Parts<'_> {
         left: &mut Coefficients<Vector<S>>,
         right: &mut Coefficients<Vector<S>>,
     ) -> ([Part; LANES], usize) {
-        let last = self.count.saturating_sub(1) / LANES;
-        let rest = (self.count % LANES) * usize::from(last > 0);
-        let block = if rest > 0 { last - 1 } else { last };
+        let (last, rest) = (self.columns.len() - 1, self.all.len() % LANES);
+        let block = if rest > 0 && last > 0 { last - 1 } else { last };
         let first = LANES * block;
+        let count = LANES.min(self.all.len() - first);
         let mut parts = [self.all[first]; LANES];
-        parts.copy_from_slice(&self.all[first..first + LANES]);
+        parts[..count].copy_from_slice(&self.all[first..first + count]);
         let simd = left[0].token();
         let cut = Vector::load_array(simd, parts.map(|part| part.cut));
-        for j in 0..=POWERS {
-            right[j] = Vector::load_array_ref(simd, &self.columns[block][j]);
+        for (to, column) in right.iter_mut().zip(&self.columns[block]) {
+            *to = Vector::load_array_ref(simd, column);
         }
         left[0] = right[0];
         for row in 1..=POWERS {
@@ -119,17 +88,23 @@ impl Parts<'_> {
             }
             left[row] = right[0];
         }
-        let count = LANES.min(self.count - first);
-        if rest > 0 {
-            self.columns.copy_within(last..=last, block);
-            self.all.copy_within(first + LANES..self.count, first);
+        if block < last {
+            self.columns[block] = self.columns[last];
+            self.all.copy_within(first + LANES.., first);
         }
-        self.count -= count;
+        self.columns.truncate(last);
+        self.all.truncate(self.all.len() - count);
         (parts, count)
     }
 }
 
-impl Search<'_, '_> {
+impl<'a> Search<'a> {
+    /// A search that has found nothing yet.
+    #[inline(always)]
+    pub(super) fn new(brackets: &'a mut Brackets, clusters: Clusters<'a>) -> Self {
+        Self { parts: Parts::new(), brackets, clusters }
+    }
+
     /// Find an interval for every root beside the known clusters: brackets of simple roots, as wide
     /// as they can be, and clusters.
     pub(super) fn isolate<S: Simd>(
@@ -152,7 +127,7 @@ impl Search<'_, '_> {
         for of in 0..=all.len() {
             // Blocks of parts are divided when they are full, in the end all.
             let most = if of == all.len() { 0 } else { LANES - 1 };
-            while self.parts.count > most && divisions < MOST_DIVISIONS * all.len() {
+            while self.parts.all.len() > most && divisions < MOST_DIVISIONS * all.len() {
                 let [left, right, ..] = &mut columns;
                 self.divide(left, right);
                 divisions += 1;
@@ -164,10 +139,9 @@ impl Search<'_, '_> {
                 self.begin(&columns, (of, polynomial.noise), known);
             }
         }
-        for part in &self.parts.all[..self.parts.count] {
+        for part in &self.parts.all {
             self.clusters.take(part);
         }
-        self.brackets.fill();
     }
 
     /// Begin with a polynomial with this number and noise: on all arcs, by quarters of the circle,
@@ -242,7 +216,7 @@ impl Search<'_, '_> {
         };
         if coefficients.iter().all(is_noise)
             || clusters.is_narrow(&part)
-            || parts.is_full()
+            || parts.all.is_full()
             || is_at_edge()
         {
             clusters.take(&part);

@@ -22,5 +22,5 @@ mod tests;
 
 pub(crate) use polynomial::TrigonometricPolynomial;
 pub(crate) use roots::{Root, Roots};
-pub(crate) use simple_roots::{RootBlock, RootRoom, SimpleRoots};
+pub(crate) use simple_roots::{RootBlock, SimpleRoots};
 pub(crate) use tables::{SAMPLE_COS, SAMPLE_SIN, SAMPLES};

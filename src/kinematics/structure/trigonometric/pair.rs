@@ -27,7 +27,7 @@ impl Part {
     pub(super) fn take_pair(
         &self,
         b: &Coefficients<f64>,
-        brackets: &mut Brackets<'_>,
+        brackets: &mut Brackets,
         clusters: &mut Clusters<'_>,
     ) -> bool {
         let noise = self.noise;

@@ -22,10 +22,6 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Zeros: no part.
-    pub(super) const NONE: Self =
-        Self { high: 0.0, cut: 0.0, keeps: [false; 2], ..Self::whole(0, 0.0, 0) };
-
     /// A whole arc of a polynomial, to be divided in the middle.
     #[inline(always)]
     pub(super) const fn whole(of: usize, noise: f64, arc: usize) -> Self {

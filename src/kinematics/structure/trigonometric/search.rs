@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 
 use super::brackets::Brackets;
 use super::clusters::{Clusters, Progress};
-use super::isolation::{Room, Search};
+use super::isolation::Search;
 use super::polynomial::TrigonometricPolynomial;
 use super::refinement::Refined;
 use super::roots::{Root, Roots};
@@ -18,9 +18,6 @@ const MOST_MULTIPLICITY: usize = 8;
 
 /// Order of the derivative that is only bounded, in the series of the others.
 const TAYLOR: usize = 14;
-
-/// Room for the roots of one polynomial.
-type RoomForOne = Room<4, 3>;
 
 impl TrigonometricPolynomial {
     /// Every real root, in a range of a full turn: complete up to the noise (eq. 96). Clusters that
@@ -34,11 +31,9 @@ impl TrigonometricPolynomial {
         for cluster in known {
             roots.push(*cluster);
         }
-        let mut room = RoomForOne::NEW;
-        let mut space = room.space();
-        let mut search = space.search(Clusters::Kept(&mut roots));
-        search.isolate(simd, slice::from_ref(self), known);
-        let Search { brackets, .. } = search;
+        let mut brackets = Brackets::new();
+        let clusters = Clusters::Kept(&mut roots);
+        Search::new(&mut brackets, clusters).isolate(simd, slice::from_ref(self), known);
         brackets.refine_into(simd, self, &mut roots);
         roots.join();
         for root in roots.as_mut_slice().iter_mut().filter(|root| !root.is_simple) {
@@ -51,11 +46,9 @@ impl TrigonometricPolynomial {
     /// cluster.
     pub(crate) fn simple_roots<S: Simd>(&self, simd: S) -> Option<Roots> {
         let (mut roots, mut progress) = (Roots::NONE, [Progress::NEW]);
-        let mut room = RoomForOne::NEW;
-        let mut space = room.space();
-        let mut search = space.search(Clusters::Left(&mut progress));
-        search.isolate(simd, slice::from_ref(self), &[]);
-        let Search { brackets, .. } = search;
+        let mut brackets = Brackets::new();
+        let clusters = Clusters::Left(&mut progress);
+        Search::new(&mut brackets, clusters).isolate(simd, slice::from_ref(self), &[]);
         if self.is_noise() || progress[0].is_left || !brackets.is_complete {
             return None;
         }
@@ -105,13 +98,14 @@ impl TrigonometricPolynomial {
     }
 }
 
-impl Brackets<'_> {
+impl Brackets {
     /// Push the roots that they hold, which are those of one polynomial.
     fn refine_into<S: Simd>(&self, simd: S, of: &TrigonometricPolynomial, roots: &mut Roots) {
         roots.is_complete &= self.is_complete;
-        for (first, block) in (0..self.count).step_by(LANES).zip(&*self.blocks) {
+        let count = usize::from(self.count);
+        for (first, block) in (0..count).step_by(LANES).zip(&self.blocks) {
             let Refined { angles, radii } = block.refined(simd, slice::from_ref(of));
-            for lane in 0..LANES.min(self.count - first) {
+            for lane in 0..LANES.min(count - first) {
                 roots.push(Root::simple(angles[lane], radii[lane]));
             }
         }

@@ -1,49 +1,24 @@
 //! The roots of several polynomials, each of which has simple ones alone.
 
+use arrayvec::ArrayVec;
 use fearless_simd::Simd;
 
-use super::brackets::BracketBlock;
+use super::brackets::{Brackets, MOST_BRACKETS};
 use super::clusters::{Clusters, Progress};
-use super::isolation::{Room, Search, Space};
+use super::isolation::Search;
 use super::polynomial::TrigonometricPolynomial;
 use super::refinement::Refined;
 use crate::lanes::{Column, LANES};
 
-/// Room for the roots of several polynomials, with so many blocks of parts and of roots.
-pub(crate) struct RootRoom<const MANY: usize, const PARTS: usize, const ROOTS: usize> {
-    polynomials: [TrigonometricPolynomial; MANY],
-    progress: [Progress; MANY],
-    room: Room<PARTS, ROOTS>,
-    packed: [BracketBlock; ROOTS],
-}
-
-impl<const MANY: usize, const PARTS: usize, const ROOTS: usize> RootRoom<MANY, PARTS, ROOTS> {
-    pub(crate) const NEW: Self = Self {
-        polynomials: [TrigonometricPolynomial::NONE; MANY],
-        progress: [Progress::LEFT; MANY],
-        room: Room::NEW,
-        packed: [BracketBlock::NONE; ROOTS],
-    };
-
-    /// A search for the roots of so many polynomials, which are to be put.
-    pub(crate) fn search(&mut self, many: usize) -> SimpleRoots<'_> {
-        let Self { polynomials, progress, room, packed } = self;
-        let (polynomials, progress) = (&mut polynomials[..many], &mut progress[..many]);
-        let space = room.space();
-        SimpleRoots { polynomials, progress, space, packed, count: 0, is_complete: true }
-    }
-}
-
-/// The search for the roots of several polynomials. One is left, without an answer, as soon as it
-/// has a cluster of roots, or takes many divisions: its answer does not depend on the others.
-pub(crate) struct SimpleRoots<'a> {
-    polynomials: &'a mut [TrigonometricPolynomial],
-    progress: &'a mut [Progress],
-    space: Space<'a>,
-    /// The brackets that are found, in another order.
-    packed: &'a mut [BracketBlock],
+/// The roots of up to eight polynomials. One is left, without an answer, as soon as it has a cluster
+/// of roots, or takes many divisions: its answer does not depend on the others.
+pub(crate) struct SimpleRoots {
+    polynomials: ArrayVec<TrigonometricPolynomial, LANES>,
+    progress: ArrayVec<Progress, LANES>,
+    brackets: Brackets,
+    /// Numbers of the brackets, by blocks, and how many they are.
+    order: [u8; MOST_BRACKETS],
     count: usize,
-    is_complete: bool,
 }
 
 /// Up to eight roots [rad]: lanes without one repeat the first.
@@ -68,35 +43,43 @@ impl RootBlock {
     }
 }
 
-impl SimpleRoots<'_> {
-    /// Put a polynomial in a place.
-    pub(crate) fn put(&mut self, number: usize, polynomial: TrigonometricPolynomial) {
-        let is_noise = polynomial.is_noise();
-        self.progress[number] = if is_noise { Progress::LEFT } else { Progress::NEW };
-        self.polynomials[number] = polynomial;
+impl SimpleRoots {
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        Self {
+            polynomials: ArrayVec::new(),
+            progress: ArrayVec::new(),
+            brackets: Brackets::new(),
+            order: [0; MOST_BRACKETS],
+            count: 0,
+        }
+    }
+
+    /// Put a polynomial behind the others.
+    pub(crate) fn push(&mut self, polynomial: TrigonometricPolynomial) {
+        self.progress.push(if polynomial.is_noise() { Progress::LEFT } else { Progress::NEW });
+        self.polynomials.push(polynomial);
     }
 
     /// Isolate the roots. Returns the number of blocks: most have the roots of one polynomial.
     pub(crate) fn isolate<S: Simd>(&mut self, simd: S) -> usize {
-        let Self { polynomials, progress, space, packed, .. } = self;
-        let mut search = space.search(Clusters::Left(progress));
-        search.isolate(simd, polynomials, &[]);
-        let Search { brackets, .. } = search;
-        self.count = brackets.pack(packed, |of| !progress[of].is_left);
-        self.is_complete = brackets.is_complete;
-        self.count.div_ceil(LANES)
+        let Self { polynomials, progress, brackets, order, count } = self;
+        let clusters = Clusters::Left(progress);
+        Search::new(brackets, clusters).isolate(simd, polynomials, &[]);
+        (*order, *count) = brackets.packed(|of| !progress[of].is_left);
+        count.div_ceil(LANES)
     }
 
     /// The roots of a block.
     pub(crate) fn block<S: Simd>(&self, simd: S, number: usize) -> RootBlock {
-        let block = &self.packed[number];
-        let count = LANES.min(self.count - LANES * number);
-        let Refined { angles, .. } = block.refined(simd, self.polynomials);
-        RootBlock { of: block.of, angles, count }
+        let numbers = &self.order[LANES * number..self.count];
+        let block = self.brackets.block(numbers);
+        let Refined { angles, .. } = block.refined(simd, &self.polynomials);
+        RootBlock { of: block.of, angles, count: LANES.min(numbers.len()) }
     }
 
     /// Whether the roots of a polynomial are all that it has.
     pub(crate) fn are_all(&self, number: usize) -> bool {
-        self.is_complete && !self.progress[number].is_left
+        self.brackets.is_complete && !self.progress[number].is_left
     }
 }
