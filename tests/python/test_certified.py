@@ -48,6 +48,45 @@ def test_axes_that_are_nearly_one_line(angle):
     assert certified(found).mean() > 0.95
 
 
+# Tables by alpha [deg], a [m], d [m] and theta [deg], and joint vectors [deg] at which two directions
+# are singular.
+SINGULAR_TWICE = [
+    (
+        [180, 45, 0, 180, 45, -90],
+        [0.3, 0, 0.25, 0.5, 0.1, 0.1],
+        [0.25, 0, 0.5, 0.4, 0, 0.5],
+        [180, 0, 0, 90, 0, 0],
+        [-90, -90, 180, 0, 180, 90],
+    ),
+    (
+        [90, 180, 45, 180, 45, 180],
+        [0, 0.5, 0, 0.5, 0.5, 0.25],
+        [0.1, 0, 0.4, 0, 0.5, 0.25],
+        [-90, 0, 180, -90, 0, -90],
+        [180, -90, 90, 180, 90, -90],
+    ),
+    (
+        [-45, 90, 180, 90, 90, 0],
+        [0, 0.3, 0.3, 0.5, 0.5, 0.25],
+        [0.4, 0.1, 0.5, 0.1, 0, 0],
+        [0, 0, -90, 0, 0, 45],
+        [-57.9385, 80.3581, 180, 180, 90, -90],
+    ),
+]
+
+
+@pytest.mark.parametrize("case", SINGULAR_TWICE)
+def test_a_pose_that_is_singular_in_two_directions_has_an_answer(case):
+    alpha, a, d, theta, q = case
+    arm = irbkin.Robot.from_mdh(np.column_stack([np.radians(alpha), a, d, np.radians(theta)]))
+    pose = arm.fk(np.radians(q))
+    found = arm.ik(pose)
+    assert len(found) > 0
+    assert not found.certified
+    assert max(solution.residual for solution in found) < 1e-13 * (np.abs(a).sum() + np.abs(d).sum())
+    assert found[0].singularities
+
+
 @pytest.mark.parametrize("name", ["GoFa 5", "GoFa 10", "GoFa 12", "xArm6"])
 def test_axes_4_and_6_parallel_to_axis_1_and_a_pose_in_single_precision(name):
     """Three solutions merge there; rounding of the pose leaves one or three of them."""
@@ -154,7 +193,7 @@ OBLIQUE = ([0, 0, 90, -90, 90, -90, 180, 45, -45, 30, 60], [0, 0, 0, 90, -90, 18
 def test_random_tables_with_angles_that_are_round(alphas, thetas, step):
     rng = np.random.default_rng(12)
     tables = int(os.environ.get("TABLES", "60"))
-    poses = complete = lost = 0
+    poses = complete = lost = empty = 0
     for _ in range(tables):
         alpha, theta = (np.radians(rng.choice(some, 6)) for some in (alphas, thetas))
         lengths = rng.choice([0, 0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5], (6, 2))
@@ -178,8 +217,11 @@ def test_random_tables_with_angles_that_are_round(alphas, thetas, step):
         complete += is_certified.sum()
         # Where several merge, rounding moves them by a root of itself.
         lost += (is_certified & (apart(found.q, q) > 2e-2)).sum()
+        empty += np.isnan(found.q).all((-1, -2)).sum()
     print(f"{poses} poses, {complete} certified, {lost} of them without their joint vector")
+    print(f"{empty} without an answer")
     assert poses > 20 * tables
+    assert empty < 1e-3 * poses
     assert complete > 0.5 * poses
     assert lost == 0
 

@@ -49,6 +49,8 @@ pub(crate) struct Accepted {
     merged_count: usize,
     /// How many candidates next to a singularity may still be examined.
     left: usize,
+    /// Of those next to a singularity of which nothing could be told, the one that closes best.
+    untold: Option<Configuration>,
 }
 
 impl fmt::Debug for Accepted {
@@ -74,6 +76,7 @@ impl Accepted {
         merged: [Merged::NONE; MERGED_PLACES],
         merged_count: 0,
         left: MOST_EXAMINED,
+        untold: None,
     };
 
     pub(crate) fn as_slice(&self) -> &[Configuration] {
@@ -205,7 +208,25 @@ impl Accepted {
                 // It may have come to a self-motion.
                 self.is_certain &= !is_isolated || one.least > ISOLATED;
                 self.insert(closure, one);
+            } else if !is_told {
+                let closest = self.untold.get_or_insert(*candidate);
+                if candidate.residual < closest.residual {
+                    *closest = *candidate;
+                }
             }
+        }
+    }
+
+    /// Take the one next to a singularity of which nothing could be told, if it leads to one that
+    /// closes and nothing else explains that: more might be points of one continuum.
+    pub(crate) fn take_untold(&mut self, closure: &Closure, target: &Target) {
+        if self.has_self_motion() {
+            return;
+        }
+        let untold = self.untold.take();
+        let closing = untold.and_then(|one| closure.closing(target, &one.theta));
+        if let Some(one) = closing.filter(|one| !self.explains(&one.theta)) {
+            self.insert(closure, Configuration { is_placed: false, ..one });
         }
     }
 

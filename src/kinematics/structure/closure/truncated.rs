@@ -1,0 +1,47 @@
+//! Newton's method without the directions that are singular to rounding: next to configurations
+//! that are singular in several, where the whole step points anywhere (general.md, eq. 104b).
+
+use nalgebra::SVector;
+
+use super::chain::{Closure, Target};
+use super::configuration::{Configuration, Kind};
+use super::member::SWEEPS;
+
+/// Singular value below which a direction is left out [1]. Where three solutions merge, one of
+/// rounding away, it is the square of the cube root of rounding.
+const LEAST: f64 = 1e-11;
+
+/// Largest step [rad].
+const MOST_STEP: f64 = 0.1;
+
+/// Steps at most: where solutions merge, a step goes part of the way.
+const MOST_STEPS: usize = 40;
+
+impl Closure {
+    /// The configuration that closes next to an approximate one, as far as steps lead to one; of
+    /// what is about it nothing is told.
+    pub(super) fn closing(&self, target: &Target, theta: &[f64; 6]) -> Option<Configuration> {
+        let (mut theta, mut best) = (SVector::from(*theta), None::<Configuration>);
+        for _ in 0..MOST_STEPS {
+            let (jacobian, missing) = self.linear(target, &theta.into());
+            let svd = jacobian.try_svd(true, true, f64::EPSILON, SWEEPS)?;
+            let least = svd.singular_values[5];
+            if let Some(one) = self.accepted(target, theta.into(), least, Kind::Regular) {
+                // As long as it gets better.
+                if best.is_some_and(|best| best.residual < 2.0 * one.residual) {
+                    break;
+                }
+                best = Some(one);
+            }
+            let (u, v_t) = (svd.u?, svd.v_t?);
+            let mut step = SVector::<f64, 6>::zeros();
+            for (row, value) in svd.singular_values.iter().enumerate() {
+                if *value > LEAST {
+                    step += v_t.row(row).transpose() * (u.column(row).dot(&missing) / value);
+                }
+            }
+            theta += step * (MOST_STEP / step.norm().max(MOST_STEP));
+        }
+        best
+    }
+}
