@@ -4,23 +4,23 @@ use std::num::NonZeroUsize;
 
 use pyo3::prelude::*;
 
-use super::arm::Arm;
 use super::given::{Asked, PyGiven};
+use super::robot::PyRobot;
 use super::solutions::PySolutions;
 
 /// The solutions of one pose with a joint given.
 pub(super) fn ik<'py>(
-    arm: &Arm,
+    robot: &PyRobot,
     pose: &Bound<'py, PyAny>,
     asked: Asked<'py>,
 ) -> PyResult<Bound<'py, PySolutions>> {
     let py = pose.py();
-    PyGiven::of(py, arm, asked)?.solutions(py, pose)
+    PyGiven::of(py, robot, asked)?.solutions(py, pose)
 }
 
 /// The solutions of many poses with a joint given.
 pub(super) fn ik_batch<'py>(
-    arm: &Arm,
+    robot: &PyRobot,
     poses: &Bound<'py, PyAny>,
     asked: Asked<'py>,
     out: Option<&Bound<'py, PyAny>>,
@@ -29,8 +29,8 @@ pub(super) fn ik_batch<'py>(
     let py = poses.py();
     match asked {
         Asked::Joint(1, angles) => {
-            PyGiven::prepared(arm, 1, 0.0, py)?.batch(poses, Some(&angles), out, threads)
+            PyGiven::prepared(robot, 1, 0.0, py)?.batch(poses, Some(&angles), out, threads)
         }
-        asked => PyGiven::of(py, arm, asked)?.batch(poses, None, out, threads),
+        asked => PyGiven::of(py, robot, asked)?.batch(poses, None, out, threads),
     }
 }

@@ -32,8 +32,9 @@ impl PyRobot {
     ///     T: Pose of the tool, shape (4, 4), translation [m].
     ///     q7: Angle of joint 7 [rad], of an arm of seven joints.
     ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}: joints count
-    ///         from 1. For a joint between the first and the last this prepares a chain of the
-    ///         other six, some milliseconds; for many poses, pass `robot.given({3: 0.2})`.
+    ///         from 1. The robot prepares a joint once, in milliseconds, and each angle of one
+    ///         between the first and the last in a tenth of one; for many poses with the same
+    ///         angle, pass `robot.given({3: 0.2})`.
     ///
     /// Returns:
     ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
@@ -58,7 +59,7 @@ impl PyRobot {
             match Asked::read(self.arm(), given)? {
                 // What every arm of seven joints is given anyway.
                 Asked::Joint(7, q7) => return self.ik(T, Some(&q7), None),
-                asked => return given_calls::ik(self.arm(), T, asked),
+                asked => return given_calls::ik(self, T, asked),
             }
         }
         match self.arm() {
@@ -119,7 +120,7 @@ impl PyRobot {
                 Asked::Joint(7, q7) => {
                     return batches::ik(self.arm(), T, Some(&q7), out, threads);
                 }
-                asked => return given_calls::ik_batch(self.arm(), T, asked, out, threads),
+                asked => return given_calls::ik_batch(self, T, asked, out, threads),
             }
         }
         batches::ik(self.arm(), T, q7, out, threads)
@@ -138,7 +139,7 @@ impl PyRobot {
     ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
     ///     TypeError, ValueError: The arm has six joints; given is no mapping of one joint.
     fn given(&self, given: &Bound<'_, PyAny>) -> PyResult<PyGiven> {
-        PyGiven::of(given.py(), self.arm(), Asked::read(self.arm(), given)?)
+        PyGiven::of(given.py(), self, Asked::read(self.arm(), given)?)
     }
 
     /// The solution inside the limits that is nearest to `seed`, turns considered.

@@ -1,6 +1,8 @@
 //! `irbkin.Robot`: the class, what it has and how it is changed. Its other methods are in `models`,
 //! `queries` and `inverse`.
 
+use std::sync::OnceLock;
+
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
@@ -12,7 +14,8 @@ use super::errors::{Fault, to_py};
 use super::poses::{pose_array, read_single_pose};
 use super::robot_repr;
 use super::robot_state::{self, State};
-use crate::kinematics::AnyRobot;
+use crate::error::Error;
+use crate::kinematics::{AnyRobot, GivenJoint, Robot};
 
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
 ///
@@ -29,17 +32,35 @@ use crate::kinematics::AnyRobot;
 #[pyclass(name = "Robot", module = "irbkin", frozen, weakref)]
 pub(super) struct PyRobot {
     arm: Arm,
+    /// By joint: the arm with it given, as it was prepared first.
+    given: [OnceLock<GivenJoint>; 7],
 }
 
 impl PyRobot {
     pub(super) fn arm(&self) -> &Arm {
         &self.arm
     }
+
+    /// An arm of seven joints with joint `joint`, from 1, at an angle [rad].
+    pub(super) fn given_joint(
+        &self,
+        robot: &Robot<7>,
+        joint: usize,
+        angle: f64,
+    ) -> Result<GivenJoint, Error> {
+        let prepared = &self.given[joint - 1];
+        if let Some(prepared) = prepared.get() {
+            return prepared.at(angle);
+        }
+        let given = robot.given(joint, angle)?;
+        let _ = prepared.set(given.clone());
+        Ok(given)
+    }
 }
 
 impl From<Arm> for PyRobot {
     fn from(arm: Arm) -> Self {
-        Self { arm }
+        Self { arm, given: Default::default() }
     }
 }
 

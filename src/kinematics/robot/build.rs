@@ -10,7 +10,7 @@ use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
 use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose, checked_tool};
-use crate::kinematics::structure::any::AnyStructure;
+use crate::kinematics::structure::any::{AnyStructure, SixJoints};
 use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_SNAP};
@@ -29,6 +29,14 @@ impl Robot<6> {
     /// no length.
     pub fn from_opw(opw: OpwParameters) -> Result<Self, Error> {
         Self::of_opw(opw)
+    }
+}
+
+impl Robot<6> {
+    /// [`Robot::from_mdh`] of a table that differs by a link from that of another robot.
+    pub(crate) fn from_mdh_like(mdh: Mdh<6>, other: &Self) -> Result<Self, Error> {
+        let recognize = |mdh: &Mdh<6>| SixJoints::recognize_like(mdh, &other.structure);
+        Self::recognized(mdh, recognize)?.with_inverse()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Seven-axis arms with the angle of any one joint given: the six others are a robot of their own.
 
 use alloc::format;
+use alloc::sync::Arc;
 
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
 
@@ -21,7 +22,8 @@ use crate::report::Explanation;
 ///
 /// The other six joints are a chain of their own, prepared once. For another angle of the first or
 /// of the last joint it stays the same chain, and only the pose that it must reach turns; another
-/// angle of a joint between them makes another chain, so keep this for as many poses as have it.
+/// angle of a joint between them makes another chain, so keep this for as many poses as have it, and
+/// take [`Self::at`] for another angle.
 ///
 /// ```
 /// use irbkin::Robot;
@@ -45,7 +47,13 @@ pub struct GivenJoint {
     /// that its slots are; and the angle that it was prepared with.
     solved: Robot<6>,
     solved_at: f64,
+    /// Of a joint between them, the chain with it at [`LIKE`].
+    like: Option<Arc<Robot<6>>>,
 }
+
+/// Angle of a joint between the first and the last, in no particular position, by whose chain those
+/// at other angles are prepared [rad]: an angle has one chain, whichever was asked for before.
+const LIKE: f64 = 0.8;
 
 impl Robot<7> {
     /// The arm with joint `joint`, from 1, at `angle` [rad].
@@ -61,15 +69,23 @@ impl Robot<7> {
         }
         check_angle("given", joint, angle)?;
         let joint = joint - 1;
+        let like = (!is_end(joint)).then(|| self.without(joint, LIKE, None));
+        let like = like.and_then(Result::ok).map(Arc::new);
         let solved_at = if is_end(joint) { 0.0 } else { angle };
-        let solved = self.without(joint, solved_at)?;
+        let solved = self.without(joint, solved_at, like.as_deref())?;
         let (robot, six) = (self.clone(), solved.clone());
-        let prepared = GivenJoint { robot, joint, angle: solved_at, six, solved, solved_at };
+        let prepared = GivenJoint { robot, joint, angle: solved_at, six, solved, solved_at, like };
         if is_end(joint) { prepared.at(angle) } else { Ok(prepared) }
     }
 
-    /// The robot of the other six joints with joint `joint`, from 0, locked at an angle [rad].
-    fn without(&self, joint: usize, angle: f64) -> Result<Robot<6>, Error> {
+    /// The robot of the other six joints with joint `joint`, from 0, locked at an angle [rad],
+    /// prepared by that at another angle.
+    fn without(
+        &self,
+        joint: usize,
+        angle: f64,
+        like: Option<&Robot<6>>,
+    ) -> Result<Robot<6>, Error> {
         let mut q = [0.0; 7];
         q[joint] = angle;
         let bare = self.clone().with_base(&Pose::identity())?.with_tool(&Pose::identity())?;
@@ -80,10 +96,13 @@ impl Robot<7> {
         });
         let mdh = Mdh::from_joint_axes(&axes, &tip)
             .map_err(|error| with_names_of_seven(error, joint, angle))?;
-        let six = Robot::from_mdh(mdh)?
-            .with_name(format!("{}, J{} locked", self.name(), joint + 1))
-            .with_limits(JointLimits::stored(others(&self.limits().to_array(), joint))?)
-            .with_max_velocity(self.max_velocity().map(|velocity| others(velocity, joint)))?;
+        let six = match like {
+            Some(like) => Robot::from_mdh_like(mdh, like),
+            None => Robot::from_mdh(mdh),
+        }?
+        .with_name(format!("{}, J{} locked", self.name(), joint + 1))
+        .with_limits(JointLimits::stored(others(&self.limits().to_array(), joint))?)
+        .with_max_velocity(self.max_velocity().map(|velocity| others(velocity, joint)))?;
         six.with_base(self.base())?.with_tool(self.tool())
     }
 }
@@ -147,7 +166,7 @@ impl GivenJoint {
         if self.angle.to_bits() == self.solved_at.to_bits() {
             return Ok(self.solved.clone());
         }
-        self.robot.without(self.joint, self.angle)
+        self.robot.without(self.joint, self.angle, None)
     }
 
     /// The other six joints as a robot, whose base or tool the first or the last joint turns.
@@ -182,7 +201,8 @@ impl GivenJoint {
     }
 
     /// The same with another angle [rad]. This costs a solve nothing for the first and the last
-    /// joint, and prepares another chain for those between.
+    /// joint, and prepares another chain for those between, in a fraction of the time that the first
+    /// takes.
     ///
     /// # Errors
     ///
@@ -190,7 +210,8 @@ impl GivenJoint {
     pub fn at(&self, angle: f64) -> Result<Self, Error> {
         check_angle("given", self.joint(), angle)?;
         if !self.is_at_end() {
-            return self.robot.given(self.joint(), angle);
+            let six = self.robot.without(self.joint, angle, self.like.as_deref())?;
+            return Ok(Self { angle, solved: six.clone(), six, solved_at: angle, ..self.clone() });
         }
         let (by, six) = (self.turned_by(angle), self.solved.clone());
         let six = if self.joint == 0 {

@@ -25,6 +25,22 @@ structures! {
     Refined(Refined<SixJoints>)
 }
 
+impl SixJoints {
+    /// [`AnyStructure::recognize`] of a table that differs by a link from that of another arm.
+    pub(crate) fn recognize_like(mdh: &Mdh<6>, other: &Self) -> (Chain<6>, Self) {
+        let Self::General(other) = other else { return Self::recognize(mdh) };
+        // What is recognized before an arm in general.
+        let is_offset_wrist = OffsetWrist::PATTERN.square_up(mdh).is_ok();
+        let (Err(nearest), false) = (Self::closed_form(mdh), is_offset_wrist) else {
+            return Self::recognize(mdh);
+        };
+        let Ok(general) = General::like(mdh, &other.structure) else { return Self::recognize(mdh) };
+        let chain = Chain::new(mdh.clone());
+        let solver = Solver::new(general.noting(Some(nearest)), &chain, &JointLimits::UNLIMITED);
+        (chain, Self::General(solver))
+    }
+}
+
 impl Nominal for SixJoints {
     fn arm(&self) -> &dyn Arm<6, ()> {
         AnyStructure::arm(self)

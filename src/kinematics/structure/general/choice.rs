@@ -3,6 +3,7 @@
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 #[cfg(not(feature = "std"))]
@@ -72,8 +73,13 @@ fn drawn(offsets: &[f64; 6]) -> Vec<[f64; 6]> {
     all
 }
 
-/// The splits of an arm, the best first; the searched joints of the kept ones differ.
-pub(super) fn chosen(links: &[Frame; 5], closure: &Closure, offsets: &[f64; 6]) -> Vec<Split> {
+/// The splits of an arm, the best first, and whether most poses are regular in it; the searched
+/// joints of the kept ones differ.
+pub(super) fn chosen(
+    links: &[Frame; 5],
+    closure: &Closure,
+    offsets: &[f64; 6],
+) -> (Arc<Vec<Split>>, bool) {
     let poses: Vec<(Target, [f64; 6])> =
         drawn(offsets).into_iter().map(|theta| (closure.reached(&theta), theta)).collect();
     let (first, rest) = poses.split_at(FIRST);
@@ -106,15 +112,29 @@ pub(super) fn chosen(links: &[Frame; 5], closure: &Closure, offsets: &[f64; 6]) 
             kept.push(split);
         }
     }
-    kept
+    let kept = Arc::new(kept);
+    let is_mostly_regular = is_mostly_regular(&FirstSplit::new(closure, &kept), RANDOM);
+    (kept, is_mostly_regular)
 }
 
-/// Whether most of the random poses are regular in the first split. Those of an arm that is next to
-/// one with a spherical wrist are not: their roots are pairs.
-pub(super) fn is_mostly_regular(method: &FirstSplit) -> bool {
+/// The splits of another arm for this one, if each proves a count and most poses are regular in the
+/// first; and that they are.
+pub(super) fn taken(
+    others: &[Split],
+    links: &[Frame; 5],
+    closure: &Closure,
+) -> Option<(Arc<Vec<Split>>, bool)> {
+    let splits: Vec<_> = others.iter().map(|split| split.of(links)).collect();
+    let splits = splits.iter().all(Split::is_single).then(|| Arc::new(splits))?;
+    is_mostly_regular(&FirstSplit::new(closure, &splits), FIRST).then_some((splits, true))
+}
+
+/// Whether most of so many random poses are regular in the first split. Those of an arm that is next
+/// to one with a spherical wrist are not: their roots are pairs.
+fn is_mostly_regular(method: &FirstSplit, poses: usize) -> bool {
     let closure = method.closure();
-    let all: Vec<Frame> = (0..RANDOM).map(|i| closure.last_frame(&quasi_random(i))).collect();
-    2 * regular_of(method, &all) > RANDOM
+    let all: Vec<Frame> = (0..poses).map(|i| closure.last_frame(&quasi_random(i))).collect();
+    2 * regular_of(method, &all) > poses
 }
 
 fn sort(splits: &mut [(usize, Split)]) {

@@ -1,9 +1,6 @@
 //! The constants of a general arm, from its table.
 
-use alloc::sync::Arc;
-
-use super::at_roots::FirstSplit;
-use super::choice::{chosen, is_mostly_regular};
+use super::choice::{chosen, taken};
 use super::geometry::General;
 use crate::kinematics::chain::corrections::about_y;
 use crate::kinematics::chain::dh::{DhRow, Mdh, screw_x};
@@ -22,6 +19,16 @@ impl General {
     /// The arm of a table. The first and the last row's constants before joint 1 and behind joint 6
     /// are part of the base and the flange.
     pub(crate) fn of(mdh: &Mdh<6>) -> Result<Self, UnknownStructure> {
+        Self::measured(mdh, None)
+    }
+
+    /// The same for an arm that differs by a link from another one, whose splits are taken if they
+    /// serve it, too: to choose takes milliseconds.
+    pub(crate) fn like(mdh: &Mdh<6>, other: &Self) -> Result<Self, UnknownStructure> {
+        Self::measured(mdh, Some(other))
+    }
+
+    fn measured(mdh: &Mdh<6>, other: Option<&Self>) -> Result<Self, UnknownStructure> {
         let mut tilted = tilted_rows(&mdh.rows);
         let rows = tilted.map(|TiltedRow { row, .. }| row);
         let offsets = rows.map(|row| -row.theta);
@@ -35,8 +42,9 @@ impl General {
             Frame::of(&link).in_units(1.0 / closure.reach)
         });
         closure.check_freedom(&tilted.map(|TiltedRow { row, .. }| row))?;
-        let splits = Arc::new(chosen(&links, &closure, &offsets));
-        let is_mostly_regular = is_mostly_regular(&FirstSplit::new(&closure, &splits));
+        let taken = other.and_then(|other| taken(&other.splits, &links, &closure));
+        let (splits, is_mostly_regular) =
+            taken.unwrap_or_else(|| chosen(&links, &closure, &offsets));
         let joint_map = JointMap {
             signs: [1.0; 6],
             offsets,

@@ -31,6 +31,8 @@ const OF_A_POSE: f64 = 1e-6;
 /// A split of an arm, with all that does not depend on the pose.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Split {
+    /// Which of the [`SPLITS`].
+    number: usize,
     /// The joint, from 0, whose angle is `t_k`.
     pub(super) joints: [usize; 6],
     /// 1, or -1 where the loop is read backwards and t is the negative of the joint's angle.
@@ -84,6 +86,7 @@ impl Split {
         let inverses = all.map(|link| link.inverse());
         let left = Left::of(&all[0], &all[1]);
         let mut split = Self {
+            number,
             joints,
             sign,
             links: all,
@@ -102,6 +105,11 @@ impl Split {
             split.before = split.before_pose(&annihilator);
         }
         split
+    }
+
+    /// The same split of another loop.
+    pub(super) fn of(&self, links: &[Frame; 5]) -> Self {
+        Self::new(links, self.number)
     }
 
     /// Link 0 or 1 of a pose, in lanes.

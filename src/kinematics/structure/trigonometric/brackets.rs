@@ -94,11 +94,9 @@ impl Brackets {
 
     /// Numbers of those of wanted polynomials, up to eight, in another order, and how many they
     /// are: first those that fill blocks with the brackets of one polynomial, then the rest.
-    pub(super) fn packed(
-        &self,
-        is_wanted: impl Fn(usize) -> bool,
-    ) -> ([u8; MOST_BRACKETS], usize) {
-        let of = |number: u8| self.blocks[usize::from(number) / LANES].of[usize::from(number) % LANES];
+    pub(super) fn packed(&self, is_wanted: impl Fn(usize) -> bool) -> ([u8; MOST_BRACKETS], usize) {
+        let of =
+            |number: u8| self.blocks[usize::from(number) / LANES].of[usize::from(number) % LANES];
         let all = (0..self.count).filter(|number| is_wanted(of(*number)));
         let mut counts = [0; LANES];
         all.clone().for_each(|number| counts[of(number)] += 1);
