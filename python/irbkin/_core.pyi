@@ -253,6 +253,21 @@ class Given:
     def angle(self) -> float:
         """Its angle [rad]."""
 
+    def at(self, angle: float) -> Given:
+        """The same with the joint at another angle: another chain, in a tenth of a millisecond, for
+        those between the first and the last.
+
+        Args:
+            angle: Angle of the joint [rad].
+
+        Returns:
+            Given, equal to that of `Robot.given` with this angle.
+
+        Raises:
+            InvalidJointsError: The angle is not finite.
+            InvalidModelError: The other six joints do not move the tool in six independent ways.
+        """
+
     @property
     def robot(self) -> Robot:
         """The seven-axis arm."""
@@ -791,8 +806,9 @@ class Robot:
             T: Pose of the tool, shape (4, 4), translation [m].
             q7: Angle of joint 7 [rad], of an arm of seven joints.
             given: In place of q7, another joint of seven with its angle, as {3: 0.2}: joints count
-                from 1. For a joint between the first and the last this prepares a chain of the
-                other six, some milliseconds; for many poses, pass `robot.given({3: 0.2})`.
+                from 1. The robot prepares a joint once, in milliseconds, and each angle of one
+                between the first and the last in a tenth of one; for many poses with the same
+                angle, pass `robot.given({3: 0.2})`.
 
         Returns:
             Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`

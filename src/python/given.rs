@@ -167,8 +167,8 @@ impl PyGiven {
         self.given.angle()
     }
 
-    /// The same arm with the joint at another angle. This costs nothing for the first and the last
-    /// joint; for those between it prepares another chain, which takes a tenth of a millisecond.
+    /// The same with the joint at another angle: another chain, in a tenth of a millisecond, for
+    /// those between the first and the last.
     ///
     /// Args:
     ///     angle: Angle of the joint [rad].

@@ -48,8 +48,8 @@ def test_axes_that_are_nearly_one_line(angle):
     assert certified(found).mean() > 0.95
 
 
-# Tables by alpha [deg], a [m], d [m] and theta [deg], and joint vectors [deg] at which two directions
-# are singular.
+# Tables by alpha [deg], a [m], d [m] and theta [deg], and joint vectors [deg] at which two
+# directions are singular.
 SINGULAR_TWICE = [
     (
         [180, 45, 0, 180, 45, -90],
@@ -83,7 +83,9 @@ def test_a_pose_that_is_singular_in_two_directions_has_an_answer(case):
     found = arm.ik(pose)
     assert len(found) > 0
     assert not found.certified
-    assert max(solution.residual for solution in found) < 1e-13 * (np.abs(a).sum() + np.abs(d).sum())
+    assert max(solution.residual for solution in found) < 1e-13 * (
+        np.abs(a).sum() + np.abs(d).sum()
+    )
     assert found[0].singularities
 
 

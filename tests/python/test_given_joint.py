@@ -1,6 +1,8 @@
 """Seven-axis arms with the angle of any one joint given."""
 
+import itertools
 import pickle
+import re
 
 import irbkin
 import numpy as np
@@ -205,6 +207,40 @@ def test_a_joint_at_an_end_fills_the_same_slots_alone_in_rows_and_prepared(robot
         np.testing.assert_array_equal(prepared.ik_batch(T).q, prepared.ik(T).q_by_slot)
         if joint == 1:
             np.testing.assert_array_equal(prepared.ik(T).q_by_slot, alone)
+
+
+@pytest.mark.parametrize("joint", range(1, 8))
+def test_another_angle_is_prepared_from_one_or_from_nothing_alike(robot, joint):
+    if robot.name == "iiwa" and joint == 4:
+        pytest.skip("the other six joints are not independent")
+    for q in inside(robot, 5, seed=6):
+        T, angle = robot.fk(q), q[joint - 1]
+        fresh = robot.given({joint: angle})
+        moved = robot.given({joint: 1.2}).at(angle)
+        assert moved == fresh
+        assert moved.angle == angle
+        np.testing.assert_array_equal(moved.ik(T).q_by_slot, fresh.ik(T).q_by_slot)
+        # Another robot, which has prepared nothing.
+        again = pickle.loads(pickle.dumps(robot)).given({joint: angle})
+        np.testing.assert_array_equal(again.ik(T).q_by_slot, fresh.ik(T).q_by_slot)
+        assert apart(fresh.ik(T).q, q).min() < 1e-6
+
+
+def test_angles_at_which_the_six_joints_have_another_structure_or_none():
+    yumi, panda = irbkin.Robot("IRB 14050"), irbkin.Robot("Panda")
+    assert yumi.given({3: 0.7}).six_joints.structure == "general"
+    for robot, joint in itertools.product((yumi, panda), range(2, 7)):
+        moved = robot.given({joint: 0.7})
+        for angle in np.radians([-180, -90, 0, 90, 180]):
+            try:
+                fresh = robot.given({joint: angle})
+            except irbkin.InvalidModelError as refused:
+                with pytest.raises(irbkin.InvalidModelError, match=re.escape(str(refused))):
+                    moved.at(angle)
+                continue
+            assert moved.at(angle) == fresh
+    with pytest.raises(irbkin.InvalidJointsError, match="joint 3 is NaN"):
+        yumi.given({3: 0.7}).at(np.nan)
 
 
 def test_slots_do_not_depend_on_how_the_first_joint_is_given():
