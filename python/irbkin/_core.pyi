@@ -264,8 +264,7 @@ class Given:
             Given, equal to that of `Robot.given` with this angle.
 
         Raises:
-            InvalidJointsError: The angle is not finite.
-            InvalidModelError: The other six joints do not move the tool in six independent ways.
+            InvalidJointsError, InvalidModelError: As `Robot.given`.
         """
 
     @property

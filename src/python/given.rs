@@ -177,8 +177,7 @@ impl PyGiven {
     ///     Given, equal to that of `Robot.given` with this angle.
     ///
     /// Raises:
-    ///     InvalidJointsError: The angle is not finite.
-    ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
+    ///     InvalidJointsError, InvalidModelError: As `Robot.given`.
     fn at(&self, angle: &Bound<'_, PyAny>) -> PyResult<Self> {
         let given = self.given.at(one_angle(angle, "angle")?);
         let given = given.map_err(|error| to_py(angle.py(), &error))?;
