@@ -117,7 +117,7 @@ impl PyGiven {
             return Err(PyTypeError::new_err("given is for arms of seven joints"));
         };
         let given = robot.given_joint(arm, joint, angle).map_err(|error| to_py(py, &error))?;
-        Ok(Self { robot: Arc::clone(arm), given: Arc::new(given) })
+        Ok(Self { robot: Arc::clone(arm), given })
     }
 
     pub(super) fn solutions<'py>(

@@ -1,7 +1,7 @@
 //! `irbkin.Robot`: the class, what it has and how it is changed. Its other methods are in `models`,
 //! `queries` and `inverse`.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -33,7 +33,7 @@ use crate::kinematics::{AnyRobot, GivenJoint, Robot};
 pub(super) struct PyRobot {
     arm: Arm,
     /// By joint: the arm with it given, as it was prepared first.
-    given: [OnceLock<GivenJoint>; 7],
+    given: [OnceLock<Arc<GivenJoint>>; 7],
 }
 
 impl PyRobot {
@@ -47,13 +47,14 @@ impl PyRobot {
         robot: &Robot<7>,
         joint: usize,
         angle: f64,
-    ) -> Result<GivenJoint, Error> {
+    ) -> Result<Arc<GivenJoint>, Error> {
         let prepared = &self.given[joint - 1];
         if let Some(prepared) = prepared.get() {
-            return prepared.at(angle);
+            return prepared.at(angle).map(Arc::new);
         }
-        let given = robot.given(joint, angle)?;
-        let _ = prepared.set(given.clone());
+        let given = Arc::new(robot.given(joint, angle)?);
+        // Another thread may have been faster, with another angle.
+        let _ = prepared.set(Arc::clone(&given));
         Ok(given)
     }
 }
