@@ -30,9 +30,7 @@ impl Robot<6> {
     pub fn from_opw(opw: OpwParameters) -> Result<Self, Error> {
         Self::of_opw(opw)
     }
-}
 
-impl Robot<6> {
     /// [`Robot::from_mdh`] of a table that differs by a link from that of another robot.
     pub(crate) fn from_mdh_like(mdh: Mdh<6>, other: &Self) -> Result<Self, Error> {
         let recognize = |mdh: &Mdh<6>| SixJoints::recognize_like(mdh, &other.structure);

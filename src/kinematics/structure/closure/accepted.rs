@@ -49,8 +49,8 @@ pub(crate) struct Accepted {
     merged_count: usize,
     /// How many candidates next to a singularity may still be examined.
     left: usize,
-    /// Of those next to a singularity of which nothing could be told, the one that closes best.
-    untold: Option<Configuration>,
+    /// Of the candidates next to a singularity that could not be decided, the one that closes best.
+    undecided: Option<Configuration>,
 }
 
 impl fmt::Debug for Accepted {
@@ -76,7 +76,7 @@ impl Accepted {
         merged: [Merged::NONE; MERGED_PLACES],
         merged_count: 0,
         left: MOST_EXAMINED,
-        untold: None,
+        undecided: None,
     };
 
     pub(crate) fn as_slice(&self) -> &[Configuration] {
@@ -209,7 +209,7 @@ impl Accepted {
                 self.is_certain &= !is_isolated || one.least > ISOLATED;
                 self.insert(closure, one);
             } else if !is_told {
-                let closest = self.untold.get_or_insert(*candidate);
+                let closest = self.undecided.get_or_insert(*candidate);
                 if candidate.residual < closest.residual {
                     *closest = *candidate;
                 }
@@ -217,14 +217,14 @@ impl Accepted {
         }
     }
 
-    /// Take the one next to a singularity of which nothing could be told, if it leads to one that
-    /// closes and nothing else explains that: more might be points of one continuum.
-    pub(crate) fn take_untold(&mut self, closure: &Closure, target: &Target) {
+    /// Take what the candidate that could not be decided leads to, if that closes and nothing else
+    /// explains it. More than one might be points of one continuum.
+    pub(crate) fn take_undecided(&mut self, closure: &Closure, target: &Target) {
         if self.has_self_motion() {
             return;
         }
-        let untold = self.untold.take();
-        let closing = untold.and_then(|one| closure.closing(target, &one.theta));
+        let undecided = self.undecided.take();
+        let closing = undecided.and_then(|one| closure.closing(target, &one.theta));
         if let Some(one) = closing.filter(|one| !self.explains(&one.theta)) {
             self.insert(closure, Configuration { is_placed: false, ..one });
         }

@@ -8,8 +8,8 @@
 //! next to a singularity `fold` settles what is on the `curve` through it: two solutions or none,
 //! one in which several have `merged`, as many as its `powers` tell, a `self_motion` or a `surface`.
 //! Of a self-motion, `walked` keeps one `member`, of a surface `surfaces` does; `flat` unites what
-//! rounding keeps apart. What nothing can be told of is `truncated` to a solution that closes. `members`
-//! are those where a joint has an angle, `freedom` is what moves.
+//! rounding keeps apart. One candidate that could not be decided goes on by `truncated` singular
+//! values. `members` are those where a joint has an angle, `freedom` is what moves.
 
 mod accepted;
 mod chain;

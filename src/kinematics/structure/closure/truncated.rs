@@ -1,5 +1,5 @@
-//! Newton's method without the directions that are singular to rounding: next to configurations
-//! that are singular in several, where the whole step points anywhere (general.md, eq. 104b).
+//! Newton's method by truncated singular value decomposition: next to configurations that are
+//! singular in several directions, where the whole step points anywhere (general.md, eq. 104b).
 
 use nalgebra::SVector;
 
@@ -7,8 +7,8 @@ use super::chain::{Closure, Target};
 use super::configuration::{Configuration, Kind};
 use super::member::SWEEPS;
 
-/// Singular value below which a direction is left out [1]. Where three solutions merge, one of
-/// rounding away, it is the square of the cube root of rounding.
+/// Singular value below which a direction is left out [1]. Next to three solutions that merge, one
+/// is the residual to the power of two thirds: 1e-9 where it closes.
 const LEAST: f64 = 1e-11;
 
 /// Largest step [rad].
@@ -18,8 +18,8 @@ const MOST_STEP: f64 = 0.1;
 const MOST_STEPS: usize = 40;
 
 impl Closure {
-    /// The configuration that closes next to an approximate one, as far as steps lead to one; of
-    /// what is about it nothing is told.
+    /// A configuration that closes next to an approximate one, if steps lead to one. Whether it is
+    /// isolated remains open.
     pub(super) fn closing(&self, target: &Target, theta: &[f64; 6]) -> Option<Configuration> {
         let (mut theta, mut best) = (SVector::from(*theta), None::<Configuration>);
         for _ in 0..MOST_STEPS {

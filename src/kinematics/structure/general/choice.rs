@@ -118,15 +118,15 @@ pub(super) fn chosen(
 }
 
 /// The splits of another arm for this one, if each proves a count and most poses are regular in the
-/// first; and that they are.
+/// first.
 pub(super) fn taken(
     others: &[Split],
     links: &[Frame; 5],
     closure: &Closure,
-) -> Option<(Arc<Vec<Split>>, bool)> {
+) -> Option<Arc<Vec<Split>>> {
     let splits: Vec<_> = others.iter().map(|split| split.of(links)).collect();
     let splits = splits.iter().all(Split::is_single).then(|| Arc::new(splits))?;
-    is_mostly_regular(&FirstSplit::new(closure, &splits), FIRST).then_some((splits, true))
+    is_mostly_regular(&FirstSplit::new(closure, &splits), FIRST).then_some(splits)
 }
 
 /// Whether most of so many random poses are regular in the first split. Those of an arm that is next

@@ -43,8 +43,10 @@ impl General {
         });
         closure.check_freedom(&tilted.map(|TiltedRow { row, .. }| row))?;
         let taken = other.and_then(|other| taken(&other.splits, &links, &closure));
-        let (splits, is_mostly_regular) =
-            taken.unwrap_or_else(|| chosen(&links, &closure, &offsets));
+        let (splits, is_mostly_regular) = match taken {
+            Some(splits) => (splits, true),
+            None => chosen(&links, &closure, &offsets),
+        };
         let joint_map = JointMap {
             signs: [1.0; 6],
             offsets,

@@ -90,7 +90,7 @@ impl General {
                 accepted.represent(&self.closure, &target, &near);
             }
         }
-        accepted.take_untold(&self.closure, &target);
+        accepted.take_undecided(&self.closure, &target);
     }
 
     /// Take what Newton's method leads to from all over the joints (eq. 104a).
