@@ -1,12 +1,15 @@
 //! Regular poses in lanes: one, and a block of them.
 
+use core::slice;
+
 use super::method::{ByRoots, SLOTS};
-use super::regular::{Regular, Solved};
+use super::regular::solve;
+use super::solved::Solved;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::{
-    Block, Columns, FOUND_INSIDE, LaneKernel, Poses, RegularSlots, SlotColumns,
+    AnswerRow, Block, BlockSlots, Columns, LaneKernel, Poses, StatusRow,
 };
-use crate::lanes::{Flags, LANES};
+use crate::lanes::{Column, Flags, LANES};
 
 /// A way to the solutions at roots, as a kernel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +20,7 @@ impl<M: ByRoots> LaneKernel<6, SLOTS> for RootKernel<M> {
     const WIDE: bool = false;
 
     type Redundancy = ();
-    type Regular = RegularSlots<6, SLOTS>;
+    type Regular = Solved;
     type Block = RegularBlock;
 
     /// A regular pose leaves nothing to choose.
@@ -31,36 +34,28 @@ impl<M: ByRoots> LaneKernel<6, SLOTS> for RootKernel<M> {
         columns: &Columns<6>,
         t_first_last: &Frame,
         (): (),
-    ) -> Option<RegularSlots<6, SLOTS>> {
+    ) -> Option<Solved> {
         let Self(method) = self;
         if !method.may_be_regular(t_first_last) {
             return None;
         }
-        let mut regular = Regular::new();
-        let solved = regular.solve(method, &[*t_first_last]).first()?;
-        if !solved.is_regular || solved.as_slice().is_empty() {
-            return None;
-        }
-        let mut slots = RegularSlots::NEW;
-        for (slot, theta) in solved.as_slice().iter().enumerate() {
-            slots.status[slot] = FOUND_INSIDE;
-            for joint in 0..6 {
-                slots.wrap(slot, joint, theta[joint], columns.joints[joint]);
-            }
-        }
-        Some(slots)
+        let mut solved = Solved::NEW;
+        solve(method, &columns.row, &[*t_first_last], slice::from_mut(&mut solved));
+        (solved.is_regular && !solved.q.is_empty()).then_some(solved)
     }
 }
 
 /// A block of poses with their solutions.
 pub(crate) struct RegularBlock {
-    slots: SlotColumns<6, SLOTS>,
+    solved: [Solved; LANES],
+    /// Which of these each lane has.
+    places: [Option<usize>; LANES],
 }
 
 impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock {
-    type Slots = SlotColumns<6, SLOTS>;
+    type Slots = Self;
 
-    const NEW: Self = Self { slots: SlotColumns::NEW };
+    const NEW: Self = Self { solved: [Solved::NEW; LANES], places: [None; LANES] };
 
     #[inline(always)]
     fn solve<const FUSED: bool>(
@@ -71,29 +66,68 @@ impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock {
         (): (),
     ) -> Flags {
         let (frames, count, places) = different(method, poses);
-        let mut regular = Regular::new();
-        let solved = regular.solve(method, &frames[..count]);
+        solve(method, &columns.row, &frames[..count], &mut self.solved[..count]);
+        self.places = places;
         let mut are_regular = [0; LANES];
-        for (lane, place) in places.into_iter().enumerate() {
-            let solved = place.map(|place: usize| &solved[place]);
-            are_regular[lane] = u64::from(solved.is_some_and(|solved| solved.is_regular));
-            let mut all = solved.map_or(&[][..], Solved::as_slice).iter();
-            for slot in 0..SLOTS {
-                let theta = all.next();
-                self.slots.status[slot][lane] = if theta.is_some() { FOUND_INSIDE } else { 0 };
-                let theta = theta.unwrap_or(&[f64::NAN; 6]);
-                for joint in 0..6 {
-                    self.slots.q[joint][slot][lane] = theta[joint];
-                }
-            }
+        for (lane, is_regular) in are_regular.iter_mut().enumerate() {
+            *is_regular = u64::from(self.of(lane).is_some_and(|solved| solved.is_regular));
         }
-        self.slots.wrap(&columns.joints);
         are_regular
     }
 
     #[inline(always)]
-    fn slots(&self) -> &SlotColumns<6, SLOTS> {
-        &self.slots
+    fn slots(&self) -> &Self {
+        self
+    }
+}
+
+impl RegularBlock {
+    #[inline(always)]
+    fn of(&self, lane: usize) -> Option<&Solved> {
+        self.places[lane].map(|place| &self.solved[place])
+    }
+}
+
+impl BlockSlots<6, SLOTS> for RegularBlock {
+    fn write(&self, q: &mut [AnswerRow<6, SLOTS>; LANES], status: &mut [StatusRow<SLOTS>; LANES]) {
+        for (lane, (q, status)) in q.iter_mut().zip(status).enumerate() {
+            let (all, flags) =
+                self.of(lane).map_or((&[][..], &[][..]), |Solved { q, status, .. }| (q, status));
+            let (filled, rest) = q.split_at_mut(all.len());
+            filled.copy_from_slice(all);
+            rest.fill([f64::NAN; 6]);
+            let (filled, rest) = status.split_at_mut(flags.len());
+            filled.copy_from_slice(flags);
+            rest.fill(0);
+        }
+    }
+
+    #[inline(always)]
+    fn used(&self) -> usize {
+        let used = |lane| self.of(lane).map_or(0, |solved| solved.q.len());
+        (0..LANES).map(used).max().unwrap_or(0)
+    }
+
+    #[inline(always)]
+    fn angles(&self, slot: usize, joint: usize) -> Column {
+        let mut angles = [f64::NAN; LANES];
+        for (lane, angle) in angles.iter_mut().enumerate() {
+            if let Some(q) = self.of(lane).and_then(|solved| solved.q.get(slot)) {
+                *angle = q[joint];
+            }
+        }
+        angles
+    }
+
+    #[inline(always)]
+    fn status(&self, slot: usize) -> Flags {
+        let mut flags = [0; LANES];
+        for (lane, flags) in flags.iter_mut().enumerate() {
+            if let Some(status) = self.of(lane).and_then(|solved| solved.status.get(slot)) {
+                *flags = u64::from(*status);
+            }
+        }
+        flags
     }
 }
 

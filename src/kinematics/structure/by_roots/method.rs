@@ -29,8 +29,8 @@ pub(crate) trait ByRoots: Clone + Debug + PartialEq {
     /// The polynomial of a pose. Must be `#[inline(always)]`.
     fn polynomial<S: Simd>(&self, simd: S, posed: &Self::Posed) -> TrigonometricPolynomial;
 
-    /// The angle that is a root of the polynomial, by the angles of the table [rad].
-    fn root_of(&self, theta: &[f64; 6]) -> f64;
+    /// The joint, from 0, whose angle is a root of the polynomial, or the negative of one: a sign.
+    fn searched(&self) -> (usize, f64);
 
     /// Bring a candidate at each root of a block to its pose, as often as a root has solutions;
     /// pass them on, with the root of each. Must be `#[inline(always)]`.
@@ -39,6 +39,6 @@ pub(crate) trait ByRoots: Clone + Debug + PartialEq {
         simd: S,
         all: &[Self::Posed],
         roots: &RootBlock,
-        pass: &mut impl FnMut(&Candidates, &RootBlock),
+        pass: impl FnMut(&Candidates, &RootBlock),
     );
 }

@@ -12,6 +12,7 @@ mod counts;
 mod in_cluster;
 mod method;
 mod regular;
+mod solved;
 #[cfg(test)]
 pub(crate) mod tests;
 

@@ -1,76 +1,47 @@
 //! Regular poses, several at once.
 
-use arrayvec::ArrayVec;
-use fearless_simd::Simd;
+use core::f64::consts::TAU;
 
-use super::method::{ByRoots, SLOTS};
-use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::closure::in_order;
+use arrayvec::ArrayVec;
+use fearless_simd::prelude::*;
+
+use super::method::ByRoots;
+use super::solved::{Found, Solved};
+use crate::kinematics::structure::closure::Candidates;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::kinematics::structure::trigonometric::SimpleRoots;
-use crate::lanes::{LANES, VectorKernel, run_vectors};
+use crate::kinematics::structure::lanes::JointRow;
+use crate::kinematics::structure::trigonometric::{RootBlock, SimpleRoots};
+use crate::lanes::{LANES, Vector, VectorKernel, run_vectors, transposed};
 
 /// How far a solution may be from its root [rad]: what is farther away may be that of another root.
 const AT_ROOT: f64 = 1e-6;
 
-/// The solutions of up to eight poses.
-pub(crate) struct Regular {
-    solved: ArrayVec<Solved, LANES>,
-}
-
-impl Regular {
-    #[inline(always)]
-    pub(crate) fn new() -> Self {
-        Self { solved: ArrayVec::new() }
-    }
-
-    /// Solve for some poses of the last frame.
-    pub(crate) fn solve(&mut self, method: &impl ByRoots, poses: &[Frame]) -> &[Solved] {
-        run_vectors(Solve { method, poses, solved: &mut self.solved });
-        &self.solved
-    }
+/// Solve for poses of the last frame, up to eight, by joint angles.
+pub(crate) fn solve(
+    method: &impl ByRoots,
+    joints: &JointRow,
+    poses: &[Frame],
+    solved: &mut [Solved],
+) {
+    run_vectors(Solve { method, joints, poses, solved });
 }
 
 /// How many of some poses are regular.
 pub(crate) fn regular_of(method: &impl ByRoots, poses: &[Frame]) -> usize {
-    let mut regular = Regular::new();
-    poses.iter().filter(|pose| regular.solve(method, &[**pose])[0].is_regular).count()
-}
-
-/// The solutions of a pose.
-pub(crate) struct Solved {
-    theta: ArrayVec<[f64; 6], SLOTS>,
-    /// Whether these are certain to be all.
-    pub(crate) is_regular: bool,
-}
-
-impl Solved {
-    #[inline(always)]
-    fn new() -> Self {
-        Self { theta: ArrayVec::new(), is_regular: true }
-    }
-
-    /// The solutions, by their first angles that differ: angles of the table [rad].
-    pub(crate) fn as_slice(&self) -> &[[f64; 6]] {
-        &self.theta
-    }
-
-    fn push(&mut self, theta: [f64; 6]) {
-        self.is_regular &= self.theta.try_push(theta).is_ok();
-    }
-
-    /// Put the solutions in order; two that are the same are not regular.
-    fn sort(&mut self) {
-        self.theta.sort_unstable_by(in_order);
-        self.is_regular &= self.theta.windows(2).all(|pair| in_order(&pair[0], &pair[1]).is_ne());
-    }
+    let mut solved = [Solved::NEW];
+    let is_regular = |pose: &&Frame| {
+        solve(method, &JointRow::OF_TABLE, &[**pose], &mut solved);
+        solved[0].is_regular
+    };
+    poses.iter().filter(is_regular).count()
 }
 
 /// The solve of poses that may be regular, compiled for each instruction set.
 struct Solve<'a, M: ByRoots> {
     method: &'a M,
+    joints: &'a JointRow,
     poses: &'a [Frame],
-    solved: &'a mut ArrayVec<Solved, LANES>,
+    solved: &'a mut [Solved],
 }
 
 impl<M: ByRoots> VectorKernel for Solve<'_, M> {
@@ -78,33 +49,54 @@ impl<M: ByRoots> VectorKernel for Solve<'_, M> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { method, poses, solved } = self;
+        let Self { method, joints, poses, solved } = self;
         let mut posed = ArrayVec::<M::Posed, LANES>::new();
+        let mut found = ArrayVec::<Found, LANES>::new();
         let mut roots = SimpleRoots::new();
-        solved.clear();
         for pose in poses {
             posed.push(method.posed(simd, pose));
             roots.push(method.polynomial(simd, &posed[posed.len() - 1]));
-            solved.push(Solved::new());
+            found.push(Found::new());
         }
         let closure = method.closure();
         for number in 0..roots.isolate(simd) {
             let block = roots.block(simd, number);
-            method.candidates(simd, &posed, &block, &mut |candidates, block| {
-                for lane in 0..block.count {
-                    let (theta, solved) = (candidates.theta(lane), &mut solved[block.of[lane]]);
-                    let from_root = wrap(method.root_of(&theta) - block.angles[lane]).abs();
-                    solved.is_regular &=
-                        candidates.is_regular(closure, lane) && from_root <= AT_ROOT;
-                    solved.push(theta);
-                }
-            });
+            method.candidates(
+                simd,
+                &posed,
+                &block,
+                #[inline(always)]
+                |candidates, block| {
+                    let at_roots = at_roots(simd, method, candidates, block);
+                    let [a, b, c, d, e, f] = &candidates.theta;
+                    let none = &[0.0; LANES];
+                    let rows = transposed(simd, &[a, b, c, d, e, f, none, none]);
+                    for lane in 0..block.count {
+                        let is_regular =
+                            at_roots >> lane & 1 == 1 && candidates.is_regular(closure, lane);
+                        found[block.of[lane]].push(rows[lane], is_regular);
+                    }
+                },
+            );
         }
-        for (number, solved) in solved.iter_mut().enumerate() {
-            solved.is_regular &= roots.are_all(number);
-            if solved.is_regular {
-                solved.sort();
-            }
+        for (number, (found, solved)) in found.iter_mut().zip(solved).enumerate() {
+            found.is_regular &= roots.are_all(number);
+            solved.take(simd, found, joints);
         }
     }
+}
+
+/// The lanes, as bits, of candidates that are at their roots.
+#[inline(always)]
+fn at_roots<S: Simd>(
+    simd: S,
+    method: &impl ByRoots,
+    candidates: &Candidates,
+    block: &RootBlock,
+) -> u64 {
+    let (joint, sign) = method.searched();
+    let angle = Vector::load_array_ref(simd, &candidates.theta[joint]) * sign;
+    let from_root = (angle - Vector::load_array_ref(simd, &block.angles)).abs();
+    // A root may be a turn on.
+    from_root.min((from_root - TAU).abs()).simd_le(AT_ROOT).to_bitmask()
 }

@@ -3,7 +3,7 @@
 use core::cmp::Ordering;
 
 /// Difference of two angles that are the same for the order [rad].
-const TIED: f64 = 1e-6;
+pub(crate) const TIED: f64 = 1e-6;
 
 /// The order of two solutions: by their first angles that differ. Equal are those that differ by
 /// less than two different ones of a regular pose.

@@ -67,8 +67,8 @@ impl ByRoots for FirstSplit {
         pose.posed.polynomial(simd, self.closure.rounding)
     }
 
-    fn root_of(&self, theta: &[f64; 6]) -> f64 {
-        self.split().root_of(theta)
+    fn searched(&self) -> (usize, f64) {
+        (self.split().searched(), self.split().sign)
     }
 
     #[inline(always)]
@@ -77,7 +77,7 @@ impl ByRoots for FirstSplit {
         simd: S,
         all: &[AtTarget],
         roots: &RootBlock,
-        pass: &mut impl FnMut(&Candidates, &RootBlock),
+        mut pass: impl FnMut(&Candidates, &RootBlock),
     ) {
         let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, &roots.angles));
         let t5 = Angle { sin, cos };

@@ -31,9 +31,14 @@ pub(crate) trait BlockSlots<const N: usize, const S: usize> {
     /// Write the slots as rows.
     fn write(&self, q: &mut [AnswerRow<N, S>; LANES], status: &mut [StatusRow<S>; LANES]);
 
+    /// How many slots, the first ones, have solutions. Must be `#[inline(always)]`.
+    fn used(&self) -> usize {
+        S
+    }
+
     /// The angles of a joint in a slot, both from 0. Must be `#[inline(always)]`.
-    fn angles(&self, slot: usize, joint: usize) -> &Column;
+    fn angles(&self, slot: usize, joint: usize) -> Column;
 
     /// The flags of a slot. Must be `#[inline(always)]`.
-    fn status(&self, slot: usize) -> &Flags;
+    fn status(&self, slot: usize) -> Flags;
 }

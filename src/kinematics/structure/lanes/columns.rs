@@ -2,12 +2,15 @@
 
 use core::f64::consts::{PI, TAU};
 
+use fearless_simd::prelude::*;
+
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::coupling::coupled;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::thresholds::LIMIT_TOLERANCE;
+use crate::lanes::{Column, LANES, Vector};
 
 /// How joint angles follow from the angles that lanes compute.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +21,8 @@ pub(crate) struct Columns<const N: usize> {
     pub(crate) uncoupled: f64,
     /// The serial joint 3, if the linkage of the arm has limits.
     pub(crate) linkage: Option<JointColumn>,
+    /// All joints at once.
+    pub(crate) row: JointRow,
 }
 
 impl<const N: usize> Columns<N> {
@@ -38,7 +43,8 @@ impl<const N: usize> Columns<N> {
             None => None,
         };
         let uncoupled = if map.coupled { 0.0 } else { 1.0 };
-        Some(Self { joints: column(&of_controller, &limits.to_array())?, uncoupled, linkage })
+        let joints = column(&of_controller, &limits.to_array())?;
+        Some(Self { joints, uncoupled, linkage, row: JointRow::of(&joints) })
     }
 }
 
@@ -155,5 +161,50 @@ impl JointColumn {
     #[inline(always)]
     fn holds(self, angle: f64) -> bool {
         (angle >= self.low) & (angle <= self.high)
+    }
+}
+
+/// How the angles of all joints follow from theta, and their limits: a lane for each joint, and what
+/// changes nothing in the lanes behind them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct JointRow {
+    sign: Column,
+    offset: Column,
+    low: Column,
+    high: Column,
+}
+
+impl JointRow {
+    /// Angles of the table, without limits.
+    pub(crate) const OF_TABLE: Self = Self {
+        sign: [1.0; LANES],
+        offset: [0.0; LANES],
+        low: [f64::NEG_INFINITY; LANES],
+        high: [f64::INFINITY; LANES],
+    };
+
+    fn of<const N: usize>(joints: &[JointColumn; N]) -> Self {
+        let mut row = Self::OF_TABLE;
+        for (lane, joint) in joints.iter().enumerate() {
+            (row.sign[lane], row.offset[lane]) = (joint.sign, joint.offset);
+            (row.low[lane], row.high[lane]) = (joint.low, joint.high);
+        }
+        row
+    }
+
+    /// [`JointColumn::wrapped`] for all joints, and whether all are inside.
+    #[inline(always)]
+    pub(crate) fn wrapped<S: Simd>(&self, theta: Vector<S>) -> (Vector<S>, bool) {
+        let simd = theta.token();
+        let (low, high) =
+            (Vector::load_array_ref(simd, &self.low), Vector::load_array_ref(simd, &self.high));
+        let angle = theta + Vector::load_array_ref(simd, &self.offset);
+        let angle = angle * Vector::load_array_ref(simd, &self.sign);
+        let angle = angle.simd_gt(PI).select(angle - TAU, angle);
+        let angle = angle.simd_le(-PI).select(angle + TAU, angle);
+        let (up, down) = (angle + TAU, angle - TAU);
+        let raised = (angle.simd_lt(low) & up.simd_le(high)).select(up, angle);
+        let angle = (angle.simd_gt(high) & down.simd_ge(low)).select(down, raised);
+        (angle, (angle.simd_ge(low) & angle.simd_le(high)).all_true())
     }
 }

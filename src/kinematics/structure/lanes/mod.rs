@@ -10,7 +10,7 @@ mod rows;
 mod slots;
 
 pub(crate) use block::{Block, BlockSlots};
-pub(crate) use columns::{Columns, JointColumn};
+pub(crate) use columns::{Columns, JointColumn, JointRow};
 pub(crate) use directions::{Direction, Directions};
 pub(crate) use nearest::Choice;
 pub(crate) use no_kernel::NoKernel;

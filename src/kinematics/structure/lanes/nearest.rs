@@ -68,7 +68,7 @@ impl<const N: usize> Choice<N> {
         }
         let (mut best, mut least) = ([[f64::NAN; LANES]; N], [f64::INFINITY; LANES]);
         let mut least_tied = [f64::INFINITY; LANES];
-        for slot in 0..S {
+        for slot in 0..slots.used() {
             let status = slots.status(slot);
             let priced = self.priced(slots, slot, &seed);
             for lane in 0..LANES {

@@ -66,11 +66,11 @@ where
 impl<const N: usize, const S: usize> BlockSlots<N, S> for NoBlock {
     fn write(&self, _: &mut [AnswerRow<N, S>; LANES], _: &mut [StatusRow<S>; LANES]) {}
 
-    fn angles(&self, _: usize, _: usize) -> &Column {
-        &[0.0; LANES]
+    fn angles(&self, _: usize, _: usize) -> Column {
+        [0.0; LANES]
     }
 
-    fn status(&self, _: usize) -> &Flags {
-        &[0; LANES]
+    fn status(&self, _: usize) -> Flags {
+        [0; LANES]
     }
 }

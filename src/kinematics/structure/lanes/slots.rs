@@ -63,13 +63,13 @@ impl<const N: usize, const S: usize> BlockSlots<N, S> for SlotColumns<N, S> {
     }
 
     #[inline(always)]
-    fn angles(&self, slot: usize, joint: usize) -> &Column {
-        &self.q[joint][slot]
+    fn angles(&self, slot: usize, joint: usize) -> Column {
+        self.q[joint][slot]
     }
 
     #[inline(always)]
-    fn status(&self, slot: usize) -> &Flags {
-        &self.status[slot]
+    fn status(&self, slot: usize) -> Flags {
+        self.status[slot]
     }
 }
 

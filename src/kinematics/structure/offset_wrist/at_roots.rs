@@ -56,8 +56,8 @@ impl ByRoots for Constants {
         polynomial(simd, &self.lengths, &Hand::of(&self.lengths, last))
     }
 
-    fn root_of(&self, theta: &[f64; 6]) -> f64 {
-        theta[5]
+    fn searched(&self) -> (usize, f64) {
+        (5, 1.0)
     }
 
     #[inline(always)]
@@ -66,7 +66,7 @@ impl ByRoots for Constants {
         simd: S,
         all: &[Frame],
         roots: &RootBlock,
-        pass: &mut impl FnMut(&Candidates, &RootBlock),
+        mut pass: impl FnMut(&Candidates, &RootBlock),
     ) {
         let per_root = self.lengths.per_root();
         // Few roots with two solutions each share one block: those of the second are behind.

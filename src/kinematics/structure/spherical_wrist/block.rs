@@ -93,18 +93,14 @@ impl BlockSlots<6, SLOTS> for WristBlock {
     }
 
     #[inline(always)]
-    fn angles(&self, slot: usize, joint: usize) -> &Column {
+    fn angles(&self, slot: usize, joint: usize) -> Column {
         let (branch, flip) = (slot / 2, slot % 2);
-        if flip == 0 || joint < 3 {
-            &self.q[joint][branch]
-        } else {
-            &self.flipped[joint - 3][branch]
-        }
+        if flip == 0 || joint < 3 { self.q[joint][branch] } else { self.flipped[joint - 3][branch] }
     }
 
     #[inline(always)]
-    fn status(&self, slot: usize) -> &Flags {
-        &self.status[slot % 2][slot / 2]
+    fn status(&self, slot: usize) -> Flags {
+        self.status[slot % 2][slot / 2]
     }
 }
 
@@ -136,7 +132,7 @@ impl WristBlock {
     /// Joint angles of the slots, with both wrists (eq. 18 to 20).
     #[inline(always)]
     fn wrap<const FUSED: bool>(&mut self, columns: &Columns<6>) {
-        let Columns { joints: columns, uncoupled, linkage } = columns;
+        let Columns { joints: columns, uncoupled, linkage, .. } = columns;
         let angle = &self.directions.angle;
         for number in 0..BRANCHES {
             let (theta_2, theta_23) = (&angle[THETA_2 + number], &angle[THETA_23 + number]);

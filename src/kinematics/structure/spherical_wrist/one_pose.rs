@@ -102,7 +102,7 @@ impl Branches {
     /// Joint angles of the slots, with both wrists (eq. 18 to 20).
     #[inline(always)]
     fn wrapped<const FUSED: bool>(&self, columns: &Columns<6>) -> WristSlots {
-        let (Columns { joints: columns, uncoupled, linkage }, angle) =
+        let (Columns { joints: columns, uncoupled, linkage, .. }, angle) =
             (*columns, &self.directions.angle);
         let mut slots = WristSlots {
             arm: [[0.0; BRANCHES]; 3],
