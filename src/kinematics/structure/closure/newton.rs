@@ -30,6 +30,12 @@ const NEAR: f64 = 1e-3;
 /// Residual up to which two differ by rounding [1].
 const ROUNDING: f64 = 1e-15;
 
+/// What the least singular value is at least, as a part of the determinant [1]: `(5 / 12)^(5 / 2)`.
+const OF_DETERMINANT: f64 = 0.112;
+
+/// A bit for each lane.
+const EVERY_LANE: u64 = (1 << LANES) - 1;
+
 /// Joint angles of eight candidates, and how well they close.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidates {
@@ -45,6 +51,15 @@ impl Candidates {
     /// Whether what is in a lane closes, away from every singularity.
     pub(crate) fn is_regular(&self, closure: &Closure, lane: usize) -> bool {
         self.residual[lane] <= closure.accepts() && self.least[lane] > SINGULAR
+    }
+
+    /// Replace what is in a lane by that of others.
+    fn take_lane(&mut self, others: &Self, lane: usize) {
+        for joint in 0..6 {
+            self.theta[joint][lane] = others.theta[joint][lane];
+        }
+        self.residual[lane] = others.residual[lane];
+        self.least[lane] = others.least[lane];
     }
 
     /// The angles in a lane [rad].
@@ -102,6 +117,44 @@ impl Closure {
             #[inline(always)]
             || self.converge_from(target, *sin, *cos),
         )
+    }
+
+    /// The same for candidates that are at their targets, with the size of the determinant of the
+    /// geometric Jacobian [m^3]: they are moved only where they do not close to rounding, or that
+    /// does not tell that they are away from every singularity (eq. 99a). Must be
+    /// `#[inline(always)]`.
+    #[inline(always)]
+    pub(crate) fn arrived<S: Simd>(
+        &self,
+        target: &Target<Vector<S>>,
+        mut sin: Six<S>,
+        mut cos: Six<S>,
+        determinant: Vector<S>,
+    ) -> Candidates {
+        for joint in 0..6 {
+            (sin[joint], cos[joint]) = nearly_unit(sin[joint], cos[joint]);
+        }
+        let residual = largest(&self.missing(target, &sin, &cos));
+        let least = determinant * (OF_DETERMINANT / (self.reach * self.reach * self.reach));
+        let has_arrived = residual.simd_le(0.5 * self.rounding) & least.simd_gt(SINGULAR);
+        let mut candidates = Candidates {
+            theta: [[0.0; LANES]; 6],
+            residual: residual.to_array(),
+            least: least.to_array(),
+        };
+        for joint in 0..6 {
+            candidates.theta[joint] = atan2_of(sin[joint], cos[joint]).to_array();
+        }
+        let mut moved = !has_arrived.to_bitmask() & EVERY_LANE;
+        if moved != 0 {
+            let converged = self.converge(target, &sin, &cos);
+            while moved != 0 {
+                let lane = moved.trailing_zeros() as usize;
+                candidates.take_lane(&converged, lane);
+                moved &= moved - 1;
+            }
+        }
+        candidates
     }
 
     #[inline(always)]
@@ -189,8 +242,12 @@ fn turned<S: Simd>(s: Vector<S>, c: Vector<S>, turn: Vector<S>) -> (Vector<S>, V
     let one = z.like(1.0);
     let sin = z.mul_add(z.mul_add(1.0 / 120.0, z.like(-1.0 / 6.0)), one) * turn;
     let cos = z.mul_add(z.mul_add(1.0 / 24.0, z.like(-0.5)), one);
-    let (s, c) = (s.mul_add(cos, c * sin), c.mul_add(cos, -(s * sin)));
-    // Back to a unit vector.
-    let factor = s.mul_add(s, c * c).mul_add(-0.5, z.like(1.5));
+    nearly_unit(s.mul_add(cos, c * sin), c.mul_add(cos, -(s * sin)))
+}
+
+/// A unit vector from one that is nearly one: its error is squared.
+#[inline(always)]
+fn nearly_unit<S: Simd>(s: Vector<S>, c: Vector<S>) -> (Vector<S>, Vector<S>) {
+    let factor = s.mul_add(s, c * c).mul_add(-0.5, c.like(1.5));
     (s * factor, c * factor)
 }

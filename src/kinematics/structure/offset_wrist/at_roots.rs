@@ -8,6 +8,7 @@ use fearless_simd::prelude::*;
 use super::branch::{Branch, Plane, SLACK};
 use super::geometry::Constants;
 use super::resultant::{Hand, polynomial};
+use super::step::{Moving, Stepped};
 use crate::kinematics::structure::by_roots::ByRoots;
 use crate::kinematics::structure::closure::{Candidates, Closure, Target};
 use crate::kinematics::structure::end_frames::Frame;
@@ -24,6 +25,7 @@ pub(super) struct AtRoots<'a, S: Simd> {
     constants: &'a Constants,
     last: Frame<Vector<S>>,
     target: Target<Vector<S>>,
+    hand: Moving<Vector<S>>,
     sin_cos_6: [Vector<S>; 2],
     /// In the order of [`SIDES`](super::branch::SIDES).
     branches: [Branch<Vector<S>>; 4],
@@ -80,9 +82,9 @@ impl ByRoots for Constants {
             let (first, second) = (lane.like(LANE[roots.count] - 0.5), at_roots.served(1).nearest);
             nearest = Branch::where_above(lane, first, &second, &nearest);
         }
-        pass(&at_roots.converge(&nearest), block);
+        pass(&at_roots.step(&nearest), block);
         if per_root == 2 && !is_shared {
-            pass(&at_roots.converge(&at_roots.served(1).nearest), roots);
+            pass(&at_roots.step(&at_roots.served(1).nearest), roots);
         }
     }
 }
@@ -108,9 +110,10 @@ impl<'a, S: Simd> AtRoots<'a, S> {
     fn at(constants: &'a Constants, last: &Frame<Vector<S>>, angles: Vector<S>) -> Self {
         let lengths = &constants.lengths;
         let (sin, cos) = sin_cos_of(angles);
-        let hand = Hand::of(lengths, last).at([sin, cos]);
+        let hand = Hand::of(lengths, last).moving([sin, cos]);
         let (one, other) = (sin.like(1.0), sin.like(-1.0));
-        let (front, behind) = (Plane::of(lengths, hand, one), Plane::of(lengths, hand, other));
+        let (front, behind) =
+            (Plane::of(lengths, hand.at, one), Plane::of(lengths, hand.at, other));
         let branches = [
             front.with_elbow(lengths, one, SLACK),
             front.with_elbow(lengths, other, SLACK),
@@ -118,7 +121,7 @@ impl<'a, S: Simd> AtRoots<'a, S> {
             behind.with_elbow(lengths, other, SLACK),
         ];
         let target = constants.closure.target(*last);
-        Self { constants, last: *last, target, sin_cos_6: [sin, cos], branches }
+        Self { constants, last: *last, target, hand, sin_cos_6: [sin, cos], branches }
     }
 
     /// The branches of solution `number` of each root.
@@ -141,6 +144,21 @@ impl<'a, S: Simd> AtRoots<'a, S> {
                 let Constants { lengths, twists, closure } = self.constants;
                 let [sin, cos] = branch.joints(lengths, &self.last, self.sin_cos_6, twists);
                 closure.converge(&self.target, &sin, &cos)
+            },
+        )
+    }
+
+    /// Bring a branch of each root to its pose by a step of joint 6 alone, or, where that does not
+    /// do, by [`Self::converge`].
+    fn step(&self, branch: &Branch<Vector<S>>) -> Candidates {
+        branch.off.token().vectorize(
+            #[inline(always)]
+            || {
+                let Constants { lengths, twists, closure } = self.constants;
+                let Stepped { branch, sin_cos_6, determinant } =
+                    branch.stepped(lengths, &self.hand, self.sin_cos_6);
+                let [sin, cos] = branch.joints(lengths, &self.last, sin_cos_6, twists);
+                closure.arrived(&self.target, sin, cos, determinant)
             },
         )
     }

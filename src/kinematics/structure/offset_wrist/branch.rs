@@ -23,11 +23,11 @@ pub(super) struct Branch<T> {
     /// span the distance [1].
     pub(super) off: T,
     /// x3 in the plane of the arm: cosine and sine of its angle above x1.
-    forearm: [T; 2],
+    pub(super) forearm: [T; 2],
     /// x1: cosine and sine of theta_1.
-    shoulder: [T; 2],
+    pub(super) shoulder: [T; 2],
     /// Elbow from axis 2, in the plane of the arm.
-    elbow: [T; 2],
+    pub(super) elbow: [T; 2],
 }
 
 /// The plane of the arm for a wrist point and an axis 5.

@@ -15,6 +15,7 @@ mod reach;
 mod resultant;
 mod search;
 mod solve;
+mod step;
 #[cfg(test)]
 mod tests;
 

@@ -5,6 +5,7 @@
 use fearless_simd::prelude::*;
 
 use super::geometry::Lengths;
+use super::step::Moving;
 use crate::kinematics::structure::closure::Closure;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::general::quasi_random;
@@ -63,6 +64,13 @@ impl<T: Number> Hand<T> {
     pub(super) fn at(&self, [sin, cos]: [T; 2]) -> ([T; 3], [T; 3]) {
         (turned(&self.point, sin, cos), turned(&self.axis_5, sin, cos))
     }
+
+    /// The same, and how both change with joint 6.
+    #[inline(always)]
+    pub(super) fn moving(&self, [sin, cos]: [T; 2]) -> Moving<T> {
+        let rates = (rate(&self.point, sin, cos), rate(&self.axis_5, sin, cos));
+        Moving { at: self.at([sin, cos]), rates }
+    }
 }
 
 impl Hand {
@@ -88,6 +96,15 @@ fn turned<T: Number>([constant, of_cos, of_sin]: &[[T; 3]; 3], sin: T, cos: T) -
         turned[i] = cos.times_plus(of_cos[i], sin.times_plus(of_sin[i], constant[i]));
     }
     turned
+}
+
+#[inline(always)]
+fn rate<T: Number>([_, of_cos, of_sin]: &[[T; 3]; 3], sin: T, cos: T) -> [T; 3] {
+    let mut rate = [sin; 3];
+    for i in 0..3 {
+        rate[i] = cos.times_minus(of_sin[i], sin * of_cos[i]);
+    }
+    rate
 }
 
 /// A number `u + sigma v`, where sigma is the distance of the wrist point from axis 1 along the
