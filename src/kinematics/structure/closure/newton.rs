@@ -30,7 +30,8 @@ const NEAR: f64 = 1e-3;
 /// Residual up to which two differ by rounding [1].
 const ROUNDING: f64 = 1e-15;
 
-/// What the least singular value is at least, as a part of the determinant [1]: `(5 / 12)^(5 / 2)`.
+/// What the least singular value is at least, as a part of the determinant [1]: `(5 / 12)^(5 / 2)`
+/// (eq. 98a).
 const OF_DETERMINANT: f64 = 0.112;
 
 /// A bit for each lane.
@@ -121,7 +122,7 @@ impl Closure {
 
     /// The same for candidates that are at their targets, with the size of the determinant of the
     /// geometric Jacobian [m^3]: they are moved only where they do not close to rounding, or that
-    /// does not tell that they are away from every singularity (eq. 99a). Must be
+    /// does not tell that they are away from every singularity (eq. 98a). Must be
     /// `#[inline(always)]`.
     #[inline(always)]
     pub(crate) fn arrived<S: Simd>(

@@ -208,3 +208,51 @@ impl JointRow {
         (angle, (angle.simd_ge(low) & angle.simd_le(high)).all_true())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::{VectorKernel, run_vectors};
+    use crate::rng::Rng;
+
+    /// A row of angles of the table.
+    struct Wrap<'a>(&'a JointRow, Column);
+
+    impl VectorKernel for Wrap<'_> {
+        type Answer = (Column, bool);
+
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> (Column, bool) {
+            let (row, is_inside) = self.0.wrapped(Vector::load_array(simd, self.1));
+            (row.to_array(), is_inside)
+        }
+    }
+
+    #[test]
+    fn a_row_is_wrapped_as_its_joints_are() {
+        let mut rng = Rng::new(1);
+        let mut inside = 0;
+        for _ in 0..20_000 {
+            let signs = core::array::from_fn(|_| rng.sign());
+            let offsets = core::array::from_fn(|_| wrap(rng.between(-4.0, 4.0)));
+            let limits = core::array::from_fn(|_| [rng.between(-7.0, -1.0), rng.between(1.0, 7.0)]);
+            let joints: [_; 6] = JointColumn::of(&signs, &offsets, &limits, &[]).unwrap();
+            let mut theta = [0.0; LANES];
+            for (joint, theta) in theta[..6].iter_mut().enumerate() {
+                // Where the range ends, and where the joint's range does, too.
+                let ends = [rng.angle(), PI, -PI, wrap(PI - offsets[joint])];
+                *theta = ends[usize::from(rng.bits() % 8 == 0) * (rng.bits() % 4) as usize];
+            }
+            let (row, is_inside) = run_vectors(Wrap(&JointRow::of(&joints), theta));
+            let mut are_inside = true;
+            for (joint, column) in joints.iter().enumerate() {
+                let (angle, holds) = column.wrapped(theta[joint]);
+                assert_eq!(row[joint].to_bits(), angle.to_bits());
+                are_inside &= holds;
+            }
+            assert_eq!(is_inside, are_inside);
+            inside += usize::from(is_inside);
+        }
+        assert!((1000..19_000).contains(&inside), "{inside}");
+    }
+}

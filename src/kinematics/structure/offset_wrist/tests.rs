@@ -8,14 +8,16 @@ mod attempts;
 mod company;
 mod merged;
 mod self_motions;
+mod steps;
 mod turns;
 
 use arms::{arm, arms};
 
 use super::Structure as _;
-use super::branch::{Plane, SIDES};
-use super::geometry::OffsetWrist;
+use super::branch::{Branch, Plane, SIDES};
+use super::geometry::{Constants, OffsetWrist};
 use super::resultant::{Hand, resultant};
+use super::step::Stepped;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::wrap;

@@ -10,13 +10,13 @@ const AHEAD: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
 const PARALLEL: [f64; 4] = [0.0, 1e-6, 1e-4, 3e-3];
 
 /// The wrist point's distance from axis 1 along the plane of the arm [m].
-fn sigma(arm: &OffsetWrist, q: &[f64; 6]) -> f64 {
+pub(super) fn sigma(arm: &OffsetWrist, q: &[f64; 6]) -> f64 {
     let (frames, _) = arm.chain.link_frames(q);
     frames[0].rotation.matrix().column(0).dot(&frames[3].translation.vector)
 }
 
 /// Twice the area between upper arm and forearm: zero where the elbow is stretched or folded [m^2].
-fn area(arm: &OffsetWrist, q: &[f64; 6]) -> f64 {
+pub(super) fn area(arm: &OffsetWrist, q: &[f64; 6]) -> f64 {
     let (frames, _) = arm.chain.link_frames(q);
     let [shoulder, elbow, wrist] = [1, 2, 3].map(|joint| frames[joint].translation.vector);
     let normal = frames[1].rotation.matrix().column(2).into_owned();
