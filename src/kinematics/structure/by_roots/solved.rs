@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 
 use super::method::SLOTS;
 use crate::kinematics::answer::status::Status;
-use crate::kinematics::structure::closure::{TIED, in_order};
+use crate::kinematics::structure::closure::TIED;
 use crate::kinematics::structure::lanes::{JointRow, RegularPose};
 use crate::lanes::{Column, LANES, Vector};
 
@@ -44,45 +44,57 @@ impl Found {
         self.is_regular &= is_regular && self.rows.try_push(row.to_array()).is_ok();
     }
 
-    /// The rows in order; `None` if two are the same.
+    /// The rows in order, as [`in_order`](crate::kinematics::structure::closure::in_order) has them;
+    /// `None` if two are the same.
     #[inline(always)]
     fn order<S: Simd>(&self, simd: S) -> Option<Order> {
-        let mut first = [[f64::INFINITY; LANES]; SLOTS / LANES];
-        for (angle, row) in first.as_flattened_mut().iter_mut().zip(&self.rows) {
-            *angle = row[0];
-        }
-        let (mut order, mut are_apart) = ([0; SLOTS], true);
-        for (number, row) in (0..).zip(&self.rows) {
-            let (mut place, mut near) = (0, 0);
-            for column in &first {
-                let column = Vector::load_array_ref(simd, column);
-                place += column.simd_lt(row[0]).to_bitmask().count_ones();
-                near += (column - row[0]).abs().simd_le(TIED).to_bitmask().count_ones();
+        let every = (1 << self.rows.len()) - 1;
+        // Of each row: how many are before it, and those with which it is tied, as bits.
+        let (mut places, mut ties) = ([0; SLOTS], [every; SLOTS]);
+        for joint in 0..6 {
+            let column = self.column(joint);
+            let mut is_tied = false;
+            for (number, row) in self.rows.iter().enumerate() {
+                let [below, near] = beside(simd, &column, row[joint]);
+                places[number] += (ties[number] & below & !near).count_ones();
+                ties[number] &= near;
+                is_tied |= ties[number] != 1 << number;
             }
-            order[place as usize] = number;
-            are_apart &= near == 1;
+            if !is_tied {
+                break;
+            }
         }
-        if are_apart { Some(order) } else { self.order_by_all() }
+        let (mut order, mut taken) = ([0; SLOTS], 0_u64);
+        for (number, place) in (0..).zip(&places[..self.rows.len()]) {
+            order[*place as usize] = number;
+            taken |= 1 << place;
+        }
+        // Not all if some are tied in every joint, or in a circle.
+        (taken == every).then_some(order)
     }
 
-    /// The same where the first angles do not tell.
-    #[cold]
-    fn order_by_all(&self) -> Option<Order> {
-        let mut order = [0; SLOTS];
-        for (place, number) in order.iter_mut().zip(0..) {
-            *place = number;
+    /// The angles of a joint, with infinity where there is no row.
+    #[inline(always)]
+    fn column(&self, joint: usize) -> [Column; SLOTS / LANES] {
+        let mut column = [[f64::INFINITY; LANES]; SLOTS / LANES];
+        for (angle, row) in column.as_flattened_mut().iter_mut().zip(&self.rows) {
+            *angle = row[joint];
         }
-        let compare = |a: &u8, b: &u8| in_order(self.theta(*a), self.theta(*b));
-        let numbers = &mut order[..self.rows.len()];
-        numbers.sort_unstable_by(compare);
-        let are_apart = numbers.windows(2).all(|pair| compare(&pair[0], &pair[1]).is_ne());
-        are_apart.then_some(order)
+        column
     }
+}
 
-    fn theta(&self, number: u8) -> &[f64; 6] {
-        let [theta @ .., _, _] = &self.rows[usize::from(number)];
-        theta
+/// The places in a column of what is below an angle, and of what is tied with it: as bits.
+#[inline(always)]
+fn beside<S: Simd>(simd: S, column: &[Column; SLOTS / LANES], angle: f64) -> [u64; 2] {
+    let [mut below, mut near] = [0; 2];
+    for (block, angles) in column.iter().enumerate() {
+        let angles = Vector::load_array_ref(simd, angles);
+        let first = LANES * block;
+        below |= angles.simd_lt(angle).to_bitmask() << first;
+        near |= (angles - angle).abs().simd_le(TIED).to_bitmask() << first;
     }
+    [below, near]
 }
 
 impl Solved {
