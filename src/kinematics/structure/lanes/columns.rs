@@ -241,7 +241,7 @@ mod tests {
             for (joint, theta) in theta[..6].iter_mut().enumerate() {
                 // Where the range ends, and where the joint's range does, too.
                 let ends = [rng.angle(), PI, -PI, wrap(PI - offsets[joint])];
-                *theta = ends[usize::from(rng.bits() % 8 == 0) * (rng.bits() % 4) as usize];
+                *theta = ends[usize::from(rng.unit() < 0.125) * (rng.bits() % 4) as usize];
             }
             let (row, is_inside) = run_vectors(Wrap(&JointRow::of(&joints), theta));
             let mut are_inside = true;
