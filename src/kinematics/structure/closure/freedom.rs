@@ -29,8 +29,14 @@ impl Closure {
             let values = self.derivatives(theta).singular_values();
             values.iter().filter(|value| **value > LEAST).count()
         };
-        let freedoms = PLACES.iter().map(count).max().unwrap_or(0);
-        if freedoms == 6 { Ok(()) } else { Err(UnknownStructure::freedom(reason(rows), freedoms)) }
+        let mut freedoms = 0;
+        for theta in &PLACES {
+            freedoms = freedoms.max(count(theta));
+            if freedoms == 6 {
+                return Ok(());
+            }
+        }
+        Err(UnknownStructure::freedom(reason(rows), freedoms))
     }
 }
 

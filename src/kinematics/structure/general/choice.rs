@@ -26,6 +26,9 @@ const RANDOM: usize = 16;
 const FIRST: usize = 6;
 const STRUCTURED: usize = 3;
 
+/// Random joint vectors that tell whether the splits of another arm serve an arm.
+const OF_ANOTHER: usize = 3;
+
 /// Splits that are scored on the rest.
 const TRIED: usize = 6;
 
@@ -126,7 +129,7 @@ pub(super) fn taken(
 ) -> Option<Arc<Vec<Split>>> {
     let splits: Vec<_> = others.iter().map(|split| split.of(links)).collect();
     let splits = splits.iter().all(Split::is_single).then(|| Arc::new(splits))?;
-    is_mostly_regular(&FirstSplit::new(closure, &splits), FIRST).then_some(splits)
+    is_mostly_regular(&FirstSplit::new(closure, &splits), OF_ANOTHER).then_some(splits)
 }
 
 /// Whether most of so many random poses are regular in the first split. Those of an arm that is next

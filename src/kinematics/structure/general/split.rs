@@ -152,7 +152,7 @@ impl Split {
             }
             // Behind link 5 there is no joint.
             if k < 5 {
-                all = turned_back(k + 1, &all);
+                all = all_turned_back(k + 1, &all);
             }
         }
         // The joint before the pose link.
@@ -161,27 +161,23 @@ impl Split {
 
     /// For a pose on the right: the annihilator after what is before the pose.
     fn before_pose(&self, annihilator: &[Column; MOMENTS]) -> Vec<[Column; MOMENTS]> {
-        let mut count = 1;
-        for _ in self.place..5 {
-            count *= 3;
-        }
-        let mut before = alloc::vec![[[0.0; LANES]; MOMENTS]; count];
-        for k in 0..MOMENTS {
-            let mut all = alloc::vec![Moments::unit(k)];
-            for joint in self.place + 1..6 {
-                all = turned_back(joint, &all);
-                let back = self.links[joint].inverse();
-                for moments in &mut all {
-                    *moments = moments.moved(&back);
+        let mut before = alloc::vec![*annihilator];
+        for joint in (self.place + 1..6).rev() {
+            let back = &self.inverses[joint];
+            let mut parts = [[Moments::NONE; MOMENTS]; 3];
+            for k in 0..MOMENTS {
+                let of_unit = turned_back(joint, &Moments::unit(k));
+                for (part, moments) in parts.iter_mut().zip(of_unit) {
+                    part[k] = moments.moved(back);
                 }
             }
-            for (weights, moments) in before.iter_mut().zip(&all) {
-                for (moment, column) in moments.0.iter().zip(annihilator) {
-                    for lane in 0..LANES {
-                        weights[k][lane] += moment * column[lane];
-                    }
+            let mut longer = Vec::with_capacity(3 * before.len());
+            for weights in &before {
+                for part in &parts {
+                    longer.push(product_of(weights, part));
                 }
             }
+            before = longer;
         }
         before
     }
@@ -245,10 +241,29 @@ fn product<S: Simd>(
     sum.to_array()
 }
 
+/// The weights of moments, by those of what they become: a row of columns times a matrix by columns,
+/// many of whose elements are zero.
+fn product_of(weights: &[Column; MOMENTS], becomes: &[Moments; MOMENTS]) -> [Column; MOMENTS] {
+    let mut product = [[0.0; LANES]; MOMENTS];
+    for (sum, moments) in product.iter_mut().zip(becomes) {
+        for (moment, column) in moments.0.iter().zip(weights).filter(|(moment, _)| **moment != 0.0)
+        {
+            for lane in 0..LANES {
+                sum[lane] += moment * column[lane];
+            }
+        }
+    }
+    product
+}
+
+/// Moments before joint k, by the harmonics of joint 5, by powers of the others' half-angle tangents.
+fn turned_back(k: usize, moments: &Moments) -> [Moments; 3] {
+    if k == 5 { moments.back() } else { moments.powers_back() }
+}
+
 /// Every product with those of joint k: the power of joint 4 and the harmonic of joint 5 come
 /// first in the order.
-fn turned_back(k: usize, all: &[Moments]) -> Vec<Moments> {
-    let parts = |moments: &Moments| if k == 5 { moments.back() } else { moments.powers_back() };
-    let all: Vec<_> = all.iter().map(parts).collect();
+fn all_turned_back(k: usize, all: &[Moments]) -> Vec<Moments> {
+    let all: Vec<_> = all.iter().map(|moments| turned_back(k, moments)).collect();
     (0..3).flat_map(|i| all.iter().map(move |parts| parts[i])).collect()
 }
