@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 
 use super::method::SLOTS;
 use crate::kinematics::answer::status::Status;
-use crate::kinematics::structure::closure::TIED;
+use crate::kinematics::structure::closure::{Order, TIED, in_order};
 use crate::kinematics::structure::lanes::{JointRow, RegularPose};
 use crate::lanes::{Column, LANES, Vector};
 
@@ -30,9 +30,6 @@ pub(crate) struct Solved {
 const INSIDE: u8 = Status::FOUND.union(Status::WITHIN_LIMITS).bits();
 const OUTSIDE: u8 = Status::FOUND.bits();
 
-/// Numbers of rows.
-type Order = [u8; SLOTS];
-
 impl Found {
     #[inline(always)]
     pub(super) fn new() -> Self {
@@ -44,33 +41,21 @@ impl Found {
         self.is_regular &= is_regular && self.rows.try_push(row.to_array()).is_ok();
     }
 
-    /// The rows in order, as [`in_order`](crate::kinematics::structure::closure::in_order) has them;
-    /// `None` if two are the same.
+    /// The rows in order; `None` if two are the same.
     #[inline(always)]
     fn order<S: Simd>(&self, simd: S) -> Option<Order> {
-        let every = (1 << self.rows.len()) - 1;
-        // Of each row: how many are before it, and those with which it is tied, as bits.
-        let (mut places, mut ties) = ([0; SLOTS], [every; SLOTS]);
-        for joint in 0..6 {
-            let column = self.column(joint);
-            let mut is_tied = false;
-            for (number, row) in self.rows.iter().enumerate() {
-                let [below, near] = beside(simd, &column, row[joint]);
-                places[number] += (ties[number] & below & !near).count_ones();
-                ties[number] &= near;
-                is_tied |= ties[number] != 1 << number;
-            }
-            if !is_tied {
-                break;
-            }
-        }
-        let (mut order, mut taken) = ([0; SLOTS], 0_u64);
-        for (number, place) in (0..).zip(&places[..self.rows.len()]) {
-            order[*place as usize] = number;
-            taken |= 1 << place;
-        }
-        // Not all if some are tied in every joint, or in a circle.
-        (taken == every).then_some(order)
+        let (mut column, mut of_joint) = (self.column(0), 0);
+        let (order, are_apart) = in_order(
+            self.rows.len(),
+            #[inline(always)]
+            |joint, number| {
+                if joint != of_joint {
+                    (column, of_joint) = (self.column(joint), joint);
+                }
+                beside(simd, &column, self.rows[number][joint])
+            },
+        );
+        are_apart.then_some(order)
     }
 
     /// The angles of a joint, with infinity where there is no row.

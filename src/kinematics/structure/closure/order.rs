@@ -1,13 +1,116 @@
-//! The order of solutions without names.
+//! The order of solutions without names: by their angles of joint 1; those that are tied in it, one
+//! with the next, by joint 2; and so on.
 
-use core::cmp::Ordering;
+use crate::kinematics::answer::slot::MOST_SLOTS;
 
-/// Difference of two angles that are the same for the order [rad].
+/// Difference of two angles that are tied [rad]: less than two different solutions of a regular pose
+/// have in every joint.
 pub(crate) const TIED: f64 = 1e-6;
 
-/// The order of two solutions: by their first angles that differ. Equal are those that differ by
-/// less than two different ones of a regular pose.
-pub(crate) fn in_order(a: &[f64; 6], b: &[f64; 6]) -> Ordering {
-    let differ = |(a, b): &(&f64, &f64)| (**a - **b).abs() > TIED;
-    a.iter().zip(b).find(differ).map_or(Ordering::Equal, |(a, b)| a.total_cmp(b))
+/// Numbers of solutions by their places.
+pub(crate) type Order = [u8; MOST_SLOTS];
+
+/// The order of so many solutions, and whether no two are tied in every joint: if some are, they
+/// stand as they stood.
+///
+/// `beside` tells for a joint and a solution which angles are below its angle, and which differ by
+/// [`TIED`] at most, its own too: as bits.
+#[inline(always)]
+pub(crate) fn in_order(
+    count: usize,
+    mut beside: impl FnMut(usize, usize) -> [u64; 2],
+) -> (Order, bool) {
+    let every = (1_u64 << count) - 1;
+    // Of each solution: how many are before it, and with which it is tied in all joints so far.
+    let (mut places, mut ties) = ([0; MOST_SLOTS], [every; MOST_SLOTS]);
+    let mut is_tied = true;
+    for joint in 0..6 {
+        let [mut below, mut near] = [[0; MOST_SLOTS]; 2];
+        is_tied = false;
+        for number in 0..count {
+            let [lower, tied] = beside(joint, number);
+            (below[number], near[number]) = (lower & ties[number], tied & ties[number]);
+            is_tied |= near[number] != 1 << number;
+        }
+        for number in 0..count {
+            ties[number] = if is_tied { chain(&near, number) } else { near[number] };
+            places[number] += (below[number] & !ties[number]).count_ones();
+        }
+        if !is_tied {
+            break;
+        }
+    }
+    let mut order = [0; MOST_SLOTS];
+    for (number, name) in (0..count).zip(0..) {
+        let tied_before = ties[number] & ((1 << number) - 1);
+        order[(places[number] + tied_before.count_ones()) as usize] = name;
+    }
+    (order, !is_tied)
+}
+
+/// What is tied with a solution, with what is tied with that, and so on.
+fn chain(near: &[u64; MOST_SLOTS], number: usize) -> u64 {
+    let (mut chain, mut new) = (near[number], near[number]);
+    while new != 0 {
+        let next = near[new.trailing_zeros() as usize];
+        new = (new & (new - 1)) | (next & !chain);
+        chain |= next;
+    }
+    chain
+}
+
+#[cfg(test)]
+mod tests {
+    use std::vec::Vec;
+
+    use super::*;
+    use crate::rng::Rng;
+
+    /// Solutions by their places, and whether no two are tied in every joint.
+    fn ordered(all: &[[f64; 6]]) -> (Vec<[f64; 6]>, bool) {
+        let (order, are_apart) = in_order(all.len(), |joint, number| {
+            let from = |one: &[f64; 6]| one[joint] - all[number][joint];
+            let bits = |holds: &dyn Fn(f64) -> bool| {
+                (0..).zip(all).map(|(place, one)| u64::from(holds(from(one))) << place).sum()
+            };
+            [bits(&|off| off < 0.0), bits(&|off| off.abs() <= TIED)]
+        });
+        (order[..all.len()].iter().map(|number| all[usize::from(*number)]).collect(), are_apart)
+    }
+
+    #[test]
+    fn the_order_does_not_depend_on_that_in_which_solutions_are_found() {
+        let mut rng = Rng::new(1);
+        for _ in 0..2000 {
+            // Few angles, with chains of ties among them.
+            let angles = [-1.0, 0.0, 0.7e-6, 1.4e-6, 2.0];
+            let mut all: Vec<[f64; 6]> = Vec::new();
+            for _ in 0..MOST_SLOTS {
+                all.push(core::array::from_fn(|_| angles[(rng.bits() % 5) as usize]));
+            }
+            let (sorted, are_apart) = ordered(&all);
+            if are_apart {
+                all.reverse();
+                all.rotate_left(5);
+                assert_eq!(ordered(&all), (sorted.clone(), true));
+            }
+            // A chain of ties in joint 1 leaves it to the next joints; what is above it is behind.
+            let first: Vec<_> = sorted.iter().map(|q| q[0]).collect();
+            assert!(first.windows(2).all(|pair| pair[0] - pair[1] < 2.0 * TIED), "{first:?}");
+        }
+    }
+
+    #[test]
+    fn a_chain_of_ties_is_left_to_the_next_joint() {
+        let solution = |first, second| [first, second, 0.0, 0.0, 0.0, 0.0];
+        let all = [solution(0.0, 3.0), solution(1.6e-6, 1.0), solution(0.8e-6, 2.0)];
+        assert_eq!(ordered(&all), ([all[1], all[2], all[0]].to_vec(), true));
+    }
+
+    #[test]
+    fn what_is_tied_in_every_joint_stays_and_is_said() {
+        let all = [[0.5; 6], [0.1; 6], [0.1 + 1e-7; 6]];
+        assert_eq!(ordered(&all), ([all[1], all[2], all[0]].to_vec(), false));
+        assert_eq!(ordered(&[]), (Vec::new(), true));
+    }
 }

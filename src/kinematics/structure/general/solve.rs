@@ -11,7 +11,9 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::TakeStep;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::by_roots::{InCluster, SLOTS};
-use crate::kinematics::structure::closure::{Accepted, Configuration, Kind, Target, in_order};
+use crate::kinematics::structure::closure::{
+    Accepted, Configuration, Kind, TIED, Target, in_order,
+};
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::CLOSURE_SINGULAR;
 use crate::lanes::{LANES, run_vectors};
@@ -148,13 +150,12 @@ impl General {
         let reach = if all.is_empty() { Reach::NoRoots } else { Reach::Reached };
         let mut branches = Branches::empty(reach);
         branches.is_certified = is_certain && !is_flat && !is_cut;
-        let mut order: [usize; SLOTS] = core::array::from_fn(|index| index);
-        let order = &mut order[..all.len()];
-        order.sort_unstable_by(|a, b| in_order(&all[*a].theta, &all[*b].theta));
-        for (slot, index) in order.iter().enumerate() {
-            branches.q[slot] = Some(self.joint_map.joints(all[*index].theta));
-            branches.flags[slot] = kinds_of(&all[*index]).into();
-            if let Kind::Free(moving) | Kind::Surface(moving) = all[*index].kind {
+        let (order, _) = in_order(all.len(), |joint, number| beside(all, joint, number));
+        for (slot, number) in order[..all.len()].iter().enumerate() {
+            let one = &all[usize::from(*number)];
+            branches.q[slot] = Some(self.joint_map.joints(one.theta));
+            branches.flags[slot] = kinds_of(one).into();
+            if let Kind::Free(moving) | Kind::Surface(moving) = one.kind {
                 branches.free[slot] = FreeJoint::of_chain(moving);
             }
         }
@@ -199,6 +200,18 @@ impl General {
         let least = self.closure.least_singular_value(&self.joint_map.theta(q));
         if least < CLOSURE_SINGULAR { SingularityKind::ELBOW } else { SingularityKind::empty() }
     }
+}
+
+/// Which solutions have a joint's angle below that of a solution, and which are tied with it: as
+/// bits.
+fn beside(all: &[Configuration], joint: usize, number: usize) -> [u64; 2] {
+    let (mut below, mut near) = (0, 0);
+    for (place, one) in all.iter().enumerate() {
+        let from = one.theta[joint] - all[number].theta[joint];
+        below |= u64::from(from < 0.0) << place;
+        near |= u64::from(from.abs() <= TIED) << place;
+    }
+    [below, near]
 }
 
 /// The singularities of a solution: two that merge are as those of an elbow, a self-motion as that
