@@ -17,7 +17,7 @@ pub(super) struct Found {
     pub(super) is_regular: bool,
 }
 
-/// The solutions of a pose, by their first angles of the table that differ.
+/// The solutions of a pose, in order.
 pub(crate) struct Solved {
     /// Joint angles [rad].
     pub(super) q: ArrayVec<[f64; 6], SLOTS>,
@@ -52,7 +52,7 @@ impl Found {
                 if joint != of_joint {
                     (column, of_joint) = (self.column(joint), joint);
                 }
-                beside(simd, &column, self.rows[number][joint])
+                below_and_near(simd, &column, self.rows[number][joint])
             },
         );
         are_apart.then_some(order)
@@ -69,9 +69,9 @@ impl Found {
     }
 }
 
-/// The places in a column of what is below an angle, and of what is tied with it: as bits.
+/// The rows of a column with a smaller angle, and those that are tied with it: as bits.
 #[inline(always)]
-fn beside<S: Simd>(simd: S, column: &[Column; SLOTS / LANES], angle: f64) -> [u64; 2] {
+fn below_and_near<S: Simd>(simd: S, column: &[Column; SLOTS / LANES], angle: f64) -> [u64; 2] {
     let [mut below, mut near] = [0; 2];
     for (block, angles) in column.iter().enumerate() {
         let angles = Vector::load_array_ref(simd, angles);

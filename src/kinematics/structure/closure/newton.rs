@@ -34,9 +34,6 @@ const ROUNDING: f64 = 1e-15;
 /// (eq. 98a).
 const OF_DETERMINANT: f64 = 0.112;
 
-/// A bit for each lane.
-const EVERY_LANE: u64 = (1 << LANES) - 1;
-
 /// Joint angles of eight candidates, and how well they close.
 #[derive(Clone, Copy)]
 pub(crate) struct Candidates {
@@ -44,7 +41,8 @@ pub(crate) struct Candidates {
     pub(crate) theta: [Column; 6],
     /// The largest of the six conditions that is left [1].
     pub(crate) residual: Column,
-    /// The least singular value of the conditions' derivatives, to a small factor [1].
+    /// The least singular value of the conditions' derivatives, to a small factor, or, if it is above
+    /// [`SINGULAR`], a lower bound of it [1].
     pub(crate) least: Column,
 }
 
@@ -54,13 +52,17 @@ impl Candidates {
         self.residual[lane] <= closure.accepts() && self.least[lane] > SINGULAR
     }
 
-    /// Replace what is in a lane by that of others.
-    fn take_lane(&mut self, others: &Self, lane: usize) {
-        for joint in 0..6 {
-            self.theta[joint][lane] = others.theta[joint][lane];
+    /// Replace what is in lanes, as bits, by those of others.
+    pub(crate) fn take_lanes(&mut self, others: &Self, mut lanes: u64) {
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize;
+            for joint in 0..6 {
+                self.theta[joint][lane] = others.theta[joint][lane];
+            }
+            self.residual[lane] = others.residual[lane];
+            self.least[lane] = others.least[lane];
+            lanes &= lanes - 1;
         }
-        self.residual[lane] = others.residual[lane];
-        self.least[lane] = others.least[lane];
     }
 
     /// The angles in a lane [rad].
@@ -120,10 +122,9 @@ impl Closure {
         )
     }
 
-    /// The same for candidates that are at their targets, with the size of the determinant of the
-    /// geometric Jacobian [m^3]: they are moved only where they do not close to rounding, or that
-    /// does not tell that they are away from every singularity (eq. 98a). Must be
-    /// `#[inline(always)]`.
+    /// Candidates as they are, with the size of the determinant of the geometric Jacobian [m^3], and
+    /// the lanes, as bits, in which they do not close to rounding, or are not away from every
+    /// singularity by their determinant (eq. 98a).
     #[inline(always)]
     pub(crate) fn arrived<S: Simd>(
         &self,
@@ -131,7 +132,7 @@ impl Closure {
         mut sin: Six<S>,
         mut cos: Six<S>,
         determinant: Vector<S>,
-    ) -> Candidates {
+    ) -> (Candidates, u64) {
         for joint in 0..6 {
             (sin[joint], cos[joint]) = nearly_unit(sin[joint], cos[joint]);
         }
@@ -146,16 +147,7 @@ impl Closure {
         for joint in 0..6 {
             candidates.theta[joint] = atan2_of(sin[joint], cos[joint]).to_array();
         }
-        let mut moved = !has_arrived.to_bitmask() & EVERY_LANE;
-        if moved != 0 {
-            let converged = self.converge(target, &sin, &cos);
-            while moved != 0 {
-                let lane = moved.trailing_zeros() as usize;
-                candidates.take_lane(&converged, lane);
-                moved &= moved - 1;
-            }
-        }
-        candidates
+        (candidates, (!has_arrived).to_bitmask())
     }
 
     #[inline(always)]

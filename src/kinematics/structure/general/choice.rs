@@ -26,7 +26,7 @@ const RANDOM: usize = 16;
 const FIRST: usize = 6;
 const STRUCTURED: usize = 3;
 
-/// Random joint vectors that tell whether the splits of another arm serve an arm.
+/// Random joint vectors on which the splits of another arm are tried.
 const OF_ANOTHER: usize = 3;
 
 /// Splits that are scored on the rest.

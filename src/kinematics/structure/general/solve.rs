@@ -150,7 +150,7 @@ impl General {
         let reach = if all.is_empty() { Reach::NoRoots } else { Reach::Reached };
         let mut branches = Branches::empty(reach);
         branches.is_certified = is_certain && !is_flat && !is_cut;
-        let (order, _) = in_order(all.len(), |joint, number| beside(all, joint, number));
+        let (order, _) = in_order(all.len(), |joint, number| below_and_near(all, joint, number));
         for (slot, number) in order[..all.len()].iter().enumerate() {
             let one = &all[usize::from(*number)];
             branches.q[slot] = Some(self.joint_map.joints(one.theta));
@@ -202,9 +202,9 @@ impl General {
     }
 }
 
-/// Which solutions have a joint's angle below that of a solution, and which are tied with it: as
-/// bits.
-fn beside(all: &[Configuration], joint: usize, number: usize) -> [u64; 2] {
+/// The solutions whose angle of a joint is smaller than that of a solution, and those that are tied
+/// with it: as bits.
+fn below_and_near(all: &[Configuration], joint: usize, number: usize) -> [u64; 2] {
     let (mut below, mut near) = (0, 0);
     for (place, one) in all.iter().enumerate() {
         let from = one.theta[joint] - all[number].theta[joint];

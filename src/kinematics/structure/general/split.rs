@@ -241,11 +241,10 @@ fn product<S: Simd>(
     sum.to_array()
 }
 
-/// The weights of moments, by those of what they become: a row of columns times a matrix by columns,
-/// many of whose elements are zero.
-fn product_of(weights: &[Column; MOMENTS], becomes: &[Moments; MOMENTS]) -> [Column; MOMENTS] {
+/// A row of weights, six in lanes, times the matrix with these columns: its zeros, many, are skipped.
+fn product_of(weights: &[Column; MOMENTS], matrix: &[Moments; MOMENTS]) -> [Column; MOMENTS] {
     let mut product = [[0.0; LANES]; MOMENTS];
-    for (sum, moments) in product.iter_mut().zip(becomes) {
+    for (sum, moments) in product.iter_mut().zip(matrix) {
         for (moment, column) in moments.0.iter().zip(weights).filter(|(moment, _)| **moment != 0.0)
         {
             for lane in 0..LANES {
@@ -256,7 +255,8 @@ fn product_of(weights: &[Column; MOMENTS], becomes: &[Moments; MOMENTS]) -> [Col
     product
 }
 
-/// Moments before joint k, by the harmonics of joint 5, by powers of the others' half-angle tangents.
+/// Moments before joint k turns: by its harmonics for joint 5, for others by powers of the tangent of
+/// half its angle.
 fn turned_back(k: usize, moments: &Moments) -> [Moments; 3] {
     if k == 5 { moments.back() } else { moments.powers_back() }
 }

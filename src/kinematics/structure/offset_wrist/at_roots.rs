@@ -148,17 +148,21 @@ impl<'a, S: Simd> AtRoots<'a, S> {
         )
     }
 
-    /// Bring a branch of each root to its pose by a step of joint 6 alone, or, where that does not
-    /// do, by [`Self::converge`].
+    /// Bring a branch of each root to its pose by a step of joint 6 alone, or, where that is not
+    /// enough, by [`Self::converge`].
     fn step(&self, branch: &Branch<Vector<S>>) -> Candidates {
         branch.off.token().vectorize(
             #[inline(always)]
             || {
                 let Constants { lengths, twists, closure } = self.constants;
-                let Stepped { branch, sin_cos_6, determinant } =
-                    branch.stepped(lengths, &self.hand, self.sin_cos_6);
-                let [sin, cos] = branch.joints(lengths, &self.last, sin_cos_6, twists);
-                closure.arrived(&self.target, sin, cos, determinant)
+                let stepped = branch.stepped(lengths, &self.hand, self.sin_cos_6);
+                let Stepped { branch: next, sin_cos_6, determinant } = stepped;
+                let [sin, cos] = next.joints(lengths, &self.last, sin_cos_6, twists);
+                let (mut candidates, left) = closure.arrived(&self.target, sin, cos, determinant);
+                if left != 0 {
+                    candidates.take_lanes(&self.converge(branch), left);
+                }
+                candidates
             },
         )
     }

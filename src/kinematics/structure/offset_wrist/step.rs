@@ -36,13 +36,13 @@ impl<T: Number> Branch<T> {
         let ([cos, sin], [er, eh]) = (self.forearm, self.elbow);
         let [sigma, aside] = facing(point, self.shoulder);
         let [sigma_rate, aside_rate] = facing(point_rate, self.shoulder);
-        let [radial, lateral] = facing(axis_5, self.shoulder);
-        let [radial_rate, lateral_rate] = facing(axis_rate, self.shoulder);
+        let [radial, sideways] = facing(axis_5, self.shoulder);
+        let [radial_rate, sideways_rate] = facing(axis_rate, self.shoulder);
         // Eq. 138.
         let first = aside_rate / sigma;
         let r_rate = first.times_plus(aside, sigma_rate);
-        let radial_rate = first.times_plus(lateral, radial_rate);
-        let lateral_rate = lateral_rate - first * radial;
+        let radial_rate = first.times_plus(sideways, radial_rate);
+        let sideways_rate = sideways_rate - first * radial;
         // Eq. 139: the forearm, and a quarter turn on.
         let along = [cos.scaled_plus(v1, sin * -v2), sin.scaled_plus(v1, cos * v2)];
         let swing = (eh * along[0] - er * along[1]) * forearm;
@@ -51,7 +51,8 @@ impl<T: Number> Branch<T> {
         // Eq. 140.
         let turning = cos.times_plus(axis_rate[2], sin * -radial_rate);
         let turned = sin.times_plus(axis_5[2], cos * radial);
-        let off_rate = lateral_rate.scaled_plus(-(s1 * e * cos_3), (turning - second * turned) * m);
+        let off_rate =
+            sideways_rate.scaled_plus(-(s1 * e * cos_3), (turning - second * turned) * m);
         let step = -(self.off / off_rate);
 
         let (first, second) = (first * step, second * step);

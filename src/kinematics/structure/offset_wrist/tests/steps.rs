@@ -1,5 +1,7 @@
 //! Laws of the step of joint 6 alone (eq. 138 to 142).
 
+use std::vec::Vec;
+
 use super::turns::{area, sigma};
 use super::*;
 
@@ -30,8 +32,8 @@ fn nearest(found: &[([f64; 6], f64)], q: &[f64; 6]) -> [f64; 2] {
     each.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap()
 }
 
-/// Joint vectors so far from det J = 0, of the cube of the lengths, and so far from where two branches
-/// meet, of their square.
+/// Joint vectors so far from det J = 0, relative to the cube of the lengths, and ten times as far from
+/// where two branches meet, relative to their square.
 fn regular(arm: &OffsetWrist, seed: u64, least: f64) -> impl Iterator<Item = [f64; 6]> {
     let reach = arm.constants.closure.reach;
     joints(seed).take(2000).filter(move |q| {
@@ -51,6 +53,7 @@ fn the_determinant_is_that_of_the_jacobian() {
             count += 1;
         }
         std::println!("{name}: {worst:e} of {count}");
+        // Some roundings, over the 1e-4 that are left of the determinant, and a margin.
         assert!(worst < 1e-9 && count > 500, "{name}: {worst:e} of {count}");
     }
 }
