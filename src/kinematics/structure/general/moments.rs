@@ -72,8 +72,6 @@ impl<T: Number> Moments<T> {
 }
 
 impl Moments {
-    pub(super) const NONE: Self = Self([0.0; MOMENTS]);
-
     /// The moments of the z axis.
     pub(super) const AXIS: Self = {
         let mut moments = [0.0; MOMENTS];

@@ -3,6 +3,7 @@
 
 use alloc::vec::Vec;
 
+use arrayvec::ArrayVec;
 use fearless_simd::prelude::*;
 
 use super::annihilator::Left;
@@ -163,12 +164,13 @@ impl Split {
     fn before_pose(&self, annihilator: &[Column; MOMENTS]) -> Vec<[Column; MOMENTS]> {
         let mut before = alloc::vec![*annihilator];
         for joint in (self.place + 1..6).rev() {
-            let back = &self.inverses[joint];
-            let mut parts = [[Moments::NONE; MOMENTS]; 3];
+            let mut parts = [const { [const { Sparse::new_const() }; MOMENTS] }; 3];
             for k in 0..MOMENTS {
                 let of_unit = turned_back(joint, &Moments::unit(k));
                 for (part, moments) in parts.iter_mut().zip(of_unit) {
-                    part[k] = moments.moved(back);
+                    if moments.0.iter().any(|moment| *moment != 0.0) {
+                        part[k] = sparse(&moments.moved(&self.inverses[joint]));
+                    }
                 }
             }
             let mut longer = Vec::with_capacity(3 * before.len());
@@ -241,16 +243,25 @@ fn product<S: Simd>(
     sum.to_array()
 }
 
-/// A row of weights, six in lanes, times the matrix with these columns: its zeros, many, are skipped.
-fn product_of(weights: &[Column; MOMENTS], matrix: &[Moments; MOMENTS]) -> [Column; MOMENTS] {
+/// What is not zero of a column of a matrix, with its rows.
+type Sparse = ArrayVec<(usize, f64), MOMENTS>;
+
+fn sparse(moments: &Moments) -> Sparse {
+    moments.0.into_iter().enumerate().filter(|(_, moment)| *moment != 0.0).collect()
+}
+
+/// A row of weights, six in lanes, times the matrix with these columns.
+fn product_of(weights: &[Column; MOMENTS], matrix: &[Sparse; MOMENTS]) -> [Column; MOMENTS] {
     let mut product = [[0.0; LANES]; MOMENTS];
-    for (sum, moments) in product.iter_mut().zip(matrix) {
-        for (moment, column) in moments.0.iter().zip(weights).filter(|(moment, _)| **moment != 0.0)
-        {
+    for (to, column) in product.iter_mut().zip(matrix) {
+        let mut sum = [0.0; LANES];
+        for (row, element) in column {
+            let weights = &weights[*row];
             for lane in 0..LANES {
-                sum[lane] += moment * column[lane];
+                sum[lane] += element * weights[lane];
             }
         }
+        *to = sum;
     }
     product
 }
