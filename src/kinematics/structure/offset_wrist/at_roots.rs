@@ -7,8 +7,9 @@ use fearless_simd::prelude::*;
 
 use super::branch::{Branch, Plane, SLACK};
 use super::geometry::Constants;
-use super::resultant::{Hand, polynomial};
-use super::step::{Moving, Stepped};
+use super::hand::{Hand, Moving};
+use super::resultant::polynomial;
+use super::step::Stepped;
 use crate::kinematics::structure::by_roots::ByRoots;
 use crate::kinematics::structure::closure::{Candidates, Closure, Target};
 use crate::kinematics::structure::end_frames::Frame;

@@ -5,7 +5,7 @@
 use fearless_simd::prelude::*;
 
 use super::geometry::{Lengths, Twists};
-use super::resultant::Hand;
+use super::hand::Hand;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::lanes::{Column, Number, Vector, VectorKernel, cross, dot, sin_cos_of};
 

@@ -9,6 +9,7 @@ mod branch;
 mod clusters;
 mod determinant;
 mod geometry;
+mod hand;
 mod measure;
 mod parallel;
 mod reach;

@@ -6,7 +6,7 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::geometry::Lengths;
-use super::resultant::Hand;
+use super::hand::Hand;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::Root;

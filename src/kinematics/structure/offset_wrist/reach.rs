@@ -7,7 +7,7 @@ use core::f64::consts::TAU;
 use nalgebra::ComplexField as _;
 
 use super::geometry::OffsetWrist;
-use super::resultant::Hand;
+use super::hand::Hand;
 use super::search::sin_cos;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::report::Reach;

@@ -12,7 +12,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::at_roots::AtRoots;
 use super::branch::{Branch, Plane, SIDES, SLACK};
 use super::geometry::{Constants, OffsetWrist};
-use super::resultant::Hand;
+use super::hand::Hand;
 use crate::kinematics::structure::closure::{Accepted, Candidates, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::Root;

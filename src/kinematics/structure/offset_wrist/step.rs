@@ -4,14 +4,8 @@
 
 use super::branch::Branch;
 use super::geometry::Lengths;
+use super::hand::Moving;
 use crate::lanes::Number;
-
-/// Wrist point and direction of axis 5 at an angle of joint 6, and their derivatives by it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Moving<T> {
-    pub(super) at: ([T; 3], [T; 3]),
-    pub(super) rates: ([T; 3], [T; 3]),
-}
 
 /// A branch after the step.
 pub(super) struct Stepped<T> {
