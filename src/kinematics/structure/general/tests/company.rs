@@ -55,7 +55,7 @@ fn a_regular_pose_has_the_solutions_of_the_whole_search() {
         let arm = General::of(&mdh).unwrap();
         let method = FirstSplit::of(&arm);
         let frames = frames(&arm, &mixed(&mut Rng::new(8), poses_or(20).min(2000)));
-        let mut count = 0;
+        let (mut count, mut uncertified) = (0, 0);
         for frame in &frames {
             let whole_search = || {
                 let mut found = Accepted::NONE;
@@ -63,10 +63,15 @@ fn a_regular_pose_has_the_solutions_of_the_whole_search() {
                 let is_certified = arm.search(&pose_of(frame), &free, &mut found);
                 (found.as_slice().to_vec(), is_certified)
             };
-            count += usize::from(is_as_in_whole_search(&method, frame, whole_search, &name));
+            let is_certified = is_as_in_whole_search(&method, frame, whole_search, &name);
+            count += usize::from(is_certified.is_some());
+            uncertified += usize::from(is_certified == Some(false));
         }
         let is_expected = 6 * count > frames.len() || !arm.is_mostly_regular;
         assert!(is_expected, "{name}: {count} of {}", frames.len());
+        // Next to a singularity the whole search may be less certain of the same solutions: the
+        // other splits that it asks differ in their noise.
+        assert!(1000 * uncertified <= count, "{name}: {uncertified} of {count}");
     }
 }
 
