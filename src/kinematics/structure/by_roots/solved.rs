@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 
 use super::method::SLOTS;
 use crate::kinematics::answer::status::Status;
-use crate::kinematics::structure::closure::{Order, TIED, in_order};
+use crate::kinematics::structure::closure::{BelowAndNear, Order, TIED, in_order};
 use crate::kinematics::structure::lanes::{JointRow, RegularPose};
 use crate::lanes::{Column, LANES, Vector};
 
@@ -44,42 +44,32 @@ impl Found {
     /// The rows in order; `None` if two are the same.
     #[inline(always)]
     fn order<S: Simd>(&self, simd: S) -> Option<Order> {
-        let (mut column, mut of_joint) = (self.column(0), 0);
         let (order, are_apart) = in_order(
             self.rows.len(),
             #[inline(always)]
-            |joint, number| {
-                if joint != of_joint {
-                    (column, of_joint) = (self.column(joint), joint);
-                }
-                below_and_near(simd, &column, self.rows[number][joint])
-            },
+            |joint| self.below_and_near(simd, joint),
         );
         are_apart.then_some(order)
     }
 
-    /// The angles of a joint, with infinity where there is no row.
     #[inline(always)]
-    fn column(&self, joint: usize) -> [Column; SLOTS / LANES] {
+    fn below_and_near<S: Simd>(&self, simd: S, joint: usize) -> BelowAndNear {
+        // Infinity where there is no row: neither below an angle nor near it.
         let mut column = [[f64::INFINITY; LANES]; SLOTS / LANES];
         for (angle, row) in column.as_flattened_mut().iter_mut().zip(&self.rows) {
             *angle = row[joint];
         }
-        column
+        let [mut below, mut near] = [[0; SLOTS]; 2];
+        for (number, row) in self.rows.iter().enumerate() {
+            for (block, angles) in column.iter().enumerate() {
+                let angles = Vector::load_array_ref(simd, angles);
+                let first = LANES * block;
+                below[number] |= angles.simd_lt(row[joint]).to_bitmask() << first;
+                near[number] |= (angles - row[joint]).abs().simd_le(TIED).to_bitmask() << first;
+            }
+        }
+        [below, near]
     }
-}
-
-/// The rows of a column with a smaller angle, and those that are tied with it: as bits.
-#[inline(always)]
-fn below_and_near<S: Simd>(simd: S, column: &[Column; SLOTS / LANES], angle: f64) -> [u64; 2] {
-    let [mut below, mut near] = [0; 2];
-    for (block, angles) in column.iter().enumerate() {
-        let angles = Vector::load_array_ref(simd, angles);
-        let first = LANES * block;
-        below |= angles.simd_lt(angle).to_bitmask() << first;
-        near |= (angles - angle).abs().simd_le(TIED).to_bitmask() << first;
-    }
-    [below, near]
 }
 
 impl Solved {

@@ -39,6 +39,6 @@ pub(crate) use accepted::Accepted;
 pub(crate) use chain::{Closure, Target};
 pub(crate) use configuration::{Configuration, Kind, Missed};
 pub(crate) use newton::{Candidates, Six};
-pub(crate) use order::{Order, TIED, in_order};
+pub(crate) use order::{BelowAndNear, Order, TIED, in_order, in_order_one_by_one};
 pub(crate) use placed::Placed;
 pub(crate) use reflections::reflect;

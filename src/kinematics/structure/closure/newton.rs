@@ -41,8 +41,8 @@ pub(crate) struct Candidates {
     pub(crate) theta: [Column; 6],
     /// The largest of the six conditions that is left [1].
     pub(crate) residual: Column,
-    /// The least singular value of the conditions' derivatives, to a small factor, or, if it is above
-    /// [`SINGULAR`], a lower bound of it [1].
+    /// The least singular value of the conditions' derivatives, to a small factor, or a lower bound
+    /// of it that is above [`SINGULAR`] [1].
     pub(crate) least: Column,
 }
 
@@ -122,9 +122,9 @@ impl Closure {
         )
     }
 
-    /// Candidates as they are, with the size of the determinant of the geometric Jacobian [m^3], and
-    /// the lanes, as bits, in which they do not close to rounding, or are not away from every
-    /// singularity by their determinant (eq. 98a).
+    /// Candidates as they are, and the lanes, as bits, in which they do not close to rounding, or
+    /// may be next to a singularity by the size of the geometric Jacobian's determinant [m^3]
+    /// (eq. 98a).
     #[inline(always)]
     pub(crate) fn arrived<S: Simd>(
         &self,

@@ -3,38 +3,39 @@
 
 use crate::kinematics::answer::slot::MOST_SLOTS;
 
-/// Difference of two angles that are tied [rad]: two solutions of a regular pose differ by more in at
-/// least one joint.
+/// Difference of two angles that are tied [rad]: two solutions of a regular pose differ by more in
+/// at least one joint.
 pub(crate) const TIED: f64 = 1e-6;
 
 /// Numbers of solutions by their places.
 pub(crate) type Order = [u8; MOST_SLOTS];
 
-/// The order of so many solutions, and whether no two are tied in every joint: those that are keep
-/// the order in which they were found.
-///
-/// `below_and_near` returns, for a joint and a solution, as bits, the solutions with a smaller angle,
-/// and those whose angle differs by [`TIED`] at most, with itself.
+/// For each solution, as bits: those whose angle of a joint is smaller, and those with which it is
+/// tied, itself too.
+pub(crate) type BelowAndNear = [[u64; MOST_SLOTS]; 2];
+
+/// The order of so many solutions, by what a function says of each joint, and whether no two are
+/// tied in every joint: those that are keep the order in which they were found.
 #[inline(always)]
 pub(crate) fn in_order(
     count: usize,
-    mut below_and_near: impl FnMut(usize, usize) -> [u64; 2],
+    mut below_and_near: impl FnMut(usize) -> BelowAndNear,
 ) -> (Order, bool) {
     let every = (1_u64 << count) - 1;
     // Of each solution: how many are before it, and with which it is tied in all joints so far.
     let (mut places, mut ties) = ([0; MOST_SLOTS], [every; MOST_SLOTS]);
     let mut is_tied = true;
     for joint in 0..6 {
-        let [mut below, mut near] = [[0; MOST_SLOTS]; 2];
+        let [below, mut near] = below_and_near(joint);
         is_tied = false;
         for number in 0..count {
-            let [lower, tied] = below_and_near(joint, number);
-            (below[number], near[number]) = (lower & ties[number], tied & ties[number]);
+            near[number] &= ties[number];
             is_tied |= near[number] != 1 << number;
         }
         for number in 0..count {
-            ties[number] = if is_tied { chain(&near, number) } else { near[number] };
-            places[number] += (below[number] & !ties[number]).count_ones();
+            let tied = if is_tied { chain(&near, number) } else { near[number] };
+            places[number] += (below[number] & ties[number] & !tied).count_ones();
+            ties[number] = tied;
         }
         if !is_tied {
             break;
@@ -46,6 +47,24 @@ pub(crate) fn in_order(
         order[(places[number] + tied_before.count_ones()) as usize] = name;
     }
     (order, !is_tied)
+}
+
+/// The same for solutions with these angles, which are not in lanes.
+pub(crate) fn in_order_one_by_one<'a>(
+    count: usize,
+    theta: impl Fn(usize) -> &'a [f64; 6],
+) -> (Order, bool) {
+    in_order(count, |joint| {
+        let [mut below, mut near] = [[0; MOST_SLOTS]; 2];
+        for number in 0..count {
+            for other in 0..count {
+                let from = theta(other)[joint] - theta(number)[joint];
+                below[number] |= u64::from(from < 0.0) << other;
+                near[number] |= u64::from(from.abs() <= TIED) << other;
+            }
+        }
+        [below, near]
+    })
 }
 
 /// What is tied with a solution, with what is tied with that, and so on.
@@ -68,13 +87,7 @@ mod tests {
 
     /// Solutions by their places, and whether no two are tied in every joint.
     fn ordered(all: &[[f64; 6]]) -> (Vec<[f64; 6]>, bool) {
-        let (order, are_apart) = in_order(all.len(), |joint, number| {
-            let from = |one: &[f64; 6]| one[joint] - all[number][joint];
-            let bits = |holds: &dyn Fn(f64) -> bool| {
-                (0..).zip(all).map(|(place, one)| u64::from(holds(from(one))) << place).sum()
-            };
-            [bits(&|off| off < 0.0), bits(&|off| off.abs() <= TIED)]
-        });
+        let (order, are_apart) = in_order_one_by_one(all.len(), |number| &all[number]);
         (order[..all.len()].iter().map(|number| all[usize::from(*number)]).collect(), are_apart)
     }
 

@@ -12,7 +12,7 @@ use crate::kinematics::structure::TakeStep;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::by_roots::{InCluster, SLOTS};
 use crate::kinematics::structure::closure::{
-    Accepted, Configuration, Kind, TIED, Target, in_order,
+    Accepted, Configuration, Kind, Target, in_order_one_by_one,
 };
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::CLOSURE_SINGULAR;
@@ -150,7 +150,7 @@ impl General {
         let reach = if all.is_empty() { Reach::NoRoots } else { Reach::Reached };
         let mut branches = Branches::empty(reach);
         branches.is_certified = is_certain && !is_flat && !is_cut;
-        let (order, _) = in_order(all.len(), |joint, number| below_and_near(all, joint, number));
+        let (order, _) = in_order_one_by_one(all.len(), |number| &all[number].theta);
         for (slot, number) in order[..all.len()].iter().enumerate() {
             let one = &all[usize::from(*number)];
             branches.q[slot] = Some(self.joint_map.joints(one.theta));
@@ -200,18 +200,6 @@ impl General {
         let least = self.closure.least_singular_value(&self.joint_map.theta(q));
         if least < CLOSURE_SINGULAR { SingularityKind::ELBOW } else { SingularityKind::empty() }
     }
-}
-
-/// The solutions whose angle of a joint is smaller than that of a solution, and those that are tied
-/// with it: as bits.
-fn below_and_near(all: &[Configuration], joint: usize, number: usize) -> [u64; 2] {
-    let (mut below, mut near) = (0, 0);
-    for (place, one) in all.iter().enumerate() {
-        let from = one.theta[joint] - all[number].theta[joint];
-        below |= u64::from(from < 0.0) << place;
-        near |= u64::from(from.abs() <= TIED) << place;
-    }
-    [below, near]
 }
 
 /// The singularities of a solution: two that merge are as those of an elbow, a self-motion as that

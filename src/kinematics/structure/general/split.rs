@@ -147,9 +147,8 @@ impl Split {
             if k == self.place {
                 break;
             }
-            let back = self.links[k].inverse();
             for moments in &mut all {
-                *moments = moments.moved(&back);
+                *moments = moments.moved(&self.inverses[k]);
             }
             // Behind link 5 there is no joint.
             if k < 5 {
@@ -168,15 +167,13 @@ impl Split {
             for k in 0..MOMENTS {
                 let of_unit = turned_back(joint, &Moments::unit(k));
                 for (part, moments) in parts.iter_mut().zip(of_unit) {
-                    if moments.0.iter().any(|moment| *moment != 0.0) {
-                        part[k] = sparse(&moments.moved(&self.inverses[joint]));
-                    }
+                    part[k] = sparse(&moments.moved(&self.inverses[joint]));
                 }
             }
             let mut longer = Vec::with_capacity(3 * before.len());
             for weights in &before {
                 for part in &parts {
-                    longer.push(product_of(weights, part));
+                    longer.push(carried_back(weights, part));
                 }
             }
             before = longer;
@@ -251,7 +248,7 @@ fn sparse(moments: &Moments) -> Sparse {
 }
 
 /// A row of weights, six in lanes, times the matrix with these columns.
-fn product_of(weights: &[Column; MOMENTS], matrix: &[Sparse; MOMENTS]) -> [Column; MOMENTS] {
+fn carried_back(weights: &[Column; MOMENTS], matrix: &[Sparse; MOMENTS]) -> [Column; MOMENTS] {
     let mut product = [[0.0; LANES]; MOMENTS];
     for (to, column) in product.iter_mut().zip(matrix) {
         let mut sum = [0.0; LANES];
@@ -266,8 +263,8 @@ fn product_of(weights: &[Column; MOMENTS], matrix: &[Sparse; MOMENTS]) -> [Colum
     product
 }
 
-/// Moments before joint k turns: by its harmonics for joint 5, for others by powers of the tangent of
-/// half its angle.
+/// Moments before joint k turns: by its harmonics for joint 5, for others by powers of the tangent
+/// of half its angle.
 fn turned_back(k: usize, moments: &Moments) -> [Moments; 3] {
     if k == 5 { moments.back() } else { moments.powers_back() }
 }

@@ -1,6 +1,6 @@
 //! The resultant: a trigonometric polynomial of joint 6 whose zeros are the solutions.
 //!
-//! Docs: offset_wrist.md, eq. 121 to 128. Branch-free arithmetic, which runs in lanes.
+//! Docs: offset_wrist.md, eq. 122 to 128. Branch-free arithmetic, which runs in lanes.
 
 use fearless_simd::prelude::*;
 

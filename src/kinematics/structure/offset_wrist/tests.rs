@@ -88,6 +88,11 @@ fn the_resultant_has_degree_8_and_vanishes_at_joint_6_of_the_arm() {
     }
 }
 
+/// The largest difference of a joint [rad].
+fn apart(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| wrap(a - b).abs()).fold(0.0, f64::max)
+}
+
 fn angles([sin, cos]: &[[f64; 6]; 2]) -> [f64; 6] {
     core::array::from_fn(|joint| sin[joint].atan2(cos[joint]))
 }
@@ -99,13 +104,6 @@ fn one_branch_at_joint_6_of_the_arm_is_the_arm() {
             let frame = Frame::of(&arm.chain.fk(&q));
             let hand = Hand::of(&arm.constants.lengths, &frame);
             let (sin, cos) = q[5].sin_cos();
-            let off = |found: &[f64; 6]| {
-                found
-                    .iter()
-                    .zip(&q)
-                    .map(|(a, b)| ((a - b) / TAU - ((a - b) / TAU).round()).abs() * TAU)
-                    .fold(0.0, f64::max)
-            };
             let best = SIDES
                 .iter()
                 .map(|[shoulder, elbow]| {
@@ -120,11 +118,11 @@ fn one_branch_at_joint_6_of_the_arm_is_the_arm() {
                         [sin, cos],
                         &arm.constants.twists,
                     );
-                    (off(&angles(&joints)), branch.off)
+                    (apart(&angles(&joints), &q), branch.off)
                 })
                 .min_by(|a, b| a.0.total_cmp(&b.0));
-            let (apart, residual) = best.unwrap();
-            assert!(apart < 1e-6 && residual.abs() < 1e-9, "{name}: {apart} {residual} {q:?}");
+            let (off, residual) = best.unwrap();
+            assert!(off < 1e-6 && residual.abs() < 1e-9, "{name}: {off} {residual} {q:?}");
         }
     }
 }
@@ -277,10 +275,7 @@ fn an_arm_with_a_spherical_wrist_has_the_solutions_of_its_closed_form() {
         assert!(solutions.len() == closed.len(), "{q:?}");
         certified += usize::from(solutions.is_certified);
         for solution in &solutions {
-            let off = |other: &Solution<6>| {
-                let apart = other.q.iter().zip(&solution.q).map(|(a, b)| wrap(a - b).abs());
-                apart.fold(0.0, f64::max)
-            };
+            let off = |other: &Solution<6>| apart(&other.q, &solution.q);
             assert!(closed.iter().map(off).fold(f64::INFINITY, f64::min) < 1e-9, "{q:?}");
             compared += 1;
         }

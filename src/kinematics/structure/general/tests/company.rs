@@ -69,8 +69,8 @@ fn a_regular_pose_has_the_solutions_of_the_whole_search() {
         }
         let is_expected = 6 * count > frames.len() || !arm.is_mostly_regular;
         assert!(is_expected, "{name}: {count} of {}", frames.len());
-        // Next to a singularity the whole search may be less certain of the same solutions: the
-        // other splits that it asks differ in their noise.
+        // Seen once: of the UR5e that is 1e-3 off, with two solutions whose least singular values
+        // are 1.3e-5 and 1.4e-5, the whole search finds the same eight and is not certain of them.
         assert!(1000 * uncertified <= count, "{name}: {uncertified} of {count}");
     }
 }

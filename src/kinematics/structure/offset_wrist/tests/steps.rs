@@ -22,18 +22,14 @@ fn stepped(arm: &OffsetWrist, q: &[f64; 6], beside: f64) -> Vec<([f64; 6], f64)>
     SIDES.iter().map(branch).filter(|branch| branch.off.abs() < 1e-2).map(step).collect()
 }
 
-fn apart(a: &[f64; 6], b: &[f64; 6]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| wrap(a - b).abs()).fold(0.0, f64::max)
-}
-
 /// The nearest of these to a joint vector: how far it is, and its determinant.
 fn nearest(found: &[([f64; 6], f64)], q: &[f64; 6]) -> [f64; 2] {
     let each = found.iter().map(|(theta, determinant)| [apart(theta, q), *determinant]);
     each.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap()
 }
 
-/// Joint vectors so far from det J = 0, relative to the cube of the lengths, and ten times as far from
-/// where two branches meet, relative to their square.
+/// Joint vectors so far from det J = 0, relative to the cube of the lengths, and ten times as far
+/// from where two branches meet, relative to their square.
 fn regular(arm: &OffsetWrist, seed: u64, least: f64) -> impl Iterator<Item = [f64; 6]> {
     let reach = arm.constants.closure.reach;
     joints(seed).take(2000).filter(move |q| {
