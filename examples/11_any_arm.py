@@ -75,7 +75,7 @@ def seven_axes() -> None:
     T = yumi.fk(q)
     print(f"\n{yumi.name}, seven axes")
     for joint in (7, 3):
-        elbow = yumi.given({joint: q[joint - 1]})
+        elbow = yumi.locked({joint: q[joint - 1]})
         certainty = "certain to be all" if elbow.ik(T).certified else "not certain to be all"
         print(f"  joint {joint} given: {len(elbow.ik(T))} solutions, {certainty}")
     seed = q + 0.1

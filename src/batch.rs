@@ -5,8 +5,6 @@
 //! neighbors.
 
 mod forward;
-#[cfg(feature = "python")]
-mod given;
 mod inverse;
 mod margins;
 mod pace;

@@ -29,26 +29,20 @@
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! Code that is generic over the number of joints, with the redundancy parameter of seven axes:
+//! Code that is generic over the number of joints, with one of seven locked:
 //!
 //! ```
-//! use irbkin::{Arity, Error, Joints, Pose, RedundancyOf, Robot};
+//! use irbkin::{Error, Pose, Robot};
 //!
-//! fn count<const N: usize>(
-//!     robot: &Robot<N>,
-//!     pose: &Pose,
-//!     redundancy: RedundancyOf<N>,
-//! ) -> Result<usize, Error>
-//! where
-//!     Joints<N>: Arity<N>,
-//! {
-//!     Ok(robot.ik_with(pose, redundancy)?.len())
+//! fn count<const N: usize>(robot: &Robot<N>, pose: &Pose) -> Result<usize, Error> {
+//!     Ok(robot.ik_with(pose, None)?.len())
 //! }
 //!
 //! let ur5e: Robot<6> = Robot::named("UR5e")?;
-//! assert_eq!(count(&ur5e, &ur5e.fk(&[0.3, -1.2, 1.4, -0.5, 0.6, 0.7]), ())?, 8);
+//! assert_eq!(count(&ur5e, &ur5e.fk(&[0.3, -1.2, 1.4, -0.5, 0.6, 0.7]))?, 8);
 //! let panda: Robot<7> = Robot::named("Panda")?;
-//! assert!(count(&panda, &panda.fk(&[0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6]), 0.6)? > 0);
+//! let pose = panda.fk(&[0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6]);
+//! assert!(count(&panda.locked(3, 0.2)?, &pose)? > 0);
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
@@ -154,22 +148,20 @@ pub use error::{
 pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind, RoutineFault};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
-    AnyRobot, Arity, Break, BreakReason, ConfigurationRequest, Corrections, Definition, DhRow,
-    FRAME_PARAMETERS, FollowOptions, Followed, Follower, GivenJoint, Inverse, JacobianFrame,
-    JointAxis, JointLimits, Joints, MOST_SLOTS, Margin, Mdh, OpwParameters, Pose, PoseDifference,
-    ROW_PARAMETERS, Redundancy, RedundancyOf, Robot, Sdh, SingularDistances, Singularity,
-    SingularityKind, SingularityMode, Slot, SlotStatus, Solution, Solutions, Status,
-    pose_from_euler_zyx, pose_from_isometry, pose_from_matrix, pose_from_rotation, pose_from_rows,
-    pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx, pose_to_isometry, pose_to_matrix,
-    pose_to_rows, pose_to_wxyz, thresholds,
+    AnyRobot, Break, BreakReason, ConfigurationRequest, Corrections, Definition, DhRow,
+    FollowOptions, Followed, Follower, JacobianFrame, JointAxis, JointLimits, Margin, Mdh,
+    OpwParameters, Pose, PoseDifference, Robot, Sdh, SingularDistances, Singularity,
+    SingularityKind, SingularityMode, Slot, Solution, Solutions, Status, pose_from_euler_zyx,
+    pose_from_isometry, pose_from_matrix, pose_from_rotation, pose_from_rows, pose_from_wxyz,
+    pose_from_xyzw, pose_to_euler_zyx, pose_to_isometry, pose_to_matrix, pose_to_rows,
+    pose_to_wxyz, thresholds,
 };
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use lanes::InstructionSet;
 /// The linear algebra of poses and matrices, in the version that this crate uses.
 pub use nalgebra;
 pub use report::{
-    Approach, Condition, Configuration, ConfigurationRule, Explanation, FreeJoint, Reach, Relation,
-    UnknownStructure,
+    Approach, Configuration, ConfigurationRule, Explanation, FreeJoint, Reach, UnknownStructure,
 };
 
 /// The Rust blocks of the README, run as documentation tests.

@@ -421,9 +421,7 @@ fn closes<const N: usize>(
     robot: &Robot<N>,
     rng: &mut Rng,
     solve: impl Fn(&Pose, &[f64; N]) -> Vec<[f64; N]>,
-) where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-{
+) {
     let (name, reach) = (robot.name(), reach_of(robot));
     for _ in 0..POSES {
         let q = rng.inside(robot.limits());

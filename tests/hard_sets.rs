@@ -5,7 +5,6 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::thresholds;
-use irbkin::{Arity, Joints};
 
 use crate::common::tally::Tally;
 use crate::common::{Rng, asked_set, poses_or};
@@ -30,10 +29,7 @@ fn poses() -> [usize; 3] {
 /// Draws that may fail before a place counts as one that the arm cannot reach.
 const MISSES: usize = 2000;
 
-fn every_branch_is_found_at_and_near_singularities<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn every_branch_is_found_at_and_near_singularities<const N: usize>(structure: &Structure<N>) {
     asked_set();
     let mut report = String::new();
     for subject in &structure.subjects {
@@ -60,10 +56,7 @@ where
 }
 
 /// The arm without limits, base and tool.
-fn unlimited<const N: usize>(subject: &Subject<N>) -> Subject<N>
-where
-    Joints<N>: Arity<N>,
-{
+fn unlimited<const N: usize>(subject: &Subject<N>) -> Subject<N> {
     subject.clone().with_robot(|_| subject.arm.robot())
 }
 
@@ -97,10 +90,7 @@ fn run<const N: usize>(
     count: usize,
     draw: impl Fn(&mut Rng) -> Option<[f64; N]>,
     rng: &mut Rng,
-) -> Tally
-where
-    Joints<N>: Arity<N>,
-{
+) -> Tally {
     let mut tally = Tally::default();
     let mut misses = 0;
     while tally.poses < count && misses < MISSES {
@@ -114,10 +104,7 @@ where
     tally
 }
 
-fn judge<const N: usize>(subject: &Subject<N>, made: &Made<N>, tally: &mut Tally, rng: &mut Rng)
-where
-    Joints<N>: Arity<N>,
-{
+fn judge<const N: usize>(subject: &Subject<N>, made: &Made<N>, tally: &mut Tally, rng: &mut Rng) {
     let before = tally.amiss();
     let solutions = subject.ik(&made.pose, &made.q);
     let position =
@@ -144,9 +131,7 @@ where
 /// out there is no solution, and the correct shortfall.
 fn beyond_reach_there_is_no_solution_and_the_shortfall_is_correct<const N: usize>(
     structure: &Structure<N>,
-) where
-    Joints<N>: Arity<N>,
-{
+) {
     asked_set();
     let mut report = String::new();
     for subject in &structure.subjects {

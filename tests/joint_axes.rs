@@ -36,10 +36,7 @@ fn drawn() -> impl Strategy<Value = Drawn> {
 }
 
 /// The first axis is to the base's z what each other one is to the previous axis.
-fn axes_of<const N: usize>(drawn: &[Drawn; N]) -> [JointAxis; N]
-where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-{
+fn axes_of<const N: usize>(drawn: &[Drawn; N]) -> [JointAxis; N] {
     let (mut z, mut p) = (Vector3::z(), Vector3::zeros());
     drawn.map(|(step, direction, point, length)| {
         let (direction, point) = (Vector3::from(direction), Vector3::from(point));
@@ -59,10 +56,7 @@ fn tips() -> impl Strategy<Value = Pose> {
 }
 
 /// Product of exponentials: the tip at zero, rotated about each axis from the last to the first.
-fn fk_of_axes<const N: usize>(axes: &[JointAxis; N], tip: &Pose, q: &[f64; N]) -> Pose
-where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-{
+fn fk_of_axes<const N: usize>(axes: &[JointAxis; N], tip: &Pose, q: &[f64; N]) -> Pose {
     axes.iter().zip(q).rev().fold(*tip, |pose, (axis, q)| {
         let point = Vector3::from(axis.point);
         let turn =
@@ -72,10 +66,7 @@ where
 }
 
 /// Lengths that a pose is summed from [m]: they are long if two axes are nearly parallel.
-fn reach_of<const N: usize>(mdh: &Mdh<N>) -> f64
-where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-{
+fn reach_of<const N: usize>(mdh: &Mdh<N>) -> f64 {
     let ends = mdh.base.translation.vector.norm() + mdh.flange.translation.vector.norm();
     1.0 + ends + mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum::<f64>()
 }
@@ -84,10 +75,7 @@ fn table_moves_like_the_axes<const N: usize>(
     drawn: &[Drawn; N],
     tip: &Pose,
     q: &[f64; N],
-) -> Result<(), TestCaseError>
-where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-{
+) -> Result<(), TestCaseError> {
     let axes = axes_of(drawn);
     let mdh = Mdh::from_joint_axes(&axes, tip).unwrap();
     let off = PoseDifference::between(

@@ -12,7 +12,6 @@ mod structures;
 #[path = "lanes/subjects.rs"]
 mod subjects;
 
-use irbkin::{Arity, Joints};
 use std::array;
 
 use common::skip::skip;
@@ -54,18 +53,12 @@ type AnswerRow<const N: usize> = Vec<[f64; N]>;
 
 /// The slots and their status of each row.
 #[derive(Clone, Debug)]
-struct Answers<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+struct Answers<const N: usize> {
     q: Vec<AnswerRow<N>>,
     status: Vec<Vec<u8>>,
 }
 
-impl<const N: usize> Answers<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Answers<N> {
     fn in_a_batch(subject: &Subject<N>, rows: &[Row<N>], threads: usize) -> Self {
         let slots = subject.robot.slot_count();
         let mut q = vec![[7.0; N]; slots * rows.len()];
@@ -99,10 +92,7 @@ where
 }
 
 /// The answer to one row, as in a batch.
-fn alone<const N: usize>(subject: &Subject<N>, (row, joints): &Row<N>) -> (AnswerRow<N>, Vec<u8>)
-where
-    Joints<N>: Arity<N>,
-{
+fn alone<const N: usize>(subject: &Subject<N>, (row, joints): &Row<N>) -> (AnswerRow<N>, Vec<u8>) {
     let slots = subject.robot.slot_count();
     let mut q = vec![[f64::NAN; N]; slots];
     let solve = |pose| (subject.calls.ik)(&subject.robot, &pose, joints);
@@ -121,10 +111,7 @@ fn same_bits(a: &[f64], b: &[f64]) -> bool {
         && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
 }
 
-fn fk_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<PoseRow>
-where
-    Joints<N>: Arity<N>,
-{
+fn fk_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<PoseRow> {
     let mut poses = vec![[7.0; 16]; q.len()];
     batch::fk(robot, q.as_flattened(), poses.as_flattened_mut()).unwrap();
     poses
@@ -134,10 +121,7 @@ fn jacobians_of<const N: usize>(
     robot: &Robot<N>,
     q: &[[f64; N]],
     frame: JacobianFrame,
-) -> Vec<[[f64; N]; 6]>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Vec<[[f64; N]; 6]> {
     let mut jacobians = vec![[[7.0; N]; 6]; q.len()];
     batch::jacobian(
         robot,
@@ -149,10 +133,7 @@ where
     jacobians
 }
 
-fn figures_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<[f64; 2]>
-where
-    Joints<N>: Arity<N>,
-{
+fn figures_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<[f64; 2]> {
     let records = batch::singularity(robot, q.as_flattened()).unwrap();
     records.map(|record| record.map_or([f64::NAN; 2], |record| figures(&record))).collect()
 }
@@ -165,10 +146,7 @@ fn is_finite(row: &[f64]) -> bool {
     row.iter().all(|number| number.is_finite())
 }
 
-fn the_rows_are_of_every_kind<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn the_rows_are_of_every_kind<const N: usize>(structure: &Structure<N>) {
     let mut halves = 0;
     for subject in subjects(structure) {
         let answers = Answers::in_a_batch(&subject, &rows(&subject, ROWS), 1);
@@ -200,10 +178,7 @@ where
     assert!(halves > 100, "{halves} with one shoulder");
 }
 
-fn batch_equals_single_bit_for_bit<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn batch_equals_single_bit_for_bit<const N: usize>(structure: &Structure<N>) {
     on_each_set(|set| {
         for subject in &subjects(structure) {
             let what = format!("{}, {}", subject.name, set.name());
@@ -215,10 +190,7 @@ where
     });
 }
 
-fn forward_in_a_batch_equals_single<const N: usize>(robot: &Robot<N>, what: &str)
-where
-    Joints<N>: Arity<N>,
-{
+fn forward_in_a_batch_equals_single<const N: usize>(robot: &Robot<N>, what: &str) {
     let joints = joint_rows::<N>(77 * 3 + 5);
     for (q, pose) in joints.iter().zip(fk_of(robot, &joints)) {
         let wanted = if is_finite(q) { pose_to_rows(&robot.fk(q)) } else { [f64::NAN; 16] };
@@ -242,10 +214,7 @@ where
     }
 }
 
-fn a_row_does_not_depend_on_its_neighbors<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn a_row_does_not_depend_on_its_neighbors<const N: usize>(structure: &Structure<N>) {
     on_each_set(|set| {
         for subject in &subjects(structure) {
             let what = format!("{}, {}", subject.name, set.name());
@@ -279,9 +248,7 @@ where
 fn forward_rows_do_not_depend_on_their_neighbors<const N: usize>(
     robot: &Robot<N>,
     set: InstructionSet,
-) where
-    Joints<N>: Arity<N>,
-{
+) {
     let joints = joint_rows::<N>(ROWS);
     let (poses, jacobians) =
         (fk_of(robot, &joints), jacobians_of(robot, &joints, JacobianFrame::Tool));
@@ -320,10 +287,7 @@ fn shuffled(count: usize) -> Vec<usize> {
 }
 
 /// With one core, no pool of threads is made, and there is nothing to compare.
-fn threads_change_no_bit<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn threads_change_no_bit<const N: usize>(structure: &Structure<N>) {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     if cores < 2 {
         skip(&format!("threads_change_no_bit, {}", structure.name), "one core: no pool is made");
@@ -344,10 +308,7 @@ where
 
 type Spoil = fn(&mut PoseRow);
 
-fn an_invalid_row_is_flagged_and_the_others_are_solved<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn an_invalid_row_is_flagged_and_the_others_are_solved<const N: usize>(structure: &Structure<N>) {
     let spoils: [(&str, Spoil); 6] = [
         ("not a number", |row| row[6] = f64::NAN),
         ("infinite", |row| row[3] = f64::INFINITY),
@@ -366,9 +327,7 @@ fn an_invalid_row_leaves_alone<const N: usize>(
     subject: &Subject<N>,
     rows: &[Row<N>],
     spoils: &[(&str, Spoil)],
-) where
-    Joints<N>: Arity<N>,
-{
+) {
     on_each_set(|set| {
         let whole = Answers::in_a_batch(subject, rows, 1);
         assert!(whole.status.iter().flatten().all(|flags| *flags != Status::INVALID.bits()));
@@ -387,10 +346,7 @@ fn an_invalid_row_leaves_alone<const N: usize>(
 }
 
 /// The answers of every set for an arm.
-struct OnEachSet<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+struct OnEachSet<const N: usize> {
     set: InstructionSet,
     answers: Answers<N>,
     poses: Vec<PoseRow>,
@@ -398,10 +354,7 @@ where
     figures: Vec<[f64; 2]>,
 }
 
-fn solved_on_each_set<const N: usize>(subject: &Subject<N>, rows: &[Row<N>]) -> Vec<OnEachSet<N>>
-where
-    Joints<N>: Arity<N>,
-{
+fn solved_on_each_set<const N: usize>(subject: &Subject<N>, rows: &[Row<N>]) -> Vec<OnEachSet<N>> {
     let joints = joint_rows::<N>(ROWS);
     let mut solved = Vec::new();
     on_each_set(|set| {
@@ -416,10 +369,7 @@ where
     solved
 }
 
-fn avx2_and_avx512_agree_to_the_bit<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn avx2_and_avx512_agree_to_the_bit<const N: usize>(structure: &Structure<N>) {
     if !InstructionSet::available().any(|set| set == InstructionSet::Avx512) {
         let names: Vec<_> = InstructionSet::available().map(InstructionSet::name).collect();
         let test = format!("avx2_and_avx512_agree_to_the_bit, {}", structure.name);
@@ -452,10 +402,7 @@ where
     }
 }
 
-fn baseline_agrees_to_rounding<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn baseline_agrees_to_rounding<const N: usize>(structure: &Structure<N>) {
     let mut worst: f64 = 0.0;
     for subject in &subjects(structure) {
         let solved = solved_on_each_set(subject, &rows(subject, ROWS));
@@ -493,10 +440,7 @@ fn rounding_between<const N: usize>(
     subject: &Subject<N>,
     ours: &Answers<N>,
     theirs: &Answers<N>,
-) -> f64
-where
-    Joints<N>: Arity<N>,
-{
+) -> f64 {
     let mut worst: f64 = 0.0;
     let mut compared = 0;
     for (i, (a, b)) in ours.q.iter().zip(&theirs.q).enumerate() {
@@ -517,10 +461,7 @@ where
     worst
 }
 
-fn poses_of_many_turns_are_those_of_the_table<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn poses_of_many_turns_are_those_of_the_table<const N: usize>(structure: &Structure<N>) {
     on_each_set(|set| {
         for Subject { name, robot, .. } in &subjects(structure) {
             table_poses(robot, &format!("{name}, {}", set.name()));
@@ -528,10 +469,7 @@ where
     });
 }
 
-fn table_poses<const N: usize>(robot: &Robot<N>, what: &str)
-where
-    Joints<N>: Arity<N>,
-{
+fn table_poses<const N: usize>(robot: &Robot<N>, what: &str) {
     let joints: Vec<[f64; N]> = joint_rows(200).into_iter().filter(|q| is_finite(q)).collect();
     let mdh = robot.mdh();
     let lengths: f64 = mdh.rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();

@@ -13,7 +13,6 @@ mod spherical_shoulder_alone;
 mod spherical_wrist_alone;
 mod three_parallel_alone;
 
-use irbkin::{Arity, Joints};
 use std::cell::Cell;
 use std::f64::consts::PI;
 
@@ -63,10 +62,7 @@ crate::on_structures_of_ordinals!(
 
 /// An arm, a joint vector and two poses.
 #[derive(Clone, Debug)]
-struct Case<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+struct Case<const N: usize> {
     arm: Subject<N>,
     q: [f64; N],
     velocity: [f64; N],
@@ -93,10 +89,7 @@ impl Counts {
 }
 
 /// Runs a law on the subjects of a structure and on random arms.
-fn hold<const N: usize>(structure: &Structure<N>, law: Law<N>) -> Counts
-where
-    Joints<N>: Arity<N>,
-{
+fn hold<const N: usize>(structure: &Structure<N>, law: Law<N>) -> Counts {
     let subjects = structure.subjects.clone();
     let listed = any::<Index>().prop_map(move |index| index.get(&subjects).clone());
     let arms = prop_oneof![1 => listed, 3 => structure.random.clone()];
@@ -122,10 +115,7 @@ fn assert_compared(counts: &Counts, least: usize) {
     assert!(counts.compared.get() >= least, "{counts:?}, at least {least} comparisons are wanted");
 }
 
-fn all_branches_are_found<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn all_branches_are_found<const N: usize>(structure: &Structure<N>) {
     let counts = hold(structure, |Case { arm, q, .. }, counts| {
         if !counts.is_compared(arm.is_regular(q)) {
             return Ok(());
@@ -139,10 +129,7 @@ where
     assert_compared(&counts, 1000);
 }
 
-fn every_solution_closes<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn every_solution_closes<const N: usize>(structure: &Structure<N>) {
     hold(structure, |Case { arm, q, .. }, _| {
         let pose = arm.robot.fk(q);
         let solutions = arm.ik(&pose, q);
@@ -157,10 +144,7 @@ where
     });
 }
 
-fn slots_are_those_of_the_joints<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn slots_are_those_of_the_joints<const N: usize>(structure: &Structure<N>) {
     let counts = hold(structure, |Case { arm, q, .. }, counts| {
         for solution in &arm.ik(&arm.robot.fk(q), q) {
             if counts.is_compared(arm.arm.has_slots() && arm.is_regular(&solution.q)) {
@@ -172,10 +156,7 @@ where
     assert_compared(&counts, 4000);
 }
 
-fn both_wrists_of_an_arm_are_flips<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn both_wrists_of_an_arm_are_flips<const N: usize>(structure: &Structure<N>) {
     let counts = hold(structure, |Case { arm, q, .. }, counts| {
         let solutions = arm.ik(&arm.robot.fk(q), q);
         for slot in [0, 2, 4, 6] {
@@ -191,10 +172,7 @@ where
     assert_compared(&counts, 2000);
 }
 
-fn slots_are_stable_along_a_path<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn slots_are_stable_along_a_path<const N: usize>(structure: &Structure<N>) {
     const STEP: f64 = 0.02;
     let counts = hold(structure, |Case { arm, q, velocity, .. }, counts| {
         let mut slots = Vec::new();
@@ -217,10 +195,7 @@ where
     assert_compared(&counts, 500);
 }
 
-fn jacobian_matches_central_differences<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn jacobian_matches_central_differences<const N: usize>(structure: &Structure<N>) {
     hold(structure, |Case { arm, q, ends: [_, tool], .. }, _| {
         let arm = arm.clone().with_robot(|robot| robot.with_tool(tool).unwrap());
         let jacobian = arm.robot.jacobian(q, JacobianFrame::Base);
@@ -235,10 +210,7 @@ where
     });
 }
 
-fn the_tool_jacobian_is_the_rotated_base_jacobian<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn the_tool_jacobian_is_the_rotated_base_jacobian<const N: usize>(structure: &Structure<N>) {
     hold(structure, |Case { arm, q, ends: [_, tool], .. }, _| {
         let robot = arm.robot.clone().with_tool(tool).unwrap();
         let rotation = robot.fk(q).rotation;
@@ -255,10 +227,7 @@ where
     });
 }
 
-fn the_determinant_is_the_product_of_its_factors<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn the_determinant_is_the_product_of_its_factors<const N: usize>(structure: &Structure<N>) {
     hold(structure, |Case { arm, q, ends: [_, tool], .. }, _| {
         let arm = arm.clone().with_robot(|robot| robot.with_tool(tool).unwrap());
         let jacobian = arm.robot.jacobian(q, JacobianFrame::Base);
@@ -276,10 +245,7 @@ where
 }
 
 /// The same arm by a table with the x axes of some frames flipped, and by a standard one.
-fn a_table_may_have_its_frames_anywhere<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn a_table_may_have_its_frames_anywhere<const N: usize>(structure: &Structure<N>) {
     let counts = hold(structure, |Case { arm, q, bits, .. }, counts| {
         let mdh = arm.robot.mdh().clone();
         let table = with_x_flipped(mdh.clone(), *bits);
@@ -309,10 +275,7 @@ where
 }
 
 /// `Rz(pi) Rx(alpha) Tx(a) = Rx(-alpha) Tx(-a) Rz(pi)`.
-fn with_x_flipped<const N: usize>(mut mdh: Mdh<N>, over: u32) -> Mdh<N>
-where
-    Joints<N>: Arity<N>,
-{
+fn with_x_flipped<const N: usize>(mut mdh: Mdh<N>, over: u32) -> Mdh<N> {
     let mut turned = false;
     for (i, row) in mdh.rows.iter_mut().enumerate() {
         if turned {
@@ -327,10 +290,7 @@ where
     mdh
 }
 
-fn both_conventions_describe_the_same_arm<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn both_conventions_describe_the_same_arm<const N: usize>(structure: &Structure<N>) {
     hold(structure, |Case { arm, q, .. }, _| {
         let standard = Sdh::from(arm.robot.mdh().clone());
         let back = Robot::serial_chain(Mdh::from(standard)).unwrap();
@@ -340,10 +300,7 @@ where
     });
 }
 
-fn base_and_tool_move_the_pose_and_not_the_joints<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn base_and_tool_move_the_pose_and_not_the_joints<const N: usize>(structure: &Structure<N>) {
     let counts = hold(structure, |Case { arm, q, ends: [base, tool], .. }, counts| {
         if !counts.is_compared(arm.is_regular(q)) {
             return Ok(());
@@ -370,10 +327,7 @@ where
     assert_compared(&counts, 1000);
 }
 
-fn link_frames_end_at_the_tool<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn link_frames_end_at_the_tool<const N: usize>(structure: &Structure<N>) {
     hold(structure, |Case { arm, q, .. }, _| {
         let (frames, tool) = arm.robot.link_frames(q);
         prop_assert_eq!(tool, arm.robot.fk(q));
@@ -387,10 +341,7 @@ where
     });
 }
 
-fn turns_are_solutions_inside_the_limits<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn turns_are_solutions_inside_the_limits<const N: usize>(structure: &Structure<N>) {
     let counts = hold(structure, |Case { arm, q, .. }, counts| {
         let is_limited = arm.robot.limits().to_array().as_flattened().iter().all(|x| x.is_finite());
         if !counts.is_compared(is_limited) {
@@ -416,10 +367,7 @@ where
 }
 
 /// Half of the poses are drawn near the arm, so that both cases are frequent.
-fn any_pose_has_an_answer_or_a_shortfall<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn any_pose_has_an_answer_or_a_shortfall<const N: usize>(structure: &Structure<N>) {
     let counts = hold(structure, |Case { arm, q, ends: [place, _], bits, .. }, counts| {
         let mut pose = arm.robot.fk(q);
         if bits & 1 == 1 {
@@ -442,10 +390,7 @@ where
     assert!(counts.left_out.get() > 400, "few are out of reach: {counts:?}");
 }
 
-fn an_invalid_pose_is_refused<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn an_invalid_pose_is_refused<const N: usize>(structure: &Structure<N>) {
     hold(structure, |Case { arm, q, bits, .. }, _| {
         let pose = arm.robot.fk(q);
         let row = bits % 3;

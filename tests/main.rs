@@ -19,6 +19,7 @@ mod general;
 mod hard_sets;
 mod joint_axes;
 mod laws;
+mod locked;
 mod nearest;
 mod offset_wrist;
 #[cfg(feature = "rapid")]

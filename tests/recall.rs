@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use irbkin::{Arity, JointLimits, Joints, Pose, Robot, SingularityKind, Status, pose_to_rows};
+use irbkin::{JointLimits, Pose, Robot, SingularityKind, Status, pose_to_rows};
 
 use crate::common::tally::Tally;
 use crate::common::{Rng, apart, poses_or};
@@ -19,10 +19,7 @@ crate::on_structures_of_ordinals!(every_generating_joint_vector_is_found);
 /// Poses per batch: a million at once would take half a gigabyte. Not a multiple of any lane count.
 const PART: usize = 1003;
 
-fn every_generating_joint_vector_is_found<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn every_generating_joint_vector_is_found<const N: usize>(structure: &Structure<N>) {
     let report: String = structure.subjects.iter().map(check).collect();
     assert!(report.is_empty(), "{report}");
 }
@@ -44,10 +41,7 @@ fn the_largest_arm_of_universal_robots_misses_no_solution() {
 }
 
 /// Prints what is found of an arm; returns what is not as it must be.
-fn check<const N: usize>(subject: &Subject<N>) -> String
-where
-    Joints<N>: Arity<N>,
-{
+fn check<const N: usize>(subject: &Subject<N>) -> String {
     // Limits of more than a turn: each pose would be drawn as often with full turns as without.
     let is_wide = |[low, high]: &[f64; 2]| high - low > 3.9 * PI;
     let subject = if subject.robot.limits().to_array().iter().all(is_wide) {
@@ -77,10 +71,7 @@ where
 }
 
 /// Solves random poses inside the limits, one by one and in batches.
-fn tallies<const N: usize>(subject: &Subject<N>) -> [Tally; 2]
-where
-    Joints<N>: Arity<N>,
-{
+fn tallies<const N: usize>(subject: &Subject<N>) -> [Tally; 2] {
     let mut rng = Rng::new(0x5eed);
     let [mut alone, mut together] = [Tally::default(), Tally::default()];
     let mut left = poses_or(if subject.has_ordinals() { 3_000 } else { 20_000 });
@@ -113,10 +104,7 @@ fn solved_together<const N: usize>(
     subject: &Subject<N>,
     poses: &[Pose],
     joints: &[[f64; N]],
-) -> Vec<Answers<N>>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Vec<Answers<N>> {
     let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
     let slots = subject.robot.slot_count();
     let (mut q, mut status) = (vec![[0.0; N]; slots * poses.len()], vec![0; slots * poses.len()]);
@@ -141,9 +129,7 @@ fn take<const N: usize>(
     q: &[f64; N],
     pose: &Pose,
     (answers, is_certified): &Answers<N>,
-) where
-    Joints<N>: Arity<N>,
-{
+) {
     let before = tally.amiss();
     // Singular values take longer than everything else.
     let sampled = tally.poses.is_multiple_of(8);
@@ -176,9 +162,6 @@ fn take<const N: usize>(
 /// How far rounding of the pose may move the joints: a pose is rounded by its forward kinematics
 /// (measured: 1e-15 x reach, 2e-15 rad), and the inverse of the Jacobian of the solved joints
 /// converts that to joint angles. Only near a singularity is this above 1e-9.
-fn rounding_bound<const N: usize>(subject: &Subject<N>, q: &[f64; N]) -> f64
-where
-    Joints<N>: Arity<N>,
-{
+fn rounding_bound<const N: usize>(subject: &Subject<N>, q: &[f64; N]) -> f64 {
     3.5e-15 * (1.0 + subject.reach()) / subject.least_singular_value(q)
 }

@@ -4,8 +4,8 @@
 use std::fmt::Debug;
 
 use irbkin::{
-    AnyRobot, Arity, Configuration, Corrections, FollowOptions, JointLimits, Joints, Mdh,
-    OpwParameters, Robot, Sdh, SingularityMode, Solution, Status, catalog, pose_from_euler_zyx,
+    AnyRobot, Configuration, Corrections, FollowOptions, JointLimits, Mdh, OpwParameters, Robot,
+    Sdh, SingularityMode, Solution, Status, catalog, pose_from_euler_zyx,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -24,10 +24,7 @@ fn models_round_trip() {
     round_trips(&Sdh { base, rows, flange });
 }
 
-fn round_trips_with_settings<const N: usize>(robot: &Robot<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn round_trips_with_settings<const N: usize>(robot: &Robot<N>) {
     round_trips(robot);
     let base = pose_from_euler_zyx([0.1, -2.0, 0.3], [0.4, 0.5, -0.6]).unwrap();
     let tool = pose_from_euler_zyx([0.0, 0.02, 0.11], [0.1, 0.0, 3.0]).unwrap();
@@ -52,6 +49,8 @@ fn robots_round_trip() {
     }
     let coupled: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap().coupled().unwrap();
     round_trips_with_settings(&coupled);
+    let panda: Robot<7> = Robot::named("Panda").unwrap();
+    round_trips_with_settings(&panda.locked(3, 0.2).unwrap());
     let nominal: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let mut corrections = Corrections::NONE;
     corrections.rows[2] = [1e-4, 2e-4, 3e-4, 4e-4, 5e-4];

@@ -25,10 +25,7 @@ fn noted(built: Result<Robot<6>, Error>) -> String {
     built.unwrap().missing_form().unwrap().to_string()
 }
 
-fn check_solutions<const N: usize>(robot: &Robot<N>, pose: &Pose, solutions: &Solutions<N>)
-where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-{
+fn check_solutions<const N: usize>(robot: &Robot<N>, pose: &Pose, solutions: &Solutions<N>) {
     assert_eq!(solutions.len(), 8, "{}", robot.name());
     let bound = 1e-14 * (1.0 + reach_of(robot));
     for solution in solutions {
@@ -37,20 +34,14 @@ where
 }
 
 /// The largest difference of many poses of two arms, for joints inside the limits of both.
-fn farthest<const N: usize>(one: &Robot<N>, other: &Robot<N>) -> f64
-where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-{
+fn farthest<const N: usize>(one: &Robot<N>, other: &Robot<N>) -> f64 {
     let mut rng = Rng::new(71);
     let q = (0..1000).map(|_| [0.0; N].map(|_| rng.between(-PI, PI)));
     q.map(|q| one.residual(&q, &other.fk(&q)).largest()).fold(0.0, f64::max)
 }
 
 /// Each of `angles` moves by at most `snap`, and rotates what follows it by that.
-fn moved<const N: usize>(robot: &Robot<N>, angles: usize, snap: f64) -> f64
-where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-{
+fn moved<const N: usize>(robot: &Robot<N>, angles: usize, snap: f64) -> f64 {
     f64::from(u32::try_from(angles).unwrap()) * snap * (1.0 + reach_of(robot))
 }
 
@@ -104,10 +95,7 @@ fn the_published_puma560_is_accepted_with_the_proposed_snap() {
     }
 }
 
-fn poses_of<const N: usize>(robot: &Robot<N>) -> Vec<[f64; N]>
-where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-{
+fn poses_of<const N: usize>(robot: &Robot<N>) -> Vec<[f64; N]> {
     let mut rng = Rng::new(72);
     (0..1000).map(|_| rng.inside(robot.limits())).collect()
 }
@@ -125,10 +113,7 @@ fn rounded<const N: usize>(mdh: &Mdh<N>, decimals: i32) -> Mdh<N> {
 /// above it is accepted.
 #[test]
 fn tables_of_every_structure_are_accepted_with_the_proposed_snap() {
-    fn check<const N: usize>(exact: &Robot<N>)
-    where
-        irbkin::Joints<N>: irbkin::Arity<N>,
-    {
+    fn check<const N: usize>(exact: &Robot<N>) {
         for decimals in 3..=9 {
             let table = rounded(exact.mdh(), decimals);
             let off = table.rows.iter().zip(&exact.mdh().rows);

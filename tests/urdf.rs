@@ -30,10 +30,7 @@ fn words(text: &str) -> String {
     refused(six(text, None, None))
 }
 
-fn refused<const N: usize>(robot: Result<Robot<N>, Error>) -> String
-where
-    irbkin::Joints<N>: irbkin::Arity<N>,
-{
+fn refused<const N: usize>(robot: Result<Robot<N>, Error>) -> String {
     let error = robot.unwrap_err();
     assert!(matches!(error, Error::InvalidModel(_)), "{error}");
     error.to_string()

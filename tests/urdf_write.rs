@@ -5,28 +5,20 @@ use std::f64::consts::PI;
 
 use crate::common::coupled_arm::{limited, odd, with_linkage};
 use crate::common::{Rng, apart, kuka_kr6, random_pose, reach_of};
-use irbkin::{
-    AnyRobot, Arity, Error, JointLimits, Joints, PoseDifference, Robot, catalog, thresholds,
-};
+use irbkin::{AnyRobot, Error, JointLimits, PoseDifference, Robot, catalog, thresholds};
 
 const CASES: usize = 100;
 
 /// Rounding of a pose of the arm read back: two products of `N` transforms and three fixed ones,
 /// whose elements are sums of four terms.
-fn rounding<const N: usize>(robot: &Robot<N>) -> f64
-where
-    Joints<N>: Arity<N>,
-{
+fn rounding<const N: usize>(robot: &Robot<N>) -> f64 {
     let lengths = [robot.base(), robot.tool()].map(|end| end.translation.vector.norm());
     let transforms = f64::from(u8::try_from(2 * (N + 3)).unwrap());
     4.0 * transforms * f64::EPSILON * (1.0 + reach_of(robot) + lengths.iter().sum::<f64>())
 }
 
 /// The robot of the text of `robot`, after a comparison of everything but its solutions.
-fn again<const N: usize>(robot: &Robot<N>) -> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+fn again<const N: usize>(robot: &Robot<N>) -> Robot<N> {
     let read = Robot::<N>::from_urdf(&robot.to_urdf(), None, None).unwrap();
     assert_eq!(read.name(), robot.name());
     assert_eq!(read.limits(), robot.limits());

@@ -1,7 +1,7 @@
 //! The arm that is measured, and what it is asked.
 #![allow(dead_code, reason = "each bench uses its part")]
 
-use irbkin::{Arity, InstructionSet, Joints, Robot, batch};
+use irbkin::{InstructionSet, Robot, batch};
 
 /// A joint vector whose pose has all eight solutions.
 pub(crate) const Q: [f64; 6] = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
@@ -17,10 +17,7 @@ pub(crate) fn robot() -> Robot<6> {
 pub(crate) const Q_PANDA: [f64; 7] = [0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6];
 
 /// Joint vectors spread evenly inside the limits: multiples of irrational numbers.
-pub(crate) fn joints<const N: usize>(robot: &Robot<N>, count: u32) -> Vec<f64>
-where
-    Joints<N>: Arity<N>,
-{
+pub(crate) fn joints<const N: usize>(robot: &Robot<N>, count: u32) -> Vec<f64> {
     let steps = [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0].map(f64::sqrt);
     let limits = robot.limits().to_array();
     let vector = |i| {
@@ -33,10 +30,7 @@ where
 }
 
 /// Their poses, 16 elements each.
-pub(crate) fn poses<const N: usize>(robot: &Robot<N>, q: &[f64]) -> Vec<f64>
-where
-    Joints<N>: Arity<N>,
-{
+pub(crate) fn poses<const N: usize>(robot: &Robot<N>, q: &[f64]) -> Vec<f64> {
     let mut poses = vec![0.0; q.len() / N * 16];
     batch::fk(robot, q, &mut poses).unwrap();
     poses

@@ -15,7 +15,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from irbkin._core import (
-    Given,
     Robot,
     Solution,
     Solutions,
@@ -92,7 +91,6 @@ __all__ = [
     "ConfigurationBatch",
     "FollowResult",
     "FreeJoint",
-    "Given",
     "IkBatch",
     "IkMargin",
     "InvalidJointsError",

@@ -60,6 +60,7 @@ _State = tuple[
     list[float] | None,
     list[float] | None,
     list[float] | None,
+    tuple[int, float] | None,
 ]
 
 _SolutionState = tuple[int, int, list[float], tuple[int, str] | None]
@@ -70,7 +71,7 @@ _FoundState = tuple[
     _OutcomeState | None,
     list[_SolutionState] | None,
     bool,
-    tuple[int, float] | None,
+    float | None,
 ]
 _MotionOptions = tuple[list[float] | None, list[float] | None, list[float] | None, float, float]
 _TrajectoryState = tuple[int, list[float], list[list[float]], list[float]]
@@ -84,7 +85,6 @@ class _Rotation(Protocol):
     def as_matrix(self) -> npt.NDArray[Any]: ...
 
 __all__ = [
-    "Given",
     "Module",
     "Robot",
     "RoutineMotion",
@@ -236,165 +236,6 @@ def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
     Raises:
         InvalidPoseError: A wrong shape, or a single pose that is no rigid transform.
     """
-
-@final
-class Given:
-    """A seven-axis arm with the angle of one joint given: `robot.given({3: 0.2})`.
-
-    The other six joints are a chain of their own, which is prepared once, here. Answers have seven
-    joints. Frozen, equal by value, picklable.
-    """
-
-    @property
-    def joint(self) -> int:
-        """The joint whose angle is given, from 1."""
-
-    @property
-    def angle(self) -> float:
-        """Its angle [rad]."""
-
-    def at(self, angle: float) -> Given:
-        """The same with the joint at another angle: another chain, in a tenth of a millisecond, for
-        those between the first and the last.
-
-        Args:
-            angle: Angle of the joint [rad].
-
-        Returns:
-            Given, equal to that of `Robot.given` with this angle.
-
-        Raises:
-            InvalidJointsError, InvalidModelError: As `Robot.given`.
-        """
-
-    @property
-    def robot(self) -> Robot:
-        """The seven-axis arm."""
-
-    @property
-    def six_joints(self) -> Robot:
-        """The other six joints as a robot, with the arm's base, tool, limits and velocities. Its
-        own joints are numbered 1 to 6; `joints` makes seven of them.
-        """
-
-    def joints(self, q: npt.ArrayLike) -> _Floats:
-        """Return joint vectors of the arm for those of its other six joints.
-
-        Args:
-            q: Joint angles [rad] of `six_joints`, shape (..., 6).
-
-        Returns:
-            Joint angles [rad], shape (..., 7), the given one among them.
-
-        Raises:
-            InvalidJointsError: A wrong shape.
-        """
-
-    def ik(self, T: npt.ArrayLike) -> Solutions:
-        """Every joint vector that brings the tool to a pose.
-
-        Args:
-            T: Pose of the tool, shape (4, 4), translation [m].
-
-        Returns:
-            Solutions of seven joints, limits not regarded. A joint that a singular pose leaves free
-            is reported by `six_joints.ik(T)`.
-
-        Raises:
-            InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
-        """
-
-    def ik_batch(
-        self,
-        T: npt.ArrayLike,
-        *,
-        out: tuple[_Floats, npt.NDArray[np.uint8]] | _Floats | None = None,
-        threads: int = 1,
-    ) -> IkBatch:
-        """Every joint vector of many poses.
-
-        Args:
-            T: Poses of the tool, shape (..., 4, 4), translation [m].
-            out: Where to write, as `Robot.ik_batch` has it.
-            threads: Number of threads; 0 for one a core.
-
-        Returns:
-            IkBatch(q, status), q of shape (..., slots, 7).
-
-        Raises:
-            InvalidPoseError: T has a wrong shape.
-        """
-
-    def ik_nearest(
-        self,
-        T: npt.ArrayLike,
-        seed: npt.ArrayLike,
-        weights: npt.ArrayLike | None = None,
-        *,
-        out: _Floats | None = None,
-        threads: int = 1,
-    ) -> _Floats:
-        """The solution inside the limits that is nearest to `seed`, turns considered. The given
-        joint does not count.
-
-        Args:
-            T: Poses of the tool, shape (..., 4, 4), translation [m].
-            seed: Joint vectors [rad], shape (..., 7). T and seed are broadcast.
-            weights: Cost of moving each joint, shape (7,); ones when not given.
-            out: Array to write to, shape (..., 7), float64, C-contiguous; it is returned.
-            threads: Number of threads; 0 for one a core.
-
-        Returns:
-            Joint vectors [rad], shape (..., 7); in a batch, NaN for a row without a solution.
-
-        Raises:
-            UnreachableError: A single pose has no solution inside the limits.
-            InvalidPoseError, InvalidJointsError: As `Robot.ik_nearest`.
-        """
-
-    def follow(
-        self,
-        T: npt.ArrayLike,
-        seed: npt.ArrayLike,
-        weights: npt.ArrayLike | None = None,
-        *,
-        singularity_mode: SingularityMode | Literal["through", "error"] = "through",
-        threads: int = 1,
-    ) -> FollowResult:
-        """Follow a path of poses with the other six joints, each time with the solution that
-        continues the one before.
-
-        Args:
-            T: Poses of the tool, shape (..., m, 4, 4), translation [m].
-            seed: Joint vectors [rad] to start from, shape (..., 7).
-            weights: Cost of moving each joint, shape (7,); ones when not given.
-            singularity_mode: "through" or "error", as `Robot.follow` has it; the other modes are
-                for six joints with a spherical wrist.
-            threads: Number of threads, for several paths; 0 for one a core.
-
-        Returns:
-            FollowResult: joints [rad], shape (..., m, 7); orientation error; the breaks, whose
-            sentences have the numbers of `six_joints`.
-
-        Raises:
-            InvalidPoseError, InvalidJointsError, InvalidModelError: As `Robot.follow`.
-        """
-
-    def check_pose(self, T: npt.ArrayLike) -> PoseCheck:
-        """Whether a pose can be reached with the joint at its angle, and why not.
-
-        Args:
-            T: Pose of the tool, shape (4, 4), translation [m].
-
-        Returns:
-            PoseCheck(reachable, within_limits, reason).
-
-        Raises:
-            InvalidPoseError: As `ik`.
-        """
-
-    def __eq__(self, other: object, /) -> bool: ...
-    def __hash__(self) -> int: ...
 
 def _restore_robot(state: _State) -> Robot: ...
 def _restore_solution(robot: Robot, pose: list[float], state: _SolutionState) -> Solution: ...
@@ -797,7 +638,7 @@ class Robot:
         T: npt.ArrayLike,
         q7: float | None = None,
         *,
-        given: Mapping[int, float] | Given | None = None,
+        given: Mapping[int, float] | None = None,
     ) -> Solutions:
         """Every joint vector that brings the tool to a pose.
 
@@ -805,9 +646,7 @@ class Robot:
             T: Pose of the tool, shape (4, 4), translation [m].
             q7: Angle of joint 7 [rad], of an arm of seven joints.
             given: In place of q7, another joint of seven with its angle, as {3: 0.2}: joints count
-                from 1. The robot prepares a joint once, in milliseconds, and each angle of one
-                between the first and the last in a tenth of one; for many poses with the same
-                angle, pass `robot.given({3: 0.2})`.
+                from 1. `robot.ik(T, given={3: 0.2})` is `robot.locked({3: 0.2}).ik(T)`.
 
         Returns:
             Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
@@ -825,7 +664,7 @@ class Robot:
         T: npt.ArrayLike,
         q7: npt.ArrayLike | None = None,
         *,
-        given: Mapping[int, npt.ArrayLike] | Given | None = None,
+        given: Mapping[int, npt.ArrayLike] | None = None,
         out: tuple[_Floats, npt.NDArray[np.uint8]] | _Floats | None = None,
         threads: int = 1,
     ) -> IkBatch:
@@ -835,9 +674,8 @@ class Robot:
             T: Poses of the tool, shape (..., 4, 4), translation [m].
             q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...):
                 T and q7 are broadcast.
-            given: In place of q7, another joint of seven with its angle, as {3: 0.2}, or
-                `robot.given({3: 0.2})`. The angles of the first and the last joint may be an array
-                that goes with (...).
+            given: In place of q7, another joint of seven with its angle, as {3: 0.2}. The angles of
+                the first and the last joint may be an array that goes with (...).
             out: Where to write: an IkBatch or tuple of arrays (..., slots, n) float64 and (...,
                 slots) uint8, or the first of them alone.
             threads: Number of threads; 0 for one a core.
@@ -1111,21 +949,32 @@ class Robot:
         """
     @overload
     def configuration(self, q: npt.ArrayLike) -> Configuration | ConfigurationBatch: ...
-    def given(self, given: Mapping[int, float] | Given) -> Given:
-        """Prepare a seven-axis arm with the angle of one joint given, for many poses.
+    def locked(self, given: Mapping[int, float]) -> Robot:
+        """Return the same arm of seven joints with one of them locked: its `ik`, `ik_batch`,
+        `ik_nearest`, `follow` and `check_pose` take poses alone, and its answers have seven angles.
+
+        The robot prepares a joint once, in milliseconds, and each other angle of one between the
+        first and the last in a tenth of one. Slots and structure belong to the other six
+        joints or, if joint 7 is locked, to the arm. A joint that was locked before is released.
 
         Args:
             given: A joint and its angle [rad], as {3: 0.2}: joints count from 1.
 
-        Returns:
-            Given, whose `ik`, `ik_batch`, `ik_nearest`, `follow` and `check_pose` take poses alone.
-
         Raises:
             InvalidJointsError: There is no such joint, or its angle is not finite.
             InvalidModelError: The other six joints do not move the tool in six independent ways.
-            TypeError, ValueError: The arm has six joints; given is no mapping of one joint.
+            TypeError, ValueError: The arm has six joints; given does not map one joint.
         """
-
+    def unlocked(self) -> Robot:
+        """Return the same arm without a locked joint."""
+    @property
+    def locked_joint(self) -> tuple[int, float] | None:
+        """The joint that is locked, from 1, and its angle [rad], as (3, 0.2); None if none is."""
+    @property
+    def six_joints(self) -> Robot | None:
+        """The other six joints of an arm with a locked one as a robot, with the arm's base,
+        tool, limits and velocities; None if no joint is locked. Its joints are numbered 1 to 6.
+        """
     @overload
     def arm_angle(self, q: _Vector) -> float:
         """The arm angle of a YuMi's joint vectors: eax_a of a robtarget.

@@ -3,7 +3,7 @@
 use super::pace::Pace;
 use super::rows::{is_finite, rows, rows_out};
 use crate::error::Error;
-use crate::kinematics::{Arity, JacobianFrame, Joints, Robot, Singularity, pose_to_rows};
+use crate::kinematics::{JacobianFrame, Robot, Singularity, pose_to_rows};
 use crate::report::Configuration;
 
 /// Joint vectors that are worked on at a time: some ten microseconds of work.
@@ -14,10 +14,7 @@ const PART: usize = 1024;
 /// # Errors
 ///
 /// [`Error::WrongLength`] when a slice does not hold as many rows as `q`.
-pub fn fk<const N: usize>(robot: &Robot<N>, q: &[f64], poses: &mut [f64]) -> Result<(), Error>
-where
-    Joints<N>: Arity<N>,
-{
+pub fn fk<const N: usize>(robot: &Robot<N>, q: &[f64], poses: &mut [f64]) -> Result<(), Error> {
     Pace::steady(None).fk(robot, q, poses)
 }
 
@@ -30,10 +27,7 @@ pub fn link_frames<const N: usize>(
     robot: &Robot<N>,
     q: &[f64],
     frames: &mut [f64],
-) -> Result<(), Error>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<(), Error> {
     Pace::steady(None).link_frames(robot, q, frames)
 }
 
@@ -47,10 +41,7 @@ pub fn jacobian<const N: usize>(
     q: &[f64],
     frame: JacobianFrame,
     jacobians: &mut [f64],
-) -> Result<(), Error>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<(), Error> {
     Pace::steady(None).jacobian(robot, q, frame, jacobians)
 }
 
@@ -63,10 +54,7 @@ where
 pub fn singularity<'a, const N: usize>(
     robot: &'a Robot<N>,
     q: &'a [f64],
-) -> Result<impl Iterator<Item = Option<Singularity>> + 'a, Error>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<impl Iterator<Item = Option<Singularity>> + 'a, Error> {
     Ok(robot.singularities(rows::<N>("q", q)?))
 }
 
@@ -90,10 +78,7 @@ impl Pace<'_> {
         robot: &Robot<N>,
         q: &[f64],
         poses: &mut [f64],
-    ) -> Result<(), Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         let q = rows::<N>("q", q)?;
         let poses = rows_out::<16, f64>("poses", poses, q.len())?;
         self.run(q.len(), q.chunks(PART).zip(poses.chunks_mut(PART)), |(q, poses), _| {
@@ -108,10 +93,7 @@ impl Pace<'_> {
         robot: &Robot<N>,
         q: &[f64],
         frames: &mut [f64],
-    ) -> Result<(), Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         let q = rows::<N>("q", q)?;
         let frames = rows_out::<16, f64>("frames", frames, q.len() * (N + 1))?;
         let parts = q.chunks(PART).zip(frames.chunks_mut(PART * (N + 1)));
@@ -137,10 +119,7 @@ impl Pace<'_> {
         q: &[f64],
         frame: JacobianFrame,
         jacobians: &mut [f64],
-    ) -> Result<(), Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         let q = rows::<N>("q", q)?;
         let jacobians = rows_out::<N, f64>("jacobians", jacobians, q.len() * 6)?;
         let jacobians = jacobians.as_chunks_mut::<6>().0;
@@ -158,10 +137,7 @@ impl Pace<'_> {
         q: &[f64],
         columns: impl Iterator<Item = C> + Send,
         write: impl Fn(C, &mut dyn Iterator<Item = Option<Singularity>>) + Sync,
-    ) -> Result<(), Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         let count = rows::<N>("q", q)?.len();
         self.run(count, q.chunks(Self::SINGULARITIES * N).zip(columns), |(q, columns), _| {
             // The part has whole rows.

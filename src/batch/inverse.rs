@@ -1,28 +1,25 @@
 //! Inverse kinematics of many poses.
 
+use alloc::borrow::Cow;
 use alloc::vec;
 use core::num::NonZeroUsize;
 
 use super::pace::Pace;
 use super::rows::{check_length, rows, rows_for, rows_out};
-use crate::error::{Error, ModelFault};
-use crate::kinematics::{
-    Arity, ConfigurationRequest, Inverse, Joints, RedundancyOf, Robot, Rows, check_weights,
-    pose_from_rows,
-};
+use crate::error::Error;
+use crate::kinematics::{ConfigurationRequest, Robot, Rows, check_weights, pose_from_rows};
 use crate::report::Configuration;
 
 /// Poses that a thread takes at a time: some ten microseconds of work.
 const PART: usize = 512;
 
-/// The same where a pose may take a thousand times as long, next to a singularity.
+/// Poses that a thread takes where a pose may take a thousand times as long, next to a singularity.
 pub(super) const SMALL_PART: usize = 64;
 
-/// What stands in each number of the configuration of a row that is invalid. Of such a
-/// configuration there is no solution.
+/// Each number of the configuration of an invalid row; no solution has it.
 pub const NO_CONFIGURATION: i32 = i32::MIN;
 
-/// The same in all four.
+/// The configuration of an invalid row.
 const NONE: Configuration = Configuration {
     cf1: NO_CONFIGURATION,
     cf4: NO_CONFIGURATION,
@@ -30,9 +27,12 @@ const NONE: Configuration = Configuration {
     cfx: NO_CONFIGURATION,
 };
 
-/// Inverse kinematics: rows of 16 pose elements, and what is given with each (`()` for six joints,
-/// the angle of joint 7 [rad] for seven), to [`Robot::slot_count`] slots of `N` joint angles and as
-/// many [`Status`](crate::Status) bytes a row. Empty slots are NaN.
+/// Inverse kinematics: rows of 16 pose elements, and of seven joints the angle of joint 7 [rad] in
+/// each, to [`Robot::slot_count`] slots of `N` joint angles and as many [`Status`](crate::Status)
+/// bytes a row. Empty slots are NaN.
+///
+/// `angles` is empty for six joints and where a joint is locked at one angle. They belong to the
+/// locked joint if that is the first or the last.
 ///
 /// On up to `threads` threads, but no more than there are cores; without the feature `std`, on the
 /// caller's.
@@ -44,15 +44,12 @@ const NONE: Configuration = Configuration {
 pub fn ik_with<const N: usize>(
     robot: &Robot<N>,
     poses: &[f64],
-    redundancy: &[RedundancyOf<N>],
+    angles: &[f64],
     q: &mut [f64],
     status: &mut [u8],
     threads: Option<NonZeroUsize>,
-) -> Result<(), Error>
-where
-    Joints<N>: Arity<N>,
-{
-    Pace::steady(threads).ik_with(robot, poses, redundancy, q, status)
+) -> Result<(), Error> {
+    Pace::steady(threads).ik_with(robot, poses, angles, q, status)
 }
 
 /// [`ik_with`] of an arm of six joints.
@@ -71,8 +68,8 @@ pub fn ik(
 }
 
 /// Inverse kinematics next to seeds: rows of 16 pose elements and of joint angles to rows of joint
-/// angles, those of [`Robot::ik_nearest`]. A row that has none, or whose pose or seed is invalid,
-/// is NaN.
+/// angles, as [`Robot::ik_nearest`] has them. A row that has none, or whose pose or seed is
+/// invalid, is NaN.
 ///
 /// On up to `threads` threads, as [`ik_with`].
 ///
@@ -86,18 +83,14 @@ pub fn ik_nearest<const N: usize>(
     weights: &[f64; N],
     q: &mut [f64],
     threads: Option<NonZeroUsize>,
-) -> Result<(), Error>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+) -> Result<(), Error> {
     Pace::steady(threads).ik_nearest(robot, poses, seeds, weights, q)
 }
 
 /// Inverse kinematics by configurations: rows of 16 pose elements, and a configuration for each, to
-/// rows of joint angles, those of [`Robot::ik_configured`] or, with `seeds`, of
+/// rows of joint angles, as [`Robot::ik_configured`] has them or, with `seeds`,
 /// [`Robot::ik_configured_or_nearest`]. A row that has none, or whose pose or seed is invalid, or
-/// whose configuration is that of an invalid row ([`NO_CONFIGURATION`]), is NaN.
+/// whose configuration marks an invalid row ([`NO_CONFIGURATION`]), is NaN.
 ///
 /// On up to `threads` threads, as [`ik_with`].
 ///
@@ -117,7 +110,7 @@ pub fn ik_configured(
     Pace::steady(threads).ik_configured(robot, poses, &asked, q)
 }
 
-/// What is asked of the solutions of rows of poses.
+/// The request for the solutions of rows of poses.
 pub(crate) struct Configured<'a> {
     pub(crate) configurations: &'a [Configuration],
     /// The arm angle of each [rad].
@@ -134,22 +127,20 @@ impl Pace<'_> {
         &mut self,
         robot: &Robot<N>,
         poses: &[f64],
-        redundancy: &[RedundancyOf<N>],
+        angles: &[f64],
         q: &mut [f64],
         status: &mut [u8],
-    ) -> Result<(), Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         check_structure(robot)?;
         let (poses, slots) = (rows::<16>("poses", poses)?, robot.slot_count());
-        check_length("redundancy", redundancy.len(), poses.len())?;
+        let angles = &*robot.angles_of_rows(angles, poses.len())?;
         check_length("q", q.len(), slots * N * poses.len())?;
         check_length("status", status.len(), slots * poses.len())?;
         let answers = q.chunks_mut(PART * slots * N).zip(status.chunks_mut(PART * slots));
-        let asked = poses.chunks(PART).zip(redundancy.chunks(PART));
-        self.run(poses.len(), asked.zip(answers), |((poses, redundancy), (q, status)), _| {
-            robot.ik_rows(Rows { poses, redundancy, q, status });
+        let asked = poses.chunks(PART).enumerate();
+        self.run(poses.len(), asked.zip(answers), |((part, poses), (q, status)), _| {
+            let locked = part_of(angles, PART * part);
+            robot.ik_rows(Rows { poses, locked, q, status });
         });
         Ok(())
     }
@@ -162,8 +153,7 @@ impl Pace<'_> {
         q: &mut [f64],
         status: &mut [u8],
     ) -> Result<(), Error> {
-        // Nothing is given, and a list of nothing takes no memory.
-        self.ik_with(robot, poses, &vec![(); poses.len() / 16], q, status)
+        self.ik_with(robot, poses, &[], q, status)
     }
 
     /// [`ik_nearest`]
@@ -174,11 +164,7 @@ impl Pace<'_> {
         seeds: &[f64],
         weights: &[f64; N],
         q: &mut [f64],
-    ) -> Result<(), Error>
-    where
-        Robot<N>: Inverse<N>,
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         check_structure(robot)?;
         check_weights(weights)?;
         let poses = rows::<16>("poses", poses)?;
@@ -199,11 +185,7 @@ impl Pace<'_> {
         poses: &[f64],
         asked: &Configured<'_>,
         q: &mut [f64],
-    ) -> Result<(), Error>
-    where
-        Robot<N>: Inverse<N>,
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         robot.configuration_rule()?;
         let (poses, configurations) = (rows::<16>("poses", poses)?, asked.configurations);
         check_length("configurations", configurations.len(), poses.len())?;
@@ -236,7 +218,7 @@ impl Pace<'_> {
         Ok(())
     }
 
-    /// The arm angles of rows of seven joint angles [rad]; NaN where there is none.
+    /// The arm angles of rows of seven joint angles [rad]; NaN where it does not exist.
     #[cfg(feature = "python")]
     pub(crate) fn arm_angles(
         &mut self,
@@ -264,10 +246,7 @@ impl Pace<'_> {
         robot: &Robot<N>,
         q: &[f64],
         numbers: [&mut [i32]; 4],
-    ) -> Result<(), Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         robot.configuration_rule()?;
         let q = rows::<N>("q", q)?;
         for numbers in &numbers {
@@ -286,13 +265,30 @@ impl Pace<'_> {
     }
 }
 
-/// Whether the structure of an arm is known.
-pub(super) fn check_structure<const N: usize>(robot: &Robot<N>) -> Result<(), Error>
-where
-    Joints<N>: Arity<N>,
-{
-    match robot.unknown_structure() {
-        Some(reason) => Err(ModelFault::UnknownStructure(reason).into()),
-        None => Ok(()),
+/// The angles of the rows from one on, or no angles if the list is empty.
+pub(super) fn part_of(angles: &[f64], from: usize) -> &[f64] {
+    angles.get(from..).unwrap_or(&[])
+}
+
+impl<const N: usize> Robot<N> {
+    /// The angle of the locked joint in each of some rows [rad]: as it is given, or its own.
+    pub(super) fn angles_of_rows<'a>(
+        &self,
+        angles: &'a [f64],
+        rows: usize,
+    ) -> Result<Cow<'a, [f64]>, Error> {
+        match self.locked_joint() {
+            Some((_, angle)) if angles.is_empty() => return Ok(Cow::Owned(vec![angle; rows])),
+            // Another angle of a joint between the ends is another chain.
+            Some((2..=6, _)) => check_length("angles", angles.len(), 0)?,
+            None if N < 7 => check_length("angles", angles.len(), 0)?,
+            _ => check_length("angles", angles.len(), rows)?,
+        }
+        Ok(Cow::Borrowed(angles))
     }
+}
+
+/// Whether the structure of an arm is known.
+pub(super) fn check_structure<const N: usize>(robot: &Robot<N>) -> Result<(), Error> {
+    robot.known_inverse().map(|_| ())
 }

@@ -3,11 +3,11 @@
 use alloc::vec;
 use core::num::NonZeroUsize;
 
-use super::inverse::check_structure;
+use super::inverse::{check_structure, part_of};
 use super::pace::Pace;
 use super::rows::{check_length, is_finite, rows};
 use crate::error::Error;
-use crate::kinematics::{Arity, Joints, Margin, RedundancyOf, Robot, Rows, Status};
+use crate::kinematics::{Margin, Robot, Rows, Status};
 
 /// Poses that a thread takes at a time: some ten microseconds of work.
 const PART: usize = 64;
@@ -29,10 +29,7 @@ pub fn margin<const N: usize>(
     limits: &mut [f64],
     singularities: &mut [f64],
     threads: Option<NonZeroUsize>,
-) -> Result<(), Error>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<(), Error> {
     Pace::steady(threads).margin(robot, q, limits, singularities)
 }
 
@@ -49,7 +46,7 @@ pub struct Margins<'a> {
 }
 
 /// How much room the solutions of poses leave to limits and singularities: rows of 16 pose
-/// elements, and what is given with each, as [`ik_with`](super::ik_with) takes them. A row that is
+/// elements, and the angles, as [`ik_with`](super::ik_with) takes them. A row that is
 /// invalid has no solution.
 ///
 /// On up to `threads` threads, as [`ik_with`](super::ik_with).
@@ -60,14 +57,11 @@ pub struct Margins<'a> {
 pub fn ik_margin<const N: usize>(
     robot: &Robot<N>,
     poses: &[f64],
-    redundancy: &[RedundancyOf<N>],
+    angles: &[f64],
     answers: Margins<'_>,
     threads: Option<NonZeroUsize>,
-) -> Result<(), Error>
-where
-    Joints<N>: Arity<N>,
-{
-    Pace::steady(threads).ik_margin(robot, poses, redundancy, answers)
+) -> Result<(), Error> {
+    Pace::steady(threads).ik_margin(robot, poses, angles, answers)
 }
 
 impl Pace<'_> {
@@ -78,10 +72,7 @@ impl Pace<'_> {
         q: &[f64],
         limits: &mut [f64],
         singularities: &mut [f64],
-    ) -> Result<(), Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         let q = rows::<N>("q", q)?;
         check_length("limits", limits.len(), q.len())?;
         check_length("singularities", singularities.len(), q.len())?;
@@ -102,27 +93,25 @@ impl Pace<'_> {
         &mut self,
         robot: &Robot<N>,
         poses: &[f64],
-        redundancy: &[RedundancyOf<N>],
+        angles: &[f64],
         answers: Margins<'_>,
-    ) -> Result<(), Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         check_structure(robot)?;
         let poses = rows::<16>("poses", poses)?;
         let Margins { margin, singularities, solutions: count } = answers;
-        check_length("redundancy", redundancy.len(), poses.len())?;
+        let angles = &*robot.angles_of_rows(angles, poses.len())?;
         check_length("margin", margin.len(), poses.len())?;
         check_length("singularities", singularities.len(), poses.len())?;
         check_length("solutions", count.len(), poses.len())?;
-        let asked = poses.chunks(PART).zip(redundancy.chunks(PART));
+        let asked = poses.chunks(PART).enumerate();
         let numbers = margin.chunks_mut(PART).zip(singularities.chunks_mut(PART));
         let parts = asked.zip(numbers.zip(count.chunks_mut(PART)));
         let slots = robot.slot_count();
-        self.run(poses.len(), parts, |((poses, redundancy), ((margin, room), count)), _| {
+        self.run(poses.len(), parts, |((part, poses), ((margin, room), count)), _| {
             let mut q = vec![f64::NAN; poses.len() * slots * N];
             let mut status = vec![0; poses.len() * slots];
-            robot.ik_rows(Rows { poses, redundancy, q: &mut q, status: &mut status });
+            let locked = part_of(angles, PART * part);
+            robot.ik_rows(Rows { poses, locked, q: &mut q, status: &mut status });
             let solved = q.as_chunks::<N>().0.chunks(slots).zip(status.chunks(slots));
             for (row, (q, status)) in solved.enumerate() {
                 (margin[row], room[row], count[row]) = most_room(robot, q, status);
@@ -134,10 +123,7 @@ impl Pace<'_> {
 
 /// The largest margin of the solutions inside the limits, their largest distance from
 /// singularities, and their number.
-fn most_room<const N: usize>(robot: &Robot<N>, q: &[[f64; N]], status: &[u8]) -> (f64, f64, u8)
-where
-    Joints<N>: Arity<N>,
-{
+fn most_room<const N: usize>(robot: &Robot<N>, q: &[[f64; N]], status: &[u8]) -> (f64, f64, u8) {
     let (mut margin, mut singularities, mut count) = (f64::NAN, f64::NAN, 0);
     for (q, status) in q.iter().zip(status) {
         if Status::from_bits_truncate(*status).contains(Status::WITHIN_LIMITS) {
@@ -170,7 +156,7 @@ mod tests {
             solutions: &mut solutions,
         };
         let threads = NonZeroUsize::new(threads);
-        ik_margin(robot, poses, &vec![(); count], answers, threads).unwrap();
+        ik_margin(robot, poses, &[], answers, threads).unwrap();
         (margin, singularities, solutions)
     }
 
@@ -249,7 +235,7 @@ mod tests {
             singularities: &mut singularities,
             solutions: &mut solutions,
         };
-        let error = ik_margin(&robot, &[0.0; 32], &[(); 2], answers, None).unwrap_err();
+        let error = ik_margin(&robot, &[0.0; 32], &[], answers, None).unwrap_err();
         assert!(error.to_string().contains("singularities"), "{error}");
     }
 }

@@ -3,7 +3,7 @@
 use super::pace::Pace;
 use super::rows::{check_length, is_finite, rows, rows_out};
 use crate::error::Error;
-use crate::kinematics::{Arity, Corrections, Joints, Robot, pose_to_rows};
+use crate::kinematics::{Corrections, Robot, pose_to_rows};
 
 /// Joint vectors that are worked on at a time: some hundred microseconds of work.
 const PART: usize = 256;
@@ -19,10 +19,7 @@ pub fn parameter_jacobian<const N: usize>(
     corrections: &Corrections<N>,
     q: &[f64],
     jacobians: &mut [f64],
-) -> Result<(), Error>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<(), Error> {
     Pace::steady(None).parameter_jacobian(robot, corrections, q, jacobians)
 }
 
@@ -36,10 +33,7 @@ pub fn corrected_fk<const N: usize>(
     corrections: &Corrections<N>,
     q: &[f64],
     poses: &mut [f64],
-) -> Result<(), Error>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<(), Error> {
     Pace::steady(None).corrected_fk(robot, corrections, q, poses)
 }
 
@@ -51,10 +45,7 @@ impl Pace<'_> {
         corrections: &Corrections<N>,
         q: &[f64],
         jacobians: &mut [f64],
-    ) -> Result<(), Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         let q = rows::<N>("q", q)?;
         let size = 6 * Corrections::<N>::COUNT;
         check_length("jacobians", jacobians.len(), q.len() * size)?;
@@ -78,10 +69,7 @@ impl Pace<'_> {
         corrections: &Corrections<N>,
         q: &[f64],
         poses: &mut [f64],
-    ) -> Result<(), Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<(), Error> {
         let q = rows::<N>("q", q)?;
         let poses = rows_out::<16, f64>("poses", poses, q.len())?;
         self.run(q.len(), q.chunks(PART).zip(poses.chunks_mut(PART)), |(q, poses), _| {

@@ -11,9 +11,7 @@ mod universal_robots;
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{
-    AnyRobot, Arity, DhRow, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
-};
+use crate::kinematics::{AnyRobot, DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
 
 pub use left_out::left_out;
 pub use names::find;
@@ -194,10 +192,7 @@ impl AnyRobot {
     }
 }
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// The catalog arm with this name; [`find`] defines which spellings match.
     ///
     /// # Errors

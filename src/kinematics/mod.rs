@@ -15,10 +15,11 @@ pub(crate) use answer::check::{check_seed, check_weights};
 #[cfg(feature = "python")]
 pub(crate) use answer::select::Cost;
 pub use answer::singularity::{SingularDistances, Singularity};
-pub use answer::slot::{MOST_SLOTS, Slot, SlotStatus};
+pub(crate) use answer::slot::MOST_SLOTS;
+pub use answer::slot::Slot;
 pub use answer::solutions::{Solution, Solutions};
 pub use answer::status::{SingularityKind, Status};
-pub use chain::corrections::{Corrections, FRAME_PARAMETERS, ROW_PARAMETERS};
+pub use chain::corrections::Corrections;
 #[cfg(feature = "urdf")]
 pub(crate) use chain::dh::check_snap;
 pub use chain::dh::{DhRow, Mdh, Sdh};
@@ -50,9 +51,5 @@ pub(crate) use robot::SNAPS;
 pub use robot::any::AnyRobot;
 pub use robot::{Definition, Margin, Robot};
 pub use solve::configuration::ConfigurationRequest;
-pub use solve::given_joint::GivenJoint;
-pub use solve::seeded::Inverse;
-pub use structure::arity::{Arity, Joints, RedundancyOf};
-pub(crate) use structure::arm::Rows;
-pub use structure::redundancy::Redundancy;
+pub(crate) use structure::inverse::Rows;
 pub use structure::spherical_wrist::OpwParameters;

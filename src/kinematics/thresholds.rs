@@ -4,7 +4,7 @@
 /// How far a rotation's columns may deviate from orthonormal and still be repaired: the largest
 /// element of `R^T R - I` [1]. Elements in single precision (6e-8 off) and in text with six digits
 /// (1e-6 off) are inside, a scaled or sheared matrix is not.
-pub const ROTATION_REPAIR_BOUND: f64 = 1e-5;
+pub(crate) const ROTATION_REPAIR_BOUND: f64 = 1e-5;
 
 /// Deviation below which a rotation is used unchanged [1]: a product of seven rotations in float64
 /// deviates this much, and a repair gains nothing.
@@ -16,10 +16,10 @@ pub(crate) const LAST_ROW_BOUND: f64 = 1e-9;
 
 /// How far a quaternion's norm may be from one [1]. Normalizing keeps the direction, so text with
 /// three digits is accepted.
-pub const QUATERNION_NORM_BOUND: f64 = 2e-3;
+pub(crate) const QUATERNION_NORM_BOUND: f64 = 2e-3;
 
 /// Greatest Euler angle [rad]: a full turn, as text with four decimals writes it. More are degrees.
-pub const MOST_EULER: f64 = core::f64::consts::TAU + 1e-4;
+pub(crate) const MOST_EULER: f64 = core::f64::consts::TAU + 1e-4;
 
 /// Cosine of the middle ZYX angle below which the outer two act as one [1]: a few roundings of a
 /// rotation's elements.
@@ -58,7 +58,7 @@ pub const SEEDED_FREE: f64 = 1e-12;
 /// Least singular value of the closure of an arm without a closed form, lengths in units of the arm,
 /// below which a joint vector is flagged as singular [1]: the root of rounding, at which two
 /// solutions merge.
-pub const CLOSURE_SINGULAR: f64 = 1e-7;
+pub(crate) const CLOSURE_SINGULAR: f64 = 1e-7;
 
 /// sin q5
 ///
@@ -105,7 +105,7 @@ pub(crate) const JOINT_7_FINER_SPACING: f64 = 0.015;
 
 /// Angle by which a joint may differ between two neighboring samples [rad]: valleys of the cost are
 /// wider.
-pub const SAMPLE_LEAP: f64 = 0.5;
+pub(crate) const SAMPLE_LEAP: f64 = 0.5;
 
 /// First step along a curve of self-motion [rad].
 pub(crate) const FIRST_CURVE_STEP: f64 = 0.05;
@@ -161,16 +161,16 @@ pub(crate) const FARTHEST_NORMAL: f64 = MOST_LENGTH / 2.0;
 
 /// Longest tool that is taken [m]: the distance of its center point from the flange. No arm carries
 /// one of 50 m, and a pointer or laser is aimed less far; a tool of 50 mm in millimeters is one.
-pub const MOST_TOOL: f64 = 50.0;
+pub(crate) const MOST_TOOL: f64 = 50.0;
 
 /// Farthest that the flange of an arm may be from its base [m]: the longest manipulators reach 70
 /// m, and an arm in millimeters hundreds.
-pub const MOST_REACH: f64 = 100.0;
+pub(crate) const MOST_REACH: f64 = 100.0;
 
 /// Sizes of joint limits that are in degrees, where more than half of the joints have one [rad]:
 /// from eight turns on, which an arm may have at its wrist but not everywhere. Above, a limit
 /// stands for none.
-pub const DEGREE_LIMITS: core::ops::RangeInclusive<f64> = 50.0..=1000.0;
+pub(crate) const DEGREE_LIMITS: core::ops::RangeInclusive<f64> = 50.0..=1000.0;
 
 /// Greatest angle of a model and greatest joint limit [rad], apart from no limit: beyond, full
 /// turns lose the angle's digits.
@@ -178,16 +178,16 @@ pub const MOST_ANGLE: f64 = 1e5;
 
 /// How far a Denavit-Hartenberg table may deviate from a known structure and still be recognized
 /// [rad, m]: the rounding of a table in text. The deviation is removed.
-pub const FORM_TOLERANCE: f64 = 1e-9;
+pub(crate) const FORM_TOLERANCE: f64 = 1e-9;
 
 /// How far the tool of a calibrated arm may be from that of its nominal one [rad, or part of the
 /// reach]: Newton's method starts from the nominal joints, and no maker's arm is so far off.
-pub const FAR_FROM_NOMINAL: f64 = 0.05;
+pub(crate) const FAR_FROM_NOMINAL: f64 = 0.05;
 
 /// Greatest `snap` [rad]: how far an angle may be from a multiple of 90 deg and still be made exact
 /// on request. Text with three digits is inside. Beyond, the arm would be a different one: a tenth
 /// of a degree moves the tool of a long arm by millimeters.
-pub const MOST_SNAP: f64 = 1e-3;
+pub(crate) const MOST_SNAP: f64 = 1e-3;
 
 /// Growth of a joint step over the previous one from which it is examined as a jump [1].
 pub(crate) const JUMP_GROWTH: f64 = 3.0;
@@ -221,7 +221,7 @@ pub const TAUGHT_BEYOND_LIMITS: f64 = 1.5 * core::f64::consts::PI / 180.0;
 
 /// Difference between an arm angle and the one that is asked for [rad] up to which they are the
 /// same: robtargets hold it with nine digits of a degree, and a controller computes it to seven.
-pub const ARM_ANGLE_OFF: f64 = 1e-6;
+pub(crate) const ARM_ANGLE_OFF: f64 = 1e-6;
 
 /// Square of a length below which a mirror does not turn it [(m/rad)^2, 1]: the least whose digits,
 /// and those of what it is summed from, are all there. The length counts as zero, which moves a
@@ -230,17 +230,17 @@ pub(crate) const REFLECTED_SQUARE: f64 = 1e-290;
 
 /// Most samples of a trajectory and most poses of a path [1]: they fill gigabytes. More is a step
 /// in another unit.
-pub const MOST_SAMPLES: usize = 10_000_000;
+pub(crate) const MOST_SAMPLES: usize = 10_000_000;
 
 /// Least duration of a motion [s]: its fifth power and the velocities are far inside what a double
 /// holds.
-pub const LEAST_DURATION: f64 = 1e-9;
+pub(crate) const LEAST_DURATION: f64 = 1e-9;
 
 /// Greatest duration of a motion [s]: 30 years.
-pub const MOST_DURATION: f64 = 1e9;
+pub(crate) const MOST_DURATION: f64 = 1e9;
 
 /// How far joints may be apart where one trajectory continues another [rad].
-pub const JOINED_POSITION: f64 = 1e-9;
+pub(crate) const JOINED_POSITION: f64 = 1e-9;
 
 /// How far rounding may exceed a limit of a motion, as a part of the limit [1].
 pub(crate) const LIMIT_ROUNDING: f64 = 1e-9;
@@ -261,18 +261,20 @@ pub(crate) const STEP_ROUNDING: f64 = 1e-9;
 
 /// Way of the tool below which it stays at one place [m]: a pose that repeats another is known to
 /// rounding, and directions and speeds on such a way are not determined.
-pub const LEAST_WAY: f64 = 1e-9;
+pub(crate) const LEAST_WAY: f64 = 1e-9;
 
 /// Turn of the tool below which a pose at the same place repeats the one before it [rad].
 pub(crate) const LEAST_TURN: f64 = 1e-9;
 
 /// Angle between upper arm and forearm from stretched or folded below which a move of a program
 /// passes the elbow singularity [rad]: one degree, as [`WRIST_ZONE`].
-pub const ELBOW_ZONE: f64 = 0.0175;
+#[cfg(feature = "rapid")]
+pub(crate) const ELBOW_ZONE: f64 = 0.0175;
 
 /// Distance of the wrist center from axis 1 below which a move of a program passes the shoulder
 /// singularity [m]. At this distance axis 1 turns by 57 deg for each millimeter of the way.
-pub const SHOULDER_ZONE: f64 = 1e-3;
+#[cfg(feature = "rapid")]
+pub(crate) const SHOULDER_ZONE: f64 = 1e-3;
 
 /// How far the joints at the end of a move may be from those with which the next one begins [rad]:
 /// more than the rounding of two solutions of one pose near a singularity.
@@ -280,33 +282,33 @@ pub const SHOULDER_ZONE: f64 = 1e-3;
 pub(crate) const JOINED_MOVES: f64 = 1e-6;
 
 /// How much a range of tool angles may differ from a full turn and still be one [rad].
-pub const FULL_TURN: f64 = 1e-9;
+pub(crate) const FULL_TURN: f64 = 1e-9;
 
 /// Most tool angles of a plan at each pose [1]: a tenth of a degree apart.
-pub const MOST_TOOL_ANGLES: usize = 3600;
+pub(crate) const MOST_TOOL_ANGLES: usize = 3600;
 
 /// Most values of an external axis or of a tolerance of a plan [1].
-pub const MOST_AXIS_STEPS: usize = 1001;
+pub(crate) const MOST_AXIS_STEPS: usize = 1001;
 
 /// Most external axes of a plan [1]: a track and a positioner of two axes.
-pub const MOST_EXTERNAL: usize = 3;
+pub(crate) const MOST_EXTERNAL: usize = 3;
 
 /// Most axes beside the tool angle that are free in a plan [1]: [`MOST_EXTERNAL`], two of a cone
 /// and an offset.
 pub(crate) const MOST_FREE_AXES: usize = MOST_EXTERNAL + 3;
 
 /// Largest value of an external axis [m, rad].
-pub const MOST_EXTERNAL_VALUE: f64 = 1000.0;
+pub(crate) const MOST_EXTERNAL_VALUE: f64 = 1000.0;
 
 /// Most nodes of a plan in all [1]: its joint angles take 50 bytes each.
-pub const MOST_PLAN_NODES: usize = 1 << 28;
+pub(crate) const MOST_PLAN_NODES: usize = 1 << 28;
 
 /// Most combinations of turns that a plan tells apart at each node [1].
-pub const MOST_TURN_STATES: usize = 4096;
+pub(crate) const MOST_TURN_STATES: usize = 4096;
 
 /// How far the tool at the start or the end of a plan may be from the pose there, and the ends of a
 /// closed path from each other [m, rad]: poses written with six digits.
-pub const PLAN_END_OFF: f64 = 1e-6;
+pub(crate) const PLAN_END_OFF: f64 = 1e-6;
 
 /// Joint step that is small enough to be no jump [rad]: a twentieth of a degree.
 pub(crate) const CONTINUOUS_STEP: f64 = 1e-3;
@@ -322,16 +324,16 @@ pub(crate) const CROSSING_JUMP: f64 = 1.0;
 pub(crate) const CROSSING_STEP: f64 = 0.5;
 
 /// Distance of tool angles down to which a plan refines them [rad]: half a degree.
-pub const REFINED_TOOL_STEP: f64 = 8.8e-3;
+pub(crate) const REFINED_TOOL_STEP: f64 = 8.8e-3;
 
 /// Distance of the tool angles that a plan looks at first along a long path [rad]: ten degrees.
 pub(crate) const COARSEST_TOOL_STEP: f64 = 0.174_532_925_199_432_95;
 
 /// Distance of the values of a track down to which a plan refines them [m].
-pub const REFINED_TRACK: f64 = 5e-3;
+pub(crate) const REFINED_TRACK: f64 = 5e-3;
 
 /// Distance of the offsets of a tool down to which a plan refines them [m].
-pub const REFINED_OFFSET: f64 = 5e-4;
+pub(crate) const REFINED_OFFSET: f64 = 5e-4;
 
 /// How far rounding may raise the bottleneck of a step, relative to it [1].
 pub(crate) const BOTTLENECK_ROUNDING: f64 = 1e-12;

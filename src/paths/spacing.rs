@@ -23,7 +23,7 @@ impl Spacing {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidMotion`] for fewer than two or more than [`MOST_SAMPLES`].
+    /// [`Error::InvalidMotion`] for fewer than two or more than ten million.
     pub fn count(poses: usize) -> Result<Self, Error> {
         if !(2..=MOST_SAMPLES).contains(&poses) {
             return Err(MotionFault::Steps { found: poses, bounds: [2, MOST_SAMPLES] }.into());

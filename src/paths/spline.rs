@@ -28,14 +28,12 @@ const RATE_MARGIN: f64 = 0.05;
 /// that curve, the latter zero at each pose (eq. 25 to 27). The way from one pose to the next is
 /// divided into equal steps along the curve (eq. 24). Where the tool only turns, it stops and turns
 /// about one axis: the curves before and behind are splines of their own. Poses that repeat the one
-/// before them, within [`LEAST_WAY`] and 1e-9 rad, are left out. Through two poses it is a line.
+/// before them, within 1e-9 m and 1e-9 rad, are left out. Through two poses it is a line.
 ///
 /// # Errors
 ///
 /// [`Error::InvalidPose`] for a pose that is not a rigid transform; [`Error::InvalidMotion`] for no
 /// pose, a half turn between two, or a spacing that leaves the number of poses open.
-///
-/// [`LEAST_WAY`]: crate::thresholds::LEAST_WAY
 pub fn spline(poses: &[Pose], spacing: Spacing) -> Result<Vec<Pose>, Error> {
     let mut met: Vec<Pose> = Vec::with_capacity(poses.len());
     // Which pose each of them is.

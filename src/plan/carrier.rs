@@ -33,7 +33,7 @@ impl ExternalAxis {
     /// # Errors
     ///
     /// [`Error::InvalidPlan`] for a direction of length zero or that is not finite, an empty range,
-    /// and fewer than 2 or more than [`MOST_AXIS_STEPS`] steps.
+    /// and fewer than 2 or more than 1001 steps.
     pub fn track(direction: [f64; 3], lower: f64, upper: f64, steps: usize) -> Result<Self, Error> {
         Self::new("track", Carried::Robot, direction, [lower, upper], steps)
     }

@@ -139,7 +139,7 @@ impl Arm<'_> {
         let slots = self.robot.slot_count();
         self.robot.ik_rows(Rows {
             poses,
-            redundancy: &vec![(); poses.len()],
+            locked: &[],
             q: &mut q[..poses.len() * slots * 6],
             status: &mut status[..poses.len() * slots],
         });

@@ -28,7 +28,7 @@ impl ToolRotation {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidPlan`] for no steps or more than [`MOST_TOOL_ANGLES`], a range that is
+    /// [`Error::InvalidPlan`] for no steps or more than 3600, a range that is
     /// empty, not finite or more than a full turn, and one step of a range that has a width.
     pub fn new(steps: usize, lower: f64, upper: f64, axis: ToolAxis) -> Result<Self, Error> {
         let width = upper - lower;

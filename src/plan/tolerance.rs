@@ -20,7 +20,7 @@ impl ToolCone {
     /// # Errors
     ///
     /// [`Error::InvalidPlan`] for an angle that is not positive or above a quarter turn, and for
-    /// steps that are even, fewer than 3 or more than [`MOST_AXIS_STEPS`].
+    /// steps that are even, fewer than 3 or more than 1001.
     pub fn new(angle: f64, steps: usize) -> Result<Self, Error> {
         if !(angle > 0.0 && angle <= FRAC_PI_2) {
             return Err(PlanFault::ConeAngle { angle, most: FRAC_PI_2 }.into());
@@ -61,7 +61,7 @@ impl ToolOffset {
     /// # Errors
     ///
     /// [`Error::InvalidPlan`] for an empty range, and fewer than 2 or more than
-    /// [`MOST_AXIS_STEPS`] steps.
+    /// 1001 steps.
     pub fn new(lower: f64, upper: f64, steps: usize, axis: ToolAxis) -> Result<Self, Error> {
         let range = [lower, upper];
         Ok(Self {

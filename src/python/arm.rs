@@ -11,9 +11,7 @@ use super::outputs::{answer, output, writable};
 use super::signals::detached;
 use crate::batch::Pace;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{
-    AnyRobot, Arity, JacobianFrame, Joints, Robot, check_joints, pose_to_rows,
-};
+use crate::kinematics::{AnyRobot, JacobianFrame, Robot, check_joints, pose_to_rows};
 
 /// What there is for a robot of six joints, or for one of seven.
 #[derive(Clone, PartialEq)]
@@ -79,7 +77,7 @@ impl Arm {
 
     /// The robot that follows paths.
     pub(super) fn follower(&self, py: Python<'_>) -> PyResult<&Arc<Robot<6>>> {
-        self.six_joints_or(py, "follow", ", or take given({3: 0.2}).follow")
+        self.six_joints_or(py, "follow", ", or take locked({3: 0.2}).follow")
     }
 
     /// The robot of a call along a path, which is for six joints.
@@ -199,7 +197,5 @@ fn one<const N: usize>(q: &Bound<'_, PyAny>) -> PyResult<Option<[f64; N]>> {
 
 /// A change of a robot that is the same for any number of joints.
 pub(super) trait Change {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>;
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>;
 }

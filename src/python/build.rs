@@ -8,7 +8,7 @@ use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use super::wording::shape;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{Arity, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, Sdh};
+use crate::kinematics::{DhRow, Mdh, OpwParameters, Pose, Robot, Sdh};
 use crate::report::Convention;
 
 /// How a Denavit-Hartenberg table is to be read.
@@ -46,10 +46,7 @@ pub(super) fn from_table(
 fn robot_of_table<const N: usize>(
     numbers: &[[f64; 4]],
     Table { convention, snap }: Table,
-) -> Result<Robot<N>, Error>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<Robot<N>, Error> {
     let found = numbers.len();
     let numbers: &[[f64; 4]; N] =
         numbers.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;

@@ -10,7 +10,7 @@ use super::outputs::writable;
 use super::records;
 use super::signals::detached;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{Arity, Joints, Robot};
+use crate::kinematics::Robot;
 use crate::report::{Configuration, ConfigurationRule};
 
 /// `irbkin.Configuration` of joint vectors, shape (..., n): integers for one, arrays for many.
@@ -40,10 +40,7 @@ pub(super) fn configuration<'py>(arm: &Arm, q: &Bound<'py, PyAny>) -> PyResult<B
 }
 
 /// The configuration of one joint vector, whose length was checked.
-fn single<const N: usize>(robot: &Robot<N>, q: &[f64]) -> Result<Configuration, Error>
-where
-    Joints<N>: Arity<N>,
-{
+fn single<const N: usize>(robot: &Robot<N>, q: &[f64]) -> Result<Configuration, Error> {
     let wrong_length = || Error::WrongLength { field: "q", found: q.len(), wanted: N };
     robot.configuration(q.first_chunk().ok_or_else(wrong_length)?)
 }

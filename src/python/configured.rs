@@ -19,7 +19,7 @@ use super::poses::{read_single_pose, single_pose};
 use super::signals::detached;
 use crate::batch::{Configured, NO_CONFIGURATION};
 use crate::error::ModelFault;
-use crate::kinematics::{Arity, ConfigurationRequest, Inverse, Joints, Robot};
+use crate::kinematics::{ConfigurationRequest, Robot};
 use crate::report::Configuration;
 
 /// What completes a configuration, and what to do where no solution has it.
@@ -116,11 +116,7 @@ struct Asked<'py, const N: usize> {
     seeds: Option<Rows<'py>>,
 }
 
-impl<'py, const N: usize> Asked<'py, N>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+impl<'py, const N: usize> Asked<'py, N> {
     fn read(
         configuration: &Bound<'py, PyAny>,
         options: &Options<'_, 'py>,

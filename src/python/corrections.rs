@@ -8,7 +8,7 @@ use super::arrays::Rows;
 use super::errors::{Fault, to_py};
 use super::robot::PyRobot;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{AnyRobot, Arity, Corrections, Joints, Robot};
+use crate::kinematics::{AnyRobot, Corrections, Robot};
 
 #[pymethods]
 impl PyRobot {
@@ -152,16 +152,10 @@ fn read<'py>(corrections: &Bound<'py, PyAny>, dof: usize) -> PyResult<Rows<'py>>
 fn corrections_of<const N: usize>(
     _: &Robot<N>,
     numbers: Option<&[f64]>,
-) -> Result<Corrections<N>, Error>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<Corrections<N>, Error> {
     numbers.map_or(Ok(Corrections::NONE), Corrections::from_slice)
 }
 
-fn corrected<const N: usize>(robot: &Robot<N>, numbers: &[f64]) -> Result<Robot<N>, Error>
-where
-    Joints<N>: Arity<N>,
-{
+fn corrected<const N: usize>(robot: &Robot<N>, numbers: &[f64]) -> Result<Robot<N>, Error> {
     robot.with_corrections(&Corrections::from_slice(numbers)?)
 }

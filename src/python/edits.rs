@@ -2,7 +2,7 @@
 
 use super::arm::Change;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{Arity, JointLimits, Joints, Pose, Robot};
+use crate::kinematics::{JointLimits, Pose, Robot};
 use crate::report::ConfigurationRule;
 
 /// A change of a robot.
@@ -26,15 +26,14 @@ pub(super) enum Edit<'a> {
     Coupling(Option<&'a [f64]>),
     /// How its controller counts configurations, if in a way of its own.
     Rule(Option<ConfigurationRule>),
+    /// The joint that is locked, from 1, and its angle [rad], or none.
+    Lock(Option<(usize, f64)>),
     /// Other velocities, as many as joints [rad/s], or none.
     MaxVelocity(Option<&'a [f64]>),
 }
 
 impl Change for Edit<'_> {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
         match self {
             Self::Name(name) => Ok(robot.with_name((*name).to_owned())),
             Self::Limits(limits) => Ok(robot.with_limits(JointLimits::new(of_joints(limits)?)?)),
@@ -57,6 +56,7 @@ impl Change for Edit<'_> {
                 robot.coupled()?.with_linkage_limits(Some(linkage))
             }
             Self::Rule(rule) => Ok(robot.with_rule(*rule)),
+            Self::Lock(locked) => robot.with_lock(*locked),
             Self::MaxVelocity(velocity) => {
                 robot.with_max_velocity(velocity.map(of_joints).transpose()?)
             }

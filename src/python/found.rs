@@ -8,8 +8,7 @@ use super::arrays::vector;
 use super::errors::{Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{
-    Arity, Cost, Inverse, Joints, MOST_SLOTS, Pose, Robot, Solution, Solutions, check_seed,
-    check_weights,
+    Cost, MOST_SLOTS, Pose, Robot, Solution, Solutions, check_seed, check_weights,
 };
 use crate::report::Explanation;
 
@@ -19,50 +18,32 @@ const MOST_TURNS: f64 = 1e6;
 
 /// The solutions of a pose, or the list of their turns.
 #[derive(Clone)]
-pub(super) struct Found<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+pub(super) struct Found<const N: usize> {
     pub(super) robot: Arc<Robot<N>>,
     pub(super) solutions: Solutions<N>,
     /// The list of turns, where the solutions were turned.
     pub(super) turned: Option<Vec<Solution<N>>>,
-    /// Of seven joints the one, from 1, whose angle [rad] was given.
-    pub(super) given: Option<(usize, f64)>,
+    /// The angle of joint 7 [rad] that was passed with the pose.
+    pub(super) q7: Option<f64>,
 }
 
-impl<const N: usize> PartialEq for Found<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> PartialEq for Found<N> {
     fn eq(&self, other: &Self) -> bool {
         self.solutions == other.solutions
-            && self.given == other.given
+            && self.q7 == other.q7
             && self.turned == other.turned
             && is_same(&self.robot, &other.robot)
     }
 }
 
 /// Whether two robots are equal; one and the same is without a look at its numbers.
-pub(super) fn is_same<const N: usize>(first: &Arc<Robot<N>>, second: &Arc<Robot<N>>) -> bool
-where
-    Joints<N>: Arity<N>,
-{
+pub(super) fn is_same<const N: usize>(first: &Arc<Robot<N>>, second: &Arc<Robot<N>>) -> bool {
     Arc::ptr_eq(first, second) || first == second
 }
 
-impl<const N: usize> Found<N>
-where
-    Joints<N>: Arity<N>,
-    Robot<N>: Inverse<N>,
-{
+impl<const N: usize> Found<N> {
     pub(super) fn new(robot: Arc<Robot<N>>, solutions: Solutions<N>) -> Self {
-        Self { robot, solutions, turned: None, given: None }
-    }
-
-    /// The solutions with the angle of one joint given.
-    pub(super) fn with_given(self, joint: usize, angle: f64) -> Self {
-        Self { given: Some((joint, angle)), ..self }
+        Self { robot, solutions, turned: None, q7: None }
     }
 
     /// An answer of a pose without solutions.
@@ -72,7 +53,7 @@ where
     }
 
     fn with(&self, solutions: Solutions<N>, turned: Option<Vec<Solution<N>>>) -> Self {
-        Self { robot: Arc::clone(&self.robot), solutions, turned, given: self.given }
+        Self { robot: Arc::clone(&self.robot), solutions, turned, q7: self.q7 }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -136,7 +117,7 @@ where
 
     /// The outcome in a sentence.
     pub(super) fn explain(&self) -> Explanation {
-        self.robot.explained_answer(&self.solutions, self.given)
+        self.robot.explained_answer(&self.solutions, self.q7)
     }
 
     /// The cheapest solution inside the limits from `seed`, or why there is none. Solutions that

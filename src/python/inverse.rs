@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use pyo3::prelude::*;
+use pyo3::types::PyFloat;
 
 use super::answers::pose_check;
 use super::arguments::{read_singularity_mode, thread_count};
@@ -11,8 +12,7 @@ use super::batches;
 use super::configured::{self, Options};
 use super::errors::{of_seed, to_py};
 use super::found::{Found, read_weights};
-use super::given::{Asked, PyGiven};
-use super::given_calls;
+use super::locked::{self, locked, read_pair, released};
 use super::nearest::{self, Seeded, read_seeded};
 use super::outputs::answer_row;
 use super::paths;
@@ -20,8 +20,8 @@ use super::poses::{read_ik_pose, read_single_pose};
 use super::redundancy::{needed_q7, no_q7, no_q7_beside_given, one_angle};
 use super::robot::PyRobot;
 use super::solutions::PySolutions;
+use crate::kinematics::FollowOptions;
 use crate::kinematics::thresholds::WRIST_ZONE;
-use crate::kinematics::{FollowOptions, Inverse, Redundancy};
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -32,9 +32,7 @@ impl PyRobot {
     ///     T: Pose of the tool, shape (4, 4), translation [m].
     ///     q7: Angle of joint 7 [rad], of an arm of seven joints.
     ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}: joints count
-    ///         from 1. The robot prepares a joint once, in milliseconds, and each angle of one
-    ///         between the first and the last in a tenth of one; for many poses with the same
-    ///         angle, pass `robot.given({3: 0.2})`.
+    ///         from 1. `robot.ik(T, given={3: 0.2})` is `robot.locked({3: 0.2}).ik(T)`.
     ///
     /// Returns:
     ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
@@ -56,26 +54,34 @@ impl PyRobot {
         let py = T.py();
         if let Some(given) = given {
             no_q7_beside_given(q7)?;
-            match Asked::read(self.arm(), given)? {
-                // What every arm of seven joints is given anyway.
-                Asked::Joint(7, q7) => return self.ik(T, Some(&q7), None),
-                asked => return given_calls::ik(self, T, asked),
-            }
+            return match read_pair(self.arm(), given)? {
+                // An arm of seven joints has joint 7 locked for each pose.
+                (7, q7) => self.ik(T, Some(&q7), None),
+                (joint, angle) => {
+                    PyRobot::from(Arm::from(locked(self, joint, &angle)?)).ik(T, None, None)
+                }
+            };
         }
         match self.arm() {
             Arm::Six(robot) => {
                 no_q7(q7.is_some())?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
-                robot.ik_into(&mut found.solutions, ()).map_err(|error| to_py(py, &error))?;
+                robot.ik_into(&mut found.solutions, f64::NAN).map_err(|error| to_py(py, &error))?;
                 Bound::new(py, PySolutions::from(found))
             }
             Arm::Seven(robot) => {
-                let q7 = one_angle(needed_q7(py, robot, q7)?, "q7")?;
+                let angle = match (robot.locked_joint(), q7) {
+                    (Some((_, angle)), None) => angle,
+                    (Some(_), Some(_)) => return released(self).ik(T, q7, None),
+                    (None, q7) => one_angle(needed_q7(py, robot, q7)?, "q7")?,
+                };
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
-                q7.check()
-                    .and_then(|()| robot.ik_into(&mut found.solutions, q7))
+                robot
+                    .check_locked(angle)
+                    .and_then(|()| robot.ik_into(&mut found.solutions, angle))
                     .map_err(|error| to_py(py, &error))?;
-                Bound::new(py, PySolutions::from(found.with_given(7, q7)))
+                let q7 = q7.is_some().then_some(angle);
+                Bound::new(py, PySolutions::from(Found { q7, ..found }))
             }
         }
     }
@@ -86,9 +92,8 @@ impl PyRobot {
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
     ///     q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...):
     ///         T and q7 are broadcast.
-    ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}, or
-    ///         `robot.given({3: 0.2})`. The angles of the first and the last joint may be an array
-    ///         that goes with (...).
+    ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}. The angles of
+    ///         the first and the last joint may be an array that goes with (...).
     ///     out: Where to write: an IkBatch or tuple of arrays (..., slots, n) float64 and (...,
     ///         slots) uint8, or the first of them alone.
     ///     threads: Number of threads; 0 for one a core.
@@ -114,32 +119,23 @@ impl PyRobot {
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let threads = thread_count(threads)?;
-        if let Some(given) = given {
-            no_q7_beside_given(q7)?;
-            match Asked::read(self.arm(), given)? {
-                Asked::Joint(7, q7) => {
-                    return batches::ik(self.arm(), T, Some(&q7), out, threads);
-                }
-                asked => return given_calls::ik_batch(self, T, asked, out, threads),
+        let Some(given) = given else {
+            return batches::ik(self.arm(), T, ("q7", q7), out, threads);
+        };
+        no_q7_beside_given(q7)?;
+        let (joint, angles) = read_pair(self.arm(), given)?;
+        match joint {
+            7 => batches::ik(released(self).arm(), T, ("q7", Some(&angles)), out, threads),
+            1 => {
+                let zero = PyFloat::new(T.py(), 0.0);
+                let arm = Arm::from(locked(self, 1, &zero)?);
+                batches::ik(&arm, T, ("given", Some(&angles)), out, threads)
+            }
+            joint => {
+                let arm = Arm::from(locked(self, joint, &angles)?);
+                batches::ik(&arm, T, ("given", None), out, threads)
             }
         }
-        batches::ik(self.arm(), T, q7, out, threads)
-    }
-
-    /// Prepare a seven-axis arm with the angle of one joint given, for many poses.
-    ///
-    /// Args:
-    ///     given: A joint and its angle [rad], as {3: 0.2}: joints count from 1.
-    ///
-    /// Returns:
-    ///     Given, whose `ik`, `ik_batch`, `ik_nearest`, `follow` and `check_pose` take poses alone.
-    ///
-    /// Raises:
-    ///     InvalidJointsError: There is no such joint, or its angle is not finite.
-    ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
-    ///     TypeError, ValueError: The arm has six joints; given is no mapping of one joint.
-    fn given(&self, given: &Bound<'_, PyAny>) -> PyResult<PyGiven> {
-        PyGiven::of(given.py(), self, Asked::read(self.arm(), given)?)
     }
 
     /// The solution inside the limits that is nearest to `seed`, turns considered.
@@ -230,13 +226,19 @@ impl PyRobot {
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let options = FollowOptions {
-            weights: read_weights(weights)?,
-            singularity_mode: read_singularity_mode(singularity_mode)?,
-            zone: zone.unwrap_or(WRIST_ZONE),
+        let threads = thread_count(threads)?;
+        let options = |weights| -> PyResult<FollowOptions> {
+            let singularity_mode = read_singularity_mode(singularity_mode)?;
+            Ok(FollowOptions { weights, singularity_mode, zone: zone.unwrap_or(WRIST_ZONE) })
         };
+        if let Arm::Seven(robot) = self.arm()
+            && let Some(six) = robot.six_turned().map_err(|error| to_py(T.py(), &error))?
+        {
+            let options = options(robot.others(&read_weights(weights)?))?;
+            return locked::follow(robot, &six, T, seed, &options, out, threads);
+        }
         let robot = self.arm().follower(T.py())?;
-        paths::follow(robot, T, seed, &options, out, thread_count(threads)?)
+        paths::follow(robot, T, seed, &options(read_weights(weights)?)?, out, threads)
     }
 
     /// The solution inside the limits that has a configuration, which chooses the turns of axes 1,

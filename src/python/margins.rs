@@ -4,7 +4,7 @@ use numpy::{PyArrayDyn, PyArrayMethods};
 use pyo3::prelude::*;
 
 use super::arguments::thread_count;
-use super::arm::{Arm, on};
+use super::arm::on;
 use super::classes;
 use super::redundancy::read_poses_with_q7;
 use super::robot::PyRobot;
@@ -69,7 +69,7 @@ impl PyRobot {
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, arm, threads) = (T.py(), self.arm(), thread_count(threads)?);
-        let (poses, given) = read_poses_with_q7(arm, T, q7)?;
+        let (poses, angles) = read_poses_with_q7(arm, T, ("q7", q7))?;
         let data = poses.data()?;
         let margin = PyArrayDyn::<f64>::zeros(py, poses.lead.clone(), false);
         let singularities = PyArrayDyn::<f64>::zeros(py, poses.lead.clone(), false);
@@ -81,13 +81,11 @@ impl PyRobot {
             singularities: to_singularities.as_slice_mut()?,
             solutions: to_count.as_slice_mut()?,
         };
-        detached(py, threads, |pace| match arm {
-            Arm::Six(robot) => {
-                // A list of nothing takes no memory.
-                pace.ik_margin(robot, data, &vec![(); data.len() / 16], answers)
-            }
-            Arm::Seven(robot) => pace.ik_margin(robot, data, &given, answers),
-        })?;
+        detached(
+            py,
+            threads,
+            |pace| on!(arm, robot => pace.ik_margin(robot, data, &angles, answers)),
+        )?;
         classes::ik_margin_class(py)?.call1((margin, singularities, count))
     }
 }

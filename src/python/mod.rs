@@ -17,9 +17,8 @@ mod edits;
 mod errors;
 mod found;
 mod freedoms;
-mod given;
-mod given_calls;
 mod inverse;
+mod locked;
 mod margins;
 mod masked;
 mod models;
@@ -92,7 +91,6 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<robot::PyRobot>()?;
-    module.add_class::<given::PyGiven>()?;
     module.add_class::<solutions::PySolutions>()?;
     module.add_class::<solution::PySolution>()?;
     module.add_function(wrap_pyfunction!(catalog::catalog, module)?)?;

@@ -11,7 +11,7 @@ use super::found::read_weights;
 use super::outputs::{output, writable};
 use super::poses::single_pose;
 use super::signals::detached;
-use crate::kinematics::{Arity, Inverse, Joints, Pose, Robot, check_seed, pose_from_rows};
+use crate::kinematics::{Pose, Robot, check_seed, pose_from_rows};
 
 /// A pose with a seed, or many.
 pub(super) enum Seeded<'py, const N: usize> {
@@ -88,11 +88,7 @@ pub(super) fn many<'py, const N: usize>(
     weights: Option<&Bound<'py, PyAny>>,
     out: Option<&Bound<'py, PyAny>>,
     threads: Option<NonZeroUsize>,
-) -> PyResult<Bound<'py, PyAny>>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+) -> PyResult<Bound<'py, PyAny>> {
     let weights = read_weights::<N>(weights)?;
     let answer = output(py, out, &poses.shape_with(&[N]))?;
     let mut view = writable(&answer, &[poses.addresses(), seeds.addresses()])?;

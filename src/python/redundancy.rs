@@ -4,39 +4,39 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::intern;
 use pyo3::prelude::*;
 
-use super::arm::Arm;
+use super::arm::{Arm, on};
 use super::arrays::Rows;
 use super::broadcast::{Argument, together};
 use super::errors::{Fault, to_py};
 use super::wording::shape;
-use crate::error::ModelFault;
-use crate::kinematics::{Arity, Joints, Robot};
+use crate::kinematics::Robot;
 
-/// Poses, shape (..., 4, 4), and joint 7 of each where the arm has seven.
+/// Poses, shape (..., 4, 4), and the angles of a joint for each, of an argument with its name: none
+/// for six joints, and where a joint of seven is locked.
 pub(super) fn read_poses_with_q7<'py>(
     arm: &Arm,
     poses: &Bound<'py, PyAny>,
-    q7: Option<&Bound<'py, PyAny>>,
+    (field, angles): (&'static str, Option<&Bound<'py, PyAny>>),
 ) -> PyResult<(Rows<'py>, Vec<f64>)> {
     let py = poses.py();
-    let given = match arm {
-        Arm::Six(robot) => {
-            no_q7(q7.is_some())?;
-            known_structure(py, robot)?;
-            None
+    on!(arm, robot => known_structure(py, robot)?);
+    match arm {
+        Arm::Six(_) => no_q7(angles.is_some())?,
+        Arm::Seven(robot) if robot.locked_joint().is_none() => {
+            needed_q7(py, robot, angles)?;
         }
-        Arm::Seven(robot) => Some(needed_q7(py, robot, q7)?),
-    };
+        Arm::Seven(_) => {}
+    }
     let mut poses = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
-    let given = match given {
-        Some(q7) => read_angles(q7, "q7", &mut poses)?.data()?.to_vec(),
+    let angles = match angles {
+        Some(angles) => read_angles(angles, field, &mut poses)?.data()?.to_vec(),
         None => Vec::new(),
     };
-    Ok((poses, given))
+    Ok((poses, angles))
 }
 
 /// An angle of a joint for each pose; both are broadcast.
-pub(super) fn read_angles<'py>(
+fn read_angles<'py>(
     angles: &Bound<'py, PyAny>,
     field: &'static str,
     poses: &mut Rows<'py>,
@@ -84,14 +84,8 @@ pub(super) fn one_angle(angle: &Bound<'_, PyAny>, field: &str) -> PyResult<f64> 
 }
 
 /// An arm whose structure is unknown has no inverse.
-fn known_structure<const N: usize>(py: Python<'_>, robot: &Robot<N>) -> PyResult<()>
-where
-    Joints<N>: Arity<N>,
-{
-    match robot.unknown_structure() {
-        Some(reason) => Err(to_py(py, &ModelFault::UnknownStructure(reason).into())),
-        None => Ok(()),
-    }
+fn known_structure<const N: usize>(py: Python<'_>, robot: &Robot<N>) -> PyResult<()> {
+    robot.known_inverse().map(|_| ()).map_err(|error| to_py(py, &error))
 }
 
 /// Joint 7, without which an arm of seven joints has no finite number of solutions.

@@ -14,8 +14,7 @@ use super::errors::{Fault, to_py};
 use super::poses::{pose_array, read_single_pose};
 use super::robot_repr;
 use super::robot_state::{self, State};
-use crate::error::Error;
-use crate::kinematics::{AnyRobot, GivenJoint, Robot};
+use crate::kinematics::{AnyRobot, Robot};
 
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
 ///
@@ -32,36 +31,19 @@ use crate::kinematics::{AnyRobot, GivenJoint, Robot};
 #[pyclass(name = "Robot", module = "irbkin", frozen, weakref)]
 pub(super) struct PyRobot {
     arm: Arm,
-    /// By joint: the arm with it given, as it was prepared first.
-    given: [OnceLock<Arc<GivenJoint>>; 7],
+    /// By joint: the arm with it locked, as it was prepared first.
+    pub(super) locked: [OnceLock<Arc<Robot<7>>>; 7],
 }
 
 impl PyRobot {
     pub(super) fn arm(&self) -> &Arm {
         &self.arm
     }
-
-    /// An arm of seven joints with joint `joint`, from 1, at an angle [rad].
-    pub(super) fn given_joint(
-        &self,
-        robot: &Robot<7>,
-        joint: usize,
-        angle: f64,
-    ) -> Result<Arc<GivenJoint>, Error> {
-        let prepared = &self.given[joint - 1];
-        if let Some(prepared) = prepared.get() {
-            return prepared.at(angle).map(Arc::new);
-        }
-        let given = Arc::new(robot.given(joint, angle)?);
-        // Another thread may have been faster, with another angle.
-        let _ = prepared.set(Arc::clone(&given));
-        Ok(given)
-    }
 }
 
 impl From<Arm> for PyRobot {
     fn from(arm: Arm) -> Self {
-        Self { arm, given: Default::default() }
+        Self { arm, locked: Default::default() }
     }
 }
 

@@ -4,17 +4,17 @@
 use super::arm::{Arm, on};
 use crate::catalog;
 use crate::error::Error;
-use crate::kinematics::{Arity, JointLimits, Joints, Pose, Robot, pose_to_wxyz};
+use crate::kinematics::{JointLimits, Pose, Robot, pose_to_wxyz};
 
 /// The text of an arm.
 pub(super) fn repr(arm: &Arm) -> String {
     on!(arm, robot => of_robot(robot))
 }
 
-fn of_robot<const N: usize>(robot: &Robot<N>) -> String
-where
-    Joints<N>: Arity<N>,
-{
+fn of_robot<const N: usize>(robot: &Robot<N>) -> String {
+    if let Some((joint, angle)) = robot.locked_joint() {
+        return format!("{}.locked({{{joint}: {angle:?}}})", of_robot(&robot.clone().unlocked()));
+    }
     let name = robot.name();
     if let Some((plain, twin)) = of_catalog(robot) {
         if plain == *robot {
@@ -33,10 +33,7 @@ where
 }
 
 /// The catalog's arm of that name, coupled or not as `robot` is, and how that is written.
-fn of_catalog<const N: usize>(robot: &Robot<N>) -> Option<(Robot<N>, &'static str)>
-where
-    Joints<N>: Arity<N>,
-{
+fn of_catalog<const N: usize>(robot: &Robot<N>) -> Option<(Robot<N>, &'static str)> {
     let arm = catalog::find(robot.name()).ok().filter(|arm| arm.name == robot.name())?;
     let plain = Robot::<N>::from_catalog(arm).ok()?;
     match (plain.is_coupled(), robot.is_coupled()) {
@@ -46,10 +43,7 @@ where
     }
 }
 
-fn without_frames_and_limits<const N: usize>(robot: &Robot<N>) -> Result<Robot<N>, Error>
-where
-    Joints<N>: Arity<N>,
-{
+fn without_frames_and_limits<const N: usize>(robot: &Robot<N>) -> Result<Robot<N>, Error> {
     let unlimited = JointLimits::new([[f64::NEG_INFINITY, f64::INFINITY]; N])?;
     let identity = Pose::identity();
     let plain = robot.clone().with_limits(unlimited).with_base(&identity)?.with_tool(&identity)?;
@@ -59,10 +53,7 @@ where
 fn with_frames_and_limits_of<const N: usize>(
     plain: &Robot<N>,
     robot: &Robot<N>,
-) -> Result<Robot<N>, Error>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<Robot<N>, Error> {
     let framed = plain.clone().with_base(robot.base())?.with_tool(robot.tool())?;
     let limited = framed.with_limits(*robot.limits());
     if robot.is_coupled() {
@@ -73,10 +64,7 @@ where
 }
 
 /// What a robot has that another one does not have, in words.
-fn differences<const N: usize>(robot: &Robot<N>, plain: &Robot<N>) -> Vec<String>
-where
-    Joints<N>: Arity<N>,
-{
+fn differences<const N: usize>(robot: &Robot<N>, plain: &Robot<N>) -> Vec<String> {
     let (limits, linkage) = (robot.limits().to_array(), robot.limits().linkage());
     let mut parts = Vec::new();
     if robot.tool() != plain.tool() {

@@ -8,12 +8,12 @@ use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use crate::error::Error;
 use crate::kinematics::{
-    Arity, Definition, DhRow, Joints, Mdh, OpwParameters, Pose, Robot, pose_from_rows, pose_to_rows,
+    Definition, DhRow, Mdh, OpwParameters, Pose, Robot, pose_from_rows, pose_to_rows,
 };
 use crate::report::ConfigurationRule;
 
 /// Everything that a robot was built from: (name, definition, numbers of it, limits, base, tool,
-/// velocities, linkage, rule). The linkage is of coupled arms alone: its limits, or no numbers. The
+/// velocities, linkage, rule, the locked joint with its angle). The linkage is of coupled arms alone: its limits, or no numbers. The
 /// rule is of arms whose controllers count configurations in a way of their own.
 pub(super) type State = (
     String,
@@ -25,6 +25,7 @@ pub(super) type State = (
     Option<Vec<f64>>,
     Option<Vec<f64>>,
     Option<RuleState>,
+    Option<(usize, f64)>,
 );
 
 /// The name of a rule and its numbers.
@@ -64,6 +65,7 @@ pub(super) fn state(arm: &Arm) -> State {
             robot.max_velocity().map(|velocity| velocity.to_vec()),
             robot.is_coupled().then(|| robot.limits().linkage().map_or_else(Vec::new, Vec::from)),
             robot.own_rule().map(rule_state),
+            robot.locked_joint(),
         )
     })
 }
@@ -80,18 +82,21 @@ fn mdh_numbers<const N: usize>(mdh: &Mdh<N>) -> Vec<f64> {
 
 /// Hash of a robot's value.
 pub(super) fn hash(py: Python<'_>, arm: &Arm) -> PyResult<isize> {
-    let (name, definition, numbers, limits, base, tool, velocity, linkage, rule) = state(arm);
+    let (name, definition, numbers, limits, base, tool, velocity, linkage, rule, locked) =
+        state(arm);
     let is_coupled = linkage.is_some();
     let (rule, reference) = rule.unwrap_or_default();
     let others = [velocity, linkage].map(Option::unwrap_or_default).concat();
     let numbers = [numbers, limits, base, tool, others, reference].concat();
     // Python's own hash of floats holds 0.0 and -0.0 for one, as the comparison does.
-    (name, definition, is_coupled, rule, PyTuple::new(py, numbers)?).into_pyobject(py)?.hash()
+    (name, definition, is_coupled, rule, locked, PyTuple::new(py, numbers)?)
+        .into_pyobject(py)?
+        .hash()
 }
 
 /// The arm of a state, for pickle.
 pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
-    let (name, definition, numbers, limits, base, tool, velocity, linkage, rule) = state;
+    let (name, definition, numbers, limits, base, tool, velocity, linkage, rule, locked) = state;
     let (limit_rows, rest) = limits.as_chunks::<2>();
     let broken = || Fault::Model.error(py, "the pickled robot is damaged".to_owned());
     if !rest.is_empty() {
@@ -119,7 +124,8 @@ pub(super) fn restored(py: Python<'_>, state: &State) -> PyResult<Arm> {
         .changed(py, &Edit::Base(pose(base)?))?
         .changed(py, &Edit::Tool(pose(tool)?))?
         .changed(py, &Edit::MaxVelocity(velocity.as_deref()))?
-        .changed(py, &Edit::Rule(rule))
+        .changed(py, &Edit::Rule(rule))?
+        .changed(py, &Edit::Lock(*locked))
 }
 
 fn rule_state(rule: ConfigurationRule) -> RuleState {
@@ -159,10 +165,7 @@ fn refined_of(numbers: &[f64]) -> Option<Result<Robot<6>, Error>> {
     Some(calibrated.and_then(|robot| robot.with_nominal(&nominal?)))
 }
 
-fn mdh_of<const N: usize>(numbers: &[f64]) -> Option<Result<Robot<N>, Error>>
-where
-    Joints<N>: Arity<N>,
-{
+fn mdh_of<const N: usize>(numbers: &[f64]) -> Option<Result<Robot<N>, Error>> {
     let (rows, poses) = numbers.split_at_checked(4 * N)?;
     let (base, flange) = poses.split_first_chunk::<16>()?;
     let flange = flange.try_into().ok()?;

@@ -16,22 +16,16 @@ use super::records;
 use super::robot::PyRobot;
 use super::solution_state::{self, PoseState, SolutionState};
 use super::table;
-use crate::kinematics::{Arity, Joints, Pose, Robot, Solution, Status};
+use crate::kinematics::{Pose, Robot, Solution, Status};
 
 /// A solution, with the robot and the pose that it is of.
-pub(super) struct Member<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+pub(super) struct Member<const N: usize> {
     robot: Arc<Robot<N>>,
     pose: Pose,
     solution: Solution<N>,
 }
 
-impl<const N: usize> PartialEq for Member<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> PartialEq for Member<N> {
     fn eq(&self, other: &Self) -> bool {
         self.solution == other.solution
             && self.pose == other.pose
@@ -39,10 +33,7 @@ where
     }
 }
 
-impl<const N: usize> Member<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Member<N> {
     pub(super) fn of(found: &Found<N>, solution: Solution<N>) -> Self {
         Self { robot: Arc::clone(&found.robot), pose: *found.solutions.pose(), solution }
     }

@@ -5,9 +5,7 @@ use pyo3::prelude::*;
 
 use super::errors::Fault;
 use super::found::Found;
-use crate::kinematics::{
-    Arity, Joints, Pose, Robot, Slot, Solution, Status, pose_from_rows, pose_to_rows,
-};
+use crate::kinematics::{Pose, Robot, Slot, Solution, Status, pose_from_rows, pose_to_rows};
 use crate::report::{Explanation, FreeJoint, Reach};
 
 /// The pose that was solved, 4x4 in row-major order.
@@ -20,14 +18,14 @@ pub(super) type SolutionState = (usize, u8, Vec<f64>, Option<String>);
 type OutcomeState = (String, usize, usize, f64);
 
 /// (what the slots hold, reach, why the last selection left nothing, the list of turns, whether the
-/// solutions are certain to be all, the joint that was given and its angle).
+/// solutions are certain to be all, the angle of joint 7 that was passed).
 pub(super) type FoundState = (
     Vec<SolutionState>,
     OutcomeState,
     Option<OutcomeState>,
     Option<Vec<SolutionState>>,
     bool,
-    Option<(usize, f64)>,
+    Option<f64>,
 );
 
 fn damaged(py: Python<'_>) -> PyErr {
@@ -54,10 +52,7 @@ pub(super) fn solution<const N: usize>(
     py: Python<'_>,
     robot: &Robot<N>,
     state: &SolutionState,
-) -> PyResult<Solution<N>>
-where
-    Joints<N>: Arity<N>,
-{
+) -> PyResult<Solution<N>> {
     let (slot, flags, q, free) = state;
     let read = || {
         let slot = (*slot < robot.slot_count()).then(|| Slot::new(*slot))?;
@@ -78,17 +73,11 @@ fn solutions<const N: usize>(
     py: Python<'_>,
     robot: &Robot<N>,
     states: &[SolutionState],
-) -> PyResult<Vec<Solution<N>>>
-where
-    Joints<N>: Arity<N>,
-{
+) -> PyResult<Vec<Solution<N>>> {
     states.iter().map(|state| solution(py, robot, state)).collect()
 }
 
-pub(super) fn of_found<const N: usize>(found: &Found<N>) -> FoundState
-where
-    Joints<N>: Arity<N>,
-{
+pub(super) fn of_found<const N: usize>(found: &Found<N>) -> FoundState {
     let solutions = &found.solutions;
     let status = solutions.status();
     let slots = status.iter().enumerate().filter_map(|(slot, flags)| match solutions.slot(slot) {
@@ -104,7 +93,7 @@ where
         solutions.emptied.map(of_outcome),
         found.turned.as_ref().map(|turned| turned.iter().map(of_solution).collect()),
         solutions.is_certified(),
-        found.given,
+        found.q7,
     )
 }
 
@@ -112,11 +101,8 @@ where
 pub(super) fn restored<const N: usize>(
     py: Python<'_>,
     mut found: Found<N>,
-    (slots, reach, emptied, turned, certified, given): &FoundState,
-) -> PyResult<Found<N>>
-where
-    Joints<N>: Arity<N>,
-{
+    (slots, reach, emptied, turned, certified, q7): &FoundState,
+) -> PyResult<Found<N>> {
     let robot = &found.robot;
     for state in slots {
         match state {
@@ -133,7 +119,7 @@ where
     };
     found.solutions.is_certified = *certified;
     found.solutions.emptied = emptied.as_ref().map(|emptied| outcome(py, emptied)).transpose()?;
-    found.given = *given;
+    found.q7 = *q7;
     found.turned = turned.as_ref().map(|turned| solutions(py, robot, turned)).transpose()?;
     Ok(found)
 }

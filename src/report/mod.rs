@@ -11,7 +11,9 @@ mod unknown_structure;
 pub use configuration::{Configuration, ConfigurationRule};
 pub use explanation::{Approach, Explanation, Reach};
 pub use free_joint::FreeJoint;
+#[cfg(test)]
+pub(crate) use unknown_structure::Condition;
+pub use unknown_structure::UnknownStructure;
 pub(crate) use unknown_structure::{
-    Columns, Convention, Freedom, MOST_CONDITIONS, ORDERS, Pattern, Reading,
+    Columns, Convention, Freedom, MOST_CONDITIONS, ORDERS, Pattern, Reading, Relation,
 };
-pub use unknown_structure::{Condition, Relation, UnknownStructure};

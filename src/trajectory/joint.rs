@@ -50,12 +50,10 @@ impl Profile {
 ///
 /// [`Error::InvalidJoints`] for an angle that is not finite or beyond [`MOST_ANGLE`];
 /// [`Error::InvalidMotion`] for no joints, a velocity or acceleration that is not finite or that the
-/// profile cannot have, or a duration outside [`LEAST_DURATION`] to [`MOST_DURATION`];
+/// profile cannot have, or a duration outside 1e-9 to 1e9 s;
 /// [`Error::WrongLength`] for ends of different lengths.
 ///
 /// [`MOST_ANGLE`]: crate::thresholds::MOST_ANGLE
-/// [`LEAST_DURATION`]: crate::thresholds::LEAST_DURATION
-/// [`MOST_DURATION`]: crate::thresholds::MOST_DURATION
 pub fn joint(
     profile: Profile,
     start: &[AxisState],

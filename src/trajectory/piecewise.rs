@@ -146,7 +146,7 @@ impl Trajectory {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidMotion`] for fewer than two or more than [`MOST_SAMPLES`].
+    /// [`Error::InvalidMotion`] for fewer than two or more than ten million.
     pub fn times(&self, steps: usize) -> Result<Vec<f64>, Error> {
         let count = u32::try_from(steps).ok().filter(|_| (2..=MOST_SAMPLES).contains(&steps));
         let Some(count) = count else {
@@ -299,7 +299,7 @@ impl Trajectory {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidMotion`] when a joint is apart by more than [`JOINED_POSITION`], or the
+    /// [`Error::InvalidMotion`] when a joint is apart by more than 1e-9 rad, or the
     /// numbers of joints differ.
     pub fn then(mut self, next: &Self) -> Result<Self, Error> {
         if self.dof != next.dof {

@@ -58,10 +58,8 @@ pub fn tool_lengths(poses: &[Pose]) -> Vec<f64> {
 /// # Errors
 ///
 /// [`Error::InvalidMotion`] for an angle or a length that is not finite, a limit that is not
-/// positive, no rows, no joints, or joints that move where the tool stays within [`LEAST_WAY`] of
+/// positive, no rows, no joints, or joints that move where the tool stays within 1e-9 m of
 /// its place; [`Error::WrongLength`] for slices that do not fit.
-///
-/// [`LEAST_WAY`]: crate::thresholds::LEAST_WAY
 pub fn tool_speed_limits(
     q: &[f64],
     lengths: &[f64],

@@ -20,14 +20,9 @@ use self::joint::{Joint, Motion, Placed};
 use self::tree::{Tree, parsed};
 use crate::error::{Error, ModelFault, UrdfFault};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
-use crate::kinematics::{
-    AnyRobot, Arity, JointAxis, JointLimits, Joints, Mdh, Pose, Robot, SNAPS, check_snap,
-};
+use crate::kinematics::{AnyRobot, JointAxis, JointLimits, Mdh, Pose, Robot, SNAPS, check_snap};
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// A robot from the text of a URDF, with the solver of its kinematic structure.
     ///
     /// `base` is the link in whose frame poses are given; by default the link without a parent.
@@ -53,8 +48,7 @@ where
     ///
     /// # Errors
     ///
-    /// As [`Robot::from_urdf`], and when `snap` is not 0 to
-    /// [`MOST_SNAP`](crate::thresholds::MOST_SNAP).
+    /// As [`Robot::from_urdf`], and when `snap` is not 0 to 1e-3 rad.
     pub fn from_urdf_snapped(
         text: &str,
         base: Option<&str>,
@@ -125,10 +119,7 @@ impl UrdfArm {
     /// The robot, which must have `N` joints. Angles within `snap` of a multiple of 90 deg [rad] are
     /// made exact. If the arm has no closed form, or no table, and would have one with a larger
     /// snap, that is proposed.
-    pub(crate) fn robot<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    pub(crate) fn robot<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error> {
         check_snap(snap)?;
         let proposal = || {
             let is_taken =
@@ -179,10 +170,7 @@ impl UrdfArm {
     }
 
     /// The robot under its name, with limits and velocities.
-    fn limited<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    fn limited<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
         let (mut limits, mut velocities, mut all_known) = ([[0.0; 2]; N], [0.0; N], true);
         for (i, motion) in self.motions().enumerate().take(N) {
             limits[i] = motion.limits;

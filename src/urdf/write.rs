@@ -15,7 +15,7 @@ use alloc::string::String;
 use nalgebra::{Translation3, Vector3};
 
 use super::text::{Hinge, Text};
-use crate::kinematics::{AnyRobot, Arity, DhRow, Joints, Pose, Robot, constant_pose};
+use crate::kinematics::{AnyRobot, DhRow, Pose, Robot, constant_pose};
 
 /// What a file without masses and shapes needs to say.
 const HEAD: &[&str] = &[
@@ -33,10 +33,7 @@ const LINKAGE: &[&str] = &[
     "     -->",
 ];
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// The text of a URDF of the robot, which [`Self::from_urdf`] reads back.
     ///
     /// Links are `base_link`, `base` (the same), `link_1` to `link_N`, `flange` and `tool0`; joints

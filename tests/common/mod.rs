@@ -7,7 +7,6 @@ pub mod rng;
 pub mod skip;
 pub mod tally;
 
-use irbkin::{Arity, Joints};
 use std::f64::consts::{PI, TAU};
 use std::sync::{Mutex, PoisonError};
 
@@ -71,10 +70,7 @@ pub fn on_each_set(mut work: impl FnMut(InstructionSet)) {
 }
 
 /// Largest difference of two joint vectors, modulo 2 pi [rad].
-pub fn apart<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64
-where
-    Joints<N>: Arity<N>,
-{
+pub fn apart<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| wrapped(a - b)).fold(0.0, f64::max)
 }
 
@@ -92,10 +88,11 @@ pub fn poses_or(default: usize) -> usize {
 pub const DIFFERENCE_STEP: f64 = 1e-5;
 
 /// The column of a joint, from 0, of the Jacobian of the tool in the base, by central differences.
-pub fn central_difference<const N: usize>(robot: &Robot<N>, q: &[f64; N], joint: usize) -> [f64; 6]
-where
-    Joints<N>: Arity<N>,
-{
+pub fn central_difference<const N: usize>(
+    robot: &Robot<N>,
+    q: &[f64; N],
+    joint: usize,
+) -> [f64; 6] {
     let (mut before, mut after) = (*q, *q);
     before[joint] -= DIFFERENCE_STEP;
     after[joint] += DIFFERENCE_STEP;
@@ -114,10 +111,7 @@ pub fn difference_bound(reach: f64) -> f64 {
 }
 
 /// Distance of the stretched arm's flange from axis 1, at the height of the shoulder [m].
-pub fn reach_of<const N: usize>(robot: &Robot<N>) -> f64
-where
-    Joints<N>: Arity<N>,
-{
+pub fn reach_of<const N: usize>(robot: &Robot<N>) -> f64 {
     match robot.definition() {
         Definition::Opw(opw) => opw.a1.abs() + opw.c2 + opw.a2.hypot(opw.c3) + opw.c4,
         Definition::Mdh(mdh) | Definition::Refined { mdh, .. } => {

@@ -1,6 +1,5 @@
 //! The only source of random numbers of the tests, including the unit tests in `src`.
 
-use irbkin::{Arity, Joints};
 use std::f64::consts::{PI, TAU};
 
 use irbkin::JointLimits;
@@ -47,18 +46,12 @@ impl Rng {
         self.between(-PI, PI)
     }
 
-    pub fn angles<const N: usize>(&mut self) -> [f64; N]
-    where
-        Joints<N>: Arity<N>,
-    {
+    pub fn angles<const N: usize>(&mut self) -> [f64; N] {
         std::array::from_fn(|_| self.angle())
     }
 
     /// Uniform inside the limits; within two turns either way for a joint without limits.
-    pub fn inside<const N: usize>(&mut self, limits: &JointLimits<N>) -> [f64; N]
-    where
-        Joints<N>: Arity<N>,
-    {
+    pub fn inside<const N: usize>(&mut self, limits: &JointLimits<N>) -> [f64; N] {
         limits.to_array().map(|[low, high]| self.between(low.max(-TAU * 2.0), high.min(TAU * 2.0)))
     }
 }

@@ -1,6 +1,5 @@
 //! The results for the poses of a set: counts, worst figures and one row of a table.
 
-use irbkin::{Arity, Joints};
 use irbkin::{Pose, Robot, Solutions};
 
 use super::asked_set;
@@ -42,9 +41,7 @@ impl Tally {
         robot: &Robot<N>,
         pose: &Pose,
         answers: impl IntoIterator<Item = (&'a [f64; N], [f64; 2])>,
-    ) where
-        Joints<N>: Arity<N>,
-    {
+    ) {
         let mut count = 0;
         for (q, [position, rotation]) in answers {
             let residual = robot.residual(q, pose);
@@ -61,10 +58,12 @@ impl Tally {
     }
 
     /// Counts the answer to a pose that is out of reach: no solution, and the shortfall.
-    pub fn take_missed<const N: usize>(&mut self, solutions: &Solutions<N>, beyond: f64, bound: f64)
-    where
-        Joints<N>: Arity<N>,
-    {
+    pub fn take_missed<const N: usize>(
+        &mut self,
+        solutions: &Solutions<N>,
+        beyond: f64,
+        bound: f64,
+    ) {
         self.poses += 1;
         self.by_count[0] += 1;
         self.found += usize::from((solutions.reach().shortfall() - beyond).abs() < bound);

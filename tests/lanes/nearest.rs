@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::num::NonZeroUsize;
 
-use irbkin::{Arity, Inverse, JointLimits, Joints, Robot, batch, pose_from_rows};
+use irbkin::{JointLimits, Robot, batch, pose_from_rows};
 
 use crate::common::coupled_arm::{limited, odd, with_linkage};
 use crate::common::{Rng, on_each_set};
@@ -21,11 +21,7 @@ const ROWS: usize = 24 * 9 + 5;
 /// A search along a redundancy takes as long as a hundred poses.
 const ROWS_OF_SEVEN: usize = 29;
 
-fn the_nearest_of_rows_is_the_nearest_alone<const N: usize>(structure: &Structure<N>)
-where
-    Joints<N>: Arity<N>,
-    Robot<N>: Inverse<N>,
-{
+fn the_nearest_of_rows_is_the_nearest_alone<const N: usize>(structure: &Structure<N>) {
     let count = if N == 7 { ROWS_OF_SEVEN } else { ROWS };
     on_each_set(|set| {
         let (mut found, mut missing) = (0, 0);
@@ -46,11 +42,7 @@ fn nearest_agrees<const N: usize>(
     poses: &[PoseRow],
     joints: &[[f64; N]],
     what: &str,
-) -> [usize; 2]
-where
-    Joints<N>: Arity<N>,
-    Robot<N>: Inverse<N>,
-{
+) -> [usize; 2] {
     let mut rng = Rng::new(0x5eed);
     let seeds: Vec<[f64; N]> =
         joints.iter().enumerate().map(|(row, q)| seed(row, q, &mut rng)).collect();

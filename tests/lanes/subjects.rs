@@ -1,7 +1,6 @@
 //! Arms of every kind that the kernels distinguish, and poses of every kind that a batch may
 //! contain.
 
-use irbkin::{Arity, Joints};
 use std::f64::consts::PI;
 
 use irbkin::{JointLimits, pose_from_euler_zyx, pose_to_rows};
@@ -18,10 +17,7 @@ pub type Row<const N: usize> = (PoseRow, [f64; N]);
 /// The arms of a structure, two of them again with tools and bases, with and without rotation, and
 /// with limits that exclude nothing or much, require a 2 pi equivalent, or are so far from zero
 /// that more than one turn is needed.
-pub fn subjects<const N: usize>(structure: &Structure<N>) -> Vec<Subject<N>>
-where
-    Joints<N>: Arity<N>,
-{
+pub fn subjects<const N: usize>(structure: &Structure<N>) -> Vec<Subject<N>> {
     let tool = pose_from_euler_zyx([0.03, -0.02, 0.2], [0.3, -0.7, 1.1]).unwrap();
     let base = pose_from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
     let straight = pose_from_euler_zyx([0.01, -0.02, 0.3], [0.0; 3]).unwrap();
@@ -81,19 +77,13 @@ where
 }
 
 /// Rows of all kinds, each in a block with the others.
-pub fn rows<const N: usize>(subject: &Subject<N>, count: usize) -> Vec<Row<N>>
-where
-    Joints<N>: Arity<N>,
-{
+pub fn rows<const N: usize>(subject: &Subject<N>, count: usize) -> Vec<Row<N>> {
     let mut rng = Rng::new(0x1a9e5);
     (0..count).map(|i| row(subject, i, &mut rng)).collect()
 }
 
 /// A row of one of 24 kinds, every other one regular.
-fn row<const N: usize>(subject: &Subject<N>, kind: usize, rng: &mut Rng) -> Row<N>
-where
-    Joints<N>: Arity<N>,
-{
+fn row<const N: usize>(subject: &Subject<N>, kind: usize, rng: &mut Rng) -> Row<N> {
     let theta = rng.angles();
     let round = kind / 24;
     let near = [0.0, 1e-12, 1e-9, 9e-7, 1.1e-6, 1e-4][round % 6];
@@ -141,10 +131,7 @@ where
 }
 
 /// Joint vectors with angles of many turns; some rows are not finite.
-pub fn joint_rows<const N: usize>(count: usize) -> Vec<[f64; N]>
-where
-    Joints<N>: Arity<N>,
-{
+pub fn joint_rows<const N: usize>(count: usize) -> Vec<[f64; N]> {
     let mut rng = Rng::new(0x10b);
     let row = |i: usize| {
         let most = [PI, 400.0, 1e5, 1.1e5, 1e9, 1e15, 0.0][i % 7];

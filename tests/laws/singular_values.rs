@@ -1,6 +1,6 @@
 //! The least singular value and the manipulability against a full decomposition of the Jacobian.
 
-use irbkin::{Arity, DhRow, JacobianFrame, Joints, Mdh, Pose, Robot};
+use irbkin::{DhRow, JacobianFrame, Mdh, Pose, Robot};
 use nalgebra::DMatrix;
 use std::array;
 
@@ -15,10 +15,7 @@ const OFF: [f64; 8] = [0.0, 1e-170, 1e-145, 1e-17, 1e-12, 1e-9, 1e-7, 1e-4];
 
 /// Either decomposition is exact for a matrix that is off by a few roundings of the largest
 /// singular value.
-fn hold<const N: usize>(robot: &Robot<N>, q: &[f64; N])
-where
-    Joints<N>: Arity<N>,
-{
+fn hold<const N: usize>(robot: &Robot<N>, q: &[f64; N]) {
     let jacobian = robot.jacobian(q, JacobianFrame::Base);
     // Columns of zeros change no singular value: there are six of fewer joints, too.
     let mut padded = DMatrix::<f64>::zeros(6, N.max(6));
@@ -44,10 +41,7 @@ where
 }
 
 /// Anywhere, with up to three joints next to a quarter turn, and with all of them.
-fn hold_near_singularities<const N: usize>(robot: &Robot<N>)
-where
-    Joints<N>: Arity<N>,
-{
+fn hold_near_singularities<const N: usize>(robot: &Robot<N>) {
     let mut rng = Rng::new(1);
     for _ in 0..POSES {
         let anywhere: [f64; N] = rng.angles();
@@ -65,10 +59,7 @@ where
 }
 
 /// A chain that bends everywhere.
-fn bent<const N: usize>() -> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+fn bent<const N: usize>() -> Robot<N> {
     let mut rng = Rng::new(2);
     let rows = array::from_fn(|_| DhRow::new(rng.angle(), 0.1, 0.2, 0.5));
     Robot::serial_chain(Mdh { base: Pose::identity(), rows, flange: Pose::identity() }).unwrap()

@@ -139,8 +139,13 @@ def absolute(
     return (*here, *path) if (*here, path[0]) in known else None
 
 
-def home(path: tuple[str, ...], depth: int = 0) -> Module:
+def home(path: tuple[str, ...]) -> Module:
     """The module that defines what a path names, through what others hand on."""
+    return through(path)[-1]
+
+
+def through(path: tuple[str, ...], depth: int = 0) -> list[Module]:
+    """The modules that hand on what a path names, and the one that defines it."""
     known = modules()
     place: tuple[str, ...] = ()
     for i, segment in enumerate(path):
@@ -150,21 +155,27 @@ def home(path: tuple[str, ...], depth: int = 0) -> Module:
         module = known[place]
         rest = path[i + 1 :]
         if segment in module.names and depth < 20 and module.names[segment] != path:
-            return home((*module.names[segment], *rest), depth + 1)
+            return [module, *through((*module.names[segment], *rest), depth + 1)]
         for glob in module.globs:
             if home(glob).name != place and re.search(rf"\b{segment}\b", home(glob).text):
-                return home((*glob, segment, *rest), depth + 1)
-        return module
-    return known[place]
+                return [module, *through((*glob, segment, *rest), depth + 1)]
+        return [module]
+    return [known[place]]
 
 
 @cache
 def used_by() -> dict[str, set[str]]:
-    """For each module, by the file's name, the files that it uses."""
-    return {
-        str(module): {str(home(path)) for path in module.uses} - {str(module)}
-        for module in modules().values()
-    }
+    """For each module, by the file's name, the files that it uses.
+
+    A `mod.rs` that hands a name on is used with the file that defines it, unless it is an index.
+    """
+    used = {}
+    for module in modules().values():
+        files = [file for path in module.uses for file in through(path)]
+        defining = {str(home(path)) for path in module.uses}
+        handing_on = {str(file) for file in files if file.name and not file.is_index}
+        used[str(module)] = (defining | handing_on) - {str(module)}
+    return used
 
 
 def cycles() -> list[list[str]]:

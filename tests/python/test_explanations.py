@@ -243,13 +243,13 @@ def test_joint_7_inside_its_limits_that_reaches_nothing_is_no_filter():
 @pytest.mark.parametrize("joint", range(1, 8))
 def test_with_a_joint_given_the_nearest_approach_is_that_of_the_other_six(joint):
     robot, T = out_of_reach_of_a_yumi()
-    given = robot.given({joint: 0.1})
-    words = given.six_joints.check_pose(T).reason
+    locked = robot.locked({joint: 0.1})
+    words = locked.six_joints.check_pose(T).reason
     assert "nearest approach" in words
     solutions = robot.ik(T, given={joint: 0.1})
     assert solutions.explain() == words
-    assert given.check_pose(T).reason == words
-    assert given.ik(T).explain() == words
+    assert locked.check_pose(T).reason == words
+    assert locked.ik(T).explain() == words
     assert pickle.loads(pickle.dumps(solutions)) == solutions
     assert pickle.loads(pickle.dumps(solutions)).explain() == words
 
@@ -274,5 +274,5 @@ def test_a_seven_axis_arm_is_told_that_any_joint_may_be_given():
     for call in (robot.ik, robot.ik_batch):
         with pytest.raises(TypeError, match=r"needs q7, .*given=\{3: 0\.2\}"):
             call(T)
-    with pytest.raises(irbkin.InvalidModelError, match=r"given\(\{3: 0\.2\}\)\.follow"):
+    with pytest.raises(irbkin.InvalidModelError, match=r"locked\(\{3: 0\.2\}\)\.follow"):
         robot.follow(T[None], np.zeros(7))

@@ -112,30 +112,43 @@ def test_q7_is_joint_7_given():
         assert apart(other.q, solution.q).min() < 1e-7
 
 
-def test_what_is_prepared_answers_as_the_robot_does(robot):
+def test_a_locked_robot_answers_as_the_robot_does(robot):
     q = inside(robot, 5)
-    T = robot.fk(q)
-    given = robot.given({3: q[0, 2]})
-    assert (given.joint, given.angle, given.robot) == (3, q[0, 2], robot)
-    assert given.six_joints.dof == 6
-    np.testing.assert_array_equal(given.ik(T[0]).q, robot.ik(T[0], given=given).q)
-    np.testing.assert_array_equal(given.ik_batch(T[0]).q, robot.ik_batch(T[0], given=given).q)
-    nearest = given.ik_nearest(T[0], q[0])
+    T, given = robot.fk(q), {3: q[0, 2]}
+    locked = robot.locked(given)
+    assert (locked.locked_joint, locked.dof, locked.unlocked()) == ((3, q[0, 2]), 7, robot)
+    assert robot.locked_joint is None
+    np.testing.assert_array_equal(locked.ik(T[0]).q, robot.ik(T[0], given=given).q)
+    np.testing.assert_array_equal(locked.ik_batch(T[0]).q, robot.ik_batch(T[0], given=given).q)
+    nearest = locked.ik_nearest(T[0], q[0])
     assert np.abs(nearest - q[0]).max() < 1e-6
-    assert given.check_pose(T[0]).within_limits
-    six = given.six_joints.ik(T[0])
-    np.testing.assert_array_equal(given.joints(six.q), given.ik(T[0]).q)
-    again = pickle.loads(pickle.dumps(given))
-    assert again == given
-    assert hash(again) == hash(given)
+    np.testing.assert_array_equal(locked.ik_nearest(T[:1], q[0])[0], nearest)
+    assert locked.check_pose(T[0]).within_limits
+    six = locked.six_joints.ik(T[0])
+    np.testing.assert_array_equal(np.insert(six.q, 2, q[0, 2], axis=1), locked.ik(T[0]).q)
+    again = pickle.loads(pickle.dumps(locked))
+    assert again == locked != robot
+    assert hash(again) == hash(locked)
+    tool = irbkin.pose([0.0, 0.0, 0.1])
+    assert locked.with_tool(tool) == robot.with_tool(tool).locked(given)
+    assert locked.with_tool(tool).unlocked() == robot.with_tool(tool)
+    assert repr(locked) == f"{robot!r}.locked({{3: {float(q[0, 2])!r}}})"
+
+
+def test_a_robot_with_another_joint_locked_releases_it_for_q7(robot):
+    q = inside(robot, 1)[0]
+    T = robot.fk(q)
+    locked = robot.locked({3: q[2]})
+    np.testing.assert_array_equal(locked.ik(T, q[6]).q, robot.ik(T, q[6]).q)
+    assert locked.locked({2: q[1]}) == robot.locked({2: q[1]})
 
 
 def test_a_path_is_followed_with_a_joint_given(robot):
     start = inside(robot, 1, seed=5)[0] * 0.5
-    given = robot.given({3: start[2]})
+    locked = robot.locked({3: start[2]})
     way = np.linspace(0, 0.05, 12)[:, None] * [1, -1, 0, 1, 1, -1, 1]
     T = robot.fk(start + way)
-    followed = given.follow(T, start)
+    followed = locked.follow(T, start)
     assert followed.q.shape == (12, 7)
     assert not followed.breaks
     assert np.abs(followed.q - (start + way)).max() < 1e-6
@@ -158,13 +171,13 @@ def test_the_nearest_along_the_redundancy_is_not_beaten_by_any_given_angle(robot
 def test_a_given_angle_outside_its_limits_leaves_no_solution_inside():
     panda = irbkin.Robot("Panda")
     q = np.array([0.1, -0.7, 3.0, -2.2, 0.1, 1.7, 0.6])
-    T, given = panda.fk(q), panda.given({3: 3.0})
-    solutions = given.ik(T)
+    T, locked = panda.fk(q), panda.locked({3: 3.0})
+    solutions = locked.ik(T)
     assert len(solutions)
     assert not len(solutions.within_limits())
-    assert "outside limits" in given.check_pose(T).reason
+    assert "outside limits" in locked.check_pose(T).reason
     with pytest.raises(irbkin.UnreachableError, match="outside limits"):
-        given.ik_nearest(T, q)
+        locked.ik_nearest(T, q)
 
 
 @pytest.mark.parametrize(
@@ -187,13 +200,14 @@ def test_what_is_no_joint_is_refused_with_its_words(given, error, words):
         panda.ik(np.eye(4), given=given)
 
 
-def test_six_joints_take_nothing_and_another_robots_preparation_is_refused():
+def test_six_joints_take_nothing():
     with pytest.raises(TypeError, match="given is for arms of seven joints"):
         irbkin.Robot("UR3").ik(np.eye(4), given={3: 0.2})
     with pytest.raises(TypeError, match="pass one of them"):
         irbkin.Robot("Panda").ik(np.eye(4), 0.3, given={3: 0.2})
-    with pytest.raises(ValueError, match="prepared for another robot"):
-        irbkin.Robot("Panda").ik(np.eye(4), given=irbkin.Robot("FR3").given({3: 0.2}))
+    with pytest.raises(TypeError, match="given is for arms of seven joints"):
+        irbkin.Robot("UR3").locked({3: 0.2})
+    assert irbkin.Robot("UR3").six_joints is None
 
 
 @pytest.mark.parametrize("joint", [1, 7])
@@ -203,7 +217,7 @@ def test_a_joint_at_an_end_fills_the_same_slots_alone_in_rows_and_prepared(robot
         alone = robot.ik(T, given=given).q_by_slot
         for rows in (robot.ik_batch(T, given=given).q, robot.ik_batch([T], given=given).q[0]):
             np.testing.assert_array_equal(rows, alone)
-        prepared = robot.given(given)
+        prepared = robot.locked(given)
         np.testing.assert_array_equal(prepared.ik_batch(T).q, prepared.ik(T).q_by_slot)
         if joint == 1:
             np.testing.assert_array_equal(prepared.ik(T).q_by_slot, alone)
@@ -215,32 +229,32 @@ def test_another_angle_is_prepared_from_one_or_from_nothing_alike(robot, joint):
         pytest.skip("the other six joints are not independent")
     for q in inside(robot, 5, seed=6):
         T, angle = robot.fk(q), q[joint - 1]
-        fresh = robot.given({joint: angle})
-        moved = robot.given({joint: 1.2}).at(angle)
+        fresh = robot.locked({joint: angle})
+        moved = robot.locked({joint: 1.2}).locked({joint: angle})
         assert moved == fresh
-        assert moved.angle == angle
+        assert moved.locked_joint == (joint, angle)
         np.testing.assert_array_equal(moved.ik(T).q_by_slot, fresh.ik(T).q_by_slot)
         # Another robot, which has prepared nothing.
-        again = pickle.loads(pickle.dumps(robot)).given({joint: angle})
+        again = pickle.loads(pickle.dumps(robot)).locked({joint: angle})
         np.testing.assert_array_equal(again.ik(T).q_by_slot, fresh.ik(T).q_by_slot)
         assert apart(fresh.ik(T).q, q).min() < 1e-6
 
 
 def test_angles_at_which_the_six_joints_have_another_structure_or_none():
     yumi, panda = irbkin.Robot("IRB 14050"), irbkin.Robot("Panda")
-    assert yumi.given({3: 0.7}).six_joints.structure == "general"
+    assert yumi.locked({3: 0.7}).six_joints.structure == "general"
     for robot, joint in itertools.product((yumi, panda), range(2, 7)):
-        moved = robot.given({joint: 0.7})
+        moved = robot.locked({joint: 0.7})
         for angle in np.radians([-180, -90, 0, 90, 180]):
             try:
-                fresh = robot.given({joint: angle})
+                fresh = robot.locked({joint: angle})
             except irbkin.InvalidModelError as refused:
                 with pytest.raises(irbkin.InvalidModelError, match=re.escape(str(refused))):
-                    moved.at(angle)
+                    moved.locked({joint: angle})
                 continue
-            assert moved.at(angle) == fresh
+            assert moved.locked({joint: angle}) == fresh
     with pytest.raises(irbkin.InvalidJointsError, match="joint 3 is NaN"):
-        yumi.given({3: 0.7}).at(np.nan)
+        yumi.locked({3: 0.7}).locked({3: np.nan})
 
 
 def test_slots_do_not_depend_on_how_the_first_joint_is_given():
@@ -264,9 +278,9 @@ def test_slots_do_not_depend_on_how_the_first_joint_is_given():
 
 def test_an_angle_that_leaves_axes_nearly_parallel_is_refused_by_name():
     with pytest.raises(irbkin.InvalidModelError) as refusal:
-        irbkin.Robot("IRB 14050").given({4: np.pi / 2 + 1e-8})
+        irbkin.Robot("IRB 14050").locked({4: np.pi / 2 + 1e-8})
     assert str(refusal.value) == (
         "joint 4 at 1.5707963367948965 rad leaves axes 3 and 5 1.0e-8 rad off parallel, they must "
         "be parallel or at least 8.1e-8 rad off"
     )
-    irbkin.Robot("IRB 14050").given({4: np.pi / 2 + 9e-8})
+    irbkin.Robot("IRB 14050").locked({4: np.pi / 2 + 9e-8})

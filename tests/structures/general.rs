@@ -44,7 +44,7 @@ fn calibrated(name: &str, rng: &mut Rng) -> Subject<6> {
 /// The six other joints of a YuMi.
 fn yumi_given(joint: usize, angle: f64) -> Subject<6> {
     let yumi = Robot::<7>::named("IRB 14050").unwrap();
-    let six = yumi.given(joint, angle).unwrap().six_joints().unwrap();
+    let six = yumi.locked(joint, angle).unwrap().six_joints().unwrap().unwrap();
     subject(&format!("YuMi, joint {joint} given"), six.mdh().clone()).with_robot(|_| six)
 }
 

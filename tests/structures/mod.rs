@@ -15,7 +15,6 @@ pub mod spherical_shoulder;
 pub mod spherical_wrist;
 pub mod three_parallel;
 
-use irbkin::{Arity, Joints};
 use std::fmt::Debug;
 use std::num::NonZeroUsize;
 use std::rc::Rc;
@@ -63,10 +62,7 @@ macro_rules! on_a_structure {
 }
 
 /// What the tests know of a structure.
-pub struct Structure<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+pub struct Structure<const N: usize> {
     /// The value of `Robot::structure`.
     pub name: &'static str,
     /// Arms of makers and unusual ones.
@@ -78,10 +74,7 @@ where
 }
 
 /// The mathematics of an arm that the tests know independently, from its lengths alone.
-pub trait Arm<const N: usize>: Debug
-where
-    Joints<N>: Arity<N>,
-{
+pub trait Arm<const N: usize>: Debug {
     /// The robot, without limits.
     fn robot(&self) -> Robot<N>;
 
@@ -156,10 +149,7 @@ where
 }
 
 /// What differs by the number of joints: how to call the solver, with joint 7 as in a joint vector.
-pub struct Calls<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+pub struct Calls<const N: usize> {
     pub ik: fn(&Robot<N>, &Pose, &[f64; N]) -> Result<Solutions<N>, Error>,
     /// Rows of poses, of the joint vectors that made them, of answers and of their status; threads.
     pub ik_rows: RowCall<N>,
@@ -185,29 +175,20 @@ pub const SEVEN: Calls<7> = Calls {
 
 /// An arm with a robot, which may have limits, base and tool.
 #[derive(Clone)]
-pub struct Subject<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+pub struct Subject<const N: usize> {
     pub name: String,
     pub arm: Rc<dyn Arm<N>>,
     pub robot: Robot<N>,
     pub calls: &'static Calls<N>,
 }
 
-impl<const N: usize> Debug for Subject<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Debug for Subject<N> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(formatter, "{}: {:?}", self.name, self.arm)
     }
 }
 
-impl<const N: usize> Subject<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Subject<N> {
     pub fn new(name: &str, arm: impl Arm<N> + 'static, calls: &'static Calls<N>) -> Self {
         Self { name: name.to_owned(), robot: arm.robot(), arm: Rc::new(arm), calls }
     }

@@ -5,7 +5,7 @@ use std::string::String;
 use std::vec::Vec;
 use std::{format, vec};
 
-use irbkin::{Arity, Joints, Pose, Robot};
+use irbkin::{Pose, Robot};
 
 use crate::rng::Rng;
 
@@ -61,10 +61,7 @@ impl Place {
 
 /// A pose with the joint vector that made it.
 #[derive(Clone, Debug)]
-pub struct Made<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+pub struct Made<const N: usize> {
     pub place: Place,
     pub theta: [f64; N],
     pub q: [f64; N],
@@ -73,10 +70,7 @@ where
     pub beyond: f64,
 }
 
-impl<const N: usize> Made<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Made<N> {
     pub fn new(robot: &Robot<N>, place: &Place, theta: [f64; N], q: [f64; N]) -> Self {
         Self { place: place.clone(), theta, q, pose: robot.fk(&q), beyond: 0.0 }
     }
@@ -86,10 +80,7 @@ where
 pub type Draw<const N: usize> = Box<dyn Fn(&mut Rng) -> Option<[f64; N]>>;
 
 /// A singular posture with a name of its own.
-pub struct Posture<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+pub struct Posture<const N: usize> {
     pub name: &'static str,
     /// The singularities that it is at.
     pub place: Place,

@@ -147,21 +147,21 @@ def _write_all(
     first = () if is_one else (Column("pose", "", "6d"),)
     columns = (*first, Column("slot", "", "d"), *postures.columns)
     if arguments.given is None:
-        q7, given = read_q7(arguments, robot), None
+        q7 = read_q7(arguments, robot)
     else:
         joint, degrees = arguments.given
-        q7, given = None, robot.given({joint: np.radians(degrees)})
+        q7, robot = None, robot.locked({joint: np.radians(degrees)})
 
     def reason(pose: Floats) -> str:
         if robot.dof == 6:
             return robot.check_pose(pose).reason
-        return robot.ik(pose, q7, given=given).explain()
+        return robot.ik(pose, q7).explain()
 
     missed, uncertain = Missed(reason), 0
     wanted = int(Status.WITHIN_LIMITS if arguments.within else Status.FOUND)
     with table(arguments, columns, heading) as rows, Progress("poses") as progress:
         for poses in parts:
-            found = robot.ik_batch(poses, q7, given=given)
+            found = robot.ik_batch(poses, q7)
             is_within = (found.status & int(Status.WITHIN_LIMITS)).astype(bool)
             index, slot = (found.status & wanted).nonzero()
             q = found.q[index, slot]
@@ -173,7 +173,7 @@ def _write_all(
             uncertain += int(is_uncertain.any(axis=1).sum())
             progress.add(len(poses))
             if is_one:
-                for solution in robot.ik(poses[0], q7, given=given):
+                for solution in robot.ik(poses[0], q7):
                     if free := solution.free_joint:
                         verb = "are" if "," in free.fixed else "is"
                         words = (

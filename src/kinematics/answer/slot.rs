@@ -6,7 +6,7 @@ use core::ops::Deref;
 use super::status::Status;
 
 /// Largest number of slots of any structure: a general chain of six joints has up to 16 solutions.
-pub const MOST_SLOTS: usize = 16;
+pub(crate) const MOST_SLOTS: usize = 16;
 
 /// Index of a solution's slot, from 0: always the same for a branch of the arm.
 ///

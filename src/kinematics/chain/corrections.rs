@@ -13,10 +13,10 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::constant_sin_cos;
 
 /// Parameters of a row: alpha, a, d, theta, and Hayati's rotation about y.
-pub const ROW_PARAMETERS: usize = 5;
+pub(crate) const ROW_PARAMETERS: usize = 5;
 
 /// Parameters of a frame: x, y, z [m], then angles about x, y, z [rad].
-pub const FRAME_PARAMETERS: usize = 6;
+pub(crate) const FRAME_PARAMETERS: usize = 6;
 
 /// Corrections of the parameters of an arm, each added to its value (eq. 1):
 ///

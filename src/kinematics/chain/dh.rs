@@ -77,7 +77,7 @@ impl<const N: usize> Mdh<N> {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when `snap` is not 0 to [`MOST_SNAP`].
+    /// [`Error::InvalidModel`] when `snap` is not 0 to 1e-3 rad.
     pub fn snapped(mut self, snap: f64) -> Result<Self, Error> {
         check_snap(snap)?;
         self.rows = self.rows.map(|row| row.snapped(snap));
@@ -99,7 +99,7 @@ impl<const N: usize> Sdh<N> {
 }
 
 /// Check `snap`, how far an angle may be from a multiple of 90 deg to become one: 0 to
-/// [`MOST_SNAP`].
+/// 1e-3 rad.
 pub(crate) fn check_snap(value: f64) -> Result<(), Error> {
     if (0.0..=MOST_SNAP).contains(&value) {
         Ok(())

@@ -11,7 +11,7 @@ use crate::lanes::{Column, Kernel, LANES, MOST_SIN_COS, run, sin_cos};
 impl<const N: usize> Chain<N> {
     /// Pose of the tool for the joint angles `q` [rad].
     #[must_use]
-    pub fn fk(&self, q: &[f64; N]) -> Pose {
+    pub(crate) fn fk(&self, q: &[f64; N]) -> Pose {
         match self.tilts() {
             None => run(OnePose::<N, false> { chain: self, q }),
             Some(_) => run(OnePose::<N, true> { chain: self, q }),
@@ -21,7 +21,7 @@ impl<const N: usize> Chain<N> {
     /// Frame `i` of the modified table after joint `i + 1`, for each joint, and the pose of the
     /// tool.
     #[must_use]
-    pub fn link_frames(&self, q: &[f64; N]) -> ([Pose; N], Pose) {
+    pub(crate) fn link_frames(&self, q: &[f64; N]) -> ([Pose; N], Pose) {
         run(OneFrames { chain: self, q })
     }
 }

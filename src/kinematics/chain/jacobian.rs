@@ -27,7 +27,7 @@ impl<const N: usize> Chain<N> {
     /// frame's before it. Reference: Siciliano et al., Robotics, 2009, eq. 3.30, with the
     /// modified-DH index shift of docs/conventions.md.
     #[must_use]
-    pub fn jacobian(&self, q: &[f64; N], frame: JacobianFrame) -> SMatrix<f64, 6, N> {
+    pub(crate) fn jacobian(&self, q: &[f64; N], frame: JacobianFrame) -> SMatrix<f64, 6, N> {
         let rows = self.jacobian_rows(q, frame);
         SMatrix::from_fn(|i, joint| rows[i][joint])
     }

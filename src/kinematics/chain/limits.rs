@@ -65,8 +65,7 @@ impl<const N: usize> JointLimits<N> {
         Err(ModelFault::LimitsInDegrees { joint: joint + 1, lower, upper, bound }.into())
     }
 
-    /// The same limits with those of the linkage of coupled axes 2 and 3: (lower, upper) of q3 - q2
-    /// [rad], at whatever turn.
+    /// The same limits with linkage limits: (lower, upper) of q3 - q2 [rad], at whatever turn.
     pub(crate) fn with_linkage(self, linkage: Option<[f64; 2]>) -> Result<Self, Error> {
         if let Some([lower, upper]) = linkage {
             check(["lower limit of the linkage", "upper limit of the linkage"], 0, [lower, upper])?;
@@ -92,6 +91,12 @@ impl<const N: usize> JointLimits<N> {
     #[must_use]
     pub fn to_array(&self) -> [[f64; 2]; N] {
         core::array::from_fn(|i| [self.lower[i], self.upper[i]])
+    }
+
+    /// The limits of the six others of seven joints, without joint `out`, from 0.
+    pub(crate) fn without(&self, out: usize) -> JointLimits<6> {
+        let six = |all: &[f64; N]| core::array::from_fn(|i| all[i + usize::from(i >= out)]);
+        JointLimits { lower: six(&self.lower), upper: six(&self.upper), linkage: None }
     }
 
     /// The least and the greatest angles that count as inside [rad].

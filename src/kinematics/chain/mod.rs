@@ -22,7 +22,7 @@ use crate::kinematics::pose::Pose;
 
 /// `N` revolute joints between a base and a tool, described by a modified Denavit-Hartenberg table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Chain<const N: usize> {
+pub(crate) struct Chain<const N: usize> {
     mdh: Mdh<N>,
     t_world_base: Pose,
     t_flange_tool: Pose,
@@ -38,7 +38,7 @@ pub struct Chain<const N: usize> {
 impl<const N: usize> Chain<N> {
     /// A chain with its base at the origin and its tool at the flange.
     #[must_use]
-    pub fn new(mdh: Mdh<N>) -> Self {
+    pub(crate) fn new(mdh: Mdh<N>) -> Self {
         let rows = tilted_rows(&mdh.rows);
         let is_tilted = rows.iter().any(|row| row.beta != 0.0);
         let links = rows.map(|TiltedRow { row, .. }| Link::new(row));
@@ -60,7 +60,7 @@ impl<const N: usize> Chain<N> {
     /// The same chain with its base at `t_world_base`; poses and Jacobians are then in the world
     /// frame.
     #[must_use]
-    pub fn with_base(mut self, t_world_base: Pose) -> Self {
+    pub(crate) fn with_base(mut self, t_world_base: Pose) -> Self {
         self.t_world_base = t_world_base;
         self.join();
         self
@@ -68,7 +68,7 @@ impl<const N: usize> Chain<N> {
 
     /// The same chain with its tool center point at `t_flange_tool`.
     #[must_use]
-    pub fn with_tool(mut self, t_flange_tool: Pose) -> Self {
+    pub(crate) fn with_tool(mut self, t_flange_tool: Pose) -> Self {
         self.t_flange_tool = t_flange_tool;
         self.join();
         self
@@ -77,7 +77,7 @@ impl<const N: usize> Chain<N> {
     /// The same chain with the joint angles of a controller that couples axes 2 and 3, or with the
     /// angles of the serial chain.
     #[must_use]
-    pub fn with_coupling(mut self, coupled: bool) -> Self {
+    pub(crate) fn with_coupling(mut self, coupled: bool) -> Self {
         self.coupled = coupled;
         self
     }
@@ -89,25 +89,25 @@ impl<const N: usize> Chain<N> {
 
     /// The modified Denavit-Hartenberg table with its fixed end transforms.
     #[must_use]
-    pub fn mdh(&self) -> &Mdh<N> {
+    pub(crate) fn mdh(&self) -> &Mdh<N> {
         &self.mdh
     }
 
     /// The base in the world.
     #[must_use]
-    pub fn base(&self) -> &Pose {
+    pub(crate) fn base(&self) -> &Pose {
         &self.t_world_base
     }
 
     /// The tool in the flange frame.
     #[must_use]
-    pub fn tool(&self) -> &Pose {
+    pub(crate) fn tool(&self) -> &Pose {
         &self.t_flange_tool
     }
 
     /// Whether axes 2 and 3 are coupled: then joint 3 is that of the table plus joint 2.
     #[must_use]
-    pub fn is_coupled(&self) -> bool {
+    pub(crate) fn is_coupled(&self) -> bool {
         self.coupled
     }
 

@@ -16,8 +16,6 @@ use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::path::step::{largest, largest_step, steps};
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
-use crate::kinematics::solve::seeded::Inverse as _;
-use crate::kinematics::structure::Structure as _;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::{
     JUMP_BLIND, JUMP_GROWTH, JUMP_LEAST, PATH_WRIST_SIN, SEEDED_FREE, STEADY_STEP,
@@ -174,11 +172,9 @@ impl<'a> Follower<'a> {
     /// Near wrist singularities the residual was put on joint 6 alone; split it with joint 4 as far
     /// as the pose permits.
     fn balance(&self, next: &mut Solution<6>, heading: &[f64; 6], pose: &Pose) {
-        let Some(arm) = self
-            .robot
-            .spherical_wrist()
-            .filter(|arm| arm.sin_5(&next.q).is_some_and(|sin_5| sin_5.abs() <= PATH_WRIST_SIN))
-        else {
+        let Some(arm) = self.robot.spherical_wrist().filter(|_| {
+            self.robot.sin_5(&next.q).is_some_and(|sin_5| sin_5.abs() <= PATH_WRIST_SIN)
+        }) else {
             return;
         };
         let sign = match next.free_joint.unwrap_or_else(|| arm.wrist_pair(&next.q)) {

@@ -10,7 +10,6 @@ use crate::kinematics::path::follow::{Break, BreakReason, Followed, Follower};
 use crate::kinematics::path::step::largest_step;
 use crate::kinematics::pose::{Pose, PoseDifference, checked_pose};
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::any::AnyStructure;
 use crate::kinematics::structure::solver::Solver;
 use crate::kinematics::structure::spherical_wrist::SphericalWrist;
 use crate::kinematics::thresholds::{JUMP_BLIND, LOCKED_CONVERGED, WRIST_ZONE};
@@ -138,7 +137,7 @@ struct Walk<'a> {
 
 impl Walk<'_> {
     fn in_zone(&self, q: &[f64; 6]) -> bool {
-        self.robot.solver().arm().sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
+        self.robot.sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
     }
 
     /// Whether to take another step.

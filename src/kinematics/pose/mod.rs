@@ -60,7 +60,7 @@ impl PoseDifference {
 ///
 /// [`Error::InvalidPose`] when an element is not finite, a coordinate of the position exceeds
 /// [`MOST_LENGTH`], the last row is not 0 0 0 1, the rotation mirrors, or its deviation from
-/// orthonormal exceeds [`ROTATION_REPAIR_BOUND`]. A rotation with a smaller deviation becomes the
+/// orthonormal exceeds 1e-5. A rotation with a smaller deviation becomes the
 /// nearest rotation.
 pub fn pose_from_rows(rows: &[f64; 16]) -> Result<Pose, Error> {
     if let Some(index) = rows.iter().position(|element| !element.is_finite()) {
@@ -142,7 +142,7 @@ pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
 /// # Errors
 ///
 /// [`Error::InvalidPose`] when an element is not finite, a coordinate exceeds [`MOST_LENGTH`] or
-/// the quaternion's norm differs from one by more than [`QUATERNION_NORM_BOUND`].
+/// the quaternion's norm differs from one by more than 2e-3.
 pub fn pose_from_wxyz(xyz: [f64; 3], wxyz: [f64; 4]) -> Result<Pose, Error> {
     check_position(xyz)?;
     check_finite("wxyz", &wxyz)?;
@@ -207,7 +207,7 @@ fn pose_of_quaternion(xyz: [f64; 3], wxyz: [f64; 4], order: &'static str) -> Res
 /// # Errors
 ///
 /// [`Error::InvalidPose`] when an element is not finite, a coordinate exceeds [`MOST_LENGTH`], or
-/// an angle exceeds a full turn, [`MOST_EULER`], as degrees do.
+/// an angle exceeds a full turn, as degrees do.
 pub fn pose_from_euler_zyx(xyz: [f64; 3], zyx: [f64; 3]) -> Result<Pose, Error> {
     check_finite("xyz", &xyz)?;
     check_near("xyz", xyz)?;

@@ -10,8 +10,7 @@ use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
 use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose, checked_tool};
-use crate::kinematics::structure::any::{AnyStructure, SixJoints};
-use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
+use crate::kinematics::structure::known::{self, Recognized};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_SNAP};
 use crate::report::{ConfigurationRule, Convention};
@@ -31,17 +30,17 @@ impl Robot<6> {
         Self::of_opw(opw)
     }
 
-    /// [`Robot::from_mdh`] of a table that differs by a link from that of another robot.
+    /// Build a robot from a table that differs by a link from the table of another robot.
     pub(crate) fn from_mdh_like(mdh: Mdh<6>, other: &Self) -> Result<Self, Error> {
-        let recognize = |mdh: &Mdh<6>| SixJoints::recognize_like(mdh, &other.structure);
+        let recognize = |mdh: &Mdh<6>| match other.inverse() {
+            Some(inverse) => known::recognize_like(mdh, inverse),
+            None => known::recognize(mdh),
+        };
         Self::recognized(mdh, recognize)?.with_inverse()
     }
 }
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// A robot from a modified (Craig) Denavit-Hartenberg table, with the solver of its kinematic
     /// structure.
     ///
@@ -60,7 +59,7 @@ where
         Self::of_table(mdh)?.hinting(&rows, Convention::Modified).with_inverse()
     }
 
-    /// Refuses an arm of six joints whose structure is unknown.
+    /// Refuse an arm of six joints whose structure is unknown.
     pub(crate) fn with_inverse(self) -> Result<Self, Error> {
         match self.unknown_structure() {
             Some(reason) if N == 6 => Err(ModelFault::UnknownStructure(reason).into()),
@@ -78,37 +77,33 @@ where
         Self::of_table(sdh.into())?.hinting(&rows, Convention::Standard).with_inverse()
     }
 
-    /// A robot from any modified Denavit-Hartenberg table: with the closed form if its structure has
-    /// one, otherwise without the inverse, which takes milliseconds to prepare. Its joints need not
-    /// be independent.
+    /// A robot from any modified Denavit-Hartenberg table: with the closed form if its structure
+    /// has one, otherwise without the inverse, which takes milliseconds to prepare. Its joints need
+    /// not be independent.
     ///
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when a number is not finite.
     pub fn serial_chain(mdh: Mdh<N>) -> Result<Self, Error> {
-        Self::recognized(mdh, |mdh| match StructureOf::<N>::closed_form(mdh) {
-            Ok(_) => StructureOf::<N>::recognize(mdh),
-            Err(reason) => (Chain::new(mdh.clone()), StructureOf::<N>::unknown(reason)),
-        })
+        Self::recognized(mdh, known::recognize_closed_form)
     }
 
     /// A robot from any table, with its inverse if its joints are independent.
     pub(crate) fn of_table(mdh: Mdh<N>) -> Result<Self, Error> {
-        Self::recognized(mdh, StructureOf::<N>::recognize)
+        Self::recognized(mdh, known::recognize)
     }
 
     fn recognized(
         mut mdh: Mdh<N>,
-        recognize: impl FnOnce(&Mdh<N>) -> (Chain<N>, StructureOf<N>),
+        recognize: impl FnOnce(&Mdh<N>) -> Recognized<N>,
     ) -> Result<Self, Error> {
         check_rows(&mdh.rows)?;
         (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
-        let (chain, structure) = recognize(&mdh);
-        let mut robot = Self::new(Definition::Mdh(mdh), chain, structure);
+        let recognized = recognize(&mdh);
+        let mut robot = Self::new(Definition::Mdh(mdh), recognized);
         robot.check_reach()?;
-        if robot.missing_form().is_some() {
-            let snap = robot.helpful_snap();
-            robot.structure = robot.structure.hinting(|reason| reason.proposing(snap));
+        if let Some(missing) = robot.missing_form {
+            robot.missing_form = Some(missing.proposing(robot.helpful_snap()));
         }
         Ok(robot)
     }
@@ -125,7 +120,7 @@ where
         }
     }
 
-    /// Checks that the flange is no farther from an axis than [`MOST_REACH`]. Lengths by themselves
+    /// Check that the flange is no farther from an axis than [`MOST_REACH`]. Lengths by themselves
     /// say nothing: next to parallel axes they are large and cancel.
     fn check_reach(&self) -> Result<(), Error> {
         for q in [[0.0; N], [1.0; N]] {
@@ -142,13 +137,12 @@ where
         Ok(())
     }
 
-    /// The same robot; where it has no closed form, with another reading of the rows of its table,
-    /// in which it has one.
+    /// Note another reading of the rows of the table, in which the arm has a closed form, where it
+    /// has none as it is.
     #[must_use]
     pub(crate) fn hinting(mut self, rows: &[DhRow; N], convention: Convention) -> Self {
-        if self.missing_form().is_some_and(|reason| reason.snap().is_none()) {
-            let reading = other_reading(rows, convention);
-            self.structure = self.structure.hinting(|reason| reason.reading_as(reading));
+        if let Some(missing) = self.missing_form.filter(|missing| missing.snap().is_none()) {
+            self.missing_form = Some(missing.reading_as(other_reading(rows, convention)));
         }
         self
     }
@@ -158,20 +152,20 @@ where
         let Definition::Mdh(mdh) = &self.definition else { return None };
         SNAPS.into_iter().find(|snap| {
             let snapped = mdh.clone().snapped(*snap);
-            snapped.is_ok_and(|mdh| StructureOf::<N>::closed_form(&mdh).is_ok())
+            snapped.is_ok_and(|mdh| known::closed_form(&mdh).is_ok())
         })
     }
 
     /// Whether a table has the structure of a closed form.
     #[cfg(feature = "urdf")]
     pub(crate) fn has_closed_form(mdh: &Mdh<N>) -> bool {
-        StructureOf::<N>::closed_form(mdh).is_ok()
+        known::closed_form(mdh).is_ok()
     }
 
-    /// The same robot with another `snap` proposed, if it has no closed form.
+    /// Propose another `snap`, if the arm has no closed form.
     #[cfg(feature = "urdf")]
     pub(crate) fn proposing(mut self, snap: Option<f64>) -> Self {
-        self.structure = self.structure.hinting(|reason| reason.proposing(snap));
+        self.missing_form = self.missing_form.map(|missing| missing.proposing(snap));
         self
     }
 
@@ -182,40 +176,50 @@ where
         let rows = <[DhRow; N]>::try_from(&rows[..])
             .map_err(|_| ModelFault::JointCount { found: 6, wanted: N })?;
         let chain = Chain::new(Mdh { base, rows, flange });
-        let structure = Joints::<N>::of_opw(&opw, &chain)
-            .ok_or(ModelFault::JointCount { found: 6, wanted: N })?;
-        let robot = Self::new(Definition::Opw(opw), chain, structure);
+        let inverse =
+            known::of_opw(&opw, &chain).ok_or(ModelFault::JointCount { found: 6, wanted: N })?;
+        let recognized = Recognized { chain, inverse: Some(inverse), missing_form: None };
+        let robot = Self::new(Definition::Opw(opw), recognized);
         robot.check_reach()?;
         Ok(robot)
     }
 
-    fn new(definition: Definition<N>, chain: Chain<N>, structure: StructureOf<N>) -> Self {
-        let limits = JointLimits::UNLIMITED;
-        let name = Cow::Borrowed("");
-        Self { name, definition, chain, structure, limits, max_velocity: None, rule: None }
+    fn new(definition: Definition<N>, recognized: Recognized<N>) -> Self {
+        let Recognized { chain, inverse, missing_form } = recognized;
+        Self {
+            name: Cow::Borrowed(""),
+            definition,
+            chain,
+            inverse,
+            missing_form,
+            limits: JointLimits::UNLIMITED,
+            max_velocity: None,
+            rule: None,
+            lock: None,
+        }
     }
 
-    /// The same robot, whose controller counts configurations in a way of its own.
+    /// Set how the controller counts configurations, if in a way of its own.
     pub(crate) fn with_rule(mut self, rule: Option<ConfigurationRule>) -> Self {
         self.rule = rule;
         self
     }
 
-    /// The same robot under another name.
+    /// Return the robot under another name.
     #[must_use]
     pub fn with_name(mut self, name: impl Into<Cow<'static, str>>) -> Self {
         self.name = name.into();
         self
     }
 
-    /// The same robot with other joint limits; the linkage limits are kept.
+    /// Return the robot with other joint limits; the linkage limits are kept.
     #[must_use]
     pub fn with_limits(mut self, limits: JointLimits<N>) -> Self {
         self.limits = limits.with_linkage_of(&self.limits);
         self.joined()
     }
 
-    /// The same robot with velocity limits [rad/s].
+    /// Return the robot with velocity limits [rad/s].
     ///
     /// # Errors
     ///
@@ -230,7 +234,7 @@ where
         Ok(self)
     }
 
-    /// The same robot with its base at `t_world_base`, which replaces its current base. Poses and
+    /// Return the robot with its base at `t_world_base`, which replaces its current base. Poses and
     /// Jacobians are then in the world frame.
     ///
     /// # Errors
@@ -241,7 +245,7 @@ where
         Ok(self.joined())
     }
 
-    /// The same robot with its tool center point at `t_flange_tool`, which replaces its current
+    /// Return the robot with its tool center point at `t_flange_tool`, which replaces its current
     /// tool.
     ///
     /// # Errors

@@ -4,23 +4,19 @@ use super::Robot;
 use crate::error::{CalibratedFault, Error};
 use crate::kinematics::chain::corrections::{Corrections, correction};
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::arity::{Arity, Joints};
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
-    /// The same robot with corrected base, table and tool; limits, velocities and name are kept.
+impl<const N: usize> Robot<N> {
+    /// Return the robot with corrected base, table and tool; limits, velocities and name are kept.
     ///
     /// Corrections of base and tool alone leave the structure as it is. Corrections of the table
-    /// make an arm of general structure; those of two nearly parallel axes may put their common
-    /// normal far away (docs/calibrate.md, section 2).
+    /// make an arm of general structure; corrections of two nearly parallel axes may put their
+    /// common normal far away (docs/calibrate.md, section 2).
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when a correction is not finite, when the corrected table is none
-    /// that [`Robot::serial_chain`] accepts, or when the table of an arm with coupled axes 2 and 3
-    /// is corrected.
+    /// [`Error::InvalidModel`] when a correction is not finite, when [`Robot::serial_chain`]
+    /// refuses the corrected table, or when the table of an arm with coupled axes 2 and 3 is
+    /// corrected.
     pub fn with_corrections(&self, corrections: &Corrections<N>) -> Result<Self, Error> {
         corrections.check()?;
         let (mut base, mut tool) = (*self.base(), *self.tool());
@@ -42,6 +38,7 @@ where
                 .with_name(self.name.clone())
                 .with_limits(*self.limits())
                 .with_max_velocity(self.max_velocity)?
+                .with_lock(self.locked_joint())?
         };
         robot.with_base(&base)?.with_tool(&tool)
     }
@@ -51,7 +48,7 @@ where
     /// three angular, in the frame in which poses are given.
     ///
     /// `corrections` is where it is taken: [`Corrections::NONE`] at the robot as it is. Column
-    /// `theta` of a row is that of its joint in [`Robot::jacobian`], if axes 2 and 3 are not
+    /// `theta` of a row is the column of its joint in [`Robot::jacobian`], if axes 2 and 3 are not
     /// coupled. Derivation: docs/calibrate.md, eq. 2 to 6.
     ///
     /// # Errors
@@ -71,8 +68,8 @@ where
         Ok(())
     }
 
-    /// The pose of the tool of the corrected robot: that of [`Robot::with_corrections`], whose table
-    /// may be rounded by a common normal that is far away.
+    /// The pose of the tool of the corrected robot. The table of [`Robot::with_corrections`] may be
+    /// rounded by a common normal that is far away.
     #[must_use]
     pub fn corrected_fk(&self, corrections: &Corrections<N>, q: &[f64; N]) -> Pose {
         self.chain.corrected_fk(corrections, q)

@@ -4,12 +4,8 @@ use core::fmt;
 
 use super::Robot;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::arity::{Arity, Joints};
 
-impl<const N: usize> fmt::Display for Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> fmt::Display for Robot<N> {
     /// Name, number of joints and structure; also coupling, base and tool, if the arm has them.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = if self.name().is_empty() { "unnamed robot" } else { self.name() };

@@ -2,15 +2,11 @@
 
 use super::Robot;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::structure::any::AnyStructure;
-use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::kinematics::structure::spherical_wrist::SphericalWrist;
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
-    /// The same robot with limits of the linkage that couples axes 2 and 3: (lower, upper) of q3 -
-    /// q2 [rad], compared modulo 2 pi; `None` for no limits.
+impl<const N: usize> Robot<N> {
+    /// Return the robot with limits of the linkage that couples axes 2 and 3: (lower, upper) of q3
+    /// - q2 [rad], compared modulo 2 pi; `None` for no limits.
     ///
     /// # Errors
     ///
@@ -24,11 +20,11 @@ where
         Ok(self.joined())
     }
 
-    /// The same arm with axes 2 and 3 coupled by a parallelogram linkage: joint 3 becomes q3 + q2,
-    /// as its controller reports it.
+    /// Return the arm with axes 2 and 3 coupled by a parallelogram linkage: joint 3 becomes q3 +
+    /// q2, as its controller reports it.
     ///
-    /// The limit of joint 3 becomes that of the linkage. The new range of joint 3 is the sum of the
-    /// ranges of axis 2 and the linkage, and its speed the sum of both speeds; coupling and
+    /// The limit of joint 3 becomes the limit of the linkage. The new range of joint 3 is the sum
+    /// of the ranges of axis 2 and the linkage, and its speed the sum of both speeds; coupling and
     /// uncoupling an arm therefore widens both.
     ///
     /// # Errors
@@ -39,19 +35,18 @@ where
         if self.is_coupled() {
             return Ok(self);
         }
-        let may_be_coupled = self.structure.arm().may_be_coupled();
-        may_be_coupled.map_err(|reason| ModelFault::NotCoupled { reason })?;
+        self.check_linkage()?;
         self.chain = self.chain.with_coupling(true);
         self.limits = self.limits.coupled();
         Ok(self.with_twins_velocity().joined())
     }
 
-    /// The same arm without the coupling of axes 2 and 3: joint 3 becomes q3 - q2. Returns an
+    /// Return the arm without the coupling of axes 2 and 3: joint 3 becomes q3 - q2. Returns an
     /// uncoupled arm unchanged.
     ///
-    /// The limit of joint 3 is that of the linkage or, if unknown, the difference of the ranges of
-    /// axes 2 and 3, and its speed is the sum of both speeds; coupling and uncoupling an arm
-    /// therefore widens both.
+    /// The limit of joint 3 is the limit of the linkage or, if unknown, the difference of the
+    /// ranges of axes 2 and 3, and its speed is the sum of both speeds; coupling and uncoupling an
+    /// arm therefore widens both.
     #[must_use]
     pub fn uncoupled(mut self) -> Self {
         if !self.is_coupled() {
@@ -60,6 +55,13 @@ where
         self.chain = self.chain.with_coupling(false);
         self.limits = self.limits.uncoupled();
         self.with_twins_velocity().joined()
+    }
+
+    /// Check that a parallelogram linkage may couple axes 2 and 3.
+    pub(super) fn check_linkage(&self) -> Result<(), Error> {
+        let wrist = self.spherical_wrist().ok_or("the arm has no spherical wrist");
+        let may_be_coupled = wrist.and_then(SphericalWrist::may_be_coupled);
+        may_be_coupled.map_err(|reason| ModelFault::NotCoupled { reason }.into())
     }
 
     /// Joint 3 of the converted arm turns as fast as joints 2 and 3 of the arm together.
@@ -79,7 +81,7 @@ where
         self.chain.is_coupled()
     }
 
-    /// The same arm, coupled or not, with unchanged limits: those of its controller.
+    /// Couple the arm or not, with the unchanged limits of its controller.
     pub(crate) fn with_coupling(mut self, coupled: bool) -> Self {
         self.chain = self.chain.with_coupling(coupled);
         self.joined()

@@ -4,7 +4,6 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 
 use super::Robot;
 use crate::kinematics::chain::limits::JointLimits;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::lanes::nearest_whole;
 
 /// How far joint angles are from limits and singularities, each as a part of the farthest that they
@@ -30,10 +29,7 @@ impl Margin {
     }
 }
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// How far `q` [rad] is from limits and singularities.
     #[must_use]
     pub fn margin(&self, q: &[f64; N]) -> Margin {
@@ -60,7 +56,7 @@ where
         Some([distances.wrist / FRAC_PI_2, distances.elbow / FRAC_PI_2, shoulder])
     }
 
-    /// The same with each joint at the 2 pi equivalent that leaves the most room.
+    /// [`Self::margin`] with each joint at the 2 pi equivalent that leaves the most room.
     pub(crate) fn margin_of_any_turn(&self, q: &[f64; N]) -> Margin {
         self.margin(&centered(&self.limits, q))
     }

@@ -5,6 +5,7 @@ mod build;
 mod corrected;
 mod display;
 mod linkage;
+mod locked;
 mod margin;
 mod nominal;
 mod reading;
@@ -18,6 +19,8 @@ pub use margin::Margin;
 
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
+use alloc::sync::Arc;
+use core::any::Any;
 
 use nalgebra::SMatrix;
 
@@ -31,8 +34,9 @@ use crate::kinematics::chain::jacobian::{JacobianFrame, Jacobians};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::chain::singular_values::SingularValues;
 use crate::kinematics::pose::{Pose, PoseDifference};
-use crate::kinematics::structure::any::{AnyStructure, SixJoints};
-use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
+use crate::kinematics::structure::inverse::Inverse;
+use crate::kinematics::structure::locked::LockedJoint;
+use crate::kinematics::structure::singular_wrist::SingularWrist;
 use crate::kinematics::structure::solver::Solver;
 use crate::kinematics::structure::spherical_wrist::{OpwParameters, SphericalWrist};
 use crate::lanes::{LANES, run};
@@ -43,22 +47,44 @@ use crate::report::{ConfigurationRule, UnknownStructure};
 /// Build one from the catalog ([`Robot::named`]), from parameters ([`Robot::from_opw`]) or from a
 /// Denavit-Hartenberg table ([`Robot::from_mdh`], [`Robot::from_sdh`]). A robot is immutable: each
 /// `with_` method returns a new one. No solve allocates.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Robot<const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+#[derive(Clone, Debug)]
+pub struct Robot<const N: usize> {
     name: Cow<'static, str>,
     definition: Definition<N>,
     chain: Chain<N>,
-    structure: StructureOf<N>,
+    /// `None` if the structure is unknown.
+    inverse: Option<Arc<dyn Inverse<N>>>,
+    /// The closed form that is nearest, and how far the arm is from it; `None` if it has one.
+    missing_form: Option<UnknownStructure>,
     limits: JointLimits<N>,
     max_velocity: Option<[f64; N]>,
     /// How its controller counts configurations, if in a way of its own.
     rule: Option<ConfigurationRule>,
+    lock: Option<Lock<N>>,
 }
 
-/// What a robot was built from.
+/// A locked joint, with the robot of the six others.
+#[derive(Clone, Debug)]
+pub(in crate::kinematics) struct Lock<const N: usize> {
+    pub(in crate::kinematics) joint: LockedJoint,
+    /// Its angle [rad].
+    pub(in crate::kinematics) angle: f64,
+    /// The other six joints. Another angle of the first or of the last joint only moves the pose
+    /// that they must reach.
+    pub(in crate::kinematics) six: Arc<Robot<6>>,
+    /// Of a joint between them, the chain with it at an angle by which others are prepared.
+    like: Option<Arc<Robot<6>>>,
+    released: Released<N>,
+}
+
+/// The inverse of the arm without the lock, for any base, tool and limits.
+#[derive(Clone, Debug)]
+struct Released<const N: usize> {
+    inverse: Option<Arc<dyn Inverse<N>>>,
+    missing_form: Option<UnknownStructure>,
+}
+
+/// The definition that a robot was built from.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Definition<const N: usize> {
@@ -75,47 +101,63 @@ pub enum Definition<const N: usize> {
     },
 }
 
-impl Robot<6> {
-    /// The solver of an arm with a spherical wrist.
-    pub(in crate::kinematics) fn wrist_solver(&self) -> Option<&Solver<SphericalWrist, 6, 8>> {
-        match &self.structure {
-            SixJoints::SphericalWrist(solver) => Some(solver),
-            _ => None,
-        }
+impl<const N: usize> PartialEq for Robot<N> {
+    /// The inverse follows from the rest, if there is one.
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+            && self.definition == other.definition
+            && self.chain == other.chain
+            && self.inverse.is_some() == other.inverse.is_some()
+            && self.limits == other.limits
+            && self.max_velocity == other.max_velocity
+            && self.rule == other.rule
+            && self.locked_joint() == other.locked_joint()
+    }
+}
+
+impl<const N: usize> Robot<N> {
+    /// Rebuild the inverse for the base, tool, coupling and limits.
+    fn joined(mut self) -> Self {
+        self.inverse = self.inverse.map(|inverse| inverse.between(&self.chain, &self.limits));
+        self.lock = self.lock.map(|lock| lock.between(&self.chain, &self.limits));
+        self
     }
 
-    /// The same arm without lanes.
-    #[cfg(test)]
-    pub(in crate::kinematics) fn without_lanes(mut self) -> Self {
-        self.structure = match self.structure {
-            SixJoints::SphericalWrist(solver) => SixJoints::SphericalWrist(solver.without_lanes()),
-            SixJoints::ThreeParallel(solver) => SixJoints::ThreeParallel(solver.without_lanes()),
-            other @ (SixJoints::OffsetWrist(_)
-            | SixJoints::General(_)
-            | SixJoints::Refined(_)
-            | SixJoints::Unknown(_)) => other,
-        };
-        self
+    /// The inverse; `None` if the structure is unknown.
+    #[inline]
+    pub(in crate::kinematics) fn inverse(&self) -> Option<&dyn Inverse<N>> {
+        self.inverse.as_deref()
+    }
+
+    /// Whether the arm has a structure with a closed form.
+    pub(in crate::kinematics) fn is_closed_form(&self) -> bool {
+        self.missing_form.is_none() && !matches!(self.definition, Definition::Refined { .. })
+    }
+
+    /// The solver of an arm with a spherical wrist.
+    pub(in crate::kinematics) fn wrist_solver(&self) -> Option<&Solver<SphericalWrist, 6, 8>> {
+        let inverse: &dyn Any = self.inverse()?;
+        inverse.downcast_ref()
     }
 
     /// The geometry of an arm with a spherical wrist.
     pub(in crate::kinematics) fn spherical_wrist(&self) -> Option<&SphericalWrist> {
         self.wrist_solver().map(|solver| &solver.structure)
     }
-}
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
-    /// The same arm with its solver rebuilt for its base, tool, coupling and limits.
-    fn joined(mut self) -> Self {
-        self.structure = self.structure.between(&self.chain, &self.limits);
-        self
+    pub(in crate::kinematics) fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
+        self.inverse()?.singular_wrist()
     }
 
-    pub(in crate::kinematics) fn solver(&self) -> &StructureOf<N> {
-        &self.structure
+    pub(in crate::kinematics) fn sin_5(&self, q: &[f64; N]) -> Option<f64> {
+        self.inverse()?.sin_5(q)
+    }
+
+    /// Return the arm without lanes.
+    #[cfg(test)]
+    pub(in crate::kinematics) fn without_lanes(self) -> Self {
+        let inverse = self.inverse().map(Inverse::without_lanes);
+        Self { inverse, ..self }
     }
 
     /// The catalog name, or the name that was given.
@@ -130,43 +172,42 @@ where
     /// not independent, and of a [`Robot::serial_chain`] without a closed form.
     #[must_use]
     pub fn structure(&self) -> &'static str {
-        self.structure.arm().name()
+        self.inverse().map_or("unknown", Inverse::name)
     }
 
     /// The reason why the structure of the arm is unknown; `None` if it is known.
     #[must_use]
     pub fn unknown_structure(&self) -> Option<UnknownStructure> {
-        self.structure.arm().unknown()
+        self.missing_form.filter(|_| self.inverse.is_none())
     }
 
-    /// What keeps the arm from a structure with a closed form, and a `snap` or another reading of
+    /// The conditions that keep the arm from a closed form, and a `snap` or another reading of
     /// its table that would give it one; `None` if it has one. Such an arm is solved without.
     #[must_use]
     pub fn missing_form(&self) -> Option<UnknownStructure> {
-        let arm = self.structure.arm();
-        arm.unknown().or_else(|| arm.nearest())
+        self.missing_form
     }
 
     /// Number of slots of an answer: zero if the structure is unknown.
     #[must_use]
     pub fn slot_count(&self) -> usize {
-        self.structure.slot_count()
+        self.inverse().map_or(0, Inverse::slot_count)
     }
 
     /// The name of each slot; `None` if slots are ordinals or the structure is unknown.
     #[must_use]
     pub fn slot_names(&self) -> Option<&'static [&'static str]> {
-        self.structure.arm().slot_names()
+        self.inverse()?.slot_names()
     }
 
     /// The slot of the branch that `q` [rad] is on; the one in front if two meet at a singularity.
     /// `None` if slots are ordinals.
     #[must_use]
     pub fn slot_of(&self, q: &[f64; N]) -> Option<Slot> {
-        self.structure.arm().slot(q)
+        self.inverse()?.slot(q)
     }
 
-    /// What the robot was built from.
+    /// The definition that the robot was built from.
     #[must_use]
     pub fn definition(&self) -> &Definition<N> {
         &self.definition
@@ -268,19 +309,20 @@ where
     }
 
     fn singularity_of(&self, q: &[f64; N], values: SingularValues) -> Singularity {
-        let arm = self.structure.arm().singular(q);
+        let unknown = (None, SingularityKind::empty());
+        let (distances, kinds) = self.inverse().map_or(unknown, |inverse| inverse.singular(q));
         Singularity {
-            distances: arm.and_then(|(distances, _)| distances),
+            distances,
             min_singular_value: values.least,
             manipulability: values.product,
-            kinds: arm.map_or(SingularityKind::empty(), |(_, singularities)| singularities),
+            kinds,
         }
     }
 
     /// Distances of `q` [rad] from the singularities of the structure; `None` if that is unknown.
     #[must_use]
     pub fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances> {
-        self.structure.arm().singular_distances(q)
+        self.inverse()?.singular(q).0
     }
 
     /// The difference between the tool pose at `q` [rad] and `pose`.
@@ -290,10 +332,10 @@ where
     }
 
     /// The determinant of the geometric Jacobian of joints 1 to 6 [m^3]. It is zero at
-    /// singularities only. In a closed form its factors are those of the structure. `None` if the
+    /// singularities only. In a closed form it has the factors of the structure. `None` if the
     /// structure is unknown.
     #[must_use]
     pub fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
-        self.structure.arm().jacobian_determinant(q)
+        self.inverse()?.jacobian_determinant(q)
     }
 }

@@ -5,8 +5,7 @@ use alloc::boxed::Box;
 use super::{Definition, Robot};
 use crate::error::{CalibratedFault, Error};
 use crate::kinematics::pose::PoseDifference;
-use crate::kinematics::structure::any::AnyStructure;
-use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::kinematics::structure::known::refined;
 use crate::kinematics::thresholds::FAR_FROM_NOMINAL;
 
 /// Joint vectors at which a robot is compared with its nominal one.
@@ -15,44 +14,42 @@ const COMPARED: usize = 32;
 /// Step between them in joint 1 [rad]; in joint `i` it is `i` times that, so that they are spread.
 const SPREAD: f64 = 0.618_033_988_75;
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
-    /// The same robot, solved from the branches of `nominal`, each brought onto the pose by
+impl<const N: usize> Robot<N> {
+    /// Return the robot solved from the branches of `nominal`, each brought onto the pose by
     /// Newton's method: a microsecond more than the closed form of the nominal arm.
     ///
-    /// Slots are those of the nominal arm. The answer is not complete: a pair of branches that the
+    /// Slots belong to the nominal arm. The answer is not complete: a pair of branches that the
     /// nominal arm has not is not seen, next to a fold. A branch whose refinement fails has its
     /// slot flagged [`MERGED`](crate::Status::MERGED). Rates: docs/calibrate.md, section 5.
     ///
-    /// Base, tool, limits and velocities are those of this robot.
+    /// Base, tool, limits and velocities belong to this robot.
     ///
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when the nominal arm has no closed form, when this robot or it has
-    /// coupled axes, and when their tools are more than [`FAR_FROM_NOMINAL`] apart, in rad or as a
+    /// coupled axes, and when their tools are more than 0.05 apart, in rad or as a
     /// part of the reach.
     pub fn with_nominal(&self, nominal: &Self) -> Result<Self, Error> {
         if self.is_coupled() || nominal.is_coupled() {
             return Err(CalibratedFault::Coupled.into());
         }
         self.check_near(nominal)?;
-        let refined = nominal.structure.clone().refining(&nominal.chain, &self.chain, &self.limits);
-        let structure =
-            refined.ok_or(CalibratedFault::Structure { structure: nominal.structure() })?;
+        let closed_form = nominal.inverse.as_ref().filter(|_| nominal.is_closed_form());
+        let refined = closed_form
+            .and_then(|inverse| refined(inverse, &nominal.chain, &self.chain, &self.limits))
+            .ok_or(CalibratedFault::Structure { structure: nominal.structure() })?;
         let definition = Definition::Refined {
             mdh: self.mdh().clone(),
             nominal: Box::new(nominal.definition.clone()),
         };
-        Ok(Self { definition, structure, ..self.clone() })
+        Ok(Self { definition, inverse: Some(refined), missing_form: None, ..self.clone() })
     }
 
     /// Check that a nominal robot is near.
     fn check_near(&self, nominal: &Self) -> Result<(), Error> {
         let nominal = nominal.clone().with_base(self.base())?.with_tool(self.tool())?;
-        // The longest distance of the flange from an axis, not of tables: those of nearly parallel
-        // axes have offsets that cancel.
+        // The longest distance of the flange from an axis, not of tables: nearly parallel axes
+        // have offsets that cancel.
         let reach: f64 = nominal.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
         let mut off = PoseDifference::default();
         for sample in 0..COMPARED {

@@ -7,8 +7,7 @@ use nalgebra::ComplexField as _;
 
 use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::any::AnyStructure;
-use crate::kinematics::structure::arity::{Arity, Joints, StructureOf};
+use crate::kinematics::structure::known::closed_form;
 use crate::kinematics::thresholds::MOST_LENGTH;
 use crate::report::{Columns, Convention, ORDERS, Reading};
 
@@ -20,15 +19,15 @@ const SNAP: f64 = 1e-5;
 const WRITTEN: f64 = 1e-4;
 
 /// The first other reading of rows in which the arm has a known structure: by the other
-/// convention, or with columns in another order. None where there is none.
+/// convention, or with columns in another order. `None` where there is no such reading.
 ///
 /// A column of lengths, read as theta, says nothing against a structure. So another order is looked
-/// for only where the angles of the given one are not as tables have them, and those of the other
-/// are.
-pub(crate) fn other_reading<const N: usize>(rows: &[DhRow; N], given: Convention) -> Option<Reading>
-where
-    Joints<N>: Arity<N>,
-{
+/// for only where the angles of the given one are not as tables have them, and the angles of
+/// the other are.
+pub(crate) fn other_reading<const N: usize>(
+    rows: &[DhRow; N],
+    given: Convention,
+) -> Option<Reading> {
     let other = match given {
         Convention::Modified => Convention::Standard,
         Convention::Standard => Convention::Modified,
@@ -73,10 +72,7 @@ fn read(row: DhRow, columns: Columns) -> DhRow {
 }
 
 /// Name of the known structure of a table.
-fn structure<const N: usize>(rows: [DhRow; N], convention: Convention) -> Option<&'static str>
-where
-    Joints<N>: Arity<N>,
-{
+fn structure<const N: usize>(rows: [DhRow; N], convention: Convention) -> Option<&'static str> {
     let is_near = |row: &DhRow| row.to_array().iter().all(|number| number.abs() <= MOST_LENGTH);
     if !rows.iter().all(is_near) {
         return None;
@@ -86,7 +82,8 @@ where
         Convention::Modified => Mdh { base, rows, flange },
         Convention::Standard => Sdh { base, rows, flange }.into(),
     };
-    StructureOf::<N>::closed_form(&table.snapped(SNAP).ok()?).ok()
+    let solved = closed_form(&table.snapped(SNAP).ok()?).ok();
+    solved.map(|(_, inverse)| inverse.name())
 }
 
 #[cfg(test)]
@@ -116,7 +113,7 @@ mod tests {
         Robot::from_sdh(Sdh { base: Pose::identity(), rows, flange: Pose::identity() })
     }
 
-    /// What keeps an arm from a closed form: of one that is solved, or of one that is refused.
+    /// The words on an arm without a closed form: of one that is solved, or of one that is refused.
     fn noted(built: Result<Robot<6>, crate::Error>) -> std::string::String {
         match built {
             Ok(robot) => robot.missing_form().unwrap().to_string(),

@@ -11,8 +11,6 @@ use super::{Definition, Robot};
 use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::any::AnyStructure;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::report::ConfigurationRule;
 
 #[derive(Serialize, Deserialize)]
@@ -29,12 +27,12 @@ struct Stored<const N: usize> {
     /// How its controller counts configurations, if in a way of its own.
     #[serde(default)]
     rule: Option<ConfigurationRule>,
+    /// The joint that is locked, from 1, and its angle [rad].
+    #[serde(default)]
+    locked: Option<(usize, f64)>,
 }
 
-impl<const N: usize> Serialize for Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Serialize for Robot<N> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let finite = |velocity: &f64| velocity.is_finite().then_some(*velocity);
         Stored {
@@ -46,29 +44,23 @@ where
             tool: *self.tool(),
             max_velocity: self.max_velocity().map(|all| all.iter().map(finite).collect()),
             rule: self.own_rule(),
+            locked: self.locked_joint(),
         }
         .serialize(serializer)
     }
 }
 
-impl<'de, const N: usize> Deserialize<'de> for Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<'de, const N: usize> Deserialize<'de> for Robot<N> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Stored::deserialize(deserializer)?.build().map_err(D::Error::custom)
     }
 }
 
 impl<const N: usize> Stored<N> {
-    fn build(self) -> Result<Robot<N>, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    fn build(self) -> Result<Robot<N>, Error> {
         let mut robot = Robot::of_definition(self.definition)?;
         if self.coupled {
-            let may_be_coupled = robot.structure.arm().may_be_coupled();
-            may_be_coupled.map_err(|reason| ModelFault::NotCoupled { reason })?;
+            robot.check_linkage()?;
             robot = robot.with_coupling(true);
         }
         let max_velocity = match self.max_velocity {
@@ -86,6 +78,7 @@ impl<const N: usize> Stored<N> {
             .with_linkage_limits(self.limits.linkage())?
             .with_max_velocity(max_velocity)?
             .with_base(&self.base)?
-            .with_tool(&self.tool)
+            .with_tool(&self.tool)?
+            .with_lock(self.locked)
     }
 }

@@ -12,7 +12,6 @@ use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::report::{Approach, Explanation};
 
 /// Joint vectors from which the way is minimized.
@@ -43,10 +42,7 @@ impl Robot<6> {
     }
 }
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// An explanation, with the nearest approach to the pose where no solution is. Joint 7, which a
     /// search keeps inside its limits, is inside them; those of other joints are not regarded.
     pub(super) fn with_approach(&self, explanation: Explanation, pose: &Pose) -> Explanation {

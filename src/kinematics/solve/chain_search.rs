@@ -8,8 +8,6 @@ use crate::kinematics::solve::correction::DETERMINED;
 use crate::kinematics::solve::golden_section::golden_section;
 use crate::kinematics::solve::nearest::NearestSearch;
 use crate::kinematics::solve::self_motion_search::VALLEYS;
-use crate::kinematics::structure::any::AnyStructure as _;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::report::FreeJoint;
 
 /// How far below a member its valley may be, as a multiple of how far the way rises beside it [1]:
@@ -24,10 +22,7 @@ struct Passed<const N: usize> {
     valleys: u32,
 }
 
-impl<const N: usize> NearestSearch<'_, N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> NearestSearch<'_, N> {
     /// Walk along the self-motion of a chain.
     pub(super) fn look_along_chain(&mut self, from: &Solution<N>) -> Result<(), Error> {
         if self.is_done() || !matches!(from.free_joint, Some(FreeJoint::Chain { .. })) {
@@ -35,7 +30,8 @@ where
         }
         let mut passed = Passed { before: None, here: None, valleys: VALLEYS };
         let mut outcome = Ok(());
-        self.robot.solver().arm().walk(self.known.pose(), &from.q, &mut |start, end| {
+        let Some(inverse) = self.robot.inverse() else { return outcome };
+        inverse.walk(self.known.pose(), &from.q, &mut |start, end| {
             if outcome.is_ok() {
                 outcome = self.pass(&mut passed, start, end, from);
             }

@@ -18,7 +18,6 @@ use crate::kinematics::solve::nearest::NearestSearch;
 use crate::kinematics::solve::self_motion_search::{
     COARSE_STEPS, LEAST_STEPS, STEPS, Sample, VALLEYS,
 };
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::report::FreeJoint;
 
 /// How often the way to a corner that is in reach is halved at most: from five degrees to 1e-15
@@ -60,10 +59,7 @@ impl Arc {
     }
 }
 
-impl<const N: usize> NearestSearch<'_, N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> NearestSearch<'_, N> {
     /// Looks at the family of a solution with these corners (`Structure::corners`), on both elbows.
     pub(super) fn look_between_corners(
         &mut self,

@@ -14,7 +14,6 @@ use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::arity::{Arity, Joints};
 
 /// Newton steps: near the pose each squares the distance, and in some of them a joint may reach its
 /// limit.
@@ -33,10 +32,7 @@ pub(super) const DETERMINED: f64 = 1e-18;
 /// Largest step of a joint [rad]: farther away, the Jacobian differs too much.
 const LARGEST_STEP: f64 = 0.5;
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// The joint vector near `q`, inside `limits` if `q` is, that meets the pose best, and its
     /// distance from the pose [rad, m]. The joints `kept`, from 0, are not moved, nor is joint 7;
     /// `damping` is [`DAMPED`] or [`DETERMINED`].

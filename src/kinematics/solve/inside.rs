@@ -6,14 +6,8 @@ use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
 use crate::kinematics::solve::self_motion::meets;
-use crate::kinematics::structure::any::AnyStructure as _;
-use crate::kinematics::structure::arity::{Arity, Joints};
-use crate::kinematics::structure::redundancy::Redundancy;
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// If a solution is outside the limits and another member of its self-motion, at most `allowed`
     /// [rad, m] off the pose, is inside, that member takes its slot.
     pub(in crate::kinematics) fn bring_self_motions_inside(
@@ -29,7 +23,7 @@ where
             else {
                 continue;
             };
-            let rest = self.resting(Redundancy::of(&outside.q));
+            let rest = self.resting(outside.q[self.locked_index()]);
             // A slot that holds another solution is not vacant.
             let vacant = |to: usize| to == slot || solutions.slot(to).is_none();
             let branches = outside.free_joint.map_or(&[][..], |free| free.branches());
@@ -45,7 +39,7 @@ where
             };
             let mut search = NearestSearch::new(self, solutions, &wanted, allowed);
             search.look_along_chain(&outside)?;
-            if self.solver().is_closed_form() {
+            if self.is_closed_form() {
                 // A twin meets the pose to rounding; between the twins the residual may be larger.
                 search.look_at_twins(&outside)?;
                 if search.best.is_none() {

@@ -6,7 +6,6 @@ mod chain_search;
 pub(crate) mod configuration;
 mod corner_search;
 mod correction;
-pub(crate) mod given_joint;
 mod golden_section;
 mod inside;
 pub(crate) mod inverse;

@@ -20,10 +20,7 @@ use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::correction::DAMPED;
 use crate::kinematics::solve::self_motion::meets;
-use crate::kinematics::structure::any::AnyStructure;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::structure::redundancy::Redundancy;
 use crate::kinematics::thresholds::{LIMIT_SLACK, SOLUTION_OFF};
 use crate::report::FreeJoint;
 
@@ -47,10 +44,7 @@ pub(in crate::kinematics) struct Wanted<'a, const N: usize> {
     pub(in crate::kinematics) accepts: &'a dyn Fn(&Solution<N>) -> bool,
 }
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// The solution inside the limits that is nearest to `seed`: one of `solutions` or, if none of
     /// them is inside and the pose is singular, any solution of the pose.
     pub(in crate::kinematics) fn nearest_of(
@@ -62,7 +56,7 @@ where
         let nearest = solutions.cheapest(seed, weights, Cost::Distance);
         if nearest.is_some()
             || self.are_regular(solutions)
-            || self.is_regular(solutions.pose(), Redundancy::of(seed))
+            || self.is_regular(solutions.pose(), seed[self.locked_index()])
         {
             return Ok(nearest);
         }
@@ -75,7 +69,7 @@ where
     /// rounding hides.
     pub(super) fn are_regular(&self, solutions: &Solutions<N>) -> bool {
         let is_regular = |solution: &Solution<N>| solution.singularities().is_empty();
-        !self.solver().is_closed_form() && solutions.iter().all(is_regular)
+        !self.is_closed_form() && solutions.iter().all(is_regular)
     }
 
     /// The wanted solution of a pose that is not regular, of which the solutions `known` are given.
@@ -117,10 +111,7 @@ pub(super) struct Candidate<const N: usize> {
 }
 
 /// A search through the solutions of a singular pose.
-pub(super) struct NearestSearch<'a, const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+pub(super) struct NearestSearch<'a, const N: usize> {
     pub(super) robot: &'a Robot<N>,
     pub(super) known: &'a Solutions<N>,
     pub(super) wanted: &'a Wanted<'a, N>,
@@ -135,10 +126,7 @@ where
     self_motions: [u8; 2],
 }
 
-impl<'a, const N: usize> NearestSearch<'a, N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<'a, const N: usize> NearestSearch<'a, N> {
     pub(super) fn new(
         robot: &'a Robot<N>,
         known: &'a Solutions<N>,
@@ -163,7 +151,7 @@ where
     fn run(&mut self) -> Result<(), Error> {
         let known = self.known;
         known.iter().for_each(|solution| self.take(solution, solution));
-        if self.robot.solver().arm().slot_names().is_some() {
+        if self.robot.slot_names().is_some() {
             for q in self.choices() {
                 self.look_around(&self.robot.solve(*known.pose(), &FreeChoice::seed(q))?)?;
             }
@@ -280,7 +268,7 @@ where
 
     /// The branch of `from` with other joint angles.
     fn at(&self, q: [f64; N], from: &Solution<N>) -> Solution<N> {
-        let wrist = self.robot.solver().arm().singular_wrist();
+        let wrist = self.robot.singular_wrist();
         let slot = wrist.map_or(from.slot, |wrist| from.slot.flipped_to(wrist.sin_5(&q) < 0.0));
         Solution { q, slot, ..*from }
     }
@@ -319,7 +307,7 @@ where
         let is_searched =
             |free: &FreeJoint| free.partner().is_none() && !matches!(free, FreeJoint::Chain { .. });
         let named = solution.free_joint.filter(is_searched);
-        if self.robot.solver().arm().singular_wrist().is_none() {
+        if self.robot.singular_wrist().is_none() {
             let parallel = Some(FreeJoint::Parallel);
             let hidden = self.has_uncertain_plane(solution) && named != parallel;
             return [named, parallel.filter(|_| hidden), None];
@@ -337,10 +325,9 @@ where
     /// Whether an undetermined plane of the arm may leave joint 6 of three parallel axes
     /// undetermined.
     fn has_uncertain_plane(&self, solution: &Solution<N>) -> bool {
-        let arm = self.robot.solver().arm();
-        arm.singular_wrist().is_none()
+        self.robot.singular_wrist().is_none()
             && (self.must_meet() || solution.singularities().contains(SingularityKind::WRIST))
-            && arm.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= UNCERTAIN_PLANE_SIN)
+            && self.robot.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= UNCERTAIN_PLANE_SIN)
     }
 
     /// The free joint of an arm that is folded onto axis 2.

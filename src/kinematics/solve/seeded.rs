@@ -1,229 +1,26 @@
-//! The solution nearest to a seed, for every number of joints that has an inverse.
+//! The solution nearest to a seed, and the outcome of a search in a sentence.
 
-use alloc::vec::Vec;
+use core::any::Any;
 
-use crate::error::{Error, ModelFault};
+use crate::error::Error;
 use crate::kinematics::answer::check::{check_seed, check_weights};
 use crate::kinematics::answer::select::Cost;
-use crate::kinematics::answer::solutions::{Solution, Solutions};
+use crate::kinematics::answer::solutions::Solution;
+#[cfg(feature = "python")]
+use crate::kinematics::answer::solutions::Solutions;
 use crate::kinematics::pose::{Pose, checked_pose, pose_from_rows};
-use crate::kinematics::robot::Robot;
-use crate::kinematics::solve::configuration::ConfigurationRequest;
+use crate::kinematics::robot::{Lock, Robot};
 use crate::kinematics::solve::nearest::Wanted;
-use crate::kinematics::structure::any::AnyStructure as _;
-use crate::kinematics::structure::arity::{Arity, Joints};
+use crate::kinematics::structure::inverse::of_count;
 use crate::kinematics::structure::lanes::Choice;
+use crate::kinematics::structure::locked::others;
+#[cfg(feature = "python")]
 use crate::report::Explanation;
 
-/// Robots whose inverse can be solved near a seed: of six and of seven joints, each in its own way.
-/// Sealed.
-pub trait Inverse<const N: usize>: sealed::Sealed {
-    /// The solution inside the limits that is nearest to a seed; the arguments are already checked.
-    #[doc(hidden)]
-    fn nearest_checked(
-        &self,
-        pose: Pose,
-        seed: &[f64; N],
-        weights: &[f64; N],
-    ) -> Result<Solution<N>, Error>;
-
-    /// [`Self::nearest_checked`] of rows of poses and seeds, for weights that were checked; NaN of a
-    /// row that has none.
-    #[doc(hidden)]
-    fn nearest_rows(
-        &self,
-        poses: &[[f64; 16]],
-        seeds: &[[f64; N]],
-        weights: &[f64; N],
-        q: &mut [[f64; N]],
-    ) {
-        for ((pose, seed), q) in poses.iter().zip(seeds).zip(q) {
-            *q = self.nearest_row(pose, seed, weights);
-        }
-    }
-
-    /// One row of [`Self::nearest_rows`] by itself.
-    #[doc(hidden)]
-    fn nearest_row(&self, pose: &[f64; 16], seed: &[f64; N], weights: &[f64; N]) -> [f64; N] {
-        let checked = check_seed("seed", seed).and_then(|()| pose_from_rows(pose));
-        let nearest = checked.and_then(|pose| self.nearest_checked(pose, seed, weights));
-        nearest.map_or([f64::NAN; N], |nearest| nearest.q)
-    }
-
-    /// The outcome of the search in a sentence, for a pose that was checked.
-    #[doc(hidden)]
-    fn explain(&self, pose: &Pose) -> Result<Explanation, Error>;
-
-    /// The outcome of a solve in a sentence, with what only the arm knows of it; of seven joints
-    /// with the joint, from 1, whose angle [rad] was given.
-    #[doc(hidden)]
-    fn explained_answer(
-        &self,
-        solutions: &Solutions<N>,
-        given: Option<(usize, f64)>,
-    ) -> Explanation;
-
-    /// The arm angle of joint angles, of an arm that has one.
-    #[doc(hidden)]
-    fn arm_angle_of(&self, q: &[f64; N]) -> Result<Option<f64>, Error>;
-
-    /// The solution with the configuration of a request, of several the one nearest to a seed; the
-    /// arguments are already checked.
-    #[doc(hidden)]
-    fn configured(
-        &self,
-        pose: &Pose,
-        request: &ConfigurationRequest<N>,
-        seed: &[f64; N],
-    ) -> Result<Solution<N>, Error>;
-
-    /// All of them, the nearest first.
-    #[doc(hidden)]
-    fn all_configured(
-        &self,
-        pose: &Pose,
-        request: &ConfigurationRequest<N>,
-        seed: &[f64; N],
-    ) -> Result<Vec<Solution<N>>, Error>;
-}
-
-mod sealed {
-    pub trait Sealed {}
-
-    impl Sealed for crate::kinematics::robot::Robot<6> {}
-    impl Sealed for crate::kinematics::robot::Robot<7> {}
-}
-
-impl Inverse<6> for Robot<6> {
-    fn nearest_checked(
-        &self,
-        pose: Pose,
-        seed: &[f64; 6],
-        weights: &[f64; 6],
-    ) -> Result<Solution<6>, Error> {
-        let mut solutions = self.unsolved(pose);
-        let nearest = if self.solve_in_lanes(&mut solutions, ()) {
-            solutions.cheapest(seed, weights, Cost::Distance)
-        } else {
-            self.solve_at_rest(&mut solutions, ())?;
-            if self.are_regular(&solutions) {
-                solutions.cheapest(seed, weights, Cost::Distance)
-            } else {
-                let wanted = Wanted { limits: solutions.limits, seed, weights, accepts: &|_| true };
-                self.nearest_at_singularity(&solutions, &wanted)?
-            }
-        };
-        nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
-    }
-
-    fn nearest_rows(
-        &self,
-        poses: &[[f64; 16]],
-        seeds: &[[f64; 6]],
-        weights: &[f64; 6],
-        q: &mut [[f64; 6]],
-    ) {
-        let choice = Choice::new(self.limits(), weights);
-        self.solver().arm().nearest_rows(poses, seeds, choice, q, &mut |row, q, _| {
-            q.fill(self.nearest_row(&poses[row], &seeds[row], weights));
-        });
-    }
-
-    fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
-        let solutions = self.ik_checked(*pose, ())?;
-        if !solutions.iter().any(Solution::is_within_limits)
-            && self.nearest_of(&solutions, &self.limits().rest(), &[1.0; 6])?.is_some()
-        {
-            return Ok(Explanation::Found { solutions: solutions.len(), inside: 1 });
-        }
-        Ok(self.with_approach(solutions.explain(), pose))
-    }
-
-    fn explained_answer(&self, solutions: &Solutions<6>, _: Option<(usize, f64)>) -> Explanation {
-        self.with_approach(solutions.explain(), solutions.pose())
-    }
-
-    fn arm_angle_of(&self, _: &[f64; 6]) -> Result<Option<f64>, Error> {
-        Err(ModelFault::NoArmAngle.into())
-    }
-
-    fn configured(
-        &self,
-        pose: &Pose,
-        request: &ConfigurationRequest<6>,
-        seed: &[f64; 6],
-    ) -> Result<Solution<6>, Error> {
-        self.configured_near(pose, request, seed)
-    }
-
-    fn all_configured(
-        &self,
-        pose: &Pose,
-        request: &ConfigurationRequest<6>,
-        seed: &[f64; 6],
-    ) -> Result<Vec<Solution<6>>, Error> {
-        self.configured_list(pose, request, seed)
-    }
-}
-
-impl Inverse<7> for Robot<7> {
-    fn nearest_checked(
-        &self,
-        pose: Pose,
-        seed: &[f64; 7],
-        weights: &[f64; 7],
-    ) -> Result<Solution<7>, Error> {
-        self.nearest_along_redundancy(&pose, seed, weights)
-    }
-
-    fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
-        self.explain_along_redundancy(pose)
-    }
-
-    fn explained_answer(
-        &self,
-        solutions: &Solutions<7>,
-        given: Option<(usize, f64)>,
-    ) -> Explanation {
-        let explanation = solutions.explain();
-        let Explanation::NoRoots { .. } = explanation else { return explanation };
-        let Some(Ok(given)) = given.map(|(joint, angle)| self.given(joint, angle)) else {
-            return explanation;
-        };
-        given.six().with_approach(explanation, solutions.pose())
-    }
-
-    fn arm_angle_of(&self, q: &[f64; 7]) -> Result<Option<f64>, Error> {
-        self.arm_angle(q)
-    }
-
-    fn configured(
-        &self,
-        pose: &Pose,
-        request: &ConfigurationRequest<7>,
-        seed: &[f64; 7],
-    ) -> Result<Solution<7>, Error> {
-        let list = self.configured_list(pose, request, seed)?;
-        list.first().copied().ok_or(Error::Unreachable(Explanation::FilteredOut))
-    }
-
-    fn all_configured(
-        &self,
-        pose: &Pose,
-        request: &ConfigurationRequest<7>,
-        seed: &[f64; 7],
-    ) -> Result<Vec<Solution<7>>, Error> {
-        self.configured_list(pose, request, seed)
-    }
-}
-
-impl<const N: usize> Robot<N>
-where
-    Self: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// The solution inside the limits that is nearest to `seed` [rad] among all 2 pi equivalents,
-    /// all members of a self-motion and, for an arm of seven joints, all angles of joint 7.
+    /// all members of a self-motion and, for an arm of seven joints, all angles of joint 7; or all
+    /// that have a locked joint at its angle.
     ///
     /// # Errors
     ///
@@ -238,5 +35,156 @@ where
         check_seed("seed", seed)?;
         check_weights(weights)?;
         self.nearest_checked(checked_pose(pose)?, seed, weights)
+    }
+
+    /// [`Self::ik_nearest`] with arguments that are checked.
+    pub(crate) fn nearest_checked(
+        &self,
+        pose: Pose,
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> Result<Solution<N>, Error> {
+        self.known_inverse()?;
+        if let Some(lock) = self.lock() {
+            return self.nearest_locked(lock, &pose, seed, weights);
+        }
+        if let (Some(arm), Some(seed), Some(weights)) =
+            (self.of_seven_joints(), of_count(*seed), of_count(*weights))
+            && let Some(nearest) = of_count(arm.nearest_along_redundancy(&pose, &seed, &weights))
+        {
+            return nearest;
+        }
+        let mut solutions = self.unsolved(pose);
+        let nearest = if self.solve_in_lanes(&mut solutions, f64::NAN) {
+            solutions.cheapest(seed, weights, Cost::Distance)
+        } else {
+            self.solve_at_rest(&mut solutions, f64::NAN)?;
+            if self.are_regular(&solutions) {
+                solutions.cheapest(seed, weights, Cost::Distance)
+            } else {
+                let wanted = Wanted { limits: solutions.limits, seed, weights, accepts: &|_| true };
+                self.nearest_at_singularity(&solutions, &wanted)?
+            }
+        };
+        nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
+    }
+
+    /// [`Self::nearest_checked`] of the other six joints, for an arm with a locked joint.
+    fn nearest_locked(
+        &self,
+        lock: &Lock<N>,
+        pose: &Pose,
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> Result<Solution<N>, Error> {
+        let unreachable = || {
+            let solutions = self.ik_checked(*pose, lock.angle);
+            solutions.map_or_else(|error| error, |none| Error::Unreachable(none.explain()))
+        };
+        if self.limits().excess(lock.joint.joint(), lock.angle) > 0.0 {
+            return Err(unreachable());
+        }
+        let [seed, weights] = [seed, weights].map(|all| others(all, lock.joint.joint()));
+        let seen = lock.joint.seen(pose, lock.angle);
+        match lock.six.nearest_checked(seen, &seed, &weights) {
+            Ok(six) => {
+                let found = lock.joint.solution(&six, lock.angle, self.limits());
+                let own = (lock.joint.joint() == 6).then(|| self.slot_of(&found.q)).flatten();
+                Ok(Solution { slot: own.unwrap_or(found.slot), ..found })
+            }
+            // With the arm's numbers of joints.
+            Err(Error::Unreachable(_)) => Err(unreachable()),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The arm as one of seven joints none of which is locked, if it is one.
+    fn of_seven_joints(&self) -> Option<&Robot<7>> {
+        let arm: &dyn Any = self;
+        arm.downcast_ref().filter(|arm: &&Robot<7>| arm.lock().is_none())
+    }
+
+    /// [`Self::nearest_checked`] of rows of poses and seeds, for weights that are checked; NaN of a
+    /// row that has no solution.
+    pub(crate) fn nearest_rows(
+        &self,
+        poses: &[[f64; 16]],
+        seeds: &[[f64; N]],
+        weights: &[f64; N],
+        q: &mut [[f64; N]],
+    ) {
+        let choice = Choice::new(self.limits(), weights);
+        let mut by_itself = |row: usize, q: &mut [[f64; N]], _: &mut [u8]| {
+            q.fill(self.nearest_row(&poses[row], &seeds[row], weights));
+        };
+        match self.inverse().filter(|_| N == 6) {
+            Some(inverse) => inverse.nearest_rows(poses, seeds, choice, q, &mut by_itself),
+            None => {
+                for (row, q) in q.iter_mut().enumerate() {
+                    by_itself(row, core::slice::from_mut(q), &mut []);
+                }
+            }
+        }
+    }
+
+    /// One row of [`Self::nearest_rows`] by itself.
+    pub(crate) fn nearest_row(
+        &self,
+        pose: &[f64; 16],
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> [f64; N] {
+        let checked = check_seed("seed", seed).and_then(|()| pose_from_rows(pose));
+        let nearest = checked.and_then(|pose| self.nearest_checked(pose, seed, weights));
+        nearest.map_or([f64::NAN; N], |nearest| nearest.q)
+    }
+
+    /// The outcome of a search in a sentence, for a pose that is checked.
+    #[cfg(feature = "python")]
+    pub(crate) fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
+        if let Some(lock) = self.lock() {
+            let explanation = self.ik_checked(*pose, lock.angle)?.explain();
+            let seen = lock.joint.seen(pose, lock.angle);
+            return Ok(lock.six.with_approach(explanation, &seen));
+        }
+        if let Some(arm) = self.of_seven_joints() {
+            return arm.explain_along_redundancy(pose);
+        }
+        let solutions = self.ik_checked(*pose, f64::NAN)?;
+        if !solutions.iter().any(Solution::is_within_limits)
+            && self.nearest_of(&solutions, &self.limits().rest(), &[1.0; N])?.is_some()
+        {
+            return Ok(Explanation::Found { solutions: solutions.len(), inside: 1 });
+        }
+        Ok(self.with_approach(solutions.explain(), pose))
+    }
+
+    /// The outcome of a solve in a sentence, with the nearest approach; of seven joints with joint
+    /// 7 at `q7` [rad], unless a joint is locked.
+    #[cfg(feature = "python")]
+    pub(crate) fn explained_answer(
+        &self,
+        solutions: &Solutions<N>,
+        q7: Option<f64>,
+    ) -> Explanation {
+        let explanation = solutions.explain();
+        let Explanation::NoRoots { .. } = explanation else { return explanation };
+        let locked;
+        let arm = match (N, q7) {
+            (7, Some(q7)) => {
+                let Ok(arm) = self.clone().with_lock(Some((7, q7))) else { return explanation };
+                locked = arm;
+                &locked
+            }
+            _ => self,
+        };
+        match arm.lock() {
+            Some(lock) => {
+                let seen = lock.joint.seen(solutions.pose(), lock.angle);
+                lock.six.with_approach(explanation, &seen)
+            }
+            None if N == 7 => explanation,
+            None => self.with_approach(explanation, solutions.pose()),
+        }
     }
 }

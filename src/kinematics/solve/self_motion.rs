@@ -6,16 +6,11 @@ use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::any::AnyStructure as _;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::{POSITION_ROUNDING, SEEDED_FREE, SOLUTION_OFF};
 use crate::report::{Explanation, FreeJoint};
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// The solution of the same pose with its free joint at `value` [rad]; `None` if no joint is
     /// undetermined.
     ///
@@ -56,7 +51,7 @@ where
     ) -> Result<Option<Solution<N>>, Error> {
         let joint = free.joint() - 1;
         let found = if let FreeJoint::Chain { .. } = free {
-            let member = self.solver().arm().member(pose, &solution.q, joint, value);
+            let member = self.known_inverse()?.member(pose, &solution.q, joint, value);
             member.map(|q| Solution { q: self.limits().wrap(q), ..*solution })
         } else if let Some((partner, sign)) = free.partner().filter(|_| self.own_rule().is_some()) {
             // Of a YuMi, whose other joints are no closed form.

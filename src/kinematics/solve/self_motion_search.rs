@@ -12,8 +12,6 @@ use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::solve::golden_section::golden_section;
 use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
-use crate::kinematics::structure::any::AnyStructure;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::thresholds::LIMIT_SLACK;
 use crate::report::FreeJoint;
 
@@ -71,10 +69,7 @@ struct Window {
     steps: u32,
 }
 
-impl<const N: usize> NearestSearch<'_, N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> NearestSearch<'_, N> {
     /// Search the self-motion of a solution, on all its branches.
     pub(super) fn look_along_self_motion(
         &mut self,
@@ -89,7 +84,8 @@ where
                 }
             }
         }
-        if let Some(corners) = self.robot.solver().arm().corners(&from.q, free) {
+        let inverse = self.robot.known_inverse()?;
+        if let Some(corners) = inverse.corners(&from.q, free) {
             return self.look_between_corners(from, free, corners);
         }
         if !self.is_undetermined(from, free)? {
@@ -252,7 +248,7 @@ where
     }
 
     fn wrist(&self, solutions: &Solutions<N>, slot: usize) -> f64 {
-        let Some(wrist) = self.robot.solver().arm().singular_wrist() else {
+        let Some(wrist) = self.robot.singular_wrist() else {
             return f64::INFINITY;
         };
         let solution = solutions.slot(slot).or_else(|| solutions.slot(slot ^ 1));

@@ -10,8 +10,6 @@ use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::solve::correction::{DAMPED, DETERMINED};
 use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
 use crate::kinematics::solve::pair::Pair;
-use crate::kinematics::structure::any::AnyStructure;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::thresholds::{LIMIT_SLACK, PATH_WRIST_SIN};
 
 /// Steps per turn in the search of a wrist that is undetermined near another singularity.
@@ -20,13 +18,10 @@ const WRIST_STEPS: u32 = 24;
 /// Difference of the joints of two arms below which they are the same [rad].
 const SAME_ARM: f64 = 1e-9;
 
-impl<const N: usize> NearestSearch<'_, N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> NearestSearch<'_, N> {
     /// Search near joint vectors with joint 5 at its singularity, on either side.
     pub(super) fn start_with_straight_wrist(&mut self, start: &[f64; N], solution: &Solution<N>) {
-        let Some(wrist) = self.robot.solver().arm().singular_wrist() else { return };
+        let Some(wrist) = self.robot.singular_wrist() else { return };
         for side in [1.0, -1.0] {
             let straight = wrist.with_straight_wrist(start, side);
             self.move_keeping(&straight, &[4], DAMPED, solution);
@@ -72,7 +67,7 @@ where
             return;
         }
         self.move_keeping(&q, &[2], DAMPED, from);
-        if let Some(wrist) = self.robot.solver().arm().singular_wrist() {
+        if let Some(wrist) = self.robot.singular_wrist() {
             let straight = wrist.with_straight_wrist(&q, 0.0);
             self.move_keeping(&straight, &[4], DAMPED, from);
             self.move_keeping(&straight, &[2, 4], DAMPED, from);
@@ -82,16 +77,13 @@ where
     /// Search with an elbow that is nearly straight, on either side: the forearm turns with it, and
     /// so does an undetermined wrist.
     pub(super) fn bend_elbow(&mut self, from: &Solution<N>) {
-        let arm = self.robot.solver().arm();
-        let Some(wrist) = arm.singular_wrist() else { return };
-        if !arm
-            .singular(&from.q)
-            .is_some_and(|(_, singularities)| singularities.contains(SingularityKind::ELBOW))
-        {
+        let Some(inverse) = self.robot.inverse() else { return };
+        let Some(wrist) = inverse.singular_wrist() else { return };
+        if !inverse.singular(&from.q).1.contains(SingularityKind::ELBOW) {
             return;
         }
         let pose = self.known.pose();
-        let t_shoulder_wrist = arm.last_frame(pose);
+        let t_shoulder_wrist = inverse.last_frame(pose);
         for behind in [false, true] {
             let bent = wrist.with_bent_elbow(&from.q, behind);
             let (bent, _) = self.robot.corrected(pose, bent, &JointLimits::UNLIMITED, &[2], DAMPED);
@@ -109,7 +101,7 @@ where
         if declared.is_some() {
             return declared;
         }
-        let wrist = self.robot.solver().arm().singular_wrist()?;
+        let wrist = self.robot.singular_wrist()?;
         let q = &solution.q;
         // If it is off the pose by more than rounding, it must be a wrist whose branches are
         // merged.

@@ -11,7 +11,6 @@ use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::solve::nearest::NearestSearch;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::thresholds::LIMIT_SLACK;
 
 /// Steps of axis 1 if two joints of the arm are undetermined.
@@ -23,10 +22,7 @@ const UPPER_STEPS: u32 = 8;
 /// How far the tool at a seed may be off the pose for its joints to be moved onto it [m, rad].
 const SEED_OFF: f64 = 1e-2;
 
-impl<const N: usize> NearestSearch<'_, N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> NearestSearch<'_, N> {
     /// Search where several undetermined joints may be inside narrow limits: at the limits, or near
     /// the seed inside them.
     pub(super) fn start_from_limits(&mut self, solution: &Solution<N>) {

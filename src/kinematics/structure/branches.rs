@@ -1,6 +1,5 @@
 //! The joint vectors of a pose as a structure computes them: without limits, in their slots.
 
-use super::redundancy::Redundancy;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Place, Solution};
 use crate::kinematics::answer::status::Status;
@@ -41,12 +40,7 @@ impl<const N: usize, const S: usize> Branches<N, S> {
 
     /// The content of a slot of the answer: the joint vector wrapped into the limits.
     #[inline]
-    pub(crate) fn place(
-        &self,
-        slot: usize,
-        limits: &JointLimits<N>,
-        redundancy: impl Redundancy,
-    ) -> Place<N> {
+    pub(crate) fn place(&self, slot: usize, limits: &JointLimits<N>, locked: f64) -> Place<N> {
         let (flags, free) = (self.flags[slot], self.free[slot]);
         let Some(q) = self.q[slot] else {
             return if flags.contains(Status::MERGED) {
@@ -56,8 +50,10 @@ impl<const N: usize, const S: usize> Branches<N, S> {
             };
         };
         let mut q = limits.wrap(q);
-        // A joint whose angle is given keeps it.
-        redundancy.put(&mut q);
+        // A locked joint 7 keeps its angle.
+        if N > 6 {
+            q[6] = locked;
+        }
         let mut status = flags | Status::FOUND;
         status.set(Status::WITHIN_LIMITS, limits.contains(&q));
         Place::Found(Solution { q, slot: Slot::new(slot), status, free_joint: free })

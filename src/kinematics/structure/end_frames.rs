@@ -106,7 +106,7 @@ impl Frame {
         }
     }
 
-    /// The same frame, in the lanes of a number.
+    /// The frame in every lane.
     #[inline(always)]
     pub(crate) fn in_lanes<T: Number>(&self, like: T) -> Frame<T> {
         let zero = like.like(0.0);
@@ -129,7 +129,7 @@ impl Frame {
 }
 
 impl<S: Simd> Frame<Vector<S>> {
-    /// Those of these frames with the given numbers, a lane for each.
+    /// Gather frames by their indices, a lane for each.
     #[inline(always)]
     pub(crate) fn of_lanes(simd: S, all: &[Frame], numbers: &[usize; LANES]) -> Self {
         if let Some(one) = same(numbers) {
@@ -166,7 +166,7 @@ impl<T: Number> Frame<T> {
         [dot(a, v), dot(b, v), dot(c, v)]
     }
 
-    /// The same with lengths in units.
+    /// Scale lengths to units.
     #[inline(always)]
     pub(crate) fn in_units(self, unit: f64) -> Self {
         let [x, y, z] = self.origin;

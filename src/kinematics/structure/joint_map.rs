@@ -1,4 +1,4 @@
-//! The joint map: from the joints and frames of a derivation to those of the arm.
+//! The joint map: from the joints and frames of a derivation to the joints and frames of the arm.
 
 use crate::kinematics::chain::coupling::{coupled, uncoupled};
 use crate::kinematics::pose::Pose;

@@ -1,31 +1,27 @@
 //! Kinematic structures: arms with a closed-form inverse, and any other six joints.
 //!
-//! A structure is a folder here that implements [`Structure`], and a variant in [`any`]. It
-//! contains its pattern (the conditions on the axes), the measurement of its geometry from a table,
-//! the solve of one pose with every singularity handled, and the distances from its singularities.
-//! A [`LaneKernel`](lanes::LaneKernel), which solves regular poses in vectors, is optional. Base,
-//! tool, limits, turns, flags, batches and the choice among solutions are common to all:
-//! [`solver::Solver`] and `solve` implement them once.
+//! A structure is a folder here that implements [`Structure`], and a line in [`known`]. It contains
+//! its pattern (the conditions on the axes), the measurement of its geometry from a table, the
+//! solve of one pose with every singularity handled, a [`LaneKernel`](lanes::LaneKernel), which
+//! solves regular poses in vectors, and the distances from its singularities. Base, tool, limits,
+//! turns, flags, batches and the choice among solutions are common to all: [`solver::Solver`] and
+//! `solve` implement them once, behind [`inverse::Inverse`].
 
-pub(crate) mod any;
-pub(crate) mod arity;
-pub(crate) mod arm;
 pub(crate) mod branches;
 pub(crate) mod by_roots;
 pub(crate) mod closure;
-mod declare;
 pub(crate) mod end_frames;
 pub(crate) mod free_choice;
 pub(crate) mod general;
+pub(crate) mod inverse;
 pub(crate) mod joint_map;
+pub(crate) mod known;
 pub(crate) mod lanes;
-pub(crate) mod last_given;
+pub(crate) mod locked;
 pub(crate) mod offset_wrist;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
-pub(crate) mod redundancy;
 pub(crate) mod refined;
-pub(crate) mod seven_joints;
 pub(crate) mod singular_wrist;
 pub(crate) mod solver;
 pub(crate) mod spherical_shoulder;
@@ -41,7 +37,6 @@ use branches::Branches;
 use free_choice::FreeChoice;
 use joint_map::JointMap;
 use lanes::LaneKernel;
-use redundancy::Redundancy;
 use singular_wrist::SingularWrist;
 
 use super::answer::singularity::SingularDistances;
@@ -50,9 +45,6 @@ use super::answer::status::SingularityKind;
 use super::chain::dh::Mdh;
 use super::pose::Pose;
 use crate::report::{FreeJoint, Pattern, UnknownStructure};
-
-/// The reason why most structures cannot have a linkage that couples axes.
-pub(crate) const NO_LINKAGE: &str = "the arm has no spherical wrist";
 
 /// Take the ends of a step along a self-motion.
 pub(crate) type TakeStep<'a, const N: usize> = dyn FnMut(&[f64; N], &[f64; N]) + 'a;
@@ -71,23 +63,16 @@ pub(crate) type TakeStep<'a, const N: usize> = dyn FnMut(&[f64; N], &[f64; N]) +
 /// [`Solver`](solver::Solver) removes `B`, `F`, base and tool from a pose and converts theta to q;
 /// a structure solves `T_first_last(theta)` alone.
 pub(crate) trait Structure<const N: usize, const S: usize>:
-    Clone + Debug + PartialEq
+    Clone + Debug + Send + Sync + 'static
 {
     /// The conditions on the axes, and the name.
     const PATTERN: &'static Pattern;
 
-    /// Whether the solutions are in closed form.
-    const IS_CLOSED_FORM: bool = true;
-
     /// The name of each slot; `None` if branches have no names and slots are ordinals.
     const SLOT_NAMES: Option<&'static [&'static str; S]>;
 
-    /// The redundancy parameter that a caller gives with a pose.
-    type Redundancy: Redundancy;
-
-    /// Solves regular poses in lanes; [`NoKernel`](lanes::NoKernel) if every pose is solved by
-    /// [`Self::solve`].
-    type Kernel: LaneKernel<N, S, Redundancy = Self::Redundancy>;
+    /// Solves regular poses in lanes.
+    type Kernel: LaneKernel<N, S> + Send + Sync + 'static;
 
     /// Measure the geometry of a table that meets the pattern, and remove deviations within
     /// rounding.
@@ -96,27 +81,20 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     /// Signs, offsets, `B` and `F`.
     fn joint_map(&self) -> &JointMap<N>;
 
-    /// The same arm between a base and a tool, whose lengths add to the rounding of a pose, with
+    /// Place the arm between a base and a tool, whose lengths add to the rounding of a pose, with
     /// axes 2 and 3 coupled or not.
     fn between(self, base: &Pose, tool: &Pose, coupled: bool) -> Self;
 
-    /// The kernel of this arm; `None` if it has none.
+    /// The kernel of this arm; `None` if most of its poses are not regular.
     fn kernel(&self) -> Option<Self::Kernel>;
 
-    /// Every branch of `t_first_last`: in its slot, with its singularities; merged ones once.
-    /// Limits are not checked.
-    fn solve(
-        &self,
-        t_first_last: &Pose,
-        redundancy: Self::Redundancy,
-        free: &FreeChoice<N>,
-    ) -> Branches<N, S>;
+    /// Find every branch of `t_first_last`: in its slot, with its singularities; merged ones once.
+    /// Limits are not checked. `locked` is the angle of joint 7, of an arm of seven joints [rad].
+    fn solve(&self, t_first_last: &Pose, locked: f64, free: &FreeChoice<N>) -> Branches<N, S>;
 
-    /// Distances of `q` from the singularities; `None` if those have no names.
-    fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances>;
-
-    /// The singularities that `q` is at, by the thresholds that merge the branches of a solve.
-    fn singularities(&self, q: &[f64; N]) -> SingularityKind;
+    /// Distances of `q` from the singularities, or `None` if those have no names; and those that it
+    /// is at, by the thresholds that merge the branches of a solve.
+    fn singular(&self, q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind);
 
     /// The determinant of the geometric Jacobian of joints 1 to 6 in closed form: zero at
     /// singularities only.
@@ -126,6 +104,8 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     /// if slots are ordinals.
     fn slot(&self, q: &[f64; N]) -> Option<Slot>;
 
+    // --- Until the walker of self-motions needs the chain alone: from here on. ---
+
     /// sin q5, signed, for a structure whose wrist is singular where it is zero.
     fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
         None
@@ -133,7 +113,7 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
 
     /// The angles of the free joint, along the self-motion of `q`, between which the arm only bends
     /// or only straightens: where it is the most bent and the least of all, and four where it may
-    /// come to an edge of reach. `None` where the elbow stands still.
+    /// come to an edge of reach. `None` where the elbow does not move.
     fn corners(&self, _q: &[f64; N], _free: FreeJoint) -> Option<[f64; 6]> {
         None
     }
@@ -158,23 +138,4 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
         None
     }
-
-    /// The same arm, which is this far from a structure with a closed form.
-    #[must_use]
-    fn noting(self, _nearest: Option<UnknownStructure>) -> Self {
-        self
-    }
-
-    /// How far the arm is from a structure with a closed form; `None` if it has one.
-    fn nearest(&self) -> Option<UnknownStructure> {
-        None
-    }
-
-    /// Whether a parallelogram linkage may couple axes 2 and 3; otherwise the reason.
-    fn may_be_coupled(&self) -> Result<(), &'static str> {
-        Err(NO_LINKAGE)
-    }
 }
-
-#[cfg(test)]
-mod tests;

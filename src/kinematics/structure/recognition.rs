@@ -39,7 +39,7 @@ impl Pattern {
                 Relation::Parallel => (&mut row.alpha, nearest_of(alpha, 0.0)),
                 Relation::Perpendicular => (&mut row.alpha, nearest_of(alpha, FRAC_PI_2)),
                 // Between its neighbors' feet on it, the middle axis runs for d of its own row,
-                // which is the row before that of the last.
+                // which is the row before the last axis.
                 Relation::Meeting | Relation::Coplanar if axes.1 == axes.0 + 2 => (&mut row.d, 0.0),
                 Relation::Meeting | Relation::Coplanar => (&mut row.a, 0.0),
             };

@@ -1,9 +1,11 @@
 //! An arm between the frames in which poses are given, with its limits: the solve that is common to
 //! all structures.
 
-use super::arm::{Arm, RowSolve, Rows};
+use alloc::sync::Arc;
+
 use super::end_frames::{EndFrames, Frame, Seen};
 use super::free_choice::FreeChoice;
+use super::inverse::{Inverse, RowSolve, Rows};
 use super::lanes::{Blocks, Choice, Columns, LaneKernel, PoseRow, RegularPose, Wanted};
 use super::singular_wrist::SingularWrist;
 use super::{Structure, TakeStep};
@@ -15,14 +17,14 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
 use crate::lanes::{Kernel, run};
-use crate::report::{FreeJoint, UnknownStructure};
+use crate::report::FreeJoint;
 
 /// A structure with its end frames and joint limits.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct Solver<T: Structure<N, S>, const N: usize, const S: usize> {
     pub(crate) structure: T,
     pub(crate) end_frames: EndFrames,
-    /// `None` if the structure has no kernel, or the limits require more than the lanes can do.
+    /// `None` if most poses are not regular, or the limits require more than the lanes can do.
     lanes: Option<(T::Kernel, Columns<N>)>,
 }
 
@@ -40,33 +42,16 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
         }
     }
 
-    /// The same without a kernel: every pose is solved by the scalar solver.
-    #[cfg(test)]
-    pub(crate) fn without_lanes(self) -> Self {
-        Self { lanes: None, ..self }
-    }
-
-    /// Solve the answer's pose if it is regular; return whether it is.
-    #[inline]
-    pub(crate) fn solve_in_lanes(
-        &self,
-        solutions: &mut Solutions<N>,
-        redundancy: T::Redundancy,
-    ) -> bool {
-        let Some((kernel, columns)) = &self.lanes else { return false };
-        self.solve_with(kernel, columns, solutions, redundancy)
-    }
-
     #[inline]
     fn solve_with(
         &self,
         kernel: &T::Kernel,
         columns: &Columns<N>,
         solutions: &mut Solutions<N>,
-        redundancy: T::Redundancy,
+        locked: f64,
     ) -> bool {
         let (seen, pose) = (&self.end_frames.seen, &solutions.pose);
-        let Some(regular) = run(Single { kernel, columns, seen, pose, redundancy }) else {
+        let Some(regular) = run(Single { kernel, columns, seen, pose, locked }) else {
             return false;
         };
         for (index, place) in solutions.first_places::<S>().iter_mut().enumerate() {
@@ -78,48 +63,53 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
     }
 }
 
-impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> for Solver<T, N, S> {
+impl<T: Structure<N, S>, const N: usize, const S: usize> Inverse<N> for Solver<T, N, S> {
     fn name(&self) -> &'static str {
         T::PATTERN.name
+    }
+
+    fn slot_count(&self) -> usize {
+        S
     }
 
     fn slot_names(&self) -> Option<&'static [&'static str]> {
         T::SLOT_NAMES.map(|names| &names[..])
     }
 
-    fn solve(
-        &self,
-        solutions: &mut Solutions<N>,
-        redundancy: T::Redundancy,
-        free: &FreeChoice<N>,
-    ) -> Result<(), UnknownStructure> {
+    fn between(&self, chain: &Chain<N>, limits: &JointLimits<N>) -> Arc<dyn Inverse<N>> {
+        Arc::new(Self::new(self.structure.clone(), chain, limits))
+    }
+
+    fn solve_in_lanes(&self, solutions: &mut Solutions<N>, locked: f64) -> bool {
+        let Some((kernel, columns)) = &self.lanes else { return false };
+        self.solve_with(kernel, columns, solutions, locked)
+    }
+
+    fn solve_on_path(&self, solutions: &mut Solutions<N>, locked: f64) -> bool {
+        let Some((kernel, columns)) = &self.lanes else { return false };
+        kernel.for_path().is_some_and(|kernel| self.solve_with(&kernel, columns, solutions, locked))
+    }
+
+    fn solve(&self, solutions: &mut Solutions<N>, locked: f64, free: &FreeChoice<N>) {
         let t_first_last = self.end_frames.wrist_pose(&solutions.pose);
-        let branches = self.structure.solve(&t_first_last, redundancy, free);
+        let branches = self.structure.solve(&t_first_last, locked, free);
         let limits = solutions.limits;
         for (index, place) in solutions.first_places::<S>().iter_mut().enumerate() {
-            *place = branches.place(index, &limits, redundancy);
+            *place = branches.place(index, &limits, locked);
         }
         solutions.reach = branches.reach;
         solutions.is_certified = branches.is_certified;
-        Ok(())
     }
 
-    fn solve_on_path(&self, solutions: &mut Solutions<N>, redundancy: T::Redundancy) -> bool {
-        let Some((kernel, columns)) = &self.lanes else { return false };
-        kernel
-            .for_path()
-            .is_some_and(|kernel| self.solve_with(&kernel, columns, solutions, redundancy))
-    }
-
-    fn solve_rows(&self, rows: Rows<'_, T::Redundancy>, by_itself: &mut RowSolve<'_, N>) {
-        let Rows { poses, redundancy, q, status } = rows;
+    fn solve_rows(&self, rows: Rows<'_>, by_itself: &mut RowSolve<'_, N>) {
+        let Rows { poses, locked, q, status } = rows;
         let q = q.as_chunks_mut::<N>().0.as_chunks_mut::<S>().0;
         let status = status.as_chunks_mut::<S>().0;
         match &self.lanes {
             Some((kernel, columns)) => {
                 let seen = self.end_frames.seen;
                 let wanted = Wanted::Slots { q, status };
-                run(Blocks { kernel, columns, seen, poses, redundancy, wanted, by_itself });
+                run(Blocks { kernel, columns, seen, poses, locked, wanted, by_itself });
             }
             None => {
                 for (row, (q, status)) in q.iter_mut().zip(status).enumerate() {
@@ -141,7 +131,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
             Some((kernel, columns)) => {
                 let seen = self.end_frames.seen;
                 let wanted = Wanted::Nearest { choice, seeds, q };
-                run(Blocks { kernel, columns, seen, poses, redundancy: &[], wanted, by_itself });
+                run(Blocks { kernel, columns, seen, poses, locked: &[], wanted, by_itself });
             }
             None => {
                 for (row, q) in q.iter_mut().enumerate() {
@@ -151,16 +141,8 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
         }
     }
 
-    fn singular(&self, q: &[f64; N]) -> Option<(Option<SingularDistances>, SingularityKind)> {
-        Some((self.structure.singular_distances(q), self.structure.singularities(q)))
-    }
-
-    fn singular_distances(&self, q: &[f64; N]) -> Option<SingularDistances> {
-        self.structure.singular_distances(q)
-    }
-
-    fn nearest(&self) -> Option<UnknownStructure> {
-        self.structure.nearest()
+    fn singular(&self, q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind) {
+        self.structure.singular(q)
     }
 
     fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
@@ -170,6 +152,13 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
     fn slot(&self, q: &[f64; N]) -> Option<Slot> {
         self.structure.slot(q)
     }
+
+    #[cfg(test)]
+    fn without_lanes(&self) -> Arc<dyn Inverse<N>> {
+        Arc::new(Self { lanes: None, ..self.clone() })
+    }
+
+    // --- Until the walker of self-motions needs the chain alone: from here on. ---
 
     fn sin_5(&self, q: &[f64; N]) -> Option<f64> {
         self.structure.sin_5(q)
@@ -194,10 +183,6 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Arm<N, T::Redundancy> f
     fn last_frame(&self, pose: &Pose) -> Pose {
         self.end_frames.wrist_pose(pose)
     }
-
-    fn may_be_coupled(&self) -> Result<(), &'static str> {
-        self.structure.may_be_coupled()
-    }
 }
 
 /// One pose in lanes.
@@ -206,7 +191,7 @@ struct Single<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
     columns: &'a Columns<N>,
     seen: &'a Seen,
     pose: &'a Pose,
-    redundancy: K::Redundancy,
+    locked: f64,
 }
 
 impl<K: LaneKernel<N, S>, const N: usize, const S: usize> Kernel for Single<'_, K, N, S> {
@@ -217,6 +202,6 @@ impl<K: LaneKernel<N, S>, const N: usize, const S: usize> Kernel for Single<'_, 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Self::Answer {
         let frame = self.seen.of::<FUSED>(&Frame::of(self.pose));
-        self.kernel.solve_one::<FUSED>(self.columns, &frame, self.redundancy)
+        self.kernel.solve_one::<FUSED>(self.columns, &frame, self.locked)
     }
 }

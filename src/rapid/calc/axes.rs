@@ -4,7 +4,7 @@
 //! is axis 7, `eax_a` of its robtarget the arm angle. Of other arms it is a track or a positioner.
 
 use crate::error::{Error, JointFault};
-use crate::kinematics::{Arity, ConfigurationRequest, Inverse, Joints, Robot};
+use crate::kinematics::{ConfigurationRequest, Robot};
 use crate::rapid::data::records::{JointTarget, RobTarget};
 use crate::report::ConfigurationRule;
 
@@ -50,10 +50,7 @@ pub(in crate::rapid) fn absent_axis<const N: usize>(joints: &JointTarget) -> Opt
 pub(in crate::rapid) fn request<const N: usize>(
     robot: &Robot<N>,
     target: &RobTarget,
-) -> Result<ConfigurationRequest<N>, Error>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<ConfigurationRequest<N>, Error> {
     let request = ConfigurationRequest::from(target.robconf);
     let ConfigurationRule::ArmAngle { .. } = robot.configuration_rule()? else {
         return Ok(request);
@@ -70,11 +67,7 @@ pub(in crate::rapid) fn with_arm_angle<const N: usize>(
     robot: &Robot<N>,
     q: &[f64; N],
     mut extax: [f64; 6],
-) -> Result<[f64; 6], Error>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+) -> Result<[f64; 6], Error> {
     if let ConfigurationRule::ArmAngle { .. } = robot.configuration_rule()? {
         extax[0] = robot.arm_angle_of(q)?.unwrap_or(0.0).to_degrees();
     }

@@ -1,7 +1,7 @@
 //! The flange pose for a tool pose in a work object: the frames of tooldata and wobjdata.
 
 use crate::error::{Error, FrameFault};
-use crate::kinematics::{Arity, Joints, Pose, Robot, pose_from_wxyz, pose_to_wxyz};
+use crate::kinematics::{Pose, Robot, pose_from_wxyz, pose_to_wxyz};
 use crate::rapid::data::records::{RapidPose, ToolData, WobjData};
 
 /// A tool and a work object, one of which the robot carries while the other is fixed in the world.
@@ -19,10 +19,7 @@ impl Frames {
         robot: &Robot<N>,
         tool: Option<&ToolData>,
         wobj: Option<&WobjData>,
-    ) -> Result<Self, Error>
-    where
-        Joints<N>: Arity<N>,
-    {
+    ) -> Result<Self, Error> {
         let tool_carried = tool.is_none_or(|tool| tool.robhold);
         let wobj_carried = wobj.is_some_and(|wobj| wobj.robhold);
         if tool_carried == wobj_carried {

@@ -10,7 +10,7 @@ use super::frames::Frames;
 use super::problem::Problem;
 use super::target::{target_pose, with_flange};
 use crate::error::Error;
-use crate::kinematics::{Arity, Inverse, Joints, Robot, SingularDistances, Solution};
+use crate::kinematics::{Robot, SingularDistances, Solution};
 use crate::rapid::data::module::{Content, Module};
 use crate::rapid::data::moves::{Argument, Move, Target};
 use crate::rapid::data::records::{JointTarget, RobTarget, ToolData, WobjData};
@@ -64,11 +64,7 @@ pub fn moves_table<const N: usize>(
     robot: &Robot<N>,
     module: &Module,
     fallback: Fallback<N>,
-) -> Result<Vec<TableRow<N>>, Error>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+) -> Result<Vec<TableRow<N>>, Error> {
     let mut table = Table::new(robot, fallback)?;
     for step in module.moves() {
         if let Some(via) = &step.via {
@@ -109,11 +105,7 @@ pub fn targets_table<const N: usize>(
     tool: Option<&ToolData>,
     wobj: Option<&WobjData>,
     fallback: Fallback<N>,
-) -> Result<Vec<TableRow<N>>, Error>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+) -> Result<Vec<TableRow<N>>, Error> {
     let frames = Frames::new(robot, tool, wobj)?;
     let mut table = Table::new(robot, fallback)?;
     for datum in module.data().iter().filter(|datum| datum.routine.is_none()) {
@@ -144,10 +136,7 @@ where
 pub(in crate::rapid) fn frames_of<const N: usize>(
     robot: &Robot<N>,
     step: &Move,
-) -> Result<Frames, Problem>
-where
-    Joints<N>: Arity<N>,
-{
+) -> Result<Frames, Problem> {
     let Argument { text, value, .. } = &step.tool;
     let tool = value
         .as_ref()
@@ -161,10 +150,7 @@ where
 }
 
 /// The joint or linkage that is outside the limits, and the excess.
-pub(in crate::rapid) fn outside<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Option<Problem>
-where
-    Joints<N>: Arity<N>,
-{
+pub(in crate::rapid) fn outside<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Option<Problem> {
     let limits = robot.limits();
     if limits.contains(q) {
         return None;
@@ -190,10 +176,7 @@ fn element(name: &str, sizes: &[usize], mut number: usize) -> String {
     format!("{name}{{{}}}", indices.join(","))
 }
 
-struct Table<'a, const N: usize>
-where
-    Joints<N>: Arity<N>,
-{
+struct Table<'a, const N: usize> {
     robot: &'a Robot<N>,
     /// The same robot with the flange as its tool.
     flange: Robot<N>,
@@ -201,11 +184,7 @@ where
     rows: Vec<TableRow<N>>,
 }
 
-impl<'a, const N: usize> Table<'a, N>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+impl<'a, const N: usize> Table<'a, N> {
     fn new(robot: &'a Robot<N>, fallback: Fallback<N>) -> Result<Self, Error> {
         robot.configuration_rule()?;
         Ok(Self { robot, flange: with_flange(robot)?, fallback, rows: Vec::new() })

@@ -4,7 +4,7 @@ use super::axes::{joint_target, joint_vector, request, with_arm_angle};
 use super::fallback::Fallback;
 use super::frames::{Frames, pose_in, rapid_pose};
 use crate::error::Error;
-use crate::kinematics::{Arity, Inverse, Joints, Pose, Robot};
+use crate::kinematics::{Pose, Robot};
 use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
 use crate::report::Explanation;
 
@@ -55,11 +55,7 @@ pub fn joint_target_of<const N: usize>(
     tool: Option<&ToolData>,
     wobj: Option<&WobjData>,
     fallback: Fallback<N>,
-) -> Result<JointTarget, Error>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+) -> Result<JointTarget, Error> {
     let frames = Frames::new(robot, tool, wobj)?;
     let pose = frames.flange(&target_pose(target)?);
     let request = request(robot, target)?;
@@ -97,11 +93,7 @@ pub fn rob_target_of<const N: usize>(
     joints: &JointTarget,
     tool: Option<&ToolData>,
     wobj: Option<&WobjData>,
-) -> Result<RobTarget, Error>
-where
-    Robot<N>: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+) -> Result<RobTarget, Error> {
     let frames = Frames::new(robot, tool, wobj)?;
     let q = joint_vector(joints);
     let robconf = robot.configuration(&q)?;
@@ -125,10 +117,7 @@ pub fn error_name(error: &Error) -> Option<&'static str> {
 }
 
 /// The same robot with the flange as its tool.
-pub(in crate::rapid) fn with_flange<const N: usize>(robot: &Robot<N>) -> Result<Robot<N>, Error>
-where
-    Joints<N>: Arity<N>,
-{
+pub(in crate::rapid) fn with_flange<const N: usize>(robot: &Robot<N>) -> Result<Robot<N>, Error> {
     robot.clone().with_tool(&Pose::identity())
 }
 

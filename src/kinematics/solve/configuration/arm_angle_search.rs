@@ -17,8 +17,9 @@ use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::solve::given_joint::GivenJoint;
+use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion_curve::{Joints, Point, SelfMotion};
+use crate::kinematics::structure::locked::LockedJoint;
 
 /// Spacing of the angles of the joint at which all solutions are computed [rad]: a self-motion that
 /// turns it by less may be missed.
@@ -68,8 +69,8 @@ pub(super) struct Search<'a> {
     pub(super) curve: SelfMotion<'a>,
     pub(super) angle: ArmAngle<'a>,
     pub(super) wanted: f64,
-    /// The arm with the joint of the sections given, if that is not the last.
-    pub(super) given: Option<GivenJoint>,
+    /// The arm with the joint of the sections locked, if that is not the last.
+    pub(super) locked: Option<Robot<7>>,
     pub(super) found: Found,
 }
 
@@ -80,13 +81,13 @@ fn largest_difference(a: &[f64; 7], b: &[f64; 7]) -> f64 {
 impl Search<'_> {
     /// The joint of the sections, from 0.
     fn joint(&self) -> usize {
-        self.given.as_ref().map_or(6, |given| given.joint() - 1)
+        self.locked.as_ref().map_or(6, Robot::locked_index)
     }
 
     /// Search with the joint of the sections between two angles.
     pub(super) fn run(&mut self, [from, to]: [f64; 2]) -> Result<(), Error> {
         // Another angle of a joint between the ends is another chain: one section, all around.
-        let is_between = self.given.as_ref().is_some_and(|given| !given.is_at_end());
+        let is_between = !LockedJoint::is_end(self.joint());
         let spacing = if is_between { TAU } else { SPACING };
         let count = ((to - from) / spacing).ceil().max(1.0);
         let mut before = self.section(from)?;
@@ -108,13 +109,8 @@ impl Search<'_> {
     }
 
     fn section(&self, at: f64) -> Result<Section, Error> {
-        let found = match &self.given {
-            Some(given) => {
-                let angle = if given.is_at_end() { at } else { given.angle() };
-                given.ik_checked(self.curve.pose, angle)?
-            }
-            None => self.curve.robot.ik_checked(*self.curve.pose, at)?,
-        };
+        let robot = self.locked.as_ref().unwrap_or(self.curve.robot);
+        let found = robot.ik_checked(*self.curve.pose, at)?;
         let mut solutions = [None; MOST_SLOTS];
         for (place, solution) in solutions.iter_mut().zip(&found) {
             let mut q = solution.q;

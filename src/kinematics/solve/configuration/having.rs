@@ -8,7 +8,6 @@ use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::thresholds::{CONFIGURATION_EDGE, TAUGHT_BEYOND_LIMITS};
 use crate::report::{Configuration, ConfigurationRule};
 
@@ -20,10 +19,7 @@ pub(super) const EDGE_ROUNDING: f64 = 1e-6;
 pub(super) const BEYOND: [f64; 2] = [0.0, TAUGHT_BEYOND_LIMITS];
 
 /// The joint vectors that have a configuration, at any 2 pi equivalent of the solutions of a pose.
-pub(super) struct Having<'a, const N: usize, S>
-where
-    Joints<N>: Arity<N>,
-{
+pub(super) struct Having<'a, const N: usize, S> {
     robot: &'a Robot<N>,
     rule: &'a ConfigurationRule,
     solutions: S,
@@ -32,10 +28,7 @@ where
     limits: JointLimits<N>,
 }
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// Those of `solutions` that have a configuration, at most `beyond` the limits [rad]; `None` if
     /// none has it.
     pub(super) fn having<'a, S: Iterator<Item = Solution<N>> + Clone>(
@@ -68,10 +61,7 @@ where
     }
 }
 
-impl<const N: usize, S: Iterator<Item = Solution<N>> + Clone> Having<'_, N, S>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize, S: Iterator<Item = Solution<N>> + Clone> Having<'_, N, S> {
     /// Those at 2 pi equivalents that can be counted. An axis 5 at -180 deg is one at +180 deg with
     /// another branch.
     fn members(&self) -> impl Iterator<Item = Solution<N>> {

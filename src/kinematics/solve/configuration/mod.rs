@@ -14,23 +14,19 @@ mod yumi;
 pub use request::ConfigurationRequest;
 
 use alloc::vec::Vec;
+use core::any::Any;
 
 use rule::Quarters;
 
-use crate::error::{Error, NoConfiguration};
+use crate::error::{Error, ModelFault, NoConfiguration};
 use crate::kinematics::answer::select::Turns;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
-use crate::kinematics::solve::seeded::Inverse;
-use crate::kinematics::structure::arity::{Arity, Joints};
-use crate::report::ConfigurationRule;
+use crate::kinematics::structure::inverse::of_count;
+use crate::report::{ConfigurationRule, Explanation};
 
-impl<const N: usize> Robot<N>
-where
-    Self: Inverse<N>,
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// The solution inside the limits that has a configuration, which also selects the 2 pi
     /// equivalents of axes 1, 4 and 6. A [`Configuration`](crate::Configuration) is a request.
     ///
@@ -105,12 +101,58 @@ where
             answer => answer,
         }
     }
-}
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+    /// The solution with the configuration of a request, of several the one nearest to a seed.
+    fn configured(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<N>,
+        seed: &[f64; N],
+    ) -> Result<Solution<N>, Error> {
+        let arm: &dyn Any = self;
+        if let (Some(six), Some(request), Some(seed)) =
+            (arm.downcast_ref::<Robot<6>>(), of_count(*request), of_count(*seed))
+            && let Some(found) = of_count(six.configured_near(pose, &request, &seed))
+        {
+            return found;
+        }
+        let list = self.all_configured(pose, request, seed)?;
+        list.first().copied().ok_or(Error::Unreachable(Explanation::FilteredOut))
+    }
+
+    /// All solutions with the configuration of a request, the nearest to a seed first.
+    fn all_configured(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<N>,
+        seed: &[f64; N],
+    ) -> Result<Vec<Solution<N>>, Error> {
+        let arm: &dyn Any = self;
+        let found = if let (Some(six), Some(request), Some(seed)) =
+            (arm.downcast_ref::<Robot<6>>(), of_count(*request), of_count(*seed))
+        {
+            of_count(six.configured_list(pose, &request, &seed))
+        } else if let (Some(seven), Some(request), Some(seed)) =
+            (arm.downcast_ref::<Robot<7>>(), of_count(*request), of_count(*seed))
+        {
+            of_count(seven.configured_list(pose, &request, &seed))
+        } else {
+            None
+        };
+        let structure = self.structure();
+        found.unwrap_or(Err(ModelFault::NoConfiguration { structure }.into()))
+    }
+
+    /// The arm angle of joint angles, of an arm that has one.
+    #[cfg(feature = "rapid")]
+    pub(crate) fn arm_angle_of(&self, q: &[f64; N]) -> Result<Option<f64>, Error> {
+        let arm: &dyn Any = self;
+        match (arm.downcast_ref::<Robot<7>>(), of_count(*q)) {
+            (Some(seven), Some(q)) => seven.arm_angle(&q),
+            _ => Err(ModelFault::NoArmAngle.into()),
+        }
+    }
+
     /// Add the configurations of a solution's 2 pi equivalents inside the limits, each once, while
     /// there is room.
     fn list_turns(

@@ -8,8 +8,6 @@ use nalgebra::ComplexField as _;
 use crate::error::{Error, JointFault, ModelFault};
 use crate::kinematics::answer::check::check_seed;
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::any::AnyStructure as _;
-use crate::kinematics::structure::arity::{Arity, Joints};
 use crate::kinematics::thresholds::MOST_ANGLE;
 use crate::lanes::{nearest_whole, whole_below};
 use crate::report::{Configuration, ConfigurationRule};
@@ -85,10 +83,7 @@ impl Configuration {
     }
 }
 
-impl<const N: usize> Robot<N>
-where
-    Joints<N>: Arity<N>,
-{
+impl<const N: usize> Robot<N> {
     /// How the controller of this arm counts configurations.
     ///
     /// # Errors
@@ -99,7 +94,7 @@ where
         if let Some(rule) = self.own_rule() {
             return Ok(rule);
         }
-        match self.solver().arm().singular_wrist() {
+        match self.spherical_wrist() {
             Some(_) => Ok(ConfigurationRule::SphericalWrist),
             None => Err(ModelFault::NoConfiguration { structure: self.structure() }.into()),
         }

@@ -46,7 +46,7 @@ impl Robot<6> {
         if let (ConfigurationRule::SphericalWrist, Some(arm)) = (rule, self.spherical_wrist()) {
             return self.configured_wrist(arm, *pose, wanted);
         }
-        let solutions = self.ik_checked(*pose, ())?;
+        let solutions = self.ik_checked(*pose, f64::NAN)?;
         let near = self.having_near(&rule, &solutions, wanted, seed)?;
         let members = with_near(&solutions, near);
         for beyond in BEYOND {
@@ -96,7 +96,7 @@ impl Robot<6> {
         if rule == ConfigurationRule::SphericalWrist {
             return Ok(Vec::from([self.configured_near(pose, request, seed)?]));
         }
-        let solutions = self.ik_checked(*pose, ())?;
+        let solutions = self.ik_checked(*pose, f64::NAN)?;
         let near = self.having_near(&rule, &solutions, wanted, seed)?;
         let members = with_near(&solutions, near);
         for beyond in BEYOND {

@@ -44,10 +44,10 @@ impl Robot<6> {
         wanted: Configuration,
     ) -> Result<Solution<6>, Error> {
         let mut solutions = self.unsolved(pose);
-        let found = if self.solve_in_lanes(&mut solutions, ()) {
+        let found = if self.solve_in_lanes(&mut solutions, f64::NAN) {
             self.configured_regular(arm, &solutions, wanted)
         } else {
-            self.solve_at_rest(&mut solutions, ())?;
+            self.solve_at_rest(&mut solutions, f64::NAN)?;
             self.configured_singular(arm, &solutions, wanted)?
         };
         if let Some(found) = found {
@@ -140,8 +140,7 @@ impl Robot<6> {
         if slot == wanted.cfx {
             return true;
         }
-        let Some(near) = arm.singular_distances(&solution.q) else { return false };
-        let singularities = arm.singularities(&solution.q);
+        let (Some(near), singularities) = arm.singular(&solution.q) else { return false };
         let open = match closeness {
             Closeness::Same => [near.wrist <= SEEDED_FREE, false, false],
             Closeness::Bent => {
@@ -179,7 +178,7 @@ impl Robot<6> {
             return solution;
         }
         if (slot_of(arm, &q).number() ^ wanted.cfx) & 2 != 0
-            && arm.singularities(&q).contains(SingularityKind::ELBOW)
+            && arm.singular(&q).1.contains(SingularityKind::ELBOW)
         {
             let bent = arm.with_bent_elbow(&q, wanted.cfx & 2 != 0);
             q = moved_onto_pose(bent, 2).unwrap_or(q);

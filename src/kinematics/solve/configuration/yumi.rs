@@ -165,10 +165,13 @@ impl Robot<7> {
         found: &mut Found,
     ) -> Result<(), Error> {
         let reference = self.arm_angle_reference()?;
+        if self.lock().is_some() {
+            return Err(ModelFault::NoArmAngle.into());
+        }
         let Some(angle) = ArmAngle::of(self, reference, pose) else { return Ok(()) };
-        let given = (joint != 7).then(|| self.given(joint, from)).transpose()?;
+        let locked = (joint != 7).then(|| self.locked(joint, from)).transpose()?;
         let curve = SelfMotion { robot: self, pose, rounding: self.rounding() };
-        let mut search = Search { curve, angle, wanted, given, found: *found };
+        let mut search = Search { curve, angle, wanted, locked, found: *found };
         search.run([from, to.min(from + TAU)])?;
         *found = search.found;
         Ok(())

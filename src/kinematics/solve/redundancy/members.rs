@@ -6,7 +6,6 @@ use super::Search;
 use super::free_joints::{LEAST_GAIN, LOCKED};
 use super::samples::Sample;
 use crate::kinematics::solve::self_motion::meets;
-use crate::kinematics::structure::any::AnyStructure as _;
 use crate::kinematics::thresholds::NEAR_CROSSING;
 
 /// Steps towards the seed, at most: each of the seven joints may reach a limit, and a surface
@@ -21,12 +20,15 @@ impl Search<'_> {
     /// from there towards the seed.
     pub(super) fn choose_member(&mut self, sample: &Sample) {
         let mut best = *sample;
-        self.robot.solver().arm().walk(self.pose, &sample.q, &mut |_, end| {
+        let mut pass = |_: &[f64; 7], end: &[f64; 7]| {
             let member = self.sample(self.turned(end));
             if !best.is_better_than(Some(&member)) {
                 best = member;
             }
-        });
+        };
+        if let Some(inverse) = self.robot.inverse() {
+            inverse.walk(self.pose, &sample.q, &mut pass);
+        }
         self.slide_on_surface(best);
     }
 

@@ -13,6 +13,7 @@ mod grid;
 mod members;
 mod samples;
 
+use core::any::Any;
 use core::cmp::Ordering;
 
 #[cfg(not(feature = "std"))]
@@ -29,7 +30,6 @@ use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::solve::self_motion_curve::{Joints, SelfMotion};
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::structure::seven_joints::SevenJoints;
 use crate::kinematics::structure::solver::Solver;
 use crate::kinematics::structure::spherical_shoulder::{EDGES, SphericalShoulder};
 use crate::kinematics::thresholds::{
@@ -118,10 +118,8 @@ impl Robot<7> {
     }
 
     fn shoulder_solver(&self) -> Option<&Solver<SphericalShoulder, 7, 8>> {
-        match self.solver() {
-            SevenJoints::SphericalShoulder(solver) => Some(solver),
-            SevenJoints::LastGiven(_) | SevenJoints::Unknown(_) => None,
-        }
+        let inverse: &dyn Any = self.inverse()?;
+        inverse.downcast_ref()
     }
 
     /// A joint vector of the pose, in its slot.

@@ -19,7 +19,6 @@ impl<M: ByRoots> LaneKernel<6, SLOTS> for RootKernel<M> {
     const DIFFERENCES: &'static [usize] = &[];
     const WIDE: bool = false;
 
-    type Redundancy = ();
     type Regular = Solved;
     type Block = RegularBlock;
 
@@ -33,7 +32,7 @@ impl<M: ByRoots> LaneKernel<6, SLOTS> for RootKernel<M> {
         &self,
         columns: &Columns<6>,
         t_first_last: &Frame,
-        (): (),
+        _: f64,
     ) -> Option<Solved> {
         let Self(method) = self;
         if !method.may_be_regular(t_first_last) {
@@ -63,7 +62,7 @@ impl<M: ByRoots> Block<RootKernel<M>, 6, SLOTS> for RegularBlock {
         RootKernel(method): &RootKernel<M>,
         columns: &Columns<6>,
         poses: &mut Poses,
-        (): (),
+        _: Column,
     ) -> Flags {
         let (frames, count, places) = different(method, poses);
         solve(method, &columns.row, &frames[..count], &mut self.solved[..count]);

@@ -6,7 +6,6 @@ use alloc::vec::Vec;
 use super::split::Split;
 use crate::kinematics::structure::closure::Closure;
 use crate::kinematics::structure::joint_map::JointMap;
-use crate::report::UnknownStructure;
 
 /// An arm of six joints without parallel or coincident neighbors that cost it a degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +16,4 @@ pub(crate) struct General {
     pub(super) splits: Arc<Vec<Split>>,
     /// Whether most poses are regular in the first split: not where roots are pairs.
     pub(super) is_mostly_regular: bool,
-    /// How far the table is from a structure with a closed form.
-    pub(super) nearest: Option<UnknownStructure>,
 }

@@ -54,6 +54,6 @@ impl General {
             t_base_shoulder: mdh.base * screw_x(first.alpha, first.a) * translation_z(first.d),
             t_wrist_flange: translation_z(last.d) * mdh.flange,
         };
-        Ok(Self { closure, joint_map, splits, is_mostly_regular, nearest: None })
+        Ok(Self { closure, joint_map, splits, is_mostly_regular })
     }
 }

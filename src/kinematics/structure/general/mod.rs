@@ -47,13 +47,10 @@ impl General {
 
 impl Structure<6, SLOTS> for General {
     const PATTERN: &'static Pattern = &PATTERN;
-    const IS_CLOSED_FORM: bool = false;
-
     /// Arms of this kind may pass from one branch to another without a singularity: no property of
     /// a joint vector names its branch.
     const SLOT_NAMES: Option<&'static [&'static str; SLOTS]> = None;
 
-    type Redundancy = ();
     type Kernel = RootKernel<FirstSplit>;
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
@@ -75,16 +72,12 @@ impl Structure<6, SLOTS> for General {
         self.is_mostly_regular.then(|| RootKernel(FirstSplit::of(self)))
     }
 
-    fn solve(&self, t_first_last: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6, SLOTS> {
+    fn solve(&self, t_first_last: &Pose, _: f64, free: &FreeChoice<6>) -> Branches<6, SLOTS> {
         self.branches(t_first_last, free)
     }
 
-    fn singular_distances(&self, _q: &[f64; 6]) -> Option<SingularDistances> {
-        None
-    }
-
-    fn singularities(&self, q: &[f64; 6]) -> SingularityKind {
-        self.kinds(q)
+    fn singular(&self, q: &[f64; 6]) -> (Option<SingularDistances>, SingularityKind) {
+        (None, self.kinds(q))
     }
 
     fn jacobian_determinant(&self, q: &[f64; 6]) -> f64 {
@@ -101,13 +94,5 @@ impl Structure<6, SLOTS> for General {
 
     fn walk(&self, t: &Pose, q: &[f64; 6], pass: &mut TakeStep<'_, 6>) {
         self.walk_along(t, q, pass);
-    }
-
-    fn noting(self, nearest: Option<UnknownStructure>) -> Self {
-        Self { nearest, ..self }
-    }
-
-    fn nearest(&self) -> Option<UnknownStructure> {
-        self.nearest
     }
 }

@@ -1,7 +1,6 @@
 //! A block of poses, solved in lanes.
 
 use super::{AnswerRow, Columns, LaneKernel, Poses, StatusRow};
-use crate::kinematics::structure::redundancy::Redundancy;
 use crate::lanes::{Column, Flags, LANES};
 
 /// A block of poses with its solutions.
@@ -19,7 +18,7 @@ pub(crate) trait Block<K: LaneKernel<N, S>, const N: usize, const S: usize> {
         kernel: &K,
         columns: &Columns<N>,
         frames: &mut Poses,
-        redundancy: <K::Redundancy as Redundancy>::Lanes,
+        locked: Column,
     ) -> Flags;
 
     /// The solutions of the poses that were solved last. Must be `#[inline(always)]`.

@@ -4,7 +4,6 @@ mod block;
 mod columns;
 mod directions;
 mod nearest;
-mod no_kernel;
 mod poses;
 mod rows;
 mod slots;
@@ -13,7 +12,6 @@ pub(crate) use block::{Block, BlockSlots};
 pub(crate) use columns::{Columns, JointColumn, JointRow};
 pub(crate) use directions::{Direction, Directions};
 pub(crate) use nearest::Choice;
-pub(crate) use no_kernel::NoKernel;
 pub(crate) use poses::{PoseRow, Poses};
 pub(crate) use rows::{Blocks, Wanted};
 pub(crate) use slots::{RegularSlots, SlotColumns};
@@ -21,7 +19,6 @@ pub(crate) use slots::{RegularSlots, SlotColumns};
 use core::fmt::Debug;
 
 use super::end_frames::Frame;
-use super::redundancy::Redundancy;
 use crate::kinematics::answer::status::Status;
 
 /// The joint angles and the status of the slots of a pose.
@@ -47,9 +44,6 @@ pub(crate) trait LaneKernel<const N: usize, const S: usize>:
     /// [`Kernel::WIDE`](crate::lanes::Kernel::WIDE): not if most of it runs in explicit vectors.
     const WIDE: bool = true;
 
-    /// The redundancy parameter that a caller gives with a pose.
-    type Redundancy: Redundancy;
-
     /// The slots of one regular pose.
     type Regular: RegularPose<N>;
 
@@ -68,7 +62,7 @@ pub(crate) trait LaneKernel<const N: usize, const S: usize>:
         &self,
         columns: &Columns<N>,
         t_first_last: &Frame,
-        redundancy: Self::Redundancy,
+        locked: f64,
     ) -> Option<Self::Regular>;
 }
 

@@ -2,8 +2,7 @@
 
 use super::{AnswerRow, Block, BlockSlots, Choice, Columns, LaneKernel, PoseRow, Poses, StatusRow};
 use crate::kinematics::structure::end_frames::Seen;
-use crate::kinematics::structure::redundancy::Redundancy;
-use crate::lanes::{Flags, Kernel, LANES};
+use crate::lanes::{Column, Flags, Kernel, LANES};
 
 /// What is wanted of the solutions of rows.
 pub(crate) enum Wanted<'a, const N: usize, const S: usize> {
@@ -19,7 +18,7 @@ pub(crate) struct Blocks<'a, K: LaneKernel<N, S>, F, const N: usize, const S: us
     pub(crate) columns: &'a Columns<N>,
     pub(crate) seen: Seen,
     pub(crate) poses: &'a [PoseRow],
-    pub(crate) redundancy: &'a [K::Redundancy],
+    pub(crate) locked: &'a [f64],
     pub(crate) wanted: Wanted<'a, N, S>,
     pub(crate) by_itself: F,
 }
@@ -34,8 +33,8 @@ where
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
-        let Self { kernel, columns, seen, poses, redundancy, mut wanted, mut by_itself } = self;
-        let arm = Lanes { kernel, columns, seen, redundancy };
+        let Self { kernel, columns, seen, poses, locked, mut wanted, mut by_itself } = self;
+        let arm = Lanes { kernel, columns, seen, locked };
         let (blocks, rest) = poses.as_chunks::<LANES>();
         let (mut block, mut next) = (K::Block::NEW, Poses::NEW);
         let mut rows = [[0.0; 16]; LANES];
@@ -121,7 +120,7 @@ struct Lanes<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
     kernel: &'a K,
     columns: &'a Columns<N>,
     seen: Seen,
-    redundancy: &'a [K::Redundancy],
+    locked: &'a [f64],
 }
 
 impl<K: LaneKernel<N, S>, const N: usize, const S: usize> Lanes<'_, K, N, S> {
@@ -135,11 +134,21 @@ impl<K: LaneKernel<N, S>, const N: usize, const S: usize> Lanes<'_, K, N, S> {
     ) -> Flags {
         let sound = poses.check();
         poses.seen_from_shoulder::<FUSED>(self.seen);
-        let redundancy = K::Redundancy::lanes(self.redundancy, number);
-        let mut regular = block.solve::<FUSED>(self.kernel, self.columns, poses, redundancy);
+        let locked = column_of(self.locked, number);
+        let mut regular = block.solve::<FUSED>(self.kernel, self.columns, poses, locked);
         for lane in 0..LANES {
             regular[lane] &= sound[lane];
         }
         regular
     }
+}
+
+/// The numbers of a block, of one for each pose; zeros where there are none.
+#[inline(always)]
+fn column_of(rows: &[f64], block: usize) -> Column {
+    let mut column = [0.0; LANES];
+    for (to, from) in column.iter_mut().zip(rows.iter().skip(LANES * block)) {
+        *to = *from;
+    }
+    column
 }

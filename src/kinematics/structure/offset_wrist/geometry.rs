@@ -9,7 +9,7 @@ use crate::kinematics::structure::general::General;
 /// An arm with an offset wrist: its table between the shoulder and the last joint, and the lengths
 /// and angles of the equations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct OffsetWrist {
+pub(crate) struct OffsetWrist {
     /// From the foot of the common normal of axes 1 and 2, to frame 6 with its origin at the foot
     /// of that of axes 5 and 6; joint angles are theta.
     pub(super) chain: Chain<6>,

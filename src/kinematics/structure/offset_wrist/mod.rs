@@ -40,11 +40,8 @@ use crate::report::{Pattern, UnknownStructure};
 
 impl Structure<6, SLOTS> for OffsetWrist {
     const PATTERN: &'static Pattern = &measure::PATTERN;
-    const IS_CLOSED_FORM: bool = false;
-
     const SLOT_NAMES: Option<&'static [&'static str; SLOTS]> = None;
 
-    type Redundancy = ();
     type Kernel = RootKernel<Constants>;
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
@@ -66,17 +63,13 @@ impl Structure<6, SLOTS> for OffsetWrist {
     }
 
     #[inline]
-    fn solve(&self, t_first_last: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6, SLOTS> {
+    fn solve(&self, t_first_last: &Pose, _: f64, free: &FreeChoice<6>) -> Branches<6, SLOTS> {
         self.solve_pose(t_first_last, free)
     }
 
     /// The determinant has no factors that tell wrist, elbow and shoulder apart.
-    fn singular_distances(&self, _q: &[f64; 6]) -> Option<SingularDistances> {
-        None
-    }
-
-    fn singularities(&self, q: &[f64; 6]) -> SingularityKind {
-        self.general.singularities(q)
+    fn singular(&self, q: &[f64; 6]) -> (Option<SingularDistances>, SingularityKind) {
+        self.general.singular(q)
     }
 
     /// The determinant (eq. 136).
@@ -96,13 +89,5 @@ impl Structure<6, SLOTS> for OffsetWrist {
 
     fn walk(&self, t: &Pose, q: &[f64; 6], pass: &mut TakeStep<'_, 6>) {
         self.general.walk(t, q, pass);
-    }
-
-    fn noting(self, nearest: Option<UnknownStructure>) -> Self {
-        Self { general: Box::new(self.general.noting(nearest)), ..self }
-    }
-
-    fn nearest(&self) -> Option<UnknownStructure> {
-        self.general.nearest()
     }
 }

@@ -23,11 +23,11 @@ use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::any::recognized;
-use crate::kinematics::structure::arm::Arm as _;
 use crate::kinematics::structure::closure::{Accepted, Configuration};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::structure::inverse::Inverse as _;
+use crate::kinematics::structure::known::solver_of;
 use crate::kinematics::structure::trigonometric::SAMPLES;
 
 /// Joint angles between -pi and pi, the same each time.
@@ -265,12 +265,12 @@ fn asked() -> usize {
 #[test]
 fn an_arm_with_a_spherical_wrist_has_the_solutions_of_its_closed_form() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
-    let (chain, solver) = recognized::<OffsetWrist, 6, 16>(robot.mdh()).unwrap();
+    let (chain, solver) = solver_of::<OffsetWrist, 6, 16>(robot.mdh()).unwrap();
     let [mut compared, mut certified] = [0; 2];
     for q in joints(5).take(500) {
         let pose = chain.fk(&q);
         let mut solutions = Solutions::none(16, pose, JointLimits::UNLIMITED);
-        solver.solve(&mut solutions, (), &FreeChoice::rest([0.0; 6])).unwrap();
+        solver.solve(&mut solutions, f64::NAN, &FreeChoice::rest([0.0; 6]));
         let closed = robot.ik(&pose).unwrap();
         assert!(solutions.len() == closed.len(), "{q:?}");
         certified += usize::from(solutions.is_certified);

@@ -4,16 +4,14 @@
 //! What it finds are the branches of the nominal arm. A pair of branches that the calibrated arm
 //! has and the nominal one has not is not seen: that happens next to folds.
 
-use alloc::boxed::Box;
-use core::fmt::Debug;
+use alloc::sync::Arc;
 
-use super::arm::{Arm, RowSolve, Rows};
 use super::closure::{Accepted, Candidates, Closure};
 use super::end_frames::EndFrames;
 use super::end_frames::Frame;
 use super::free_choice::{FreeChoice, SeedPolicy};
+use super::inverse::Inverse;
 use super::joint_map::JointMap;
-use super::lanes::{Choice, PoseRow};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
@@ -24,7 +22,6 @@ use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 use crate::lanes::LANES;
-use crate::report::UnknownStructure;
 
 /// Largest difference of two solutions that are the same [rad].
 const SAME: f64 = 1e-6;
@@ -32,22 +29,10 @@ const SAME: f64 = 1e-6;
 /// Least singular value below which two branches may have met [1].
 const MET: f64 = 1e-3;
 
-/// A structure that a calibrated arm nominally has.
-pub(crate) trait Nominal: Clone + Debug + PartialEq + Send + Sync {
-    fn arm(&self) -> &dyn Arm<6, ()>;
-
-    fn slot_count(&self) -> usize;
-
-    fn solve_in_lanes(&self, solutions: &mut Solutions<6>) -> bool;
-
-    /// The same between the base and the tool of `chain`, with limits.
-    fn between(self, chain: &Chain<6>, limits: &JointLimits<6>) -> Self;
-}
-
 /// A calibrated arm with the structure that it nominally has.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Refined<A> {
-    nominal: Box<A>,
+#[derive(Clone, Debug)]
+pub(crate) struct Refined {
+    nominal: Arc<dyn Inverse<6>>,
     /// The nominal arm between the base and the tool of the calibrated one.
     nominal_chain: Chain<6>,
     closure: Closure,
@@ -56,10 +41,10 @@ pub(crate) struct Refined<A> {
     offsets: [f64; 6],
 }
 
-impl<A: Nominal> Refined<A> {
+impl Refined {
     /// The calibrated arm `chain` by way of its nominal one.
     pub(crate) fn new(
-        nominal: A,
+        nominal: &dyn Inverse<6>,
         nominal_chain: Chain<6>,
         chain: &Chain<6>,
         limits: &JointLimits<6>,
@@ -77,27 +62,12 @@ impl<A: Nominal> Refined<A> {
         let ends = [chain.base(), &mdh.base, &mdh.flange, chain.tool()];
         let ends = ends.iter().map(|pose| pose.translation.vector.norm()).sum();
         Self {
-            nominal: Box::new(nominal.between(&nominal_chain, limits)),
+            nominal: nominal.between(&nominal_chain, limits),
             nominal_chain,
             closure: Closure::of(&tilted).between(ends),
             end_frames: EndFrames::new(&map, chain),
             offsets: tilted.map(|TiltedRow { row, .. }| row.theta),
         }
-    }
-
-    /// The same between the base and the tool of `chain`, with limits.
-    pub(crate) fn between(self, chain: &Chain<6>, limits: &JointLimits<6>) -> Self {
-        Self::new(*self.nominal, self.nominal_chain, chain, limits)
-    }
-
-    pub(crate) fn slot_count(&self) -> usize {
-        self.nominal.slot_count()
-    }
-
-    /// Solve the answer's pose if it is regular for the nominal arm and every branch of that leads
-    /// to one of the calibrated arm; return whether it is.
-    pub(crate) fn solve_in_lanes(&self, solutions: &mut Solutions<6>, (): ()) -> bool {
-        self.nominal.solve_in_lanes(solutions) && self.refine(solutions).is_whole
     }
 
     /// Bring the solutions of the nominal arm onto the pose.
@@ -131,7 +101,7 @@ impl<A: Nominal> Refined<A> {
         outcome
     }
 
-    /// Up to eight joint vectors, brought onto a pose; `None` if there is none.
+    /// Bring up to eight joint vectors onto a pose; `None` if there are no joint vectors.
     fn refined_of(&self, pose: &Pose, q: &[Option<[f64; 6]>; LANES]) -> Option<Candidates> {
         // Empty lanes follow another one: they must not take more steps.
         let any = q.iter().flatten().next()?;
@@ -188,7 +158,7 @@ impl<A: Nominal> Refined<A> {
     }
 }
 
-/// What came of the branches of the nominal arm.
+/// The outcome of refining the branches of the nominal arm.
 struct Outcome {
     /// Whether each led to a solution of its own.
     is_whole: bool,
@@ -218,68 +188,59 @@ fn is_known(places: &[Place<6>], place: &Place<6>) -> bool {
         .any(|known| known.q.iter().zip(new.q).all(|(known, new)| wrap(known - new).abs() <= SAME))
 }
 
-impl<A: Nominal> Arm<6, ()> for Refined<A> {
+impl Inverse<6> for Refined {
     fn name(&self) -> &'static str {
-        match self.nominal.arm().name() {
+        match self.nominal.name() {
             "spherical wrist" => "refined spherical wrist",
             "three parallel axes" => "refined three parallel axes",
             _ => "refined",
         }
     }
 
-    fn slot_names(&self) -> Option<&'static [&'static str]> {
-        self.nominal.arm().slot_names()
+    fn slot_count(&self) -> usize {
+        self.nominal.slot_count()
     }
 
-    fn solve(
-        &self,
-        solutions: &mut Solutions<6>,
-        (): (),
-        free: &FreeChoice<6>,
-    ) -> Result<(), UnknownStructure> {
-        self.nominal.arm().solve(solutions, (), free)?;
+    fn slot_names(&self) -> Option<&'static [&'static str]> {
+        self.nominal.slot_names()
+    }
+
+    fn between(&self, chain: &Chain<6>, limits: &JointLimits<6>) -> Arc<dyn Inverse<6>> {
+        Arc::new(Self::new(&*self.nominal, self.nominal_chain.clone(), chain, limits))
+    }
+
+    /// Regular is a pose that is regular for the nominal arm, every branch of which leads to one of
+    /// the calibrated arm.
+    fn solve_in_lanes(&self, solutions: &mut Solutions<6>, locked: f64) -> bool {
+        self.nominal.solve_in_lanes(solutions, locked) && self.refine(solutions).is_whole
+    }
+
+    fn solve_on_path(&self, solutions: &mut Solutions<6>, locked: f64) -> bool {
+        self.nominal.solve_on_path(solutions, locked) && self.refine(solutions).is_whole
+    }
+
+    fn solve(&self, solutions: &mut Solutions<6>, locked: f64, free: &FreeChoice<6>) {
+        self.nominal.solve(solutions, locked, free);
         let outcome = self.refine(solutions);
         if !outcome.is_whole || solutions.status().iter().any(|s| s.contains(Status::MERGED)) {
             self.recover(solutions, &outcome, free);
         }
-        Ok(())
     }
 
-    fn solve_on_path(&self, solutions: &mut Solutions<6>, (): ()) -> bool {
-        self.nominal.arm().solve_on_path(solutions, ()) && self.refine(solutions).is_whole
+    fn singular(&self, q: &[f64; 6]) -> (Option<SingularDistances>, SingularityKind) {
+        self.nominal.singular(q)
     }
 
-    fn solve_rows(&self, rows: Rows<'_, ()>, by_itself: &mut RowSolve<'_, 6>) {
-        let Rows { poses, q, status, .. } = rows;
-        let (slots, q) = (self.slot_count(), q.as_chunks_mut::<6>().0);
-        let rows = q.chunks_mut(slots).zip(status.chunks_mut(slots));
-        for (row, (_, (q, status))) in poses.iter().zip(rows).enumerate() {
-            by_itself(row, q, status);
-        }
-    }
-
-    fn nearest_rows(
-        &self,
-        _: &[PoseRow],
-        _: &[[f64; 6]],
-        _: Choice<6>,
-        q: &mut [[f64; 6]],
-        by_itself: &mut RowSolve<'_, 6>,
-    ) {
-        for (row, q) in q.iter_mut().enumerate() {
-            by_itself(row, core::slice::from_mut(q), &mut []);
-        }
-    }
-
-    fn singular(&self, q: &[f64; 6]) -> Option<(Option<SingularDistances>, SingularityKind)> {
-        self.nominal.arm().singular(q)
-    }
-
-    fn singular_distances(&self, q: &[f64; 6]) -> Option<SingularDistances> {
-        self.nominal.arm().singular_distances(q)
+    fn jacobian_determinant(&self, _: &[f64; 6]) -> Option<f64> {
+        None
     }
 
     fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
-        self.nominal.arm().slot(q)
+        self.nominal.slot(q)
+    }
+
+    #[cfg(test)]
+    fn without_lanes(&self) -> Arc<dyn Inverse<6>> {
+        Arc::new(self.clone())
     }
 }

@@ -12,7 +12,7 @@ use crate::kinematics::thresholds::ROTATION_ROUNDING;
 
 /// The geometry between the shoulder, where axes 1, 2 and 3 meet, and the flange.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SphericalShoulder {
+pub(crate) struct SphericalShoulder {
     pub(super) links: Links,
     /// Its last frame is that of joint 7: the transform after it is constant.
     pub(super) joint_map: JointMap<7>,

@@ -3,7 +3,7 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::SphericalShoulder;
+use super::geometry::SphericalShoulder;
 use super::links::Links;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::{Mdh, screw_x};

@@ -54,7 +54,6 @@ impl Structure<7, 8> for SphericalShoulder {
         "theta_2 < 0, elbow backwards, cos theta_5 < 0",
     ]);
 
-    type Redundancy = f64;
     type Kernel = Constants;
 
     fn measure(mdh: &mut Mdh<7>) -> Result<Self, UnknownStructure> {
@@ -80,30 +79,23 @@ impl Structure<7, 8> for SphericalShoulder {
         self.solve_hand(&self.hand(t_shoulder_seven, q7), free)
     }
 
-    #[inline]
-    fn singular_distances(&self, q: &[f64; 7]) -> Option<SingularDistances> {
-        let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
-        let elbow = self.links.elbow_at(theta_4);
-        Some(SingularDistances {
-            wrist: self.aside(q).abs().atan2((elbow.across * theta_5.sin()).hypot(elbow.along)),
-            elbow: distance_from_half_turns(self.links.elbow_angle(theta_4)),
-            shoulder: self.links.c3 * theta_2.sin().abs(),
-        })
-    }
-
     /// A solve, which does not know `q`, also merges shoulders within the uncertainty of elbow and
     /// wrist.
     #[inline]
-    fn singularities(&self, q: &[f64; 7]) -> SingularityKind {
+    fn singular(&self, q: &[f64; 7]) -> (Option<SingularDistances>, SingularityKind) {
         let [_, theta_2, _, theta_4, theta_5, ..] = self.theta(q);
+        let elbow = self.links.elbow_at(theta_4);
+        let distances = SingularDistances {
+            wrist: self.aside(q).abs().atan2((elbow.across * theta_5.sin()).hypot(elbow.along)),
+            elbow: distance_from_half_turns(self.links.elbow_angle(theta_4)),
+            shoulder: self.links.c3 * theta_2.sin().abs(),
+        };
         let mut singularities = SingularityKind::empty();
-        singularities.set(
-            SingularityKind::WRIST,
-            self.links.wrist_is_one(&self.links.elbow_at(theta_4), theta_5),
-        );
+        let is_one = self.links.wrist_is_one(&elbow, theta_5);
+        singularities.set(SingularityKind::WRIST, is_one);
         singularities.set(SingularityKind::ELBOW, self.links.is_straight(theta_4));
         singularities.set(SingularityKind::SHOULDER, theta_2.sin().abs() <= WRIST_MERGE_SIN);
-        singularities
+        (Some(distances), singularities)
     }
 
     /// Computed by eq. 66.

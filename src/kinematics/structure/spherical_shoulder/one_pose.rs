@@ -22,7 +22,6 @@ const THETA_6: usize = 5;
 impl LaneKernel<7, SLOTS> for Constants {
     const DIFFERENCES: &'static [usize] = &[];
 
-    type Redundancy = f64;
     type Regular = RegularSlots<7, SLOTS>;
     type Block = ShoulderBlock;
 

@@ -9,9 +9,9 @@ use super::*;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::pose::PoseDifference;
-use crate::kinematics::structure::any::recognized;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
+use crate::kinematics::structure::known::solver_of;
 use crate::kinematics::structure::solver::Solver;
 use crate::rng::Rng;
 use crate::structures::place::{At, Place};
@@ -34,7 +34,7 @@ struct Solved {
 
 impl Solved {
     fn new(name: &'static str, arm: ShoulderArm) -> Self {
-        let (chain, solver) = recognized(&arm.mdh()).unwrap();
+        let (chain, solver) = solver_of(&arm.mdh()).unwrap();
         Self { name, arm, chain, solver }
     }
 

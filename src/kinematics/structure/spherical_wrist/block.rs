@@ -54,7 +54,7 @@ impl Block<Constants, 6, SLOTS> for WristBlock {
         kernel: &Constants,
         columns: &Columns<6>,
         wrists: &mut Poses,
-        (): (),
+        _: Column,
     ) -> Flags {
         self.regular = [1; LANES];
         if kernel.b == 0.0 {

@@ -13,7 +13,7 @@ use crate::lanes::{Kernel, MOST_SIN_COS, run, sin_cos};
 
 /// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist center.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SphericalWrist {
+pub(crate) struct SphericalWrist {
     pub(super) planar: PlanarArm,
     pub(super) joint_map: JointMap<6>,
 }

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::SphericalWrist;
+use super::geometry::SphericalWrist;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::angles::sign_of;

@@ -52,7 +52,6 @@ impl Structure<6, 8> for SphericalWrist {
         "reaching backwards, wrist center behind the lower arm, q5 < 0",
     ]);
 
-    type Redundancy = ();
     type Kernel = Constants;
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
@@ -74,29 +73,24 @@ impl Structure<6, 8> for SphericalWrist {
     }
 
     #[inline]
-    fn solve(&self, t_shoulder_wrist: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6> {
+    fn solve(&self, t_shoulder_wrist: &Pose, _: f64, free: &FreeChoice<6>) -> Branches<6> {
         self.solve_wrist(t_shoulder_wrist, free)
-    }
-
-    #[inline]
-    fn singular_distances(&self, q: &[f64; 6]) -> Option<SingularDistances> {
-        let [_, _, t3, _, t5, _] = self.theta(q);
-        Some(SingularDistances {
-            wrist: distance_from_half_turns(t5),
-            elbow: distance_from_half_turns(self.planar.elbow_angle(t3)),
-            shoulder: self.factors(q)[1].abs(),
-        })
     }
 
     /// A solve, which does not know `q`, also merges wrists within the uncertainty of the forearm.
     #[inline]
-    fn singularities(&self, q: &[f64; 6]) -> SingularityKind {
-        let [_, x, wrist] = self.factors(q);
+    fn singular(&self, q: &[f64; 6]) -> (Option<SingularDistances>, SingularityKind) {
+        let ([_, _, theta_3, _, theta_5, _], [_, x, wrist]) = (self.theta(q), self.factors(q));
+        let distances = SingularDistances {
+            wrist: distance_from_half_turns(theta_5),
+            elbow: distance_from_half_turns(self.planar.elbow_angle(theta_3)),
+            shoulder: x.abs(),
+        };
         let mut singularities = SingularityKind::empty();
         singularities.set(SingularityKind::WRIST, wrist.abs() <= WRIST_MERGE_SIN);
-        singularities.set(SingularityKind::ELBOW, self.planar.is_straight(self.theta(q)[2]));
+        singularities.set(SingularityKind::ELBOW, self.planar.is_straight(theta_3));
         singularities.set(SingularityKind::SHOULDER, x.abs() <= self.planar.shoulder_merge());
-        singularities
+        (Some(distances), singularities)
     }
 
     /// The determinant at the wrist center, which equals that at the tool (eq. 21).
@@ -121,9 +115,12 @@ impl Structure<6, 8> for SphericalWrist {
     fn singular_wrist(&self) -> Option<&dyn SingularWrist<6>> {
         Some(self)
     }
+}
 
-    /// If axes 2 and 3 turn in the same sense, q2 + q3 is a pitch.
-    fn may_be_coupled(&self) -> Result<(), &'static str> {
+impl SphericalWrist {
+    /// Whether a parallelogram linkage may couple axes 2 and 3; otherwise the reason: if they turn
+    /// in the same sense, q2 + q3 is a pitch.
+    pub(crate) fn may_be_coupled(&self) -> Result<(), &'static str> {
         let same_sense = self.joint_map.signs[1].total_cmp(&self.joint_map.signs[2]).is_eq();
         if same_sense { Ok(()) } else { Err("they turn in opposite senses") }
     }

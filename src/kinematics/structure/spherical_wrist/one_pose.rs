@@ -11,7 +11,6 @@ use crate::lanes::mul_add;
 impl LaneKernel<6, 8> for Constants {
     const DIFFERENCES: &'static [usize] = &[2];
 
-    type Redundancy = ();
     type Regular = WristSlots;
     type Block = WristBlock;
 
@@ -24,7 +23,7 @@ impl LaneKernel<6, 8> for Constants {
         &self,
         columns: &Columns<6>,
         t_shoulder_wrist: &Frame,
-        (): (),
+        _: f64,
     ) -> Option<WristSlots> {
         let mut branches = if self.b == 0.0 {
             Branches::of::<FUSED, false>(self, t_shoulder_wrist)

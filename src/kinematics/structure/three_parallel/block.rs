@@ -4,7 +4,7 @@ use super::branch::{Branch, Constants, Facing, branch, facing};
 use crate::kinematics::structure::lanes::{
     Block, Columns, Directions, FOUND_INSIDE, Poses, SlotColumns, half_turn, where_found,
 };
-use crate::lanes::{Flags, LANES};
+use crate::lanes::{Column, Flags, LANES};
 
 /// Slots of the structure.
 pub(super) const SLOTS: usize = 8;
@@ -37,7 +37,7 @@ impl Block<Constants, 6, SLOTS> for ParallelBlock {
         kernel: &Constants,
         columns: &Columns<6>,
         wrists: &mut Poses,
-        (): (),
+        _: Column,
     ) -> Flags {
         self.regular = [1; LANES];
         let constants = *kernel;

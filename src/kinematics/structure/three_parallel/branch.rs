@@ -7,7 +7,7 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::ThreeParallel;
+use super::geometry::ThreeParallel;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::Direction;
 use crate::kinematics::structure::triangle::Triangle;

@@ -10,7 +10,7 @@ use crate::kinematics::structure::planar_arm::PlanarArm;
 /// The geometry between the shoulder (on axis 1, at the height of axis 2) and the wrist, the
 /// intersection of axes 5 and 6.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ThreeParallel {
+pub(crate) struct ThreeParallel {
     /// The arm up to axis 4.
     pub(super) planar: PlanarArm,
     /// Distance of the wrist from axis 4, along axis 5 [m].

@@ -1,6 +1,6 @@
 //! Recognizes three parallel axes in a modified Denavit-Hartenberg table.
 
-use super::ThreeParallel;
+use super::geometry::ThreeParallel;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::pose::angles::sign_of;

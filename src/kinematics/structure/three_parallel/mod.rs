@@ -51,7 +51,6 @@ impl Structure<6, 8> for ThreeParallel {
         "wrist behind axis 1, q3 backwards, q5 < 0",
     ]);
 
-    type Redundancy = ();
     type Kernel = Constants;
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
@@ -73,32 +72,24 @@ impl Structure<6, 8> for ThreeParallel {
     }
 
     #[inline]
-    fn solve(&self, t_shoulder_wrist: &Pose, (): (), free: &FreeChoice<6>) -> Branches<6> {
+    fn solve(&self, t_shoulder_wrist: &Pose, _: f64, free: &FreeChoice<6>) -> Branches<6> {
         self.solve_wrist(t_shoulder_wrist, free)
-    }
-
-    #[inline]
-    fn singular_distances(&self, q: &[f64; 6]) -> Option<SingularDistances> {
-        let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
-        Some(SingularDistances {
-            wrist: distance_from_half_turns(theta_5),
-            elbow: distance_from_half_turns(self.planar.elbow_angle(theta_3)),
-            shoulder: self.x_of_wrist(q).abs(),
-        })
     }
 
     /// A solve, which does not know `q`, also merges wrists within the uncertainty of axis 1.
     #[inline]
-    fn singularities(&self, q: &[f64; 6]) -> SingularityKind {
-        let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
+    fn singular(&self, q: &[f64; 6]) -> (Option<SingularDistances>, SingularityKind) {
+        let ([_, _, theta_3, _, theta_5, _], x) = (self.joint_map.theta(q), self.x_of_wrist(q));
+        let distances = SingularDistances {
+            wrist: distance_from_half_turns(theta_5),
+            elbow: distance_from_half_turns(self.planar.elbow_angle(theta_3)),
+            shoulder: x.abs(),
+        };
         let mut singularities = SingularityKind::empty();
         singularities.set(SingularityKind::WRIST, theta_5.sin().abs() <= WRIST_MERGE_SIN);
         singularities.set(SingularityKind::ELBOW, self.planar.is_straight(theta_3));
-        singularities.set(
-            SingularityKind::SHOULDER,
-            self.x_of_wrist(q).abs() <= self.planar.shoulder_merge(),
-        );
-        singularities
+        singularities.set(SingularityKind::SHOULDER, x.abs() <= self.planar.shoulder_merge());
+        (Some(distances), singularities)
     }
 
     /// The determinant at the wrist, which equals that at the tool (eq. 41).
@@ -113,7 +104,7 @@ impl Structure<6, 8> for ThreeParallel {
     /// sin theta_5.
     fn slot(&self, q: &[f64; 6]) -> Option<Slot> {
         let [_, _, theta_3, _, theta_5, _] = self.joint_map.theta(q);
-        let met = self.singularities(q);
+        let (_, met) = self.singular(q);
         let behind = self.x_of_wrist(q) < 0.0 && !met.contains(SingularityKind::SHOULDER);
         let backwards =
             self.planar.sin_elbow(theta_3) < 0.0 && !met.contains(SingularityKind::ELBOW);

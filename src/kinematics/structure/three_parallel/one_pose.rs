@@ -22,7 +22,6 @@ const THETA_6: usize = 5;
 impl LaneKernel<6, SLOTS> for Constants {
     const DIFFERENCES: &'static [usize] = &[2, 3];
 
-    type Redundancy = ();
     type Regular = RegularSlots<6, SLOTS>;
     type Block = ParallelBlock;
 
@@ -35,7 +34,7 @@ impl LaneKernel<6, SLOTS> for Constants {
         &self,
         columns: &Columns<6>,
         t_shoulder_wrist: &Frame,
-        (): (),
+        _: f64,
     ) -> Option<RegularSlots<6, SLOTS>> {
         let (constants, columns, frame) = (*self, columns.joints, *t_shoulder_wrist);
         let wz = frame.origin[2];

@@ -164,10 +164,10 @@ impl Arm {
 
     /// The slots computed in lanes; `None` if the pose is not regular or has no solution.
     pub(super) fn by_lanes(&self, pose: &Pose) -> Option<RegularAnswer<6>> {
-        by_lanes(&self.robot, pose, ())
+        by_lanes(&self.robot, pose, f64::NAN)
     }
 
     pub(super) fn scalar(&self, pose: Pose) -> Solutions<6> {
-        scalar(&self.robot, pose, ())
+        scalar(&self.robot, pose, f64::NAN)
     }
 }

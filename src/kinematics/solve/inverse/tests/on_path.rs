@@ -9,7 +9,7 @@ use crate::kinematics::thresholds::{PATH_SHOULDER, PATH_WRIST_SIN};
 /// The slots of a pose of a path computed in lanes; `None` if the scalar solver decides.
 fn on_path(robot: &Robot<6>, pose: &Pose) -> Option<RegularAnswer<6>> {
     let mut solutions = robot.unsolved(*pose);
-    let regular = robot.solver().arm().solve_on_path(&mut solutions, ());
+    let regular = robot.inverse().unwrap().solve_on_path(&mut solutions, f64::NAN);
     regular.then(|| slots(&solutions))
 }
 
@@ -58,7 +58,7 @@ fn a_path_has_nothing_to_choose_where_the_lanes_solve_it() {
 /// Where a path may be heading: for a solution of the pose, exactly, to rounding or nearly, with a
 /// joint 4 of its own, or elsewhere.
 fn heading(arm: &Arm, pose: &Pose, random: &mut Rng) -> [f64; 6] {
-    let solutions = scalar(&arm.robot, checked_pose(pose).unwrap(), ());
+    let solutions = scalar(&arm.robot, checked_pose(pose).unwrap(), f64::NAN);
     let mut heading = solutions.iter().next().map_or([0.3; 6], |solution| solution.q);
     let exponent = random.between(-18.0, 0.5);
     let off = if exponent < -16.0 { 0.0 } else { 10.0_f64.powf(exponent) };
