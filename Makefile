@@ -15,7 +15,7 @@ NO_STD := --no-default-features --features libm
 ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); \
 	for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
 ON_EACH_NARROWER_SET := \
-	sets=$$($(BIN)/python -c 'import irbkin; print(*irbkin.instruction_sets()[:-1])'); \
+	sets=$$($(BIN)/python -c 'from irbkin import _core; print(*_core.instruction_sets()[:-1])'); \
 	for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
 # Run a command under a name; if it takes long, print the name and the seconds.
 STEP := @tests/step.sh
@@ -29,7 +29,7 @@ REMAPPED = --remap-path-prefix=$${CARGO_HOME:-$$HOME/.cargo}/registry/src/= \
 # The same flags for the environment and for the wheel: one build serves both.
 EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
 
-.PHONY: help run test test-recipes test-ros ros-starts check stubs catalog errors bench bench-peers instructions stages ulp million general offset-wrists plans configurations hardsets fuzz wheel packages clean toolchains
+.PHONY: help run test test-recipes test-ros ros-starts check stubs catalog bench bench-peers instructions stages ulp million general offset-wrists plans configurations hardsets fuzz wheel packages clean toolchains
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -182,11 +182,6 @@ stubs: $(BUILT) ## Write the docstrings of the type stubs from those of the exte
 
 catalog: | toolchains ## Write the tables of docs/catalog.md
 	IRBKIN_WRITE=1 cargo test --quiet --test suite -- catalog_page::
-
-errors: $(BUILT) $(VENV)/.groups ## Write docs/errors.md: every message, as it is printed
-	IRBKIN_WRITE=1 cargo test --quiet --lib -- messages::
-	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_errors_page.py
-
 
 fuzz: | toolchains ## Read four million invalid RAPID texts: no panic, linear time
 	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test suite -- rapid_fuzz:: --nocapture --test-threads=1

@@ -10,7 +10,8 @@ use std::time::Duration;
 use criterion::{
     BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main, measurement::WallTime,
 };
-use irbkin::{JacobianFrame, Robot, batch};
+use irbkin::batch::Batch;
+use irbkin::{JacobianFrame, Robot};
 
 mod poses;
 
@@ -40,15 +41,15 @@ fn many_poses(criterion: &mut Criterion) {
 
         let group = criterion.benchmark_group(format!("ik, {count} poses"));
         measure(group, count, &mut answers, |q| {
-            batch::ik(&robot, &poses, q, &mut status, None).unwrap();
+            Batch::new(None).ik(&robot, &poses, q, &mut status).unwrap();
         });
         let group = criterion.benchmark_group(format!("fk, {count} poses"));
         measure(group, count, &mut answers[..rows * 16], |poses| {
-            batch::fk(&robot, &q, poses).unwrap();
+            Batch::new(None).fk(&robot, &q, poses).unwrap();
         });
         let group = criterion.benchmark_group(format!("jacobian, {count} poses"));
         measure(group, count, &mut answers[..rows * 36], |rows| {
-            batch::jacobian(&robot, &q, JacobianFrame::Base, rows).unwrap();
+            Batch::new(None).jacobian(&robot, &q, JacobianFrame::Base, rows).unwrap();
         });
     }
 }
@@ -61,14 +62,14 @@ fn other_structures(criterion: &mut Criterion) {
         let poses_ur3 = poses::poses(&ur3, &poses::joints(&ur3, count));
         let group = criterion.benchmark_group(format!("UR3: ik, {count} poses"));
         measure(group, count, &mut vec![0.0; rows * 48], |q| {
-            batch::ik(&ur3, &poses_ur3, q, &mut status, None).unwrap();
+            Batch::new(None).ik(&ur3, &poses_ur3, q, &mut status).unwrap();
         });
         let q = poses::joints(&panda, count);
         let (poses_panda, q7): (_, Vec<f64>) =
             (poses::poses(&panda, &q), q.iter().skip(6).step_by(7).copied().collect());
         let group = criterion.benchmark_group(format!("Panda: ik, {count} poses"));
         measure(group, count, &mut vec![0.0; rows * 56], |q| {
-            batch::ik_with(&panda, &poses_panda, &q7, q, &mut status, None).unwrap();
+            Batch::new(None).ik_with(&panda, &poses_panda, &q7, q, &mut status).unwrap();
         });
     }
 }

@@ -7,7 +7,8 @@
 
 use std::hint::black_box;
 
-use irbkin::{InstructionSet, JacobianFrame, Robot, batch};
+use irbkin::batch::Batch;
+use irbkin::{InstructionSet, JacobianFrame, Robot};
 
 mod poses;
 
@@ -70,26 +71,24 @@ fn repeat_batch(robot: &Robot<6>, what: &str, times: u32) {
     let (mut answers, mut status) = (vec![0.0; rows * 48], vec![0; rows * 8]);
     match what {
         "batch fk" => {
-            again(times, || batch::fk(robot, &q, black_box(&mut answers[..rows * 16])).unwrap());
+            again(times, || {
+                Batch::new(None).fk(robot, &q, black_box(&mut answers[..rows * 16])).unwrap()
+            });
         }
         "batch jacobian" => {
             again(times, || {
-                batch::jacobian(
-                    robot,
-                    &q,
-                    JacobianFrame::Base,
-                    black_box(&mut answers[..rows * 36]),
-                )
-                .unwrap();
+                Batch::new(None)
+                    .jacobian(robot, &q, JacobianFrame::Base, black_box(&mut answers[..rows * 36]))
+                    .unwrap();
             });
         }
         "batch ik" => again(times, || {
-            batch::ik(robot, &poses, black_box(&mut answers), &mut status, None).unwrap();
+            Batch::new(None).ik(robot, &poses, black_box(&mut answers), &mut status).unwrap();
         }),
         "batch singularity" => again(times, || {
-            for record in batch::singularity(robot, black_box(&q)).unwrap() {
-                black_box(record);
-            }
+            let mut records = vec![None; rows];
+            Batch::new(None).singularity(robot, black_box(&q), &mut records).unwrap();
+            black_box(records);
         }),
         _ => eprintln!("{what} is none of {ALL:?}"),
     }

@@ -209,7 +209,7 @@ def import_time() -> float:
 def main() -> None:
     """Measure and print the tables."""
     robot = irbkin.Robot("IRB 2600-12/1.65")
-    print(f"{cpu()[0]}, irbkin calculates with {irbkin.instruction_set()}; {robot.name}")
+    print(f"{cpu()[0]}, irbkin calculates with {irbkin._core.instruction_set()}; {robot.name}")
     columns = f"{'ratio':>9}  {'against':20}goal"
     print(f"\n{'One pose':24}{'ns a call':>12}{columns}")
     measure(single_calls(robot), CALLS, 1)

@@ -48,7 +48,7 @@ def main() -> None:
     module = rapid.parse(text)
     table = rapid.calc_targets(ROBOT, module, TOOL, WOBJ)
     poses = ROBOT.fk(table.q)
-    assert not any(table.problems), "every target has its joint angles"
+    assert not any(table.findings), "every target has its joint angles"
     print(f"{TARGETS} robtargets, {len(text) / 1e6:.1f} MB")
     for what, run, yardstick, than in (
         (

@@ -48,7 +48,7 @@ def main() -> None:
     solutions = arm.ik(arm.fk(np.radians([10, 20, 30, 40, 50, 60])))
     certainty = "certified" if solutions.certified else "not certified"
     print(f"axes 5 and 6 apart: {arm.structure}, {len(solutions)} solutions, {certainty}")
-    print(f"  {arm.missing_form}\n")
+    print(f"  {arm}\n")
 
     mirrored = np.diag([1.0, 1.0, -1.0, 1.0])
     try:

@@ -5,7 +5,8 @@ use std::hint::black_box;
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-use irbkin::{Error, Robot, Status, batch, pose_from_rows};
+use irbkin::batch::Batch;
+use irbkin::{Error, Robot, Status, pose_from_rows};
 
 const POSES: usize = 20_000;
 
@@ -40,8 +41,8 @@ fn main() -> Result<(), Error> {
     let slots = robot.slot_count();
     let (mut poses, mut solved, mut status) =
         (vec![0.0; POSES * 16], vec![0.0; POSES * slots * 6], vec![0; POSES * slots]);
-    batch::fk(&robot, q, &mut poses)?;
-    batch::ik(&robot, &poses, &mut solved, &mut status, None)?;
+    Batch::new(None).fk(&robot, q, &mut poses)?;
+    Batch::new(None).ik(&robot, &poses, &mut solved, &mut status)?;
     println!(
         "q ({POSES}, 6) -> T ({POSES}, 4, 4) -> q ({POSES}, {slots}, 6), status ({POSES}, {slots})"
     );
@@ -65,7 +66,7 @@ fn main() -> Result<(), Error> {
     let mut broken = poses.clone();
     broken[16] = f64::NAN;
     broken[2 * 16 + 3] += 9.0;
-    batch::ik(&robot, &broken, &mut solved, &mut status, NonZeroUsize::new(2))?;
+    Batch::new(NonZeroUsize::new(2)).ik(&robot, &broken, &mut solved, &mut status)?;
     for row in 0..4 {
         let status = &status[row * slots..(row + 1) * slots];
         let solutions = status.iter().filter(|status| **status & Status::FOUND.bits() != 0).count();
@@ -74,14 +75,14 @@ fn main() -> Result<(), Error> {
     }
 
     let one_call =
-        seconds(|| drop(black_box(batch::ik(&robot, &poses, &mut solved, &mut status, None))));
+        seconds(|| drop(black_box(Batch::new(None).ik(&robot, &poses, &mut solved, &mut status))));
     let one_by_one = seconds(|| {
         for rows in poses.as_chunks::<16>().0 {
             let _ = black_box(pose_from_rows(rows).and_then(|pose| robot.ik(&pose)));
         }
     });
     let mut again = vec![0.0; POSES * 16];
-    let forward = seconds(|| drop(black_box(batch::fk(&robot, q, &mut again))));
+    let forward = seconds(|| drop(black_box(Batch::new(None).fk(&robot, q, &mut again))));
     println!("\na batch takes {:.2} of the time of single calls,", one_call / one_by_one);
     println!("eight solutions take {:.1} times as long as forward kinematics", one_call / forward);
     Ok(())

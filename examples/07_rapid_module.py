@@ -2,7 +2,6 @@
 confdata.
 """
 
-import dataclasses
 from pathlib import Path
 
 import irbkin
@@ -18,12 +17,12 @@ def degrees(q: np.ndarray) -> str:
 
 
 def show(table: rapid.TargetTable) -> None:
-    for row, (kind, name, problem) in enumerate(
-        zip(table.kinds, table.names, table.problems, strict=True)
+    for row, (kind, name, finding) in enumerate(
+        zip(table.kinds, table.names, table.findings, strict=True)
     ):
         confdata = [int(numbers[row]) for numbers in table.configuration]
         joints = degrees(table.q[row]) if np.isfinite(table.q[row]).all() else " " * 53
-        print(f"  {kind:8} {name[:22]:22} {joints}  {confdata}  {(problem or '')[:60]}")
+        print(f"  {kind:8} {name[:22]:22} {joints}  {confdata}  {finding.name if finding else ''}")
 
 
 def main() -> None:
@@ -43,11 +42,9 @@ def main() -> None:
         robot, module, module["tGripper"], module["wTray"], fallback="nearest", seed=home
     )
     corrected = {
-        name: dataclasses.replace(
-            module[name], robconf=[numbers[row] for numbers in table.configuration]
-        )
-        for row, (name, problem) in enumerate(zip(table.names, table.problems, strict=True))
-        if problem is not None and np.isfinite(table.q[row]).all()
+        name: module[name]._replace(robconf=[numbers[row] for numbers in table.configuration])
+        for row, (name, finding) in enumerate(zip(table.names, table.findings, strict=True))
+        if finding is not None and np.isfinite(table.q[row]).all()
     }
     text = module.rewritten(corrected)
     print(f"\nwritten back with {len(corrected)} corrected configurations")

@@ -13,10 +13,10 @@ fn degrees(q: &[f64; 6]) -> String {
 }
 
 fn show(rows: &[TableRow]) {
-    for TableRow { kind, text, q, configuration, problem, .. } in rows {
+    for TableRow { kind, text, q, configuration, finding, .. } in rows {
         let joints = q.as_ref().map_or_else(|| " ".repeat(53), degrees);
-        let problem = problem.as_ref().map(ToString::to_string).unwrap_or_default();
-        println!("  {kind:8} {text:22.22} {joints}  {configuration}  {problem:.60}");
+        let code = finding.as_ref().map_or("", |finding| finding.code.name());
+        println!("  {kind:8} {text:22.22} {joints}  {configuration}  {code}");
     }
 }
 
@@ -37,7 +37,7 @@ fn corrected(robot: &Robot<6>, module: &rapid::Module) -> Result<Vec<NewValue>, 
     let home = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0].map(f64::to_radians);
     let rows =
         rapid::calc_targets(robot, module, Some(&tool), Some(&wobj), Fallback::Nearest(home))?;
-    let wrong = |row: &&TableRow| row.problem.is_some() && row.q.is_some();
+    let wrong = |row: &&TableRow| row.finding.is_some() && row.q.is_some();
     let new_value = |row: &TableRow| {
         let datum = module.data().iter().position(|datum| datum.name == row.text)?;
         let Content::Single(Value::RobTarget(target)) = module.data()[datum].content else {

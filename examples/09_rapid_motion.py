@@ -16,7 +16,7 @@ def show(motion: rapid.RoutineMotion) -> None:
             f"{step.length * 1e3:8.1f} mm{made}"
         )
     for finding in motion.findings:
-        print(f"  {finding.kind}: {finding.message[:90]}")
+        print(f"  {finding.code} {str(finding)[:90]}")
 
 
 def main() -> None:

@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
     for finding in &motion.findings {
-        println!("  {}: {finding}", finding.kind.name());
+        println!("  {} {finding}", finding.code.id());
     }
     let options = MotionOptions { max_acceleration: Some([10.0; 6]), ..MotionOptions::default() };
     let timed = rapid::motion(&robot, &module, None, &options)?;

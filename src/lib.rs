@@ -57,8 +57,8 @@
 //!
 //! `serde` is implemented for robots ([`Robot`] and [`AnyRobot`], with limits, velocities, base and
 //! tool; reading one runs every check of its constructors), for models ([`Definition`], [`OpwParameters`],
-//! [`Mdh`], [`Sdh`], [`DhRow`], [`JointAxis`], [`JointLimits`]), for answers ([`Solution`],
-//! [`Slot`], [`Status`], [`SingularityKind`], [`FreeJoint`], [`Configuration`], [`Singularity`],
+//! [`Mdh`], [`Sdh`], [`DhRow`], [`JointAxis`], [`JointLimits`]), for answers ([`Solutions`],
+//! [`Solution`], [`Slot`], [`Status`], [`SingularityKind`], [`FreeJoint`], [`Configuration`], [`Singularity`],
 //! [`SingularDistances`], [`PoseDifference`]) and for options ([`FollowOptions`],
 //! [`SingularityMode`], [`JacobianFrame`]). In text formats, a joint without a limit is `null`.
 //!
@@ -105,8 +105,6 @@ mod error;
 mod kinematics;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod lanes;
-#[cfg(all(test, feature = "rapid", feature = "urdf"))]
-mod messages;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod paths;
 #[cfg(any(feature = "std", feature = "libm"))]

@@ -5,9 +5,10 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::common::{Rng, reach_of};
+use irbkin::batch::{Batch, NO_CONFIGURATION};
 use irbkin::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use irbkin::{
-    Configuration, FollowOptions, Follower, JacobianFrame, JointLimits, Pose, Robot, Status, batch,
+    Configuration, FollowOptions, Follower, JacobianFrame, JointLimits, Pose, Robot, Status,
     pose_from_euler_zyx, pose_from_rows, pose_from_wxyz, pose_to_rows,
 };
 
@@ -98,15 +99,16 @@ fn a_batch_row_that_is_too_far_away_is_invalid_and_the_other_rows_are_solved() {
         let (robot, seed) = (six(name), [0.1, -0.2, 0.3, 0.4, 0.5, 0.6]);
         let good = robot.fk(&seed);
         let (mut alone, mut status) = ([0.0; 48], [0; 8]);
-        batch::ik(&robot, &pose_to_rows(&good), &mut alone, &mut status, None).unwrap();
+        Batch::new(None).ik(&robot, &pose_to_rows(&good), &mut alone, &mut status).unwrap();
         for (row, (pose, _)) in far_poses(&good).enumerate() {
             let mut poses = near(&pose_to_rows(&good));
             poses.splice(16..16, pose_to_rows(&pose));
             let (mut q, mut status) = ([0.0; 3 * 48], [0; 24]);
-            batch::ik(&robot, &poses, &mut q, &mut status, None).unwrap();
+            Batch::new(None).ik(&robot, &poses, &mut q, &mut status).unwrap();
             check(name, &q, &status, &alone, row);
             let mut nearest = [0.0; 18];
-            batch::ik_nearest(&robot, &poses, &seed.repeat(3), &[1.0; 6], &mut nearest, None)
+            Batch::new(None)
+                .ik_nearest(&robot, &poses, &seed.repeat(3), &[1.0; 6], &mut nearest)
                 .unwrap();
             assert!(nearest[6..12].iter().all(|angle| angle.is_nan()), "{name} {row}");
             assert!(nearest[..6].iter().chain(&nearest[12..]).all(|angle| angle.is_finite()));
@@ -116,19 +118,20 @@ fn a_batch_row_that_is_too_far_away_is_invalid_and_the_other_rows_are_solved() {
         let (robot, seed) = (seven(name), [0.1, -0.2, 0.3, -1.4, 0.5, 1.6, 0.7]);
         let good = robot.fk(&seed);
         let (mut alone, mut status) = ([0.0; 56], [0; 8]);
-        batch::ik_with(&robot, &pose_to_rows(&good), &[0.7], &mut alone, &mut status, None)
+        Batch::new(None)
+            .ik_with(&robot, &pose_to_rows(&good), &[0.7], &mut alone, &mut status)
             .unwrap();
         for (row, (pose, _)) in far_poses(&good).enumerate() {
             let mut poses = near(&pose_to_rows(&good));
             poses.splice(16..16, pose_to_rows(&pose));
             let (mut q, mut status) = ([0.0; 3 * 56], [0; 24]);
-            batch::ik_with(&robot, &poses, &[0.7; 3], &mut q, &mut status, None).unwrap();
+            Batch::new(None).ik_with(&robot, &poses, &[0.7; 3], &mut q, &mut status).unwrap();
             check(name, &q, &status, &alone, row);
         }
         for q7 in BEYOND.into_iter().flat_map(|size| [size, -size]) {
             let poses = pose_to_rows(&good).repeat(3);
             let (mut q, mut status) = ([0.0; 3 * 56], [0; 24]);
-            batch::ik_with(&robot, &poses, &[0.7, q7, 0.7], &mut q, &mut status, None).unwrap();
+            Batch::new(None).ik_with(&robot, &poses, &[0.7, q7, 0.7], &mut q, &mut status).unwrap();
             check(name, &q, &status, &alone, 0);
         }
     }
@@ -195,7 +198,7 @@ fn every_call_refuses_a_seed_that_is_too_large() {
             let mut nearest = [0.0; 12];
             let seeds = [seed, q].concat();
             let poses = pose_to_rows(&pose).repeat(2);
-            batch::ik_nearest(&robot, &poses, &seeds, &[1.0; 6], &mut nearest, None).unwrap();
+            Batch::new(None).ik_nearest(&robot, &poses, &seeds, &[1.0; 6], &mut nearest).unwrap();
             assert!(nearest[..6].iter().all(|angle| angle.is_nan()), "{name}");
             assert!(nearest[6..].iter().all(|angle| angle.is_finite()), "{name}");
             if robot.structure() == "spherical wrist" {
@@ -204,9 +207,11 @@ fn every_call_refuses_a_seed_that_is_too_large() {
                 let words = too_large("q", joint, value);
                 assert_eq!(robot.configuration(&seed).unwrap_err().to_string(), words, "{name}");
                 let rows = [seed, q].concat();
-                let rows: Vec<_> = batch::configuration(&robot, &rows).unwrap().collect();
-                assert_eq!(rows[0].as_ref().unwrap_err().to_string(), words, "{name}");
-                assert_eq!(rows[1].as_ref().unwrap(), &robot.configuration(&q).unwrap());
+                let mut counted = [0; 8];
+                Batch::new(None).configuration(&robot, &rows, &mut counted).unwrap();
+                assert_eq!(counted[..4], [NO_CONFIGURATION; 4], "{name}");
+                let Configuration { cf1, cf4, cf6, cfx } = robot.configuration(&q).unwrap();
+                assert_eq!(counted[4..], [cf1, cf4, cf6, cfx], "{name}");
             }
         });
     }
@@ -295,7 +300,7 @@ fn forward_kinematics_of_large_angles_equals_that_of_the_angle_modulo_2_pi() {
             let [large, small] = [q, rest].map(|q| robot.jacobian(&q, JacobianFrame::Base));
             assert!((large - small).amax() <= bound + 2.0 * rounding * reach_of(&robot), "{name}");
             let (mut rows, mut one) = ([0.0; 16], [0.0; 16]);
-            batch::fk(&robot, &q, &mut rows).unwrap();
+            Batch::new(None).fk(&robot, &q, &mut rows).unwrap();
             one.copy_from_slice(&pose_to_rows(&robot.fk(&q)));
             let apart = rows.iter().zip(&one).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(apart <= bound, "{name} at {size:e}: {apart:e}");

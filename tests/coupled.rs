@@ -6,9 +6,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::common::coupled_arm::{limited, odd, opw, unlimited, with_linkage};
 use crate::common::{Rng, apart, central_difference, difference_bound, reach_of};
+use irbkin::batch::Batch;
 use irbkin::{
-    Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, batch,
-    pose_to_rows,
+    Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, pose_to_rows,
 };
 use nalgebra::Matrix6;
 
@@ -143,14 +143,15 @@ fn forward_kinematics_and_jacobian_of_rows_equal_single_calls() {
     let (robot, mut rng) = (odd(), Rng::new(7));
     let joints: Vec<_> = (0..13).map(|_| rng.inside(robot.limits())).collect();
     let (mut poses, mut jacobians) = (vec![[0.0; 16]; 13], vec![[[0.0; 6]; 6]; 13]);
-    batch::fk(&robot, joints.as_flattened(), poses.as_flattened_mut()).unwrap();
-    batch::jacobian(
-        &robot,
-        joints.as_flattened(),
-        JacobianFrame::Tool,
-        jacobians.as_flattened_mut().as_flattened_mut(),
-    )
-    .unwrap();
+    Batch::new(None).fk(&robot, joints.as_flattened(), poses.as_flattened_mut()).unwrap();
+    Batch::new(None)
+        .jacobian(
+            &robot,
+            joints.as_flattened(),
+            JacobianFrame::Tool,
+            jacobians.as_flattened_mut().as_flattened_mut(),
+        )
+        .unwrap();
     for (row, q) in joints.iter().enumerate() {
         assert_eq!(poses[row], pose_to_rows(&robot.fk(q)));
         let one = robot.jacobian(q, JacobianFrame::Tool);

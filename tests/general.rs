@@ -4,8 +4,9 @@
 
 use std::f64::consts::PI;
 
+use irbkin::batch::Batch;
 use irbkin::{
-    DhRow, Explanation, FollowOptions, Mdh, Pose, Robot, Sdh, Status, batch, pose_from_euler_zyx,
+    DhRow, Explanation, FollowOptions, Mdh, Pose, Robot, Sdh, Status, pose_from_euler_zyx,
     pose_from_rows, pose_to_rows,
 };
 use serde_json::Value;
@@ -201,7 +202,7 @@ fn a_batch_equals_single_answers_with_their_certainty() {
         let slots = robot.slot_count();
         let (mut q, mut status) =
             (vec![0.0; 6 * slots * joints.len()], vec![0; slots * joints.len()]);
-        batch::ik(&robot, &rows, &mut q, &mut status, None).unwrap();
+        Batch::new(None).ik(&robot, &rows, &mut q, &mut status).unwrap();
         for (row, made) in joints.iter().enumerate() {
             let single = robot.ik(&robot.fk(made)).unwrap();
             for slot in 0..slots {

@@ -16,7 +16,7 @@ use std::array;
 
 use common::skip::skip;
 use common::{Rng, on_each_set, rng};
-use irbkin::batch;
+use irbkin::batch::Batch;
 use irbkin::{
     InstructionSet, JacobianFrame, Pose, Robot, Singularity, Status, pose_from_rows, pose_to_rows,
 };
@@ -113,7 +113,7 @@ fn same_bits(a: &[f64], b: &[f64]) -> bool {
 
 fn fk_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<PoseRow> {
     let mut poses = vec![[7.0; 16]; q.len()];
-    batch::fk(robot, q.as_flattened(), poses.as_flattened_mut()).unwrap();
+    Batch::new(None).fk(robot, q.as_flattened(), poses.as_flattened_mut()).unwrap();
     poses
 }
 
@@ -123,19 +123,19 @@ fn jacobians_of<const N: usize>(
     frame: JacobianFrame,
 ) -> Vec<[[f64; N]; 6]> {
     let mut jacobians = vec![[[7.0; N]; 6]; q.len()];
-    batch::jacobian(
-        robot,
-        q.as_flattened(),
-        frame,
-        jacobians.as_flattened_mut().as_flattened_mut(),
-    )
-    .unwrap();
+    Batch::new(None)
+        .jacobian(robot, q.as_flattened(), frame, jacobians.as_flattened_mut().as_flattened_mut())
+        .unwrap();
     jacobians
 }
 
 fn figures_of<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<[f64; 2]> {
-    let records = batch::singularity(robot, q.as_flattened()).unwrap();
-    records.map(|record| record.map_or([f64::NAN; 2], |record| figures(&record))).collect()
+    let mut records = vec![None; q.len()];
+    Batch::new(None).singularity(robot, q.as_flattened(), &mut records).unwrap();
+    records
+        .into_iter()
+        .map(|record| record.map_or([f64::NAN; 2], |record| figures(&record)))
+        .collect()
 }
 
 fn figures(record: &Singularity) -> [f64; 2] {

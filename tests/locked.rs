@@ -4,7 +4,8 @@
 use std::f64::consts::TAU;
 
 use crate::common::Rng;
-use irbkin::{Error, Robot, Status, batch, pose_from_euler_zyx, pose_to_rows};
+use irbkin::batch::Batch;
+use irbkin::{Error, Robot, Status, pose_from_euler_zyx, pose_to_rows};
 
 const WEIGHTS: [f64; 7] = [1.0; 7];
 
@@ -46,7 +47,7 @@ fn the_joints_that_made_a_pose_are_found_with_any_of_them_locked() {
             let slots = locked.slot_count();
             let (mut rows, mut status) = (vec![0.0; slots * 7], vec![0; slots]);
             let pose = pose_to_rows(&pose);
-            batch::ik_with(&locked, &pose, &[], &mut rows, &mut status, None).unwrap();
+            Batch::new(None).ik_with(&locked, &pose, &[], &mut rows, &mut status).unwrap();
             for (slot, row) in rows.as_chunks::<7>().0.iter().enumerate() {
                 let alone = solutions.slot(slot).map_or([f64::NAN; 7], |found| found.q);
                 let bits = |angle: f64| (!angle.is_nan()).then_some(angle.to_bits());
@@ -69,7 +70,7 @@ fn a_joint_at_an_end_takes_an_angle_for_each_pose() {
             let locked = robot.locked(joint, 0.0).unwrap();
             let slots = locked.slot_count();
             let (mut rows, mut status) = (vec![0.0; 5 * slots * 7], vec![0; 5 * slots]);
-            batch::ik_with(&locked, &poses, &angles, &mut rows, &mut status, None).unwrap();
+            Batch::new(None).ik_with(&locked, &poses, &angles, &mut rows, &mut status).unwrap();
             for (row, answer) in rows.as_chunks::<7>().0.chunks(slots).enumerate() {
                 let is_made = |found: &[f64; 7]| apart(found, &q[row]) < 1e-6;
                 assert_eq!(answer.iter().any(is_made), row != 3, "{} {row}", robot.name());
@@ -79,7 +80,7 @@ fn a_joint_at_an_end_takes_an_angle_for_each_pose() {
         let middle = robot.locked(3, 0.1).unwrap();
         let (mut row, mut status) = ([0.0; 16 * 7], [0; 16]);
         let pose = pose_to_rows(&robot.fk(&[0.1; 7]));
-        let refused = batch::ik_with(&middle, &pose, &[0.2], &mut row, &mut status, None);
+        let refused = Batch::new(None).ik_with(&middle, &pose, &[0.2], &mut row, &mut status);
         assert!(matches!(refused, Err(Error::WrongLength { .. })));
     }
 }

@@ -3,9 +3,8 @@
 
 use std::num::NonZeroUsize;
 
-use irbkin::{
-    DhRow, JacobianFrame, Mdh, Pose, Robot, Status, batch, pose_from_euler_zyx, pose_to_rows,
-};
+use irbkin::batch::Batch;
+use irbkin::{DhRow, JacobianFrame, Mdh, Pose, Robot, Status, pose_from_euler_zyx, pose_to_rows};
 
 use crate::common::rng::drawn;
 use crate::common::{apart, company};
@@ -180,7 +179,7 @@ fn a_row_of_a_batch_has_the_bits_of_the_pose_alone() {
         let joints: Vec<[f64; 6]> = drawn(4, 50).collect();
         let rows: Vec<f64> = joints.iter().flat_map(|q| pose_to_rows(&robot.fk(q))).collect();
         let (mut q, mut status) = (vec![0.0; 50 * 16 * 6], vec![0; 50 * 16]);
-        batch::ik(&robot, &rows, &mut q, &mut status, NonZeroUsize::new(2)).unwrap();
+        Batch::new(NonZeroUsize::new(2)).ik(&robot, &rows, &mut q, &mut status).unwrap();
         for (row, made) in joints.iter().enumerate() {
             let alone = robot.ik(&robot.fk(made)).unwrap();
             for slot in 0..16 {

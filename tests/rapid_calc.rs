@@ -3,8 +3,8 @@
 
 use crate::common::{Rng, apart};
 use irbkin::rapid::{
-    Fallback, JointTarget, LoadData, Problem, RapidPose, RobTarget, TableRow, ToolData, WobjData,
-    calc_joint_t, calc_joint_t_or_nearest, calc_moves, calc_rob_t, calc_targets, error_name, parse,
+    Code, Fallback, JointTarget, LoadData, RapidPose, RobTarget, TableRow, ToolData, WobjData,
+    calc_joint_t, calc_joint_t_or, calc_moves, calc_rob_t, calc_targets, error_name, parse,
 };
 use irbkin::{Configuration, Error, Pose, Robot, pose_from_wxyz};
 
@@ -31,9 +31,10 @@ fn fixture(robhold: bool) -> WobjData {
     WobjData { robhold, ufprog: true, ufmec: String::new(), uframe, oframe }
 }
 
-/// The words of the problem with a target; empty if there is none.
-fn words(row: &TableRow) -> String {
-    row.problem.as_ref().map(ToString::to_string).unwrap_or_default()
+/// What is wrong with a target, without the instruction; empty if nothing is.
+fn words(row: &TableRow) -> &str {
+    let message = row.finding.as_ref().map_or("", |finding| finding.message.as_str());
+    message.split_once(": ").map_or("", |(_, words)| words)
 }
 
 fn pose(frame: &RapidPose) -> Pose {
@@ -140,9 +141,14 @@ fn errors_have_the_names_of_rapid() {
     assert_eq!(error_name(&unmet), Some("ERR_ROBLIMIT"));
     assert_eq!(error_name(&refused(&target([900.0, 200.0, 600.0], 8))), None);
     let seed = [0.2, 0.0, 0.0, 0.0, 0.5, 0.0];
-    let nearest =
-        calc_joint_t_or_nearest(robot, &target([900.0, 200.0, 600.0], 7), None, None, &seed)
-            .unwrap();
+    let nearest = calc_joint_t_or(
+        robot,
+        &target([900.0, 200.0, 600.0], 7),
+        None,
+        None,
+        Fallback::Nearest(seed),
+    )
+    .unwrap();
     let q = nearest.robax_deg.map(f64::to_radians);
     assert!(apart(&q, &robot.ik_nearest(&robot.fk(&q), &seed, &[1.0; 6]).unwrap().q) < 1e-12);
 }
@@ -246,7 +252,7 @@ fn a_configuration_without_solution_can_fall_back_to_the_nearest_joints() {
         apart(&row.q.unwrap(), &robot.ik_nearest(&flange, &before, &[1.0; 6]).unwrap().q) < 1e-12
     );
     assert!(words(row).ends_with("; the nearest to the joints before is taken"));
-    assert!(matches!(row.problem, Some(Problem::Nearest(Error::NoConfiguration(_)))));
+    assert_eq!(row.finding.as_ref().map(|it| it.code), Some(Code::WrongConfdata));
     assert!(rows[4].q.is_none(), "out of reach stays so");
 }
 
@@ -272,7 +278,7 @@ fn declared_targets_have_a_row_each_by_their_names() {
         ]
     );
     assert!(matches!(
-        calc_targets(&Robot::named("UR3").unwrap(), &module, None, None, Fallback::None),
+        calc_targets(&Robot::<6>::named("UR3").unwrap(), &module, None, None, Fallback::None),
         Err(Error::InvalidModel(_))
     ));
 }

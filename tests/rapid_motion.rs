@@ -73,7 +73,7 @@ fn joints(q: &[f64; 6]) -> String {
 }
 
 fn names(findings: &[Finding]) -> Vec<&'static str> {
-    findings.iter().map(|finding| finding.kind.name()).collect()
+    findings.iter().map(|finding| finding.code.name()).collect()
 }
 
 /// Joints away from singularities and limits.
@@ -180,7 +180,7 @@ fn a_line_is_straight_in_the_work_object_at_its_speed() {
         // 100 mm/s and 500 deg/s, whichever takes longer.
         let angle = PoseDifference::between(&from, &to).rotation;
         let programmed = (way.norm() / 0.1).max(angle / 500_f64.to_radians());
-        if names(&made.findings).contains(&"joint_speed") {
+        if names(&made.findings).contains(&"joint-too-fast") {
             slowed += 1;
             assert!(made.trajectory.duration() > programmed);
         } else {

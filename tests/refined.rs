@@ -2,6 +2,7 @@
 //! in docs/calibrate.md, which `--nocapture` prints.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+use irbkin::batch::Batch;
 use irbkin::{
     CalibratedFault, Corrections, Follower, Mdh, Robot, SingularityKind, Solution, Status,
 };
@@ -155,7 +156,7 @@ fn the_nearest_solution_is_one_of_all_and_a_batch_is_as_single_poses() {
             let solutions = refined.ik(&pose).unwrap();
             let rows = irbkin::pose_to_rows(&pose);
             let (mut joints, mut status) = ([0.0; 48], [0; 8]);
-            irbkin::batch::ik(&refined, &rows, &mut joints, &mut status, None).unwrap();
+            Batch::new(None).ik(&refined, &rows, &mut joints, &mut status).unwrap();
             for slot in 0..8 {
                 let single = solutions.slot(slot).map(|solution: &Solution<6>| solution.q);
                 let row: [f64; 6] = joints[6 * slot..6 * slot + 6].try_into().unwrap();

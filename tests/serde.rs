@@ -106,6 +106,11 @@ fn answers_round_trip() {
     for status in &*solutions.status() {
         round_trips::<Status>(status);
     }
+    round_trips(&solutions);
+    round_trips(&solutions.filter(|_| false));
+    let mut far = robot.fk(&straight);
+    far.translation.x += 9.0;
+    round_trips(&robot.ik(&far).unwrap());
     round_trips::<Configuration>(&robot.configuration(&straight).unwrap());
     round_trips(&robot.singularity(&straight));
     round_trips(&robot.residual(&straight, &robot.fk(&[0.0; 6])));

@@ -8,8 +8,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Debug;
 
 use crate::common::{Rng, reach_of};
+use irbkin::batch::Batch;
 use irbkin::{
-    DhRow, Error, JointLimits, Mdh, ModelFault, Pose, Robot, Sdh, Solutions, batch, pose_to_rows,
+    DhRow, Error, JointLimits, Mdh, ModelFault, Pose, Robot, Sdh, Solutions, pose_to_rows,
 };
 
 const XARM7: &str = include_str!("data/few_digits/xarm7.urdf");
@@ -249,7 +250,7 @@ fn a_snapped_arm_solves_batches() {
         poses_of(&robot).iter().flat_map(|q| pose_to_rows(&robot.fk(q))).collect();
     let rows = poses.len() / 16;
     let (mut q, mut status) = (vec![0.0; rows * 48], vec![0; rows * 8]);
-    batch::ik(&robot, &poses, &mut q, &mut status, None).unwrap();
+    Batch::new(None).ik(&robot, &poses, &mut q, &mut status).unwrap();
     for (row, pose) in poses.as_chunks::<16>().0.iter().enumerate() {
         let pose = irbkin::pose_from_rows(pose).unwrap();
         let single = robot.ik(&pose).unwrap();

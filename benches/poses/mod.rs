@@ -1,7 +1,8 @@
 //! The arm that is measured, and what it is asked.
 #![allow(dead_code, reason = "each bench uses its part")]
 
-use irbkin::{InstructionSet, Robot, batch};
+use irbkin::batch::Batch;
+use irbkin::{InstructionSet, Robot};
 
 /// A joint vector whose pose has all eight solutions.
 pub(crate) const Q: [f64; 6] = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
@@ -32,7 +33,7 @@ pub(crate) fn joints<const N: usize>(robot: &Robot<N>, count: u32) -> Vec<f64> {
 /// Their poses, 16 elements each.
 pub(crate) fn poses<const N: usize>(robot: &Robot<N>, q: &[f64]) -> Vec<f64> {
     let mut poses = vec![0.0; q.len() / N * 16];
-    batch::fk(robot, q, &mut poses).unwrap();
+    Batch::new(None).fk(robot, q, &mut poses).unwrap();
     poses
 }
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def check_robot(robot: object) -> None:
-    """Refuse what is no robot, a name for instance."""
+    """Refuse any object but a robot, a name for instance."""
     if not isinstance(robot, Robot):
         remedy = f": give Robot({robot!r})" if isinstance(robot, str) else ""
         raise TypeError(f"robot must be a Robot, got {type(robot).__name__}{remedy}")

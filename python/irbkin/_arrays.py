@@ -21,7 +21,7 @@ def as_array(
     """An array of numbers; `None` in a shape is any length but 0.
 
     Raises:
-        IrbkinError: Of the class that is given, for another shape or what is no number.
+        IrbkinError: Of the class that is given, for another shape or dtype.
     """
     wanted = ", ".join("m" if size is None else str(size) for size in shape)
     wanted = f"{name} must have shape ({wanted}{',' * (len(shape) == 1)})"

@@ -15,7 +15,7 @@ WAITING = 2
 
 
 class Client(Protocol):
-    """What is used of `distributed.Client`."""
+    """The part of `distributed.Client` that is used."""
 
     def submit(self, function: Callable[..., Any], *args: Any, **options: Any) -> Any:
         """Run a function on a worker."""

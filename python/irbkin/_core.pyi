@@ -10,73 +10,28 @@ from collections.abc import (
     ValuesView,
 )
 from os import PathLike
-from typing import Any, ClassVar, Literal, Protocol, final, overload, type_check_only
+from typing import (
+    Any,
+    ClassVar,
+    Literal,
+    Protocol,
+    TypeAlias,
+    TypeVar,
+    final,
+    overload,
+    type_check_only,
+)
 
 import numpy as np
 import numpy.typing as npt
 
 from irbkin.errors import IrbkinError
 from irbkin.freedom import Positioner, ToolCone, ToolOffset, ToolRotation, Track
-from irbkin.rapid.program import (
-    Declaration,
-    Diagnostic,
-    Finding,
-    MotionMove,
-    Move,
-    Skipped,
-    TargetTable,
-)
-from irbkin.rapid.records import JointTarget, Record, RobTarget, ToolData, WobjData
-from irbkin.records import (
-    CatalogEntry,
-    Configuration,
-    ConfigurationBatch,
-    FollowResult,
-    FreeJoint,
-    IkBatch,
-    IkMargin,
-    Margin,
-    MotionPeaks,
-    Plan,
-    PoseCheck,
-    Reach,
-    Singularity,
-    SingularityBatch,
-    SingularityKind,
-    SingularityMode,
-    Status,
-    ToolSpeedLimits,
-    TrajectorySample,
-)
+from irbkin.records import BreakReason, Reach, SingularityKind, SingularityMode, Status
 
 _Floats = npt.NDArray[np.float64]
-_State = tuple[
-    str,
-    str,
-    list[float],
-    list[float],
-    list[float],
-    list[float],
-    list[float] | None,
-    list[float] | None,
-    list[float] | None,
-    tuple[int, float] | None,
-]
-
-_SolutionState = tuple[int, int, list[float], tuple[int, str] | None]
-_OutcomeState = tuple[str, int, int, float]
-_FoundState = tuple[
-    list[_SolutionState],
-    _OutcomeState,
-    _OutcomeState | None,
-    list[_SolutionState] | None,
-    bool,
-    float | None,
-]
-_MotionOptions = tuple[list[float] | None, list[float] | None, list[float] | None, float, float]
-_TrajectoryState = tuple[int, list[float], list[list[float]], list[float]]
-# One joint vector, `Solution` too; the shape of an array is known at the call alone.
-_Vector = Sequence[float]
+# One joint vector; the shape of an array is known at the call alone.
+_Vector: TypeAlias = "Sequence[float] | Solution"
 
 @type_check_only
 class _Rotation(Protocol):
@@ -85,18 +40,49 @@ class _Rotation(Protocol):
     def as_matrix(self) -> npt.NDArray[Any]: ...
 
 __all__ = [
+    "NOT_THERE",
+    "Argument",
+    "Break",
+    "CatalogEntry",
+    "Configuration",
+    "ConfigurationBatch",
+    "Declaration",
+    "Finding",
+    "FollowResult",
+    "FreeJoint",
+    "IkBatch",
+    "IkMargin",
+    "JointTarget",
+    "LoadData",
+    "Margin",
     "Module",
+    "MotionMove",
+    "MotionPeaks",
+    "MotionSettings",
+    "Move",
+    "Plan",
+    "PlanBreak",
+    "Pose",
+    "PoseCheck",
+    "RobTarget",
     "Robot",
     "RoutineMotion",
+    "Singularity",
+    "Skipped",
     "Solution",
     "Solutions",
+    "SpeedData",
+    "StrandEnd",
+    "TargetTable",
+    "ToolData",
+    "ToolSpeedLimits",
     "Trajectory",
+    "TrajectorySample",
+    "WobjData",
+    "ZoneData",
     "__version__",
-    "_restore_motion",
-    "_restore_robot",
-    "_restore_solution",
-    "_restore_solutions",
-    "_restore_trajectory",
+    "_restore",
+    "_trajectory_of",
     "arc",
     "at_tool_speed",
     "calc_joint_t",
@@ -107,7 +93,6 @@ __all__ = [
     "catalog_entry",
     "check",
     "check_codes",
-    "decode",
     "dump",
     "instruction_set",
     "instruction_sets",
@@ -115,7 +100,7 @@ __all__ = [
     "line",
     "motion",
     "parse",
-    "parse_record",
+    "parse_module",
     "path_spline",
     "polyline",
     "pose",
@@ -189,7 +174,7 @@ def pose(
 ) -> _Floats:
     """Poses from translations and orientations.
 
-    Give one orientation or none, which is that of the base. All arguments are broadcast.
+    Give one orientation, or none for the orientation of the base. All arguments are broadcast.
 
     Args:
         xyz: Translations [m], shape (..., 3).
@@ -203,9 +188,9 @@ def pose(
 
     Raises:
         InvalidPoseError: A wrong shape, an element that is not finite, a quaternion whose norm is
-            off one by more than 2e-3, a matrix that is no rotation. Of many the message has the
+            off one by more than 2e-3, a matrix that is not a rotation. Of many the message has the
             index of the first.
-        TypeError: Several orientations are given, or something is no number.
+        TypeError: Several orientations are given, or an argument is not a number.
     """
 
 def to_xyz_wxyz(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
@@ -216,10 +201,10 @@ def to_xyz_wxyz(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
 
     Returns:
         Translations [m], shape (..., 3), and quaternions w, x, y, z with w >= 0, shape (..., 4). In
-        a batch, a row that is no rigid transform gives NaN.
+        a batch, an invalid row gives NaN.
 
     Raises:
-        InvalidPoseError: A wrong shape, or a single pose that is no rigid transform.
+        InvalidPoseError: A wrong shape, or a single pose that is not a rigid transform.
     """
 
 def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
@@ -231,15 +216,434 @@ def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
     Returns:
         Translations [m], shape (..., 3), and rz, ry, rx [rad], shape (..., 3), ry in -pi/2 .. pi/2.
         Where ry is +-pi/2 only rz - rx or rz + rx is determined: rz is 0 there. In a batch, a row
-        that is no rigid transform gives NaN.
+        that is invalid gives NaN.
 
     Raises:
-        InvalidPoseError: A wrong shape, or a single pose that is no rigid transform.
+        InvalidPoseError: A wrong shape, or a single pose that is not a rigid transform.
     """
 
-def _restore_robot(state: _State) -> Robot: ...
-def _restore_solution(robot: Robot, pose: list[float], state: _SolutionState) -> Solution: ...
-def _restore_solutions(robot: Robot, pose: list[float], state: _FoundState) -> Solutions: ...
+def _restore(kind: str, state: bytes) -> Any: ...
+def _trajectory_of(
+    dof: int, knots: list[float], terms: list[list[float]], times: list[float]
+) -> Trajectory: ...
+
+@type_check_only
+class _Record:
+    """A record is also the sequence of its fields."""
+
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: Any, /) -> Any: ...
+    def __iter__(self) -> Iterator[Any]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+
+@final
+class Configuration(_Record):
+    """ABB's confdata `[cf1, cf4, cf6, cfx]`: quarter turns of axes 1, 4 and 6, and the branch of
+    the arm.
+
+    A quarter turn's number is `floor(angle / 90 deg)`. `cfx` is 4 (wrist center behind axis 1) + 2
+    (behind the lower arm) + 1 (q5 < 0). Arms of other structures count as their
+    [`ConfigurationRule`] says.
+    """
+
+    @property
+    def cf1(self) -> int:
+        """Quarter turn of axis 1."""
+    @property
+    def cf4(self) -> int:
+        """Quarter turn of axis 4."""
+    @property
+    def cf6(self) -> int:
+        """Quarter turn of axis 6."""
+    @property
+    def cfx(self) -> int:
+        """The branch of an arm that bends backwards; zero for one with coupled axes 2 and 3."""
+    def __new__(cls, cf1: int, cf4: int, cf6: int, cfx: int) -> Configuration: ...
+
+@final
+class IkBatch(_Record):
+    """Solutions of many poses."""
+
+    @property
+    def q(self) -> _Floats:
+        """Joint angles [rad], shape (..., slots, n), NaN where a slot is empty."""
+    @property
+    def status(self) -> npt.NDArray[np.uint8]:
+        """`Status` of each slot, shape (..., slots)."""
+    def __new__(cls, q: _Floats, status: npt.NDArray[np.uint8]) -> IkBatch: ...
+
+@final
+class FreeJoint(_Record):
+    """The joint that a singular pose leaves undetermined."""
+
+    @property
+    def joint(self) -> int:
+        """Its number, from 1."""
+    @property
+    def fixed(self) -> str:
+        """Joints that stay fixed along the self-motion: "q4 + q6", "q4 - q6", "q2, q3", "q1, q3"
+        or, with coupled axes 2 and 3, "q1, q3 - q2"; "q1, q5" of three parallel axes; "q1 + q3",
+        "q1 - q3", "q4, q6" or "q4, q5" of seven axes. Of an arm without a closed form the joints
+        that stand still, or "nothing".
+        """
+    def __new__(cls, joint: int, fixed: str) -> FreeJoint: ...
+
+@final
+class Break(_Record):
+    """A place where the joints cannot follow a path without a jump."""
+
+    @property
+    def pose_index(self) -> int:
+        """Index of the pose that is not met, or at which the joints arrive by a jump."""
+    @property
+    def reason(self) -> str:
+        """Where and why, in a sentence."""
+    @property
+    def path(self) -> tuple[int, ...]:
+        """Index of the path among several; empty for one."""
+    @property
+    def kind(self) -> BreakReason:
+        """The cause, a `BreakReason`."""
+    def __new__(
+        cls, pose_index: int, reason: str, path: tuple[int, ...], kind: BreakReason
+    ) -> Break: ...
+
+@final
+class FollowResult(_Record):
+    """A joint path along a path of poses."""
+
+    @property
+    def q(self) -> _Floats:
+        """Joint angles [rad], shape (..., m, n), NaN where a pose is not met."""
+    @property
+    def orientation_error(self) -> _Floats:
+        """Angle between the orientations of tool and pose [rad], shape (..., m), NaN where a
+        pose is not met.
+        """
+    @property
+    def breaks(self) -> tuple[Break, ...]:
+        """Each `Break`: where the joints cannot follow, and why."""
+    def __new__(
+        cls, q: _Floats, orientation_error: _Floats, breaks: tuple[Break, ...]
+    ) -> FollowResult: ...
+
+@final
+class ConfigurationBatch(_Record):
+    """ABB's confdata of many joint vectors: int32 arrays of shape (...)."""
+
+    @property
+    def cf1(self) -> npt.NDArray[np.int32]:
+        """Quarter turns of axis 1: floor(q1 / 90 deg)."""
+    @property
+    def cf4(self) -> npt.NDArray[np.int32]:
+        """Quarter turns of axis 4."""
+    @property
+    def cf6(self) -> npt.NDArray[np.int32]:
+        """Quarter turns of axis 6."""
+    @property
+    def cfx(self) -> npt.NDArray[np.int32]:
+        """The slots, as `Configuration.cfx`."""
+    def __new__(
+        cls,
+        cf1: npt.NDArray[np.int32],
+        cf4: npt.NDArray[np.int32],
+        cf6: npt.NDArray[np.int32],
+        cfx: npt.NDArray[np.int32],
+    ) -> ConfigurationBatch: ...
+
+@final
+class Singularity(_Record):
+    """Distances of joint vectors from the singularities: numbers for one, arrays of shape (...)
+    for many. NaN where an arm has no such singularity.
+    """
+
+    @property
+    def wrist(self) -> Any:
+        """Angle of joint 5 from 0 or 180 deg [rad]; of seven axes, between the plane of axes 5
+        and 6 and the line to the shoulder.
+        """
+    @property
+    def elbow(self) -> Any:
+        """Angle between upper arm and forearm from stretched or folded [rad]."""
+    @property
+    def shoulder(self) -> Any:
+        """Distance of the wrist center from axis 1 [m]; with a lateral offset, from the plane
+        through it along axis 2; of seven axes, distance of the upper arm's end from axis 1.
+        """
+    @property
+    def min_singular_value(self) -> Any:
+        """Smallest singular value of the Jacobian at the tool, its rows in m and rad as they
+        are.
+        """
+    @property
+    def manipulability(self) -> Any:
+        """sqrt(det(J J^T)), the product of the singular values."""
+    @property
+    def kinds(self) -> Any:
+        """The singularities that the joint vector is at, a `SingularityKind`; for many its
+        values, uint8.
+        """
+    def __new__(
+        cls,
+        wrist: Any,
+        elbow: Any,
+        shoulder: Any,
+        min_singular_value: Any,
+        manipulability: Any,
+        kinds: Any,
+    ) -> Singularity: ...
+
+@final
+class Margin(_Record):
+    """How far joint vectors are from limits and singularities, each as a part of the farthest
+    that they can be: 1 in the middle, 0 at one, negative outside limits.
+    """
+
+    @property
+    def limits(self) -> _Floats:
+        """The least over all joints of 1 - |q - middle| / half the range, shape (...)."""
+    @property
+    def singularities(self) -> _Floats:
+        """The least of three distances, each at most 1, shape (...): from the wrist and from the
+        elbow singularity as a part of 90 deg, from the shoulder singularity as a part of half
+        the length of upper arm and forearm. NaN if the structure of the arm is unknown.
+        """
+    def __new__(cls, limits: _Floats, singularities: _Floats) -> Margin: ...
+
+@final
+class IkMargin(_Record):
+    """How much room the solutions of poses leave."""
+
+    @property
+    def margin(self) -> _Floats:
+        """The largest margin (the smaller part of `Margin`) of the solutions inside the limits,
+        each with the full turns that leave the most room, shape (...). NaN where there is none.
+        """
+    @property
+    def singularities(self) -> _Floats:
+        """Their largest `Margin.singularities`, shape (...). NaN where there is none."""
+    @property
+    def solutions(self) -> npt.NDArray[np.uint8]:
+        """Their number, shape (...)."""
+    def __new__(
+        cls, margin: _Floats, singularities: _Floats, solutions: npt.NDArray[np.uint8]
+    ) -> IkMargin: ...
+
+@final
+class PoseCheck(_Record):
+    """Whether a pose can be reached."""
+
+    @property
+    def reachable(self) -> bool:
+        """Some joint vector brings the tool there."""
+    @property
+    def within_limits(self) -> bool:
+        """One of them is inside the joint limits."""
+    @property
+    def reason(self) -> str:
+        """The outcome in a sentence."""
+    def __new__(cls, reachable: bool, within_limits: bool, reason: str) -> PoseCheck: ...
+
+@final
+class CatalogEntry(_Record):
+    """Data of an arm in the catalog."""
+
+    @property
+    def name(self) -> str:
+        """The maker's type name."""
+    @property
+    def maker(self) -> Literal["ABB", "Universal Robots", "Franka", "FANUC", "UFACTORY"]:
+        """The maker: "ABB", "Universal Robots", "Franka", "FANUC" or "UFACTORY"."""
+    @property
+    def aliases(self) -> tuple[str, ...]:
+        """Other names that `Robot` takes for it, beside spellings in which case, blanks and
+        dashes differ.
+        """
+    @property
+    def dof(self) -> int:
+        """Number of joints."""
+    @property
+    def payload(self) -> float | None:
+        """Payload [kg], as the type name or the data sheet gives it; of several generations the
+        least. None where it is not known.
+        """
+    @property
+    def reach(self) -> float | None:
+        """Reach [m], as the type name or the data sheet gives it: rounded, of ABB's arms to the
+        wrist center. None where it is not known.
+        """
+    @property
+    def limits(self) -> _Floats:
+        """Lower and upper limit of each joint [rad], shape (n, 2)."""
+    @property
+    def max_velocity(self) -> _Floats | None:
+        """Largest velocity of each joint [rad/s], shape (n,), or None where no source has it."""
+    @property
+    def is_coupled(self) -> bool:
+        """Whether a parallelogram linkage couples axes 2 and 3."""
+    @property
+    def sources(self) -> int:
+        """Number of independent sources of the figures."""
+    @property
+    def provenance(self) -> str:
+        """The sources, and where they disagree."""
+    def __new__(
+        cls,
+        name: str,
+        maker: Literal["ABB", "Universal Robots", "Franka", "FANUC", "UFACTORY"],
+        aliases: tuple[str, ...],
+        dof: int,
+        payload: float | None,
+        reach: float | None,
+        limits: _Floats,
+        max_velocity: _Floats | None,
+        is_coupled: bool,
+        sources: int,
+        provenance: str,
+    ) -> CatalogEntry: ...
+
+@final
+class TrajectorySample(_Record):
+    """The state of the joints at times."""
+
+    @property
+    def q(self) -> _Floats:
+        """Joint angles [rad], shape (..., n)."""
+    @property
+    def dq(self) -> _Floats:
+        """Joint velocities [rad/s], shape (..., n)."""
+    @property
+    def ddq(self) -> _Floats:
+        """Joint accelerations [rad/s^2], shape (..., n)."""
+    def __new__(cls, q: _Floats, dq: _Floats, ddq: _Floats) -> TrajectorySample: ...
+
+@final
+class MotionPeaks(_Record):
+    """The largest sizes of each joint's derivatives."""
+
+    @property
+    def velocity(self) -> _Floats:
+        """Velocities [rad/s], shape (n,)."""
+    @property
+    def acceleration(self) -> _Floats:
+        """Accelerations [rad/s^2], shape (n,)."""
+    @property
+    def jerk(self) -> _Floats:
+        """Jerks [rad/s^3], shape (n,)."""
+    def __new__(cls, velocity: _Floats, acceleration: _Floats, jerk: _Floats) -> MotionPeaks: ...
+
+@final
+class ToolSpeedLimits(_Record):
+    """The constant speed of the tool along a path that the limits of the joints allow."""
+
+    @property
+    def speed(self) -> _Floats:
+        """The highest at each sample [m/s], shape (m,); infinite where no limit binds."""
+    @property
+    def joint(self) -> npt.NDArray[np.int64]:
+        """The joint that limits it, from 1, shape (m,); 0 where none does."""
+    @property
+    def fastest(self) -> float:
+        """The fastest constant speed on the whole path [m/s], between the samples too."""
+    @property
+    def fastest_joint(self) -> int:
+        """The joint that limits the fastest speed, from 1; 0 where none does."""
+    @property
+    def fastest_index(self) -> int:
+        """The sample at which it does, or the last one before the place."""
+    def __new__(
+        cls,
+        speed: _Floats,
+        joint: npt.NDArray[np.int64],
+        fastest: float,
+        fastest_joint: int,
+        fastest_index: int,
+    ) -> ToolSpeedLimits: ...
+
+@final
+class PlanBreak(_Record):
+    """A part of a path that the joints cannot follow."""
+
+    @property
+    def leave(self) -> int | None:
+        """The last pose before it; None where the path begins with it."""
+    @property
+    def enter(self) -> int | None:
+        """The first pose after it; None where the path ends with it."""
+    def __new__(cls, leave: int | None, enter: int | None) -> PlanBreak: ...
+
+@final
+class StrandEnd(_Record):
+    """Where and why a branch of a path ends."""
+
+    @property
+    def slot(self) -> int:
+        """Its slot."""
+    @property
+    def pose_index(self) -> int:
+        """The first pose that it does not reach."""
+    @property
+    def reason(self) -> str:
+        """The reason in a sentence."""
+    def __new__(cls, slot: int, pose_index: int, reason: str) -> StrandEnd: ...
+
+@final
+class Plan(_Record):
+    """The best joint path along a path of poses."""
+
+    @property
+    def q(self) -> _Floats:
+        """Joint angles [rad], shape (m, n); NaN where a plan with breaks has none."""
+    @property
+    def tool_angle(self) -> _Floats:
+        """The angle by which the tool is turned at each pose [rad], shape (m,), without jumps of
+        a full turn; zeros without a free rotation.
+        """
+    @property
+    def slot(self) -> npt.NDArray[np.int64]:
+        """The slot of the branch at each pose, shape (m,); -1 where there is none."""
+    @property
+    def external(self) -> _Floats:
+        """Values of the external axes of `carrier` at each pose [m, rad], shape (m, k); NaN
+        where a plan with breaks has none.
+        """
+    @property
+    def tolerance(self) -> _Floats:
+        """Deviation within `tolerance` at each pose, shape (m, t): of a cone the tilts about the
+        two axes that the tool does not point in [rad], of an offset the shift [m].
+        """
+    @property
+    def cost(self) -> float:
+        """Weighted sum of the squares of all joint steps, with the costs of being near limits
+        and singularities [rad^2].
+        """
+    @property
+    def bottleneck(self) -> float:
+        """The largest velocity of a joint as a part of its limit. Without `times`, the time [s]
+        that the path takes at least if its poses are equally far apart in time.
+        """
+    @property
+    def breaks(self) -> tuple[PlanBreak, ...]:
+        """Each `PlanBreak`: empty, but for the plan of a `PathError`."""
+    @property
+    def certified(self) -> bool:
+        """Whether every step, apart from breaks, was shown to be continuous between its two
+        poses.
+        """
+    def __new__(
+        cls,
+        q: _Floats,
+        tool_angle: _Floats,
+        slot: npt.NDArray[np.int64],
+        external: _Floats,
+        tolerance: _Floats,
+        cost: float,
+        bottleneck: float,
+        breaks: tuple[PlanBreak, ...],
+        certified: bool,
+    ) -> Plan: ...
 
 @final
 class Robot:
@@ -279,8 +683,8 @@ class Robot:
 
         Raises:
             InvalidModelError: A number is not finite, a limit is empty, or six joints are not
-                independent: the message names the axes. `missing_form` of a robot of structure
-                "general" has what keeps it from a closed form, and a `snap` that suffices.
+                independent: the message names the axes. Of a robot of structure "general",
+                `print(robot)` shows what keeps it from a closed form, and a `snap` that suffices.
         """
     @staticmethod
     def from_sdh(
@@ -364,9 +768,9 @@ class Robot:
                 are.
 
         Raises:
-            InvalidModelError: The text is no URDF, several links could be meant, there are not six
-                or seven joints, a joint between base and tip is not revolute, continuous or fixed,
-                or six joints are not independent; the message names what is wrong.
+            InvalidModelError: The text is not a URDF, several links could be meant, there are not
+                six or seven joints, a joint between base and tip is not revolute, continuous or
+                fixed, or six joints are not independent; the message names what is wrong.
             OSError: The file cannot be read.
         """
     def to_urdf(self) -> str:
@@ -399,12 +803,8 @@ class Robot:
         """Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder",
         "offset wrist", or "general" for any other; "refined spherical wrist" or "refined three
         parallel axes" after `with_nominal`; "unknown" if the first six joints are not
-        independent.
-        """
-    @property
-    def missing_form(self) -> str | None:
-        """What keeps the arm from a structure with a closed form, which is faster, by how much,
-        and a `snap` or another reading of its table that would give it one; None if it has one.
+        independent. `print(robot)` shows what keeps the arm from a structure with a closed form,
+        which is faster, and a `snap` or another reading of its table that would give it one.
         """
     @property
     def mdh(self) -> _Floats:
@@ -412,7 +812,7 @@ class Robot:
         (n, 4). `flange` follows the last row.
         """
     @property
-    def root(self) -> _Floats:
+    def _root(self) -> _Floats:
         """Fixed transform from the base to the frame before the first row of `mdh`, shape (4,
         4).
         """
@@ -453,7 +853,7 @@ class Robot:
             InvalidPoseError: T is not a rigid transform or has a wrong shape.
         """
     def with_limits(self, limits: npt.ArrayLike) -> Robot:
-        """Return the robot with other joint limits; those of a linkage stay.
+        """Return the robot with other joint limits; limits of a linkage stay.
 
         Args:
             limits: Lower and upper limit of each joint [rad], shape (n, 2); infinite for none.
@@ -487,7 +887,7 @@ class Robot:
         """Return the twin without the coupling of axes 2 and 3: its q3 is this robot's q3 - q2. The
         robot itself where it has no linkage.
 
-        The limits of its joint 3 are those of the linkage or, where these are not known, the range
+        The limits of its joint 3 are the linkage's or, where these are not known, the range
         of q3 - q2 inside the limits of both axes. Its velocity is the sum of both. `coupled()` of
         the twin therefore has wider limits and a higher velocity than this robot.
         """
@@ -495,7 +895,7 @@ class Robot:
         """Return the twin whose axes 2 and 3 are coupled by a parallelogram linkage: its q3 is this
         robot's q3 + q2, as a controller measures it.
 
-        The limits of joint 3 become those of the linkage. The limits of its joint 3 are the range
+        The limits of joint 3 become the linkage's. The limits of its joint 3 are the range
         that axis 2 and the linkage allow, and its velocity is the sum of both. `uncoupled()` of the
         twin therefore has wider limits and a higher velocity than this robot.
 
@@ -565,7 +965,7 @@ class Robot:
         Raises:
             UnknownRobotError: No arm of that name.
             InvalidModelError: The nominal robot has no closed form, coupled axes, or its tool is
-                more than 0.05 rad, or 0.05 of its reach, from that of this robot.
+                more than 0.05 rad, or 0.05 of its reach, from this robot's.
         """
     def with_corrections(self, corrections: npt.ArrayLike) -> Robot:
         """Return the robot with corrected base, table and tool: what `irbkin.calibrate` makes of
@@ -581,9 +981,9 @@ class Robot:
 
         Raises:
             InvalidModelError: A correction is not finite, the shape is wrong, the corrected table
-                is none, or the table of a robot with coupled axes 2 and 3 is corrected.
+                is not a table, or the table of a robot with coupled axes 2 and 3 is corrected.
         """
-    def parameter_jacobian(
+    def _parameter_jacobian(
         self,
         q: npt.ArrayLike,
         corrections: npt.ArrayLike | None = None,
@@ -606,8 +1006,13 @@ class Robot:
             InvalidModelError: Corrections of a wrong shape, or one that is not finite.
         """
     def _corrected_fk(self, q: npt.ArrayLike, corrections: npt.ArrayLike) -> _Floats: ...
-    @overload
-    def singularity(self, q: _Vector) -> Singularity:
+    def singularity(
+        self,
+        q: npt.ArrayLike,
+        *,
+        out: Singularity | tuple[npt.NDArray[Any], ...] | None = None,
+        threads: int = 1,
+    ) -> Singularity:
         """How far joint vectors are from the singularities.
 
         Args:
@@ -625,14 +1030,6 @@ class Robot:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
             TypeError: `out` for a single joint vector, or of another kind.
         """
-    @overload
-    def singularity(
-        self,
-        q: npt.ArrayLike,
-        *,
-        out: SingularityBatch | tuple[npt.NDArray[Any], ...] | None = None,
-        threads: int = 1,
-    ) -> Singularity | SingularityBatch: ...
     def ik(
         self,
         T: npt.ArrayLike,
@@ -653,11 +1050,11 @@ class Robot:
             when out of reach.
 
         Raises:
-            InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
-            InvalidJointsError: q7 is not finite, there is no such joint.
+            InvalidPoseError: T has a wrong shape, is not finite or not a rigid transform.
+            InvalidJointsError: q7 is not finite, or the joint does not exist.
             InvalidModelError: The other six joints do not move the tool in six independent ways.
-            TypeError, ValueError: q7 is missing, or the arm has six joints and it is not; given is
-                no mapping of one joint, or given beside q7.
+            TypeError, ValueError: q7 is missing, or the arm has six joints and it is not; given
+                does not map one joint, or stands beside q7.
         """
     def ik_batch(
         self,
@@ -665,7 +1062,7 @@ class Robot:
         q7: npt.ArrayLike | None = None,
         *,
         given: Mapping[int, npt.ArrayLike] | None = None,
-        out: tuple[_Floats, npt.NDArray[np.uint8]] | _Floats | None = None,
+        out: IkBatch | tuple[_Floats, npt.NDArray[np.uint8]] | _Floats | None = None,
         threads: int = 1,
     ) -> IkBatch:
         """Every joint vector of many poses.
@@ -683,8 +1080,8 @@ class Robot:
         Returns:
             IkBatch(q, status): joint angles [rad], shape (..., slots, n), NaN where a slot is
             empty, and `irbkin.Status` of each slot, shape (..., slots), uint8. Slots are 8 or 16,
-            as the structure has them. A row that is no pose, or whose q7 is none, has status
-            INVALID; the others are not touched by it.
+            as the structure has them. A row whose pose or q7 is invalid has status INVALID; it
+            does not affect the others.
 
         Raises:
             InvalidPoseError: T has a wrong shape.
@@ -753,7 +1150,7 @@ class Robot:
             from singularities, and their number, arrays of shape (...).
 
         Raises:
-            InvalidPoseError: A wrong shape. A matrix that is no pose has no solution.
+            InvalidPoseError: A wrong shape. An invalid pose has no solution.
             InvalidModelError: The first six joints do not move the tool in six independent ways.
             TypeError: `q7` of an arm of six joints, or none of one of seven.
         """
@@ -801,7 +1198,7 @@ class Robot:
                 (k, 6), it returns k truth values. It is asked only for joint vectors near the best
                 path, and once for those that differ by full turns.
             carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
-                them. Their steps count for bottleneck and cost as those of the joints do.
+                them. Their steps count for bottleneck and cost as steps of joints do.
             tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
                 `irbkin.ToolOffset`, or one of each.
             order: What of two paths makes the better one: "bottleneck", then the sum; or "sum"
@@ -820,8 +1217,8 @@ class Robot:
             PathError: No continuous joint path: `index` is the first pose that no branch reaches
                 from the start, `end_index` the last one from which none reaches the end, `reasons`
                 says where and why each branch ends, `plan` is the plan with the fewest breaks.
-            InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
-                its index.
+            InvalidPoseError: T has a wrong shape or holds an invalid pose; the message has its
+                index.
             InvalidJointsError: A start, end or weight that is not finite, or a start or end that
                 does not fit its pose or the limits.
             InvalidMotionError: No poses, two poses half a turn apart, times that do not increase, a
@@ -920,8 +1317,8 @@ class Robot:
                 error [rad], shape (..., m); the breaks.
 
         Raises:
-            InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
-                its index.
+            InvalidPoseError: T has a wrong shape or holds an invalid pose; the message has its
+                index.
             InvalidJointsError: A seed or weight that is not finite, or a zone that is not 0 to 1.
             InvalidModelError: The arm has seven joints; "wrist" or "lock_axis4" for an arm without
                 a spherical wrist.
@@ -944,8 +1341,8 @@ class Robot:
 
         Raises:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-            InvalidModelError: The arm has no spherical wrist and is no GoFa or YuMi of the catalog:
-                its controller counts otherwise.
+            InvalidModelError: The arm has no spherical wrist and is not a GoFa or YuMi of the
+                catalog: its controller counts otherwise.
         """
     @overload
     def configuration(self, q: npt.ArrayLike) -> Configuration | ConfigurationBatch: ...
@@ -989,63 +1386,19 @@ class Robot:
 
         Raises:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-            InvalidModelError: The arm is no YuMi of the catalog.
+            InvalidModelError: The arm is not a YuMi of the catalog.
         """
     @overload
     def arm_angle(self, q: npt.ArrayLike) -> float | _Floats: ...
-    def ik_configured_all(
-        self,
-        T: npt.ArrayLike,
-        configuration: Configuration | npt.ArrayLike,
-        *,
-        arm_angle: float | None = None,
-        seed: npt.ArrayLike | None = None,
-    ) -> _Floats:
-        """Every solution of a pose that has a configuration: one, and of a GoFa perhaps two.
-
-        Args:
-            T: Pose of the tool, shape (4, 4), translation [m].
-            configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or four whole numbers.
-            arm_angle: Arm angle [rad] of a YuMi: eax_a of its robtargets.
-            seed: Joint vector [rad], shape (n,); angles of zero when not given.
-
-        Returns:
-            Joint vectors [rad], shape (k, n), the nearest to the seed first: that is the answer of
-            `ik_configured`. If k is 2, configuration and pose do not tell which is meant.
-
-        Raises:
-            UnreachableError, InvalidPoseError, InvalidJointsError, InvalidModelError: As
-                `ik_configured`.
-        """
-
-    def ik_arm_angle(self, T: npt.ArrayLike, arm_angle: float) -> _Floats:
-        """Every solution of a pose that has an arm angle, of a YuMi.
-
-        The search follows the arm's self-motion from all solutions at angles of the last joint,
-        then of the first, one degree apart, then at one angle of ABB's axis 7. It may miss a
-        self-motion that turns the two by less. Where two axes are one line, one joint vector
-        represents those that share the sum of their angles.
-
-        Args:
-            T: Pose of the tool, shape (4, 4), translation [m].
-            arm_angle: Arm angle [rad]: eax_a of the robtargets of a YuMi.
-
-        Returns:
-            Joint vectors [rad], shape (k, 7), inside the limits or not.
-
-        Raises:
-            InvalidPoseError, InvalidJointsError: As `ik`; an arm_angle that is not finite.
-            InvalidModelError: The arm is no YuMi of the catalog.
-        """
-
     def ik_configured(
         self,
         T: npt.ArrayLike,
-        configuration: Configuration | ConfigurationBatch | npt.ArrayLike,
+        configuration: Configuration | ConfigurationBatch | npt.ArrayLike | None,
         *,
         arm_angle: npt.ArrayLike | None = None,
         fallback: Literal["nearest"] | None = None,
         seed: npt.ArrayLike | None = None,
+        every: bool = False,
         out: _Floats | None = None,
         threads: int = 1,
     ) -> _Floats:
@@ -1053,32 +1406,37 @@ class Robot:
         1, 4 and 6, too.
 
         An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it. A
-        GoFa may have two solutions with one configuration: `ik_configured_all` returns both. Its
-        joints, and a YuMi's, may be up to 1.5 deg beyond the limits where none is inside.
+        GoFa may have two solutions with one configuration: `every` returns both. Its joints, and a
+        YuMi's, may be up to 1.5 deg beyond the limits where none is inside.
 
         Args:
             T: Poses of the tool, shape (..., 4, 4), translation [m].
             configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of
-                shape (..., 4). T, configuration, arm_angle and seed are broadcast.
+                shape (..., 4). T, configuration, arm_angle and seed are broadcast. None with
+                `every` and an arm_angle: any configuration, inside the limits or not.
             arm_angle: Arm angles [rad] of a YuMi, shape (...): eax_a of its robtargets.
             fallback: With "nearest", the solution nearest to `seed` where none has the
                 configuration: many programs write [0, 0, 0, 0] without having calculated it.
             seed: Joint vectors [rad], shape (..., n): of the fallback, and those to which the
                 solution of a GoFa or YuMi is the nearest; angles of zero when not given.
+            every: Whether to return every such solution of one pose, the nearest to `seed` first.
+                For an arm angle alone, self-motions are searched that turn the first or the last
+                joint by a degree or more; one joint vector represents those that differ in two
+                axes of one line.
             out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
             threads: Number of threads; 0 for one a core.
 
         Returns:
-            Joint vectors [rad], shape (..., n). In a batch, a row without such a solution, or whose
-            pose, seed or configuration (that which `configuration` gives an invalid row) is
-            invalid, is NaN.
+            Joint vectors [rad], shape (..., n); with `every` shape (k, n). In a batch, a row
+            without such a solution, or whose pose, seed or configuration (that which
+            `configuration` gives an invalid row) is invalid, is NaN.
 
         Raises:
             UnreachableError: A single pose has no solution inside the limits with that
                 configuration; the message, and its attribute `configurations`, have those that
                 exist.
-            InvalidPoseError, InvalidJointsError: A wrong shape, a pose that is none, a number of
-                the configuration that is not whole or that the arm does not have, a YuMi without
+            InvalidPoseError, InvalidJointsError: A wrong shape, an invalid pose, a number of the
+                configuration that is not whole or that the arm does not have, a YuMi without
                 arm_angle.
             InvalidModelError: As `configuration`; arm_angle of another arm than a YuMi.
             TypeError, ValueError: Another fallback, or one without a seed; a seed alone where the
@@ -1099,15 +1457,14 @@ class Robot:
         """
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __reduce__(self) -> tuple[Callable[[_State], Robot], tuple[_State]]: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
-class Solution(Sequence[float]):
+class Solution:
     """One joint vector that brings the tool to the pose.
 
-    It is also the sequence of its joint angles: `solution[0]` is J1, `numpy.asarray(solution)` is
-    `solution.q`. Frozen, hashable, equal by value to a solution of the same robot and pose,
-    picklable.
+    `solution[0]` is the angle of J1, `numpy.asarray(solution)` is `solution.q`. Frozen, hashable,
+    equal by value to a solution of the same robot and pose, picklable.
     """
 
     @property
@@ -1152,36 +1509,24 @@ class Solution(Sequence[float]):
         """Distance of the tool from the pose: the larger of the position's [m] and the
         rotation's [rad].
         """
-    def index(self, value: float, start: int = 0, stop: int = ..., /) -> int:
-        """Return the index of the first joint at an angle.
-
-        Raises:
-            ValueError: No joint is at that angle.
-        """
-    def count(self, value: float, /) -> int:
-        """Return the number of joints at an angle."""
-    def _repr_html_(self) -> str: ...
     def __array__(
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
     ) -> npt.NDArray[np.float64]: ...
     def __len__(self) -> int: ...
-    @overload  # type: ignore[override]
+    @overload
     def __getitem__(self, index: int, /) -> float: ...
     @overload
     def __getitem__(self, index: slice | Sequence[int], /) -> _Floats: ...
     def __iter__(self) -> Iterator[float]: ...
-    def __reversed__(self) -> Iterator[float]: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __reduce__(
-        self,
-    ) -> tuple[Callable[..., Solution], tuple[Robot, list[float], _SolutionState]]: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
-class Solutions(Sequence[Solution]):
+class Solutions:
     """All solutions of a pose in the order of their slots, or the reason why there are none.
 
-    A sequence of `Solution`: `solutions[0]`, `solutions[-1]`, iteration, `len`, `in`; a slice is a
+    Holds each `Solution`: `solutions[0]`, `solutions[-1]`, iteration, `len`, `in`; a slice is a
     tuple of `Solution`. `numpy.asarray(solutions)` is `solutions.q`. `print(solutions)` shows a
     table in degrees. Frozen, hashable, equal by value to the same answer of the same robot and
     pose, picklable.
@@ -1200,7 +1545,7 @@ class Solutions(Sequence[Solution]):
         """
     @property
     def status(self) -> npt.NDArray[np.uint8]:
-        """Flags of each slot, `irbkin.Status`, shape (slots,), uint8: those of the rows of
+        """Flags of each slot, `irbkin.Status`, shape (slots,), uint8, as the rows of
         `q_by_slot`.
         """
     @property
@@ -1264,15 +1609,6 @@ class Solutions(Sequence[Solution]):
             accept: Called with each `Solution`, which is also the sequence of its joint angles
                 [rad]. An exception of it is passed on.
         """
-    def index(self, value: object, start: int = 0, stop: int = ..., /) -> int:
-        """Return the index of the first solution that equals `value`.
-
-        Raises:
-            ValueError: No solution equals it.
-        """
-    def count(self, value: object, /) -> int:
-        """Return the number of solutions that equal `value`."""
-    def _repr_html_(self) -> str: ...
     def __array__(
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
     ) -> npt.NDArray[np.float64]: ...
@@ -1282,12 +1618,422 @@ class Solutions(Sequence[Solution]):
     @overload
     def __getitem__(self, index: slice, /) -> tuple[Solution, ...]: ...
     def __iter__(self) -> Iterator[Solution]: ...
-    def __reversed__(self) -> Iterator[Solution]: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __reduce__(
+    def __reduce__(self) -> tuple[Any, ...]: ...
+
+# What Python's records of RAPID take: array-likes and iterables of numbers.
+_Numbers: TypeAlias = npt.ArrayLike | Iterable[float]
+_Pose: TypeAlias = "Pose | tuple[_Numbers, _Numbers] | list[_Numbers]"
+NOT_THERE: float
+
+_R = TypeVar("_R", bound="_RapidRecord")
+
+@type_check_only
+class _RapidRecord:
+    """A frozen record of RAPID: compared by value, hashable, picklable."""
+
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+    def _replace(self: _R, **changes: Any) -> _R: ...
+
+@final
+class Pose(_RapidRecord):
+    @property
+    def trans_mm(self) -> tuple[float, ...]: ...
+    @property
+    def rot(self) -> tuple[float, ...]: ...
+    def __new__(
+        cls,
+        trans_mm: _Numbers = ...,
+        rot: _Numbers = ...,
+    ) -> Pose: ...
+    @staticmethod
+    def of(T: npt.ArrayLike) -> Pose: ...
+    def matrix(self) -> _Floats: ...
+
+@final
+class RobTarget(_RapidRecord):
+    @property
+    def trans_mm(self) -> tuple[float, ...]: ...
+    @property
+    def rot(self) -> tuple[float, ...]: ...
+    @property
+    def robconf(self) -> Configuration: ...
+    @property
+    def extax(self) -> tuple[float, ...]: ...
+    def __new__(
+        cls,
+        trans_mm: _Numbers,
+        rot: _Numbers = ...,
+        robconf: Iterable[int] | Configuration = ...,
+        extax: _Numbers = ...,
+    ) -> RobTarget: ...
+    @staticmethod
+    def of(
+        T: npt.ArrayLike, robconf: Iterable[int] | Configuration, extax: _Numbers = ...
+    ) -> RobTarget: ...
+    def matrix(self) -> _Floats: ...
+
+@final
+class JointTarget(_RapidRecord):
+    @property
+    def robax_deg(self) -> tuple[float, ...]: ...
+    @property
+    def extax(self) -> tuple[float, ...]: ...
+    def __new__(
+        cls,
+        robax_deg: _Numbers,
+        extax: _Numbers = ...,
+    ) -> JointTarget: ...
+    @staticmethod
+    def of(q: _Numbers, extax: _Numbers = ...) -> JointTarget: ...
+    @property
+    def q(self) -> _Floats: ...
+
+@final
+class LoadData(_RapidRecord):
+    @property
+    def mass_kg(self) -> float: ...
+    @property
+    def cog_mm(self) -> tuple[float, ...]: ...
+    @property
+    def aom(self) -> tuple[float, ...]: ...
+    @property
+    def inertia(self) -> tuple[float, ...]: ...
+    def __new__(
+        cls,
+        mass_kg: float = ...,
+        cog_mm: _Numbers = ...,
+        aom: _Numbers = ...,
+        inertia: _Numbers = ...,
+    ) -> LoadData: ...
+
+@final
+class ToolData(_RapidRecord):
+    @property
+    def robhold(self) -> bool: ...
+    @property
+    def tframe(self) -> Pose: ...
+    @property
+    def tload(self) -> LoadData: ...
+    def __new__(
+        cls,
+        robhold: bool = ...,
+        tframe: _Pose = ...,
+        tload: LoadData = ...,
+    ) -> ToolData: ...
+
+@final
+class WobjData(_RapidRecord):
+    @property
+    def robhold(self) -> bool: ...
+    @property
+    def ufprog(self) -> bool: ...
+    @property
+    def ufmec(self) -> str: ...
+    @property
+    def uframe(self) -> Pose: ...
+    @property
+    def oframe(self) -> Pose: ...
+    def __new__(
+        cls,
+        robhold: bool = ...,
+        ufprog: bool = ...,
+        ufmec: str = ...,
+        uframe: _Pose = ...,
+        oframe: _Pose = ...,
+    ) -> WobjData: ...
+
+@final
+class SpeedData(_RapidRecord):
+    @property
+    def v_tcp_mm_s(self) -> float: ...
+    @property
+    def v_ori_deg_s(self) -> float: ...
+    @property
+    def v_leax_mm_s(self) -> float: ...
+    @property
+    def v_reax_deg_s(self) -> float: ...
+    def __new__(
+        cls,
+        v_tcp_mm_s: float,
+        v_ori_deg_s: float = ...,
+        v_leax_mm_s: float = ...,
+        v_reax_deg_s: float = ...,
+    ) -> SpeedData: ...
+
+@final
+class ZoneData(_RapidRecord):
+    @property
+    def finep(self) -> bool: ...
+    @property
+    def pzone_tcp_mm(self) -> float: ...
+    @property
+    def pzone_ori_mm(self) -> float: ...
+    @property
+    def pzone_eax_mm(self) -> float: ...
+    @property
+    def zone_ori_deg(self) -> float: ...
+    @property
+    def zone_leax_mm(self) -> float: ...
+    @property
+    def zone_reax_deg(self) -> float: ...
+    def __new__(
+        cls,
+        finep: bool = ...,
+        pzone_tcp_mm: float = ...,
+        pzone_ori_mm: float = ...,
+        pzone_eax_mm: float = ...,
+        zone_ori_deg: float = ...,
+        zone_leax_mm: float = ...,
+        zone_reax_deg: float = ...,
+    ) -> ZoneData: ...
+
+@final
+class Declaration(_Record):
+    @property
+    def name(self) -> str: ...
+    @property
+    def data_type(self) -> str: ...
+    @property
+    def scope(self) -> Literal["LOCAL", "TASK", ""]: ...
+    @property
+    def storage(self) -> Literal["CONST", "PERS", "VAR"]: ...
+    @property
+    def routine(self) -> str | None: ...
+    @property
+    def value(self) -> Any: ...
+    @property
+    def line(self) -> int: ...
+    @property
+    def column(self) -> int: ...
+    def __new__(
+        cls,
+        name: str,
+        data_type: str,
+        scope: Literal["LOCAL", "TASK", ""],
+        storage: Literal["CONST", "PERS", "VAR"],
+        routine: str | None,
+        value: Any,
+        line: int,
+        column: int,
+    ) -> Declaration: ...
+
+@final
+class Argument(_Record):
+    @property
+    def text(self) -> str: ...
+    @property
+    def value(self) -> Any: ...
+    @property
+    def reason(self) -> str | None: ...
+    def __new__(
+        cls,
+        text: str,
+        value: Any,
+        reason: str | None,
+    ) -> Argument: ...
+
+@final
+class MotionSettings(_Record):
+    @property
+    def conf_l(self) -> bool: ...
+    @property
+    def conf_j(self) -> bool: ...
+    @property
+    def sing_area(self) -> Literal["Off", "Wrist", "LockAxis4"]: ...
+    @property
+    def cir_path_mode(
         self,
-    ) -> tuple[Callable[..., Solutions], tuple[Robot, list[float], _FoundState]]: ...
+    ) -> Literal["PathFrame", "ObjectFrame", "CirPointOri", "Wrist45", "Wrist46", "Wrist56"]: ...
+    def __new__(
+        cls,
+        conf_l: bool,
+        conf_j: bool,
+        sing_area: Literal["Off", "Wrist", "LockAxis4"],
+        cir_path_mode: Literal[
+            "PathFrame", "ObjectFrame", "CirPointOri", "Wrist45", "Wrist46", "Wrist56"
+        ],
+    ) -> MotionSettings: ...
+
+@final
+class Move(_Record):
+    @property
+    def kind(self) -> Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]: ...
+    @property
+    def routine(self) -> str | None: ...
+    @property
+    def target(self) -> Argument: ...
+    @property
+    def via(self) -> Argument | None: ...
+    @property
+    def speed(self) -> str: ...
+    @property
+    def zone(self) -> str: ...
+    @property
+    def tool(self) -> Argument: ...
+    @property
+    def wobj(self) -> Argument | None: ...
+    @property
+    def options(self) -> tuple[tuple[str, str | None], ...]: ...
+    @property
+    def line(self) -> int: ...
+    @property
+    def column(self) -> int: ...
+    @property
+    def displaced(self) -> int | None: ...
+    @property
+    def speed_data(self) -> Argument: ...
+    @property
+    def zone_data(self) -> Argument: ...
+    @property
+    def time(self) -> Argument | None: ...
+    @property
+    def settings(self) -> MotionSettings: ...
+    def __new__(
+        cls,
+        kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"],
+        routine: str | None,
+        target: Argument,
+        via: Argument | None,
+        speed: str,
+        zone: str,
+        tool: Argument,
+        wobj: Argument | None,
+        options: tuple[tuple[str, str | None], ...],
+        line: int,
+        column: int,
+        displaced: int | None,
+        speed_data: Argument,
+        zone_data: Argument,
+        time: Argument | None,
+        settings: MotionSettings,
+    ) -> Move: ...
+
+@final
+class MotionMove(_Record):
+    @property
+    def kind(self) -> Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]: ...
+    @property
+    def module_index(self) -> int: ...
+    @property
+    def line(self) -> int: ...
+    @property
+    def start(self) -> float: ...
+    @property
+    def end(self) -> float: ...
+    @property
+    def length(self) -> float: ...
+    @property
+    def q(self) -> _Floats | None: ...
+    @property
+    def as_programmed(self) -> bool: ...
+    def __new__(
+        cls,
+        kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"],
+        module_index: int,
+        line: int,
+        start: float,
+        end: float,
+        length: float,
+        q: _Floats | None,
+        as_programmed: bool,
+    ) -> MotionMove: ...
+
+@final
+class Finding(_Record):
+    @property
+    def code(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def line(self) -> int: ...
+    @property
+    def column(self) -> int: ...
+    @property
+    def routine(self) -> str | None: ...
+    @property
+    def move_index(self) -> int: ...
+    @property
+    def message(self) -> str: ...
+    @property
+    def joint(self) -> int | None: ...
+    @property
+    def value(self) -> float | None: ...
+    @property
+    def bound(self) -> float | None: ...
+    @property
+    def edits(self) -> tuple[tuple[int, int, str], ...]: ...
+    def __new__(
+        cls,
+        code: str,
+        name: str,
+        line: int,
+        column: int,
+        routine: str | None,
+        move_index: int,
+        message: str,
+        joint: int | None,
+        value: float | None,
+        bound: float | None,
+        edits: tuple[tuple[int, int, str], ...],
+    ) -> Finding: ...
+
+@final
+class Skipped(_Record):
+    @property
+    def line(self) -> int: ...
+    @property
+    def column(self) -> int: ...
+    @property
+    def routine(self) -> str | None: ...
+    @property
+    def what(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+    def __new__(
+        cls,
+        line: int,
+        column: int,
+        routine: str | None,
+        what: str,
+        text: str,
+    ) -> Skipped: ...
+
+@final
+class TargetTable(_Record):
+    @property
+    def kinds(self) -> tuple[str, ...]: ...
+    @property
+    def names(self) -> tuple[str, ...]: ...
+    @property
+    def lines(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def q(self) -> _Floats: ...
+    @property
+    def configuration(self) -> ConfigurationBatch: ...
+    @property
+    def wrist(self) -> _Floats: ...
+    @property
+    def elbow(self) -> _Floats: ...
+    @property
+    def shoulder(self) -> _Floats: ...
+    @property
+    def findings(self) -> tuple[Finding | None, ...]: ...
+    def __new__(
+        cls,
+        kinds: tuple[str, ...],
+        names: tuple[str, ...],
+        lines: npt.NDArray[np.int64],
+        q: _Floats,
+        configuration: ConfigurationBatch,
+        wrist: _Floats,
+        elbow: _Floats,
+        shoulder: _Floats,
+        findings: tuple[Finding | None, ...],
+    ) -> TargetTable: ...
 
 # What a name stands for is the text's: records of any type, narrowed with isinstance.
 @final
@@ -1357,30 +2103,10 @@ class Module(Mapping[str, Any]):
     __hash__: ClassVar[None]  # type: ignore[assignment]
     def __reduce__(self) -> tuple[Callable[..., Module], tuple[str, tuple[Module, ...]]]: ...
 
-def parse(text: str | bytes, context: Iterable[Module] | None = None) -> Module:
-    """Parse a RAPID module.
-
-    Args:
-        text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1.
-        context: Modules in which names that the text does not declare are looked for: their data
-            that are not LOCAL.
-
-    Raises:
-        RapidError: The text is broken; the message and the attributes `line` and `column` have the
-            place.
-    """
-
-def decode(text: str | bytes) -> str:
-    """Return RAPID text from a str, or from the bytes of a file."""
-
-def parse_record(text: str) -> Record:
-    """Parse one value: a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata,
-    determined by its shape.
-    """
-
-def dump(value: Any, name: str) -> str:
-    """Return the RAPID text of a record, of a module, or of a mapping of names to values."""
-
+# Text determines the type: a module, or any record.
+def parse(text: str | bytes, context: Iterable[Module] | None = None) -> Any: ...
+def parse_module(text: str | bytes, context: Iterable[Module] | None = None) -> Module: ...
+def dump(value: Any, name: str = "Data") -> str: ...
 def calc_joint_t(
     robot: Robot,
     target: RobTarget,
@@ -1459,7 +2185,7 @@ def calc_moves(
         seed: Joint vector [rad] before the first target, shape (n,).
 
     Returns:
-        TargetTable. `problems` says what is wrong with the target of a row.
+        TargetTable. `findings` says what is wrong with the target of a row.
 
     Raises:
         InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa or YuMi of
@@ -1488,7 +2214,7 @@ def calc_targets(
         seed: Joint vector [rad] before the first target, shape (n,).
 
     Returns:
-        TargetTable. `problems` says what is wrong with the target of a row.
+        TargetTable. `findings` says what is wrong with the target of a row.
 
     Raises:
         InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work
@@ -1503,7 +2229,7 @@ def check(
     max_velocity: npt.ArrayLike | None = None,
     step: float = 0.005,
     turn: float | None = None,
-) -> tuple[Diagnostic, ...]:
+) -> tuple[Finding, ...]:
     """Check every move of a module, of all routines.
 
     A branch or a loop is checked from where the robot is before it. Behind one that moves, behind
@@ -1519,7 +2245,7 @@ def check(
         turn: Largest turn of the tool between two samples [rad]; 5 deg without it.
 
     Returns:
-        A tuple of `Diagnostic`, in the order of the text.
+        A tuple of `Finding`, in the order of the text.
 
     Raises:
         RapidError: A code that does not exist.
@@ -1577,10 +2303,6 @@ def motion(
         InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
             catalog.
     """
-
-def _restore_motion(
-    robot: Robot, module: Module, routine: str | None, options: _MotionOptions
-) -> RoutineMotion: ...
 
 @final
 class RoutineMotion:
@@ -1641,10 +2363,7 @@ class RoutineMotion:
     def __eq__(self, other: object, /) -> bool: ...
     def __reduce__(
         self,
-    ) -> tuple[
-        Callable[[Robot, Module, str | None, _MotionOptions], RoutineMotion],
-        tuple[Robot, Module, str | None, _MotionOptions],
-    ]: ...
+    ) -> tuple[Callable[..., RoutineMotion], tuple[Robot, Module, str | None]]: ...
 
 @final
 class Trajectory:
@@ -1697,7 +2416,7 @@ class Trajectory:
             (n,). A jump of the acceleration at a knot does not count as jerk.
         """
     def resampled(self, steps: int) -> Trajectory:
-        """The same motion with other samples.
+        """Return the motion with other samples.
 
         Args:
             steps: Number of samples, evenly over the duration.
@@ -1706,7 +2425,7 @@ class Trajectory:
             InvalidMotionError: Fewer than two or more than ten million samples.
         """
     def stretched(self, factor: float) -> Trajectory:
-        """The same way at another pace.
+        """Return the motion at another pace.
 
         Args:
             factor: What every time is multiplied by; 2 is half the speed.
@@ -1732,15 +2451,8 @@ class Trajectory:
     def __len__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def __reduce__(
-        self,
-    ) -> tuple[
-        Callable[[int, list[float], list[float], list[float]], Trajectory], _TrajectoryState
-    ]: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
 
-def _restore_trajectory(
-    dof: int, knots: list[float], terms: list[list[float]], times: list[float]
-) -> Trajectory: ...
 def joint(
     q0: npt.ArrayLike,
     q1: npt.ArrayLike,
@@ -1939,12 +2651,12 @@ def path_spline(
         step: Instead of `steps`, the largest distance of two poses along the curve [m].
         turn: With or instead of `step`, the largest turn between two poses [rad].
         speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-            fast or, where its way is no whole number of steps, a little slower.
+            fast or, for a whole number of steps, a little slower.
         dt: With `speed`, the time from one pose to the next [s].
 
     Returns:
-        Poses, shape (k, 4, 4), those of `T` among them: from each to the next in equal steps along
-        the curve.
+        Poses, shape (k, 4, 4), with the poses of `T` among them: from each to the next in equal
+        steps along the curve.
 
     Raises:
         InvalidPoseError: A pose is not a rigid transform.
@@ -1972,7 +2684,7 @@ def line(
         step: Instead of `steps`, the largest distance of two poses [m].
         turn: With or instead of `step`, the largest turn between two poses [rad].
         speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-            fast or, where its way is no whole number of steps, a little slower.
+            fast or, for a whole number of steps, a little slower.
         dt: With `speed`, the time from one pose to the next [s].
         axis: Axis of a turn by 180 deg, shape (3,), in the frame of the poses: the tool turns
             counterclockwise about it. Without it such a turn is refused, for there are two ways.
@@ -2006,12 +2718,12 @@ def arc(
         T1: Pose at the end, shape (4, 4).
         orientation: "path", the tool turns evenly relative to the path (ABB's \PathFrame);
             "object", evenly relative to the base (\ObjectFrame); "via", evenly to the orientation
-            of `T_via` and then to that of `T1` (\CirPointOri).
+            of `T_via` and then of `T1` (\CirPointOri).
         steps: Number of poses, both ends included.
         step: Instead of `steps`, the largest distance of two poses along the arc [m].
         turn: With or instead of `step`, the largest turn between two poses [rad].
         speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-            fast or, where its way is no whole number of steps, a little slower.
+            fast or, for a whole number of steps, a little slower.
         dt: With `speed`, the time from one pose to the next [s].
 
     Returns:
@@ -2045,7 +2757,7 @@ def polyline(
         step: Instead of `steps`, the largest distance of two poses along the lines [m].
         turn: With or instead of `step`, the largest turn between two poses along the lines [rad].
         speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-            fast or, where its way is no whole number of steps, a little slower.
+            fast or, for a whole number of steps, a little slower.
         dt: With `speed`, the time from one pose to the next [s].
 
     Returns:

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 _Record = TypeVar("_Record", bound=type)
 
 
-def _same(first: Any, second: Any) -> bool:
+def same(first: Any, second: Any) -> bool:
     """Whether two fields have one value: arrays by shape and elements, NaN being equal to NaN."""
     import numpy as np
 
@@ -16,7 +16,7 @@ def _same(first: Any, second: Any) -> bool:
         is_real = all(array.dtype.kind == "f" for array in (first, second))
         return np.array_equal(first, second, equal_nan=is_real)
     if isinstance(first, tuple) and isinstance(second, tuple):
-        return len(first) == len(second) and all(map(_same, first, second))
+        return len(first) == len(second) and all(map(same, first, second))
     # A number is equal to itself, NaN is not.
     return bool(first == second or (first != first and second != second))
 
@@ -27,10 +27,10 @@ def by_value(record: _Record) -> _Record:
     """
 
     def is_equal(self: tuple[object, ...], other: object) -> bool:
-        return _same(self, other) if isinstance(other, tuple) else NotImplemented
+        return same(self, other) if isinstance(other, tuple) else NotImplemented
 
     def is_unequal(self: tuple[object, ...], other: object) -> bool:
-        return not _same(self, other) if isinstance(other, tuple) else NotImplemented
+        return not same(self, other) if isinstance(other, tuple) else NotImplemented
 
     for name, method in (("__eq__", is_equal), ("__ne__", is_unequal), ("__hash__", None)):
         setattr(record, name, method)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from irbkin._arrays import finite, limit_of_each
-from irbkin._core import Trajectory, _restore_trajectory
+from irbkin._core import Trajectory, _trajectory_of
 from irbkin.errors import InvalidJointsError, InvalidMotionError
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ def state_to_state(
     knots, terms = _pieces(phases, solved.duration, end)
     times = [0.0, solved.duration]
     pieces = terms.reshape(-1, TERMS).tolist()
-    return _restore_trajectory(dof, knots.tolist(), pieces, times).resampled(steps)
+    return _trajectory_of(dof, knots.tolist(), pieces, times).resampled(steps)
 
 
 def _in_our_words(message: str) -> str:

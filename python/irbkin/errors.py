@@ -1,4 +1,4 @@
-"""What irbkin raises. Every message names the field, the value and the bound."""
+"""Errors of irbkin. Every message names the field, the value and the bound."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class UnreachableError(IrbkinError):
     """No solution is inside the limits, or none has the configuration that was asked for."""
 
     configurations: tuple[Configuration, ...] = ()
-    """Those that exist, where another one was asked for."""
+    """The configurations that exist, where another one was asked for."""
     rapid_error: Literal["ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"] | None = None
     """RAPID's name of the error, in errors of `irbkin.rapid`: ERR_OUTSIDE_REACH or ERR_ROBLIMIT."""
 

@@ -1,4 +1,4 @@
-"""What `Robot.plan` may choose at each pose besides the joints."""
+"""Freedoms of `Robot.plan` at each pose besides the joints."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class ToolRotation(NamedTuple):
 
 
 class ToolCone(NamedTuple):
-    """A cone about the axis in which the tool points: that of the `ToolRotation`, or z.
+    """A cone about the axis in which the tool points: the axis of the `ToolRotation`, or z.
 
     `Robot.plan` tilts the tool by the angles of a grid inside the cone, which it then refines to
     half a degree.
@@ -71,11 +71,11 @@ class Track(NamedTuple):
     max_velocity: float = 1.0
     """Velocity limit [m/s]."""
     weight: float = 1.0
-    """Cost of moving it, beside those of the joints."""
+    """Cost of moving it, as the weights of the joints."""
 
 
 class Positioner(NamedTuple):
-    """An axis that turns the work object, as those of ABB's IRBP do.
+    """An axis that turns the work object, as ABB's IRBP do.
 
     The poses are those where every axis is at zero; at an angle, the object with its poses is
     turned about the line through `point` along `axis`. Of several, each carries those after it: the
@@ -95,4 +95,4 @@ class Positioner(NamedTuple):
     max_velocity: float = 1.0
     """Velocity limit [rad/s]."""
     weight: float = 1.0
-    """Cost of moving it, beside those of the joints."""
+    """Cost of moving it, as the weights of the joints."""

@@ -1,79 +1,23 @@
 //! Poses, frames, Jacobians and distances from singularities of many joint vectors.
 
-use super::pace::Pace;
-use super::rows::{is_finite, rows, rows_out};
+use super::pace::Batch;
+use super::rows::{check_length, is_finite, rows, rows_out};
 use crate::error::Error;
-use crate::kinematics::{JacobianFrame, Robot, Singularity, pose_to_rows};
-use crate::report::Configuration;
+use crate::kinematics::{Corrections, JacobianFrame, Robot, Singularity, pose_to_rows};
 
-/// Joint vectors that are worked on at a time: some ten microseconds of work.
+/// Joint vectors that a thread takes at a time: some ten microseconds of work.
 const PART: usize = 1024;
 
-/// Forward kinematics: rows of `N` joint angles to rows of 16 pose elements.
-///
-/// # Errors
-///
-/// [`Error::WrongLength`] when a slice does not hold as many rows as `q`.
-pub fn fk<const N: usize>(robot: &Robot<N>, q: &[f64], poses: &mut [f64]) -> Result<(), Error> {
-    Pace::steady(None).fk(robot, q, poses)
-}
+/// As [`PART`], for work that takes some hundred nanoseconds a row.
+const SMALL_PART: usize = 256;
 
-/// Link frames: rows of `N` joint angles to `N + 1` times 16 pose elements a row.
-///
-/// # Errors
-///
-/// As [`fk`].
-pub fn link_frames<const N: usize>(
-    robot: &Robot<N>,
-    q: &[f64],
-    frames: &mut [f64],
-) -> Result<(), Error> {
-    Pace::steady(None).link_frames(robot, q, frames)
-}
-
-/// Geometric Jacobians: rows of `N` joint angles to rows of 6 times `N` elements.
-///
-/// # Errors
-///
-/// As [`fk`].
-pub fn jacobian<const N: usize>(
-    robot: &Robot<N>,
-    q: &[f64],
-    frame: JacobianFrame,
-    jacobians: &mut [f64],
-) -> Result<(), Error> {
-    Pace::steady(None).jacobian(robot, q, frame, jacobians)
-}
-
-/// Distances from the singularities, one record a row of `N` joint angles; `None` for a row that is
-/// not finite.
-///
-/// # Errors
-///
-/// As [`fk`].
-pub fn singularity<'a, const N: usize>(
-    robot: &'a Robot<N>,
-    q: &'a [f64],
-) -> Result<impl Iterator<Item = Option<Singularity>> + 'a, Error> {
-    Ok(robot.singularities(rows::<N>("q", q)?))
-}
-
-/// Configurations, one a row of six joint angles; an error for a row that is not finite.
-///
-/// # Errors
-///
-/// As [`fk`], and [`Error::InvalidModel`] for an arm without a spherical wrist.
-pub fn configuration<'a>(
-    robot: &'a Robot<6>,
-    q: &'a [f64],
-) -> Result<impl Iterator<Item = Result<Configuration, Error>> + 'a, Error> {
-    robot.configuration_rule()?;
-    Ok(rows::<6>("q", q)?.iter().map(|q| robot.configuration(q)))
-}
-
-impl Pace<'_> {
-    /// [`fk`]
-    pub(crate) fn fk<const N: usize>(
+impl Batch<'_> {
+    /// Forward kinematics: rows of `N` joint angles to rows of 16 pose elements.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::WrongLength`] when a slice does not hold as many rows as `q`.
+    pub fn fk<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         q: &[f64],
@@ -87,8 +31,12 @@ impl Pace<'_> {
         Ok(())
     }
 
-    /// [`link_frames`]
-    pub(crate) fn link_frames<const N: usize>(
+    /// Link frames: rows of `N` joint angles to `N + 1` times 16 pose elements a row.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::fk`].
+    pub fn link_frames<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         q: &[f64],
@@ -112,8 +60,12 @@ impl Pace<'_> {
         Ok(())
     }
 
-    /// [`jacobian`]
-    pub(crate) fn jacobian<const N: usize>(
+    /// Geometric Jacobians: rows of `N` joint angles to rows of 6 times `N` elements.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::fk`].
+    pub fn jacobian<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         q: &[f64],
@@ -129,26 +81,82 @@ impl Pace<'_> {
         Ok(())
     }
 
-    /// [`singularity`], with `write` called for parts: their number and records.
-    #[cfg(feature = "python")]
-    pub(crate) fn singularity<const N: usize, C: Send>(
+    /// Distances from the singularities, a record for each row of `N` joint angles; `None` for a
+    /// row that is not finite.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::fk`].
+    pub fn singularity<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         q: &[f64],
-        columns: impl Iterator<Item = C> + Send,
-        write: impl Fn(C, &mut dyn Iterator<Item = Option<Singularity>>) + Sync,
+        records: &mut [Option<Singularity>],
     ) -> Result<(), Error> {
-        let count = rows::<N>("q", q)?.len();
-        self.run(count, q.chunks(Self::SINGULARITIES * N).zip(columns), |(q, columns), _| {
-            // The part has whole rows.
-            if let Ok(mut records) = singularity(robot, q) {
-                write(columns, &mut records);
+        let q = rows::<N>("q", q)?;
+        check_length("records", records.len(), q.len())?;
+        let parts = q.chunks(SMALL_PART).zip(records.chunks_mut(SMALL_PART));
+        self.run(q.len(), parts, |(q, records), _| {
+            for (record, found) in records.iter_mut().zip(robot.singularities(q)) {
+                *record = found;
             }
         });
         Ok(())
     }
 
-    /// Rows of a part of [`Self::singularity`].
-    #[cfg(feature = "python")]
-    pub(crate) const SINGULARITIES: usize = 256;
+    /// Jacobians in the parameters: rows of `N` joint angles to rows of 6 times
+    /// [`Corrections::COUNT`] elements.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::fk`].
+    pub fn parameter_jacobian<const N: usize>(
+        &mut self,
+        robot: &Robot<N>,
+        corrections: &Corrections<N>,
+        q: &[f64],
+        jacobians: &mut [f64],
+    ) -> Result<(), Error> {
+        let q = rows::<N>("q", q)?;
+        let size = 6 * Corrections::<N>::COUNT;
+        check_length("jacobians", jacobians.len(), q.len() * size)?;
+        let parts = q.chunks(SMALL_PART).zip(jacobians.chunks_mut(SMALL_PART * size));
+        self.run(q.len(), parts, |(q, jacobians), _| {
+            for (q, jacobian) in q.iter().zip(jacobians.chunks_exact_mut(size)) {
+                // Of the right length, it is written in any case.
+                let written = robot.parameter_jacobian(corrections, q, jacobian);
+                if written.is_err() || !is_finite(q) {
+                    jacobian.fill(f64::NAN);
+                }
+            }
+        });
+        Ok(())
+    }
+
+    /// Poses of a corrected arm: rows of `N` joint angles to rows of 16 pose elements.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::fk`].
+    pub fn corrected_fk<const N: usize>(
+        &mut self,
+        robot: &Robot<N>,
+        corrections: &Corrections<N>,
+        q: &[f64],
+        poses: &mut [f64],
+    ) -> Result<(), Error> {
+        let q = rows::<N>("q", q)?;
+        let poses = rows_out::<16, f64>("poses", poses, q.len())?;
+        let parts = q.chunks(SMALL_PART).zip(poses.chunks_mut(SMALL_PART));
+        self.run(q.len(), parts, |(q, poses), _| {
+            for (q, pose) in q.iter().zip(poses) {
+                *pose = if is_finite(q) {
+                    pose_to_rows(&robot.corrected_fk(corrections, q))
+                } else {
+                    [f64::NAN; 16]
+                };
+            }
+        });
+        Ok(())
+    }
 }

@@ -2,9 +2,8 @@
 
 use alloc::borrow::Cow;
 use alloc::vec;
-use core::num::NonZeroUsize;
 
-use super::pace::Pace;
+use super::pace::Batch;
 use super::rows::{check_length, rows, rows_for, rows_out};
 use crate::error::Error;
 use crate::kinematics::{ConfigurationRequest, Robot, Rows, check_weights, pose_from_rows};
@@ -13,10 +12,10 @@ use crate::report::Configuration;
 /// Poses that a thread takes at a time: some ten microseconds of work.
 const PART: usize = 512;
 
-/// Poses that a thread takes where a pose may take a thousand times as long, next to a singularity.
+/// As [`PART`], where a pose next to a singularity may take a thousand times as long.
 pub(super) const SMALL_PART: usize = 64;
 
-/// Each number of the configuration of an invalid row; no solution has it.
+/// Each number of the configuration of an invalid row; no solution has such a configuration.
 pub const NO_CONFIGURATION: i32 = i32::MIN;
 
 /// The configuration of an invalid row.
@@ -27,103 +26,32 @@ const NONE: Configuration = Configuration {
     cfx: NO_CONFIGURATION,
 };
 
-/// Inverse kinematics: rows of 16 pose elements, and of seven joints the angle of joint 7 [rad] in
-/// each, to [`Robot::slot_count`] slots of `N` joint angles and as many [`Status`](crate::Status)
-/// bytes a row. Empty slots are NaN.
-///
-/// `angles` is empty for six joints and where a joint is locked at one angle. They belong to the
-/// locked joint if that is the first or the last.
-///
-/// On up to `threads` threads, but no more than there are cores; without the feature `std`, on the
-/// caller's.
-///
-/// # Errors
-///
-/// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`,
-/// [`Error::InvalidModel`] when the structure of the arm is unknown.
-pub fn ik_with<const N: usize>(
-    robot: &Robot<N>,
-    poses: &[f64],
-    angles: &[f64],
-    q: &mut [f64],
-    status: &mut [u8],
-    threads: Option<NonZeroUsize>,
-) -> Result<(), Error> {
-    Pace::steady(threads).ik_with(robot, poses, angles, q, status)
-}
-
-/// [`ik_with`] of an arm of six joints.
-///
-/// # Errors
-///
-/// As [`ik_with`].
-pub fn ik(
-    robot: &Robot<6>,
-    poses: &[f64],
-    q: &mut [f64],
-    status: &mut [u8],
-    threads: Option<NonZeroUsize>,
-) -> Result<(), Error> {
-    Pace::steady(threads).ik(robot, poses, q, status)
-}
-
-/// Inverse kinematics next to seeds: rows of 16 pose elements and of joint angles to rows of joint
-/// angles, as [`Robot::ik_nearest`] has them. A row that has none, or whose pose or seed is
-/// invalid, is NaN.
-///
-/// On up to `threads` threads, as [`ik_with`].
-///
-/// # Errors
-///
-/// As [`ik`], and [`Error::InvalidJoints`] for a weight that is negative or not finite.
-pub fn ik_nearest<const N: usize>(
-    robot: &Robot<N>,
-    poses: &[f64],
-    seeds: &[f64],
-    weights: &[f64; N],
-    q: &mut [f64],
-    threads: Option<NonZeroUsize>,
-) -> Result<(), Error> {
-    Pace::steady(threads).ik_nearest(robot, poses, seeds, weights, q)
-}
-
-/// Inverse kinematics by configurations: rows of 16 pose elements, and a configuration for each, to
-/// rows of joint angles, as [`Robot::ik_configured`] has them or, with `seeds`,
-/// [`Robot::ik_configured_or_nearest`]. A row that has none, or whose pose or seed is invalid, or
-/// whose configuration marks an invalid row ([`NO_CONFIGURATION`]), is NaN.
-///
-/// On up to `threads` threads, as [`ik_with`].
-///
-/// # Errors
-///
-/// As [`ik`], [`Error::InvalidModel`] for an arm without a spherical wrist, and
-/// [`Error::InvalidJoints`] for a number of a configuration that no configuration of the arm has.
-pub fn ik_configured(
-    robot: &Robot<6>,
-    poses: &[f64],
-    configurations: &[Configuration],
-    seeds: Option<&[f64]>,
-    q: &mut [f64],
-    threads: Option<NonZeroUsize>,
-) -> Result<(), Error> {
-    let asked = Configured { configurations, arm_angles: None, seeds, or_nearest: seeds.is_some() };
-    Pace::steady(threads).ik_configured(robot, poses, &asked, q)
-}
-
-/// The request for the solutions of rows of poses.
-pub(crate) struct Configured<'a> {
-    pub(crate) configurations: &'a [Configuration],
-    /// The arm angle of each [rad].
-    pub(crate) arm_angles: Option<&'a [f64]>,
-    /// A joint vector for each [rad].
-    pub(crate) seeds: Option<&'a [f64]>,
+/// Configurations of rows of poses, with what chooses among several solutions.
+#[derive(Clone, Copy, Debug)]
+pub struct Configured<'a> {
+    /// The configuration of each row.
+    pub configurations: &'a [Configuration],
+    /// The arm angle of each row [rad].
+    pub arm_angles: Option<&'a [f64]>,
+    /// The joint angles of each row [rad] to which the solution is the nearest.
+    pub seeds: Option<&'a [f64]>,
     /// Whether a row without its configuration gets the solution nearest to its seed.
-    pub(crate) or_nearest: bool,
+    pub or_nearest: bool,
 }
 
-impl Pace<'_> {
-    /// [`ik_with`]
-    pub(crate) fn ik_with<const N: usize>(
+impl Batch<'_> {
+    /// Inverse kinematics: rows of 16 pose elements, and of seven joints the angle of joint 7 [rad]
+    /// in each, to [`Robot::slot_count`] slots of `N` joint angles and as many
+    /// [`Status`](crate::Status) bytes a row. Empty slots are NaN.
+    ///
+    /// `angles` is empty for six joints and where a joint is locked at one angle. They are angles
+    /// of the locked joint if that is the first or the last.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::WrongLength`] when a slice does not hold as many rows as `poses`,
+    /// [`Error::InvalidModel`] when the structure of the arm is unknown.
+    pub fn ik_with<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         poses: &[f64],
@@ -145,8 +73,12 @@ impl Pace<'_> {
         Ok(())
     }
 
-    /// [`ik`]
-    pub(crate) fn ik(
+    /// [`Self::ik_with`] of an arm of six joints.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::ik_with`].
+    pub fn ik(
         &mut self,
         robot: &Robot<6>,
         poses: &[f64],
@@ -156,8 +88,15 @@ impl Pace<'_> {
         self.ik_with(robot, poses, &[], q, status)
     }
 
-    /// [`ik_nearest`]
-    pub(crate) fn ik_nearest<const N: usize>(
+    /// Inverse kinematics next to seeds: rows of 16 pose elements and of joint angles to rows of
+    /// joint angles, as [`Robot::ik_nearest`] returns them. A row without a solution, or whose pose
+    /// or seed is invalid, is NaN.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::ik_with`], and [`Error::InvalidJoints`] for a weight that is negative or not
+    /// finite.
+    pub fn ik_nearest<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         poses: &[f64],
@@ -178,8 +117,17 @@ impl Pace<'_> {
         Ok(())
     }
 
-    /// [`ik_configured`]
-    pub(crate) fn ik_configured<const N: usize>(
+    /// Inverse kinematics by configurations: rows of 16 pose elements, with what is asked of each,
+    /// to rows of joint angles, as [`Robot::ik_configured`] returns them. A row without such a
+    /// solution, or whose pose or seed is invalid, or with the configuration of an invalid row
+    /// ([`NO_CONFIGURATION`]), is NaN.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::ik_with`], [`Error::InvalidModel`] for an arm without configurations, and
+    /// [`Error::InvalidJoints`] for a number of a configuration that no configuration of the arm
+    /// has.
+    pub fn ik_configured<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         poses: &[f64],
@@ -218,9 +166,14 @@ impl Pace<'_> {
         Ok(())
     }
 
-    /// The arm angles of rows of seven joint angles [rad]; NaN where it does not exist.
-    #[cfg(feature = "python")]
-    pub(crate) fn arm_angles(
+    /// Arm angles [rad] of rows of seven joint angles, as [`Robot::arm_angle`] returns them; NaN
+    /// where there is none.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::WrongLength`] when `angles` does not hold as many numbers as `q` has rows,
+    /// [`Error::InvalidModel`] for an arm that has no arm angle.
+    pub fn arm_angle(
         &mut self,
         robot: &Robot<7>,
         q: &[f64],
@@ -238,34 +191,33 @@ impl Pace<'_> {
         Ok(())
     }
 
-    /// The configurations of rows of joint angles, number by number; [`NO_CONFIGURATION`] of a row
-    /// that is invalid.
-    #[cfg(feature = "python")]
-    pub(crate) fn configurations<const N: usize>(
+    /// Configurations: rows of `N` joint angles to rows of cf1, cf4, cf6, cfx; four times
+    /// [`NO_CONFIGURATION`] for a row that is invalid.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::WrongLength`] when `numbers` does not hold as many rows as `q`,
+    /// [`Error::InvalidModel`] for an arm without configurations.
+    pub fn configuration<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         q: &[f64],
-        numbers: [&mut [i32]; 4],
+        numbers: &mut [i32],
     ) -> Result<(), Error> {
         robot.configuration_rule()?;
         let q = rows::<N>("q", q)?;
-        for numbers in &numbers {
-            check_length("configurations", numbers.len(), q.len())?;
-        }
-        let [cf1, cf4, cf6, cfx] = numbers.map(|numbers| numbers.chunks_mut(PART));
-        let parts = q.chunks(PART).zip(cf1.zip(cf4).zip(cf6.zip(cfx)));
-        self.run(q.len(), parts, |(q, ((cf1, cf4), (cf6, cfx))), _| {
-            let counts = cf1.iter_mut().zip(cf4).zip(cf6.iter_mut().zip(cfx));
-            for (q, ((cf1, cf4), (cf6, cfx))) in q.iter().zip(counts) {
-                let counted = robot.configuration(q).unwrap_or(NONE);
-                (*cf1, *cf4, *cf6, *cfx) = (counted.cf1, counted.cf4, counted.cf6, counted.cfx);
+        let numbers = rows_out::<4, i32>("configurations", numbers, q.len())?;
+        self.run(q.len(), q.chunks(PART).zip(numbers.chunks_mut(PART)), |(q, numbers), _| {
+            for (q, numbers) in q.iter().zip(numbers) {
+                let Configuration { cf1, cf4, cf6, cfx } = robot.configuration(q).unwrap_or(NONE);
+                *numbers = [cf1, cf4, cf6, cfx];
             }
         });
         Ok(())
     }
 }
 
-/// The angles of the rows from one on, or no angles if the list is empty.
+/// The angles of the rows from one on; none if there are none.
 pub(super) fn part_of(angles: &[f64], from: usize) -> &[f64] {
     angles.get(from..).unwrap_or(&[])
 }

@@ -1,10 +1,9 @@
 //! How much room many joint vectors, and the solutions of many poses, leave.
 
 use alloc::vec;
-use core::num::NonZeroUsize;
 
 use super::inverse::{check_structure, part_of};
-use super::pace::Pace;
+use super::pace::Batch;
 use super::rows::{check_length, is_finite, rows};
 use crate::error::Error;
 use crate::kinematics::{Margin, Robot, Rows, Status};
@@ -15,25 +14,7 @@ const PART: usize = 64;
 /// Joint vectors that a thread takes at a time.
 const JOINT_VECTORS: usize = 1024;
 
-/// How far rows of `N` joint angles are from limits and singularities, [`Robot::margin`] of each:
-/// its two numbers; NaN for a row that is not finite.
-///
-/// On up to `threads` threads, as [`ik_with`](super::ik_with).
-///
-/// # Errors
-///
-/// [`Error::WrongLength`] when a slice does not hold as many rows as `q`.
-pub fn margin<const N: usize>(
-    robot: &Robot<N>,
-    q: &[f64],
-    limits: &mut [f64],
-    singularities: &mut [f64],
-    threads: Option<NonZeroUsize>,
-) -> Result<(), Error> {
-    Pace::steady(threads).margin(robot, q, limits, singularities)
-}
-
-/// Where the answers of [`ik_margin`] are written, an element for each pose.
+/// Where [`Batch::ik_margin`] writes its answers, an element for each pose.
 #[derive(Debug)]
 pub struct Margins<'a> {
     /// The largest [`Margin::least`] of the solutions inside the limits, each with the full turns
@@ -45,28 +26,14 @@ pub struct Margins<'a> {
     pub solutions: &'a mut [u8],
 }
 
-/// How much room the solutions of poses leave to limits and singularities: rows of 16 pose
-/// elements, and the angles, as [`ik_with`](super::ik_with) takes them. A row that is
-/// invalid has no solution.
-///
-/// On up to `threads` threads, as [`ik_with`](super::ik_with).
-///
-/// # Errors
-///
-/// As [`ik_with`](super::ik_with).
-pub fn ik_margin<const N: usize>(
-    robot: &Robot<N>,
-    poses: &[f64],
-    angles: &[f64],
-    answers: Margins<'_>,
-    threads: Option<NonZeroUsize>,
-) -> Result<(), Error> {
-    Pace::steady(threads).ik_margin(robot, poses, angles, answers)
-}
-
-impl Pace<'_> {
-    /// [`margin`]
-    pub(crate) fn margin<const N: usize>(
+impl Batch<'_> {
+    /// How far rows of `N` joint angles are from limits and singularities, the two numbers of
+    /// [`Robot::margin`] for each row; NaN for a row that is not finite.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::WrongLength`] when a slice does not hold as many rows as `q`.
+    pub fn margin<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         q: &[f64],
@@ -88,8 +55,14 @@ impl Pace<'_> {
         Ok(())
     }
 
-    /// [`ik_margin`]
-    pub(crate) fn ik_margin<const N: usize>(
+    /// How much room the solutions of poses leave to limits and singularities: rows of 16 pose
+    /// elements, and the angles, as [`Self::ik_with`] takes them. A row that
+    /// is invalid has no solution.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::ik_with`].
+    pub fn ik_margin<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         poses: &[f64],
@@ -139,6 +112,7 @@ fn most_room<const N: usize>(robot: &Robot<N>, q: &[[f64; N]], status: &[u8]) ->
 
 #[cfg(test)]
 mod tests {
+    use core::num::NonZeroUsize;
     use std::string::ToString;
     use std::vec::Vec;
 
@@ -155,8 +129,8 @@ mod tests {
             singularities: &mut singularities,
             solutions: &mut solutions,
         };
-        let threads = NonZeroUsize::new(threads);
-        ik_margin(robot, poses, &[], answers, threads).unwrap();
+        let mut batch = Batch::new(NonZeroUsize::new(threads));
+        batch.ik_margin(robot, poses, &[], answers).unwrap();
         (margin, singularities, solutions)
     }
 
@@ -213,8 +187,8 @@ mod tests {
         q[6 * 70 + 3] = f64::INFINITY;
         for threads in [1, 2] {
             let (mut limits, mut singularities) = (vec![9.0; 10_000], vec![9.0; 10_000]);
-            let threads = NonZeroUsize::new(threads);
-            super::margin(&robot, &q, &mut limits, &mut singularities, threads).unwrap();
+            let mut batch = Batch::new(NonZeroUsize::new(threads));
+            batch.margin(&robot, &q, &mut limits, &mut singularities).unwrap();
             assert!(limits[70].is_nan() && singularities[70].is_nan());
             for (row, q) in q.as_chunks().0.iter().enumerate().filter(|(row, _)| *row != 70) {
                 let alone = robot.margin(q);
@@ -222,7 +196,7 @@ mod tests {
                 assert_eq!(singularities[row].to_bits(), alone.singularities.to_bits());
             }
         }
-        let error = super::margin(&robot, &q, &mut [0.0; 3], &mut [0.0; 3], None).unwrap_err();
+        let error = Batch::new(None).margin(&robot, &q, &mut [0.0; 3], &mut [0.0; 3]).unwrap_err();
         assert!(error.to_string().contains("limits"), "{error}");
     }
 
@@ -235,7 +209,7 @@ mod tests {
             singularities: &mut singularities,
             solutions: &mut solutions,
         };
-        let error = ik_margin(&robot, &[0.0; 32], &[], answers, None).unwrap_err();
+        let error = Batch::new(None).ik_margin(&robot, &[0.0; 32], &[], answers).unwrap_err();
         assert!(error.to_string().contains("singularities"), "{error}");
     }
 }

@@ -1,5 +1,4 @@
-//! How a batch is worked through: part by part, on one thread or more, for as long as the caller
-//! wants.
+//! Work through a batch part by part, on one thread or more, until the caller stops it.
 
 #[cfg(feature = "std")]
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,8 +19,22 @@ const WAIT: Duration = Duration::from_millis(20);
 /// Whether to go on, asked now and then.
 pub(crate) type GoOn<'a> = dyn FnMut() -> bool + 'a;
 
-/// How a batch is worked through.
-pub(crate) struct Pace<'a> {
+/// Rows worked through part by part, on one thread or more.
+///
+/// Each method reads and writes flat row-major slices. A row's answer has the same bits alone, in
+/// any batch and on any number of threads.
+///
+/// ```
+/// use irbkin::Robot;
+/// use irbkin::batch::Batch;
+///
+/// let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
+/// let mut poses = [0.0; 32];
+/// Batch::new(None).fk(&robot, &[0.1; 12], &mut poses)?;
+/// assert_eq!(poses[..16], poses[16..]);
+/// # Ok::<(), irbkin::Error>(())
+/// ```
+pub struct Batch<'a> {
     /// Threads that may work, the caller's among them.
     #[cfg_attr(not(feature = "std"), expect(dead_code, reason = "there are no threads"))]
     threads: usize,
@@ -29,22 +42,24 @@ pub(crate) struct Pace<'a> {
     go_on: Option<&'a mut GoOn<'a>>,
 }
 
-impl Pace<'static> {
-    /// To the end, on up to `threads` threads.
-    pub(crate) fn steady(threads: Option<NonZeroUsize>) -> Self {
+impl Batch<'static> {
+    /// A batch on up to `threads` threads, but no more than there are cores; without the feature
+    /// `std`, on the caller's.
+    #[must_use]
+    pub fn new(threads: Option<NonZeroUsize>) -> Self {
         Self { threads: threads.map_or(1, NonZeroUsize::get), go_on: None }
     }
 }
 
 #[cfg(feature = "python")]
-impl<'a> Pace<'a> {
-    /// For as long as `go_on` says so.
+impl<'a> Batch<'a> {
+    /// A batch that ends early when `go_on` returns false.
     pub(crate) fn until(threads: Option<NonZeroUsize>, go_on: &'a mut GoOn<'a>) -> Self {
         Self { threads: threads.map_or(1, NonZeroUsize::get), go_on: Some(go_on) }
     }
 }
 
-impl Pace<'_> {
+impl Batch<'_> {
     /// Works on the parts of `rows` rows, in any order. Work that takes long asks whether to go on.
     ///
     /// The caller works, too: it does not wait for threads that wake up late.
@@ -173,7 +188,7 @@ mod tests {
     fn every_part_is_worked_on_once_on_any_number_of_threads() {
         for threads in 1..5 {
             let mut done = vec![0_u8; 1000];
-            Pace::steady(NonZeroUsize::new(threads)).run(100_000, done.chunks_mut(7), |part, _| {
+            Batch::new(NonZeroUsize::new(threads)).run(100_000, done.chunks_mut(7), |part, _| {
                 for row in part {
                     *row += 1;
                 }
@@ -191,7 +206,7 @@ mod tests {
                 asked += 1;
                 asked < 3
             };
-            let mut pace = Pace { threads, go_on: Some(&mut go_on) };
+            let mut pace = Batch { threads, go_on: Some(&mut go_on) };
             pace.run(100_000, 0..1_000_000, |_, _| {
                 worked.fetch_add(1, Ordering::Relaxed);
                 thread::yield_now();
@@ -210,7 +225,7 @@ mod tests {
                 asked += 1;
                 asked < 4
             };
-            let mut pace = Pace { threads: 2, go_on: Some(&mut go_on) };
+            let mut pace = Batch { threads: 2, go_on: Some(&mut go_on) };
             pace.run(100_000, 0..2, |_, go_on| {
                 if thread::current().id() == caller {
                     thread::sleep(Duration::from_millis(5));
@@ -232,7 +247,7 @@ mod tests {
     fn helpers_stay_for_the_next_call() {
         let ids = || {
             let seen = Mutex::new(Vec::new());
-            Pace::steady(NonZeroUsize::new(2)).run(100_000, 0..200, |_, _| {
+            Batch::new(NonZeroUsize::new(2)).run(100_000, 0..200, |_, _| {
                 seen.lock().unwrap().push(thread::current().id());
                 thread::sleep(std::time::Duration::from_micros(100));
             });

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::pace::Pace;
+use super::pace::Batch;
 use super::rows::{rows, rows_for, rows_out};
 use crate::error::Error;
 use crate::kinematics::{Pose, pose_from_rows, pose_to_rows};
@@ -10,9 +10,9 @@ use crate::kinematics::{Pose, pose_from_rows, pose_to_rows};
 /// Poses that are worked on at a time.
 const PART: usize = 1024;
 
-impl Pace<'_> {
+impl Batch<'_> {
     /// Makes poses of translations and of orientations of `R` numbers each; returns the first row
-    /// that is none, and why.
+    /// that is invalid, and why.
     pub(crate) fn make_poses<const R: usize>(
         &mut self,
         xyz: &[f64],
@@ -39,8 +39,8 @@ impl Pace<'_> {
         Ok(refused.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Takes poses apart into translations and orientations of `R` numbers each; NaN of a row that
-    /// is no pose.
+    /// Takes poses apart into translations and orientations of `R` numbers each; NaN for an
+    /// invalid row.
     pub(crate) fn take_apart<const R: usize>(
         &mut self,
         poses: &[f64],

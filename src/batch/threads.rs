@@ -25,7 +25,7 @@ pub(super) struct Helpers {
 }
 
 impl Helpers {
-    /// The helpers of a batch of `rows` that may run on `threads` threads, that of the caller among
+    /// The helpers of a batch of `rows` that may run on `threads` threads, the caller's among
     /// them; `None` where they would not pay. No more threads than there are cores.
     pub(super) fn of(threads: usize, rows: usize) -> Option<Self> {
         if threads <= 1 || rows < WORTH_A_THREAD {

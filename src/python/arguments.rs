@@ -11,7 +11,7 @@ use crate::kinematics::{JacobianFrame, SingularityMode};
 use crate::paths::ArcOrientation;
 use crate::trajectory::{Profile, SplineKind, Synchronization};
 
-/// What a word stands for.
+/// Look up the value that a word names.
 pub(super) fn one_of<T: Copy>(field: &str, word: &str, words: &[(&str, T)]) -> PyResult<T> {
     if let Some((_, value)) = words.iter().find(|(name, _)| *name == word) {
         return Ok(*value);
@@ -35,7 +35,7 @@ pub(super) fn read_frame(frame: &str) -> PyResult<JacobianFrame> {
     one_of("frame", frame, &[("base", JacobianFrame::Base), ("tool", JacobianFrame::Tool)])
 }
 
-/// What a path does at the wrist singularity.
+/// Behavior of a path at the wrist singularity.
 pub(super) fn read_singularity_mode(singularity_mode: &str) -> PyResult<SingularityMode> {
     let words = [
         ("through", SingularityMode::Through),
@@ -69,7 +69,7 @@ pub(super) fn read_synchronization(synchronization: &str) -> PyResult<Synchroniz
     one_of("synchronization", synchronization, &words)
 }
 
-/// What the orientation does along an arc.
+/// Course of the orientation along an arc.
 pub(super) fn read_orientation(orientation: &str) -> PyResult<ArcOrientation> {
     let words = [
         ("path", ArcOrientation::Path),

@@ -9,18 +9,18 @@ use super::arrays::{Rows, copied_vector};
 use super::errors::{Fault, to_py};
 use super::outputs::{answer, output, writable};
 use super::signals::detached;
-use crate::batch::Pace;
+use crate::batch::Batch;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{AnyRobot, JacobianFrame, Robot, check_joints, pose_to_rows};
 
-/// What there is for a robot of six joints, or for one of seven.
-#[derive(Clone, PartialEq)]
+/// A value of a robot of six joints, or of one of seven.
+#[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(super) enum ByJoints<S, V> {
     Six(S),
     Seven(V),
 }
 
-/// Runs the same expression on either.
+/// Evaluate one expression on either.
 macro_rules! on {
     ($either:expr, $inner:ident => $body:expr) => {
         match $either {
@@ -85,7 +85,7 @@ impl Arm {
         self.six_joints_or(py, call, "")
     }
 
-    /// The same with another remedy for seven.
+    /// The robot of a call for six joints; the message for seven ends with a remedy.
     fn six_joints_or(&self, py: Python<'_>, call: &str, or: &str) -> PyResult<&Arc<Robot<6>>> {
         match self {
             Self::Six(robot) => Ok(robot),
@@ -166,7 +166,7 @@ impl Arm {
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
         tail: &[usize],
-        compute: impl FnOnce(&mut Pace<'_>, &[f64], &mut [f64]) -> Result<(), Error> + Send,
+        compute: impl FnOnce(&mut Batch<'_>, &[f64], &mut [f64]) -> Result<(), Error> + Send,
     ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let rows = self.joints(q)?;
         let answer = output(q.py(), out, &rows.shape_with(tail))?;
@@ -174,16 +174,6 @@ impl Arm {
         let slice = view.as_slice_mut()?;
         detached(q.py(), None, |pace| compute(pace, data, slice))?;
         Ok(answer)
-    }
-
-    /// The arm with its robot changed, or the exception.
-    pub(super) fn changed(&self, py: Python<'_>, change: &impl Change) -> PyResult<Self> {
-        self.edited(change).map_err(|error| to_py(py, &error))
-    }
-
-    /// The arm with its robot changed.
-    pub(super) fn edited(&self, change: &impl Change) -> Result<Self, Error> {
-        on!(self, robot => change.apply(Robot::clone(robot)).map(Self::from))
     }
 }
 
@@ -193,9 +183,4 @@ fn one<const N: usize>(q: &Bound<'_, PyAny>) -> PyResult<Option<[f64; N]>> {
     let Some(joints) = copied_vector::<N>(q) else { return Ok(None) };
     check_joints("q", &joints).map_err(|error| to_py(q.py(), &error))?;
     Ok(Some(joints))
-}
-
-/// A change of a robot that is the same for any number of joints.
-pub(super) trait Change {
-    fn apply<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error>;
 }

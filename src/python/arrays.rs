@@ -4,8 +4,8 @@ use std::array;
 use std::ops::Range;
 
 use numpy::{
-    PyArray1, PyArray2, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
-    PyUntypedArray, PyUntypedArrayMethods,
+    PyArray1, PyArray2, PyArrayDescr, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods,
+    PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
@@ -14,9 +14,7 @@ use pyo3::type_object::PyTypeInfo;
 use pyo3::types::PyTuple;
 
 use super::borrows::{Access, Borrow, is_any_written, is_free};
-use super::errors::Fault;
-use super::masked::Masked;
-use super::wording::{self, shape_of_rows};
+use super::errors::{Fault, shape_of_rows, shape_text};
 
 /// An input array whose last dimensions are known, and the leading ones that came before them.
 pub(super) struct Rows<'py> {
@@ -26,8 +24,7 @@ pub(super) struct Rows<'py> {
 }
 
 impl<'py> Rows<'py> {
-    /// Reads `value`, of shape (..., `tail`), as the argument `field`. Of a batch, masked elements
-    /// are NaN.
+    /// Read `value`, of shape (..., `tail`), as the argument `field`.
     pub(super) fn read(
         value: &Bound<'py, PyAny>,
         tail: &[usize],
@@ -37,7 +34,7 @@ impl<'py> Rows<'py> {
         Self::read_wanting(value, tail, field, fault, || shape_of_rows(tail))
     }
 
-    /// The same of an argument whose leading dimensions are not any: `wanted` spells its shapes.
+    /// Read an argument whose leading dimensions are checked later: `wanted` spells its shapes.
     pub(super) fn read_wanting(
         value: &Bound<'py, PyAny>,
         tail: &[usize],
@@ -45,21 +42,21 @@ impl<'py> Rows<'py> {
         fault: Fault,
         wanted: impl FnOnce() -> String,
     ) -> PyResult<Self> {
-        let masked = masked_elements(value)?;
-        let array = readable(masked.as_ref().map_or(value, |masked| &masked.filled), field, fault)?;
+        let array = readable(value, field, fault)?;
         let shape = array.shape();
         let Some(lead) = shape.strip_suffix(tail) else {
-            let (wanted, got) = (wanted(), wording::shape(shape));
+            let (wanted, got) = (wanted(), shape_text(shape));
             return Err(
                 fault.error(value.py(), format!("{field} must have shape {wanted}, got {got}"))
             );
         };
-        if let Some(masked) = masked.filter(|_| lead.is_empty() || matches!(fault, Fault::Model)) {
-            return Err(masked.refused(value.py(), field, fault));
-        }
         let lead = lead.to_vec();
         let borrow = Borrow::new(addresses(&array), Access::Read);
         Ok(Self { array, lead, _borrow: borrow })
+    }
+
+    pub(super) fn py(&self) -> Python<'py> {
+        self.array.py()
     }
 
     /// The numbers in row-major order.
@@ -67,7 +64,7 @@ impl<'py> Rows<'py> {
         Ok(self.array.as_slice()?)
     }
 
-    /// The same rows repeated, as NumPy broadcasts them to the leading dimensions `lead`.
+    /// Repeat the rows, as NumPy broadcasts them to the leading dimensions `lead`.
     pub(super) fn broadcast(&self, lead: &[usize], field: &str, fault: Fault) -> PyResult<Self> {
         let (py, tail) = (self.array.py(), &self.shape()[self.lead.len()..]);
         let shape = PyTuple::new(py, [lead, tail].concat())?;
@@ -100,6 +97,55 @@ impl<'py> Rows<'py> {
     pub(super) fn shape_with(&self, tail: &[usize]) -> Vec<usize> {
         [&self.lead[..], tail].concat()
     }
+}
+
+/// An argument that is broadcast with others, as NumPy does it.
+pub(super) struct Argument<'a, 'py> {
+    pub(super) field: &'static str,
+    pub(super) fault: Fault,
+    pub(super) rows: &'a mut Rows<'py>,
+}
+
+/// Gives all arguments the same leading dimensions.
+pub(super) fn together<'py>(py: Python<'py>, arguments: &mut [Argument<'_, 'py>]) -> PyResult<()> {
+    let mut lead = Vec::new();
+    for (number, argument) in arguments.iter().enumerate() {
+        lead = joined(&lead, &argument.rows.lead).ok_or_else(|| {
+            let others = arguments[..number]
+                .iter()
+                .map(|other| format!("{} of shape {}", other.field, shape_text(other.rows.shape())))
+                .collect::<Vec<_>>()
+                .join(" and ");
+            argument.fault.error(
+                py,
+                format!(
+                    "{} of shape {} cannot be broadcast with {others}: leading dimensions must be equal, or 1, or left out",
+                    argument.field,
+                    shape_text(argument.rows.shape()),
+                ),
+            )
+        })?;
+    }
+    for Argument { field, fault, rows } in arguments.iter_mut().filter(|it| it.rows.lead != lead) {
+        **rows = rows.broadcast(&lead, field, *fault)?;
+    }
+    Ok(())
+}
+
+/// The shape that arrays of two shapes have together.
+fn joined(one: &[usize], other: &[usize]) -> Option<Vec<usize>> {
+    let (long, short) = if one.len() < other.len() { (other, one) } else { (one, other) };
+    let mut shape = long.to_vec();
+    let start = long.len() - short.len();
+    for (size, other) in shape[start..].iter_mut().zip(short) {
+        *size = match (*size, *other) {
+            (one, other) if one == other => one,
+            (1, other) => other,
+            (one, 1) => one,
+            _ => return None,
+        };
+    }
+    Some(shape)
 }
 
 /// The short way of reading: a copy of a float64 array of shape (`N`,), any strides. None for
@@ -176,34 +222,37 @@ fn exactly<const N: usize>(
     field: &str,
     fault: Fault,
 ) -> PyResult<[f64; N]> {
-    if let Some(masked) = masked_elements(value)? {
-        return Err(masked.refused(value.py(), field, fault));
-    }
     let array = readable(value, field, fault)?;
     if array.shape() != shape {
         return Err(fault.error(
             value.py(),
             format!(
                 "{field} must have shape {}, got {}",
-                wording::shape(shape),
-                wording::shape(array.shape())
+                shape_text(shape),
+                shape_text(array.shape())
             ),
         ));
     }
     Ok(array.as_slice()?.try_into().map_or([f64::NAN; N], |numbers: &[f64; N]| *numbers))
 }
 
-/// The masked elements of an argument: a plain array has none.
-fn masked_elements<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Masked<'py>>> {
-    if PyUntypedArray::is_exact_type_of(value) { Ok(None) } else { Masked::of(value) }
+/// Refuse a masked array: the memory of masked elements holds numbers that nobody means.
+pub(super) fn refuse_masked(value: &Bound<'_, PyAny>, field: &str) -> PyResult<()> {
+    let is_plain = PyUntypedArray::is_exact_type_of(value) || !PyUntypedArray::is_type_of(value);
+    if is_plain || !value.hasattr(intern!(value.py(), "mask"))? {
+        return Ok(());
+    }
+    let message = format!("{field} is a masked array: pass {field}.filled(np.nan)");
+    Err(PyTypeError::new_err(message))
 }
 
-/// `value` as an aligned C-contiguous float64 array, seen for reading: itself where it is one.
+/// View `value` as an aligned C-contiguous float64 array for reading; copy where it is another.
 fn readable<'py>(
     value: &Bound<'py, PyAny>,
     field: &str,
     fault: Fault,
 ) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+    refuse_masked(value, field)?;
     let written = || PyValueError::new_err(format!("{field} is being written by another call"));
     if let Ok(array) = value.cast::<PyArrayDyn<f64>>() {
         let array = array.try_readonly().map_err(|_| written())?;
@@ -222,7 +271,7 @@ fn readable<'py>(
     converted(value, &array, field)?.try_readonly().map_err(|_| written())
 }
 
-/// Whatever NumPy makes an array of, as the array that it makes.
+/// Let NumPy make an array of a value.
 fn as_array<'py>(
     value: &Bound<'py, PyAny>,
     field: &str,
@@ -248,13 +297,35 @@ fn converted<'py>(
     if !matches!(kind.as_str(), "f" | "i" | "u") {
         return Err(PyTypeError::new_err(format!(
             "{field} must be real numbers, got {}",
-            wording::no_numbers(value, &dtype.to_string())
+            no_numbers(value, &dtype)
         )));
     }
     let numpy = py.import(intern!(py, "numpy"))?;
     let contiguous =
         numpy.call_method1(intern!(py, "require"), (array, intern!(py, "float64"), ["C", "A"]))?;
     Ok(contiguous.cast_into::<PyArrayDyn<f64>>()?)
+}
+
+/// Attributes of objects that stand for a pose or for joints, and how each is made an array.
+const CONVERSIONS: [(&str, &str); 6] = [
+    ("tframe", ".tframe.matrix()"),
+    ("uframe", ".uframe.matrix() @ its .oframe.matrix()"),
+    ("robax_deg", "np.radians of its .robax_deg"),
+    ("as_quat", "irbkin.pose(xyz, rotation=it)"),
+    ("as_matrix", ".as_matrix()"),
+    ("matrix", ".matrix()"),
+];
+
+/// Name an argument of which NumPy makes no numbers.
+fn no_numbers(value: &Bound<'_, PyAny>, dtype: &Bound<'_, PyArrayDescr>) -> String {
+    let class =
+        value.get_type().name().map_or_else(|_| "object".to_owned(), |name| name.to_string());
+    let conversion =
+        CONVERSIONS.iter().find(|(attribute, _)| value.hasattr(*attribute).unwrap_or(false));
+    if let Some((_, how)) = conversion {
+        return format!("a {class}: pass {how}");
+    }
+    if value.is_none() { "None".to_owned() } else { format!("an array of dtype {dtype}") }
 }
 
 /// The addresses of a C-contiguous array's memory.
@@ -277,4 +348,25 @@ fn extent(array: &Bound<'_, PyUntypedArray>) -> PyResult<Range<usize>> {
         if *stride < 0 { lowest -= length } else { highest += length }
     }
     Ok(lowest..highest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shapes_are_joined_as_numpy_joins_them() {
+        for (one, other, both) in [
+            (&[] as &[usize], &[] as &[usize], Some(&[] as &[usize])),
+            (&[], &[2, 3], Some(&[2, 3])),
+            (&[3], &[2, 1], Some(&[2, 3])),
+            (&[2, 3], &[1], Some(&[2, 3])),
+            (&[0], &[1], Some(&[0])),
+            (&[0], &[2], None),
+            (&[2, 3], &[2], None),
+        ] {
+            assert_eq!(joined(one, other).as_deref(), both, "{one:?} {other:?}");
+            assert_eq!(joined(other, one).as_deref(), both, "{other:?} {one:?}");
+        }
+    }
 }

@@ -5,8 +5,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyTuple};
 
-use super::classes;
 use super::errors::to_py;
+use super::records::CatalogEntry;
 use crate::catalog::{catalog as every_arm, find};
 use crate::kinematics::thresholds::MOST_REACH;
 
@@ -22,27 +22,26 @@ use crate::kinematics::thresholds::MOST_REACH;
 ///     UnknownRobotError: No arm of that name; the message has the close names, or why the arm is
 ///         left out.
 #[pyfunction]
-pub(super) fn catalog_entry<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+pub(super) fn catalog_entry(py: Python<'_>, name: &str) -> PyResult<CatalogEntry> {
     let arm = find(name).map_err(|error| to_py(py, &error))?;
     let radians = |angle: f64| arm.angles.to_radians(angle);
     let limits: Vec<f64> = arm.limits.as_flattened().iter().map(|&limit| radians(limit)).collect();
     let velocities = arm
         .max_velocity
         .map(|all| PyArray1::from_iter(py, all.iter().map(|&velocity| radians(velocity))));
-    let fields = (
-        arm.name,
-        arm.maker,
-        PyTuple::new(py, arm.aliases().collect::<Vec<_>>())?,
-        arm.dof(),
-        arm.payload,
-        arm.reach,
-        PyArray1::from_vec(py, limits).reshape([arm.dof(), 2])?,
-        velocities,
-        arm.is_coupled(),
-        arm.sources,
-        arm.provenance,
-    );
-    classes::catalog_entry_class(py)?.call1(fields)
+    Ok(CatalogEntry {
+        name: arm.name.to_owned(),
+        maker: arm.maker.to_owned(),
+        aliases: PyTuple::new(py, arm.aliases().collect::<Vec<_>>())?.unbind(),
+        dof: arm.dof(),
+        payload: arm.payload,
+        reach: arm.reach,
+        limits: PyArray1::from_vec(py, limits).reshape([arm.dof(), 2])?.into_any().unbind(),
+        max_velocity: velocities.map(|velocities| velocities.into_any().unbind()),
+        is_coupled: arm.is_coupled(),
+        sources: arm.sources.into(),
+        provenance: arm.provenance.to_owned(),
+    })
 }
 
 /// Return the names of the arms in the catalog, ABB's by type number first; of all, or of those
@@ -75,7 +74,7 @@ pub(super) fn catalog<'py>(
     PyTuple::new(py, fitting.map(|arm| arm.name).collect::<Vec<_>>())
 }
 
-/// What a filter lets through.
+/// The figures that pass a filter.
 struct Range {
     least: f64,
     most: f64,

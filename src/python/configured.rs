@@ -1,28 +1,76 @@
-//! Solutions that have one of ABB's configurations.
+//! ABB's confdata and arm angles of joint vectors, and the solutions that have them.
 
 use std::num::NonZeroUsize;
 
+use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
 
 use super::arm::{Arm, on};
-use super::arrays::Rows;
-use super::broadcast::{Argument, together};
-use super::classes;
-use super::configurations::names_one;
+use super::arrays::{Argument, Rows, together};
 use super::errors::{Fault, to_py};
-use super::masked::Masked;
 use super::nearest::single_seed;
 use super::outputs::{answer_row, matrix, output, writable};
 use super::poses::{read_single_pose, single_pose};
+use super::records::{self, ConfigurationBatch};
 use super::signals::detached;
 use crate::batch::{Configured, NO_CONFIGURATION};
-use crate::error::ModelFault;
+use crate::error::{Error, ModelFault};
 use crate::kinematics::{ConfigurationRequest, Robot};
-use crate::report::Configuration;
+use crate::report::{Configuration, ConfigurationRule};
 
-/// What completes a configuration, and what to do where no solution has it.
+/// `irbkin.Configuration` of joint vectors, shape (..., n): integers for one, arrays for many.
+pub(super) fn configuration<'py>(arm: &Arm, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let py = q.py();
+    check_rule(py, arm)?;
+    let rows = arm.joints(q)?;
+    let data = rows.data()?;
+    if rows.is_single() {
+        let counted = on!(arm, robot => single(robot, data)).map_err(|error| to_py(py, &error))?;
+        return records::configuration(py, &counted);
+    }
+    let numbers = PyArrayDyn::<i32>::zeros(py, rows.shape_with(&[4]), false);
+    let mut view = writable(&numbers, &[])?;
+    let slice = view.as_slice_mut()?;
+    on!(arm, robot => detached(py, None, |batch| batch.configuration(robot, data, slice)))?;
+    let column =
+        |number: usize| -> PyResult<_> { Ok(numbers.get_item((py.Ellipsis(), number))?.unbind()) };
+    let (cf1, cf4, cf6, cfx) = (column(0)?, column(1)?, column(2)?, column(3)?);
+    Ok(Bound::new(py, ConfigurationBatch { cf1, cf4, cf6, cfx })?.into_any())
+}
+
+/// The configuration of one joint vector, whose length was checked.
+fn single<const N: usize>(robot: &Robot<N>, q: &[f64]) -> Result<Configuration, Error> {
+    let wrong_length = || Error::WrongLength { field: "q", found: q.len(), wanted: N };
+    robot.configuration(q.first_chunk().ok_or_else(wrong_length)?)
+}
+
+/// Arm angles of joint vectors, shape (..., 7): a number for one, an array for many.
+pub(super) fn arm_angle<'py>(arm: &Arm, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let py = q.py();
+    let Arm::Seven(robot) = arm else {
+        return Err(to_py(py, &ModelFault::NoArmAngle.into()));
+    };
+    let rows = arm.joints(q)?;
+    if let ([q], true) = (rows.data()?.as_chunks::<7>().0, rows.is_single()) {
+        let angle = robot.arm_angle(q).map_err(|error| to_py(py, &error))?;
+        return Ok(angle.unwrap_or(f64::NAN).into_pyobject(py)?.into_any());
+    }
+    let angles = PyArrayDyn::<f64>::zeros(py, rows.lead.clone(), false);
+    let (data, mut view) = (rows.data()?, writable(&angles, &[rows.addresses()])?);
+    let slice = view.as_slice_mut()?;
+    detached(py, None, |batch| batch.arm_angle(robot, data, slice))?;
+    Ok(angles.into_any())
+}
+
+/// Whether a configuration, with the arm angle of a YuMi, names one solution of a pose.
+fn names_one(arm: &Arm) -> bool {
+    let rule = on!(arm, robot => robot.configuration_rule());
+    rule.is_ok_and(|rule| rule == ConfigurationRule::SphericalWrist)
+}
+
+/// Arguments that complete a configuration, and the choice if no solution has it.
 pub(super) struct Options<'a, 'py> {
     pub(super) arm_angle: Option<&'a Bound<'py, PyAny>>,
     pub(super) fallback: Option<&'a str>,
@@ -75,10 +123,10 @@ pub(super) fn all<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = pose.py();
     check_rule(py, arm)?;
-    let pose = read_single_pose(pose, "ik_configured_all")?;
+    let pose = read_single_pose(pose, "ik_configured with every=True")?;
     on!(arm, robot => {
         let Some(request) = Asked::read(configuration, options, robot)?.single(py)? else {
-            let message = "ik_configured_all takes one configuration, arm angle and seed";
+            let message = "ik_configured with every=True takes one configuration, arm angle and seed";
             return Err(Fault::Joints.error(py, message.to_owned()));
         };
         let all = request.check().and_then(|()| robot.configured_all_checked(pose, &request));
@@ -92,14 +140,15 @@ pub(super) fn all<'py>(
 pub(super) fn at_arm_angle<'py>(
     arm: &Arm,
     pose: &Bound<'py, PyAny>,
-    arm_angle: f64,
+    arm_angle: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = pose.py();
     let Arm::Seven(robot) = arm else {
         return Err(to_py(py, &ModelFault::NoArmAngle.into()));
     };
-    let pose = read_single_pose(pose, "ik_arm_angle")?;
-    let found = robot.ik_arm_angle(&pose, arm_angle).map_err(|error| to_py(py, &error))?;
+    let pose = read_single_pose(pose, "ik_configured with every=True")?;
+    let found =
+        robot.ik_arm_angle(&pose, arm_angle.extract()?).map_err(|error| to_py(py, &error))?;
     let q: Vec<_> = found.iter().map(|solution| solution.q).collect();
     Ok(matrix(py, &q).into_any())
 }
@@ -109,7 +158,7 @@ pub(super) fn check_rule(py: Python<'_>, arm: &Arm) -> PyResult<()> {
     on!(arm, robot => robot.configuration_rule().map(drop)).map_err(|error| to_py(py, &error))
 }
 
-/// What is asked of the solutions of poses of an arm of `N` joints.
+/// The arguments that select solutions of poses of an arm of `N` joints.
 struct Asked<'py, const N: usize> {
     configurations: Rows<'py>,
     arm_angles: Option<Rows<'py>>,
@@ -197,11 +246,8 @@ impl<'py, const N: usize> Asked<'py, N> {
 /// Configurations of shape (..., 4), or a record of four arrays.
 fn configuration_rows<'py>(value: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
     let py = value.py();
-    if let Some(masked) = Masked::of(value)? {
-        return Err(masked.refused(py, "configuration", Fault::Joints));
-    }
-    let is_record = value.is_instance(classes::configuration_class(py)?)?
-        || value.is_instance(classes::configuration_batch_class(py)?)?;
+    let is_record =
+        value.is_instance_of::<Configuration>() || value.is_instance_of::<ConfigurationBatch>();
     let stacked = if is_record {
         let numpy = py.import(intern!(py, "numpy"))?;
         let unlike = |_| {

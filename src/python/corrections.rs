@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 
 use super::arm::{Arm, on};
 use super::arrays::Rows;
-use super::errors::{Fault, to_py};
+use super::errors::{Fault, shape_text, to_py};
 use super::robot::PyRobot;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{AnyRobot, Corrections, Robot};
@@ -24,7 +24,7 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidModelError: A correction is not finite, the shape is wrong, the corrected table
-    ///         is none, or the table of a robot with coupled axes 2 and 3 is corrected.
+    ///         is not a table, or the table of a robot with coupled axes 2 and 3 is corrected.
     fn with_corrections(&self, corrections: &Bound<'_, PyAny>) -> PyResult<Self> {
         let numbers = read(corrections, self.arm().dof())?;
         let corrected = on!(self.arm(), robot => corrected(robot, numbers.data()?).map(Arm::from));
@@ -46,7 +46,7 @@ impl PyRobot {
     /// Raises:
     ///     UnknownRobotError: No arm of that name.
     ///     InvalidModelError: The nominal robot has no closed form, coupled axes, or its tool is
-    ///         more than 0.05 rad, or 0.05 of its reach, from that of this robot.
+    ///         more than 0.05 rad, or 0.05 of its reach, from this robot's.
     fn with_nominal(&self, nominal: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = nominal.py();
         if let Ok(nominal) = nominal.cast::<Self>() {
@@ -73,7 +73,7 @@ impl PyRobot {
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
     ///     InvalidModelError: Corrections of a wrong shape, or one that is not finite.
     #[pyo3(signature = (q, corrections=None, out=None))]
-    fn parameter_jacobian<'py>(
+    fn _parameter_jacobian<'py>(
         &self,
         q: &Bound<'py, PyAny>,
         corrections: Option<&Bound<'py, PyAny>>,
@@ -144,7 +144,7 @@ fn read<'py>(corrections: &Bound<'py, PyAny>, dof: usize) -> PyResult<Rows<'py>>
     if rows.is_single() {
         return Ok(rows);
     }
-    let got = super::wording::shape(rows.shape());
+    let got = shape_text(rows.shape());
     Err(Fault::Model
         .error(corrections.py(), format!("corrections must have shape {wanted}, got {got}")))
 }

@@ -11,7 +11,7 @@ use super::classes::{
 use super::records;
 use crate::error::{Error, FrameFault, MotionFault, NoConfiguration, PlanFault, RapidFault};
 
-/// What kind of input was wrong: which exception reports it.
+/// The kind of invalid input, which determines the exception.
 #[derive(Clone, Copy)]
 pub(super) enum Fault {
     Pose,
@@ -106,4 +106,36 @@ fn no_configuration(py: Python<'_>, fault: &NoConfiguration) -> PyErr {
         error.value(py).setattr("configurations", PyTuple::new(py, existing)?)
     });
     told.map_or_else(|failure| failure, |()| error)
+}
+
+/// A shape as NumPy prints it: (5, 4, 4), (6,), ().
+pub(super) fn shape_text(sizes: &[usize]) -> String {
+    match sizes {
+        [one] => format!("({one},)"),
+        _ => format!("({})", listed(sizes)),
+    }
+}
+
+/// A shape with any leading dimensions: (..., 4, 4), (...).
+pub(super) fn shape_of_rows(tail: &[usize]) -> String {
+    if tail.is_empty() { "(...)".to_owned() } else { format!("(..., {})", listed(tail)) }
+}
+
+/// The index of an element by its number in row-major order.
+pub(super) fn index_in(shape: &[usize], mut number: usize) -> Vec<usize> {
+    let mut index: Vec<usize> = shape
+        .iter()
+        .rev()
+        .map(|size| {
+            let at = number % size;
+            number /= size;
+            at
+        })
+        .collect();
+    index.reverse();
+    index
+}
+
+fn listed(sizes: &[usize]) -> String {
+    sizes.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
 }

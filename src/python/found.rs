@@ -7,9 +7,7 @@ use pyo3::prelude::*;
 use super::arrays::vector;
 use super::errors::{Fault, to_py};
 use crate::error::Error;
-use crate::kinematics::{
-    Cost, MOST_SLOTS, Pose, Robot, Solution, Solutions, check_seed, check_weights,
-};
+use crate::kinematics::{Cost, MOST_SLOTS, Robot, Solution, Solutions, check_seed, check_weights};
 use crate::report::Explanation;
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or
@@ -44,12 +42,6 @@ pub(super) fn is_same<const N: usize>(first: &Arc<Robot<N>>, second: &Arc<Robot<
 impl<const N: usize> Found<N> {
     pub(super) fn new(robot: Arc<Robot<N>>, solutions: Solutions<N>) -> Self {
         Self { robot, solutions, turned: None, q7: None }
-    }
-
-    /// An answer of a pose without solutions.
-    pub(super) fn empty(robot: Arc<Robot<N>>, pose: Pose) -> Self {
-        let solutions = Solutions::none(robot.slot_count(), pose, *robot.limits());
-        Self::new(robot, solutions)
     }
 
     fn with(&self, solutions: Solutions<N>, turned: Option<Vec<Solution<N>>>) -> Self {
@@ -121,7 +113,7 @@ impl<const N: usize> Found<N> {
     }
 
     /// The cheapest solution inside the limits from `seed`, or why there is none. Solutions that
-    /// were turned stand as they are.
+    /// were turned keep their angles.
     pub(super) fn cheapest(
         &self,
         seed: &Bound<'_, PyAny>,
@@ -138,7 +130,7 @@ impl<const N: usize> Found<N> {
         cheapest.ok_or_else(|| to_py(py, &Error::Unreachable(self.explain())))
     }
 
-    /// Those that `accept` takes; an error of it ends the search.
+    /// Keep the solutions that `accept` takes; an error of it ends the search.
     pub(super) fn filter(
         &self,
         mut accept: impl FnMut(&Solution<N>) -> PyResult<bool>,

@@ -1,15 +1,14 @@
-//! What `Robot.plan` may choose: the tuples of `irbkin.freedom`.
+//! Freedoms of `Robot.plan`: the tuples of `irbkin.freedom`.
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyString, PyTuple};
+use pyo3::types::{PyBool, PyString};
 
 use super::arguments::one_of;
 use super::arrays::{Rows, vector};
 use super::classes;
-use super::errors::{Fault, to_py};
+use super::errors::{Fault, shape_text, to_py};
 use super::found::read_weights;
-use super::wording::shape;
 use crate::error::Error;
 use crate::kinematics::thresholds::MOST_TOOL_ANGLES;
 use crate::plan::{
@@ -20,43 +19,41 @@ const AXES: [(&str, ToolAxis); 3] = [("x", ToolAxis::X), ("y", ToolAxis::Y), ("z
 
 /// A tuple of `irbkin.freedom`, as the argument `field`.
 struct Fields<'a, 'py> {
-    tuple: Bound<'py, PyTuple>,
+    tuple: &'a Bound<'py, PyAny>,
     field: &'a str,
 }
 
 impl<'py> Fields<'_, 'py> {
-    fn get(&self, index: usize, wanted: &str) -> PyResult<(Bound<'py, PyAny>, PyErr)> {
-        let value = self.tuple.get_item(index)?;
-        let names = self.tuple.getattr("_fields")?;
-        let name = names.get_item(index)?;
-        let error = format!("{} of {} must be {wanted}, got {}", name, self.field, value.repr()?);
+    fn get(&self, name: &str, wanted: &str) -> PyResult<(Bound<'py, PyAny>, PyErr)> {
+        let value = self.tuple.getattr(name)?;
+        let error = format!("{name} of {} must be {wanted}, got {}", self.field, value.repr()?);
         Ok((value, PyTypeError::new_err(error)))
     }
 
-    fn number(&self, index: usize) -> PyResult<f64> {
-        let (value, error) = self.get(index, "a number")?;
+    fn number(&self, name: &str) -> PyResult<f64> {
+        let (value, error) = self.get(name, "a number")?;
         value.extract().map_err(|_| error)
     }
 
-    /// A count; what is none at all becomes one that is out of bounds.
-    fn count(&self, index: usize) -> PyResult<usize> {
-        let (value, error) = self.get(index, "a whole number")?;
+    /// A count; a negative number becomes one that is out of bounds.
+    fn count(&self, name: &str) -> PyResult<usize> {
+        let (value, error) = self.get(name, "a whole number")?;
         count(&value).ok_or(error)
     }
 
-    fn axis(&self, index: usize) -> PyResult<ToolAxis> {
-        let (value, error) = self.get(index, "\"x\", \"y\" or \"z\"")?;
+    fn axis(&self, name: &str) -> PyResult<ToolAxis> {
+        let (value, error) = self.get(name, "\"x\", \"y\" or \"z\"")?;
         let word: String = value.extract().map_err(|_| error)?;
         one_of("axis", &word, &AXES)
     }
 
     /// A letter, or three numbers.
-    fn direction(&self, index: usize) -> PyResult<[f64; 3]> {
-        let (value, _) = self.get(index, "a direction")?;
+    fn direction(&self, name: &str) -> PyResult<[f64; 3]> {
+        let (value, _) = self.get(name, "a direction")?;
         if !value.is_instance_of::<PyString>() {
             return vector::<3>(&value, "axis", Fault::Motion);
         }
-        Ok(match self.axis(index)? {
+        Ok(match self.axis(name)? {
             ToolAxis::X => [1.0, 0.0, 0.0],
             ToolAxis::Y => [0.0, 1.0, 0.0],
             ToolAxis::Z => [0.0, 0.0, 1.0],
@@ -64,20 +61,20 @@ impl<'py> Fields<'_, 'py> {
     }
 }
 
-/// A count, as near as `usize` has it; `None` of what is no whole number.
+/// The count that is nearest to a whole number; `None` for any other value.
 fn count(value: &Bound<'_, PyAny>) -> Option<usize> {
     if value.is_instance_of::<PyBool>() {
         return None;
     }
     let count: i128 = value.extract().ok()?;
-    // What is no count at all is outside the bounds that are told.
+    // A negative number is outside the bounds that the message names.
     Some(usize::try_from(count.clamp(0, MOST_TOOL_ANGLES as i128 + 1)).unwrap_or_default())
 }
 
 const ORDERS: [(&str, PlanOrder); 2] =
     [("bottleneck", PlanOrder::Bottleneck), ("sum", PlanOrder::Sum)];
 
-/// What makes one path better than another, as it is passed.
+/// Arguments that make one path better than another.
 pub(super) struct Costs<'a, 'py> {
     pub(super) weights: Option<&'a Bound<'py, PyAny>>,
     pub(super) order: &'a str,
@@ -85,7 +82,7 @@ pub(super) struct Costs<'a, 'py> {
     pub(super) singularity: f64,
 }
 
-/// What one path is asked for as well as many.
+/// Read the options that one path and many have in common.
 pub(super) fn read_options(
     rotation: Option<&Bound<'_, PyAny>>,
     closed: bool,
@@ -112,8 +109,9 @@ pub(super) fn read_options(
 fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotation> {
     let py = rotation.py();
     let made = if rotation.is_instance(classes::tool_rotation_class(py)?)? {
-        let fields = Fields { tuple: rotation.cast::<PyTuple>()?.clone(), field: "rotation" };
-        ToolRotation::new(fields.count(0)?, fields.number(1)?, fields.number(2)?, fields.axis(3)?)
+        let fields = Fields { tuple: rotation, field: "rotation" };
+        let (lower, upper) = (fields.number("lower")?, fields.number("upper")?);
+        ToolRotation::new(fields.count("steps")?, lower, upper, fields.axis("axis")?)
     } else {
         let wanted = "rotation must be an irbkin.ToolRotation or a number of angles";
         ToolRotation::full(count(rotation).ok_or_else(|| other(wanted, rotation))?)
@@ -127,22 +125,18 @@ fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalAxis>> {
     let wanted = "carrier must be an irbkin.Track, an irbkin.Positioner, or a sequence of them";
     let (track, positioner) = (classes::track_class(py)?, classes::positioner_class(py)?);
     let mut axes = Vec::new();
-    for one in each(carrier, [track, positioner], wanted)? {
-        let tuple = one.cast::<PyTuple>()?.clone();
-        let (made, rest) = if one.is_instance(track)? {
-            let fields = Fields { tuple, field: "Track" };
-            let (lower, upper) = (fields.number(1)?, fields.number(2)?);
-            let made = ExternalAxis::track(fields.direction(0)?, lower, upper, fields.count(3)?);
-            (made, [fields.number(4)?, fields.number(5)?])
+    for one in &each(carrier, [track, positioner], wanted)? {
+        let is_track = one.is_instance(track)?;
+        let fields = Fields { tuple: one, field: if is_track { "Track" } else { "Positioner" } };
+        let (lower, upper) = (fields.number("lower")?, fields.number("upper")?);
+        let (direction, steps) = (fields.direction("axis")?, fields.count("steps")?);
+        let made = if is_track {
+            ExternalAxis::track(direction, lower, upper, steps)
         } else {
-            let fields = Fields { tuple, field: "Positioner" };
-            let point = vector::<3>(&fields.tuple.get_item(0)?, "point", Fault::Motion)?;
-            let (lower, upper) = (fields.number(2)?, fields.number(3)?);
-            let (direction, steps) = (fields.direction(1)?, fields.count(4)?);
-            let made = ExternalAxis::positioner(point, direction, lower, upper, steps);
-            (made, [fields.number(5)?, fields.number(6)?])
+            let point = vector::<3>(&one.getattr("point")?, "point", Fault::Motion)?;
+            ExternalAxis::positioner(point, direction, lower, upper, steps)
         };
-        let [max_velocity, weight] = rest;
+        let (max_velocity, weight) = (fields.number("max_velocity")?, fields.number("weight")?);
         let made = made.and_then(|axis| axis.with_max_velocity(max_velocity)?.with_weight(weight));
         axes.push(made.map_err(|error| to_py(py, &error))?);
     }
@@ -157,18 +151,17 @@ fn read_tolerance(
     let wanted = "tolerance must be an irbkin.ToolCone, an irbkin.ToolOffset, or one of each";
     let classes = [classes::tool_cone_class(py)?, classes::tool_offset_class(py)?];
     let (mut cone, mut offset) = (None, None);
-    for one in each(tolerance, classes, wanted)? {
-        let tuple = one.cast::<PyTuple>()?.clone();
-        let told = |error: Error| to_py(py, &error);
+    for one in &each(tolerance, classes, wanted)? {
+        let raised = |error: Error| to_py(py, &error);
         let is_second = if one.is_instance(classes[0])? {
-            let fields = Fields { tuple, field: "ToolCone" };
-            let made = ToolCone::new(fields.number(0)?, fields.count(1)?).map_err(told)?;
-            cone.replace(made).is_some()
+            let fields = Fields { tuple: one, field: "ToolCone" };
+            let made = ToolCone::new(fields.number("angle")?, fields.count("steps")?);
+            cone.replace(made.map_err(raised)?).is_some()
         } else {
-            let fields = Fields { tuple, field: "ToolOffset" };
-            let (lower, upper) = (fields.number(0)?, fields.number(1)?);
-            let made = ToolOffset::new(lower, upper, fields.count(2)?, fields.axis(3)?);
-            offset.replace(made.map_err(told)?).is_some()
+            let fields = Fields { tuple: one, field: "ToolOffset" };
+            let (lower, upper) = (fields.number("lower")?, fields.number("upper")?);
+            let made = ToolOffset::new(lower, upper, fields.count("steps")?, fields.axis("axis")?);
+            offset.replace(made.map_err(raised)?).is_some()
         };
         if is_second {
             return Err(other(wanted, tolerance));
@@ -220,7 +213,7 @@ pub(super) fn read_end(
             Ok((Some(*q), rest.to_vec()))
         }
         _ => {
-            let (wanted, got) = (6 + external, shape(rows.shape()));
+            let (wanted, got) = (6 + external, shape_text(rows.shape()));
             let message = format!(
                 "{field} must have shape ({wanted},): 6 joint angles and {external} external axes, \
                  got {got}"

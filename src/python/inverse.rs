@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
-use super::answers::pose_check;
 use super::arguments::{read_singularity_mode, thread_count};
 use super::arm::{Arm, on};
 use super::batches;
@@ -17,6 +17,7 @@ use super::nearest::{self, Seeded, read_seeded};
 use super::outputs::answer_row;
 use super::paths;
 use super::poses::{read_ik_pose, read_single_pose};
+use super::records::{FollowResult, IkBatch, IkMargin, PoseCheck};
 use super::redundancy::{needed_q7, no_q7, no_q7_beside_given, one_angle};
 use super::robot::PyRobot;
 use super::solutions::PySolutions;
@@ -39,11 +40,11 @@ impl PyRobot {
     ///     when out of reach.
     ///
     /// Raises:
-    ///     InvalidPoseError: T has a wrong shape, is not finite or is no rigid transform.
-    ///     InvalidJointsError: q7 is not finite, there is no such joint.
+    ///     InvalidPoseError: T has a wrong shape, is not finite or not a rigid transform.
+    ///     InvalidJointsError: q7 is not finite, or the joint does not exist.
     ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
-    ///     TypeError, ValueError: q7 is missing, or the arm has six joints and it is not; given is
-    ///         no mapping of one joint, or given beside q7.
+    ///     TypeError, ValueError: q7 is missing, or the arm has six joints and it is not; given
+    ///         does not map one joint, or stands beside q7.
     #[pyo3(signature = (T, q7=None, *, given=None))]
     fn ik<'py>(
         &self,
@@ -101,8 +102,8 @@ impl PyRobot {
     /// Returns:
     ///     IkBatch(q, status): joint angles [rad], shape (..., slots, n), NaN where a slot is
     ///     empty, and `irbkin.Status` of each slot, shape (..., slots), uint8. Slots are 8 or 16,
-    ///     as the structure has them. A row that is no pose, or whose q7 is none, has status
-    ///     INVALID; the others are not touched by it.
+    ///     as the structure has them. A row whose pose or q7 is invalid has status INVALID; it
+    ///     does not affect the others.
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape.
@@ -117,7 +118,7 @@ impl PyRobot {
         given: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    ) -> PyResult<IkBatch> {
         let threads = thread_count(threads)?;
         let Some(given) = given else {
             return batches::ik(self.arm(), T, ("q7", q7), out, threads);
@@ -136,6 +137,32 @@ impl PyRobot {
                 batches::ik(&arm, T, ("given", None), out, threads)
             }
         }
+    }
+
+    /// How much room the solutions of poses leave to limits and singularities: `ik_batch` and
+    /// `margin` in one call, which keeps the best of each pose.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     q7: Angle of joint 7 [rad], shape (...), of an arm of seven joints.
+    ///     threads: Number of threads; 0 for one a core.
+    ///
+    /// Returns:
+    ///     IkMargin: the largest margin of the solutions inside the limits, their largest distance
+    ///     from singularities, and their number, arrays of shape (...).
+    ///
+    /// Raises:
+    ///     InvalidPoseError: A wrong shape. An invalid pose has no solution.
+    ///     InvalidModelError: The first six joints do not move the tool in six independent ways.
+    ///     TypeError: `q7` of an arm of six joints, or none of one of seven.
+    #[pyo3(signature = (T, q7=None, *, threads=1))]
+    fn ik_margin<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        q7: Option<&Bound<'py, PyAny>>,
+        threads: isize,
+    ) -> PyResult<IkMargin> {
+        batches::ik_margin(self.arm(), T, q7, thread_count(threads)?)
     }
 
     /// The solution inside the limits that is nearest to `seed`, turns considered.
@@ -208,8 +235,8 @@ impl PyRobot {
     ///         error [rad], shape (..., m); the breaks.
     ///
     /// Raises:
-    ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
-    ///         its index.
+    ///     InvalidPoseError: T has a wrong shape or holds an invalid pose; the message has its
+    ///         index.
     ///     InvalidJointsError: A seed or weight that is not finite, or a zone that is not 0 to 1.
     ///     InvalidModelError: The arm has seven joints; "wrist" or "lock_axis4" for an arm without
     ///         a spherical wrist.
@@ -225,7 +252,7 @@ impl PyRobot {
         zone: Option<f64>,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    ) -> PyResult<FollowResult> {
         let threads = thread_count(threads)?;
         let options = |weights| -> PyResult<FollowOptions> {
             let singularity_mode = read_singularity_mode(singularity_mode)?;
@@ -245,102 +272,67 @@ impl PyRobot {
     /// 4 and 6, too.
     ///
     /// An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it. A
-    /// GoFa may have two solutions with one configuration: `ik_configured_all` returns both. Its
-    /// joints, and a YuMi's, may be up to 1.5 deg beyond the limits where none is inside.
+    /// GoFa may have two solutions with one configuration: `every` returns both. Its joints, and a
+    /// YuMi's, may be up to 1.5 deg beyond the limits where none is inside.
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
     ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of
-    ///         shape (..., 4). T, configuration, arm_angle and seed are broadcast.
+    ///         shape (..., 4). T, configuration, arm_angle and seed are broadcast. None with
+    ///         `every` and an arm_angle: any configuration, inside the limits or not.
     ///     arm_angle: Arm angles [rad] of a YuMi, shape (...): eax_a of its robtargets.
     ///     fallback: With "nearest", the solution nearest to `seed` where none has the
     ///         configuration: many programs write [0, 0, 0, 0] without having calculated it.
     ///     seed: Joint vectors [rad], shape (..., n): of the fallback, and those to which the
     ///         solution of a GoFa or YuMi is the nearest; angles of zero when not given.
+    ///     every: Whether to return every such solution of one pose, the nearest to `seed` first.
+    ///         For an arm angle alone, self-motions are searched that turn the first or the last
+    ///         joint by a degree or more; one joint vector represents those that differ in two
+    ///         axes of one line.
     ///     out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
     ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
-    ///     Joint vectors [rad], shape (..., n). In a batch, a row without such a solution, or whose
-    ///     pose, seed or configuration (that which `configuration` gives an invalid row) is
-    ///     invalid, is NaN.
+    ///     Joint vectors [rad], shape (..., n); with `every` shape (k, n). In a batch, a row
+    ///     without such a solution, or whose pose, seed or configuration (that which
+    ///     `configuration` gives an invalid row) is invalid, is NaN.
     ///
     /// Raises:
     ///     UnreachableError: A single pose has no solution inside the limits with that
     ///         configuration; the message, and its attribute `configurations`, have those that
     ///         exist.
-    ///     InvalidPoseError, InvalidJointsError: A wrong shape, a pose that is none, a number of
-    ///         the configuration that is not whole or that the arm does not have, a YuMi without
+    ///     InvalidPoseError, InvalidJointsError: A wrong shape, an invalid pose, a number of the
+    ///         configuration that is not whole or that the arm does not have, a YuMi without
     ///         arm_angle.
     ///     InvalidModelError: As `configuration`; arm_angle of another arm than a YuMi.
     ///     TypeError, ValueError: Another fallback, or one without a seed; a seed alone where the
     ///         configuration names one solution.
-    #[pyo3(signature = (T, configuration, *, arm_angle=None, fallback=None, seed=None, out=None, threads=1))]
+    #[pyo3(signature = (T, configuration, *, arm_angle=None, fallback=None, seed=None, every=false, out=None, threads=1))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn ik_configured<'py>(
         &self,
         T: &Bound<'py, PyAny>,
-        configuration: &Bound<'py, PyAny>,
+        configuration: Option<&Bound<'py, PyAny>>,
         arm_angle: Option<&Bound<'py, PyAny>>,
         fallback: Option<&str>,
         seed: Option<&Bound<'py, PyAny>>,
+        every: bool,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (options, threads) = (Options { arm_angle, fallback, seed }, thread_count(threads)?);
-        configured::ik(self.arm(), T, configuration, &options, out, threads)
-    }
-
-    /// Every solution of a pose that has a configuration: one, and of a GoFa perhaps two.
-    ///
-    /// Args:
-    ///     T: Pose of the tool, shape (4, 4), translation [m].
-    ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or four whole numbers.
-    ///     arm_angle: Arm angle [rad] of a YuMi: eax_a of its robtargets.
-    ///     seed: Joint vector [rad], shape (n,); angles of zero when not given.
-    ///
-    /// Returns:
-    ///     Joint vectors [rad], shape (k, n), the nearest to the seed first: that is the answer of
-    ///     `ik_configured`. If k is 2, configuration and pose do not tell which is meant.
-    ///
-    /// Raises:
-    ///     UnreachableError, InvalidPoseError, InvalidJointsError, InvalidModelError: As
-    ///         `ik_configured`.
-    #[pyo3(signature = (T, configuration, *, arm_angle=None, seed=None))]
-    fn ik_configured_all<'py>(
-        &self,
-        T: &Bound<'py, PyAny>,
-        configuration: &Bound<'py, PyAny>,
-        arm_angle: Option<&Bound<'py, PyAny>>,
-        seed: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let options = Options { arm_angle, fallback: None, seed };
-        configured::all(self.arm(), T, configuration, &options)
-    }
-
-    /// Every solution of a pose that has an arm angle, of a YuMi.
-    ///
-    /// The search follows the arm's self-motion from all solutions at angles of the last joint,
-    /// then of the first, one degree apart, then at one angle of ABB's axis 7. It may miss a
-    /// self-motion that turns the two by less. Where two axes are one line, one joint vector
-    /// represents those that share the sum of their angles.
-    ///
-    /// Args:
-    ///     T: Pose of the tool, shape (4, 4), translation [m].
-    ///     arm_angle: Arm angle [rad]: eax_a of the robtargets of a YuMi.
-    ///
-    /// Returns:
-    ///     Joint vectors [rad], shape (k, 7), inside the limits or not.
-    ///
-    /// Raises:
-    ///     InvalidPoseError, InvalidJointsError: As `ik`; an arm_angle that is not finite.
-    ///     InvalidModelError: The arm is no YuMi of the catalog.
-    fn ik_arm_angle<'py>(
-        &self,
-        T: &Bound<'py, PyAny>,
-        arm_angle: f64,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        configured::at_arm_angle(self.arm(), T, arm_angle)
+        match (configuration, arm_angle) {
+            (Some(configuration), _) if every => {
+                configured::all(self.arm(), T, configuration, &options)
+            }
+            (Some(configuration), _) => {
+                configured::ik(self.arm(), T, configuration, &options, out, threads)
+            }
+            (None, Some(arm_angle)) if every => configured::at_arm_angle(self.arm(), T, arm_angle),
+            (None, _) => {
+                Err(PyTypeError::new_err("give a configuration, or an arm_angle with every=True"))
+            }
+        }
     }
 
     /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints,
@@ -354,10 +346,10 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidPoseError, InvalidModelError: As `ik`.
-    fn check_pose<'py>(&self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    fn check_pose(&self, T: &Bound<'_, PyAny>) -> PyResult<PoseCheck> {
         let pose = read_single_pose(T, "check_pose")?;
         let explanation = on!(self.arm(), robot => robot.explain(&pose))
             .map_err(|error| to_py(T.py(), &error))?;
-        pose_check(T.py(), &explanation)
+        Ok(PoseCheck::from(&explanation))
     }
 }

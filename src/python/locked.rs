@@ -9,10 +9,10 @@ use pyo3::types::{PyBool, PyMapping};
 
 use super::arm::{Arm, on};
 use super::arrays::Rows;
-use super::classes;
 use super::errors::{Fault, to_py};
 use super::outputs::{output, writable};
 use super::paths;
+use super::records::FollowResult;
 use super::redundancy::one_angle;
 use super::robot::PyRobot;
 use crate::kinematics::{FollowOptions, Robot};
@@ -127,7 +127,7 @@ pub(super) fn follow<'py>(
     options: &FollowOptions,
     out: Option<&Bound<'py, PyAny>>,
     threads: Option<NonZeroUsize>,
-) -> PyResult<Bound<'py, PyAny>> {
+) -> PyResult<FollowResult> {
     let py = paths.py();
     let seeds = Rows::read(seed, &[7], "seed", Fault::Joints)?;
     if out.is_some() {
@@ -135,11 +135,10 @@ pub(super) fn follow<'py>(
     }
     let starts = converted(py, &seeds, |q: &[f64; 7]| robot.others(q))?;
     let followed = paths::follow(six, paths, &starts, options, None, threads)?;
-    let (q, error, breaks): (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>) =
-        followed.extract()?;
-    let rows = Rows::read(&q, &[6], "q", Fault::Joints)?;
+    let rows = Rows::read(followed.q.bind(py), &[6], "q", Fault::Joints)?;
     let q = converted(py, &rows, |six: &[f64; 6]| robot.with_others(six))?;
-    classes::follow_result_class(py)?.call1((q, error, breaks))
+    drop(rows);
+    Ok(FollowResult { q: q.unbind(), ..followed })
 }
 
 /// Rows of joint vectors, each converted to one of another length.

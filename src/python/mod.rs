@@ -1,26 +1,19 @@
 //! The Python module `irbkin._core`: convert, call, convert.
 
-mod answers;
 mod arguments;
 mod arm;
 mod arrays;
 mod batches;
 mod borrows;
-mod broadcast;
-mod build;
 mod catalog;
 mod classes;
-mod configurations;
 mod configured;
 mod corrections;
-mod edits;
 mod errors;
 mod found;
 mod freedoms;
 mod inverse;
 mod locked;
-mod margins;
-mod masked;
 mod models;
 mod nearest;
 mod outputs;
@@ -30,28 +23,27 @@ mod plans;
 mod poses;
 mod queries;
 mod rapid;
+mod record;
 mod records;
 mod redundancy;
+mod restored;
 mod retiming;
 mod robot;
-mod robot_repr;
-mod robot_state;
 mod signals;
 mod solution;
-mod solution_state;
 mod solutions;
+mod state;
 mod table;
 mod tool_paths;
 mod trajectories;
 mod trajectory;
-mod urdf;
-mod wording;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyMapping, PySequence, PyTuple};
+use pyo3::types::{PyMapping, PyTuple};
 
 use crate::lanes::InstructionSet;
+use crate::report::Configuration;
 
 /// Return the name of the instruction set in use: "avx512", "avx2" or "baseline".
 #[pyfunction]
@@ -93,19 +85,34 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<robot::PyRobot>()?;
     module.add_class::<solutions::PySolutions>()?;
     module.add_class::<solution::PySolution>()?;
+    module.add_class::<Configuration>()?;
+    module.add_class::<records::Break>()?;
+    module.add_class::<records::CatalogEntry>()?;
+    module.add_class::<records::ConfigurationBatch>()?;
+    module.add_class::<records::FollowResult>()?;
+    module.add_class::<records::FreeJoint>()?;
+    module.add_class::<records::IkBatch>()?;
+    module.add_class::<records::IkMargin>()?;
+    module.add_class::<records::Margin>()?;
+    module.add_class::<records::MotionPeaks>()?;
+    module.add_class::<records::Plan>()?;
+    module.add_class::<records::PlanBreak>()?;
+    module.add_class::<records::PoseCheck>()?;
+    module.add_class::<records::Singularity>()?;
+    module.add_class::<records::StrandEnd>()?;
+    module.add_class::<records::ToolSpeedLimits>()?;
+    module.add_class::<records::TrajectorySample>()?;
     module.add_function(wrap_pyfunction!(catalog::catalog, module)?)?;
     module.add_function(wrap_pyfunction!(catalog::catalog_entry, module)?)?;
     module.add_function(wrap_pyfunction!(instruction_set, module)?)?;
     module.add_function(wrap_pyfunction!(instruction_sets, module)?)?;
     module.add_function(wrap_pyfunction!(use_instruction_set, module)?)?;
-    module.add_function(wrap_pyfunction!(robot::restore_robot, module)?)?;
-    module.add_function(wrap_pyfunction!(solution::restore_solution, module)?)?;
-    module.add_function(wrap_pyfunction!(solutions::restore_solutions, module)?)?;
+    module.add_function(wrap_pyfunction!(restored::restore, module)?)?;
     module.add_function(wrap_pyfunction!(poses::pose, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_wxyz, module)?)?;
     module.add_function(wrap_pyfunction!(poses::to_xyz_euler_zyx, module)?)?;
     module.add_class::<trajectory::PyTrajectory>()?;
-    module.add_function(wrap_pyfunction!(trajectory::restore_trajectory, module)?)?;
+    module.add_function(wrap_pyfunction!(trajectory::trajectory_of, module)?)?;
     module.add_function(wrap_pyfunction!(trajectories::joint, module)?)?;
     module.add_function(wrap_pyfunction!(trajectories::spline, module)?)?;
     module.add_function(wrap_pyfunction!(retiming::retime, module)?)?;
@@ -114,12 +121,12 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tool_paths::line, module)?)?;
     module.add_function(wrap_pyfunction!(tool_paths::arc, module)?)?;
     module.add_function(wrap_pyfunction!(tool_paths::polyline, module)?)?;
-    // Beside that of trajectories: `irbkin.paths` calls it by its own name.
+    // `spline` is taken by trajectories; `irbkin.paths` gives this one its name.
     module.add("path_spline", wrap_pyfunction!(tool_paths::spline, module)?)?;
+    rapid::add_records(module)?;
     module.add_class::<rapid::RapidModule>()?;
     module.add_function(wrap_pyfunction!(rapid::parse, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::decode, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::parse_record, module)?)?;
+    module.add_function(wrap_pyfunction!(rapid::parse_module, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::dump, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::calc_joint_t, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::calc_rob_t, module)?)?;
@@ -129,9 +136,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(rapid::motion, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::check, module)?)?;
     module.add_function(wrap_pyfunction!(rapid::check_codes, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::restore_motion, module)?)?;
     let py = module.py();
-    PySequence::register::<solution::PySolution>(py)?;
-    PySequence::register::<solutions::PySolutions>(py)?;
     PyMapping::register::<rapid::RapidModule>(py)
 }

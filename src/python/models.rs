@@ -1,15 +1,16 @@
-//! `irbkin.Robot` from tables, parameters and descriptions, and its description.
+//! `irbkin.Robot` from tables, parameters, limits and URDF, and its URDF.
 
 use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyString};
 
-use super::arm::on;
-use super::arrays::vector;
-use super::build::{self, Table};
-use super::errors::Fault;
+use super::arm::{Arm, on};
+use super::arrays::{Rows, vector};
+use super::errors::{Fault, shape_text, to_py};
 use super::robot::PyRobot;
-use super::urdf::{self, Wanted};
-use crate::kinematics::OpwParameters;
+use crate::error::{Error, ModelFault, UrdfFault};
+use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
 use crate::report::Convention;
+use crate::urdf::UrdfArm;
 
 #[pymethods]
 impl PyRobot {
@@ -25,8 +26,8 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidModelError: A number is not finite, a limit is empty, or six joints are not
-    ///         independent: the message names the axes. `missing_form` of a robot of structure
-    ///         "general" has what keeps it from a closed form, and a `snap` that suffices.
+    ///         independent: the message names the axes. Of a robot of structure "general",
+    ///         `print(robot)` shows what keeps it from a closed form, and a `snap` that suffices.
     #[staticmethod]
     #[pyo3(signature = (rows, limits=None, name="", *, snap=0.0))]
     fn from_mdh(
@@ -36,7 +37,7 @@ impl PyRobot {
         snap: f64,
     ) -> PyResult<Self> {
         let table = Table { convention: Convention::Modified, snap };
-        build::from_table(rows, limits, name, table).map(Self::from)
+        from_table(rows, limits, name, table).map(Self::from)
     }
 
     /// Robot from a standard Denavit-Hartenberg table: Rz(theta + q) Tz(d) Tx(a) Rx(alpha).
@@ -60,7 +61,7 @@ impl PyRobot {
         snap: f64,
     ) -> PyResult<Self> {
         let table = Table { convention: Convention::Standard, snap };
-        build::from_table(rows, limits, name, table).map(Self::from)
+        from_table(rows, limits, name, table).map(Self::from)
     }
 
     /// Robot from Brandstoetter's parameters of an ortho-parallel arm with a spherical wrist, which
@@ -107,7 +108,7 @@ impl PyRobot {
             offsets.map_or(Ok([0.0; 6]), |offsets| vector(offsets, "offsets", Fault::Model))?;
         let signs = signs.map_or(Ok([1.0; 6]), |signs| vector(signs, "signs", Fault::Model))?;
         let opw = OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets, signs: [1; 6] };
-        build::from_opw(py, opw, signs, limits, name).map(Self::from)
+        from_opw(py, opw, signs, limits, name).map(Self::from)
     }
 
     /// Robot from a URDF: the revolute and continuous joints between two links, with their limits
@@ -125,9 +126,9 @@ impl PyRobot {
     ///         are.
     ///
     /// Raises:
-    ///     InvalidModelError: The text is no URDF, several links could be meant, there are not six
-    ///         or seven joints, a joint between base and tip is not revolute, continuous or fixed,
-    ///         or six joints are not independent; the message names what is wrong.
+    ///     InvalidModelError: The text is not a URDF, several links could be meant, there are not
+    ///         six or seven joints, a joint between base and tip is not revolute, continuous or
+    ///         fixed, or six joints are not independent; the message names what is wrong.
     ///     OSError: The file cannot be read.
     #[staticmethod]
     #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, snap=0.0))]
@@ -139,7 +140,19 @@ impl PyRobot {
         snap: f64,
     ) -> PyResult<Self> {
         let wanted = Wanted { base, tip, name, snap };
-        urdf::from_urdf(text_or_path, wanted).map(Self::from)
+        read_urdf(text_or_path, wanted).map(Self::from)
+    }
+
+    /// Return the robot with other joint limits; limits of a linkage stay.
+    ///
+    /// Args:
+    ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); infinite for none.
+    ///
+    /// Raises:
+    ///     InvalidModelError: A limit is NaN, a lower one is above the upper one, or the shape is
+    ///         wrong.
+    fn with_limits(&self, limits: &Bound<'_, PyAny>) -> PyResult<Self> {
+        with_limits(self.arm(), limits).map(Self::from)
     }
 
     /// Return the text of a URDF of the robot, which `from_urdf` reads back.
@@ -151,4 +164,162 @@ impl PyRobot {
     fn to_urdf(&self) -> String {
         on!(self.arm(), robot => robot.to_urdf())
     }
+}
+
+/// How a Denavit-Hartenberg table is to be read.
+#[derive(Clone, Copy)]
+struct Table {
+    convention: Convention,
+    /// How far an angle may be from a multiple of 90 deg and still be made one [rad].
+    snap: f64,
+}
+
+/// A robot from a Denavit-Hartenberg table of 6 or 7 rows.
+fn from_table(
+    rows: &Bound<'_, PyAny>,
+    limits: Option<&Bound<'_, PyAny>>,
+    name: &str,
+    table: Table,
+) -> PyResult<Arm> {
+    let py = rows.py();
+    let wanted = "(6, 4) or (7, 4)";
+    let rows = Rows::read_wanting(rows, &[4], "rows", Fault::Model, || wanted.to_owned())?;
+    let numbers = rows.data()?.as_chunks::<4>().0;
+    let arm = match rows.lead[..] {
+        [6] => robot_of_table::<6>(numbers, table).map(Arm::from),
+        [7] => robot_of_table::<7>(numbers, table).map(Arm::from),
+        _ => {
+            return Err(Fault::Model.error(
+                py,
+                format!(
+                    "rows must have shape {wanted}, got {}",
+                    shape_text(&rows.shape_with(&[4]))
+                ),
+            ));
+        }
+    };
+    named_and_limited(&arm.map_err(|error| to_py(py, &error))?, limits, name)
+}
+
+fn robot_of_table<const N: usize>(
+    numbers: &[[f64; 4]],
+    Table { convention, snap }: Table,
+) -> Result<Robot<N>, Error> {
+    let found = numbers.len();
+    let numbers: &[[f64; 4]; N] =
+        numbers.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;
+    let rows = numbers.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
+    let (base, flange) = (Pose::identity(), Pose::identity());
+    match convention {
+        Convention::Modified => Robot::from_mdh(Mdh { base, rows, flange }.snapped(snap)?),
+        Convention::Standard => Robot::from_sdh(Sdh { base, rows, flange }.snapped(snap)?),
+    }
+}
+
+/// A robot from the parameters of an ortho-parallel arm; `signs` as floats, as they come out of an
+/// array.
+fn from_opw(
+    py: Python<'_>,
+    mut opw: OpwParameters,
+    signs: [f64; 6],
+    limits: Option<&Bound<'_, PyAny>>,
+    name: &str,
+) -> PyResult<Arm> {
+    for (i, value) in signs.into_iter().enumerate() {
+        opw.signs[i] = match value {
+            1.0 => 1,
+            -1.0 => -1,
+            _ => return Err(to_py(py, &ModelFault::Sign { joint: i + 1, value }.into())),
+        };
+    }
+    let robot = Robot::from_opw(opw).map_err(|error| to_py(py, &error))?;
+    named_and_limited(&robot.into(), limits, name)
+}
+
+/// The arm under a name, with limits where they were given.
+fn named_and_limited(arm: &Arm, limits: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult<Arm> {
+    let arm = named(arm, name);
+    match limits {
+        Some(limits) => with_limits(&arm, limits),
+        None => Ok(arm),
+    }
+}
+
+fn named(arm: &Arm, name: &str) -> Arm {
+    on!(arm, robot => Robot::clone(robot).with_name(name.to_owned()).into())
+}
+
+/// The arm with limits of shape (n, 2).
+fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm> {
+    let tail = [arm.dof(), 2];
+    let wanted = || shape_text(&tail);
+    let rows = Rows::read_wanting(limits, &tail, "limits", Fault::Model, wanted)?;
+    if !rows.is_single() {
+        let (wanted, got) = (wanted(), shape_text(&rows.shape_with(&tail)));
+        let message = format!("limits must have shape {wanted}, got {got}");
+        return Err(Fault::Model.error(limits.py(), message));
+    }
+    let numbers = rows.data()?.as_chunks::<2>().0;
+    on!(arm, robot => limited(robot, numbers).map(Arm::from))
+        .map_err(|error| to_py(limits.py(), &error))
+}
+
+fn limited<const N: usize>(robot: &Robot<N>, limits: &[[f64; 2]]) -> Result<Robot<N>, Error> {
+    let found = limits.len();
+    let limits = limits.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;
+    Ok(Robot::clone(robot).with_limits(JointLimits::new(limits)?))
+}
+
+/// Parts of a URDF to read.
+#[derive(Clone, Copy)]
+struct Wanted<'a> {
+    base: Option<&'a str>,
+    tip: Option<&'a str>,
+    /// The robot's name; the URDF's where it is empty.
+    name: &'a str,
+    /// How far an angle may be from a multiple of 90 deg and still be made one [rad].
+    snap: f64,
+}
+
+/// The arm between two links of a URDF, of six or seven joints.
+fn read_urdf(text_or_path: &Bound<'_, PyAny>, wanted: Wanted<'_>) -> PyResult<Arm> {
+    let py = text_or_path.py();
+    let bytes = bytes_of(text_or_path)?;
+    py.detach(|| arm_of(&bytes, wanted)).map_err(|error| to_py(py, &error))
+}
+
+fn arm_of(bytes: &[u8], wanted: Wanted<'_>) -> Result<Arm, Error> {
+    let text =
+        str::from_utf8(bytes).map_err(|error| UrdfFault::NotUtf8 { byte: error.valid_up_to() })?;
+    let read = UrdfArm::read(text, wanted.base, wanted.tip, &[6, 7])?;
+    let arm = Arm::from(read.any_robot(wanted.snap)?);
+    Ok(if wanted.name.is_empty() { arm } else { named(&arm, wanted.name) })
+}
+
+/// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a
+/// text.
+fn bytes_of(text_or_path: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
+    if let Ok(bytes) = text_or_path.cast::<PyBytes>() {
+        return Ok(bytes.as_bytes().to_vec());
+    }
+    if let Ok(text) = text_or_path.cast::<PyString>() {
+        // A half of a surrogate pair is kept as the bytes that it would be, which are no UTF-8.
+        let bytes = text
+            .call_method1("encode", ("utf-8", "surrogatepass"))?
+            .cast_into::<PyBytes>()?
+            .as_bytes()
+            .to_vec();
+        if String::from_utf8_lossy(&bytes)
+            .trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}')
+            .starts_with('<')
+        {
+            return Ok(bytes);
+        }
+    }
+    let py = text_or_path.py();
+    let path = py.import("os")?.call_method1("fspath", (text_or_path,))?;
+    let file = py.import("builtins")?.call_method1("open", (path, "rb"))?;
+    let read = file.call_method0("read");
+    file.call_method0("close")?;
+    Ok(read?.cast::<PyBytes>()?.as_bytes().to_vec())
 }

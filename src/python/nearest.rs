@@ -4,8 +4,7 @@ use std::num::NonZeroUsize;
 
 use pyo3::prelude::*;
 
-use super::arrays::{Rows, copied_matrix4, copied_vector};
-use super::broadcast::{Argument, together};
+use super::arrays::{Argument, Rows, copied_matrix4, copied_vector, together};
 use super::errors::{Fault, to_py};
 use super::found::read_weights;
 use super::outputs::{output, writable};

@@ -10,12 +10,10 @@ use numpy::{
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::type_object::PyTypeInfo;
 
-use super::arrays::addresses;
+use super::arrays::{addresses, refuse_masked};
 use super::borrows::{Access, Borrow, is_free, overlap};
-use super::masked;
-use super::wording;
+use super::errors::shape_text;
 
 /// A new array with `rows`: one NumPy object, its memory written once.
 #[inline]
@@ -90,13 +88,11 @@ pub(super) fn checked_out<'py, T: numpy::Element>(
             describe(out)
         ))
     })?;
-    if !PyUntypedArray::is_exact_type_of(out) {
-        masked::check_out(out)?;
-    }
+    refuse_masked(out, "out")?;
     if array.shape() != shape || !array.is_c_contiguous() {
         return Err(PyValueError::new_err(format!(
             "out must be C-contiguous with shape {}, got {}",
-            wording::shape(shape),
+            shape_text(shape),
             describe(out)
         )));
     }
@@ -147,7 +143,7 @@ fn describe(value: &Bound<'_, PyAny>) -> String {
     match value.cast::<PyUntypedArray>() {
         Ok(array) => {
             let order = if array.is_c_contiguous() { "" } else { ", not C-contiguous" };
-            let shape = wording::shape(array.shape());
+            let shape = shape_text(array.shape());
             format!("an array of dtype {} and shape {shape}{order}", array.dtype())
         }
         Err(_) => value

@@ -8,14 +8,13 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arrays::{Rows, addresses};
-use super::broadcast::{Argument, together};
-use super::classes;
-use super::errors::{Fault, to_py};
+use super::arrays::{Argument, Rows, addresses, together};
+use super::classes::break_reason_class;
+use super::errors::{Fault, index_in, shape_text, to_py};
 use super::nearest::single_seed;
 use super::outputs::{Writable, output, writable};
+use super::records::{Break, FollowResult};
 use super::signals::detached;
-use super::wording::{index_in, shape};
 use crate::kinematics::{
     BreakReason, FollowOptions, Followed, Pose, Robot, check_seed, pose_from_rows,
 };
@@ -31,14 +30,16 @@ pub(super) fn follow<'py>(
     options: &FollowOptions,
     out: Option<&Bound<'py, PyAny>>,
     threads: Option<NonZeroUsize>,
-) -> PyResult<Bound<'py, PyAny>> {
+) -> PyResult<FollowResult> {
     let py = paths.py();
     let mut rows = Rows::read(paths, &[4, 4], "T", Fault::Pose)?;
     let mut seeds = Rows::read(seeds, &[6], "seed", Fault::Joints)?;
     single_seed::<6>(py, &seeds)?;
     let Some(length) = rows.split_last() else {
-        return Err(Fault::Pose
-            .error(py, format!("T must have shape (..., m, 4, 4), got {}", shape(rows.shape()))));
+        return Err(Fault::Pose.error(
+            py,
+            format!("T must have shape (..., m, 4, 4), got {}", shape_text(rows.shape())),
+        ));
     };
     together(
         py,
@@ -62,7 +63,7 @@ pub(super) fn one_path<'py>(path: &Bound<'py, PyAny>, field: &str) -> PyResult<R
     if rows.split_last().is_some() && rows.is_single() {
         return Ok(rows);
     }
-    let got = shape(rows.shape());
+    let got = shape_text(rows.shape());
     Err(Fault::Pose.error(path.py(), format!("{field} must have shape (m, 4, 4), got {got}")))
 }
 
@@ -110,7 +111,7 @@ struct Answers<'py> {
 }
 
 impl<'py> Answers<'py> {
-    /// For paths of the shape `shape`, that of all their poses.
+    /// Arrays for poses of the shape `shape`.
     fn of(
         py: Python<'py>,
         out: Option<&Bound<'py, PyAny>>,
@@ -138,10 +139,10 @@ impl<'py> Answers<'py> {
     /// `irbkin.FollowResult` of paths with the leading dimensions `lead`.
     fn filled(
         mut self,
-        py: Python<'py>,
+        py: Python<'_>,
         lead: &[usize],
         followed: &[Followed],
-    ) -> PyResult<Bound<'py, PyAny>> {
+    ) -> PyResult<FollowResult> {
         let rows = self.q_view.as_slice_mut()?.as_chunks_mut::<6>().0.iter_mut();
         for (row, q) in rows.zip(followed.iter().flat_map(|path| &path.q)) {
             *row = q.unwrap_or([f64::NAN; 6]);
@@ -153,23 +154,25 @@ impl<'py> Answers<'py> {
         let mut breaks = Vec::new();
         for (path, followed) in followed.iter().enumerate() {
             for broken in &followed.breaks {
-                let place = PyTuple::new(py, index_in(lead, path))?;
-                breaks.push(classes::break_class(py)?.call1((
-                    broken.pose_index,
-                    broken.to_string(),
-                    place,
-                    break_kind(py, &broken.reason)?,
-                ))?);
+                breaks.push(Break {
+                    pose_index: broken.pose_index,
+                    reason: broken.to_string(),
+                    path: PyTuple::new(py, index_in(lead, path))?.unbind(),
+                    kind: break_kind(py, &broken.reason)?.unbind(),
+                });
             }
         }
-        let breaks = PyTuple::new(py, breaks)?;
-        classes::follow_result_class(py)?.call1((self.q, self.errors, breaks))
+        Ok(FollowResult {
+            q: self.q.into_any().unbind(),
+            orientation_error: self.errors.into_any().unbind(),
+            breaks: PyTuple::new(py, breaks)?.unbind(),
+        })
     }
 }
 
 /// `irbkin.BreakReason` of a break.
 fn break_kind<'py>(py: Python<'py>, reason: &BreakReason) -> PyResult<Bound<'py, PyAny>> {
-    classes::break_reason_class(py)?.getattr(match reason {
+    break_reason_class(py)?.getattr(match reason {
         BreakReason::Unreachable(_) => "UNREACHABLE",
         BreakReason::Jump { .. } => "JUMP",
         BreakReason::Locked => "LOCKED",

@@ -8,14 +8,13 @@ use pyo3::types::PyTuple;
 use super::arguments::thread_count;
 use super::arrays::Rows;
 use super::classes::{invalid_model_error, irbkin_error};
-use super::errors::Fault;
+use super::errors::{Fault, shape_text};
 use super::freedoms::{Costs, read_options};
 use super::paths::{one_path, read_path};
 use super::plans::{answer, asked, read_times};
 use super::robot::PyRobot;
 use super::signals::detached_while;
-use super::wording::shape;
-use crate::batch::{Pace, PlanJob};
+use crate::batch::{Batch, PlanJob};
 use crate::plan::PlanOptions;
 
 #[pymethods]
@@ -116,7 +115,7 @@ impl PyRobot {
         let planned = detached_while(py, |go_on| {
             let mut go_on = || !has_failed() && go_on();
             let accept = accept.is_some().then_some(&ask as _);
-            Pace::until(threads, &mut go_on).plan(robot, &jobs, accept)
+            Batch::until(threads, &mut go_on).plan(robot, &jobs, accept)
         })?;
         if let Some(failure) = failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             return Err(failure);
@@ -176,7 +175,7 @@ impl<'py> Ends<'py> {
         if rows.is_single() || rows.lead == [count] {
             return Ok(Self { rows: Some(rows) });
         }
-        let got = shape(rows.shape());
+        let got = shape_text(rows.shape());
         let message =
             format!("{field} must have shape ({width},) or ({count}, {width}), got {got}");
         Err(Fault::Joints.error(q.py(), message))

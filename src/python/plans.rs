@@ -9,13 +9,13 @@ use pyo3::types::PyTuple;
 
 use super::arrays::Rows;
 use super::classes;
-use super::errors::{Fault, raised, to_py};
+use super::errors::{Fault, raised, shape_text, to_py};
 use super::freedoms::{Costs, read_end, read_options};
 use super::outputs::matrix;
 use super::paths::read_path_poses;
+use super::records;
 use super::robot::PyRobot;
 use super::signals::detached_while;
-use super::wording::shape;
 use crate::plan::{Caller, NoPlan, Plan, PlanError, PlanOptions, Watch};
 
 #[pymethods]
@@ -48,7 +48,7 @@ impl PyRobot {
     ///         (k, 6), it returns k truth values. It is asked only for joint vectors near the best
     ///         path, and once for those that differ by full turns.
     ///     carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
-    ///         them. Their steps count for bottleneck and cost as those of the joints do.
+    ///         them. Their steps count for bottleneck and cost as steps of joints do.
     ///     tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
     ///         `irbkin.ToolOffset`, or one of each.
     ///     order: What of two paths makes the better one: "bottleneck", then the sum; or "sum"
@@ -67,8 +67,8 @@ impl PyRobot {
     ///     PathError: No continuous joint path: `index` is the first pose that no branch reaches
     ///         from the start, `end_index` the last one from which none reaches the end, `reasons`
     ///         says where and why each branch ends, `plan` is the plan with the fewest breaks.
-    ///     InvalidPoseError: T has a wrong shape or holds a matrix that is no pose; the message has
-    ///         its index.
+    ///     InvalidPoseError: T has a wrong shape or holds an invalid pose; the message has its
+    ///         index.
     ///     InvalidJointsError: A start, end or weight that is not finite, or a start or end that
     ///         does not fit its pose or the limits.
     ///     InvalidMotionError: No poses, two poses half a turn apart, times that do not increase, a
@@ -141,7 +141,7 @@ pub(super) fn answer<'py>(
     planned: &Result<Plan, PlanError>,
 ) -> PyResult<Bound<'py, PyAny>> {
     match planned {
-        Ok(plan) => plan_record(py, plan),
+        Ok(plan) => Ok(Bound::new(py, plan_record(py, plan)?)?.into_any()),
         Err(PlanError::Invalid(error)) => Err(to_py(py, error)),
         Err(PlanError::NoPlan(gap)) => Err(path_error(py, gap)),
         Err(PlanError::Stopped) => Err(PyValueError::new_err("the plan was stopped")),
@@ -151,7 +151,7 @@ pub(super) fn answer<'py>(
 pub(super) fn read_times(times: &Bound<'_, PyAny>, field: &str) -> PyResult<Vec<f64>> {
     let rows = Rows::read(times, &[], field, Fault::Motion)?;
     if rows.shape().len() != 1 {
-        let got = shape(rows.shape());
+        let got = shape_text(rows.shape());
         return Err(
             Fault::Motion.error(times.py(), format!("{field} must have shape (m,), got {got}"))
         );
@@ -159,7 +159,7 @@ pub(super) fn read_times(times: &Bound<'_, PyAny>, field: &str) -> PyResult<Vec<
     Ok(rows.data()?.to_vec())
 }
 
-/// What the caller's test says of joint vectors.
+/// Ask the caller's test of joint vectors.
 pub(super) fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<bool>> {
     let py = accept.py();
     let answers = accept.call1((matrix(py, q),))?;
@@ -171,7 +171,7 @@ pub(super) fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<b
             "accept must return {} truth values, one for each row of q; it returned an array of \
              shape {} and dtype {}",
             q.len(),
-            shape(&found),
+            shape_text(&found),
             answers.getattr("dtype")?
         )));
     }
@@ -179,27 +179,27 @@ pub(super) fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<b
 }
 
 /// `irbkin.Plan` of a plan.
-fn plan_record<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyAny>> {
+fn plan_record(py: Python<'_>, plan: &Plan) -> PyResult<records::Plan> {
     let rows = plan.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; 6]));
-    let q: Bound<'py, PyArray2<f64>> = PyArray1::from_iter(py, rows).reshape([plan.q.len(), 6])?;
+    let q: Bound<'_, PyArray2<f64>> = PyArray1::from_iter(py, rows).reshape([plan.q.len(), 6])?;
     let slot =
         plan.slot.iter().map(|slot| slot.map_or(-1, |slot| i64::try_from(slot).unwrap_or(-1)));
-    let breaks = plan
+    let breaks: Vec<_> = plan
         .breaks
         .iter()
-        .map(|gap| classes::plan_break_class(py)?.call1((gap.leave, gap.enter)))
-        .collect::<PyResult<Vec<_>>>()?;
-    classes::plan_class(py)?.call1((
-        q,
-        PyArray1::from_slice(py, &plan.tool_angle),
-        PyArray1::from_iter(py, slot),
-        rows_of(py, &plan.external)?,
-        rows_of(py, &plan.tolerance)?,
-        plan.cost,
-        plan.bottleneck,
-        PyTuple::new(py, breaks)?,
-        plan.certified,
-    ))
+        .map(|gap| records::PlanBreak { leave: gap.leave, enter: gap.enter })
+        .collect();
+    Ok(records::Plan {
+        q: q.into_any().unbind(),
+        tool_angle: PyArray1::from_slice(py, &plan.tool_angle).into_any().unbind(),
+        slot: PyArray1::from_iter(py, slot).into_any().unbind(),
+        external: rows_of(py, &plan.external)?.into_any().unbind(),
+        tolerance: rows_of(py, &plan.tolerance)?.into_any().unbind(),
+        cost: plan.cost,
+        bottleneck: plan.bottleneck,
+        breaks: PyTuple::new(py, breaks)?.unbind(),
+        certified: plan.certified,
+    })
 }
 
 /// Rows of equal length; NaN for one that is empty where others are not.
@@ -218,11 +218,12 @@ fn path_error(py: Python<'_>, gap: &NoPlan) -> PyErr {
         let value = error.value(py);
         value.setattr("index", gap.pose_index)?;
         value.setattr("end_index", gap.end_index)?;
-        let ends = gap.ends.iter().map(|end| {
-            let fields = (end.slot, end.pose_index, end.reason.to_string());
-            classes::strand_end_class(py)?.call1(fields)
+        let ends = gap.ends.iter().map(|end| records::StrandEnd {
+            slot: end.slot,
+            pose_index: end.pose_index,
+            reason: end.reason.to_string(),
         });
-        value.setattr("reasons", PyTuple::new(py, ends.collect::<PyResult<Vec<_>>>()?)?)?;
+        value.setattr("reasons", PyTuple::new(py, ends.collect::<Vec<_>>())?)?;
         value.setattr("plan", plan_record(py, &gap.plan)?)
     };
     match tell() {

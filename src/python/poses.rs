@@ -4,12 +4,10 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use super::arrays::{Rows, copied_matrix4, copied_vector, matrix4};
-use super::broadcast::{Argument, together};
-use super::errors::{Fault, to_py};
+use super::arrays::{Argument, Rows, copied_matrix4, copied_vector, matrix4, together};
+use super::errors::{Fault, index_in, shape_text, to_py};
 use super::outputs::{matrix, output, writable};
 use super::signals::detached;
-use super::wording;
 use crate::error::Error;
 use crate::kinematics::{
     Pose, pose_from_euler_zyx, pose_from_rotation, pose_from_rows, pose_from_wxyz, pose_from_xyzw,
@@ -40,7 +38,7 @@ pub(super) fn read_single_pose(value: &Bound<'_, PyAny>, method: &str) -> PyResu
 fn read_one_pose(value: &Bound<'_, PyAny>, many: &str) -> PyResult<Pose> {
     read_pose(value, "T").map_err(|error| match shape_of(value).as_deref() {
         Some(sizes @ [_, .., 4, 4]) => {
-            let got = wording::shape(sizes);
+            let got = shape_text(sizes);
             Fault::Pose.error(value.py(), format!("T must have shape (4, 4), got {got}{many}"))
         }
         _ => error,
@@ -70,7 +68,7 @@ pub(super) fn pose_array<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, PyArra
 
 /// Poses from translations and orientations.
 ///
-/// Give one orientation or none, which is that of the base. All arguments are broadcast.
+/// Give one orientation, or none for the orientation of the base. All arguments are broadcast.
 ///
 /// Args:
 ///     xyz: Translations [m], shape (..., 3).
@@ -84,9 +82,9 @@ pub(super) fn pose_array<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, PyArra
 ///
 /// Raises:
 ///     InvalidPoseError: A wrong shape, an element that is not finite, a quaternion whose norm is
-///         off one by more than 2e-3, a matrix that is no rotation. Of many the message has the
+///         off one by more than 2e-3, a matrix that is not a rotation. Of many the message has the
 ///         index of the first.
-///     TypeError: Several orientations are given, or something is no number.
+///     TypeError: Several orientations are given, or an argument is not a number.
 #[pyfunction]
 #[pyo3(signature = (xyz, wxyz=None, xyzw=None, euler_zyx=None, rotation=None))]
 pub(super) fn pose<'py>(
@@ -168,7 +166,7 @@ fn made<'py, const R: usize>(
     let poses = view.as_slice_mut()?;
     match detached(py, None, |pace| pace.make_poses(translations, turns, poses, make))? {
         Some((row, error)) => {
-            let place = wording::index_in(&xyz.lead, row);
+            let place = index_in(&xyz.lead, row);
             Err(Fault::Pose.error(py, format!("row {place:?}: {error}")))
         }
         None => Ok(answer.into_any()),
@@ -184,10 +182,10 @@ type TwoArrays<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>);
 ///
 /// Returns:
 ///     Translations [m], shape (..., 3), and quaternions w, x, y, z with w >= 0, shape (..., 4). In
-///     a batch, a row that is no rigid transform gives NaN.
+///     a batch, an invalid row gives NaN.
 ///
 /// Raises:
-///     InvalidPoseError: A wrong shape, or a single pose that is no rigid transform.
+///     InvalidPoseError: A wrong shape, or a single pose that is not a rigid transform.
 #[pyfunction]
 #[pyo3(name = "to_xyz_wxyz", signature = (T))]
 #[expect(non_snake_case, reason = "the name that users pass")]
@@ -203,10 +201,10 @@ pub(super) fn to_xyz_wxyz<'py>(T: &Bound<'py, PyAny>) -> PyResult<TwoArrays<'py>
 /// Returns:
 ///     Translations [m], shape (..., 3), and rz, ry, rx [rad], shape (..., 3), ry in -pi/2 .. pi/2.
 ///     Where ry is +-pi/2 only rz - rx or rz + rx is determined: rz is 0 there. In a batch, a row
-///     that is no rigid transform gives NaN.
+///     that is invalid gives NaN.
 ///
 /// Raises:
-///     InvalidPoseError: A wrong shape, or a single pose that is no rigid transform.
+///     InvalidPoseError: A wrong shape, or a single pose that is not a rigid transform.
 #[pyfunction]
 #[pyo3(name = "to_xyz_euler_zyx", signature = (T))]
 #[expect(non_snake_case, reason = "the name that users pass")]

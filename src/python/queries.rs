@@ -1,14 +1,21 @@
 //! Methods of `irbkin.Robot` that take joint vectors.
 
+use std::num::NonZeroUsize;
+
 use numpy::PyArrayDyn;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::{PyFloat, PyTuple};
 
-use super::answers::{singularity_arrays, singularity_record};
 use super::arguments::{read_frame, thread_count};
-use super::arm::on;
-use super::configurations;
+use super::arm::{Arm, on};
+use super::arrays::{Rows, addresses};
+use super::configured;
+use super::outputs::{checked_out, output, writable};
+use super::records::{self, Margin, Singularity};
 use super::robot::PyRobot;
+use super::signals::detached;
+use crate::kinematics::{self, Status};
 
 #[pymethods]
 impl PyRobot {
@@ -100,18 +107,53 @@ impl PyRobot {
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let (py, threads) = (q.py(), thread_count(threads)?);
+    ) -> PyResult<Singularity> {
+        let threads = thread_count(threads)?;
         let rows = self.arm().joints(q)?;
         if !rows.is_single() {
-            return singularity_arrays(py, self.arm(), &rows, out, threads);
+            return singularities(self.arm(), &rows, out, threads);
         }
         if out.is_some() {
             return Err(PyTypeError::new_err("out is for many joint vectors, shape (..., n)"));
         }
         on!(self.arm(), robot => match rows.data()?.first_chunk() {
-            Some(q) => singularity_record(py, &robot.singularity(q)),
+            Some(q) => one_singularity(rows.py(), &robot.singularity(q)),
             None => Err(PyTypeError::new_err("q is empty")),
+        })
+    }
+
+    /// How far joint vectors are from limits and singularities, as parts of the farthest that they
+    /// can be.
+    ///
+    /// Args:
+    ///     q: Joint angles [rad], shape (..., n).
+    ///     threads: Number of threads; 0 for one a core.
+    ///
+    /// Returns:
+    ///     Margin: two arrays of shape (...), 1 in the middle, 0 at a limit or a singularity,
+    ///     negative outside limits. Of many rows, one with a NaN or inf gives NaN.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: A wrong shape, or a single row with a NaN or inf.
+    #[pyo3(signature = (q, *, threads=1))]
+    fn margin(&self, q: &Bound<'_, PyAny>, threads: isize) -> PyResult<Margin> {
+        let (py, threads) = (q.py(), thread_count(threads)?);
+        let rows = self.arm().joints(q)?;
+        let data = rows.data()?;
+        let [limits, singularities] =
+            [(); 2].map(|()| PyArrayDyn::<f64>::zeros(py, rows.lead.clone(), false));
+        let (mut to_limits, mut to_singularities) =
+            (writable(&limits, &[])?, writable(&singularities, &[])?);
+        let (limits_out, singularities_out) =
+            (to_limits.as_slice_mut()?, to_singularities.as_slice_mut()?);
+        detached(
+            py,
+            threads,
+            |batch| on!(self.arm(), robot => batch.margin(robot, data, limits_out, singularities_out)),
+        )?;
+        Ok(Margin {
+            limits: limits.into_any().unbind(),
+            singularities: singularities.into_any().unbind(),
         })
     }
 
@@ -130,10 +172,10 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-    ///     InvalidModelError: The arm has no spherical wrist and is no GoFa or YuMi of the catalog:
-    ///         its controller counts otherwise.
+    ///     InvalidModelError: The arm has no spherical wrist and is not a GoFa or YuMi of the
+    ///         catalog: its controller counts otherwise.
     fn configuration<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        configurations::configuration(self.arm(), q)
+        configured::configuration(self.arm(), q)
     }
 
     /// The arm angle of a YuMi's joint vectors: eax_a of a robtarget.
@@ -148,8 +190,74 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-    ///     InvalidModelError: The arm is no YuMi of the catalog.
+    ///     InvalidModelError: The arm is not a YuMi of the catalog.
     fn arm_angle<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        configurations::arm_angle(self.arm(), q)
+        configured::arm_angle(self.arm(), q)
     }
+}
+
+/// The numbers of a record in the order of its fields; NaN where an arm has no such singularity.
+fn numbers(record: &kinematics::Singularity) -> [f64; 5] {
+    let [wrist, elbow, shoulder] =
+        record.distances.map_or([f64::NAN; 3], |d| [d.wrist, d.elbow, d.shoulder]);
+    [wrist, elbow, shoulder, record.min_singular_value, record.manipulability]
+}
+
+/// `irbkin.records.Singularity` of one joint vector.
+fn one_singularity(py: Python<'_>, record: &kinematics::Singularity) -> PyResult<Singularity> {
+    let kinds = records::kinds(py, record.kinds)?.unbind();
+    let [wrist, elbow, shoulder, min_singular_value, manipulability] =
+        numbers(record).map(|number| PyFloat::new(py, number).into_any().unbind());
+    Ok(Singularity { wrist, elbow, shoulder, min_singular_value, manipulability, kinds })
+}
+
+/// `irbkin.records.Singularity` of arrays with the leading dimensions of `q`.
+fn singularities<'py>(
+    arm: &Arm,
+    q: &Rows<'py>,
+    out: Option<&Bound<'py, PyAny>>,
+    threads: Option<NonZeroUsize>,
+) -> PyResult<Singularity> {
+    let (py, data) = (q.py(), q.data()?);
+    let out = out.map(six_arrays).transpose()?;
+    let mut memory = vec![q.addresses()];
+    let (mut columns, mut views) = (Vec::new(), Vec::new());
+    for field in 0..5 {
+        let column = output(py, out.as_ref().map(|out| &out[field]), &q.lead)?;
+        views.push(writable(&column, &memory)?);
+        memory.push(addresses(&column));
+        columns.push(column.into_any().unbind());
+    }
+    let kinds = match &out {
+        Some(out) => checked_out(&out[5], &q.lead, "uint8")?,
+        None => PyArrayDyn::zeros(py, q.lead.clone(), false),
+    };
+    let mut kinds_view = writable(&kinds, &memory)?;
+    let mut found = vec![None; q.lead.iter().product()];
+    let records = &mut found[..];
+    detached(py, threads, |batch| on!(arm, robot => batch.singularity(robot, data, records)))?;
+    for (to, record) in kinds_view.as_slice_mut()?.iter_mut().zip(&found) {
+        *to = record.map_or(Status::INVALID.bits(), |record| record.kinds.bits());
+    }
+    for (field, view) in views.iter_mut().enumerate() {
+        for (to, record) in view.as_slice_mut()?.iter_mut().zip(&found) {
+            *to = record.as_ref().map_or(f64::NAN, |record| numbers(record)[field]);
+        }
+    }
+    let kinds = kinds.into_any().unbind();
+    let columns = <[_; 5]>::try_from(columns);
+    let [wrist, elbow, shoulder, min_singular_value, manipulability] =
+        columns.map_err(|_| PyTypeError::new_err("a singularity has five numbers"))?;
+    Ok(Singularity { wrist, elbow, shoulder, min_singular_value, manipulability, kinds })
+}
+
+/// The arrays of a `Singularity` or of a tuple.
+fn six_arrays<'py>(out: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    if out.is_instance_of::<PyTuple>() || out.is_instance_of::<Singularity>() {
+        let arrays = out.try_iter()?.collect::<PyResult<Vec<_>>>()?;
+        if arrays.len() == 6 {
+            return Ok(arrays);
+        }
+    }
+    Err(PyTypeError::new_err("out must be a Singularity, or a tuple of its six arrays"))
 }

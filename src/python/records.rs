@@ -1,18 +1,271 @@
-//! Values of the enumerations and records that `irbkin` defines in Python.
+//! Records that answers are returned in.
 
+use pyo3::basic::CompareOp;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
-use super::classes::{configuration_class, kind_class, reach_class, status_class};
+use super::classes::{kind_class, reach_class, status_class};
+use super::record::{self, record, record_methods};
 use crate::kinematics::{SingularityKind, Status};
-use crate::report::{Configuration, Reach};
+use crate::report::{Configuration, Explanation, Reach};
 
-/// `irbkin.Configuration` of one.
+/// An array, or what a field holds in place of one.
+pub(crate) type Array = Py<PyAny>;
+
+record_methods!(Configuration { cf1: i32, cf4: i32, cf6: i32, cfx: i32 });
+
+record! {
+    /// Solutions of many poses.
+    IkBatch {
+        /// Joint angles [rad], shape (..., slots, n), NaN where a slot is empty.
+        q: Array,
+        /// `Status` of each slot, shape (..., slots).
+        status: Array,
+    }
+}
+
+record! {
+    /// The joint that a singular pose leaves undetermined.
+    FreeJoint {
+        /// Its number, from 1.
+        joint: usize,
+        /// Joints that stay fixed along the self-motion: "q4 + q6", "q4 - q6", "q2, q3", "q1, q3"
+        /// or, with coupled axes 2 and 3, "q1, q3 - q2"; "q1, q5" of three parallel axes; "q1 +
+        /// q3", "q1 - q3", "q4, q6" or "q4, q5" of seven axes. Of an arm without a closed form the
+        /// joints that stand still, or "nothing".
+        fixed: String,
+    }
+}
+
+record! {
+    /// A place where the joints cannot follow a path without a jump.
+    Break {
+        /// Index of the pose that is not met, or at which the joints arrive by a jump.
+        pose_index: usize,
+        /// Where and why, in a sentence.
+        reason: String,
+        /// Index of the path among several; empty for one.
+        path: Py<PyTuple>,
+        /// The cause, a `BreakReason`.
+        kind: Py<PyAny>,
+    }
+}
+
+record! {
+    /// A joint path along a path of poses.
+    FollowResult {
+        /// Joint angles [rad], shape (..., m, n), NaN where a pose is not met.
+        q: Array,
+        /// Angle between the orientations of tool and pose [rad], shape (..., m), NaN
+        /// where a pose is not met.
+        orientation_error: Array,
+        /// Each `Break`: where the joints cannot follow, and why.
+        breaks: Py<PyTuple>,
+    }
+}
+
+record! {
+    /// ABB's confdata of many joint vectors: int32 arrays of shape (...).
+    ConfigurationBatch {
+        /// Quarter turns of axis 1: floor(q1 / 90 deg).
+        cf1: Array,
+        /// Quarter turns of axis 4.
+        cf4: Array,
+        /// Quarter turns of axis 6.
+        cf6: Array,
+        /// The slots, as `Configuration.cfx`.
+        cfx: Array,
+    }
+}
+
+record! {
+    /// Distances of joint vectors from the singularities: numbers for one, arrays of shape (...)
+    /// for many. NaN where an arm has no such singularity.
+    Singularity {
+        /// Angle of joint 5 from 0 or 180 deg [rad]; of seven axes, between the plane of axes 5 and
+        /// 6 and the line to the shoulder.
+        wrist: Array,
+        /// Angle between upper arm and forearm from stretched or folded [rad].
+        elbow: Array,
+        /// Distance of the wrist center from axis 1 [m]; with a lateral offset, from the plane
+        /// through it along axis 2; of seven axes, distance of the upper arm's end from axis 1.
+        shoulder: Array,
+        /// Smallest singular value of the Jacobian at the tool, its rows in m and rad as they are.
+        min_singular_value: Array,
+        /// sqrt(det(J J^T)), the product of the singular values.
+        manipulability: Array,
+        /// The singularities that the joint vector is at, a `SingularityKind`; for many its values,
+        /// uint8.
+        kinds: Array,
+    }
+}
+
+record! {
+    /// How far joint vectors are from limits and singularities, each as a part of the farthest that
+    /// they can be: 1 in the middle, 0 at one, negative outside limits.
+    Margin {
+        /// The least over all joints of 1 - |q - middle| / half the range, shape (...).
+        limits: Array,
+        /// The least of three distances, each at most 1, shape (...): from the wrist and from the
+        /// elbow singularity as a part of 90 deg, from the shoulder singularity as a part of half
+        /// the length of upper arm and forearm. NaN if the structure of the arm is unknown.
+        singularities: Array,
+    }
+}
+
+record! {
+    /// How much room the solutions of poses leave.
+    IkMargin {
+        /// The largest margin (the smaller part of `Margin`) of the solutions inside the limits,
+        /// each with the full turns that leave the most room, shape (...). NaN where there is none.
+        margin: Array,
+        /// Their largest `Margin.singularities`, shape (...). NaN where there is none.
+        singularities: Array,
+        /// Their number, shape (...).
+        solutions: Array,
+    }
+}
+
+record! {
+    /// Whether a pose can be reached.
+    PoseCheck {
+        /// Some joint vector brings the tool there.
+        reachable: bool,
+        /// One of them is inside the joint limits.
+        within_limits: bool,
+        /// The outcome in a sentence.
+        reason: String,
+    }
+}
+
+record! {
+    /// Data of an arm in the catalog.
+    CatalogEntry {
+        /// The maker's type name.
+        name: String,
+        /// The maker: "ABB", "Universal Robots", "Franka", "FANUC" or "UFACTORY".
+        maker: String,
+        /// Other names that `Robot` takes for it, beside spellings in which case, blanks and dashes
+        /// differ.
+        aliases: Py<PyTuple>,
+        /// Number of joints.
+        dof: usize,
+        /// Payload [kg], as the type name or the data sheet gives it; of several generations the
+        /// least. None where it is not known.
+        payload: Option<f64>,
+        /// Reach [m], as the type name or the data sheet gives it: rounded, of ABB's arms to the
+        /// wrist center. None where it is not known.
+        reach: Option<f64>,
+        /// Lower and upper limit of each joint [rad], shape (n, 2).
+        limits: Array,
+        /// Largest velocity of each joint [rad/s], shape (n,), or None where no source has it.
+        max_velocity: Option<Array>,
+        /// Whether a parallelogram linkage couples axes 2 and 3.
+        is_coupled: bool,
+        /// Number of independent sources of the figures.
+        sources: usize,
+        /// The sources, and where they disagree.
+        provenance: String,
+    }
+}
+
+record! {
+    /// The state of the joints at times.
+    TrajectorySample {
+        /// Joint angles [rad], shape (..., n).
+        q: Array,
+        /// Joint velocities [rad/s], shape (..., n).
+        dq: Array,
+        /// Joint accelerations [rad/s^2], shape (..., n).
+        ddq: Array,
+    }
+}
+
+record! {
+    /// The largest sizes of each joint's derivatives.
+    MotionPeaks {
+        /// Velocities [rad/s], shape (n,).
+        velocity: Array,
+        /// Accelerations [rad/s^2], shape (n,).
+        acceleration: Array,
+        /// Jerks [rad/s^3], shape (n,).
+        jerk: Array,
+    }
+}
+
+record! {
+    /// The constant speed of the tool along a path that the limits of the joints allow.
+    ToolSpeedLimits {
+        /// The highest at each sample [m/s], shape (m,); infinite where no limit binds.
+        speed: Array,
+        /// The joint that limits it, from 1, shape (m,); 0 where none does.
+        joint: Array,
+        /// The fastest constant speed on the whole path [m/s], between the samples too.
+        fastest: f64,
+        /// The joint that limits the fastest speed, from 1; 0 where none does.
+        fastest_joint: usize,
+        /// The sample at which it does, or the last one before the place.
+        fastest_index: usize,
+    }
+}
+
+record! {
+    /// A part of a path that the joints cannot follow.
+    PlanBreak {
+        /// The last pose before it; None where the path begins with it.
+        leave: Option<usize>,
+        /// The first pose after it; None where the path ends with it.
+        enter: Option<usize>,
+    }
+}
+
+record! {
+    /// Where and why a branch of a path ends.
+    StrandEnd {
+        /// Its slot.
+        slot: usize,
+        /// The first pose that it does not reach.
+        pose_index: usize,
+        /// The reason in a sentence.
+        reason: String,
+    }
+}
+
+record! {
+    /// The best joint path along a path of poses.
+    Plan {
+        /// Joint angles [rad], shape (m, n); NaN where a plan with breaks has none.
+        q: Array,
+        /// The angle by which the tool is turned at each pose [rad], shape (m,), without jumps of a
+        /// full turn; zeros without a free rotation.
+        tool_angle: Array,
+        /// The slot of the branch at each pose, shape (m,); -1 where there is none.
+        slot: Array,
+        /// Values of the external axes of `carrier` at each pose [m, rad], shape (m, k); NaN where
+        /// a plan with breaks has none.
+        external: Array,
+        /// Deviation within `tolerance` at each pose, shape (m, t): of a cone the tilts about the
+        /// two axes that the tool does not point in [rad], of an offset the shift [m].
+        tolerance: Array,
+        /// Weighted sum of the squares of all joint steps, with the costs of being near limits and
+        /// singularities [rad^2].
+        cost: f64,
+        /// The largest velocity of a joint as a part of its limit. Without `times`, the time [s]
+        /// that the path takes at least if its poses are equally far apart in time.
+        bottleneck: f64,
+        /// Each `PlanBreak`: empty, but for the plan of a `PathError`.
+        breaks: Py<PyTuple>,
+        /// Whether every step, apart from breaks, was shown to be continuous between its two poses.
+        certified: bool,
+    }
+}
+
+/// `irbkin.Configuration` of a configuration.
 pub(super) fn configuration<'py>(
     py: Python<'py>,
     configuration: &Configuration,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let Configuration { cf1, cf4, cf6, cfx } = *configuration;
-    configuration_class(py)?.call1((cf1, cf4, cf6, cfx))
+    Ok(Bound::new(py, *configuration)?.into_any())
 }
 
 /// `irbkin.SingularityKind` of singularities.
@@ -33,4 +286,16 @@ pub(super) fn reach(py: Python<'_>, reach: Reach) -> PyResult<Bound<'_, PyAny>> 
         Reach::TooNear { .. } => "TOO_NEAR",
         Reach::NoRoots => "NO_ROOTS",
     })
+}
+
+impl From<&Explanation> for PoseCheck {
+    fn from(explanation: &Explanation) -> Self {
+        let within_limits = matches!(explanation, Explanation::Found { .. });
+        let reachable = within_limits
+            || matches!(
+                explanation,
+                Explanation::OutsideLimits { .. } | Explanation::OutsideLinkage { .. }
+            );
+        Self { reachable, within_limits, reason: explanation.to_string() }
+    }
 }

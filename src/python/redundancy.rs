@@ -5,10 +5,8 @@ use pyo3::intern;
 use pyo3::prelude::*;
 
 use super::arm::{Arm, on};
-use super::arrays::Rows;
-use super::broadcast::{Argument, together};
-use super::errors::{Fault, to_py};
-use super::wording::shape;
+use super::arrays::{Argument, Rows, together};
+use super::errors::{Fault, shape_text, to_py};
 use crate::kinematics::Robot;
 
 /// Poses, shape (..., 4, 4), and the angles of a joint for each, of an argument with its name: none
@@ -69,7 +67,7 @@ pub(super) fn one_angle(angle: &Bound<'_, PyAny>, field: &str) -> PyResult<f64> 
     angle.extract().map_err(|_| {
         let got =
             match angle.getattr(intern!(angle.py(), "shape")).and_then(|sizes| sizes.extract()) {
-                Ok::<Vec<usize>, _>(sizes) => format!("an array of shape {}", shape(&sizes)),
+                Ok::<Vec<usize>, _>(sizes) => format!("an array of shape {}", shape_text(&sizes)),
                 Err(_) => angle.get_type().name().map_or_else(
                     |_| "another object".to_owned(),
                     |name| format!("an object of type {name}"),

@@ -5,9 +5,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::arguments::read_steps;
-use super::classes;
 use super::errors::{Fault, to_py};
 use super::paths::read_path_poses;
+use super::records::ToolSpeedLimits;
 use super::trajectories::{read_each, read_rows};
 use super::trajectory::PyTrajectory;
 use crate::error::Error;
@@ -177,12 +177,12 @@ pub(super) fn at_tool_speed(
 #[pyfunction]
 #[pyo3(signature = (q, T, max_velocity, max_acceleration=None))]
 #[expect(non_snake_case, reason = "the name that users pass")]
-pub(super) fn tool_speed_limits<'py>(
-    q: &Bound<'py, PyAny>,
-    T: &Bound<'py, PyAny>,
-    max_velocity: &Bound<'py, PyAny>,
-    max_acceleration: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyAny>> {
+pub(super) fn tool_speed_limits(
+    q: &Bound<'_, PyAny>,
+    T: &Bound<'_, PyAny>,
+    max_velocity: &Bound<'_, PyAny>,
+    max_acceleration: Option<&Bound<'_, PyAny>>,
+) -> PyResult<ToolSpeedLimits> {
     let py = q.py();
     let path = Path::read(q, max_velocity, max_acceleration)?;
     let lengths = path.read_lengths(T)?;
@@ -192,11 +192,11 @@ pub(super) fn tool_speed_limits<'py>(
     });
     let limits = limits.map_err(|error| to_py(py, &error))?;
     let joints = limits.joint.iter().map(|joint| i64::try_from(*joint).unwrap_or_default());
-    classes::tool_speed_limits_class(py)?.call1((
-        PyArray1::from_vec(py, limits.speed),
-        PyArray1::from_iter(py, joints),
-        limits.fastest,
-        limits.fastest_joint,
-        limits.fastest_row,
-    ))
+    Ok(ToolSpeedLimits {
+        joint: PyArray1::from_iter(py, joints).into_any().unbind(),
+        speed: PyArray1::from_vec(py, limits.speed).into_any().unbind(),
+        fastest: limits.fastest,
+        fastest_joint: limits.fastest_joint,
+        fastest_index: limits.fastest_row,
+    })
 }

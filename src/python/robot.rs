@@ -6,14 +6,12 @@ use std::sync::{Arc, OnceLock};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::arm::{Arm, on};
+use super::arm::{Arm, ByJoints, on};
 use super::arrays::vector;
-use super::build;
-use super::edits::Edit;
 use super::errors::{Fault, to_py};
 use super::poses::{pose_array, read_single_pose};
-use super::robot_repr;
-use super::robot_state::{self, State};
+use super::state::{self, Reduced, reduced};
+use crate::error::Error;
 use crate::kinematics::{AnyRobot, Robot};
 
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
@@ -41,18 +39,15 @@ impl PyRobot {
     }
 }
 
+/// The robot of a call that may fail.
+fn made(py: Python<'_>, arm: Result<Arm, Error>) -> PyResult<PyRobot> {
+    arm.map(PyRobot::from).map_err(|error| to_py(py, &error))
+}
+
 impl From<Arm> for PyRobot {
     fn from(arm: Arm) -> Self {
         Self { arm, locked: Default::default() }
     }
-}
-
-/// The robot of a pickled state.
-#[pyfunction]
-#[pyo3(name = "_restore_robot")]
-#[expect(clippy::needless_pass_by_value, reason = "an extracted argument")]
-pub(super) fn restore_robot(py: Python<'_>, state: State) -> PyResult<PyRobot> {
-    robot_state::restored(py, &state).map(PyRobot::from)
 }
 
 #[pymethods]
@@ -79,16 +74,11 @@ impl PyRobot {
     /// Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder", "offset
     /// wrist", or "general" for any other; "refined spherical wrist" or "refined three parallel
     /// axes" after `with_nominal`; "unknown" if the first six joints are not independent.
+    /// `print(robot)` shows what keeps the arm from a structure with a closed form, which is
+    /// faster, and a `snap` or another reading of its table that would give it one.
     #[getter]
     fn structure(&self) -> &'static str {
         on!(&self.arm, robot => robot.structure())
-    }
-
-    /// What keeps the arm from a structure with a closed form, which is faster, by how much, and a
-    /// `snap` or another reading of its table that would give it one; None if it has one.
-    #[getter]
-    fn missing_form(&self) -> Option<String> {
-        on!(&self.arm, robot => robot.missing_form().map(|missing| missing.to_string()))
     }
 
     /// Modified Denavit-Hartenberg rows: alpha [rad], a [m], d [m], theta offset [rad], shape (n,
@@ -103,7 +93,7 @@ impl PyRobot {
 
     /// Fixed transform from the base to the frame before the first row of `mdh`, shape (4, 4).
     #[getter]
-    fn root<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+    fn _root<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         on!(&self.arm, robot => pose_array(py, &robot.mdh().base))
     }
 
@@ -148,7 +138,8 @@ impl PyRobot {
     /// Raises:
     ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
     fn with_tool(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        self.arm.changed(T.py(), &Edit::Tool(read_single_pose(T, "with_tool")?)).map(Self::from)
+        let tool = read_single_pose(T, "with_tool")?;
+        made(T.py(), on!(&self.arm, robot => Robot::clone(robot).with_tool(&tool).map(Arm::from)))
     }
 
     /// Return the robot with another base, in place of the one that it had; poses are then given in
@@ -160,19 +151,8 @@ impl PyRobot {
     /// Raises:
     ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
     fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        self.arm.changed(T.py(), &Edit::Base(read_single_pose(T, "with_base")?)).map(Self::from)
-    }
-
-    /// Return the robot with other joint limits; those of a linkage stay.
-    ///
-    /// Args:
-    ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); infinite for none.
-    ///
-    /// Raises:
-    ///     InvalidModelError: A limit is NaN, a lower one is above the upper one, or the shape is
-    ///         wrong.
-    fn with_limits(&self, limits: &Bound<'_, PyAny>) -> PyResult<Self> {
-        build::with_limits(&self.arm, limits).map(Self::from)
+        let base = read_single_pose(T, "with_base")?;
+        made(T.py(), on!(&self.arm, robot => Robot::clone(robot).with_base(&base).map(Arm::from)))
     }
 
     /// Whether a parallelogram linkage couples axes 2 and 3: q3 is then measured from the base, as
@@ -205,23 +185,28 @@ impl PyRobot {
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let limits = limits.map(|limits| vector(limits, "limits", Fault::Model)).transpose()?;
-        self.arm.changed(py, &Edit::LinkageLimits(limits)).map(Self::from)
+        made(
+            py,
+            on!(&self.arm, robot => {
+                Robot::clone(robot).with_linkage_limits(limits).map(Arm::from)
+            }),
+        )
     }
 
     /// Return the twin without the coupling of axes 2 and 3: its q3 is this robot's q3 - q2. The
     /// robot itself where it has no linkage.
     ///
-    /// The limits of its joint 3 are those of the linkage or, where these are not known, the range
+    /// The limits of its joint 3 are the linkage's or, where these are not known, the range
     /// of q3 - q2 inside the limits of both axes. Its velocity is the sum of both. `coupled()` of
     /// the twin therefore has wider limits and a higher velocity than this robot.
-    fn uncoupled(&self, py: Python<'_>) -> PyResult<Self> {
-        self.arm.changed(py, &Edit::Coupled(false)).map(Self::from)
+    fn uncoupled(&self) -> Self {
+        on!(&self.arm, robot => Arm::from(Robot::clone(robot).uncoupled())).into()
     }
 
     /// Return the twin whose axes 2 and 3 are coupled by a parallelogram linkage: its q3 is this
     /// robot's q3 + q2, as a controller measures it.
     ///
-    /// The limits of joint 3 become those of the linkage. The limits of its joint 3 are the range
+    /// The limits of joint 3 become the linkage's. The limits of its joint 3 are the range
     /// that axis 2 and the linkage allow, and its velocity is the sum of both. `uncoupled()` of the
     /// twin therefore has wider limits and a higher velocity than this robot.
     ///
@@ -229,25 +214,43 @@ impl PyRobot {
     ///     InvalidModelError: The arm has no spherical wrist, or its axes 2 and 3 turn in opposite
     ///         directions.
     fn coupled(&self, py: Python<'_>) -> PyResult<Self> {
-        self.arm.changed(py, &Edit::Coupled(true)).map(Self::from)
+        made(py, on!(&self.arm, robot => Robot::clone(robot).coupled().map(Arm::from)))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
         other.cast::<Self>().is_ok_and(|other| other.get().arm == self.arm)
     }
 
-    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
-        robot_state::hash(py, &self.arm)
+    fn __hash__(&self) -> u64 {
+        on!(&self.arm, robot => state::hash_of_robot(robot))
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (State,))> {
-        Ok((
-            py.import("irbkin._core")?.getattr("_restore_robot")?,
-            (robot_state::state(&self.arm),),
-        ))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        match &self.arm {
+            Arm::Six(robot) => reduced(py, "Robot", &ByJoints::<_, ()>::Six(&**robot)),
+            Arm::Seven(robot) => reduced(py, "Robot", &ByJoints::<(), _>::Seven(&**robot)),
+        }
     }
 
     fn __repr__(&self) -> String {
-        robot_repr::repr(&self.arm)
+        on!(&self.arm, robot => {
+            if let Some((joint, angle)) = robot.locked_joint() {
+                let arm = Self::from(Arm::from(Robot::clone(robot).unlocked()));
+                return format!("{}.locked({{{joint}: {angle:?}}})", arm.__repr__());
+            }
+            let name = robot.name();
+            if AnyRobot::named(name).is_ok_and(|named| Arm::from(named) == self.arm) {
+                return format!("Robot({name:?})");
+            }
+            let quoted = if name.is_empty() { String::new() } else { format!(" {name:?}") };
+            let coupled = if robot.is_coupled() { ", coupled" } else { "" };
+            format!("<Robot{quoted}: {} joints, {}{coupled}>", self.arm.dof(), robot.structure())
+        })
+    }
+
+    /// The representation and, for an arm without a closed form, what keeps it from one.
+    fn __str__(&self) -> String {
+        let missing = on!(&self.arm, robot => robot.missing_form().map(|form| form.to_string()));
+        missing.map_or_else(|| self.__repr__(), |form| format!("{}\n{form}", self.__repr__()))
     }
 }

@@ -8,7 +8,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 
 use super::errors::to_py;
-use crate::batch::Pace;
+use crate::batch::Batch;
 use crate::error::Error;
 
 /// How long a signal may wait.
@@ -19,9 +19,9 @@ const PATIENCE: Duration = Duration::from_millis(50);
 pub(super) fn detached<R: Send>(
     py: Python<'_>,
     threads: Option<NonZeroUsize>,
-    work: impl FnOnce(&mut Pace<'_>) -> Result<R, Error> + Send,
+    work: impl FnOnce(&mut Batch<'_>) -> Result<R, Error> + Send,
 ) -> PyResult<R> {
-    let answer = detached_while(py, |go_on| work(&mut Pace::until(threads, go_on)))?;
+    let answer = detached_while(py, |go_on| work(&mut Batch::until(threads, go_on)))?;
     answer.map_err(|error| to_py(py, &error))
 }
 
@@ -44,7 +44,7 @@ struct Signals {
     asked: Instant,
     /// Whether another thread than this is the one that handles signals.
     is_deaf: bool,
-    /// What a handler raised.
+    /// The exception that a handler raised.
     raised: Option<PyErr>,
 }
 

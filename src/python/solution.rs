@@ -8,21 +8,18 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PyTuple};
 
-use super::arm::{Arm, ByJoints, on};
-use super::classes;
+use super::arm::{ByJoints, on};
 use super::errors::{Fault, to_py};
 use super::found::{Found, is_same};
-use super::records;
-use super::robot::PyRobot;
-use super::solution_state::{self, PoseState, SolutionState};
-use super::table;
+use super::records::{self, FreeJoint};
+use super::state::{One, Reduced, hash_of, reduced};
 use crate::kinematics::{Pose, Robot, Solution, Status};
 
 /// A solution, with the robot and the pose that it is of.
 pub(super) struct Member<const N: usize> {
-    robot: Arc<Robot<N>>,
-    pose: Pose,
-    solution: Solution<N>,
+    pub(super) robot: Arc<Robot<N>>,
+    pub(super) pose: Pose,
+    pub(super) solution: Solution<N>,
 }
 
 impl<const N: usize> PartialEq for Member<N> {
@@ -49,6 +46,10 @@ impl<const N: usize> Member<N> {
         Ok(Self { robot: Arc::clone(&self.robot), pose: self.pose, solution: moved })
     }
 
+    fn stored(&self) -> One<N> {
+        One { robot: Robot::clone(&self.robot), pose: self.pose, solution: self.solution }
+    }
+
     fn sentence(&self) -> String {
         let angles = self.solution.q.map(|angle| format!("{:.3}", angle.to_degrees())).join(", ");
         let limits =
@@ -59,10 +60,9 @@ impl<const N: usize> Member<N> {
 
 /// One joint vector that brings the tool to the pose.
 ///
-/// It is also the sequence of its joint angles: `solution[0]` is J1, `numpy.asarray(solution)` is
-/// `solution.q`. Frozen, hashable, equal by value to a solution of the same robot and pose,
-/// picklable.
-#[pyclass(name = "Solution", module = "irbkin", frozen, weakref)]
+/// `solution[0]` is the angle of J1, `numpy.asarray(solution)` is `solution.q`. Frozen, hashable,
+/// equal by value to a solution of the same robot and pose, picklable.
+#[pyclass(name = "Solution", module = "irbkin", frozen, weakref, sequence)]
 pub(super) struct PySolution {
     of: ByJoints<Member<6>, Member<7>>,
 }
@@ -77,23 +77,6 @@ impl From<Member<7>> for PySolution {
     fn from(member: Member<7>) -> Self {
         Self { of: ByJoints::Seven(member) }
     }
-}
-
-/// The solution of a pickled state.
-#[pyfunction]
-#[pyo3(name = "_restore_solution")]
-#[expect(clippy::needless_pass_by_value, reason = "an extracted argument")]
-pub(super) fn restore_solution(
-    robot: &Bound<'_, PyRobot>,
-    pose: PoseState,
-    state: SolutionState,
-) -> PyResult<PySolution> {
-    let py = robot.py();
-    let pose = solution_state::pose(py, &pose)?;
-    on!(robot.get().arm(), robot => {
-        let solution = solution_state::solution(py, robot, &state)?;
-        Ok(Member { robot: Arc::clone(robot), pose, solution }.into())
-    })
 }
 
 #[pymethods]
@@ -131,10 +114,9 @@ impl PySolution {
     /// The joint that a singular pose leaves undetermined and what stays fixed along its
     /// self-motion, as FreeJoint(joint, fixed); None at a regular pose.
     #[getter]
-    fn free_joint<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+    fn free_joint(&self) -> Option<FreeJoint> {
         let free = on!(&self.of, member => member.solution.free_joint);
-        free.map(|free| classes::free_joint_class(py)?.call1((free.joint(), free.fixed())))
-            .transpose()
+        free.map(|free| FreeJoint { joint: free.joint(), fixed: free.fixed().to_string() })
     }
 
     /// Return the solution of the same pose with the free joint at another angle.
@@ -166,26 +148,6 @@ impl PySolution {
         on!(&self.of, member => member.robot.residual(&member.solution.q, &member.pose).largest())
     }
 
-    /// Return the index of the first joint at an angle.
-    ///
-    /// Raises:
-    ///     ValueError: No joint is at that angle.
-    #[pyo3(signature = (value, start=0, stop=isize::MAX, /))]
-    fn index<'py>(
-        &self,
-        value: &Bound<'py, PyAny>,
-        start: isize,
-        stop: isize,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.angles(value.py())?.call_method1("index", (value, start, stop))
-    }
-
-    /// Return the number of joints at an angle.
-    #[pyo3(signature = (value, /))]
-    fn count<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        self.angles(value.py())?.call_method1("count", (value,))
-    }
-
     #[pyo3(signature = (dtype=None, copy=None))]
     fn __array__<'py>(
         &self,
@@ -208,10 +170,6 @@ impl PySolution {
         self.angles(py)?.try_iter()
     }
 
-    fn __reversed__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
-        on!(&self.of, member => PyTuple::new(py, member.solution.q.iter().rev()))?.try_iter()
-    }
-
     fn __richcmp__<'py>(
         &self,
         other: &Bound<'py, PyAny>,
@@ -224,28 +182,21 @@ impl PySolution {
         )
     }
 
-    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
-        (self.slot(), self.angles(py)?).into_pyobject(py)?.hash()
+    fn __hash__(&self) -> u64 {
+        on!(&self.of, member => hash_of(&member.solution.slot.to_string(), member.solution.q))
     }
 
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (PyRobot, PoseState, SolutionState))> {
-        let state = on!(&self.of, member => (
-            Arm::from(Arc::clone(&member.robot)).into(),
-            solution_state::of_pose(&member.pose),
-            solution_state::of_solution(&member.solution),
-        ));
-        Ok((py.import("irbkin._core")?.getattr("_restore_solution")?, state))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        match &self.of {
+            ByJoints::Six(one) => reduced(py, "Solution", &ByJoints::<_, ()>::Six(one.stored())),
+            ByJoints::Seven(one) => {
+                reduced(py, "Solution", &ByJoints::<(), _>::Seven(one.stored()))
+            }
+        }
     }
 
     fn __repr__(&self) -> String {
         on!(&self.of, member => member.sentence())
-    }
-
-    fn _repr_html_(&self) -> String {
-        on!(&self.of, member => table::html("", &[member.solution], member.robot.limits()))
     }
 }
 
@@ -259,7 +210,7 @@ impl PySolution {
     }
 }
 
-/// What a comparison answers: `is_equal` is None for an object of another class.
+/// Answer a comparison; `is_equal` is None for an object of another class.
 pub(super) fn compared(
     py: Python<'_>,
     is_equal: Option<bool>,
@@ -272,7 +223,7 @@ pub(super) fn compared(
     }
 }
 
-/// What NumPy's array protocol wants of `__array__`.
+/// Answer `__array__` of NumPy's array protocol.
 pub(super) fn as_array<'py>(
     array: Bound<'py, PyAny>,
     dtype: Option<&Bound<'py, PyAny>>,

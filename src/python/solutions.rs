@@ -1,30 +1,27 @@
 //! `irbkin.Solutions`: the answer of a solve.
 
-use std::sync::Arc;
-
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::basic::CompareOp;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PySlice, PyTuple};
 
-use super::arm::{Arm, ByJoints, on};
+use super::arm::{ByJoints, on};
 use super::found::Found;
 use super::outputs::matrix;
 use super::records;
-use super::robot::PyRobot;
 use super::solution::{Member, PySolution, as_array, compared};
-use super::solution_state::{self, FoundState, PoseState};
+use super::state::{Answer, Reduced, hash_of, reduced};
 use super::table;
-use crate::kinematics::{Cost, Solution, Status};
+use crate::kinematics::{Cost, Solution, Status, pose_to_rows};
 
 /// All solutions of a pose in the order of their slots, or the reason why there are none.
 ///
-/// A sequence of `Solution`: `solutions[0]`, `solutions[-1]`, iteration, `len`, `in`; a slice is a
+/// Holds each `Solution`: `solutions[0]`, `solutions[-1]`, iteration, `len`, `in`; a slice is a
 /// tuple of `Solution`. `numpy.asarray(solutions)` is `solutions.q`. `print(solutions)` shows a
 /// table in degrees. Frozen, hashable, equal by value to the same answer of the same robot and
 /// pose, picklable.
-#[pyclass(name = "Solutions", module = "irbkin", frozen, weakref, freelist = 8)]
+#[pyclass(name = "Solutions", module = "irbkin", frozen, weakref, sequence, freelist = 8)]
 pub(super) struct PySolutions {
     found: ByJoints<Found<6>, Found<7>>,
 }
@@ -39,23 +36,6 @@ impl From<Found<7>> for PySolutions {
     fn from(found: Found<7>) -> Self {
         Self { found: ByJoints::Seven(found) }
     }
-}
-
-/// The answer of a pickled state.
-#[pyfunction]
-#[pyo3(name = "_restore_solutions")]
-#[expect(clippy::needless_pass_by_value, reason = "an extracted argument")]
-pub(super) fn restore_solutions(
-    robot: &Bound<'_, PyRobot>,
-    pose: PoseState,
-    state: FoundState,
-) -> PyResult<PySolutions> {
-    let py = robot.py();
-    let pose = solution_state::pose(py, &pose)?;
-    on!(robot.get().arm(), robot => {
-        solution_state::restored(py, Found::empty(Arc::clone(robot), pose), &state)
-            .map(PySolutions::from)
-    })
 }
 
 #[pymethods]
@@ -84,7 +64,7 @@ impl PySolutions {
         on!(&self.found, found => matrix(py, &found.q_by_slot()))
     }
 
-    /// Flags of each slot, `irbkin.Status`, shape (slots,), uint8: those of the rows of
+    /// Flags of each slot, `irbkin.Status`, shape (slots,), uint8, as the rows of
     /// `q_by_slot`.
     #[getter]
     fn status<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
@@ -187,26 +167,6 @@ impl PySolutions {
         })
     }
 
-    /// Return the index of the first solution that equals `value`.
-    ///
-    /// Raises:
-    ///     ValueError: No solution equals it.
-    #[pyo3(signature = (value, start=0, stop=isize::MAX, /))]
-    fn index<'py>(
-        &self,
-        value: &Bound<'py, PyAny>,
-        start: isize,
-        stop: isize,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.members(value.py())?.call_method1("index", (value, start, stop))
-    }
-
-    /// Return the number of solutions that equal `value`.
-    #[pyo3(signature = (value, /))]
-    fn count<'py>(&self, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        self.members(value.py())?.call_method1("count", (value,))
-    }
-
     #[pyo3(signature = (dtype=None, copy=None))]
     fn __array__<'py>(
         &self,
@@ -242,12 +202,6 @@ impl PySolutions {
         self.members(py)?.try_iter()
     }
 
-    fn __reversed__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
-        let mut members = self.each();
-        members.reverse();
-        PyTuple::new(py, members)?.try_iter()
-    }
-
     fn __richcmp__<'py>(
         &self,
         other: &Bound<'py, PyAny>,
@@ -257,22 +211,22 @@ impl PySolutions {
         compared(other.py(), is_equal, operator)
     }
 
-    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
-        let pose = on!(&self.found, found => solution_state::of_pose(found.solutions.pose()));
-        let rows = on!(&self.found, found => found.with_rows(|rows| rows.as_flattened().to_vec()));
-        (PyTuple::new(py, pose)?, PyTuple::new(py, rows)?).into_pyobject(py)?.hash()
+    fn __hash__(&self) -> u64 {
+        on!(&self.found, found => {
+            let pose = pose_to_rows(found.solutions.pose());
+            found.with_rows(|rows| hash_of("", pose.into_iter().chain(rows.iter().flatten().copied())))
+        })
     }
 
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (PyRobot, PoseState, FoundState))> {
-        let state = on!(&self.found, found => (
-            Arm::from(Arc::clone(&found.robot)).into(),
-            solution_state::of_pose(found.solutions.pose()),
-            solution_state::of_found(found),
-        ));
-        Ok((py.import("irbkin._core")?.getattr("_restore_solutions")?, state))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        match &self.found {
+            ByJoints::Six(found) => {
+                reduced(py, "Solutions", &ByJoints::<_, ()>::Six(Answer::from(found)))
+            }
+            ByJoints::Seven(found) => {
+                reduced(py, "Solutions", &ByJoints::<(), _>::Seven(Answer::from(found)))
+            }
+        }
     }
 
     fn __repr__(&self) -> String {
@@ -284,11 +238,6 @@ impl PySolutions {
     fn __str__(&self) -> String {
         let outcome = self.explain();
         on!(&self.found, found => table::text(&outcome, &found.entries(), found.robot.limits()))
-    }
-
-    fn _repr_html_(&self) -> String {
-        let outcome = self.explain();
-        on!(&self.found, found => table::html(&outcome, &found.entries(), found.robot.limits()))
     }
 }
 

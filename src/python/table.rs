@@ -1,4 +1,4 @@
-//! Solutions as a table, in degrees: text for a terminal, HTML for a notebook.
+//! Solutions as a table of text, in degrees.
 
 use crate::kinematics::{JointLimits, SingularityKind, Solution};
 
@@ -82,24 +82,4 @@ pub(super) fn text<const N: usize>(
         lines.extend(rest(solutions.len()));
     }
     lines.join("\n")
-}
-
-/// The same as HTML.
-pub(super) fn html<const N: usize>(
-    outcome: &str,
-    solutions: &[Solution<N>],
-    limits: &JointLimits<N>,
-) -> String {
-    let caption =
-        if outcome.is_empty() { String::new() } else { format!("<caption>{outcome}</caption>") };
-    if solutions.is_empty() {
-        return format!("<p>{outcome}</p>");
-    }
-    let row = |(number, cells): (usize, &Vec<String>)| {
-        let tag = if number == 0 { "th" } else { "td" };
-        format!("<tr><{tag}>{}</{tag}></tr>", cells.join(&format!("</{tag}><{tag}>")))
-    };
-    let rows: String = rows(solutions, limits).iter().enumerate().map(row).collect();
-    let rest = rest(solutions.len()).map_or_else(String::new, |rest| format!("<p>{rest}</p>"));
-    format!("<table>{caption}{rows}</table>{rest}")
 }

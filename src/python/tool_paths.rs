@@ -66,7 +66,7 @@ impl SpacingArguments<'_, '_> {
 ///     step: Instead of `steps`, the largest distance of two poses [m].
 ///     turn: With or instead of `step`, the largest turn between two poses [rad].
 ///     speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-///         fast or, where its way is no whole number of steps, a little slower.
+///         fast or, for a whole number of steps, a little slower.
 ///     dt: With `speed`, the time from one pose to the next [s].
 ///     axis: Axis of a turn by 180 deg, shape (3,), in the frame of the poses: the tool turns
 ///         counterclockwise about it. Without it such a turn is refused, for there are two ways.
@@ -107,12 +107,12 @@ pub(super) fn line<'py>(
 ///     T1: Pose at the end, shape (4, 4).
 ///     orientation: "path", the tool turns evenly relative to the path (ABB's \PathFrame);
 ///         "object", evenly relative to the base (\ObjectFrame); "via", evenly to the orientation
-///         of `T_via` and then to that of `T1` (\CirPointOri).
+///         of `T_via` and then of `T1` (\CirPointOri).
 ///     steps: Number of poses, both ends included.
 ///     step: Instead of `steps`, the largest distance of two poses along the arc [m].
 ///     turn: With or instead of `step`, the largest turn between two poses [rad].
 ///     speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-///         fast or, where its way is no whole number of steps, a little slower.
+///         fast or, for a whole number of steps, a little slower.
 ///     dt: With `speed`, the time from one pose to the next [s].
 ///
 /// Returns:
@@ -156,7 +156,7 @@ pub(super) fn arc<'py>(
 ///     step: Instead of `steps`, the largest distance of two poses along the lines [m].
 ///     turn: With or instead of `step`, the largest turn between two poses along the lines [rad].
 ///     speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-///         fast or, where its way is no whole number of steps, a little slower.
+///         fast or, for a whole number of steps, a little slower.
 ///     dt: With `speed`, the time from one pose to the next [s].
 ///
 /// Returns:
@@ -200,12 +200,12 @@ pub(super) fn polyline<'py>(
 ///     step: Instead of `steps`, the largest distance of two poses along the curve [m].
 ///     turn: With or instead of `step`, the largest turn between two poses [rad].
 ///     speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-///         fast or, where its way is no whole number of steps, a little slower.
+///         fast or, for a whole number of steps, a little slower.
 ///     dt: With `speed`, the time from one pose to the next [s].
 ///
 /// Returns:
-///     Poses, shape (k, 4, 4), those of `T` among them: from each to the next in equal steps along
-///     the curve.
+///     Poses, shape (k, 4, 4), with the poses of `T` among them: from each to the next in equal
+///     steps along the curve.
 ///
 /// Raises:
 ///     InvalidPoseError: A pose is not a rigid transform.

@@ -6,9 +6,8 @@ use pyo3::types::PyFloat;
 
 use super::arguments::{read_profile, read_spline, read_steps, read_synchronization};
 use super::arrays::{Rows, copied_numbers};
-use super::errors::{Fault, to_py};
+use super::errors::{Fault, shape_text, to_py};
 use super::trajectory::PyTrajectory;
-use super::wording::shape;
 use crate::trajectory::{AxisLimits, AxisState, joint_within};
 
 /// Numbers of one dimension.
@@ -18,7 +17,7 @@ fn read_vector(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<Vec<f6
     }
     let rows = Rows::read(value, &[], field, Fault::Joints)?;
     if rows.lead.len() != 1 {
-        let message = format!("{field} must have shape (n,), got {}", shape(&rows.lead));
+        let message = format!("{field} must have shape (n,), got {}", shape_text(&rows.lead));
         return Err(Fault::Joints.error(value.py(), message));
     }
     Ok(rows.data()?.to_vec())
@@ -33,7 +32,7 @@ pub(super) fn read_rows(
     match rows.lead[..] {
         [_, dof] if dof > 0 => Ok((rows.data()?.to_vec(), dof)),
         _ => {
-            let message = format!("{field} must have shape (m, n), got {}", shape(&rows.lead));
+            let message = format!("{field} must have shape (m, n), got {}", shape_text(&rows.lead));
             Err(Fault::Joints.error(value.py(), message))
         }
     }
@@ -81,7 +80,7 @@ pub(super) fn read_each(
         ([], [one]) => Ok(Each::Same(*one)),
         ([found], numbers) if *found == dof => Ok(Each::Own(numbers.to_vec())),
         (sizes, _) => {
-            let (one, got) = (shape(&[dof]), shape(sizes));
+            let (one, got) = (shape_text(&[dof]), shape_text(sizes));
             let message = format!("{field} must be a number or have shape {one}, got {got}");
             Err(Fault::Motion.error(value.py(), message))
         }

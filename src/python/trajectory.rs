@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 
 use super::arguments::read_steps;
 use super::arrays::Rows;
-use super::classes;
 use super::errors::{Fault, to_py};
-use crate::trajectory::{Trajectory, TrajectoryParts};
+use super::records::{MotionPeaks, TrajectorySample};
+use super::state::{Reduced, reduced};
+use crate::trajectory::{Peaks, Trajectory, TrajectoryParts};
 
 /// Joint angles, velocities and accelerations over time.
 ///
@@ -128,11 +128,12 @@ impl PyTrajectory {
     ///
     /// Raises:
     ///     InvalidMotionError: A time is NaN.
-    fn sample<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    fn sample(&self, py: Python<'_>, t: &Bound<'_, PyAny>) -> PyResult<TrajectorySample> {
         let times = Rows::read(t, &[], "t", Fault::Motion)?;
         let shape = times.shape_with(&[self.motion.dof()]);
         let states = states(py, &self.motion, times.data()?, &shape, Flag::Writable)?;
-        classes::trajectory_sample_class(py)?.call1(PyTuple::new(py, states)?)
+        let [q, dq, ddq] = states.map(|array| array.into_any().unbind());
+        Ok(TrajectorySample { q, dq, ddq })
     }
 
     /// The largest velocity, acceleration and jerk of each joint, exact between samples too.
@@ -140,17 +141,19 @@ impl PyTrajectory {
     /// Returns:
     ///     MotionPeaks(velocity, acceleration, jerk) [rad/s, rad/s^2, rad/s^3], arrays of shape
     ///     (n,). A jump of the acceleration at a knot does not count as jerk.
-    fn peaks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+    fn peaks(&self, py: Python<'_>) -> MotionPeaks {
         let peaks = self.motion.peaks();
-        let columns = [
-            PyArray1::from_iter(py, peaks.iter().map(|peaks| peaks.velocity)),
-            PyArray1::from_iter(py, peaks.iter().map(|peaks| peaks.acceleration)),
-            PyArray1::from_iter(py, peaks.iter().map(|peaks| peaks.jerk)),
-        ];
-        classes::motion_peaks_class(py)?.call1(PyTuple::new(py, columns)?)
+        let column = |of: fn(&Peaks) -> f64| {
+            PyArray1::from_iter(py, peaks.iter().map(of)).into_any().unbind()
+        };
+        MotionPeaks {
+            velocity: column(|peaks| peaks.velocity),
+            acceleration: column(|peaks| peaks.acceleration),
+            jerk: column(|peaks| peaks.jerk),
+        }
     }
 
-    /// The same motion with other samples.
+    /// Return the motion with other samples.
     ///
     /// Args:
     ///     steps: Number of samples, evenly over the duration.
@@ -165,7 +168,7 @@ impl PyTrajectory {
         Self::even(py, (*self.motion).clone(), steps)
     }
 
-    /// The same way at another pace.
+    /// Return the motion at another pace.
     ///
     /// Args:
     ///     factor: What every time is multiplied by; 2 is half the speed.
@@ -231,18 +234,14 @@ impl PyTrajectory {
         )
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, TrajectoryState)> {
-        let restore = py.import("irbkin._core")?.getattr("_restore_trajectory")?;
-        let TrajectoryParts { dof, knots, terms } = (*self.motion).clone().into();
-        Ok((restore, (dof, knots, terms, self.times(py)?)))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced(py, "Trajectory", &(&*self.motion, self.times(py)?))
     }
 }
 
-type TrajectoryState = (usize, Vec<f64>, Vec<[f64; 7]>, Vec<f64>);
-
-/// A pickled trajectory.
-#[pyfunction(name = "_restore_trajectory")]
-pub(super) fn restore_trajectory(
+/// The trajectory of polynomials: knots [s], and seven coefficients of each joint between two.
+#[pyfunction(name = "_trajectory_of")]
+pub(super) fn trajectory_of(
     py: Python<'_>,
     dof: usize,
     knots: Vec<f64>,
@@ -250,6 +249,5 @@ pub(super) fn restore_trajectory(
     times: Vec<f64>,
 ) -> PyResult<PyTrajectory> {
     let motion = Trajectory::try_from(TrajectoryParts { dof, knots, terms });
-    let motion = motion.map_err(|error| to_py(py, &error))?;
-    PyTrajectory::new(py, motion, times)
+    PyTrajectory::new(py, motion.map_err(|error| to_py(py, &error))?, times)
 }

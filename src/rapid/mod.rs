@@ -20,11 +20,11 @@
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! What is not known is skipped and listed ([`Module::skipped`]), never guessed; an invalid text is
-//! an error with its line and column. Data have the values of their declarations; those that the
-//! module assigns have none where it moves, with the [`Reason`]. A negative zero is read as zero.
+//! Unknown statements are skipped and listed ([`Module::skipped`]), never guessed; an invalid text
+//! is an error with its line and column. Data have the values of their declarations; those that the
+//! module assigns have none where it moves, with the reason. A negative zero is read as zero.
 //!
-//! The layers, each of which uses only those before it:
+//! The layers; each uses only the layers before it:
 //!
 //! 1. `text`: places, tokens, literals and reserved words of a text.
 //! 2. `data`: types, records, values, declarations, moves, modules, and reasons why something is
@@ -50,31 +50,26 @@ mod statements;
 mod tests;
 mod text;
 
+pub use self::calc::table::{TableRow, calc_moves, calc_targets};
+pub use self::calc::target::{Fallback, calc_joint_t, calc_joint_t_or, calc_rob_t};
+pub use self::calc::wrong::error_name;
 #[cfg(feature = "python")]
-pub(crate) use self::calc::axes::joint_target;
-pub use self::calc::fallback::Fallback;
-pub use self::calc::problem::Problem;
-pub use self::calc::table::{TableRow, calc_moves, calc_targets, moves_table, targets_table};
-pub use self::calc::target::{
-    calc_joint_t, calc_joint_t_or_nearest, calc_rob_t, error_name, joint_target_of, rob_target_of,
-};
-pub use self::check::checker::check;
-pub use self::check::code::Code;
-pub use self::check::diagnostic::{Diagnostic, Edit};
-pub use self::data::data_type::DataType;
+pub(crate) use self::calc::{frames::rapid_pose, target::joint_target};
+pub use self::check::checker::{candidates, check};
+#[cfg(feature = "python")]
+pub(crate) use self::data::class;
+pub use self::data::finding::{Code, Edit, Finding};
 pub use self::data::module::{Content, Datum, Module, Routine, RoutineKind, Scope, Storage};
 pub use self::data::moves::{Argument, Move, MoveKind, MoveOption, Target};
-pub use self::data::reason::{AssignedBy, Reason, Unresolved};
 pub use self::data::records::{
     JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, SpeedData, ToolData, WobjData, ZoneData,
 };
 pub use self::data::settings::{CirPathMode, MotionSettings, SingArea};
-pub use self::data::skipped::{NotRead, Skipped};
-pub use self::data::value::Value;
+pub use self::data::unread::Skipped;
+pub use self::data::value::{DataType, Value};
 pub use self::expression::reader::DEEPEST_NESTING;
-pub use self::module::parse::{decode, parse};
-pub use self::module::record::parse_record;
-pub use self::module::rewrite::{NewValue, rewrite};
-pub use self::motion::finding::{Finding, FindingKind};
-pub use self::motion::options::MotionOptions;
+pub use self::module::read::{decode, parse, parse_record};
+pub use self::module::write::{NewValue, rewrite};
+pub use self::motion::drive::MotionOptions;
 pub use self::motion::routine::{MotionMove, RoutineMotion, motion};
+pub use crate::error::RapidFault;

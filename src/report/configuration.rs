@@ -10,6 +10,10 @@ use core::fmt;
 /// [`ConfigurationRule`] says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "python",
+    pyo3::pyclass(module = "irbkin", frozen, get_all, sequence, from_py_object)
+)]
 pub struct Configuration {
     /// Quarter turn of axis 1.
     pub cf1: i32,

@@ -4,6 +4,7 @@ use core::fmt;
 
 /// Whether the arm's wrist center gets to where the pose wants it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Reach {
     /// It does.
@@ -43,6 +44,7 @@ impl Reach {
 
 /// How near a robot gets to a pose that it does not reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Approach {
     /// Distance of the tool from the pose [m].
     pub position: f64,
@@ -52,6 +54,7 @@ pub struct Approach {
 
 /// One sentence on the outcome of a solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Explanation {
     /// Solutions inside the limits exist.

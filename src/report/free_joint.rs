@@ -103,7 +103,7 @@ const fn standing(moving: u8) -> &'static str {
 
 impl FreeJoint {
     /// Every one of them but those of a chain.
-    #[cfg(any(test, feature = "python"))]
+    #[cfg(test)]
     const ALL: [Self; 11] = [
         Self::Base,
         Self::Upper,
@@ -119,7 +119,7 @@ impl FreeJoint {
     ];
 
     /// Every one of them.
-    #[cfg(any(test, feature = "python"))]
+    #[cfg(test)]
     pub(crate) fn all() -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().chain((1..1 << JOINTS).map(|moving| Self::Chain { moving }))
     }

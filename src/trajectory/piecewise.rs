@@ -31,23 +31,23 @@ pub struct Trajectory {
 
 /// A trajectory as it is stored: reading checks it.
 #[derive(Clone)]
-#[cfg(any(feature = "serde", feature = "python"))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename = "Trajectory"))]
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename = "Trajectory")]
 pub(crate) struct TrajectoryParts {
     pub(crate) dof: usize,
     pub(crate) knots: Vec<f64>,
     pub(crate) terms: Vec<[f64; TERMS]>,
 }
 
-#[cfg(any(feature = "serde", feature = "python"))]
+#[cfg(feature = "serde")]
 impl From<Trajectory> for TrajectoryParts {
     fn from(Trajectory { dof, knots, terms }: Trajectory) -> Self {
         Self { dof, knots, terms }
     }
 }
 
-#[cfg(any(feature = "serde", feature = "python"))]
+#[cfg(feature = "serde")]
 impl TryFrom<TrajectoryParts> for Trajectory {
     type Error = Error;
 

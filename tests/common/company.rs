@@ -1,6 +1,7 @@
 //! Rows of a batch, alone and in the company of others.
 
-use irbkin::{Robot, Status, batch, pose_from_rows, pose_to_rows};
+use irbkin::batch::Batch;
+use irbkin::{Robot, Status, pose_from_rows, pose_to_rows};
 
 use super::rng::drawn;
 
@@ -29,11 +30,11 @@ pub fn check_rows(robot: &Robot<6>) {
     for count in [0, 1, 7, 8, 9, 35] {
         let rows = rows_of_every_kind(robot, count);
         let (mut q, mut status) = (vec![0.0; count * 16 * 6], vec![0; count * 16]);
-        batch::ik(robot, rows.as_flattened(), &mut q, &mut status, None).unwrap();
+        Batch::new(None).ik(robot, rows.as_flattened(), &mut q, &mut status).unwrap();
         let seeds: Vec<[f64; 6]> = drawn(8, count).collect();
         let mut nearest = vec![0.0; count * 6];
         let (poses, flat) = (rows.as_flattened(), seeds.as_flattened());
-        batch::ik_nearest(robot, poses, flat, &[1.0; 6], &mut nearest, None).unwrap();
+        Batch::new(None).ik_nearest(robot, poses, flat, &[1.0; 6], &mut nearest).unwrap();
         for (row, elements) in rows.iter().enumerate() {
             let (q, status) = (&q[96 * row..][..96], &status[16 * row..][..16]);
             let nearest = &nearest[6 * row..][..6];

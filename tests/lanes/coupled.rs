@@ -4,7 +4,8 @@
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
-use irbkin::{JointLimits, Robot, batch, pose_to_rows};
+use irbkin::batch::Batch;
+use irbkin::{JointLimits, Robot, pose_to_rows};
 
 use crate::common::coupled_arm::{limited, odd, with_linkage};
 use crate::common::{Rng, apart, on_each_set};
@@ -27,14 +28,14 @@ fn batch_equals_single_and_the_scalar_solver() {
             let poses: Vec<_> = joints.iter().map(|q| robot.fk(q)).collect();
             let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
             let (mut q, mut status) = (vec![[[0.0; 6]; SLOTS]; 101], vec![[0; SLOTS]; 101]);
-            batch::ik(
-                &robot,
-                &rows,
-                q.as_flattened_mut().as_flattened_mut(),
-                status.as_flattened_mut(),
-                NonZeroUsize::new(1),
-            )
-            .unwrap();
+            Batch::new(NonZeroUsize::new(1))
+                .ik(
+                    &robot,
+                    &rows,
+                    q.as_flattened_mut().as_flattened_mut(),
+                    status.as_flattened_mut(),
+                )
+                .unwrap();
             for (row, pose) in poses.iter().enumerate() {
                 let single = robot.ik(pose).unwrap();
                 assert_eq!(

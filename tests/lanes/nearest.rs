@@ -3,7 +3,8 @@
 use std::f64::consts::{PI, TAU};
 use std::num::NonZeroUsize;
 
-use irbkin::{JointLimits, Robot, batch, pose_from_rows};
+use irbkin::batch::Batch;
+use irbkin::{JointLimits, Robot, pose_from_rows};
 
 use crate::common::coupled_arm::{limited, odd, with_linkage};
 use crate::common::{Rng, on_each_set};
@@ -53,7 +54,8 @@ fn nearest_agrees<const N: usize>(
             let mut q = vec![[7.0; N]; poses.len()];
             let (poses, seeds, out) =
                 (poses.as_flattened(), seeds.as_flattened(), q.as_flattened_mut());
-            batch::ik_nearest(robot, poses, seeds, &weights, out, NonZeroUsize::new(threads))
+            Batch::new(NonZeroUsize::new(threads))
+                .ik_nearest(robot, poses, seeds, &weights, out)
                 .unwrap();
             q
         };

@@ -1,6 +1,7 @@
 //! Laws of everything around a solve: limits, choices, batches, chains without a solver.
 #![allow(clippy::cast_precision_loss)]
 
+use irbkin::batch::Batch;
 use irbkin::{DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, Robot};
 
 use crate::common::apart;
@@ -75,7 +76,7 @@ fn a_seed_or_weight_that_is_not_a_number_is_refused() {
 #[test]
 fn a_batch_of_another_length_is_refused() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
-    let refused = irbkin::batch::fk(&robot, &[0.0; 12], &mut [0.0; 16]).unwrap_err();
+    let refused = Batch::new(None).fk(&robot, &[0.0; 12], &mut [0.0; 16]).unwrap_err();
     assert_eq!(refused.to_string(), "poses has 16 elements, it must have 32");
 }
 
@@ -88,7 +89,7 @@ fn arms_of_more_joints_than_lanes_have_forward_kinematics() {
     let q = std::array::from_fn(|i| 0.4 * i as f64 - 1.0);
     let (frames, tool) = robot.link_frames(&q);
     let mut poses = [0.0; 16];
-    irbkin::batch::fk(&robot, &q, &mut poses).unwrap();
+    Batch::new(None).fk(&robot, &q, &mut poses).unwrap();
     assert_eq!(irbkin::pose_to_rows(&robot.fk(&q)), poses);
     assert_eq!(robot.fk(&q), tool);
     assert_eq!(

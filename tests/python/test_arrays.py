@@ -21,7 +21,7 @@ def many(robot):
 
 
 def strided(values):
-    """The same numbers with other numbers between them."""
+    """Put other numbers between the numbers."""
     wide = np.full((*values.shape, 2), 99.0)
     wide[..., 0] = values
     return wide[..., 0]
@@ -34,7 +34,7 @@ def read_only(values):
 
 
 def misaligned(values):
-    """The same numbers at an odd address, as a packed binary record holds them."""
+    """Put the numbers at an odd address, as a packed binary record holds them."""
     record = np.zeros(1, dtype=np.dtype([("tag", "u1"), ("values", "f8", values.shape)]))
     record["values"][0] = values
     return record["values"][0]

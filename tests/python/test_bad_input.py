@@ -342,7 +342,7 @@ def test_arguments_have_the_names_of_the_documentation():
         ROBOT.ik_batch: "T q7 given out threads",
         ROBOT.ik_nearest: "T seed weights out threads",
         ROBOT.follow: "T seed weights singularity_mode zone out threads",
-        ROBOT.ik_configured: "T configuration arm_angle fallback seed out threads",
+        ROBOT.ik_configured: "T configuration arm_angle fallback seed every out threads",
         ROBOT.check_pose: "T",
         ROBOT.with_tool: "T",
         ROBOT.with_base: "T",

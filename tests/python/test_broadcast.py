@@ -175,7 +175,7 @@ def test_an_out_that_cannot_be_is_refused(call, words):
         call()
 
 
-@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "UR3", "Panda"])
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "Panda"])
 def test_threads_change_no_bit(name):
     robot = irbkin.Robot(name)
     rng = np.random.default_rng(12)

@@ -106,7 +106,7 @@ def test_a_slot_that_the_arm_does_not_have_is_refused_in_a_batch_too(seed):
     with pytest.raises(irbkin.InvalidJointsError, match="cfx is 9, it must be 0 to 7"):
         ROBOT.ik_configured(pose, [(0, 0, 0, 0), (0, 0, 0, 9)], fallback=fallback, seed=seed)
     with pytest.raises(irbkin.InvalidJointsError, match="its four numbers have different shapes"):
-        ROBOT.ik_configured(pose, Configuration(np.zeros(2), 0, 0, 0))
+        ROBOT.ik_configured(pose, irbkin.records.ConfigurationBatch(np.zeros(2), 0, 0, 0))
     with pytest.raises(
         irbkin.InvalidJointsError, match="it must be a whole number of at most 2147483647"
     ):

@@ -260,7 +260,7 @@ def test_an_arm_angle_is_no_joint():
     for angle, figure in ((np.nan, "NaN"), (np.inf, "inf"), (1e9, "1000000000")):
         words = f"arm_angle is {figure} rad, it must be finite and at most 1e5 rad in size"
         for call in (
-            lambda angle=angle: robot.ik_arm_angle(T, angle),
+            lambda angle=angle: robot.ik_configured(T, None, arm_angle=angle, every=True),
             lambda angle=angle: robot.ik_configured(T, (0, 0, 0, 0), arm_angle=angle),
         ):
             with pytest.raises(irbkin.InvalidJointsError) as refused:

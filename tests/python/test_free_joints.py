@@ -4,7 +4,8 @@ import irbkin
 import numpy as np
 import pytest
 from arms import ABB
-from irbkin import FreeJoint, InvalidJointsError
+from irbkin import InvalidJointsError
+from irbkin.records import FreeJoint
 from reference import apart, fk, rotation_apart, rounding
 from strategies import subjects
 from test_singular_poses import RNG_SEED, TRIALS, at_shoulder, free, ordinary

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from cases import read
 from irbkin import rapid
-from irbkin.rapid.records import NOT_THERE
+from irbkin.rapid import NOT_THERE
 
 GOFA = {arm: irbkin.Robot(f"GoFa {arm[4:]}") for arm in ("gofa5", "gofa12")}
 YUMI = {
@@ -98,11 +98,11 @@ def test_a_taught_target_of_a_gofa_is_met_with_its_confdata(row):
     if named(row) in GOFA_FREE:
         assert not computed(row, "gofa")
         assert not mounted.ik(T).certified
-        for q in mounted.ik_configured_all(T, target.robconf):
+        for q in mounted.ik_configured(T, target.robconf, every=True):
             np.testing.assert_allclose(mounted.fk(q), T, atol=1e-12)
         return
     wanted = [values(row, "joint_pair_deg")] if row["joint_pair_deg"] else computed(row, "gofa")
-    found = np.degrees(mounted.ik_configured_all(T, target.robconf))
+    found = np.degrees(mounted.ik_configured(T, target.robconf, every=True))
     assert len(found) == len(wanted) == 1 + (named(row) in GOFA_TWICE)
     for one in wanted:
         apart = np.abs(found - one).max(axis=1)
@@ -215,7 +215,7 @@ def test_a_configuration_that_exists_is_found_where_its_ranges_hold_little_of_th
         ]
     )
     T, confdata, psi = robot.fk(q), robot.configuration(q), robot.arm_angle(q)
-    every = robot.ik_configured_all(T, confdata, arm_angle=psi)
+    every = robot.ik_configured(T, confdata, arm_angle=psi, every=True)
     assert np.abs(every - q).max(axis=1).min() <= 1e-9
     for found in every:
         assert robot.configuration(found) == confdata
@@ -248,7 +248,7 @@ def test_joints_of_a_gofa_are_among_those_of_their_configuration(robot, part):
         T, confdata = robot.fk(q), robot.configuration(q)
         # Of a self-motion, or of several that rounding does not tell apart, the seed names one.
         is_singular = np.linalg.svd(robot.jacobian(q))[1][-1] < 1e-6
-        found = robot.ik_configured_all(T, confdata, seed=q if is_singular else None)
+        found = robot.ik_configured(T, confdata, seed=q if is_singular else None, every=True)
         assert np.abs(found - q).max(axis=1).min() <= 1e-6, np.degrees(q)
         assert np.abs(robot.fk(found) - T).max() <= 3e-9, np.degrees(q)
         first = robot.ik_configured(T, confdata, seed=q)
@@ -263,12 +263,12 @@ def test_axis_5_of_a_gofa_at_an_edge_loses_no_joints(robot, axis_5):
         q = rng.uniform(*robot.limits.T)
         q[4] = np.radians(axis_5)
         T, confdata = robot.fk(q), robot.configuration(q)
-        found = robot.ik_configured_all(T, confdata)
+        found = robot.ik_configured(T, confdata, every=True)
         assert np.abs(found - q).max(axis=1).min() <= 1e-6, np.degrees(q)
         if abs(axis_5) < 1:
             # The other side of the edge, too: after those that have the confdata exactly.
-            other = confdata._replace(cfx=confdata.cfx ^ 1)
-            found = robot.ik_configured_all(T, other)
+            other = irbkin.Configuration(*confdata[:3], confdata.cfx ^ 1)
+            found = robot.ik_configured(T, other, every=True)
             assert np.abs(found - q).max(axis=1).min() <= 1e-6, np.degrees(q)
 
 
@@ -279,7 +279,7 @@ def wrapped(angle):
 def of_its_numbers(robot, q, seed=None):
     """The joints with the pose, confdata and arm angle of others; few, and each has them."""
     T, confdata, psi = robot.fk(q), robot.configuration(q), robot.arm_angle(q)
-    found = robot.ik_configured_all(T, confdata, arm_angle=psi, seed=seed)
+    found = robot.ik_configured(T, confdata, arm_angle=psi, seed=seed, every=True)
     assert len(found) <= 3
     assert np.abs(robot.fk(found) - T).max() <= 1e-8
     assert all(abs(wrapped(robot.arm_angle(one) - psi)) <= 1e-6 for one in found)
@@ -319,10 +319,10 @@ def test_the_representative_of_a_yumi_is_the_one_nearest_to_the_seed():
     robot = YUMI["14050"]
     q = np.radians([20, -60, 40, 10, 30, 0, 50])
     T, confdata, psi = robot.fk(q), robot.configuration(q), robot.arm_angle(q)
-    (rest,) = np.degrees(robot.ik_configured_all(T, confdata, arm_angle=psi))
+    (rest,) = np.degrees(robot.ik_configured(T, confdata, arm_angle=psi, every=True))
     assert np.abs(rest - [20, -60, 40, 10, 35, 0, 45]).max() < 1e-6
     seed = np.radians([20, -60, 40, 10, 20, 0, 50])
-    (near,) = np.degrees(robot.ik_configured_all(T, confdata, arm_angle=psi, seed=seed))
+    (near,) = np.degrees(robot.ik_configured(T, confdata, arm_angle=psi, seed=seed, every=True))
     assert np.abs(near - [20, -60, 40, 10, 25, 0, 55]).max() < 1e-6
-    every = np.degrees(robot.ik_arm_angle(T, psi))
+    every = np.degrees(robot.ik_configured(T, None, arm_angle=psi, every=True))
     assert (np.abs(every[:, :4] - [20, -60, 40, 10]).max(axis=1) < 1e-4).sum() == 1

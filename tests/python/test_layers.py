@@ -94,5 +94,5 @@ def test_what_folders_and_their_modules_use_is_seen():
     """The uses that a reader of `kinematics/*.rs` alone does not see."""
     seen = used_by()
     shoulder = "kinematics/structure/spherical_shoulder"
-    assert {f"{shoulder}/measure.rs", "kinematics/thresholds.rs"} <= seen[f"{shoulder}/mod.rs"]
+    assert {f"{shoulder}/geometry.rs", "kinematics/thresholds.rs"} <= seen[f"{shoulder}/mod.rs"]
     assert len(seen["kinematics/robot/mod.rs"]) > 5

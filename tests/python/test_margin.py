@@ -33,7 +33,7 @@ def test_a_margin_is_its_definition(name):
     found = robot.margin(q)
     for field, wanted in zip(found, margin(robot, q), strict=True):
         np.testing.assert_allclose(field, wanted, atol=1e-12)
-    assert robot.margin(q[0]) == irbkin.Margin(found.limits[0], found.singularities[0])
+    assert robot.margin(q[0]) == irbkin.records.Margin(found.limits[0], found.singularities[0])
     assert robot.margin(q.reshape(20, 10, 6)).limits.shape == (20, 10)
     many = np.tile(q, (30, 1))
     np.testing.assert_array_equal(robot.margin(many, threads=2).limits, np.tile(found.limits, 30))

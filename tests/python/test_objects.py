@@ -146,19 +146,14 @@ def test_a_solution_is_in_its_answer_and_equals_itself():
 @pytest.mark.parametrize("name", ANSWERS)
 def test_an_answer_is_a_sequence(name):
     s = ANSWERS[name]
-    assert isinstance(s, collections.abc.Sequence)
     every = tuple(s)
     assert s[:] == every
     assert (s[:2], s[-2:], s[::-1], s[5:2]) == (every[:2], every[-2:], every[::-1], ())
     assert tuple(reversed(s)) == every[::-1]
     for i, solution in enumerate(every):
         assert s[i] == s[i - len(s)] == solution
-        assert s.index(solution) == i
-        assert s.count(solution) == 1
     with pytest.raises(IndexError, match=f"solution {len(s)} of {len(s)}: "):
         s[len(s)]
-    with pytest.raises(ValueError, match="not in"):
-        s.index("other")
     with pytest.raises(TypeError):
         s["0"]
 
@@ -166,16 +161,11 @@ def test_an_answer_is_a_sequence(name):
 def test_a_solution_is_a_sequence_of_its_joints():
     solution = ANSWERS["regular"][0]
     angles = solution.q.tolist()
-    assert isinstance(solution, collections.abc.Sequence)
     assert list(solution) == angles
     assert list(reversed(solution)) == angles[::-1]
     assert (solution[0], solution[-1]) == (angles[0], angles[-1])
     np.testing.assert_array_equal(solution[1:3], angles[1:3])
-    assert solution.index(angles[2]) == 2
-    assert solution.count(angles[2]) == 1
     assert angles[3] in solution
-    with pytest.raises(ValueError, match="not in tuple"):
-        solution.index(angles[2], 3)
 
 
 def test_degrees_on_request():
@@ -231,70 +221,38 @@ def test_a_long_table_is_cut():
     lines = str(turns).splitlines()
     assert len(lines) == 51
     assert lines[-1] == f"... {len(turns) - 48} more"
-    assert turns._repr_html_().count("<tr>") == 49
 
 
-def test_html_has_a_row_for_each_solution():
-    s = ANSWERS["regular"]
-    html = s._repr_html_()
-    assert html.startswith("<table><caption>8 solutions, 4 inside limits</caption><tr><th>slot")
-    assert html.count("<tr>") == 9
-    assert s[2]._repr_html_().count("<tr>") == 2
-    assert f"<td>{s[2].q_deg[0]:.3f}</td>" in s[2]._repr_html_()
-    assert ANSWERS["too far"]._repr_html_() == f"<p>{ANSWERS['too far'].explain()}</p>"
+@pytest.mark.parametrize("name", ["wrist", "seven", "turns, filtered"])
+def test_a_damaged_answer_is_refused(name):
+    answer = ANSWERS[name]
+    for value in (answer, answer[0]):
+        restore, (kind, state) = value.__reduce__()
+        assert restore(kind, state) == value
+        for size in range(len(state)):
+            with pytest.raises(irbkin.InvalidModelError, match=f"the pickled {kind} is damaged"):
+                restore(kind, state[:size])
+        rng = np.random.default_rng(3)
+        refused = 0
+        for index in range(len(state)):
+            changed = bytearray(state)
+            changed[index] = rng.integers(256)
+            try:
+                other = restore(kind, bytes(changed))
+            except irbkin.IrbkinError:
+                refused += 1
+                continue
+            # Another value, but one that does not break anything.
+            repr(other), hash(other), other == value
+        assert refused > 5
 
 
-@pytest.mark.parametrize("change", ["slot", "flags", "angles", "free", "pose", "reach"])
-def test_a_damaged_answer_is_refused(change):
-    restore, (robot, pose, state) = ANSWERS["wrist"].__reduce__()
-    slots, reach, emptied, turned, certified, given = state
-    (slot, flags, angles, free), *others = slots
-    if change == "slot":
-        slots = [(8, flags, angles, free), *others]
-    elif change == "flags":
-        slots = [(slot, 200, angles, free), *others]
-    elif change == "angles":
-        slots = [(slot, flags, angles[:-1], free), *others]
-    elif change == "free":
-        slots = [(slot, flags, angles, "Elsewhere"), *others]
-    elif change == "pose":
-        pose = pose[:-1]
-    elif change == "reach":
-        reach = ("elsewhere", *reach[1:])
-    with pytest.raises(irbkin.InvalidModelError, match="the pickled solution is damaged"):
-        restore(robot, pose, (slots, reach, emptied, turned, certified, given))
-
-
-def test_the_representation_of_a_robot_shows_what_is_not_the_catalogs():
+def test_a_robot_is_represented_by_its_name_or_its_structure():
     robot = Robot("IRB 2600-12/1.65")
-    for name in irbkin.catalog():
-        assert repr(Robot(name)) == f'Robot("{name}")'
-    coupled = next(r for r in map(Robot, irbkin.catalog()) if r.is_coupled)
-    assert eval(repr(coupled.uncoupled()), {"Robot": Robot}) == coupled.uncoupled()
-    shown = {
-        'Robot("IRB 2600-12/1.65")': robot,
-        '<Robot "IRB 2600-12/1.65": tool at [0, 0, 0.1] m, wxyz [1, 0, 0, 0]>': robot.with_tool(
-            move(0, 0, 0.1)
-        ),
-        '<Robot "IRB 2600-12/1.65": base at [1, 2, 3] m, wxyz [1, 0, 0, 0]>': robot.with_base(
-            move(1, 2, 3)
-        ),
-        '<Robot "IRB 2600-12/1.65": limits ' + ", ".join(["-90..90"] * 6) + " deg>": (
-            robot.with_limits(np.deg2rad([[-90, 90]] * 6))
-        ),
-        "<Robot: 6 joints, spherical wrist>": Robot.from_opw(**IRB2400),
-        '<Robot "mine": 6 joints, spherical wrist>': Robot.from_opw(**IRB2400, name="mine"),
-        r'<Robot "a\n\"x\"": 6 joints, spherical wrist>': Robot.from_mdh(robot.mdh, name='a\n"x"'),
-        # The name alone does not make it the catalog's.
-        '<Robot "IRB 2600-12/1.65": 6 joints, spherical wrist>': Robot.from_opw(
-            **IRB2400, name="IRB 2600-12/1.65"
-        ),
-    }
-    for text, shown_robot in shown.items():
-        assert repr(shown_robot) == text
-    linked = coupled.with_linkage_limits(np.deg2rad([-30, 90]))
-    assert "linkage limits -30..90 deg" in repr(linked)
-    assert repr(pickle.loads(pickle.dumps(linked))) == repr(linked)
+    assert eval(repr(robot), {"Robot": Robot}) == robot
+    for other in (robot.with_tool(move(0, 0, 0.1)), Robot.from_opw(**IRB2400, name=robot.name)):
+        assert repr(other) == '<Robot "IRB 2600-12/1.65": 6 joints, spherical wrist>'
+    assert repr(Robot.from_opw(**IRB2400)) == "<Robot: 6 joints, spherical wrist>"
 
 
 PROGRAM = """MODULE Cell
@@ -361,12 +319,12 @@ def test_a_module_is_a_mapping():
 def test_an_unknown_name_of_a_module_says_which_are_close(name, hint):
     with pytest.raises(KeyError, match=hint) as unknown:
         module()[name]
-    assert isinstance(unknown.value, irbkin.UnknownNameError)
+    assert isinstance(unknown.value, irbkin.errors.UnknownNameError)
     assert str(unknown.value).startswith(f"the module has no data of the name {name!r}; ")
 
 
 def test_an_empty_module_says_that_it_has_no_data():
-    with pytest.raises(irbkin.UnknownNameError, match="declares none outside its routines"):
+    with pytest.raises(irbkin.errors.UnknownNameError, match="declares none outside its routines"):
         rapid.parse("MODULE M\nENDMODULE")["p"]
 
 
@@ -378,7 +336,6 @@ def test_an_empty_module_says_that_it_has_no_data():
         lambda r, q: r.configuration(q),
         lambda r, q: r.singularity(q),
         lambda r, q: r.follow(np.stack([r.fk(q[0]), move(9, 0, 0)]), q[0]),
-        lambda r, q: rapid.calc_moves(r, module()),
         lambda r, q: irbkin.catalog_entry("Panda"),
     ],
 )
@@ -392,10 +349,27 @@ def test_records_with_arrays_are_equal_by_value(make):
     assert record != tuple(record)[:-1]
     assert record != "record"
     assert record == pickle.loads(pickle.dumps(record)) == copy.deepcopy(record)
-    changed = record._replace(**{record._fields[0]: np.array([5.0])})
+    changed = (np.array([5.0]), *tuple(record)[1:])
     assert record != changed
     assert not operator.eq(record, changed)
-    assert not isinstance(record, collections.abc.Hashable)
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(record)
+
+
+def test_a_record_is_frozen_and_unpacks():
+    robot = Robot("IRB 2600-12/1.65")
+    q, status = batch = robot.ik_batch(robot.fk([REGULAR]))
+    assert (q is batch.q is batch[0], status is batch.status is batch[-1]) == (True, True)
+    assert len(batch) == 2
+    with pytest.raises(AttributeError):
+        batch.q = q
+    with pytest.raises(IndexError):
+        batch[2]
+    assert repr(robot.configuration(REGULAR)) == "Configuration(cf1=0, cf4=0, cf6=0, cfx=1)"
+    assert repr(batch) == (
+        "IkBatch(q=<array of float64 of shape (1, 8, 6)>, "
+        "status=array([[3, 3, 1, 1, 1, 1, 3, 3]], dtype=uint8))"
+    )
 
 
 def test_records_of_one_joint_vector_are_hashable():
@@ -403,9 +377,9 @@ def test_records_of_one_joint_vector_are_hashable():
     assert len({robot.configuration(REGULAR), robot.configuration(REGULAR)}) == 1
     assert len({robot.singularity(REGULAR), robot.singularity(REGULAR)}) == 1
     assert type(robot.configuration(REGULAR)) is irbkin.Configuration
-    assert type(robot.configuration([REGULAR])) is irbkin.ConfigurationBatch
-    assert type(robot.singularity(REGULAR)) is irbkin.Singularity
-    assert type(robot.singularity([REGULAR])) is irbkin.SingularityBatch
+    assert type(robot.configuration([REGULAR])) is irbkin.records.ConfigurationBatch
+    assert type(robot.singularity(REGULAR)) is irbkin.records.Singularity
+    assert type(robot.singularity([REGULAR]).kinds) is np.ndarray
 
 
 def test_a_batch_of_configurations_goes_back_in():
@@ -413,19 +387,19 @@ def test_a_batch_of_configurations_goes_back_in():
     batch = robot.configuration(q)
     found = robot.ik_configured(robot.fk(q), batch)
     np.testing.assert_allclose(found, q, atol=1e-9)
-    same = irbkin.Configuration(*batch)
-    np.testing.assert_array_equal(robot.ik_configured(robot.fk(q), same), found)
+    each = [robot.configuration(row) for row in q]
+    np.testing.assert_array_equal(robot.ik_configured(robot.fk(q), each), found)
 
 
 def test_a_break_has_its_kind():
     robot = Robot("IRB 2600-12/1.65")
     there = robot.fk(REGULAR)
     far = robot.follow(np.stack([there, move(9, 0, 0)]), REGULAR)
-    assert [broken.kind for broken in far.breaks] == [irbkin.BreakReason.UNREACHABLE]
+    assert [broken.kind for broken in far.breaks] == [irbkin.records.BreakReason.UNREACHABLE]
     q = np.linspace([0.1, 0.2, 0.3, 0.4, 0.3, 0.6], [0.1, 0.2, 0.3, 0.4, -0.3, 0.6], 41)
     for mode in (irbkin.SingularityMode.ERROR, "error"):
         stopped = robot.follow(robot.fk(q), q[0], singularity_mode=mode)
-        assert stopped.breaks[0].kind is irbkin.BreakReason.STOPPED
+        assert stopped.breaks[0].kind is irbkin.records.BreakReason.STOPPED
     for mode in irbkin.SingularityMode:
         assert robot.follow(robot.fk(q[:5]), q[0], singularity_mode=mode) == robot.follow(
             robot.fk(q[:5]), q[0], singularity_mode=mode.value

@@ -35,7 +35,7 @@ def frame(corrections):
 def factors(robot, q, corrections):
     """The arm as a product: (index of the parameter or None, generator or matrix, value)."""
     dof = robot.dof
-    product = [(None, robot.base @ robot.root, 0.0), *frame(corrections[:6])]
+    product = [(None, robot.base @ robot._root, 0.0), *frame(corrections[:6])]
     for row, (alpha, a, d, theta) in enumerate(robot.mdh):
         first = 6 + 5 * row
         own = corrections[first : first + 5]
@@ -90,7 +90,7 @@ def test_the_jacobian_is_that_of_a_product_of_matrices(robot, size):
         q = rng.uniform(-3, 3, robot.dof)
         corrections = rng.uniform(-size, size, 12 + 5 * robot.dof)
         pose, jacobian = by_matrices(robot, q, corrections)
-        found = robot.parameter_jacobian(q, corrections)
+        found = robot._parameter_jacobian(q, corrections)
         np.testing.assert_allclose(found, jacobian, rtol=0, atol=bound)
         np.testing.assert_allclose(robot._corrected_fk(q, corrections), pose, rtol=0, atol=bound)
 
@@ -112,12 +112,12 @@ def test_rows_are_as_single_calls_and_invalid_ones_are_nan(robot):
     q[1, 2, 0] = np.nan
     width = 12 + 5 * robot.dof
     out = np.empty((2, 3, 6, width))
-    assert robot.parameter_jacobian(q, out=out) is out
+    assert robot._parameter_jacobian(q, out=out) is out
     assert np.isnan(out[1, 2]).all()
     assert np.isnan(robot._corrected_fk(q, np.zeros(width))[1, 2]).all()
     for index in np.ndindex(2, 3):
         if index != (1, 2):
-            np.testing.assert_array_equal(out[index], robot.parameter_jacobian(q[index]))
+            np.testing.assert_array_equal(out[index], robot._parameter_jacobian(q[index]))
 
 
 def test_corrections_of_the_ends_keep_the_structure(robot):

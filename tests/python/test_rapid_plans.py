@@ -31,7 +31,7 @@ def test_each_target_has_the_joints_of_the_plan(tool, wobj):
     for index, q in enumerate(PLAN.q):
         again = rapid.calc_joint_t(ROBOT, read[f"p{index}"], tool, wobj)
         np.testing.assert_allclose(again.q, q, atol=BOUND)
-        assert again.extax == (rapid.records.NOT_THERE,) * 6
+        assert again.extax == (rapid.NOT_THERE,) * 6
 
 
 def test_a_target_is_the_pose_with_the_tool_angle_that_was_found():
@@ -67,7 +67,7 @@ def test_a_module_moves_along_the_plan():
     assert [move.kind for move in read.moves] == ["MoveJ", *["MoveL"] * (len(PLAN.q) - 1)]
     assert [move.zone for move in read.moves] == ["fine", *["z0"] * (len(PLAN.q) - 2), "fine"]
     table = rapid.calc_moves(ROBOT, read)
-    assert set(table.problems) == {None}
+    assert set(table.findings) == {None}
     np.testing.assert_allclose(table.q, PLAN.q, atol=BOUND)
     motion = rapid.motion(ROBOT, read)
     assert motion.findings == ()
@@ -93,8 +93,8 @@ def test_external_axes_are_those_of_the_caller():
     track = np.linspace(0, 400, len(PLAN.q))[:, None]
     targets = rapid.plan_targets(ROBOT, PLAN, extax=track)
     assert [target.extax[0] for target in targets] == track[:, 0].tolist()
-    assert targets[0].extax[1:] == (rapid.records.NOT_THERE,) * 5
-    moved = PLAN._replace(external=track / 1e3)
+    assert targets[0].extax[1:] == (rapid.NOT_THERE,) * 5
+    moved = irbkin.Plan(*PLAN[:3], track / 1e3, *PLAN[4:])
     with pytest.raises(irbkin.RapidError, match=r"plan.external has 1 axes in rad or m"):
         rapid.plan_targets(ROBOT, moved)
     assert rapid.plan_targets(ROBOT, moved, extax=track) == targets

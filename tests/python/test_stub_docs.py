@@ -61,7 +61,7 @@ def test_a_docstring_begins_with_a_sentence_and_fits_a_line(name, thing):
     assert doc, name
     first = doc.split("\n\n")[0].strip()
     assert re.search(r"[.:]$", first), f"{name}: {first}"
-    assert first[0].isupper() or first[0] in "`", name
+    assert first[0].isupper() or first[0] in '`"', name
     assert max(map(len, doc.splitlines())) <= 100
 
 

@@ -342,17 +342,11 @@ def test_what_makes_no_trajectory_is_refused(call, error, words):
 
 
 def test_a_damaged_pickle_is_refused():
-    restore, (dof, knots, terms, times) = trajectory.joint(START, END).__reduce__()
-    assert restore(dof, knots, terms, times) == trajectory.joint(START, END)
-    for damaged, words in (
-        ((0, knots, terms, times), "terms has no joints"),
-        ((dof, [], terms, times), "terms has no joints"),
-        ((10**18, knots, terms, times), "terms has 6 elements"),
-        ((dof, knots, terms[:1], times), "terms has 1 elements, it must have 6"),
-        ((dof, knots[::-1], terms, times), "it must be later"),
-        ((dof, knots, [[np.nan] * 7] * 6, times), "the motion is not finite"),
-        ((dof, [0.0, np.nan], terms, times), "the motion is not finite"),
-        ((dof, knots, terms, [np.nan]), r"t\[0\] is NaN"),
-    ):
-        with pytest.raises(IrbkinError, match=words):
-            restore(*damaged)
+    motion = trajectory.joint(START, END)
+    restore, (kind, state) = motion.__reduce__()
+    assert restore(kind, state) == motion
+    for size in range(len(state)):
+        with pytest.raises(IrbkinError, match="the pickled Trajectory is damaged"):
+            restore(kind, state[:size])
+    with pytest.raises(IrbkinError, match="the pickled Trajectory is damaged"):
+        restore(kind, b"\x00" + state[1:])

@@ -49,7 +49,7 @@ def by_pinocchio(text, base, tip):
 
 def reach(robot):
     """Lengths that a pose is summed from [m]."""
-    ends = np.linalg.norm(robot.root[:3, 3]) + np.linalg.norm(robot.flange[:3, 3])
+    ends = np.linalg.norm(robot._root[:3, 3]) + np.linalg.norm(robot.flange[:3, 3])
     return ends + np.hypot(robot.mdh[:, 1], robot.mdh[:, 2]).sum()
 
 
@@ -94,13 +94,13 @@ def test_a_chain_of_too_few_joints_is_counted():
 
 def test_the_table_with_both_ends_is_the_arm():
     robot = Robot.from_urdf(TEXTS["tilted"])
-    assert np.abs(robot.root - np.eye(4)).max() > 0.1
+    assert np.abs(robot._root - np.eye(4)).max() > 0.1
     rows = Robot.from_mdh(robot.mdh)
     q = np.linspace(-1, 1, 6)
-    np.testing.assert_allclose(robot.root @ rows.fk(q) @ robot.flange, robot.fk(q), atol=1e-14)
+    np.testing.assert_allclose(robot._root @ rows.fk(q) @ robot.flange, robot.fk(q), atol=1e-14)
     for other in ("irb2600", "kr6_r700", "iiwa14"):
-        np.testing.assert_array_equal(Robot.from_urdf(TEXTS[other]).root, np.eye(4))
-    np.testing.assert_array_equal(Robot("IRB 2600-12/1.65").root, np.eye(4))
+        np.testing.assert_array_equal(Robot.from_urdf(TEXTS[other])._root, np.eye(4))
+    np.testing.assert_array_equal(Robot("IRB 2600-12/1.65")._root, np.eye(4))
 
 
 @pytest.mark.parametrize(

@@ -97,14 +97,22 @@ def test_copies_and_pickles_are_equal_and_compute_the_same_bits(name, duplicate)
 
 
 def test_a_damaged_pickle_is_refused():
-    restore, (state,) = VARIANTS["catalog"].__reduce__()
-    for i in (2, 3, 4):
-        damaged = list(state)
-        damaged[i] = damaged[i][:-1]
-        with pytest.raises(irbkin.IrbkinError):
-            restore(tuple(damaged))
-    with pytest.raises(irbkin.InvalidModelError, match="the pickled robot is damaged"):
-        restore((state[0], "other", *state[2:]))
+    restore, (kind, state) = VARIANTS["everything"].__reduce__()
+    assert restore(kind, state) == VARIANTS["everything"]
+    assert len(state) < 600
+    for size in range(len(state)):
+        with pytest.raises(irbkin.InvalidModelError, match="the pickled Robot is damaged"):
+            restore(kind, state[:size])
+    with pytest.raises(irbkin.InvalidModelError, match="the pickled Other is damaged"):
+        restore("Other", state)
+    rng = np.random.default_rng(2)
+    for index in range(len(state)):
+        changed = bytearray(state)
+        changed[index] = rng.integers(256)
+        try:
+            restore(kind, bytes(changed))
+        except irbkin.IrbkinError:
+            continue
 
 
 @pytest.mark.parametrize(
@@ -147,20 +155,6 @@ def test_representations():
     )
 
 
-@pytest.mark.parametrize("name", CATALOG)
-def test_irrelevant_characters_of_a_name_are_ignored(name):
-    for spelt in (
-        name.lower(),
-        name.upper(),
-        name.replace(" ", ""),
-        re.sub("[-/ ]", "_", name),
-        f" {name} ",
-        name.replace("-", " - "),
-    ):
-        assert Robot(spelt) == Robot(name)
-        assert Robot(spelt).name == name
-
-
 def test_the_catalog_is_a_tuple_of_names_without_doubles():
     names = irbkin.catalog()
     assert isinstance(names, tuple)
@@ -168,7 +162,7 @@ def test_the_catalog_is_a_tuple_of_names_without_doubles():
     assert all(Robot(name).name == name for name in names)
 
 
-@pytest.mark.parametrize("name", irbkin.catalog())
+@pytest.mark.parametrize("name", ["IRB 2400-10/1.55", "UR5e", "Panda", "CRB 15000-5/0.95"])
 def test_an_entry_of_the_catalog_has_what_the_robot_has(name):
     entry, robot = irbkin.catalog_entry(name), Robot(name)
     assert (entry.name, entry.dof, entry.is_coupled) == (name, robot.dof, robot.is_coupled)
@@ -238,9 +232,10 @@ def test_every_exported_name_is_there(module):
     assert len(set(exported)) == len(exported)
     for name in exported:
         assert getattr(sys.modules[module], name) is not None
-    assert set(sys.modules["irbkin.errors"].__all__ + sys.modules["irbkin.records"].__all__) <= set(
-        irbkin.__all__
-    )
+
+
+def test_the_root_has_few_names():
+    assert len(irbkin.__all__) <= 40
 
 
 def test_every_public_thing_has_a_docstring():
@@ -248,7 +243,8 @@ def test_every_public_thing_has_a_docstring():
         thing = getattr(irbkin, name)
         if callable(thing):
             assert thing.__doc__, name
-    for owner in (Robot, irbkin.Solution, irbkin.Solutions):
+    records = [getattr(irbkin.records, name) for name in irbkin.records.__all__]
+    for owner in (Robot, irbkin.Solution, irbkin.Solutions, *records):
         for name in dir(owner):
             assert name.startswith("_") or getattr(owner, name).__doc__, f"{owner.__name__}.{name}"
 
@@ -260,7 +256,7 @@ def test_the_version_is_that_of_the_distribution():
 
 
 def fresh(code):
-    """What a new interpreter prints."""
+    """The output of a new interpreter."""
     return subprocess.run(
         [sys.executable, "-c", code], check=True, capture_output=True, text=True
     ).stdout

@@ -1,6 +1,6 @@
 """What a user's own code has in types: mypy reads this file, nothing runs it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import irbkin
 import irbkin.map
@@ -10,10 +10,10 @@ from irbkin import placement, rapid
 
 
 def answers(robot: irbkin.Robot, T: npt.NDArray[np.float64]) -> None:
-    s: Sequence[irbkin.Solution] = robot.ik(T)
+    s: Iterable[irbkin.Solution] = robot.ik(T)
     first: irbkin.Solution = robot.ik(T)[0]
     some: tuple[irbkin.Solution, ...] = robot.ik(T)[:2]
-    angles: Sequence[float] = first
+    angles: Iterable[float] = first
     angle: float = first[0]
     degrees: npt.NDArray[np.float64] = first.q_deg
     print(s, some, angles, angle, degrees, first in s, {first})
@@ -25,12 +25,12 @@ def records(robot: irbkin.Robot, q: Sequence[float], many: npt.NDArray[np.float6
     kinds: irbkin.SingularityKind = robot.singularity(q).kinds
     target = rapid.RobTarget((600.0, 0.0, 800.0), robconf=robot.configuration(q))
     batch = robot.configuration(many)
-    if isinstance(batch, irbkin.ConfigurationBatch):
+    if isinstance(batch, irbkin.records.ConfigurationBatch):
         quarters: npt.NDArray[np.int32] = batch.cf1
         print(quarters)
     path = robot.follow(robot.fk(many), q, singularity_mode=irbkin.SingularityMode.WRIST)
     same = robot.follow(robot.fk(many), q, singularity_mode="wrist")
-    reasons: set[irbkin.BreakReason] = {broken.kind for broken in path.breaks}
+    reasons: set[irbkin.records.BreakReason] = {broken.kind for broken in path.breaks}
     print(quarter, distance, kinds, target, same, reasons)
 
 

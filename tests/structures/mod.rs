@@ -19,7 +19,8 @@ use std::fmt::Debug;
 use std::num::NonZeroUsize;
 use std::rc::Rc;
 
-use irbkin::{Error, JacobianFrame, Pose, Robot, Solution, Solutions, batch};
+use irbkin::batch::Batch;
+use irbkin::{Error, JacobianFrame, Pose, Robot, Solution, Solutions};
 use proptest::strategy::BoxedStrategy;
 
 use crate::common::Rng;
@@ -161,7 +162,7 @@ type RowCall<const N: usize> =
 pub const SIX: Calls<6> = Calls {
     ik: |robot, pose, _| robot.ik(pose),
     ik_rows: |robot, rows, _, q, status, threads| {
-        batch::ik(robot, rows, q, status, NonZeroUsize::new(threads))
+        Batch::new(NonZeroUsize::new(threads)).ik(robot, rows, q, status)
     },
 };
 
@@ -169,7 +170,7 @@ pub const SEVEN: Calls<7> = Calls {
     ik: |robot, pose, q| robot.ik(pose, q[6]),
     ik_rows: |robot, rows, joints, q, status, threads| {
         let q7: Vec<f64> = joints.iter().map(|q| q[6]).collect();
-        batch::ik_with(robot, rows, &q7, q, status, NonZeroUsize::new(threads))
+        Batch::new(NonZeroUsize::new(threads)).ik_with(robot, rows, &q7, q, status)
     },
 };
 

@@ -144,7 +144,7 @@ def _everywhere(problem: _fit.Problem, corrections: Floats) -> Floats:
     q = np.random.default_rng(0).uniform(
         limits[:, 0], limits[:, 1], (EVERYWHERE, problem.robot.dof)
     )
-    jacobian = problem.robot.parameter_jacobian(q, corrections)
+    jacobian = problem.robot._parameter_jacobian(q, corrections)
     weights = np.r_[np.full(3, 1 / problem.position_std), np.full(3, 1 / problem.rotation_std)]
     rows = (jacobian * weights[:, None])[:, : problem.measurements.numbers]
     flat: Floats = rows.reshape(-1, jacobian.shape[-1])

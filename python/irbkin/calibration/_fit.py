@@ -52,7 +52,7 @@ class Problem:
 
     def jacobian(self, corrections: Floats) -> Floats:
         """Derivatives of the residuals, shape (k, p) (eq. 16)."""
-        jacobian = self.robot.parameter_jacobian(self.measurements.q, corrections)
+        jacobian = self.robot._parameter_jacobian(self.measurements.q, corrections)
         if self.measurements.rotation is None:
             return _flat(jacobian[:, :3] / self.position_std)
         _, rotation = self.errors(corrections)

@@ -14,10 +14,10 @@ from irbkin.cli.progress import Progress
 from irbkin.cli.sources import Source, expanded, read_modules
 
 HELP = """Every MoveJ, MoveL, MoveC and MoveAbsJ of every routine is checked: reach, limits, flips,
-confdata, singularities, joint speeds, zones, names (docs/check.md has the codes; --codes lists
-them). The files are one program: names that a file does not declare are looked for in the others.
-A comment `! noqa` on the line of a move, or `! noqa: C201,S301`, silences it. The robot may be
-given by the environment, too: IRBKIN_ROBOT. --fix corrects confdata in place and changes nothing
+confdata, singularities, joint speeds, zones, names (--codes lists the codes, docs/guide/check.md
+explains them). The files are one program: names that a file does not declare are looked for in the
+others. A comment `! noqa` on the line of a move, or `! noqa: C201,S301`, silences it. The robot may
+be given by the environment, too: IRBKIN_ROBOT. --fix corrects confdata in place and changes nothing
 else."""
 EXAMPLES = """  irbkin check --robot "IRB 2600-12/1.65" program.mod
   irbkin check --robot "IRB 2600-12/1.65" --fix programs/

@@ -12,7 +12,7 @@ from irbkin.cli.sources import Source
 
 if TYPE_CHECKING:
     from irbkin import Robot
-    from irbkin.rapid import Diagnostic, Module
+    from irbkin.rapid import Finding, Module
 
 UNCHECKED = ("U801", "U802")
 """Codes of what is not checked."""
@@ -31,8 +31,8 @@ class Checker:
         faults = (code for code, _, is_default in check_codes() if is_default)
         self.asked = {*faults, *UNCHECKED, *codes}
 
-    def diagnostics(self, module: Module) -> list[Diagnostic]:
-        """What is wrong with a module or wanted, without what its comments silence."""
+    def diagnostics(self, module: Module) -> list[Finding]:
+        """Return the findings on a module that its comments do not silence."""
         from irbkin._core import check
 
         found = check(self.robot, module, codes=self.asked, step=self.step)
@@ -41,12 +41,12 @@ class Checker:
         lines = module.source.split("\n")
         return [it for it in found if not _is_silenced(lines[it.line - 1], it.code)]
 
-    def wanted(self, module: Module) -> list[Diagnostic]:
-        """The same, of the codes that are wanted."""
+    def wanted(self, module: Module) -> list[Finding]:
+        """Return the findings of the wanted codes."""
         return [it for it in self.diagnostics(module) if it.code in self.codes]
 
     def found(self, source: Source) -> tuple[list[Found], int]:
-        """What is wrong with a source, and how many places could not be checked."""
+        """Return the findings on a source, and how many places could not be checked."""
         if source.module is None:
             return [], 0
         found, unchecked = [], set()
@@ -92,7 +92,7 @@ def _places(checker: Checker, module: Module) -> set[tuple[int, str]]:
 
 def _corrected(checker: Checker, source: Source) -> Module | None:
     """The module of a source with corrections; corrections may show another one to make."""
-    from irbkin._core import parse
+    from irbkin._core import parse_module
 
     if source.module is None:
         return None
@@ -101,7 +101,7 @@ def _corrected(checker: Checker, source: Source) -> Module | None:
         edits = sorted({edit for it in checker.wanted(module) for edit in it.edits})
         if not edits:
             break
-        module = parse(edited(module.source, edits), source.context)
+        module = parse_module(edited(module.source, edits), source.context)
     return None if module is source.module else module
 
 
@@ -109,14 +109,14 @@ def _uses(checker: Checker, other: Source, source: Source, corrected: Module) ->
     """Whether moves of another source go elsewhere with the corrections of a source."""
     import numpy as np
 
-    from irbkin._core import calc_moves, parse
+    from irbkin._core import calc_moves, parse_module
 
     if other.module is None:
         return False
     context = [corrected if it is source.alone else it for it in other.context]
     before, after = (
         calc_moves(checker.robot, module).q
-        for module in (other.module, parse(other.content, context))
+        for module in (other.module, parse_module(other.content, context))
     )
     return not np.array_equal(before, after, equal_nan=True)
 

@@ -1,4 +1,4 @@
-"""What a check finds in files, and how it is printed."""
+"""Findings in files, and their output."""
 
 from __future__ import annotations
 

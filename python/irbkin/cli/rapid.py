@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from irbkin.rapid import RoutineMotion
 
 HELP = """The moves are followed from the joints before them and timed at their programmed speeds
-(docs/motion.md). Without --acceleration, times are kinematic lower bounds, no cycle times. Without
---routine it is main, or the only one that moves. Findings are reported on stderr, and the exit code
-is 1. `irbkin check` checks all routines, branches and loops too."""
+(docs/guide/motion.md). Without --acceleration, times are kinematic lower bounds, no cycle times.
+Without --routine it is main, or the only one that moves. Findings are reported on stderr, and the
+exit code is 1. `irbkin check` checks all routines, branches and loops too."""
 EXAMPLES = """  irbkin rapid "IRB 2600-12/1.65" program.mod
   irbkin rapid "IRB 2600-12/1.65" program.mod tools.sys --routine weld --acceleration 600
   irbkin rapid "IRB 2600-12/1.65" program.mod --samples --csv > motion.csv
@@ -38,7 +38,7 @@ def add_arguments(parser: Parser) -> None:
         nargs="+",
         type=positive,
         metavar="V",
-        help="of each joint [deg/s]: those of the catalog",
+        help="of each joint [deg/s], by default the catalog's",
     )
     add("--samples", action="store_true", help="the samples of the motion, not its moves")
     parser.add_formats("samples: time [s] and joint angles [rad], shape (m, 7); .mod: MoveAbsJ")
@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     import math
 
     from irbkin import rapid
-    from irbkin._core import parse
+    from irbkin._core import parse_module
     from irbkin.cli.files import opened, replaced, shown
     from irbkin.errors import RapidError
 
@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     def parsed(name: str, context: tuple[rapid.Module, ...] = ()) -> rapid.Module:
         try:
             with opened(name) as file:
-                return parse(file.read(), context)
+                return parse_module(file.read(), context)
         except RapidError as error:
             raise CommandError(f"{shown(name)}: {error}") from None
 
@@ -81,12 +81,12 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _write_moves(arguments, robot, motion)
     for finding in motion.findings:
-        complain(f"{arguments.file}:{finding.line}:{finding.column}: {_words(finding.message)}")
+        complain(f"{arguments.file}:{finding.line}:{finding.column}: {finding.message}")
     return FOUND if motion.findings else FINE
 
 
 def _max_velocity(numbers: list[float] | None, robot: Robot) -> Floats | None:
-    """Speeds of the joints [deg/s] as an array [rad/s]; none for those of the robot."""
+    """Return the speeds of the joints [deg/s] as an array [rad/s]; None for the robot's."""
     import numpy as np
 
     if numbers is None and robot.max_velocity is None:
@@ -99,12 +99,6 @@ def _max_velocity(numbers: list[float] | None, robot: Robot) -> Floats | None:
             f"--max-velocity takes {robot.dof} speeds [deg/s] of this arm, got {len(numbers)}"
         )
     return None if numbers is None else np.radians(numbers)
-
-
-def _words(message: str) -> str:
-    """A message without its line, which stands before it."""
-    start, _, rest = message.partition(": ")
-    return rest if start.startswith("line ") else message
 
 
 def _heading(robot: Robot, motion: RoutineMotion) -> str:

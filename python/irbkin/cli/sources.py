@@ -83,13 +83,13 @@ def expanded(names: Sequence[str]) -> list[str]:
 
 def read_modules(sources: Sequence[Source]) -> list[Found]:
     """Parse sources, each with the others as its context; those that are broken have no module."""
-    from irbkin._core import parse
+    from irbkin._core import parse_module
     from irbkin.errors import RapidError
 
     broken = []
     for source in sources:
         try:
-            source.module = source.alone = parse(source.content)
+            source.module = source.alone = parse_module(source.content)
         except RapidError as error:
             broken.append(_fault(source, error))
     if len(sources) == 1:
@@ -100,7 +100,7 @@ def read_modules(sources: Sequence[Source]) -> list[Found]:
         if source.alone is None:
             continue
         try:
-            source.module = parse(source.content, source.context)
+            source.module = parse_module(source.content, source.context)
         except RapidError as error:
             # A name of another module is of another type.
             source.module = None

@@ -138,7 +138,7 @@ def _extent(
     """Left, right, bottom and top of what is reached [m], found on a coarse grid."""
     lengths = np.abs(robot.mdh[:, 1:3]).sum()
     ends = [
-        np.linalg.norm(end[:3, 3]) for end in (robot.base, robot.root, robot.flange, robot.tool)
+        np.linalg.norm(end[:3, 3]) for end in (robot.base, robot._root, robot.flange, robot.tool)
     ]
     most = float(lengths + sum(ends))
     places = np.linspace(-most, most, COARSE)

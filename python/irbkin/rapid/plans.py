@@ -8,9 +8,7 @@ import numpy as np
 
 from irbkin import _core
 from irbkin._arrays import as_array
-from irbkin.errors import RapidError
-from irbkin.freedom import Positioner, Track
-from irbkin.rapid.records import (
+from irbkin._core import (
     NOT_THERE,
     JointTarget,
     Pose,
@@ -20,6 +18,8 @@ from irbkin.rapid.records import (
     WobjData,
     ZoneData,
 )
+from irbkin.errors import RapidError
+from irbkin.freedom import Positioner, Track
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
     from irbkin import Plan, Robot
     from irbkin._core import Module
-    from irbkin.rapid.records import Record
 
 MOST_EXTERNAL = 6
 
@@ -51,12 +50,12 @@ def plan_targets(
     Args:
         robot: The arm of the plan. Work objects are given in the world, in which its base is.
         plan: The answer of `robot.plan`, without breaks.
-        tool: The tool; the robot's own where not given.
-        wobj: The work object; the world where not given.
+        tool: The tool; by default the robot's own.
+        wobj: The work object; by default the world.
         extax: External axes at each pose [deg or mm], shape (m, k), k up to 6.
-        carrier: That of the plan, if it has external axes: then their values fill `extax`, in mm of
-            a track and in deg of a positioner, and the targets are in the world, or on the work
-            object as it is with all positioners at zero. In the cell the track is coordinated
+        carrier: The carrier of the plan, if it has external axes: then their values fill `extax`,
+            in mm of a track and in deg of a positioner, and the targets are in the world, or on the
+            work object as it is with all positioners at zero. In the cell the track is coordinated
             with the base, and the work object is moved by the positioner (`ufprog` FALSE).
 
     Returns:
@@ -64,7 +63,7 @@ def plan_targets(
 
     Raises:
         RapidError: The plan has breaks, or external axes that neither `extax` nor `carrier` gives.
-        InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
             catalog.
     """
     q = as_array(plan.q, "plan.q", (None, 6), RapidError)
@@ -101,7 +100,7 @@ def plan_module(
         robot: The arm of the plan.
         plan: The answer of `robot.plan`, without breaks.
         name: Name of the module.
-        tool: The tool, declared as tPlan; the robot's own where not given.
+        tool: The tool, declared as tPlan; by default the robot's own.
         wobj: The work object, declared as wPlan; without it the moves have no \WObj.
         extax: As for `plan_targets`.
         carrier: As for `plan_targets`.
@@ -116,14 +115,14 @@ def plan_module(
         InvalidModelError: As `plan_targets`.
     """
     targets = plan_targets(robot, plan, tool, wobj, extax=extax, carrier=carrier)
-    data: Mapping[str, Record] = {
+    data: Mapping[str, ToolData | WobjData | RobTarget] = {
         "tPlan": ToolData(tframe=Pose.of(robot.tool)) if tool is None else tool,
         **({} if wobj is None else {"wPlan": wobj}),
         **{f"p{number}": target for number, target in enumerate(targets, 1)},
     }
     frames = "tPlan" if wobj is None else r"tPlan\WObj:=wPlan"
     speed, zone = (
-        value if isinstance(value, str) else _core.dump(value, "") for value in (speed, zone)
+        value if isinstance(value, str) else _core.dump(value) for value in (speed, zone)
     )
     moves = []
     for number in range(1, len(targets) + 1):
@@ -132,7 +131,7 @@ def plan_module(
         moves.append(f"        {kind} p{number},{speed},{end},{frames};")
     declared = _core.dump(dict(data), name).rstrip().removesuffix("ENDMODULE").rstrip()
     lines = [declared, "", "    PROC main()", *moves, "    ENDPROC", "ENDMODULE", ""]
-    module = _core.parse("\n".join(lines))
+    module = _core.parse_module("\n".join(lines))
     for move in module.moves:
         for argument in (move.speed_data, move.zone_data):
             if argument.value is None:
@@ -162,7 +161,7 @@ def _carriers(
 def _standing(
     robot: Robot, carriers: Sequence[Track | Positioner], values: npt.NDArray[np.float64]
 ) -> Robot:
-    """The robot where it stands seen from the work object."""
+    """Return the robot at its place seen from the work object."""
     if not carriers:
         return robot
     base = robot.base
@@ -182,7 +181,7 @@ def _standing(
 
 
 def _external(plan: Plan, count: int, extax: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
-    """The six external axes of each pose, 9e9 where there is none."""
+    """Return the six external axes of each pose, 9e9 for an axis that does not exist."""
     planned = np.shape(plan.external)[1]
     axes = np.full((count, MOST_EXTERNAL), NOT_THERE)
     if extax is None:

@@ -37,6 +37,7 @@ impl<const N: usize> Solution<N> {
 
 /// The content of a slot.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Place<const N: usize> {
     /// The branch does not exist.
     Empty,
@@ -66,6 +67,7 @@ impl<const N: usize> Place<N> {
 
 /// Every solution of a pose or, if there is none, the reason.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Solutions<const N: usize> {
     places: [Place<N>; MOST_SLOTS],
     slot_count: usize,
@@ -141,16 +143,13 @@ impl<const N: usize> Solutions<N> {
         &mut self.places[..self.slot_count]
     }
 
-    /// Puts a solution into its slot.
+    /// Whether every solution is in its own slot.
     #[cfg(feature = "python")]
-    pub(crate) fn put(&mut self, solution: Solution<N>) {
-        self.places[solution.slot.index()] = Place::Found(solution);
-    }
-
-    /// Says that the solution of a slot coincides with that of another one.
-    #[cfg(feature = "python")]
-    pub(crate) fn put_merged(&mut self, slot: Slot, flags: Status) {
-        self.places[slot.index()] = Place::Merged(flags);
+    pub(crate) fn is_consistent(&self) -> bool {
+        let is_own = |(slot, place): (usize, &Place<N>)| {
+            place.found().is_none_or(|solution| solution.slot.index() == slot)
+        };
+        self.slot_count <= MOST_SLOTS && self.places.iter().enumerate().all(is_own)
     }
 
     /// Whether the arm gets to the pose, limits not regarded.

@@ -24,7 +24,7 @@ pub(crate) enum SeedPolicy {
     /// One joint, from 1, takes the given angle even if the pose determines it.
     Forced {
         joint: usize,
-        /// Whether a free q1 is that of the shoulder with the wrist center behind it.
+        /// Whether a free q1 belongs to the shoulder with the wrist center behind it.
         behind: bool,
     },
 }

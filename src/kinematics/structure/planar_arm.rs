@@ -1,7 +1,7 @@
 //! The first three joints: a shoulder that turns about axis 1 and an elbow in the plane
 //! perpendicular to the parallel axes 2 and 3.
 //!
-//! Both structures of six-axis arms use it. The equation numbers are those of
+//! Both structures of six-axis arms use it. The equations have their numbers in
 //! docs/spherical_wrist.md.
 
 use nalgebra::Matrix3;
@@ -86,7 +86,7 @@ pub(crate) struct Target<'a> {
 }
 
 impl Target<'_> {
-    /// The same, with an arm up to `tolerance` beyond reach stretched or folded [m].
+    /// Stretch or fold an arm up to `tolerance` beyond reach [m].
     pub(crate) fn beyond(&self, tolerance: f64) -> Self {
         Self { tolerance, ..*self }
     }
@@ -112,7 +112,7 @@ impl PlanarArm {
         Self { a1, a2, b, c2, c3, k: a2.hypot(c3), extent: 0.0 }
     }
 
-    /// The same arm between fixed transforms, whose lengths add to the rounding of a position.
+    /// Place the arm between fixed transforms, whose lengths add to the rounding of a position.
     pub(crate) fn between(self, fixed: [&Pose; 4]) -> Self {
         let fixed: f64 = fixed.map(|pose| pose.translation.vector.norm()).iter().sum();
         Self { extent: self.a1.abs() + self.b.abs() + self.c2 + self.k + fixed, ..self }

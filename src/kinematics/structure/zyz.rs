@@ -75,7 +75,7 @@ fn first_angle(
     }
     let ahead = wrap(first.theta - first_angle);
     let kept = if sin_second > WRIST_MERGE_SIN {
-        // The angle that is heading there may be that of the flip, half a turn away.
+        // The angle that is heading there may belong to the flip, half a turn away.
         let ahead = ahead - PI * (ahead / PI).round();
         if sin_second * ahead.sin().abs() <= error { first_angle + ahead } else { first_angle }
     } else {

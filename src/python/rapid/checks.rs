@@ -5,12 +5,12 @@ use pyo3::pybacked::PyBackedStr;
 use pyo3::types::PyTuple;
 
 use super::module::{RapidModule, close_names};
+use super::program::Finding;
 use super::routine_motion::read_limits;
 use super::six_joints;
-use crate::python::classes;
 use crate::python::errors::{rapid_fault, to_py};
 use crate::python::robot::PyRobot;
-use crate::rapid::{self, Code, Diagnostic, Module, MotionOptions};
+use crate::rapid::{self, Code, Module, MotionOptions};
 
 /// Check every move of a module, of all routines.
 ///
@@ -27,13 +27,13 @@ use crate::rapid::{self, Code, Diagnostic, Module, MotionOptions};
 ///     turn: Largest turn of the tool between two samples [rad]; 5 deg without it.
 ///
 /// Returns:
-///     A tuple of `Diagnostic`, in the order of the text.
+///     A tuple of `Finding`, in the order of the text.
 ///
 /// Raises:
 ///     RapidError: A code that does not exist.
 ///     InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
 ///         million samples.
-///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
 ///         catalog.
 #[pyfunction]
 #[pyo3(signature = (robot, module, *, codes=None, max_velocity=None, step=0.005, turn=None))]
@@ -61,8 +61,8 @@ pub(crate) fn check<'py>(
     let modules: Vec<&Module> = core::iter::once(module).chain(others).collect();
     let codes = codes.map(read_codes).transpose()?;
     let is_wanted = |code: Code| codes.as_ref().is_none_or(|codes| codes.contains(&code));
-    let wanted = found.iter().filter(|diagnostic| is_wanted(diagnostic.code));
-    let records = wanted.map(|diagnostic| record(py, diagnostic, &modules));
+    let wanted = found.into_iter().filter(|finding| is_wanted(finding.code));
+    let records = wanted.map(|finding| record(py, finding, &modules));
     PyTuple::new(py, records.collect::<PyResult<Vec<_>>>()?)
 }
 
@@ -80,26 +80,17 @@ fn read_codes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Code>> {
     Ok(codes)
 }
 
-/// `irbkin.rapid.Diagnostic`.
-fn record<'py>(
-    py: Python<'py>,
-    diagnostic: &Diagnostic,
-    modules: &[&Module],
-) -> PyResult<Bound<'py, PyAny>> {
-    let Diagnostic { code, line, column, routine, message, unknown, edits } = diagnostic;
-    let mut message = message.clone();
-    if let Some(unknown) = unknown {
-        let names = diagnostic.candidates(modules);
+/// A finding; its message names what an unknown name could mean.
+fn record(py: Python<'_>, mut finding: rapid::Finding, modules: &[&Module]) -> PyResult<Finding> {
+    if let Some(unknown) = &finding.unknown {
+        let names = rapid::candidates(&finding, modules);
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let close = close_names(unknown, &names);
         if !close.is_empty() {
-            message = format!("{message}; did you mean {}?", close.join(", "));
+            finding.message = format!("{}; did you mean {}?", finding.message, close.join(", "));
         }
     }
-    let edits = edits.iter().map(|edit| (edit.span.start, edit.span.end, &edit.text));
-    let edits = PyTuple::new(py, edits)?;
-    let fields = (code.id(), code.name(), line, column, routine, message, edits);
-    classes::diagnostic_class(py)?.call1(fields)
+    Finding::of(py, &finding)
 }
 
 /// Every code of a check, with its name and whether it is shown unless codes are selected.

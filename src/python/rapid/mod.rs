@@ -2,51 +2,101 @@
 
 mod checks;
 mod module;
+mod program;
 mod records;
 mod routine_motion;
+mod values;
 
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyTuple};
+use pyo3::types::{PyBytes, PyMapping, PyTuple};
 
 pub(super) use self::checks::{check, check_codes};
 pub(super) use self::module::RapidModule;
-use self::records::{
-    Given, joint_target, read_content, read_joint_target, read_rob_target, read_tool, read_wobj,
-    record, rob_target,
-};
-pub(super) use self::routine_motion::{PyRoutineMotion, motion, restore_motion};
+use self::program::{Finding, TargetTable};
+pub(super) use self::routine_motion::{PyRoutineMotion, motion};
+use self::values::{Elements, read, read_content, read_joint_target, record};
 use super::arm::{Arm, on};
-use super::classes;
 use super::configured::{Options, check_rule};
 use super::errors::{rapid_fault, to_py};
 use super::found::read_seed;
+use super::records::ConfigurationBatch;
 use super::robot::PyRobot;
 use crate::error::Error;
-use crate::kinematics::Robot;
-use crate::rapid::{self, Content, Datum, Module, Storage, TableRow, ToolData, Value, WobjData};
+use crate::kinematics::{Robot, SingularDistances};
+use crate::rapid::{
+    self, Content, Datum, JointTarget, LoadData, Module, RapidPose, RobTarget, SpeedData, Storage,
+    TableRow, ToolData, Value, WobjData, ZoneData,
+};
 use crate::report::Configuration;
 
-/// Parse a RAPID module.
+/// Add the classes of records to the extension module.
+pub(super) fn add_records(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("NOT_THERE", rapid::NOT_THERE)?;
+    module.add_class::<RobTarget>()?;
+    module.add_class::<JointTarget>()?;
+    module.add_class::<ToolData>()?;
+    module.add_class::<WobjData>()?;
+    module.add_class::<RapidPose>()?;
+    module.add_class::<LoadData>()?;
+    module.add_class::<SpeedData>()?;
+    module.add_class::<ZoneData>()?;
+    module.add_class::<program::Declaration>()?;
+    module.add_class::<program::Argument>()?;
+    module.add_class::<program::MotionSettings>()?;
+    module.add_class::<program::Move>()?;
+    module.add_class::<program::MotionMove>()?;
+    module.add_class::<program::Finding>()?;
+    module.add_class::<program::Skipped>()?;
+    module.add_class::<program::TargetTable>()
+}
+
+/// Parse a RAPID module, with or without MODULE around it, or a single record.
 ///
 /// Args:
-///     text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1.
+///     text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1. Text
+///         that begins with a bracket is one robtarget, jointtarget, tooldata, wobjdata, pose or
+///         loaddata, as `dump` writes them, determined by its shape.
 ///     context: Modules in which names that the text does not declare are looked for: their data
 ///         that are not LOCAL.
 ///
+/// Returns:
+///     Module; or RobTarget, JointTarget, ToolData, WobjData, Pose or LoadData.
+///
 /// Raises:
 ///     RapidError: The text is broken; the message and the attributes `line` and `column` have the
-///         place.
+///         place. Unknown statements are no error: they are skipped and listed in `Module.skipped`.
 #[pyfunction]
 #[pyo3(signature = (text, context=None))]
-pub(super) fn parse(
+pub(super) fn parse<'py>(
+    text: &Bound<'py, PyAny>,
+    context: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = text.py();
+    let source = decoded(text)?;
+    if source.trim_start().starts_with('[') {
+        return record(py, &rapid::parse_record(&source).map_err(|error| to_py(py, &error))?);
+    }
+    Ok(Bound::new(py, module_of(py, source, context)?)?.into_any())
+}
+
+/// Parse a RAPID module, as `parse`; a record is refused.
+#[pyfunction]
+#[pyo3(signature = (text, context=None))]
+pub(super) fn parse_module(
     text: &Bound<'_, PyAny>,
     context: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<RapidModule> {
-    let py = text.py();
-    let source = decode(text)?;
+    module_of(text.py(), decoded(text)?, context)
+}
+
+fn module_of(
+    py: Python<'_>,
+    source: String,
+    context: Option<&Bound<'_, PyAny>>,
+) -> PyResult<RapidModule> {
     if is_path(&source) {
         let message = format!("{source:?} is a path, parse takes the text of a module: use load");
         return Err(rapid_fault(py, message));
@@ -71,24 +121,31 @@ fn is_path(text: &str) -> bool {
     endings.iter().any(|ending| text.ends_with(ending)) && !text.contains(marks)
 }
 
-/// Return RAPID text from a str, or from the bytes of a file.
-#[pyfunction]
-pub(super) fn decode(text: &Bound<'_, PyAny>) -> PyResult<String> {
+/// RAPID text from a str, or from the bytes of a file.
+fn decoded(text: &Bound<'_, PyAny>) -> PyResult<String> {
     match text.cast::<PyBytes>() {
         Ok(bytes) => Ok(rapid::decode(bytes.as_bytes()).into_owned()),
         Err(_) => text.extract(),
     }
 }
 
-/// Parse one value: a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata, determined by
-/// its shape.
-#[pyfunction]
-pub(super) fn parse_record<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>> {
-    record(py, &rapid::parse_record(text).map_err(|error| to_py(py, &error))?)
-}
-
 /// Return the RAPID text of a record, of a module, or of a mapping of names to values.
+///
+/// `parse` gives back modules with all their data, and single RobTarget, JointTarget, ToolData,
+/// WobjData, Pose and LoadData. The text of any other single value belongs into a declaration:
+/// alone its shape does not determine its type, and `parse` refuses it.
+///
+/// Args:
+///     value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, SpeedData, ZoneData,
+///         Configuration, a number, a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, nested
+///         lists of these for an array: the text of the value. A Module, or a mapping of names to
+///         values: the text of a module, with tools and work objects as PERS, others as CONST.
+///     name: Name of the module that is made of a mapping.
+///
+/// Raises:
+///     RapidError: A value is not RAPID data or not finite, or a name is not an identifier.
 #[pyfunction]
+#[pyo3(signature = (value, name="Data"))]
 pub(super) fn dump(value: &Bound<'_, PyAny>, name: &str) -> PyResult<String> {
     let py = value.py();
     if let Ok(module) = value.cast::<RapidModule>() {
@@ -97,30 +154,28 @@ pub(super) fn dump(value: &Bound<'_, PyAny>, name: &str) -> PyResult<String> {
     let module = |name: &str, data| {
         Module::new(Some(name.to_owned()), data, Vec::new(), &[]).map_err(|error| to_py(py, &error))
     };
-    let Ok(data) = value.cast::<PyDict>() else {
+    let Ok(data) = value.cast::<PyMapping>() else {
         let datum = datum("value".to_owned(), value)?;
         let text = datum.content.to_string();
         // A module takes only what can be read again.
         return module("Value", vec![datum]).map(|_| text);
     };
-    let name_of = |name: &Bound<'_, PyAny>| {
-        name.extract().map_err(|_| {
-            rapid_fault(
-                py,
-                format!("{name} is not a RAPID identifier (a letter, then letters, digits, _)"),
-            )
-        })
-    };
-    let data = data
-        .iter()
-        .map(|(name, value)| datum(name_of(&name)?, &value))
-        .collect::<PyResult<Vec<_>>>()?;
-    Ok(module(name, data)?.to_string())
+    let mut declared = Vec::new();
+    for item in data.items()? {
+        let (name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+        let name = name.extract().map_err(|_| {
+            let message =
+                format!("{name} is not a RAPID identifier (a letter, then letters, digits, _)");
+            rapid_fault(py, message)
+        })?;
+        declared.push(datum(name, &value)?);
+    }
+    Ok(module(name, declared)?.to_string())
 }
 
 /// The declaration of a Python record, or of nested lists of records.
 fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
-    let Given { sizes, values } = read_content(value, &name)?;
+    let Elements { sizes, values } = read_content(value, &name)?;
     let first = values.first().cloned().unwrap_or(Value::Num(0.0));
     // A controller keeps tools and work objects where it can change them.
     let storage = match first {
@@ -138,8 +193,8 @@ fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
 /// Args:
 ///     robot: The arm. Work objects are given in the world, in which the robot's base is.
 ///     target: RobTarget.
-///     tool: ToolData; the robot's own tool where not given.
-///     wobj: WobjData; the world where not given.
+///     tool: ToolData; by default the robot's own tool.
+///     wobj: WobjData; by default the world.
 ///     fallback: With "nearest", the solution nearest to `seed` where none has the configuration.
 ///     seed: Joint vector [rad], shape (n,), of the fallback, and to which the solution of a GoFa
 ///         is the nearest where its configuration names two.
@@ -156,8 +211,8 @@ fn datum(name: String, value: &Bound<'_, PyAny>) -> PyResult<Datum> {
 ///     InvalidJointsError: The arm has no such cfx.
 ///     RapidError: The robot holds both tool and work object or neither, or a mechanical unit moves
 ///         the work object.
-///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa or YuMi of
-///         the catalog.
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa or YuMi
+///         of the catalog.
 #[pyfunction]
 #[pyo3(signature = (robot, target, tool=None, wobj=None, *, fallback=None, seed=None))]
 pub(super) fn calc_joint_t<'py>(
@@ -167,15 +222,15 @@ pub(super) fn calc_joint_t<'py>(
     wobj: Option<&Bound<'py, PyAny>>,
     fallback: Option<&str>,
     seed: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyAny>> {
+) -> PyResult<JointTarget> {
     let py = robot.py();
-    let (arm, target) = (robot.get().arm(), read_rob_target(target)?);
+    let (arm, target) = (robot.get().arm(), read(target, "target")?);
     let Cell { tool, wobj } = Cell::read(py, arm, tool, wobj)?;
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
     let joints = on!(arm, robot => {
-        rapid::joint_target_of(robot, &target, tool, wobj, read_fallback(arm, fallback, seed)?)
+        rapid::calc_joint_t_or(robot, &target, tool, wobj, read_fallback(arm, fallback, seed)?)
     });
-    joint_target(py, &joints.map_err(|error| named(py, &error))?)
+    joints.map_err(|error| named(py, &error))
 }
 
 /// Return the robtarget of a jointtarget, with its configuration, as RAPID's CalcRobT. Limits are
@@ -184,8 +239,8 @@ pub(super) fn calc_joint_t<'py>(
 /// Args:
 ///     robot: The arm. Work objects are given in the world, in which the robot's base is.
 ///     joints: JointTarget, or joint angles [rad], shape (n,).
-///     tool: ToolData; the robot's own tool where not given.
-///     wobj: WobjData; the world where not given.
+///     tool: ToolData; by default the robot's own tool.
+///     wobj: WobjData; by default the world.
 ///
 /// Returns:
 ///     RobTarget, with the external axes of `joints`; eax_a of a YuMi is its arm angle.
@@ -199,14 +254,14 @@ pub(super) fn calc_rob_t<'py>(
     joints: &Bound<'py, PyAny>,
     tool: Option<&Bound<'py, PyAny>>,
     wobj: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyAny>> {
+) -> PyResult<RobTarget> {
     let py = robot.py();
     let arm = robot.get().arm();
     let (joints, Cell { tool, wobj }) =
         (read_joint_target(joints, arm.dof())?, Cell::read(py, arm, tool, wobj)?);
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
-    let target = on!(arm, robot => rapid::rob_target_of(robot, &joints, tool, wobj));
-    rob_target(py, &target.map_err(|error| to_py(py, &error))?)
+    let target = on!(arm, robot => rapid::calc_rob_t(robot, &joints, tool, wobj));
+    target.map_err(|error| to_py(py, &error))
 }
 
 /// Return the joint angles of every target of a module's moves, in their order, each with its own
@@ -220,11 +275,11 @@ pub(super) fn calc_rob_t<'py>(
 ///     seed: Joint vector [rad] before the first target, shape (n,).
 ///
 /// Returns:
-///     TargetTable. `problems` says what is wrong with the target of a row.
+///     TargetTable. `findings` says what is wrong with the target of a row.
 ///
 /// Raises:
-///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa or YuMi of
-///         the catalog.
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa or YuMi
+///         of the catalog.
 #[pyfunction]
 #[pyo3(signature = (robot, module, *, fallback=None, seed=None))]
 pub(super) fn calc_moves<'py>(
@@ -232,13 +287,13 @@ pub(super) fn calc_moves<'py>(
     module: &Bound<'py, RapidModule>,
     fallback: Option<&str>,
     seed: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyAny>> {
+) -> PyResult<TargetTable> {
     let py = robot.py();
     let (arm, module) = (robot.get().arm(), &module.get().module);
     check_rule(py, arm)?;
     on!(arm, robot => {
         let fallback = read_fallback(arm, fallback, seed)?;
-        let rows = py.detach(|| rapid::moves_table(robot, module, fallback));
+        let rows = py.detach(|| rapid::calc_moves(robot, module, fallback));
         table(py, &rows.map_err(|error| to_py(py, &error))?)
     })
 }
@@ -249,14 +304,14 @@ pub(super) fn calc_moves<'py>(
 /// Args:
 ///     robot: The arm.
 ///     module: Module.
-///     tool: ToolData; the robot's own tool where not given.
-///     wobj: WobjData; the world where not given.
+///     tool: ToolData; by default the robot's own tool.
+///     wobj: WobjData; by default the world.
 ///     fallback: With "nearest", a target whose configuration no solution has gets the one nearest
 ///         to the joints before it.
 ///     seed: Joint vector [rad] before the first target, shape (n,).
 ///
 /// Returns:
-///     TargetTable. `problems` says what is wrong with the target of a row.
+///     TargetTable. `findings` says what is wrong with the target of a row.
 ///
 /// Raises:
 ///     InvalidPoseError, RapidError, InvalidModelError: As `calc_joint_t`, of the tool and the work
@@ -270,14 +325,14 @@ pub(super) fn calc_targets<'py>(
     wobj: Option<&Bound<'py, PyAny>>,
     fallback: Option<&str>,
     seed: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyAny>> {
+) -> PyResult<TargetTable> {
     let py = robot.py();
     let (arm, module) = (robot.get().arm(), &module.get().module);
     let Cell { tool, wobj } = Cell::read(py, arm, tool, wobj)?;
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
     on!(arm, robot => {
         let fallback = read_fallback(arm, fallback, seed)?;
-        let rows = py.detach(|| rapid::targets_table(robot, module, tool, wobj, fallback));
+        let rows = py.detach(|| rapid::calc_targets(robot, module, tool, wobj, fallback));
         table(py, &rows.map_err(|error| to_py(py, &error))?)
     })
 }
@@ -295,7 +350,10 @@ impl Cell {
         tool: Option<&Bound<'_, PyAny>>,
         wobj: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let (tool, wobj) = (tool.map(read_tool).transpose()?, wobj.map(read_wobj).transpose()?);
+        let (tool, wobj) = (
+            tool.map(|tool| read(tool, "tool")).transpose()?,
+            wobj.map(|wobj| read(wobj, "wobj")).transpose()?,
+        );
         check_rule(py, arm)?;
         Ok(Self { tool, wobj })
     }
@@ -308,7 +366,7 @@ fn six_joints<'a>(robot: &'a Bound<'_, PyRobot>, call: &str) -> PyResult<&'a Arc
     arm.six_joints(py, call)
 }
 
-/// What a seed [rad] is for.
+/// The fallback with a seed [rad].
 fn read_fallback<const N: usize>(
     arm: &Arm,
     fallback: Option<&str>,
@@ -325,42 +383,41 @@ fn named(py: Python<'_>, error: &Error) -> PyErr {
     let raised = to_py(py, error);
     let Some(name) = rapid::error_name(error) else { return raised };
     let value = raised.value(py);
-    let told = value
+    let set = value
         .setattr("rapid_error", name)
         .and_then(|()| value.setattr("args", (format!("{name}: {error}"),)));
-    told.map_or_else(|failure| failure, |()| raised)
+    set.map_or_else(|failure| failure, |()| raised)
 }
 
-/// `irbkin.rapid.TargetTable`.
-fn table<'py, const N: usize>(
-    py: Python<'py>,
-    rows: &[TableRow<N>],
-) -> PyResult<Bound<'py, PyAny>> {
+/// The rows as arrays.
+fn table<const N: usize>(py: Python<'_>, rows: &[TableRow<N>]) -> PyResult<TargetTable> {
     let joints: Vec<f64> = rows.iter().flat_map(|row| row.q.unwrap_or([f64::NAN; N])).collect();
     let integers = |of: fn(&Configuration) -> i32| {
-        PyArray1::from_iter(py, rows.iter().map(move |row| of(&row.configuration)))
+        let each = rows.iter().map(move |row| of(&row.configuration));
+        PyArray1::from_iter(py, each).into_any().unbind()
     };
-    let (cf1, cf4, cf6, cfx) =
-        (integers(|c| c.cf1), integers(|c| c.cf4), integers(|c| c.cf6), integers(|c| c.cfx));
-    let distance = |of: fn(&crate::kinematics::SingularDistances) -> f64| {
-        PyArray1::from_iter(
-            py,
-            rows.iter().map(move |row| row.distances.as_ref().map_or(f64::NAN, of)),
-        )
+    let configuration = ConfigurationBatch {
+        cf1: integers(|c| c.cf1),
+        cf4: integers(|c| c.cf4),
+        cf6: integers(|c| c.cf6),
+        cfx: integers(|c| c.cfx),
     };
-    let fields = [
-        PyTuple::new(py, rows.iter().map(|row| row.kind))?.into_any(),
-        PyTuple::new(py, rows.iter().map(|row| &row.text))?.into_any(),
-        PyArray1::from_iter(py, rows.iter().map(|row| i64::try_from(row.line).unwrap_or(0)))
-            .into_any(),
-        (PyArray1::from_vec(py, joints).reshape([rows.len(), N])? as Bound<'_, PyArray2<f64>>)
-            .into_any(),
-        classes::configuration_batch_class(py)?.call1((cf1, cf4, cf6, cfx))?,
-        distance(|d| d.wrist).into_any(),
-        distance(|d| d.elbow).into_any(),
-        distance(|d| d.shoulder).into_any(),
-        PyTuple::new(py, rows.iter().map(|row| row.problem.as_ref().map(ToString::to_string)))?
-            .into_any(),
-    ];
-    classes::target_table_class(py)?.call1(PyTuple::new(py, fields)?)
+    let distance = |of: fn(&SingularDistances) -> f64| {
+        let each = rows.iter().map(move |row| row.distances.as_ref().map_or(f64::NAN, of));
+        PyArray1::from_iter(py, each).into_any().unbind()
+    };
+    let lines = rows.iter().map(|row| i64::try_from(row.line).unwrap_or(0));
+    let found = |row: &TableRow<N>| row.finding.as_ref().map(|it| Finding::of(py, it)).transpose();
+    let findings = rows.iter().map(found).collect::<PyResult<Vec<_>>>()?;
+    Ok(TargetTable {
+        kinds: PyTuple::new(py, rows.iter().map(|row| row.kind))?.unbind(),
+        names: PyTuple::new(py, rows.iter().map(|row| &row.text))?.unbind(),
+        lines: PyArray1::from_iter(py, lines).into_any().unbind(),
+        q: PyArray1::from_vec(py, joints).reshape([rows.len(), N])?.into_any().unbind(),
+        configuration: Py::new(py, configuration)?.into_any(),
+        wrist: distance(|d| d.wrist),
+        elbow: distance(|d| d.elbow),
+        shoulder: distance(|d| d.shoulder),
+        findings: PyTuple::new(py, findings)?.unbind(),
+    })
 }

@@ -5,14 +5,10 @@ use pyo3::pybacked::PyBackedStr;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyIterator, PyMappingProxy, PyTuple};
 
-use super::records::{
-    content, joint_target, read_content, record, rob_target, speed_data, zone_data,
-};
-use crate::python::classes;
+use super::program::{Declaration, Move, Skipped};
+use super::values::{content, read_content};
 use crate::python::errors::{rapid_fault, to_py, unknown_name};
-use crate::rapid::{
-    self, Argument, Content, Datum, Module, MotionSettings, Move, NewValue, Reason, Target, Value,
-};
+use crate::rapid::{self, Content, Datum, Module, NewValue};
 use crate::spelling::similar;
 
 /// A RAPID module: its data by name, its moves in order, and what was skipped.
@@ -72,17 +68,17 @@ impl RapidModule {
     }
 
     /// The data of the module itself, in the order of the text: names to records, to nested lists
-    /// of records for arrays, to None where the declaration has no value. Those of routines are in
+    /// of records for arrays, to None if the declaration has no value. Data of routines are in
     /// `declarations`.
     #[getter]
     fn data<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyMappingProxy>> {
         Ok(PyMappingProxy::new(py, self.data_dict(py)?.as_mapping()))
     }
 
-    /// Every declaration, including those of routines: a tuple of `Declaration`.
+    /// Every declaration, of routines too: a tuple of `Declaration`.
     #[getter]
     fn declarations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let declarations = self.module.data().iter().map(|datum| declaration(py, datum));
+        let declarations = self.module.data().iter().map(|datum| Declaration::of(py, datum));
         PyTuple::new(py, declarations.collect::<PyResult<Vec<_>>>()?)
     }
 
@@ -91,21 +87,16 @@ impl RapidModule {
     #[getter]
     fn moves<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyTuple>> {
         let moves = self.moves.get_or_try_init(py, || {
-            let moves = self.module.moves().iter().map(|step| move_record(py, step));
+            let moves = self.module.moves().iter().map(|step| Move::of(py, step));
             Ok::<_, PyErr>(PyTuple::new(py, moves.collect::<PyResult<Vec<_>>>()?)?.unbind())
         });
         Ok(moves?.bind(py))
     }
 
-    /// What was not read, in the order of the text: a tuple of `Skipped`.
+    /// The parts that were not read, in the order of the text: a tuple of `Skipped`.
     #[getter]
     fn skipped<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let class = classes::skipped_class(py)?;
-        let skipped = self.module.skipped().iter().map(|part| {
-            let what = part.what.to_string();
-            class.call1((part.line, part.column, &part.routine, what, &part.text))
-        });
-        PyTuple::new(py, skipped.collect::<PyResult<Vec<_>>>()?)
+        PyTuple::new(py, self.module.skipped().iter().map(Skipped::from))
     }
 
     /// Return the source with other values for some data; everything else, comments included, stays
@@ -160,7 +151,7 @@ impl RapidModule {
         self.data(py)?.call_method0("items")
     }
 
-    /// Return the value of a datum of the module; `default` where there is none of that name.
+    /// Return the value of a datum of the module; `default` if the module has no such name.
     #[pyo3(signature = (name, default=None, /))]
     fn get<'py>(
         &self,
@@ -197,7 +188,7 @@ impl RapidModule {
     /// The text and the context are read again.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Source<'_, 'py>)> {
         let context = PyTuple::new(py, &self.context)?;
-        Ok((py.import("irbkin._core")?.getattr("parse")?, (&self.source, context)))
+        Ok((py.import("irbkin._core")?.getattr("parse_module")?, (&self.source, context)))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -232,7 +223,7 @@ impl RapidModule {
         self.module.find(&name).map(|datum| datum.name.as_str())
     }
 
-    /// The error for a name that the module does not have; it tells those that are spelled alike.
+    /// The error for a name that the module does not have, with names that are spelled alike.
     fn unknown(&self, name: &Bound<'_, PyAny>) -> PyErr {
         let py = name.py();
         let known = self.module.data().iter().filter(|datum| datum.routine.is_none());
@@ -255,91 +246,6 @@ impl RapidModule {
         let found = self.module.position(name).zip(self.module.find(name));
         found.ok_or_else(|| rapid_fault(py, format!("the module has no data named {name:?}")))
     }
-}
-
-fn declaration<'py>(py: Python<'py>, datum: &Datum) -> PyResult<Bound<'py, PyAny>> {
-    let value = content(py, &datum.content)?;
-    let fields = (
-        &datum.name,
-        datum.data_type.name(),
-        datum.scope.word(),
-        datum.storage.word(),
-        &datum.routine,
-        value,
-        datum.line,
-        datum.column,
-    );
-    classes::declaration_class(py)?.call1(fields)
-}
-
-fn move_record<'py>(py: Python<'py>, step: &Move) -> PyResult<Bound<'py, PyAny>> {
-    let target = argument(py, &step.target, |target| match target {
-        Target::RobTarget(target) => rob_target(py, target),
-        Target::JointTarget(target) => joint_target(py, target),
-    })?;
-    let via =
-        step.via.as_ref().map(|via| argument(py, via, |via| rob_target(py, via))).transpose()?;
-    let tool = argument(py, &step.tool, |tool| record(py, &Value::ToolData(*tool)))?;
-    let wobj = step
-        .wobj
-        .as_ref()
-        .map(|wobj| argument(py, wobj, |wobj| record(py, &Value::WobjData(wobj.clone()))))
-        .transpose()?;
-    let speed = known(py, &step.speed, &step.speed_data, |speed| speed_data(py, speed))?;
-    let zone = known(py, &step.zone, &step.zone_data, |zone| zone_data(py, zone))?;
-    let time = step.time.as_ref().map(|time| {
-        let is_time = |option: &&rapid::MoveOption| option.name.eq_ignore_ascii_case("T");
-        let text = step.options.iter().find(is_time).and_then(|option| option.text.as_deref());
-        known(py, text.unwrap_or_default(), time, |time| Ok(time.into_pyobject(py)?.into_any()))
-    });
-    let options = PyTuple::new(py, step.options.iter().map(|option| (&option.name, &option.text)))?;
-    let fields = [
-        step.kind.name().into_pyobject(py)?.into_any(),
-        (&step.routine).into_pyobject(py)?.into_any(),
-        target,
-        via.into_pyobject(py)?.into_any(),
-        (&step.speed).into_pyobject(py)?.into_any(),
-        (&step.zone).into_pyobject(py)?.into_any(),
-        tool,
-        wobj.into_pyobject(py)?.into_any(),
-        options.into_any(),
-        step.line.into_pyobject(py)?.into_any(),
-        step.column.into_pyobject(py)?.into_any(),
-        step.displaced.into_pyobject(py)?.into_any(),
-        speed,
-        zone,
-        time.transpose()?.into_pyobject(py)?.into_any(),
-        motion_settings(py, step.settings)?,
-    ];
-    classes::move_class(py)?.call1(PyTuple::new(py, fields)?)
-}
-
-fn argument<'py, T>(
-    py: Python<'py>,
-    argument: &Argument<T>,
-    record: impl FnOnce(&T) -> PyResult<Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyAny>> {
-    known(py, &argument.text, &argument.value, record)
-}
-
-/// What is written, with its value or the reason why that is not known.
-fn known<'py, T>(
-    py: Python<'py>,
-    text: &str,
-    value: &Result<T, Reason>,
-    record: impl FnOnce(&T) -> PyResult<Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let (value, reason) = match value {
-        Ok(value) => (Some(record(value)?), None),
-        Err(reason) => (None, Some(reason.to_string())),
-    };
-    classes::argument_class(py)?.call1((text, value, reason))
-}
-
-fn motion_settings(py: Python<'_>, settings: MotionSettings) -> PyResult<Bound<'_, PyAny>> {
-    let MotionSettings { conf_l, conf_j, sing_area, cir_path_mode } = settings;
-    let fields = (conf_l, conf_j, sing_area.name(), cir_path_mode.name());
-    classes::motion_settings_class(py)?.call1(fields)
 }
 
 /// Names that are spelled like another one, the closest first.

@@ -1,35 +1,58 @@
 //! `irbkin.rapid.motion`: a routine as one motion.
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::ndarray::Dimension;
+use numpy::{PyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyDict, PyTuple};
 
 use super::module::RapidModule;
-use super::records::read_joint_target;
+use super::program::{Finding, MotionMove};
 use super::six_joints;
 use crate::python::arrays::vector;
-use crate::python::classes;
 use crate::python::errors::{Fault, to_py};
 use crate::python::robot::PyRobot;
 use crate::python::trajectories::read_each;
 use crate::python::trajectory::PyTrajectory;
-use crate::rapid::{self, Finding, MotionMove, MotionOptions, RoutineMotion};
+use crate::rapid::{self, JointTarget, MotionOptions, RoutineMotion};
 
 /// The moves of a routine as one motion: followed, timed and checked.
 ///
 /// `motion` makes one. Frozen and picklable; a motion that is unpickled is made again.
 #[pyclass(name = "RoutineMotion", module = "irbkin.rapid", frozen)]
 pub(crate) struct PyRoutineMotion {
+    /// The routine; None for moves outside routines.
+    #[pyo3(get)]
+    routine: Option<String>,
+    /// Duration [s]; without `max_acceleration` a kinematic lower bound, no cycle time.
+    #[pyo3(get)]
+    duration: f64,
+    /// The joints over time: a Trajectory with these samples. Without `max_acceleration` the joints
+    /// go evenly from sample to sample.
+    #[pyo3(get)]
+    trajectory: Py<PyTrajectory>,
+    /// Times of the samples [s], shape (m,).
+    #[pyo3(get)]
+    t: Py<PyArray1<f64>>,
+    /// Joint angles of the samples [rad], shape (m, 6).
+    #[pyo3(get)]
+    q: Py<PyArray2<f64>>,
+    /// The move, by its index in `moves`, that each sample belongs to, shape (m,). A corner is
+    /// shared by two: the sample halfway through it is the last one of the first move.
+    #[pyo3(get)]
+    move_index: Py<PyArray1<i64>>,
+    /// Line of the instruction that each sample belongs to, shape (m,).
+    #[pyo3(get)]
+    lines: Py<PyArray1<i64>>,
+    /// The moves of the routine, in order: a tuple of `MotionMove`.
+    #[pyo3(get)]
+    moves: Py<PyTuple>,
+    /// The findings on moves, in order: a tuple of `Finding`.
+    #[pyo3(get)]
+    findings: Py<PyTuple>,
     motion: RoutineMotion,
     robot: Py<PyRobot>,
     module: Py<RapidModule>,
     options: MotionOptions,
-    trajectory: PyOnceLock<Py<PyTrajectory>>,
-    t: PyOnceLock<Py<PyArray1<f64>>>,
-    q: PyOnceLock<Py<PyArray2<f64>>>,
-    moves: PyOnceLock<Py<PyTuple>>,
-    findings: PyOnceLock<Py<PyTuple>>,
 }
 
 /// Make one motion of the moves of a routine: MoveAbsJ, MoveJ, MoveL and MoveC in order, each
@@ -63,7 +86,7 @@ pub(crate) struct PyRoutineMotion {
 ///     InvalidMotionError: A limit or a step that is not positive and finite, a robot without
 ///         velocities, or more than ten million samples.
 ///     InvalidJointsError: A start that is not finite or has a wrong shape.
-///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
 ///         catalog.
 #[pyfunction]
 #[pyo3(signature = (robot, module, routine=None, *, start=None, max_velocity=None,
@@ -87,7 +110,34 @@ pub(crate) fn motion(
         step,
         turn: turn.unwrap_or(MotionOptions::default().turn),
     };
-    made(robot, module, routine, options)
+    let py = robot.py();
+    let arm = six_joints(robot, "motion")?;
+    let own = &module.get().module;
+    let motion = py
+        .detach(|| rapid::motion(arm, own, routine, &options))
+        .map_err(|error| to_py(py, &error))?;
+    let index = |number: usize| i64::try_from(number).unwrap_or(-1);
+    let line = |of: &usize| index(motion.moves.get(*of).map_or(0, |step| step.line));
+    let trajectory = PyTrajectory::new(py, motion.trajectory.clone(), motion.t.clone())?;
+    let q = PyArray1::from_slice(py, motion.q.as_flattened()).reshape([motion.q.len(), 6])?;
+    let moves = motion.moves.iter().map(|step| MotionMove::of(py, step));
+    let findings = motion.findings.iter().map(|finding| Finding::of(py, finding));
+    let findings = findings.collect::<PyResult<Vec<_>>>()?;
+    Ok(PyRoutineMotion {
+        routine: motion.routine.clone(),
+        duration: motion.trajectory.duration(),
+        trajectory: Py::new(py, trajectory)?,
+        t: frozen(PyArray1::from_slice(py, &motion.t)),
+        q: frozen(q),
+        move_index: PyArray1::from_iter(py, motion.move_index.iter().copied().map(index)).unbind(),
+        lines: PyArray1::from_iter(py, motion.move_index.iter().map(line)).unbind(),
+        moves: PyTuple::new(py, moves)?.unbind(),
+        findings: PyTuple::new(py, findings)?.unbind(),
+        motion,
+        robot: robot.clone().unbind(),
+        module: module.clone().unbind(),
+        options,
+    })
 }
 
 /// A limit of each joint, if it is given.
@@ -101,145 +151,29 @@ pub(super) fn read_limits(
     }
 }
 
-/// Joint angles [rad], or those of a JointTarget.
+/// Joint angles [rad], or the joints of a JointTarget.
 fn read_start(given: &Bound<'_, PyAny>) -> PyResult<[f64; 6]> {
-    if given.is_instance(classes::joint_target_class(given.py())?)? {
-        return Ok(read_joint_target(given, 6)?.robax_deg.map(f64::to_radians));
+    if let Ok(joints) = given.cast::<JointTarget>() {
+        return Ok(joints.get().robax_deg.map(f64::to_radians));
     }
     vector::<6>(given, "start", Fault::Joints)
 }
 
-fn made(
-    robot: &Bound<'_, PyRobot>,
-    module: &Bound<'_, RapidModule>,
-    routine: Option<&str>,
-    options: MotionOptions,
-) -> PyResult<PyRoutineMotion> {
-    let py = robot.py();
-    let arm = six_joints(robot, "motion")?;
-    let own = &module.get().module;
-    let motion = py
-        .detach(|| rapid::motion(arm, own, routine, &options))
-        .map_err(|error| to_py(py, &error))?;
-    Ok(PyRoutineMotion {
-        motion,
-        robot: robot.clone().unbind(),
-        module: module.clone().unbind(),
-        options,
-        trajectory: PyOnceLock::new(),
-        t: PyOnceLock::new(),
-        q: PyOnceLock::new(),
-        moves: PyOnceLock::new(),
-        findings: PyOnceLock::new(),
-    })
+/// An array that is not written to.
+fn frozen<D: Dimension>(array: Bound<'_, PyArray<f64, D>>) -> Py<PyArray<f64, D>> {
+    array.readwrite().make_nonwriteable();
+    array.unbind()
 }
 
-type Restored = (Py<PyRobot>, Py<RapidModule>, Option<String>, StoredOptions);
-
-/// Start, velocities, accelerations, step and turn.
-type StoredOptions = (Option<[f64; 6]>, Option<[f64; 6]>, Option<[f64; 6]>, f64, f64);
-
-/// A pickled motion.
-#[pyfunction(name = "_restore_motion")]
-pub(crate) fn restore_motion(
-    robot: &Bound<'_, PyRobot>,
-    module: &Bound<'_, RapidModule>,
-    routine: Option<&str>,
-    options: StoredOptions,
-) -> PyResult<PyRoutineMotion> {
-    let (start, max_velocity, max_acceleration, step, turn) = options;
-    let options = MotionOptions { start, max_velocity, max_acceleration, step, turn };
-    made(robot, module, routine, options)
-}
+/// Robot, module and routine of a motion.
+type Made<'a> = (&'a Py<PyRobot>, &'a Py<RapidModule>, Option<&'a str>);
 
 #[pymethods]
 impl PyRoutineMotion {
-    /// The routine; None for moves outside routines.
-    #[getter]
-    fn routine(&self) -> Option<&str> {
-        self.motion.routine.as_deref()
-    }
-
-    /// Duration [s]; without `max_acceleration` a kinematic lower bound, no cycle time.
-    #[getter]
-    fn duration(&self) -> f64 {
-        self.motion.trajectory.duration()
-    }
-
-    /// The joints over time: a Trajectory with these samples. Without `max_acceleration` the joints
-    /// go evenly from sample to sample.
-    #[getter]
-    fn trajectory<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTrajectory>> {
-        let trajectory = self.trajectory.get_or_try_init(py, || {
-            let (trajectory, times) = (self.motion.trajectory.clone(), self.motion.t.clone());
-            Py::new(py, PyTrajectory::new(py, trajectory, times)?)
-        });
-        Ok(trajectory?.bind(py).clone())
-    }
-
-    /// Times of the samples [s], shape (m,).
-    #[getter]
-    fn t<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        let t = self.t.get_or_init(py, || {
-            let t = PyArray1::from_slice(py, &self.motion.t);
-            t.readwrite().make_nonwriteable();
-            t.unbind()
-        });
-        t.bind(py).clone()
-    }
-
-    /// Joint angles of the samples [rad], shape (m, 6).
-    #[getter]
-    fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let q = self.q.get_or_try_init(py, || {
-            let q = PyArray1::from_slice(py, self.motion.q.as_flattened());
-            let q = q.reshape([self.motion.q.len(), 6])?;
-            q.readwrite().make_nonwriteable();
-            Ok::<_, PyErr>(q.unbind())
-        });
-        Ok(q?.bind(py).clone())
-    }
-
-    /// The move, by its index in `moves`, that each sample belongs to, shape (m,). A corner is
-    /// shared by two: the sample halfway through it is the last one of the first move.
-    #[getter]
-    fn move_index<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        let index = self.motion.move_index.iter().map(|index| i64::try_from(*index).unwrap_or(-1));
-        PyArray1::from_iter(py, index)
-    }
-
-    /// Line of the instruction that each sample belongs to, shape (m,).
-    #[getter]
-    fn lines<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        let line = |index: &usize| self.motion.moves.get(*index).map_or(0, |step| step.line);
-        let lines = self.motion.move_index.iter().map(line);
-        PyArray1::from_iter(py, lines.map(|line| i64::try_from(line).unwrap_or(0)))
-    }
-
-    /// The moves of the routine, in order: a tuple of `MotionMove`.
-    #[getter]
-    fn moves<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let moves = self.moves.get_or_try_init(py, || {
-            let moves = self.motion.moves.iter().map(|step| motion_move(py, step));
-            Ok::<_, PyErr>(PyTuple::new(py, moves.collect::<PyResult<Vec<_>>>()?)?.unbind())
-        });
-        Ok(moves?.bind(py).clone())
-    }
-
-    /// What is wrong with moves, in order: a tuple of `Finding`.
-    #[getter]
-    fn findings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let findings = self.findings.get_or_try_init(py, || {
-            let findings = self.motion.findings.iter().map(|finding| finding_record(py, finding));
-            Ok::<_, PyErr>(PyTuple::new(py, findings.collect::<PyResult<Vec<_>>>()?)?.unbind())
-        });
-        Ok(findings?.bind(py).clone())
-    }
-
     /// Return the motion as a module: a MoveAbsJ to the joints of each target that is met or
     /// passed, with its external axes, speed, zone, \T, tool and work object.
     ///
-    /// The path between the targets is that of the joints. Tools and work objects are declared as
+    /// Between the targets the joints move evenly. Tools and work objects are declared as
     /// PERS; speeds and zones that are not RAPID's own are written as numbers.
     ///
     /// Args:
@@ -249,7 +183,7 @@ impl PyRoutineMotion {
     ///     Module, which `dump` writes.
     ///
     /// Raises:
-    ///     RapidError: The name is none.
+    ///     RapidError: The name is not a RAPID identifier.
     #[pyo3(signature = (name="Motion"))]
     fn to_module(&self, py: Python<'_>, name: &str) -> PyResult<RapidModule> {
         let module = self.motion.to_module(name).map_err(|error| to_py(py, &error))?;
@@ -276,38 +210,30 @@ impl PyRoutineMotion {
             self.motion.routine.as_deref().unwrap_or(""),
             count(self.motion.moves.len(), "move"),
             count(self.motion.t.len(), "sample"),
-            self.duration(),
+            self.duration,
             count(self.motion.findings.len(), "finding"),
         )
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Restored)> {
-        let restore = py.import("irbkin._core")?.getattr("_restore_motion")?;
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Made<'_>)> {
         let MotionOptions { start, max_velocity, max_acceleration, step, turn } = self.options;
-        let options = (start, max_velocity, max_acceleration, step, turn);
-        let (robot, module) = (self.robot.clone_ref(py), self.module.clone_ref(py));
-        Ok((restore, (robot, module, self.motion.routine.clone(), options)))
+        let options = PyDict::new(py);
+        options.set_item("start", start)?;
+        options.set_item("max_velocity", max_velocity)?;
+        options.set_item("max_acceleration", max_acceleration)?;
+        options.set_item("step", step)?;
+        options.set_item("turn", turn)?;
+        let motion = py.import("irbkin._core")?.getattr("motion")?;
+        let again = py.import("functools")?.getattr("partial")?.call((motion,), Some(&options))?;
+        Ok((again, (&self.robot, &self.module, self.motion.routine.as_deref())))
     }
 }
 
-fn motion_move<'py>(py: Python<'py>, step: &MotionMove) -> PyResult<Bound<'py, PyAny>> {
-    let q = step.q.map(|q| PyArray1::from_slice(py, &q));
-    let MotionMove { kind, module_index, line, start, end, length, as_programmed, .. } = step;
-    let fields = (kind.name(), module_index, line, start, end, length, q, as_programmed);
-    classes::motion_move_class(py)?.call1(fields)
-}
-
-fn finding_record<'py>(py: Python<'py>, finding: &Finding) -> PyResult<Bound<'py, PyAny>> {
-    let figures = finding.kind.value_and_bound();
-    let fields = (
-        finding.kind.name(),
-        finding.move_index,
-        finding.line,
-        finding.column,
-        finding.kind.joint(),
-        figures.map(|[value, _]| value),
-        figures.map(|[_, bound]| bound),
-        finding.to_string(),
-    );
-    classes::finding_class(py)?.call1(fields)
+impl MotionMove {
+    fn of(py: Python<'_>, step: &rapid::MotionMove) -> Self {
+        let rapid::MotionMove { kind, module_index, line, start, end, .. } = *step;
+        let q = step.q.map(|q| PyArray1::from_slice(py, &q).into_any().unbind());
+        let (length, as_programmed) = (step.length, step.as_programmed);
+        Self { kind: kind.name().into(), module_index, line, start, end, length, q, as_programmed }
+    }
 }

@@ -77,7 +77,7 @@ pub(in crate::rapid) fn pose_in(pose: &RapidPose, field: &'static str) -> Result
 }
 
 /// Convert a pose in meters to one in millimeters.
-pub(in crate::rapid) fn rapid_pose(pose: &Pose) -> RapidPose {
+pub(crate) fn rapid_pose(pose: &Pose) -> RapidPose {
     let (xyz, rot) = pose_to_wxyz(pose);
     RapidPose { trans_mm: xyz.map(|m| m * 1e3), rot }
 }

@@ -1,16 +1,16 @@
 //! The joint angles of every target of a module.
 
+use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::axes::{absent_axis, joint_vector, request};
-use super::fallback::Fallback;
 use super::frames::Frames;
-use super::problem::Problem;
-use super::target::{target_pose, with_flange};
+use super::target::{Fallback, absent_axis, joint_vector, request, target_pose, with_flange};
+use super::wrong::{Found, absent, ambiguous, displaced, nearest_taken, not_solved, outside};
 use crate::error::Error;
 use crate::kinematics::{Robot, SingularDistances, Solution};
+use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::{Content, Module};
 use crate::rapid::data::moves::{Argument, Move, Target};
 use crate::rapid::data::records::{JointTarget, RobTarget, ToolData, WobjData};
@@ -28,13 +28,13 @@ pub struct TableRow<const N: usize = 6> {
     pub line: usize,
     /// Joint angles [rad]; `None` if there are none.
     pub q: Option<[f64; N]>,
-    /// The configuration of the joint angles; if there are none, that of the target, or zeros if it
+    /// The configuration of the joint angles; without joint angles the target's, or zeros if it
     /// is unknown too.
     pub configuration: Configuration,
     /// Distances of the joint angles from the singularities.
     pub distances: Option<SingularDistances>,
-    /// The reason why there are no joint angles, or others than the target requests.
-    pub problem: Option<Problem>,
+    /// Why there are no joint angles, or others than the target requests.
+    pub finding: Option<Finding>,
 }
 
 /// The joint angles of every target of the module's moves, in order; a `MoveC` has two.
@@ -47,20 +47,7 @@ pub struct TableRow<const N: usize = 6> {
 ///
 /// [`Error::InvalidModel`] for an arm without configurations. A problem with one target is reported
 /// in its row.
-pub fn calc_moves(
-    robot: &Robot<6>,
-    module: &Module,
-    fallback: Fallback,
-) -> Result<Vec<TableRow>, Error> {
-    moves_table(robot, module, fallback)
-}
-
-/// [`calc_moves`] of an arm of any number of joints that has configurations.
-///
-/// # Errors
-///
-/// As [`calc_moves`].
-pub fn moves_table<const N: usize>(
+pub fn calc_moves<const N: usize>(
     robot: &Robot<N>,
     module: &Module,
     fallback: Fallback<N>,
@@ -84,22 +71,7 @@ pub fn moves_table<const N: usize>(
 /// # Errors
 ///
 /// As [`calc_moves`], and [`Error::Frame`] as [`calc_joint_t`](crate::rapid::calc_joint_t).
-pub fn calc_targets(
-    robot: &Robot<6>,
-    module: &Module,
-    tool: Option<&ToolData>,
-    wobj: Option<&WobjData>,
-    fallback: Fallback,
-) -> Result<Vec<TableRow>, Error> {
-    targets_table(robot, module, tool, wobj, fallback)
-}
-
-/// [`calc_targets`] of an arm of any number of joints that has configurations.
-///
-/// # Errors
-///
-/// As [`calc_targets`].
-pub fn targets_table<const N: usize>(
+pub fn calc_targets<const N: usize>(
     robot: &Robot<N>,
     module: &Module,
     tool: Option<&ToolData>,
@@ -109,64 +81,49 @@ pub fn targets_table<const N: usize>(
     let frames = Frames::new(robot, tool, wobj)?;
     let mut table = Table::new(robot, fallback)?;
     for datum in module.data().iter().filter(|datum| datum.routine.is_none()) {
-        match &datum.content {
-            Content::Single(Value::RobTarget(target)) => {
-                table.add("robtarget", datum.name.clone(), datum.line, target, Ok(frames));
+        let (sizes, values) = match &datum.content {
+            Content::Single(value) => (&[][..], core::slice::from_ref(value)),
+            Content::Array { sizes, values } => (sizes.as_slice(), values.as_slice()),
+            Content::Uninitialized { .. } => continue,
+        };
+        for (number, value) in values.iter().enumerate() {
+            if let Value::RobTarget(target) = value {
+                let text = element(&datum.name, sizes, number);
+                let place = (datum.line, datum.column);
+                let row = Row { kind: "robtarget", text, place, routine: None };
+                table.add(row, table.solved(target, Ok(frames)), target.robconf);
             }
-            Content::Array { sizes, values } => {
-                for (number, value) in values.iter().enumerate() {
-                    if let Value::RobTarget(target) = value {
-                        table.add(
-                            "robtarget",
-                            element(&datum.name, sizes, number),
-                            datum.line,
-                            target,
-                            Ok(frames),
-                        );
-                    }
-                }
-            }
-            _ => {}
         }
     }
     Ok(table.rows)
 }
 
 /// The frames of a move.
-pub(in crate::rapid) fn frames_of<const N: usize>(
-    robot: &Robot<N>,
-    step: &Move,
-) -> Result<Frames, Problem> {
-    let Argument { text, value, .. } = &step.tool;
-    let tool = value
-        .as_ref()
-        .map_err(|reason| Problem::Tool { text: text.clone(), reason: reason.clone() })?;
-    let wobj = step.wobj.as_ref().map(|Argument { text, value, .. }| {
-        value
-            .as_ref()
-            .map_err(|reason| Problem::WorkObject { text: text.clone(), reason: reason.clone() })
-    });
-    Frames::new(robot, Some(tool), wobj.transpose()?).map_err(Problem::NotSolved)
+pub(in crate::rapid) fn frames_of<const N: usize>(robot: &Robot<N>, step: &Move) -> Found<Frames> {
+    let tool = known(&step.tool, Code::UnknownTool, "tool ")?;
+    let wobj = step.wobj.as_ref().map(|wobj| known(wobj, Code::UnknownWorkObject, "work object "));
+    Frames::new(robot, Some(tool), wobj.transpose()?).map_err(|error| not_solved(&error).into())
 }
 
-/// The joint or linkage that is outside the limits, and the excess.
-pub(in crate::rapid) fn outside<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Option<Problem> {
-    let limits = robot.limits();
-    if limits.contains(q) {
-        return None;
-    }
-    let farthest =
-        (0..N).max_by(|a, b| limits.excess(*a, q[*a]).total_cmp(&limits.excess(*b, q[*b])))?;
-    let excess = limits.excess(farthest, q[farthest]);
-    Some(if excess > 0.0 {
-        Problem::OutsideLimits { joint: farthest + 1, excess }
-    } else {
-        Problem::OutsideLinkageLimits { excess: limits.linkage_excess(q) }
+/// The value of an argument, which messages name after what it is.
+fn known<'m, T>(argument: &'m Argument<T>, code: Code, what: &str) -> Found<&'m T> {
+    argument.value.as_ref().map_err(|reason| {
+        Finding::unknown(code, reason, format!("{what}{}: {reason}", argument.text)).into()
     })
 }
 
-/// The name of an element of an array, by its index in the order of the values.
+/// The value of a target.
+pub(in crate::rapid) fn target_of<T>(argument: &Argument<T>) -> Found<&T> {
+    let value = argument.value.as_ref();
+    value.map_err(|reason| Finding::unknown(Code::UnknownTarget, reason, reason.to_string()).into())
+}
+
+/// The name of an element of an array, by its index in the order of the values; without sizes that
+/// of the datum.
 fn element(name: &str, sizes: &[usize], mut number: usize) -> String {
+    if sizes.is_empty() {
+        return name.to_string();
+    }
     let mut indices = Vec::with_capacity(sizes.len());
     for size in sizes.iter().rev() {
         indices.push((number % size + 1).to_string());
@@ -176,9 +133,21 @@ fn element(name: &str, sizes: &[usize], mut number: usize) -> String {
     format!("{name}{{{}}}", indices.join(","))
 }
 
+/// A row before its target is solved.
+struct Row {
+    kind: &'static str,
+    text: String,
+    /// Line and column.
+    place: (usize, usize),
+    routine: Option<String>,
+}
+
+/// Joint angles, with a finding if they are others than the target requests.
+type Solved<const N: usize> = Found<([f64; N], Option<Finding>)>;
+
 struct Table<'a, const N: usize> {
     robot: &'a Robot<N>,
-    /// The same robot with the flange as its tool.
+    /// The robot with the flange as its tool.
     flange: Robot<N>,
     fallback: Fallback<N>,
     rows: Vec<TableRow<N>>,
@@ -198,76 +167,50 @@ impl<'a, const N: usize> Table<'a, N> {
         read: impl Fn(&T) -> Result<RobTarget, JointTarget>,
     ) {
         let (kind, text) = (step.kind.name(), argument.text.clone());
-        if let Some(line) = step.displaced {
-            return self.add_problem(kind, text, step.line, Problem::Displaced { line });
-        }
-        match argument.value.as_ref().map(read) {
+        let place = (step.line, step.column);
+        let row = Row { kind, text, place, routine: step.routine.clone() };
+        let target = match step.displaced {
+            Some(line) => Err(displaced(line).into()),
+            None => target_of(argument).map(read),
+        };
+        let mut robconf = Configuration::default();
+        let solved = match target {
+            Err(finding) => Err(finding),
             Ok(Ok(target)) => {
-                let frames = frames_of(self.robot, step);
-                self.add(kind, text, step.line, &target, frames);
+                robconf = target.robconf;
+                self.solved(&target, frames_of(self.robot, step))
             }
             Ok(Err(joints)) => match absent_axis::<N>(&joints) {
-                Some((axis, degrees)) => {
-                    let problem = Problem::AbsentAxis { axis, degrees };
-                    self.add_problem(kind, text, step.line, problem);
+                Some((axis, degrees)) => Err(absent(axis, degrees).into()),
+                None => {
+                    let q = joint_vector(&joints);
+                    Ok((q, outside(self.robot, &q)))
                 }
-                None => self.add_joints(kind, text, step.line, joint_vector(&joints)),
             },
-            Err(reason) => self.add_problem(kind, text, step.line, Problem::Target(reason.clone())),
-        }
-    }
-
-    fn add_problem(&mut self, kind: &'static str, text: String, line: usize, problem: Problem) {
-        let configuration = Configuration::default();
-        self.rows.push(TableRow {
-            kind,
-            text,
-            line,
-            q: None,
-            configuration,
-            distances: None,
-            problem: Some(problem),
-        });
-    }
-
-    fn add(
-        &mut self,
-        kind: &'static str,
-        text: String,
-        line: usize,
-        target: &RobTarget,
-        frames: Result<Frames, Problem>,
-    ) {
-        let (q, problem) = match frames.and_then(|frames| self.solved(target, &frames)) {
-            Ok((q, problem)) => (Some(q), problem),
-            Err(problem) => (None, Some(problem)),
         };
-        let (configuration, distances) = q.map_or((target.robconf, None), |q| self.seen(&q));
-        self.rows.push(TableRow { kind, text, line, q, configuration, distances, problem });
+        self.add(row, solved, robconf);
     }
 
-    fn add_joints(&mut self, kind: &'static str, text: String, line: usize, q: [f64; N]) {
-        let (configuration, distances) = self.seen(&q);
-        let problem = outside(self.robot, &q);
-        self.rows.push(TableRow {
-            kind,
-            text,
-            line,
-            q: Some(q),
-            configuration,
-            distances,
-            problem,
-        });
+    /// Add a row; without joint angles it has the configuration of the target.
+    fn add(&mut self, row: Row, solved: Solved<N>, robconf: Configuration) {
+        let Row { kind, text, place, routine } = row;
+        let (q, finding) = match solved {
+            Ok((q, finding)) => (Some(q), finding),
+            Err(finding) => (None, Some(*finding)),
+        };
+        let configuration = q.map_or(robconf, |q| self.robot.configuration(&q).unwrap_or_default());
+        let distances = q.and_then(|q| self.robot.singular_distances(&q));
+        let what = format!("{kind} {text}");
+        let finding = finding.map(|it| it.placed(place, routine, self.rows.len(), &what));
+        let line = place.0;
+        self.rows.push(TableRow { kind, text, line, q, configuration, distances, finding });
     }
 
-    /// The joint angles of a target, and the problem with them, if any.
-    fn solved(
-        &self,
-        target: &RobTarget,
-        frames: &Frames,
-    ) -> Result<([f64; N], Option<Problem>), Problem> {
-        let pose = frames.flange(&target_pose(target).map_err(Problem::NotSolved)?);
-        let mut asked = request(&self.flange, target).map_err(Problem::NotSolved)?;
+    /// The joint angles of a target.
+    fn solved(&self, target: &RobTarget, frames: Found<Frames>) -> Solved<N> {
+        let refused = |error: Error| Box::new(not_solved(&error));
+        let pose = frames?.flange(&target_pose(target).map_err(refused)?);
+        let mut asked = request(&self.flange, target).map_err(refused)?;
         let first = match self.fallback {
             Fallback::None => None,
             Fallback::Near(first) | Fallback::Nearest(first) => Some(first),
@@ -280,22 +223,17 @@ impl<'a, const N: usize> Table<'a, N> {
         let (Error::NoConfiguration(_), Fallback::Nearest(_), Some(seed)) =
             (&missed, self.fallback, asked.seed)
         else {
-            return Err(Problem::NotSolved(missed));
+            return Err(refused(missed));
         };
-        let nearest = self.flange.ik_nearest(&pose, &seed, &[1.0; N]);
-        Ok((nearest.map_err(Problem::NotSolved)?.q, Some(Problem::Nearest(missed))))
-    }
-
-    fn seen(&self, q: &[f64; N]) -> (Configuration, Option<SingularDistances>) {
-        let configuration = self.robot.configuration(q).unwrap_or_default();
-        (configuration, self.robot.singular_distances(q))
+        let nearest = self.flange.ik_nearest(&pose, &seed, &[1.0; N]).map_err(refused)?;
+        Ok((nearest.q, Some(nearest_taken(&missed))))
     }
 }
 
-/// The first of the solutions that a configuration names, and that there are more.
-fn chosen<const N: usize>(all: &[Solution<N>]) -> Result<([f64; N], Option<Problem>), Problem> {
-    let first =
-        all.first().ok_or(Problem::NotSolved(Error::Unreachable(Explanation::FilteredOut)))?;
+/// The first of the solutions that a configuration names, with a finding if there are more.
+fn chosen<const N: usize>(all: &[Solution<N>]) -> Solved<N> {
+    let none = || not_solved(&Error::Unreachable(Explanation::FilteredOut));
+    let first = all.first().ok_or_else(none)?;
     let count = all.len();
-    Ok((first.q, (count > 1).then_some(Problem::Ambiguous { count })))
+    Ok((first.q, (count > 1).then(|| ambiguous(count))))
 }

@@ -1,4 +1,4 @@
-//! Settings of motion across calls: a routine begins with those of its callers, and leaves its own
+//! Settings of motion across calls: a routine begins with its callers' settings, and leaves its own
 //! to them.
 
 use alloc::borrow::Cow;
@@ -8,12 +8,12 @@ use alloc::vec::Vec;
 
 use crate::rapid::data::module::Module;
 use crate::rapid::data::settings::{MotionSettings, Setting};
-use crate::rapid::data::skipped::NotRead;
+use crate::rapid::data::unread::NotRead;
 
 /// How often settings are passed on from routine to routine.
 const PASSES: usize = 8;
 
-/// What sets and what is set, in the order of the text.
+/// A setting, a call or a move, in the order of the text.
 enum Event<'m> {
     Setting(&'m Setting),
     Call(String),
@@ -121,7 +121,7 @@ pub(super) fn with_inherited(module: &Module) -> Cow<'_, Module> {
     Cow::Owned(module)
 }
 
-/// What happens in each routine, by its name in lower case, in the order of the text.
+/// The events of each routine, by its name in lower case, in the order of the text.
 fn events(module: &Module) -> BTreeMap<String, Vec<Event<'_>>> {
     let lower = |routine: &Option<String>| routine.as_deref().unwrap_or_default().to_lowercase();
     let moves = module.moves.iter().enumerate();

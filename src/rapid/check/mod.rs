@@ -1,10 +1,6 @@
-//! All moves of a module checked, as a linter does (docs/check.md).
+//! All moves of a module checked, as a linter does (docs/guide/check.md).
 
 pub(super) mod checker;
-pub(super) mod code;
-mod confdata;
-pub(super) mod diagnostic;
 mod fixes;
 mod inherited;
 mod runs;
-mod zones;

@@ -4,18 +4,15 @@ use alloc::collections::BTreeSet;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Module;
-use crate::rapid::data::settings::MotionSettings;
-use crate::rapid::data::skipped::{NotRead, Skipped};
-use crate::rapid::motion::sequence::{
-    Item, LEAVING, Step, ends_with_then, is_one_of, items_where, moving,
-};
+use crate::rapid::data::unread::{NotRead, Skipped};
+use crate::rapid::motion::sequence::{Item, Step, ends_with_then, items_where, moving};
 
 /// Steps that follow one another.
 pub(super) struct Run<'m> {
     /// Where the robot is before it: after so many moves of an earlier run.
     pub(super) from: Option<(usize, usize)>,
-    pub(super) routine: Option<&'m str>,
     pub(super) steps: Vec<Step<'m>>,
 }
 
@@ -109,7 +106,7 @@ impl<'m> Walk<'m> {
             Here::Unknown | Here::Left => None,
         };
         self.here = Here::After(self.runs.len(), 1);
-        self.runs.push(Run { from, routine: self.routine, steps: Vec::from([step]) });
+        self.runs.push(Run { from, steps: Vec::from([step]) });
     }
 
     /// The number of moves among the first steps of a run.
@@ -126,11 +123,9 @@ impl<'m> Walk<'m> {
             }
             NotRead::Label { .. } => self.here = Here::Unknown,
             NotRead::Instruction { name } => {
-                // A program goes on behind Stop.
-                let leaves = is_one_of(name, &LEAVING) && !is_one_of(name, &["Stop"]);
-                if leaves || name.eq_ignore_ascii_case("GOTO") {
+                if Effect::Leaves.is_of(name) || Effect::Jumps.is_of(name) {
                     self.here = Here::Left;
-                } else if is_one_of(name, &MotionSettings::INSTRUCTIONS) {
+                } else if Effect::Sets.is_of(name) {
                     self.push(Step::NotRead(skipped));
                 } else if self.moving.contains(&name.to_lowercase()) {
                     self.push(Step::Call(skipped, name));

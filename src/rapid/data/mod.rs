@@ -1,13 +1,14 @@
 //! The content of a module: types, records, values, data, moves, and reasons why something is not
 //! read.
 
-pub(crate) mod data_type;
-pub(crate) mod literals;
+#[cfg(feature = "python")]
+pub(crate) mod class;
+pub(crate) mod finding;
+pub(crate) mod instructions;
 pub(crate) mod module;
 pub(crate) mod moves;
-pub(crate) mod parts;
-pub(crate) mod reason;
 pub(crate) mod records;
 pub(crate) mod settings;
-pub(crate) mod skipped;
+pub(crate) mod types;
+pub(crate) mod unread;
 pub(crate) mod value;

@@ -1,58 +1,45 @@
 //! A RAPID module as data: declarations, moves, and what was skipped.
 
-use core::ops::Range;
-
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::ops::Range;
 
-use super::data_type::DataType;
 use super::moves::Move;
 use super::settings::Setting;
-use super::skipped::Skipped;
-use super::value::Value;
+use super::unread::Skipped;
+use super::value::{DataType, Value};
+use crate::rapid::text::words::words;
 
-/// The scope of a datum.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scope {
-    /// Visible in every module; inside a routine, in the routine.
-    Global,
-    /// `LOCAL`: visible in its module.
-    Local,
-    /// `TASK`: visible in the modules of its task.
-    Task,
-}
-
-/// The storage class of a datum.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Storage {
-    /// `CONST`: never changes.
-    Const,
-    /// `PERS`: a program may change it, and the text with it.
-    Pers,
-    /// `VAR`: a program may change it.
-    Var,
-}
-
-impl Scope {
-    /// Its keyword in RAPID; empty for a global one, which has none.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Global => "",
-            Self::Local => "LOCAL",
-            Self::Task => "TASK",
-        }
+words! {
+    /// The scope of a datum.
+    pub enum Scope {
+        /// Visible in every module; inside a routine, in the routine.
+        Global = "",
+        /// Visible in its module.
+        Local = "LOCAL",
+        /// Visible in the modules of its task.
+        Task = "TASK",
     }
-}
 
-impl Storage {
-    /// Its keyword in RAPID.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Const => "CONST",
-            Self::Pers => "PERS",
-            Self::Var => "VAR",
-        }
+    /// The storage class of a datum.
+    pub enum Storage {
+        /// Never changes.
+        Const = "CONST",
+        /// A program may change it, and the text with it.
+        Pers = "PERS",
+        /// A program may change it.
+        Var = "VAR",
+    }
+
+    /// The kind of a routine.
+    pub enum RoutineKind {
+        /// Procedure.
+        Proc = "PROC",
+        /// Function.
+        Func = "FUNC",
+        /// Trap routine.
+        Trap = "TRAP",
     }
 }
 
@@ -119,27 +106,7 @@ impl Datum {
     }
 }
 
-/// The kind of a routine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RoutineKind {
-    /// Procedure.
-    Proc,
-    /// Function.
-    Func,
-    /// Trap routine.
-    Trap,
-}
-
 impl RoutineKind {
-    /// The keyword that begins it.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Proc => "PROC",
-            Self::Func => "FUNC",
-            Self::Trap => "TRAP",
-        }
-    }
-
     /// The keyword that ends it.
     pub(crate) fn end(self) -> &'static str {
         match self {
@@ -179,7 +146,7 @@ pub struct Module {
     pub(crate) data: Vec<Datum>,
     pub(crate) moves: Vec<Move>,
     pub(crate) skipped: Vec<Skipped>,
-    /// What sets how moves are made.
+    /// The instructions that set how moves are made.
     pub(crate) settings: Vec<Setting>,
     /// Data of the module itself by their names in lower case.
     pub(crate) index: BTreeMap<String, usize>,
@@ -213,7 +180,7 @@ impl Module {
         &self.routines
     }
 
-    /// Its data, in the order of the text, including those of routines.
+    /// Its data, in the order of the text, including the data of routines.
     #[must_use]
     pub fn data(&self) -> &[Datum] {
         &self.data
@@ -225,7 +192,7 @@ impl Module {
         &self.moves
     }
 
-    /// What was not read, in the order of the text.
+    /// The parts that were not read, in the order of the text.
     #[must_use]
     pub fn skipped(&self) -> &[Skipped] {
         &self.skipped

@@ -1,47 +1,29 @@
 //! Move instructions.
 
-use core::ops::Range;
-
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::ops::Range;
 
-use super::reason::Reason;
 use super::records::{JointTarget, RobTarget, SpeedData, ToolData, WobjData, ZoneData};
 use super::settings::MotionSettings;
+use super::unread::Reason;
+use crate::rapid::text::words::words;
 
-/// How the robot gets to the target.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MoveKind {
-    /// `MoveJ`: joints, to a pose.
-    MoveJ,
-    /// `MoveL`: a straight line.
-    MoveL,
-    /// `MoveC`: a circle through a point.
-    MoveC,
-    /// `MoveAbsJ`: joints, to joint angles.
-    MoveAbsJ,
+words! {
+    /// How the robot gets to the target: the name of the instruction.
+    pub enum MoveKind {
+        /// Joints, to a pose.
+        MoveJ = "MoveJ",
+        /// A straight line.
+        MoveL = "MoveL",
+        /// A circle through a point.
+        MoveC = "MoveC",
+        /// Joints, to joint angles.
+        MoveAbsJ = "MoveAbsJ",
+    }
 }
 
 impl MoveKind {
-    /// Every kind.
-    pub const ALL: [Self; 4] = [Self::MoveJ, Self::MoveL, Self::MoveC, Self::MoveAbsJ];
-
-    /// The instruction's name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::MoveJ => "MoveJ",
-            Self::MoveL => "MoveL",
-            Self::MoveC => "MoveC",
-            Self::MoveAbsJ => "MoveAbsJ",
-        }
-    }
-
-    /// The kind of an instruction in any case.
-    pub(crate) fn named(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| kind.name().eq_ignore_ascii_case(word))
-    }
-
     /// How many arguments it must have.
     pub(crate) fn arguments(self) -> usize {
         if self == Self::MoveC { 5 } else { 4 }
@@ -82,7 +64,7 @@ pub struct MoveOption {
 
 /// A move instruction.
 ///
-/// Values are those of the declarations; data that the module assigns have none here.
+/// Values are taken from the declarations; data that the module assigns have none here.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Move {
     /// The kind of move.
@@ -118,7 +100,7 @@ pub struct Move {
     pub zone_data: Result<ZoneData, Reason>,
     /// The duration that `\T` gives instead of the speed [s], or the reason why it is unknown.
     pub time: Option<Result<f64, Reason>>,
-    /// What ConfL, ConfJ, SingArea and CirPathMode set before it in its routine.
+    /// The settings of ConfL, ConfJ, SingArea and CirPathMode before it in its routine.
     pub settings: MotionSettings,
 }
 

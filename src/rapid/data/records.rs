@@ -1,112 +1,164 @@
 //! RAPID's records, as they are written: nothing is normalized.
 
 use alloc::string::String;
+use core::fmt;
 
+#[cfg(feature = "python")]
+use super::class::python_class;
+use super::types::{
+    Atoms, JOINTTARGET, LOADDATA, POSE, Part, ROBTARGET, Record, SPEEDDATA, Source, TOOLDATA, Type,
+    WOBJDATA, ZONEDATA, write,
+};
 use crate::report::Configuration;
 
 /// Value of an external axis that does not exist.
 pub const NOT_THERE: f64 = 9e9;
 
-/// `pose`: a frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RapidPose {
-    /// Position [mm].
-    pub trans_mm: [f64; 3],
-    /// Quaternion w, x, y, z.
-    pub rot: [f64; 4],
+/// Defines records: structs that consist of RAPID's atoms, and classes of Python. A field may have
+/// a default, which the constructor in Python takes.
+macro_rules! records {
+    ($(
+        $(#[doc = $doc:literal])*
+        $Record:ident: $TYPE:ident as $class:literal $(with $Derived:ident)? {
+            $($(#[doc = $field_doc:literal])* $field:ident: $Field:ty $(= $default:expr)?,)*
+        }
+    )*) => {$(
+        $(#[doc = $doc])*
+        #[derive(Clone, $($Derived,)? Debug, PartialEq)]
+        #[cfg_attr(
+            feature = "python",
+            pyo3::pyclass(frozen, eq, from_py_object, name = $class, module = "irbkin.rapid")
+        )]
+        pub struct $Record {
+            $($(#[doc = $field_doc])* pub $field: $Field,)*
+        }
+
+        impl Part for $Record {
+            fn put(&self, atoms: &mut Atoms) {
+                $(self.$field.put(atoms);)*
+            }
+
+            fn take(atoms: &mut Source) -> Option<Self> {
+                Some(Self { $($field: Part::take(atoms)?,)* })
+            }
+        }
+
+        impl Record for $Record {
+            const TYPE: &'static Type = &$TYPE;
+        }
+
+        impl fmt::Display for $Record {
+            /// As RAPID writes it, without blanks.
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let mut atoms = Atoms::new();
+                self.put(&mut atoms);
+                write(f, Self::TYPE, &atoms)
+            }
+        }
+
+        #[cfg(feature = "python")]
+        python_class! {
+            $Record, $class {
+                $($(#[doc = $field_doc])* $field: $Field $(= $default)?,)*
+            }
+        }
+    )*};
 }
 
-/// `robtarget`: a pose of the tool in the work object, a configuration, and external axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RobTarget {
-    /// Position [mm].
-    pub trans_mm: [f64; 3],
-    /// Quaternion w, x, y, z.
-    pub rot: [f64; 4],
-    /// Quarter turns and slot.
-    pub robconf: Configuration,
-    /// External axes [deg or mm]; 9e9 for an axis that does not exist.
-    pub extax: [f64; 6],
-}
+records! {
+    /// `pose`: a frame.
+    RapidPose: POSE as "Pose" with Copy {
+        /// Position [mm].
+        trans_mm: [f64; 3] = [0.0; 3],
+        /// Quaternion w, x, y, z.
+        rot: [f64; 4] = RapidPose::IDENTITY.rot,
+    }
 
-/// `jointtarget`: angles of the robot's axes and external axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointTarget {
-    /// The controller's angles [deg].
-    pub robax_deg: [f64; 6],
-    /// External axes [deg or mm]; 9e9 for an axis that does not exist.
-    pub extax: [f64; 6],
-}
+    /// `robtarget`: a pose of the tool in the work object, a configuration, and external axes.
+    RobTarget: ROBTARGET as "RobTarget" with Copy {
+        /// Position [mm].
+        trans_mm: [f64; 3],
+        /// Quaternion w, x, y, z.
+        rot: [f64; 4] = RapidPose::IDENTITY.rot,
+        /// Quarter turns of axes 1, 4 and 6, and the slot.
+        robconf: Configuration = Configuration::default(),
+        /// External axes [deg or mm]; 9e9 for an axis that does not exist.
+        extax: [f64; 6] = [NOT_THERE; 6],
+    }
 
-/// `loaddata`: mass and inertia of a load.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoadData {
-    /// Mass [kg].
-    pub mass_kg: f64,
-    /// Center of gravity [mm].
-    pub cog_mm: [f64; 3],
-    /// Axes of moment, a quaternion w, x, y, z.
-    pub aom: [f64; 4],
-    /// Moments of inertia ix, iy, iz [kg m^2].
-    pub inertia: [f64; 3],
-}
+    /// `jointtarget`: angles of the robot's axes, and external axes.
+    JointTarget: JOINTTARGET as "JointTarget" with Copy {
+        /// The controller's angles [deg].
+        robax_deg: [f64; 6],
+        /// External axes [deg or mm]; 9e9 for an axis that does not exist.
+        extax: [f64; 6] = [NOT_THERE; 6],
+    }
 
-/// `tooldata`: a tool in the frame of the flange.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToolData {
-    /// Whether the robot holds the tool.
-    pub robhold: bool,
-    /// The tool in the flange frame or, if the robot does not hold it, in the world frame.
-    pub tframe: RapidPose,
-    /// The tool's load.
-    pub tload: LoadData,
-}
+    /// `loaddata`: mass and inertia of a load; kinematics does not use them.
+    LoadData: LOADDATA as "LoadData" with Copy {
+        /// Mass [kg].
+        mass_kg: f64 = LoadData::LOAD0.mass_kg,
+        /// Center of gravity [mm].
+        cog_mm: [f64; 3] = LoadData::LOAD0.cog_mm,
+        /// Axes of moment, a quaternion w, x, y, z.
+        aom: [f64; 4] = LoadData::LOAD0.aom,
+        /// Moments of inertia ix, iy, iz [kg m^2].
+        inertia: [f64; 3] = LoadData::LOAD0.inertia,
+    }
 
-/// `wobjdata`: a work object, at `uframe * oframe` in the world.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WobjData {
-    /// Whether the robot holds the work object.
-    pub robhold: bool,
-    /// Whether the user frame is fixed; otherwise a mechanical unit moves it.
-    pub ufprog: bool,
-    /// Name of the mechanical unit that moves the user frame.
-    pub ufmec: String,
-    /// User frame.
-    pub uframe: RapidPose,
-    /// Object frame, in the user frame.
-    pub oframe: RapidPose,
-}
+    /// `tooldata`: a tool. The default is tool0.
+    ToolData: TOOLDATA as "ToolData" with Copy {
+        /// Whether the robot holds it; a tool that it does not hold is stationary.
+        robhold: bool = true,
+        /// The frame of the tool in the flange frame; in the world frame if it is stationary.
+        tframe: RapidPose = RapidPose::IDENTITY,
+        /// Its load.
+        tload: LoadData = LoadData::LOAD0,
+    }
 
-/// `speeddata`: how fast a move is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SpeedData {
-    /// Speed of the tool center point [mm/s].
-    pub v_tcp_mm_s: f64,
-    /// Speed of its reorientation [deg/s].
-    pub v_ori_deg_s: f64,
-    /// Speed of linear external axes [mm/s].
-    pub v_leax_mm_s: f64,
-    /// Speed of rotating external axes [deg/s].
-    pub v_reax_deg_s: f64,
-}
+    /// `wobjdata`: a work object, at `uframe * oframe`. The default is wobj0.
+    WobjData: WOBJDATA as "WobjData" {
+        /// Whether the robot holds it, under a stationary tool.
+        robhold: bool = false,
+        /// Whether the user frame is fixed; otherwise `ufmec` moves it.
+        ufprog: bool = true,
+        /// The mechanical unit that moves the user frame.
+        ufmec: String = String::new(),
+        /// User frame in the world frame; in the flange frame if the robot holds the work object.
+        uframe: RapidPose = RapidPose::IDENTITY,
+        /// Object frame in the user frame.
+        oframe: RapidPose = RapidPose::IDENTITY,
+    }
 
-/// `zonedata`: how a move ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ZoneData {
-    /// Whether the robot stops at the target.
-    pub finep: bool,
-    /// Radius around the target in which the tool center point leaves the line [mm].
-    pub pzone_tcp_mm: f64,
-    /// Radius in which the reorientation leaves its way [mm].
-    pub pzone_ori_mm: f64,
-    /// Radius for external axes [mm].
-    pub pzone_eax_mm: f64,
-    /// Reorientation that is left where it leaves its way [deg].
-    pub zone_ori_deg: f64,
-    /// The same for linear external axes [mm].
-    pub zone_leax_mm: f64,
-    /// The same for rotating external axes [deg].
-    pub zone_reax_deg: f64,
+    /// `speeddata`: how fast a move is.
+    SpeedData: SPEEDDATA as "SpeedData" with Copy {
+        /// Speed of the tool center point [mm/s].
+        v_tcp_mm_s: f64,
+        /// Speed of its reorientation [deg/s].
+        v_ori_deg_s: f64 = SpeedData::of(0.0).v_ori_deg_s,
+        /// Speed of linear external axes [mm/s].
+        v_leax_mm_s: f64 = SpeedData::of(0.0).v_leax_mm_s,
+        /// Speed of rotating external axes [deg/s].
+        v_reax_deg_s: f64 = SpeedData::of(0.0).v_reax_deg_s,
+    }
+
+    /// `zonedata`: how a move ends. The default is fine.
+    ZoneData: ZONEDATA as "ZoneData" with Copy {
+        /// Whether the robot stops at the target.
+        finep: bool = true,
+        /// Radius around the target in which the tool center point leaves the line [mm].
+        pzone_tcp_mm: f64 = 0.0,
+        /// Radius in which the reorientation leaves its way [mm].
+        pzone_ori_mm: f64 = 0.0,
+        /// Radius for external axes [mm].
+        pzone_eax_mm: f64 = 0.0,
+        /// Reorientation that is left where it leaves its way [deg].
+        zone_ori_deg: f64 = 0.0,
+        /// Way of linear external axes that is left where they leave it [mm].
+        zone_leax_mm: f64 = 0.0,
+        /// Way of rotating external axes that is left where they leave it [deg].
+        zone_reax_deg: f64 = 0.0,
+    }
 }
 
 impl RapidPose {
@@ -139,4 +191,11 @@ impl WobjData {
         uframe: RapidPose::IDENTITY,
         oframe: RapidPose::IDENTITY,
     };
+}
+
+impl SpeedData {
+    /// RAPID's own speeddata with a speed of the tool center point [mm/s].
+    pub(crate) const fn of(v_tcp_mm_s: f64) -> Self {
+        Self { v_tcp_mm_s, v_ori_deg_s: 500.0, v_leax_mm_s: 5000.0, v_reax_deg_s: 1000.0 }
+    }
 }

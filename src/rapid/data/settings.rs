@@ -2,8 +2,10 @@
 
 use alloc::string::String;
 
-/// What the instructions before a move set, in its routine. At the beginning of a routine it is
-/// what a program starts with: that is the default.
+use crate::rapid::text::words::words;
+
+/// Settings of the instructions before a move in its routine. The default is set at the beginning
+/// of a routine, as when a program starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MotionSettings {
     /// `ConfL`: whether `MoveL` and `MoveC` must arrive with the configuration of the target.
@@ -28,74 +30,35 @@ impl Default for MotionSettings {
     }
 }
 
-/// What happens near the wrist singularity.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SingArea {
-    /// `\Off`: the tool keeps its orientation.
-    #[default]
-    Off,
-    /// `\Wrist`: the wrist goes straight through, the orientation gives way.
-    Wrist,
-    /// `\LockAxis4`: axis 4 stays at 0 or +-180 deg.
-    LockAxis4,
-}
-
-/// What the orientation does in a `MoveC`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum CirPathMode {
-    /// `\PathFrame`: it turns evenly relative to the path.
-    #[default]
-    PathFrame,
-    /// `\ObjectFrame`: it turns evenly relative to the work object.
-    ObjectFrame,
-    /// `\CirPointOri`: it turns evenly to that of the point on the circle, then to that of the
-    /// target.
-    CirPointOri,
-    /// `\Wrist45`: axes 4 and 5 go evenly.
-    Wrist45,
-    /// `\Wrist46`: axes 4 and 6 go evenly.
-    Wrist46,
-    /// `\Wrist56`: axes 5 and 6 go evenly.
-    Wrist56,
-}
-
-impl SingArea {
-    /// Every one.
-    pub const ALL: [Self; 3] = [Self::Off, Self::Wrist, Self::LockAxis4];
-
-    /// The name of its switch.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Off => "Off",
-            Self::Wrist => "Wrist",
-            Self::LockAxis4 => "LockAxis4",
-        }
+words! {
+    /// The behavior near the wrist singularity: a switch of `SingArea`.
+    #[derive(Default)]
+    pub enum SingArea {
+        /// The tool keeps its orientation.
+        #[default]
+        Off = "Off",
+        /// The wrist goes straight through, the orientation gives way.
+        Wrist = "Wrist",
+        /// Axis 4 stays at 0 or +-180 deg.
+        LockAxis4 = "LockAxis4",
     }
-}
 
-impl CirPathMode {
-    /// Every one.
-    pub const ALL: [Self; 6] = [
-        Self::PathFrame,
-        Self::ObjectFrame,
-        Self::CirPointOri,
-        Self::Wrist45,
-        Self::Wrist46,
-        Self::Wrist56,
-    ];
-
-    /// The name of its switch.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PathFrame => "PathFrame",
-            Self::ObjectFrame => "ObjectFrame",
-            Self::CirPointOri => "CirPointOri",
-            Self::Wrist45 => "Wrist45",
-            Self::Wrist46 => "Wrist46",
-            Self::Wrist56 => "Wrist56",
-        }
+    /// The orientation in a `MoveC`: a switch of `CirPathMode`.
+    #[derive(Default)]
+    pub enum CirPathMode {
+        /// It turns evenly relative to the path.
+        #[default]
+        PathFrame = "PathFrame",
+        /// It turns evenly relative to the work object.
+        ObjectFrame = "ObjectFrame",
+        /// It turns evenly to the orientation of the point on the circle, then to the target's.
+        CirPointOri = "CirPointOri",
+        /// Axes 4 and 5 go evenly.
+        Wrist45 = "Wrist45",
+        /// Axes 4 and 6 go evenly.
+        Wrist46 = "Wrist46",
+        /// Axes 5 and 6 go evenly.
+        Wrist56 = "Wrist56",
     }
 }
 
@@ -106,30 +69,27 @@ impl MotionSettings {
     /// Set what an instruction with a switch sets; without one it sets the default. Returns whether
     /// there is such an instruction and such a switch.
     pub(crate) fn set(&mut self, instruction: &str, switch: Option<&str>) -> bool {
-        let is = |name: &str| instruction.eq_ignore_ascii_case(name);
-        let found = |names: &[&str]| match switch {
-            None => Some(0),
-            Some(switch) => names.iter().position(|name| name.eq_ignore_ascii_case(switch)),
+        fn put<T>(place: &mut T, value: Option<T>) -> bool {
+            value.map(|value| *place = value).is_some()
+        }
+        let is_on = match switch.map(str::to_ascii_lowercase).as_deref() {
+            None | Some("on") => Some(true),
+            Some("off") => Some(false),
+            Some(_) => None,
         };
-        let Self { conf_l, conf_j, sing_area, cir_path_mode } = self;
-        for (name, conf) in [("ConfL", conf_l), ("ConfJ", conf_j)] {
-            if is(name) {
-                let place = found(&["On", "Off"]);
-                *conf = place.map_or(*conf, |place| place == 0);
-                return place.is_some();
+        let own = Self::INSTRUCTIONS.iter().position(|it| it.eq_ignore_ascii_case(instruction));
+        match own {
+            Some(0) => put(&mut self.conf_l, is_on),
+            Some(1) => put(&mut self.conf_j, is_on),
+            Some(2) => {
+                put(&mut self.sing_area, switch.map_or(Some(SingArea::default()), SingArea::named))
             }
+            Some(3) => put(
+                &mut self.cir_path_mode,
+                switch.map_or(Some(CirPathMode::default()), CirPathMode::named),
+            ),
+            _ => false,
         }
-        if is("SingArea") {
-            let place = found(&SingArea::ALL.map(SingArea::name));
-            *sing_area = place.map_or(*sing_area, |place| SingArea::ALL[place]);
-            return place.is_some();
-        }
-        if is("CirPathMode") {
-            let place = found(&CirPathMode::ALL.map(CirPathMode::name));
-            *cir_path_mode = place.map_or(*cir_path_mode, |place| CirPathMode::ALL[place]);
-            return place.is_some();
-        }
-        false
     }
 }
 

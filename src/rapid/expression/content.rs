@@ -1,17 +1,15 @@
 //! The content of a declaration: a value, or the elements of an array.
 
-use core::ops::Range;
-
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use super::evaluate::{Evaluator, Stop, positive_whole};
 use super::tree::{Expression, Form};
 use crate::error::RapidFaultKind;
-use crate::rapid::data::data_type::DataType;
 use crate::rapid::data::module::Content;
-use crate::rapid::data::reason::Reason;
-use crate::rapid::data::value::Value;
+use crate::rapid::data::unread::Reason;
+use crate::rapid::data::value::{DataType, Value};
 
 /// Most dimensions of an array.
 const MOST_DIMENSIONS: usize = 3;
@@ -21,7 +19,7 @@ pub(crate) struct WrittenContent<'a> {
     pub(crate) data_type: DataType,
     pub(crate) sizes: Vec<Expression<'a>>,
     pub(crate) value: Option<Expression<'a>>,
-    /// The place of the value, if there is none.
+    /// The place for a value, if it has none.
     pub(crate) value_place: usize,
 }
 

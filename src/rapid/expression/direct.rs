@@ -1,14 +1,12 @@
 //! Values without names and operators, most of a large module: read straight into their records,
 //! without tokens and trees.
 
+use alloc::string::String;
 use core::ops::Range;
 
-use alloc::string::String;
-
 use super::evaluate::whole;
-use crate::rapid::data::data_type::DataType;
-use crate::rapid::data::parts::PartMut;
-use crate::rapid::data::value::Value;
+use crate::rapid::data::types::{Atom, Atoms, Shape, Type};
+use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::text::literals::{decimal, unquoted};
 use crate::rapid::text::tokens::{LONGEST_STRING, Tokens, behind_blanks};
 use crate::rapid::text::words::end_of_word;
@@ -23,8 +21,9 @@ pub(crate) fn read_direct(
 ) -> Option<(Value, Range<usize>)> {
     let start = tokens.peek().start;
     let mut reader = DirectReader { text: tokens.text, bytes: tokens.content(), at: start };
-    let mut value = Value::zero(data_type);
-    reader.fill(value.part_mut())?;
+    let mut atoms = Atoms::new();
+    reader.fill(data_type.described(), &mut atoms)?;
+    let value = Value::of(data_type, atoms)?;
     let end = reader.at;
     reader.take(b';')?;
     tokens.resume(end).ok()?;
@@ -52,21 +51,22 @@ impl DirectReader<'_> {
         is.then_some(())
     }
 
-    fn fill(&mut self, part: PartMut<'_>) -> Option<()> {
-        match part {
+    /// Read the atoms of a type.
+    fn fill(&mut self, of: &Type, atoms: &mut Atoms) -> Option<()> {
+        atoms.push(match of.shape {
             // RAPID has no negative zero.
-            PartMut::Num(place) => *place = self.number()? + 0.0,
-            PartMut::Whole(place) => *place = whole(self.number()?)?,
-            PartMut::Bool(place) => *place = self.truth()?,
-            PartMut::Text(place) => *place = self.string()?,
-            record => {
-                for (i, (_, component)) in record.components().into_iter().flatten().enumerate() {
+            Shape::Num => Atom::Num(self.number()? + 0.0),
+            Shape::Whole => Atom::Whole(whole(self.number()?)?),
+            Shape::Bool => Atom::Bool(self.truth()?),
+            Shape::Text => Atom::Text(self.string()?),
+            Shape::Record(components) => {
+                for (i, (_, component)) in components.iter().enumerate() {
                     self.take(if i == 0 { b'[' } else { b',' })?;
-                    self.fill(component)?;
+                    self.fill(component, atoms)?;
                 }
-                self.take(b']')?;
+                return self.take(b']');
             }
-        }
+        });
         Some(())
     }
 

@@ -1,15 +1,16 @@
-//! Evaluates expressions where a value of some type is expected.
+//! Evaluate expressions where a value of some type is expected.
 
+use alloc::borrow::Cow;
 use alloc::format;
 use alloc::string::{String, ToString};
 
-use super::names::{At, Names};
+use super::names::{At, Found, Names};
 use super::tree::{Expression, Form, Operator, Unread, written};
 use crate::error::{RapidFault, RapidFaultKind};
-use crate::rapid::data::data_type::DataType;
-use crate::rapid::data::parts::PartMut;
-use crate::rapid::data::reason::Reason;
-use crate::rapid::data::value::{Record, Value};
+use crate::rapid::data::module::Content;
+use crate::rapid::data::types::{Atom, Atoms, NUM, Part, Record, Shape, Type};
+use crate::rapid::data::unread::{Reason, Unresolved};
+use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::text::literals::unquoted;
 use crate::rapid::text::place::fault_at;
 
@@ -58,20 +59,16 @@ pub(crate) struct Evaluator<'r, 'a> {
     pub(crate) at_move: bool,
 }
 
-/// The name of a component and of those that contain it, for messages.
-#[derive(Clone, Copy)]
-pub(super) struct Path<'p> {
+/// A component that a value is evaluated for: its type, and its name for messages.
+pub(super) struct Place<'p> {
+    pub(super) of: &'static Type,
     name: &'static str,
-    of: Option<&'p Path<'p>>,
+    inside: Option<&'p Place<'p>>,
 }
 
-impl Path<'_> {
-    const WHOLE: Self = Path { name: "", of: None };
-}
-
-impl core::fmt::Display for Path<'_> {
+impl core::fmt::Display for Place<'_> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self.of {
+        match self.inside {
             Some(above) if !above.name.is_empty() => write!(f, "{above}.{}", self.name),
             _ => f.write_str(self.name),
         }
@@ -85,23 +82,27 @@ impl Evaluator<'_, '_> {
         expression: &Expression<'_>,
         data_type: DataType,
     ) -> Result<Value, Stop> {
-        let mut value = Value::zero(data_type);
-        self.fill(expression, value.part_mut(), &Path::WHOLE)?;
-        Ok(value)
+        let atoms = self.atoms(expression, data_type.described())?;
+        Value::of(data_type, atoms).ok_or_else(|| Reason::Unfinished.into())
     }
 
     /// Evaluate to a record.
     pub(crate) fn record<T: Record>(&self, expression: &Expression<'_>) -> Result<T, Stop> {
-        let mut record = T::ZERO;
-        self.fill(expression, record.part_mut(), &Path::WHOLE)?;
-        Ok(record)
+        let atoms = self.atoms(expression, T::TYPE)?;
+        T::take(&mut atoms.into_iter()).ok_or_else(|| Reason::Unfinished.into())
     }
 
     /// Evaluate to a number.
     pub(crate) fn number(&self, expression: &Expression<'_>) -> Result<f64, Stop> {
-        let mut number = 0.0;
-        self.fill(expression, PartMut::Num(&mut number), &Path::WHOLE)?;
-        Ok(number)
+        let atoms = self.atoms(expression, &NUM)?;
+        f64::take(&mut atoms.into_iter()).ok_or_else(|| Reason::Unfinished.into())
+    }
+
+    /// The atoms of a value of a type.
+    fn atoms(&self, expression: &Expression<'_>, of: &'static Type) -> Result<Atoms, Stop> {
+        let mut atoms = Atoms::new();
+        self.fill(expression, &Place { of, name: "", inside: None }, &mut atoms)?;
+        Ok(atoms)
     }
 
     /// The name of the evaluated item, for a message.
@@ -116,99 +117,92 @@ impl Evaluator<'_, '_> {
     pub(super) fn wrong_type(
         &self,
         expression: &Expression<'_>,
-        place: &PartMut<'_>,
-        path: &Path<'_>,
+        place: &Place<'_>,
         found: &str,
     ) -> Stop {
-        let (thing, part) = (self.thing(), path.to_string());
-        let (found, wanted) = (found.to_string(), place.wanted());
+        let (thing, part) = (self.thing(), place.to_string());
+        let (found, wanted) = (found.to_string(), place.of.wanted());
         self.fault(expression, RapidFaultKind::ComponentType { thing, part, found, wanted })
     }
 
-    /// Write the value of an expression to its place, the component of a path.
+    /// Append the atoms of an expression.
     fn fill(
         &self,
         expression: &Expression<'_>,
-        place: PartMut<'_>,
-        path: &Path<'_>,
+        place: &Place<'_>,
+        atoms: &mut Atoms,
     ) -> Result<(), Stop> {
-        let wrong =
-            |place: PartMut<'_>, found| Err(self.wrong_type(expression, &place, path, found));
-        match (&expression.form, place) {
-            (Form::Number(value), place) => self.fill_number(expression, *value, place, path),
-            (Form::Bool(value), PartMut::Bool(place)) => {
-                *place = *value;
+        let wrong = |found| Err(self.wrong_type(expression, place, found));
+        match (&expression.form, &place.of.shape) {
+            (Form::Number(value), _) => self.fill_number(expression, *value, place, atoms),
+            (Form::Bool(value), Shape::Bool) => {
+                atoms.push(Atom::Bool(*value));
                 Ok(())
             }
-            (Form::Bool(value), place) => wrong(place, if *value { "TRUE" } else { "FALSE" }),
-            (Form::Text(text), PartMut::Text(place)) => {
-                *place = unquoted(text);
+            (Form::Bool(value), _) => wrong(if *value { "TRUE" } else { "FALSE" }),
+            (Form::Text(text), Shape::Text) => {
+                atoms.push(Atom::Text(unquoted(text)));
                 Ok(())
             }
-            (Form::Text(_), place) => wrong(place, "a string"),
-            (Form::Aggregate(components), place) => {
-                self.fill_aggregate(expression, components, place, path)
+            (Form::Text(_), _) => wrong("a string"),
+            (Form::Aggregate(parts), Shape::Record(components)) => {
+                self.fill_aggregate(expression, (parts, components), place, atoms)
             }
-            (Form::Name(name), place) => {
-                self.fill_reference(expression, name, (&[], &[]), place, path)
+            (Form::Aggregate(_), _) => wrong("an aggregate"),
+            (Form::Name(name), _) => {
+                self.fill_reference(expression, (name, &[], &[]), place, atoms)
             }
-            (Form::Reference(it), place) => {
-                self.fill_reference(expression, it.name, (&it.indices, &it.components), place, path)
+            (Form::Reference(it), _) => {
+                let whole = (it.name, it.indices.as_slice(), it.components.as_slice());
+                self.fill_reference(expression, whole, place, atoms)
             }
-            (Form::Call(call), place) => self.fill_call(expression, call, place, path),
-            (Form::Negated(_) | Form::Chain(..), place @ (PartMut::Num(_) | PartMut::Whole(_))) => {
-                self.fill_number(expression, self.arithmetic(expression)?, place, path)
+            (Form::Call(call), _) => self.fill_call(expression, call, place, atoms),
+            (Form::Negated(_) | Form::Chain(..), Shape::Num | Shape::Whole) => {
+                self.fill_number(expression, self.arithmetic(expression)?, place, atoms)
             }
-            (Form::Negated(_) | Form::Chain(..), place) => {
-                Err(Reason::Arithmetic { type_name: place.type_name() }.into())
+            (Form::Negated(_) | Form::Chain(..), _) => {
+                Err(Reason::Arithmetic { type_name: place.of.name }.into())
             }
             (Form::Star, _) => Err(Reason::Taught.into()),
             (Form::Unread(unread), _) => Err(Reason::from(*unread).into()),
         }
     }
 
-    /// Write a number to its place. RAPID has no negative zero: it becomes a positive one.
+    /// Append a number. RAPID has no negative zero: it becomes a positive one.
     pub(super) fn fill_number(
         &self,
         expression: &Expression<'_>,
         value: f64,
-        place: PartMut<'_>,
-        path: &Path<'_>,
+        place: &Place<'_>,
+        atoms: &mut Atoms,
     ) -> Result<(), Stop> {
-        match place {
-            PartMut::Num(place) => *place = value + 0.0,
-            PartMut::Whole(place) => {
-                let fault = || {
-                    let (thing, part) = (self.thing(), path.to_string());
-                    self.fault(expression, RapidFaultKind::NotWhole { thing, part, value })
-                };
-                *place = whole(value).ok_or_else(fault)?;
-            }
-            place => return Err(self.wrong_type(expression, &place, path, "a number")),
-        }
+        atoms.push(match place.of.shape {
+            Shape::Num => Atom::Num(value + 0.0),
+            Shape::Whole => Atom::Whole(whole(value).ok_or_else(|| {
+                let (thing, part) = (self.thing(), place.to_string());
+                self.fault(expression, RapidFaultKind::NotWhole { thing, part, value })
+            })?),
+            _ => return Err(self.wrong_type(expression, place, "a number")),
+        });
         Ok(())
     }
 
+    /// Append the parts of an aggregate, one for each component.
     fn fill_aggregate(
         &self,
         expression: &Expression<'_>,
-        components: &[Expression<'_>],
-        place: PartMut<'_>,
-        path: &Path<'_>,
+        (parts, components): (&[Expression<'_>], &[(&'static str, &'static Type)]),
+        place: &Place<'_>,
+        atoms: &mut Atoms,
     ) -> Result<(), Stop> {
-        if let PartMut::Num(_) | PartMut::Whole(_) | PartMut::Bool(_) | PartMut::Text(_) = place {
-            return Err(self.wrong_type(expression, &place, path, "an aggregate"));
-        }
-        let places = place.components();
-        let wanted = places.iter().flatten().count();
-        if wanted != components.len() {
-            let (thing, part) = (self.thing(), path.to_string());
-            let found = components.len();
+        if components.len() != parts.len() {
+            let (thing, part) = (self.thing(), place.to_string());
+            let (found, wanted) = (parts.len(), components.len());
             let kind = RapidFaultKind::ComponentCount { thing, part, found, wanted };
             return Err(self.fault(expression, kind));
         }
-        for ((name, place), component) in places.into_iter().flatten().zip(components) {
-            self.fill(component, place, &Path { name, of: Some(path) })?;
+        for ((name, of), part) in components.iter().zip(parts) {
+            self.fill(part, &Place { of, name, inside: Some(place) }, atoms)?;
         }
         Ok(())
     }
@@ -267,4 +261,104 @@ pub(crate) fn positive_whole(value: f64) -> Option<usize> {
     #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
     let is_whole = value - whole as f64 == 0.0;
     if is_whole { usize::try_from(whole).ok() } else { None }
+}
+
+impl Evaluator<'_, '_> {
+    /// Append the value of a name with indices and components.
+    pub(super) fn fill_reference(
+        &self,
+        expression: &Expression<'_>,
+        (name, indices, components): (&str, &[Expression<'_>], &[&str]),
+        place: &Place<'_>,
+        atoms: &mut Atoms,
+    ) -> Result<(), Stop> {
+        let text = || written(self.text, expression);
+        let value = self.referred(expression, name, indices)?;
+        let (mut of, mut begin) = (value.data_type().described(), 0);
+        for component in components {
+            let (part, before) = of.component(component).ok_or_else(|| {
+                let (text, component) = (text(), (*component).to_string());
+                let of = of.name;
+                self.fault(expression, RapidFaultKind::NoSuchComponent { text, of, component })
+            })?;
+            (of, begin) = (part, begin + before);
+        }
+        let mut source = value.atoms().into_iter();
+        if begin > 0 {
+            source.nth(begin - 1);
+        }
+        let is_number = matches!(place.of.shape, Shape::Num | Shape::Whole);
+        if is_number && let (Shape::Num | Shape::Whole, Some(atom)) = (&of.shape, source.next()) {
+            let number = match atom {
+                Atom::Num(number) => number,
+                Atom::Whole(number) => f64::from(number),
+                Atom::Bool(_) | Atom::Text(_) => return Ok(()),
+            };
+            return self.fill_number(expression, number, place, atoms);
+        }
+        if of.name != place.of.name {
+            let found = format!("{}, of type {}", text(), of.name);
+            return Err(self.wrong_type(expression, place, &found));
+        }
+        atoms.extend(source.take(of.size()));
+        Ok(())
+    }
+
+    /// The datum or the element that a reference begins with.
+    fn referred(
+        &self,
+        expression: &Expression<'_>,
+        name: &str,
+        indices: &[Expression<'_>],
+    ) -> Result<Cow<'_, Value>, Stop> {
+        let unknown = |why| Err(Stop::Unknown(Reason::Reference { name: name.to_string(), why }));
+        let count = |wanted| {
+            let (text, found) = (written(self.text, expression), indices.len());
+            Err(self.fault(expression, RapidFaultKind::IndexCount { text, found, wanted }))
+        };
+        let content = match self.names.find(self.at, name) {
+            Found::NotHere => return unknown(Unresolved::NotDeclared),
+            Found::Unknown(why) => return unknown(why),
+            Found::Predefined(_) if !indices.is_empty() => return count(0),
+            Found::Predefined(value) => return Ok(Cow::Owned(value)),
+            Found::Datum { can_change: true, .. } if self.constant => {
+                return unknown(Unresolved::CanChange);
+            }
+            Found::Datum { cause: Some(cause), .. } if self.at_move => {
+                return unknown(cause.of(name));
+            }
+            Found::Datum { content, .. } => content,
+        };
+        match content {
+            Content::Uninitialized { .. } => unknown(Unresolved::NoValue),
+            Content::Single(_) if !indices.is_empty() => count(0),
+            Content::Single(value) => Ok(Cow::Borrowed(value)),
+            Content::Array { .. } if indices.is_empty() => unknown(Unresolved::WholeArray),
+            Content::Array { sizes, .. } if sizes.len() != indices.len() => count(sizes.len()),
+            Content::Array { sizes, values } => {
+                let element = values.get(self.element(name, indices, sizes)?);
+                element.map(Cow::Borrowed).map_or_else(|| unknown(Unresolved::NoSuchElement), Ok)
+            }
+        }
+    }
+
+    /// The place of an element in its array.
+    fn element(
+        &self,
+        name: &str,
+        indices: &[Expression<'_>],
+        sizes: &[usize],
+    ) -> Result<usize, Stop> {
+        let constant = Self { constant: true, ..*self };
+        let mut element = 0;
+        for (index, size) in indices.iter().zip(sizes) {
+            let value = constant.number(index)?;
+            let Some(from_one) = positive_whole(value).filter(|from_one| from_one <= size) else {
+                let text = format!("{}{{{}}}", name, written(self.text, index));
+                return Err(self.fault(index, RapidFaultKind::Index { text, value, size: *size }));
+            };
+            element = element * size + from_one - 1;
+        }
+        Ok(element)
+    }
 }

@@ -1,4 +1,4 @@
-//! Reads expressions.
+//! Read expressions as trees.
 
 use alloc::boxed::Box;
 use alloc::string::ToString;
@@ -16,10 +16,10 @@ pub const DEEPEST_NESTING: usize = 64;
 /// Initial capacity for the components of an aggregate: most have four or six.
 const USUAL_COMPONENTS: usize = 6;
 
-/// Reads expressions and, on request, collects the names that they refer to.
+/// A reader of expressions that collects, on request, the names that they refer to.
 pub(crate) struct ExpressionReader<'t, 'a> {
     tokens: &'t mut Tokens<'a>,
-    /// Names in the expressions read, those of functions too, in order.
+    /// Names in the expressions, of functions too, in order.
     names: Option<&'t mut Vec<&'a str>>,
     depth: usize,
 }

@@ -14,7 +14,7 @@ pub(crate) struct Expression<'a> {
     pub(crate) form: Form<'a>,
 }
 
-/// What an expression is.
+/// The form of an expression.
 #[derive(Debug)]
 pub(crate) enum Form<'a> {
     Number(f64),

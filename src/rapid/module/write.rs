@@ -1,19 +1,22 @@
-//! Modules as RAPID text.
-
-use core::fmt::{self, Write as _};
+//! Modules as RAPID text, and values replaced in a text without any other change.
 
 use alloc::collections::BTreeMap;
 use alloc::format;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::fmt::{self, Write as _};
+use core::ops::Range;
 
+use crate::error::{Error, Missing, RapidFault, RapidFaultKind};
 use crate::rapid::data::module::{Content, Datum, Module, Routine, Scope};
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::settings::Setting;
-use crate::rapid::data::skipped::Skipped;
+use crate::rapid::data::types::are_finite;
+use crate::rapid::data::unread::Skipped;
+use crate::rapid::data::value::Value;
 
 impl fmt::Display for Content {
-    /// The value as RAPID writes it, with an array's brackets; nothing if there is none.
+    /// The value as RAPID writes it, with an array's brackets; nothing without a value.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Uninitialized { .. } => Ok(()),
@@ -52,9 +55,9 @@ impl Datum {
     /// Write the declaration with its semicolon; an expression may replace the value.
     fn write(&self, f: &mut fmt::Formatter<'_>, expression: Option<&str>) -> fmt::Result {
         if self.scope != Scope::Global {
-            write!(f, "{} ", self.scope.word())?;
+            write!(f, "{} ", self.scope.name())?;
         }
-        write!(f, "{} {} {}", self.storage.word(), self.data_type.name(), self.name)?;
+        write!(f, "{} {} {}", self.storage.name(), self.data_type.name(), self.name)?;
         if let Content::Array { sizes, .. } | Content::Uninitialized { sizes } = &self.content {
             for (i, size) in sizes.iter().enumerate() {
                 write!(f, "{}{size}", if i == 0 { '{' } else { ',' })?;
@@ -140,7 +143,7 @@ impl Item<'_> {
     }
 }
 
-/// The items of each routine, by its name in lower case; those of the module by the empty name.
+/// The items of each routine, by its name in lower case; the module has the empty name.
 fn items(module: &Module) -> BTreeMap<String, Vec<Item<'_>>> {
     let mut items: BTreeMap<String, Vec<Item<'_>>> = BTreeMap::new();
     let mut add = |routine: Option<&String>, item| {
@@ -204,5 +207,96 @@ fn write_item(f: &mut fmt::Formatter<'_>, margin: &str, item: &Item<'_>) -> fmt:
         Item::Skipped(skipped) => writeln!(f, "{margin}{}", skipped.text),
         Item::Setting(setting) => writeln!(f, "{margin}{}", setting.text),
         Item::Routine(_) => Ok(()),
+    }
+}
+
+/// A value that replaces another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NewValue {
+    /// Index of the datum in [`Module::data`].
+    pub datum: usize,
+    /// Index of the element in the values of an array, from 0; `None` for a single value.
+    pub element: Option<usize>,
+    /// The new value, of the datum's type.
+    pub value: Value,
+}
+
+/// The text that `module` was read from, with new values. Comments, blanks and everything else are
+/// kept byte for byte.
+///
+/// A declaration without a value gets one.
+///
+/// # Errors
+///
+/// [`Error::Rapid`] when there is no such datum or element, a value has another type or is not
+/// finite, one place gets two values, or `source` is not the text.
+pub fn rewrite(source: &str, module: &Module, new_values: &[NewValue]) -> Result<String, Error> {
+    // In another text of the same length, a place may be inside a character.
+    let other_text =
+        || nowhere(RapidFaultKind::OtherText { found: source.len(), wanted: module.text_length });
+    if source.len() != module.text_length {
+        return Err(other_text());
+    }
+    let mut places = Vec::with_capacity(new_values.len());
+    for new in new_values {
+        places.push((place(module, new)?, new));
+    }
+    places.sort_by_key(|(span, _)| span.start);
+    let mut text = String::with_capacity(source.len());
+    let mut copied = 0;
+    let mut last_start = None;
+    for (span, new) in places {
+        if last_start == Some(span.start) || span.start < copied {
+            let thing = module.data.get(new.datum).map_or_else(String::new, |datum| {
+                format!("{} {}", datum.data_type.name(), datum.name)
+            });
+            return Err(nowhere(RapidFaultKind::TwoValues { thing }));
+        }
+        text.push_str(source.get(copied..span.start).ok_or_else(other_text)?);
+        text.push_str(if span.is_empty() { " := " } else { "" });
+        text.push_str(&new.value.to_string());
+        (copied, last_start) = (span.end, Some(span.start));
+    }
+    text.push_str(source.get(copied..).ok_or_else(other_text)?);
+    Ok(text)
+}
+
+fn nowhere(kind: RapidFaultKind) -> Error {
+    RapidFault::nowhere(kind).into()
+}
+
+/// The bytes that a new value replaces.
+fn place(module: &Module, new: &NewValue) -> Result<Range<usize>, Error> {
+    let Some(datum) = module.data.get(new.datum) else {
+        let (index, count) = (new.datum, module.data.len());
+        let missing = Missing::Datum { index, count };
+        return Err(nowhere(RapidFaultKind::NoSuchValue { missing }));
+    };
+    let thing = format!("{} {}", datum.data_type.name(), datum.name);
+    let fault = |kind| RapidFault { line: datum.line, column: datum.column, kind }.into();
+    if new.value.data_type() != datum.data_type {
+        let (found, wanted) = (new.value.type_name().to_string(), datum.data_type.name());
+        return Err(fault(RapidFaultKind::ComponentType {
+            thing,
+            part: String::new(),
+            found,
+            wanted,
+        }));
+    }
+    if !are_finite(&new.value.atoms()) {
+        return Err(fault(RapidFaultKind::NotFinite { text: format!("{}", new.value) }));
+    }
+    let missing = |missing| Err(fault(RapidFaultKind::NoSuchValue { missing }));
+    match (&datum.content, new.element) {
+        (Content::Single(_), None) => Ok(datum.value_span.clone()),
+        (Content::Uninitialized { sizes }, None) if sizes.is_empty() => {
+            Ok(datum.value_span.clone())
+        }
+        (Content::Array { .. }, Some(element)) => match datum.element_spans.get(element) {
+            Some(span) => Ok(span.clone()),
+            None => missing(Missing::Element { thing, element }),
+        },
+        (_, None) => missing(Missing::Single { thing }),
+        (_, Some(element)) => missing(Missing::Element { thing, element }),
     }
 }

@@ -1,13 +1,10 @@
-//! Goes through the moves of a routine in order and follows each of them.
+//! Go through the moves of a routine in order and follow each of them.
 
+use alloc::format;
 use alloc::vec::Vec;
 
-use super::corner::round_joints;
-use super::finding::FindingKind;
-use super::goal::{Findings, Goal, Place};
-use super::joints::{Conf, joint_line, solved};
-use super::options::MotionOptions;
-use super::samples::{Path, Samples, way};
+use super::goal::{Goal, Place};
+use super::joints::{Conf, Path, Samples, joint_line, round_joints, solved, way};
 use crate::error::Error;
 use crate::kinematics::thresholds::{
     ELBOW_ZONE, JOINED_MOVES, MOST_REACH, MOST_SAMPLES, SHOULDER_ZONE, WRIST_ZONE,
@@ -21,12 +18,44 @@ use crate::paths::leg::Leg;
 use crate::paths::line::part;
 use crate::paths::{ArcOrientation, Spacing};
 use crate::rapid::calc::frames::Frames;
+use crate::rapid::calc::wrong::{Found, broken, no_path, passes};
+use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::settings::{CirPathMode, SingArea};
 
 /// Least number of steps of a line or an arc with a rounded corner.
 const LEAST_STEPS: usize = 4;
 
-/// What became of a move.
+/// Options of [`motion`](crate::rapid::motion).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionOptions {
+    /// Joint angles from which the first move begins [rad]; without them the motion begins at the
+    /// first target.
+    pub start: Option<[f64; 6]>,
+    /// Limits of the joints [rad/s]; by default the robot's.
+    pub max_velocity: Option<[f64; 6]>,
+    /// Accelerations that the joints may have [rad/s^2]; no catalog has them. Without them the
+    /// duration is a kinematic lower bound: speeds change at once.
+    pub max_acceleration: Option<[f64; 6]>,
+    /// Largest distance of the tool between two samples [m].
+    pub step: f64,
+    /// Largest turn of the tool, and of a joint of a `MoveJ` or `MoveAbsJ`, between two samples
+    /// [rad].
+    pub turn: f64,
+}
+
+impl Default for MotionOptions {
+    fn default() -> Self {
+        Self {
+            start: None,
+            max_velocity: None,
+            max_acceleration: None,
+            step: 5e-3,
+            turn: 5_f64.to_radians(),
+        }
+    }
+}
+
+/// The outcome of a move.
 #[derive(Clone, Copy, Default)]
 pub(in crate::rapid) struct Made {
     /// The joints at its target, if it is met or passed.
@@ -52,11 +81,11 @@ struct Here {
 
 pub(super) struct Drive<'a, 'm> {
     pub(super) robot: &'a Robot<6>,
-    /// The same robot with the flange as its tool.
+    /// The robot with the flange as its tool.
     pub(super) flange: &'a Robot<6>,
     pub(super) goals: &'a [Goal<'m>],
     spacing: Spacing,
-    pub(super) findings: &'a mut Findings,
+    pub(super) findings: &'a mut Vec<Finding>,
     pub(super) samples: Samples,
     pub(super) made: Vec<Made>,
     here: Option<Here>,
@@ -71,7 +100,7 @@ impl<'a, 'm> Drive<'a, 'm> {
         [robot, flange]: [&'a Robot<6>; 2],
         goals: &'a [Goal<'m>],
         options: &MotionOptions,
-        findings: &'a mut Findings,
+        findings: &'a mut Vec<Finding>,
     ) -> Result<(Samples, Vec<Made>), Error> {
         let (samples, made) = (Samples::default(), Vec::with_capacity(goals.len()));
         let (here, entry, is_lost) = (None, None, false);
@@ -97,15 +126,15 @@ impl<'a, 'm> Drive<'a, 'm> {
         Ok((drive.samples, drive.made))
     }
 
-    pub(super) fn found(&mut self, index: usize, kind: FindingKind) {
-        self.findings.add(index, self.goals[index].step, kind);
+    fn found(&mut self, index: usize, finding: Finding) {
+        self.findings.push(finding.at(self.goals[index].step, index));
     }
 
     /// The joints at the target of a move; what is wrong with them is found.
     fn solved(&mut self, index: usize, seed: Option<&[f64; 6]>, conf: Conf) -> Option<[f64; 6]> {
-        let (q, kind) = solved(self.flange, &self.goals[index], seed, conf);
-        if let Some(kind) = kind {
-            self.found(index, kind);
+        let (q, finding) = solved(self.flange, &self.goals[index], seed, conf);
+        if let Some(finding) = finding {
+            self.found(index, finding);
         }
         q
     }
@@ -120,11 +149,11 @@ impl<'a, 'm> Drive<'a, 'm> {
         {
             match self.follow(index, &end, &here, entry)? {
                 Ok(made) => return Ok(made),
-                Err(kind) => self.found(index, kind),
+                Err(finding) => self.found(index, *finding),
             }
         }
         let is_replaced = goal.is_cartesian() || is_lost;
-        // What is wrong with the way is found already.
+        // A broken way is reported already.
         let is_broken = goal.is_cartesian() && !goal.from_unknown;
         let conf = if is_broken { Conf::Quiet } else { goal.conf() };
         let Some(to) = self.solved(index, Some(&here.q), conf) else {
@@ -208,13 +237,13 @@ impl<'a, 'm> Drive<'a, 'm> {
         end: &Pose,
         here: &Here,
         entry: Option<Entry>,
-    ) -> Result<Result<Made, FindingKind>, Error> {
+    ) -> Result<Found<Made>, Error> {
         let goal = &self.goals[index];
         let (before, leg) = match entry {
             Some(Entry { before, corner, leg }) => (Some((before, corner)), leg),
             None => match self.leg(index, &goal.frames.tool(&here.flange), end) {
                 Ok(leg) => (None, leg),
-                Err(error) => return Ok(Err(FindingKind::Path(error))),
+                Err(error) => return Ok(Err(no_path(&error))),
             },
         };
         let exit = self.exit(index, &leg);
@@ -222,7 +251,7 @@ impl<'a, 'm> Drive<'a, 'm> {
             Ok(steps) => steps,
             // No robot reaches both of its ends.
             Err(error) if leg.length() > 2.0 * MOST_REACH => {
-                return Ok(Err(FindingKind::Path(error)));
+                return Ok(Err(no_path(&error)));
             }
             Err(error) => return Err(error),
         };
@@ -240,12 +269,12 @@ impl<'a, 'm> Drive<'a, 'm> {
             match rounded.at(part(step, steps.max(1))) {
                 Ok(_) if step == steps && exit.is_none() => poses.push(*end),
                 Ok(pose) => poses.push(pose),
-                Err(error) => return Ok(Err(FindingKind::Path(error))),
+                Err(error) => return Ok(Err(no_path(&error))),
             }
         }
         let path = match self.followed(index, here, &poses)? {
             Ok(path) => path,
-            Err(kind) => return Ok(Err(kind)),
+            Err(finding) => return Ok(Err(finding)),
         };
         let end = path.q.last().copied().unwrap_or(here.q);
         let q = self.arrived(index, &end, exit.is_some());
@@ -263,7 +292,7 @@ impl<'a, 'm> Drive<'a, 'm> {
         index: usize,
         here: &Here,
         poses: &[Pose],
-    ) -> Result<Result<Path, FindingKind>, Error> {
+    ) -> Result<Found<Path>, Error> {
         let goal = &self.goals[index];
         if poses.len() < 2 {
             return Ok(Ok(Path::default()));
@@ -278,19 +307,17 @@ impl<'a, 'm> Drive<'a, 'm> {
         let followed = self.flange.follow(&flanges, &here.q, &options)?;
         let steps = poses.len() - 1;
         if let Some(first) = followed.breaks.first() {
-            let (part, reason) = (part(first.pose_index, steps), first.reason);
-            return Ok(Err(FindingKind::Break { part, reason }));
+            return Ok(Err(broken(part(first.pose_index, steps), first.reason)));
         }
         let mut path = Path::default();
         for (sample, q) in followed.q.into_iter().enumerate() {
             let Some(q) = q else {
-                let reason = BreakReason::Locked;
-                return Ok(Err(FindingKind::Break { part: part(sample, steps), reason }));
+                return Ok(Err(broken(part(sample, steps), BreakReason::Locked)));
             };
             if sample > 0 {
                 path.push(q, way(&poses[sample - 1], &poses[sample]));
             } else if let Some(reason) = apart(&here.q, &q, singularity_mode) {
-                return Ok(Err(FindingKind::Break { part: 0.0, reason }));
+                return Ok(Err(broken(0.0, reason)));
             }
         }
         self.check_singularities(index, here, &path);
@@ -316,7 +343,11 @@ impl<'a, 'm> Drive<'a, 'm> {
                 .is_ok_and(|solution| apart(&solution.q, &q, SingularityMode::Through).is_none())
         };
         if found != wanted && !is_met() {
-            self.found(index, FindingKind::Configuration { found, wanted });
+            let words = format!(
+                "arrives with the configuration {found}, its target has {wanted}: correct its \
+                 confdata, or program ConfL\\Off"
+            );
+            self.found(index, Finding::new(Code::OtherConfiguration, words));
         }
         q
     }
@@ -347,7 +378,7 @@ impl<'a, 'm> Drive<'a, 'm> {
         for ((kind, _, bound), (distance, sample)) in kinds.into_iter().zip(nearest) {
             if distance < bound && (is_off || kind != SingularityKind::WRIST) {
                 let part = part(sample, path.q.len());
-                self.found(index, FindingKind::Singularity { kind, part, distance, bound });
+                self.found(index, passes(kind, part, distance).with_value(distance, bound));
             }
         }
     }

@@ -1,21 +1,19 @@
 //! A move with everything in meters, radians and seconds, and what is wrong with it as it is
 //! written.
 
-use alloc::string::String;
+use alloc::format;
 use alloc::vec::Vec;
 
-use super::finding::{Finding, FindingKind};
 use crate::kinematics::{Pose, Robot};
 use crate::paths::Zone;
-use crate::rapid::calc::axes::{absent_axis, joint_vector};
 use crate::rapid::calc::frames::Frames;
-use crate::rapid::calc::problem::Problem;
-use crate::rapid::calc::table::{frames_of, outside};
-use crate::rapid::calc::target::target_pose;
+use crate::rapid::calc::table::{frames_of, target_of};
+use crate::rapid::calc::target::{absent_axis, joint_vector, target_pose};
+use crate::rapid::calc::wrong::{Found, absent, displaced, not_solved, outside};
+use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::RobTarget;
 use crate::rapid::data::settings::CirPathMode;
-use crate::rapid::data::skipped::Skipped;
 use crate::report::Configuration;
 
 /// The destination of a move.
@@ -53,65 +51,28 @@ impl Goal<'_> {
     }
 }
 
-/// Collects findings.
-pub(in crate::rapid) struct Findings {
-    pub(in crate::rapid) all: Vec<Finding>,
-}
-
-impl Findings {
-    pub(in crate::rapid) fn add(&mut self, move_index: usize, step: &Move, kind: FindingKind) {
-        let (line, column, what) = (step.line, step.column, words(step));
-        self.all.push(Finding { move_index, line, column, what, kind });
-    }
-
-    /// Something that is not read, before a move.
-    pub(in crate::rapid) fn not_read(
-        &mut self,
-        move_index: usize,
-        skipped: &Skipped,
-        kind: FindingKind,
-    ) {
-        let Skipped { line, column, text, .. } = skipped;
-        let (line, column, what) = (*line, *column, text.clone());
-        self.all.push(Finding { move_index, line, column, what, kind });
-    }
-}
-
-/// `MoveL p10`.
-fn words(step: &Move) -> String {
-    alloc::format!("{} {}", step.kind.name(), step.target.text)
-}
-
 impl<'m> Goal<'m> {
-    /// A move; what is wrong with it is found.
+    /// A move; report what is wrong with it.
     pub(in crate::rapid) fn new(
         robot: &Robot<6>,
         step: &'m Move,
         move_index: usize,
-        findings: &mut Findings,
+        findings: &mut Vec<Finding>,
     ) -> Self {
-        let mut found = |kind| findings.add(move_index, step, kind);
+        let mut found = |finding: Finding| findings.push(finding.at(step, move_index));
         let frames = frames_of(robot, step);
-        let mut place = match placed(step, &frames) {
-            Ok(place) => Some(place),
-            Err(problem) => {
-                found(FindingKind::Target(problem));
-                None
-            }
-        };
+        let mut place = placed(step, &frames).map_err(|finding| found(*finding)).ok();
         if let Some(Place::Joints(q)) = &place {
-            if let Some(problem) = outside(robot, q) {
-                found(FindingKind::Target(problem));
-            }
-            if let Err(problem) = &frames {
-                found(FindingKind::Target(problem.clone()));
+            outside(robot, q).into_iter().for_each(&mut found);
+            if let Err(finding) = &frames {
+                found(Finding::clone(finding));
             }
         }
         let via = step.via.as_ref().map(|via| pose_of(step, via));
         let via = match via.transpose() {
             Ok(via) => via,
-            Err(problem) => {
-                found(FindingKind::Target(problem));
+            Err(finding) => {
+                found(*finding);
                 place = None;
                 None
             }
@@ -122,7 +83,9 @@ impl<'m> Goal<'m> {
             CirPathMode::PathFrame | CirPathMode::ObjectFrame | CirPathMode::CirPointOri
         );
         if step.kind == MoveKind::MoveC && !is_read {
-            found(FindingKind::WristMode(mode));
+            let mode = mode.name();
+            let words = format!("CirPathMode \\{mode} is not followed, \\PathFrame is taken");
+            found(Finding::new(Code::NotFollowed, words));
         }
         let (speed, time) = (speed_of(step, &mut found), time_of(step, &mut found));
         let (zone, stops) = zone_of(step, &mut found);
@@ -135,40 +98,38 @@ impl<'m> Goal<'m> {
 }
 
 /// The destination of a move.
-fn placed(step: &Move, frames: &Result<Frames, Problem>) -> Result<Place, Problem> {
+fn placed(step: &Move, frames: &Found<Frames>) -> Found<Place> {
     if let Some(line) = step.displaced {
-        return Err(Problem::Displaced { line });
+        return Err(displaced(line).into());
     }
-    match &step.target.value {
-        Err(reason) => Err(Problem::Target(reason.clone())),
-        Ok(Target::JointTarget(joints)) => match absent_axis::<6>(joints) {
-            Some((axis, degrees)) => Err(Problem::AbsentAxis { axis, degrees }),
+    match target_of(&step.target)? {
+        Target::JointTarget(joints) => match absent_axis::<6>(joints) {
+            Some((axis, degrees)) => Err(absent(axis, degrees).into()),
             None => Ok(Place::Joints(joint_vector(joints))),
         },
-        Ok(Target::RobTarget(target)) => {
-            frames.as_ref().map_err(Problem::clone)?;
-            let pose = target_pose(target).map_err(Problem::NotSolved)?;
+        Target::RobTarget(target) => {
+            frames.as_ref().map_err(Clone::clone)?;
+            let pose = target_pose(target).map_err(|error| not_solved(&error))?;
             Ok(Place::Tool(pose, target.robconf))
         }
     }
 }
 
 /// The point on a circle.
-fn pose_of(step: &Move, via: &Argument<RobTarget>) -> Result<Pose, Problem> {
-    match (&via.value, step.displaced) {
-        // The target reports it.
-        (_, Some(line)) => Err(Problem::Displaced { line }),
-        (Ok(via), None) => target_pose(via).map_err(Problem::NotSolved),
-        (Err(reason), None) => Err(Problem::Target(reason.clone())),
+fn pose_of(step: &Move, via: &Argument<RobTarget>) -> Found<Pose> {
+    if let Some(line) = step.displaced {
+        return Err(displaced(line).into());
     }
+    target_pose(target_of(via)?).map_err(|error| not_solved(&error).into())
 }
 
 /// The corner at the end of a move, and whether the robot stops there.
-fn zone_of(step: &Move, found: &mut impl FnMut(FindingKind)) -> (Option<Zone>, bool) {
+fn zone_of(step: &Move, found: &mut impl FnMut(Finding)) -> (Option<Zone>, bool) {
     let zone = match &step.zone_data {
         Ok(zone) => zone,
         Err(reason) => {
-            found(FindingKind::Zone { text: step.zone.clone(), reason: reason.clone() });
+            let words = format!("zone {}: {reason}; the target is met", step.zone);
+            found(Finding::unknown(Code::UnknownZone, reason, words));
             return (None, true);
         }
     };
@@ -178,15 +139,21 @@ fn zone_of(step: &Move, found: &mut impl FnMut(FindingKind)) -> (Option<Zone>, b
         ("zone_ori", zone.zone_ori_deg),
     ];
     if let Some((field, value)) = numbers.into_iter().find(|(_, value)| *value < 0.0) {
-        found(FindingKind::Number { field, value });
+        found(left_out(field, value, "not negative"));
         return (None, true);
     }
     let corner = Zone::of_zonedata([zone.pzone_tcp_mm, zone.pzone_ori_mm], zone.zone_ori_deg);
     ((!zone.finep && corner.position > 0.0).then_some(corner), zone.finep)
 }
 
+/// A number that no move can have, with RAPID's name of its field.
+fn left_out(field: &str, value: f64, wanted: &str) -> Finding {
+    let words = format!("{field} is {value}, it must be finite and {wanted}; it is left out");
+    Finding::new(Code::InvalidNumber, words)
+}
+
 /// The speed of a move.
-fn speed_of(step: &Move, found: &mut impl FnMut(FindingKind)) -> [f64; 2] {
+fn speed_of(step: &Move, found: &mut impl FnMut(Finding)) -> [f64; 2] {
     match &step.speed_data {
         Ok(speed) => {
             let numbers = [
@@ -197,30 +164,30 @@ fn speed_of(step: &Move, found: &mut impl FnMut(FindingKind)) -> [f64; 2] {
                 if value > 0.0 {
                     return value * unit;
                 }
-                found(FindingKind::Number { field, value });
+                found(left_out(field, value, "positive"));
                 f64::INFINITY
             })
         }
         // \T replaces it.
         Err(_) if matches!(step.time, Some(Ok(_))) => [f64::INFINITY; 2],
         Err(reason) => {
-            found(FindingKind::Speed { text: step.speed.clone(), reason: reason.clone() });
+            let text = &step.speed;
+            let words = format!("speed {text}: {reason}; the limits of the joints alone count");
+            found(Finding::unknown(Code::UnknownSpeed, reason, words));
             [f64::INFINITY; 2]
         }
     }
 }
 
 /// The duration of `\T`.
-fn time_of(step: &Move, found: &mut impl FnMut(FindingKind)) -> Option<f64> {
+fn time_of(step: &Move, found: &mut impl FnMut(Finding)) -> Option<f64> {
     match step.time.as_ref()? {
-        Ok(time) if *time > 0.0 => Some(*time),
-        Ok(time) => {
-            found(FindingKind::Number { field: "\\T", value: *time });
-            None
-        }
+        Ok(time) if *time > 0.0 => return Some(*time),
+        Ok(time) => found(left_out("\\T", *time, "positive")),
         Err(reason) => {
-            found(FindingKind::Time(reason.clone()));
-            None
+            let words = format!("\\T: {reason}; the speed counts");
+            found(Finding::unknown(Code::UnknownSpeed, reason, words));
         }
     }
+    None
 }

@@ -1,14 +1,98 @@
-//! Moves of the joints: where they go, and the straight line in joint space that gets there.
+//! Moves of the joints: samples of a motion, straight lines in joint space, and corners rounded in
+//! joint space, where the tool does not go on lines of one work object on both sides.
 
-use super::finding::FindingKind;
+use alloc::vec::Vec;
+use core::ops::Range;
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
 use super::goal::{Goal, Place};
-use super::samples::{Path, way};
 use crate::error::Error;
-use crate::kinematics::{ConfigurationRequest, Robot};
+use crate::kinematics::thresholds::STEP_ROUNDING;
+use crate::kinematics::{ConfigurationRequest, Pose, Robot};
 use crate::paths::Spacing;
 use crate::paths::line::part;
 use crate::rapid::calc::frames::Frames;
-use crate::rapid::calc::problem::Problem;
+use crate::rapid::calc::wrong::{nearest_taken, not_solved};
+use crate::rapid::data::finding::Finding;
+
+/// The way of the tool between two samples: a length [m] and an angle [rad].
+pub(in crate::rapid) type Way = [f64; 2];
+
+/// Samples in order, grouped by moves.
+#[derive(Default)]
+pub(in crate::rapid) struct Samples {
+    pub(in crate::rapid) q: Vec<[f64; 6]>,
+    /// The way from the sample before.
+    pub(in crate::rapid) ways: Vec<Way>,
+    /// How many samples there are after each move.
+    pub(in crate::rapid) ends: Vec<usize>,
+    /// How many there are before the first move: 1 if a start is given.
+    pub(in crate::rapid) first: usize,
+}
+
+impl Samples {
+    pub(in crate::rapid) fn push(&mut self, q: [f64; 6], way: Way) {
+        self.q.push(q);
+        self.ways.push(way);
+    }
+
+    /// The samples of a move.
+    pub(in crate::rapid) fn own(&self, index: usize) -> Range<usize> {
+        let begin = index.checked_sub(1).map_or(self.first, |before| self.ends[before]);
+        begin..self.ends[index]
+    }
+
+    /// The intervals of a move, by the samples that they end at.
+    pub(in crate::rapid) fn intervals(&self, index: usize) -> Range<usize> {
+        let own = self.own(index);
+        own.start.max(1).min(own.end)..own.end
+    }
+}
+
+/// The joints of a move after those that it begins with, and the way of the tool to each.
+#[derive(Default)]
+pub(in crate::rapid) struct Path {
+    pub(in crate::rapid) q: Vec<[f64; 6]>,
+    pub(in crate::rapid) ways: Vec<Way>,
+}
+
+impl Path {
+    pub(in crate::rapid) fn push(&mut self, q: [f64; 6], way: Way) {
+        self.q.push(q);
+        self.ways.push(way);
+    }
+
+    /// The length of the tool's way [m].
+    pub(in crate::rapid) fn length(&self) -> f64 {
+        self.ways.iter().map(|way| way[0]).sum()
+    }
+}
+
+/// The way of the tool from one pose to another.
+pub(in crate::rapid) fn way(from: &Pose, to: &Pose) -> Way {
+    let length = (to.translation.vector - from.translation.vector).norm();
+    // |R1 - R0| in the Frobenius norm is 2 sqrt(2) sin(angle / 2).
+    let apart = (to.rotation.matrix() - from.rotation.matrix()).norm();
+    let half_sin = apart / (2.0 * core::f64::consts::SQRT_2);
+    [length, 2.0 * half_sin.min(1.0).asin()]
+}
+
+/// The joint (from 1) that takes longest between two samples at its limit, and how long [s].
+pub(in crate::rapid) fn slowest(
+    from: &[f64; 6],
+    to: &[f64; 6],
+    max_velocity: &[f64; 6],
+) -> (usize, f64) {
+    let time = |joint: usize| (to[joint] - from[joint]).abs() / max_velocity[joint];
+    let (mut slowest, mut longest) = (0, time(0));
+    for joint in 1..6 {
+        if time(joint) > longest {
+            (slowest, longest) = (joint, time(joint));
+        }
+    }
+    (slowest + 1, longest)
+}
 
 /// Whether a target must be met with its own configuration.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -28,8 +112,7 @@ pub(super) fn solved(
     goal: &Goal<'_>,
     seed: Option<&[f64; 6]>,
     conf: Conf,
-) -> (Option<[f64; 6]>, Option<FindingKind>) {
-    let not_solved = |error| (None, Some(FindingKind::Target(Problem::NotSolved(error))));
+) -> (Option<[f64; 6]>, Option<Finding>) {
     let (pose, robconf) = match goal.place {
         None => return (None, None),
         Some(Place::Joints(q)) => return (Some(q), None),
@@ -43,15 +126,12 @@ pub(super) fn solved(
             Err(error @ (Error::NoConfiguration(_) | Error::InvalidJoints(_))) => {
                 missed = Some(error).filter(|_| conf == Conf::On);
             }
-            Err(error) => return not_solved(error),
+            Err(error) => return (None, Some(not_solved(&error))),
         }
     }
     match flange.ik_nearest(&pose, seed.unwrap_or(&[0.0; 6]), &[1.0; 6]) {
-        Ok(solution) => {
-            let kind = missed.map(|missed| FindingKind::Target(Problem::Nearest(missed)));
-            (Some(solution.q), kind)
-        }
-        Err(error) => not_solved(error),
+        Ok(solution) => (Some(solution.q), missed.as_ref().map(nearest_taken)),
+        Err(error) => (None, Some(not_solved(&error))),
     }
 }
 
@@ -88,4 +168,109 @@ impl Goal<'_> {
         let on = if self.is_cartesian() { settings.conf_l } else { settings.conf_j };
         if on { Conf::On } else { Conf::Off }
     }
+}
+
+/// Samples of each half of a corner.
+const HALF: usize = 6;
+
+/// Joints along the way of the tool from a corner: the first are those at the corner.
+struct Side<'a> {
+    /// The joints of sample `index`, from 0 at the corner.
+    q: &'a dyn Fn(usize) -> [f64; 6],
+    /// The way of the tool from sample `index - 1` to `index`.
+    way: &'a dyn Fn(usize) -> Way,
+    count: usize,
+}
+
+impl Side<'_> {
+    /// The first sample at a distance or more, and how far into the interval before it the distance
+    /// is, 0 to 1.
+    fn place(&self, distance: f64) -> (usize, f64) {
+        let (mut index, mut left) = (1, distance);
+        while index + 1 < self.count && (self.way)(index)[0] < left {
+            left -= (self.way)(index)[0];
+            index += 1;
+        }
+        let length = (self.way)(index)[0];
+        (index, if length > 0.0 { (left / length).min(1.0) } else { 1.0 })
+    }
+
+    fn at(&self, distance: f64) -> [f64; 6] {
+        let (index, part) = self.place(distance);
+        mixed(&(self.q)(index - 1), &(self.q)(index), part)
+    }
+}
+
+/// Round the corner between the last move and `path`, which begins at its end, with a zone [m]
+/// (eq. 34). Returns whether it is rounded; `path` then begins halfway through the corner.
+pub(super) fn round_joints(
+    flange: &Robot<6>,
+    samples: &mut Samples,
+    zone: f64,
+    [before, after]: [&Frames; 2],
+    path: &mut Path,
+) -> bool {
+    let Some(last) = samples.ends.len().checked_sub(1) else { return false };
+    let own = samples.own(last);
+    // Its first sample needs one before it, to have a way.
+    let (begin, end) = (own.start.max(1), own.end);
+    let length: f64 = samples.ways[begin.min(end)..end].iter().map(|way| way[0]).sum();
+    let radius = zone.min(0.5 * length).min(0.5 * path.length());
+    if radius.is_nan() || radius <= 0.0 {
+        return false;
+    }
+    let (q, ways) = (&samples.q, &samples.ways);
+    let behind = Side {
+        q: &|index| q[end - 1 - index],
+        way: &|index| ways[end - index],
+        count: end - begin + 1,
+    };
+    let corner = q[end - 1];
+    let ahead = Side {
+        q: &|index| index.checked_sub(1).map_or(corner, |index| path.q[index]),
+        way: &|index| path.ways[index - 1],
+        count: path.q.len() + 1,
+    };
+    // De Casteljau's construction, of joints.
+    let blended = |u: f64| mixed(&behind.at((1.0 - u) * radius), &ahead.at(u * radius), u);
+    let (kept, entry_part) = behind.place(radius);
+    let entry = behind.at(radius);
+    let entry_way = ways[end - kept].map(|size| size * (1.0 - entry_part));
+    let (left, exit_part) = ahead.place(radius);
+    let mut halves = [[[0.0; 6]; HALF]; 2];
+    for (half, rows) in halves.iter_mut().enumerate() {
+        for (step, row) in rows.iter_mut().enumerate() {
+            let half = if half == 0 { 0.0 } else { 0.5 };
+            *row = blended(half + 0.5 * part(step + 1, HALF));
+        }
+    }
+    // The samples of the last move up to the corner, the entry, and half of the corner.
+    samples.q.truncate(end - kept);
+    samples.ways.truncate(end - kept);
+    // Unless the zone begins at a sample.
+    if entry_part < 1.0 - STEP_ROUNDING {
+        samples.push(entry, entry_way);
+    }
+    let mut pose = before.tool(&flange.fk(&entry));
+    for row in &halves[0] {
+        let next = before.tool(&flange.fk(row));
+        samples.push(*row, way(&pose, &next));
+        pose = next;
+    }
+    samples.ends[last] = samples.q.len();
+    let mut rounded = Path::default();
+    let mut pose = after.tool(&flange.fk(&halves[0][HALF - 1]));
+    for row in &halves[1] {
+        let next = after.tool(&flange.fk(row));
+        rounded.push(*row, way(&pose, &next));
+        pose = next;
+    }
+    for index in left - 1..path.q.len() {
+        let share = if index == left - 1 { 1.0 - exit_part } else { 1.0 };
+        if share > STEP_ROUNDING {
+            rounded.push(path.q[index], path.ways[index].map(|size| size * share));
+        }
+    }
+    *path = rounded;
+    true
 }

@@ -1,14 +1,15 @@
 //! The times of a motion: programmed speeds, slowed where a joint would be too fast.
 
-use alloc::vec;
+use alloc::string::ToString;
 use alloc::vec::Vec;
+use alloc::{format, vec};
 
 use super::drive::Made;
-use super::finding::FindingKind;
-use super::goal::{Findings, Goal};
-use super::samples::{Samples, slowest};
+use super::goal::Goal;
+use super::joints::{Samples, slowest};
 use crate::error::{Error, MotionFault};
 use crate::kinematics::thresholds::{LIMIT_ROUNDING, MOST_DURATION};
+use crate::rapid::data::finding::{Code, Finding};
 use crate::trajectory::{Trajectory, evenly, within_times};
 
 /// A motion to be timed.
@@ -17,7 +18,7 @@ pub(super) struct Pace<'a, 'm> {
     pub(super) goals: &'a [Goal<'m>],
     pub(super) made: &'a [Made],
     pub(super) max_velocity: &'a [f64; 6],
-    pub(super) findings: &'a mut Findings,
+    pub(super) findings: &'a mut Vec<Finding>,
 }
 
 /// A joint that is too fast at the programmed speed.
@@ -97,15 +98,26 @@ impl Pace<'_, '_> {
             let programmed =
                 goal.time.unwrap_or_else(|| (sums[0] / speed[0]).max(sums[1] / speed[1]));
             let too_fast = self.add_even(intervals, programmed, least);
-            // Without \T the speed of a joint move is that of its slowest joint where that is less.
+            // Without \T a joint move is as slow as its slowest joint.
             too_fast.filter(|_| goal.time.is_some())
         };
         if let Some(TooFast { joint, excess }) = too_fast {
             let bound = self.max_velocity[joint - 1];
-            let speed = if speed[0].is_finite() { speed[0] } else { 0.0 };
-            let (value, slowed) = (bound * excess, excess.recip());
-            let kind = FindingKind::JointSpeed { joint, value, bound, slowed, speed };
-            self.findings.add(index, goal.step, kind);
+            let value = bound * excess;
+            let of = if speed[0].is_finite() {
+                format!("{:.0} mm/s", speed[0] * 1e3)
+            } else {
+                "it".to_string()
+            };
+            let words = format!(
+                "J{joint} must turn at {:.1} deg/s at the programmed speed, its limit is {:.1} \
+                 deg/s: slowed down to {:.0} % of {of}",
+                value.to_degrees(),
+                bound.to_degrees(),
+                excess.recip() * 1e2
+            );
+            let finding = Finding::new(Code::JointTooFast, words).of_joint(joint);
+            self.findings.push(finding.with_value(value, bound).at(goal.step, index));
         }
     }
 
@@ -198,7 +210,9 @@ impl Pace<'_, '_> {
             }
             let value = times[own.end - 1] - times[own.start - 1];
             if value > bound * (1.0 + LIMIT_ROUNDING) {
-                self.findings.add(index, goal.step, FindingKind::Duration { value, bound });
+                let words = format!("takes {value:.3} s, \\T asks for {bound:.3} s");
+                let finding = Finding::new(Code::JointTooFast, words).with_value(value, bound);
+                self.findings.push(finding.at(goal.step, index));
             }
         }
     }

@@ -1,19 +1,19 @@
 //! A routine as one motion.
 
+use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::drive::{Drive, Made};
-use super::finding::{Finding, FindingKind};
-use super::goal::{Findings, Goal};
-use super::options::MotionOptions;
+use super::drive::{Drive, Made, MotionOptions};
+use super::goal::Goal;
+use super::joints::Samples;
 use super::pace::Pace;
-use super::samples::Samples;
 use super::sequence::{Step, sequence};
 use crate::error::{Error, MotionFault, RapidFault, RapidFaultKind, RoutineFault};
 use crate::kinematics::{Robot, check_seed};
 use crate::paths::Spacing;
 use crate::rapid::calc::target::with_flange;
+use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::trajectory::Trajectory;
@@ -34,7 +34,7 @@ pub struct RoutineMotion {
     pub move_index: Vec<usize>,
     /// The moves of the routine, in order.
     pub moves: Vec<MotionMove>,
-    /// What is wrong with moves, in order.
+    /// Findings on moves, in order.
     pub findings: Vec<Finding>,
 }
 
@@ -63,7 +63,7 @@ pub struct MotionMove {
 }
 
 /// The moves of a routine as one motion: `MoveAbsJ`, `MoveJ`, `MoveL` and `MoveC` in order, each
-/// followed, timed and checked (docs/motion.md).
+/// followed, timed and checked (docs/guide/motion.md).
 ///
 /// Without a name, the routine is `main` or else the only one that moves. Everything that is wrong
 /// with a move is a finding: an unknown value, a target that cannot be reached, a flip, a
@@ -73,10 +73,10 @@ pub struct MotionMove {
 ///
 /// # Errors
 ///
-/// [`Error::Rapid`] for a routine that does not exist or has no moves, for branches, loops and jumps
-/// around moves, with their line, and if not one move can be made; [`Error::InvalidModel`] for an
-/// arm without configurations; [`Error::InvalidMotion`] for limits or steps that are not positive,
-/// for a robot without velocities if none are given, or for too many samples;
+/// [`Error::Rapid`] for a routine that does not exist or has no moves, for branches, loops and
+/// jumps around moves, with their line, and if not one move can be made; [`Error::InvalidModel`]
+/// for an arm without configurations; [`Error::InvalidMotion`] for limits or steps that are not
+/// positive, for a robot without velocities if none are given, or for too many samples;
 /// [`Error::InvalidJoints`] for a start that is not finite.
 pub fn motion(
     robot: &Robot<6>,
@@ -92,7 +92,7 @@ pub fn motion(
     let Followed { goals, indices, samples, made, mut findings } =
         Followed::new([robot, &flange], &steps, options)?;
     if samples.q.is_empty() || made.iter().all(|made| made.q.is_none()) {
-        let finding = findings.all.first().map(Finding::to_string).unwrap_or_default();
+        let finding = findings.first().map(Finding::to_string).unwrap_or_default();
         return Err(RapidFault::nowhere(RapidFaultKind::Routine(RoutineFault::NoMotion {
             finding,
         }))
@@ -111,7 +111,6 @@ pub fn motion(
     for (index, end) in samples.ends.iter().enumerate() {
         move_index.resize(*end, index);
     }
-    let mut findings = findings.all;
     findings.sort_by_key(|finding| finding.move_index);
     Ok(RoutineMotion { routine, trajectory, t, q: samples.q, move_index, moves, findings })
 }
@@ -123,7 +122,7 @@ pub(in crate::rapid) struct Followed<'m> {
     pub(in crate::rapid) indices: Vec<usize>,
     samples: Samples,
     pub(in crate::rapid) made: Vec<Made>,
-    pub(in crate::rapid) findings: Findings,
+    pub(in crate::rapid) findings: Vec<Finding>,
 }
 
 impl<'m> Followed<'m> {
@@ -133,7 +132,7 @@ impl<'m> Followed<'m> {
         steps: &[Step<'m>],
         options: &MotionOptions,
     ) -> Result<Self, Error> {
-        let mut findings = Findings { all: Vec::new() };
+        let mut findings = Vec::new();
         let (goals, indices) = goals(robots[0], steps, &mut findings);
         let (samples, made) = Drive::through(robots, &goals, options, &mut findings)?;
         Ok(Self { goals, indices, samples, made, findings })
@@ -165,7 +164,7 @@ pub(in crate::rapid) fn check(options: &MotionOptions) -> Result<(), Error> {
     Ok(())
 }
 
-/// The velocities of the joints [rad/s], those of the robot unless the options have them.
+/// The velocities of the joints [rad/s], the robot's unless the options have them.
 pub(in crate::rapid) fn velocities(
     robot: &Robot<6>,
     options: &MotionOptions,
@@ -190,26 +189,30 @@ fn check_limits(field: &'static str, limits: Option<&[f64; 6]>) -> Result<(), Er
 fn goals<'m>(
     robot: &Robot<6>,
     steps: &[Step<'m>],
-    findings: &mut Findings,
+    findings: &mut Vec<Finding>,
 ) -> (Vec<Goal<'m>>, Vec<usize>) {
     let (mut goals, mut indices) = (Vec::with_capacity(steps.len()), Vec::new());
     let mut from_unknown = false;
     for step in steps {
         let move_index = goals.len();
-        let (skipped, kind) = match step {
+        let (skipped, words) = match step {
             Step::Move(index, step) => {
                 let goal = Goal::new(robot, step, move_index, findings);
                 goals.push(Goal { from_unknown: core::mem::take(&mut from_unknown), ..goal });
                 indices.push(*index);
                 continue;
             }
-            Step::NotRead(skipped) => (skipped, FindingKind::NotRead(skipped.what.clone())),
-            Step::Call(skipped, name) => (skipped, FindingKind::Call { name: (*name).to_string() }),
+            Step::NotRead(skipped) => (skipped, skipped.what.to_string()),
+            Step::Call(skipped, name) => {
+                let words =
+                    format!("{name} is a routine of the module, its moves are not followed");
+                (skipped, words)
+            }
         };
-        findings.not_read(move_index, skipped, kind);
+        findings.push(Finding::new(Code::NotFollowed, words).at_skipped(skipped, move_index));
         from_unknown = true;
     }
-    for finding in &mut findings.all {
+    for finding in findings.iter_mut() {
         finding.move_index = finding.move_index.min(goals.len().saturating_sub(1));
     }
     (goals, indices)

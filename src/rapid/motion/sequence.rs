@@ -5,14 +5,10 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use crate::error::{Error, RapidFault, RapidFaultKind, RoutineFault};
+use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
-use crate::rapid::data::settings::MotionSettings;
-use crate::rapid::data::skipped::{NotRead, Skipped};
-
-/// The words that leave a routine or jump inside it.
-pub(in crate::rapid) const LEAVING: [&str; 7] =
-    ["RETURN", "EXIT", "ExitCycle", "RAISE", "RETRY", "TRYNEXT", "Stop"];
+use crate::rapid::data::unread::{NotRead, Skipped};
 
 /// A step of a routine.
 pub(in crate::rapid) enum Step<'m> {
@@ -141,15 +137,17 @@ impl<'m> Walk<'m> {
                     self.check_certain()?;
                     steps.push(Step::NotRead(skipped));
                 }
-                NotRead::Instruction { name } if name.eq_ignore_ascii_case("GOTO") => {
+                NotRead::Instruction { name } if Effect::Jumps.is_of(name) => {
                     let kind = RoutineFault::Branch { word: "GOTO".into() };
                     return Err(fault(skipped.line, kind));
                 }
-                NotRead::Instruction { name } if is_one_of(name, &LEAVING) => {
+                NotRead::Instruction { name }
+                    if Effect::Leaves.is_of(name) || Effect::Stops.is_of(name) =>
+                {
                     self.check_certain()?;
                     break;
                 }
-                NotRead::Instruction { name } if is_one_of(name, &MotionSettings::INSTRUCTIONS) => {
+                NotRead::Instruction { name } if Effect::Sets.is_of(name) => {
                     self.check_certain()?;
                     steps.push(Step::NotRead(skipped));
                 }
@@ -187,10 +185,6 @@ impl<'m> Walk<'m> {
         }
         true
     }
-}
-
-pub(in crate::rapid) fn is_one_of(name: &str, names: &[&str]) -> bool {
-    names.iter().any(|own| own.eq_ignore_ascii_case(name))
 }
 
 pub(in crate::rapid) fn ends_with_then(text: &str) -> bool {

@@ -6,19 +6,19 @@ use alloc::vec::Vec;
 
 use super::routine::RoutineMotion;
 use crate::error::Error;
-use crate::rapid::calc::axes::joint_target;
+use crate::rapid::calc::target::joint_target;
 use crate::rapid::data::module::{Datum, Module, Storage};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, MoveOption, Target};
 use crate::rapid::data::records::{NOT_THERE, ToolData, WobjData};
 use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::data::value::Value;
-use crate::rapid::expression::predefined::predefined;
+use crate::rapid::expression::names::predefined;
 use crate::rapid::text::words::is_name;
 
 impl RoutineMotion {
-    /// The motion as a module: a `MoveAbsJ` to the joints of each target that is met or passed, with
-    /// its external axes, speed, zone, `\T`, tool and work object. Its path between the targets is
-    /// that of the joints. Tools and work objects are declared as `PERS`; speeds and zones that are
+    /// The motion as a module: a `MoveAbsJ` to the joints of each target that is met or passed,
+    /// with its external axes, speed, zone, `\T`, tool and work object. Between the targets the
+    /// joints move evenly. Tools and work objects are declared as `PERS`; speeds and zones that are
     /// not RAPID's own are written as numbers.
     ///
     /// # Errors
@@ -76,11 +76,7 @@ fn time(step: &Move) -> Option<MoveOption> {
 fn numbers<T: ToString>(text: &str, value: Option<&T>) -> String {
     let Some(value) = value else { return text.to_string() };
     let written = value.to_string();
-    let own = predefined(&text.to_lowercase()).map(|part| {
-        let mut own = String::new();
-        let _ = part.write(&mut own);
-        own
-    });
+    let own = predefined(&text.to_lowercase()).map(|own| own.to_string());
     if own.as_deref() == Some(written.as_str()) { text.to_string() } else { written }
 }
 

@@ -1,6 +1,5 @@
-//! Resolves names to values: data after those that they refer to, then the moves.
+//! Resolve names to values: data after the data that they refer to, then the moves.
 
-mod assigned;
 mod moves;
 mod resolver;
 
@@ -9,12 +8,10 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use self::assigned::Causes;
-use self::resolver::Resolver;
+use self::resolver::{Causes, Resolver};
 use crate::error::RapidFault;
 use crate::rapid::data::module::{Datum, Module, routine_name};
-use crate::rapid::data::reason::Reason;
-use crate::rapid::data::skipped::{NotRead, Skipped};
+use crate::rapid::data::unread::{NotRead, Reason, Skipped};
 use crate::rapid::expression::content::Placed;
 use crate::rapid::statements::declarations::Declared;
 use crate::rapid::statements::reader::Written;

@@ -6,9 +6,9 @@ use super::resolver::Resolver;
 use crate::error::RapidFault;
 use crate::rapid::data::module::{Routine, routine_name};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
-use crate::rapid::data::reason::Reason;
 use crate::rapid::data::records::{SpeedData, ZoneData};
-use crate::rapid::data::value::Record;
+use crate::rapid::data::types::Record;
+use crate::rapid::data::unread::Reason;
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::tree::Expression;
 use crate::rapid::statements::moves::{Replacement, WrittenMove};
@@ -29,7 +29,7 @@ impl<'a> Resolver<'a> {
         Ok(Argument { text: self.source(expression), span, value })
     }
 
-    /// What evaluates an argument of a move.
+    /// The evaluator of an argument of a move.
     fn evaluator<'r>(&'r self, step: &WrittenMove<'a>, role: &'static str) -> Evaluator<'r, 'a> {
         Evaluator {
             text: self.text,

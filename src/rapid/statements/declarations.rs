@@ -4,8 +4,8 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use crate::error::RapidFault;
-use crate::rapid::data::data_type::DataType;
 use crate::rapid::data::module::{Content, Scope, Storage};
+use crate::rapid::data::value::DataType;
 use crate::rapid::expression::content::{Placed, WrittenContent};
 use crate::rapid::expression::direct::read_direct;
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
@@ -25,7 +25,7 @@ pub(crate) struct Declared<'a> {
     pub(crate) routine: usize,
     /// Names that its sizes and its value refer to.
     pub(crate) names: Vec<&'a str>,
-    /// How many of the names, the first, are those of the sizes.
+    /// How many of the names, the first, belong to the sizes.
     pub(crate) size_names: usize,
     /// Bytes of the statement with its semicolon.
     pub(crate) start: usize,
@@ -38,7 +38,7 @@ pub(crate) struct Declared<'a> {
 }
 
 impl<'a> Declared<'a> {
-    /// What evaluates its sizes and its value.
+    /// The evaluator of its sizes and its value.
     pub(crate) fn evaluator<'r>(&self, text: &'a str, names: &'r dyn Names) -> Evaluator<'r, 'a> {
         Evaluator {
             text,
@@ -64,8 +64,8 @@ pub(crate) enum Declaration<'a> {
 
 /// The storage class that the next token names, if any.
 pub(crate) fn storage_at(tokens: &Tokens<'_>) -> Option<Storage> {
-    let all = [Storage::Const, Storage::Pers, Storage::Var];
-    all.into_iter().find(|storage| tokens.at_word(storage.word()))
+    let token = tokens.peek();
+    Storage::named(tokens.text_of(token)).filter(|_| token.kind == TokenKind::Name)
 }
 
 /// The name in a declaration, or its placeholder: the next token.

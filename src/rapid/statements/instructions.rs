@@ -6,78 +6,11 @@ use alloc::string::ToString;
 use super::blocks::begins_another;
 use super::reader::{Assignment, StatementReader};
 use crate::error::RapidFault;
-use crate::rapid::data::settings::{MotionSettings, Setting};
-use crate::rapid::data::skipped::NotRead;
+use crate::rapid::data::instructions::{Effect, written_argument};
+use crate::rapid::data::settings::Setting;
+use crate::rapid::data::unread::NotRead;
 use crate::rapid::text::skipping::skip_balanced;
 use crate::rapid::text::tokens::{Token, TokenKind};
-
-/// Beginnings of the names of instructions that move the robot.
-const MOVING: [&str; 32] = [
-    "MoveLDO",
-    "MoveJDO",
-    "MoveCDO",
-    "MoveLAO",
-    "MoveJAO",
-    "MoveCAO",
-    "MoveLGO",
-    "MoveJGO",
-    "MoveCGO",
-    "MoveLSync",
-    "MoveJSync",
-    "MoveCSync",
-    "MoveExtJ",
-    "TriggL",
-    "TriggJ",
-    "TriggC",
-    "TriggAbsJ",
-    "SearchL",
-    "SearchC",
-    "SearchExtJ",
-    "ArcL",
-    "ArcC",
-    "ArcRepL",
-    "SpotL",
-    "SpotJ",
-    "PaintL",
-    "PaintC",
-    "DispL",
-    "DispC",
-    "EGMMove",
-    "EGMRun",
-    "FCPress",
-];
-
-/// Instructions that write to a required argument, with its number.
-const WRITING: [(&str, usize); 17] = [
-    ("Incr", 1),
-    ("Decr", 1),
-    ("Add", 1),
-    ("Clear", 1),
-    ("TPReadNum", 1),
-    ("TPReadDnum", 1),
-    ("TPReadFK", 1),
-    ("GetSysData", 1),
-    ("SearchL", 2),
-    ("SearchC", 2),
-    ("SearchExtJ", 2),
-    ("GetDataVal", 2),
-    ("MToolRotCalib", 3),
-    ("UnpackRawBytes", 3),
-    ("SToolRotCalib", 4),
-    ("MToolTCPCalib", 5),
-    ("SToolTCPCalib", 5),
-];
-
-/// Whether an instruction moves the robot: the beginning of its name is followed by another word,
-/// so that `DisplayText` is not `DispL`.
-fn moves_the_robot(name: &str) -> bool {
-    MOVING.iter().any(|beginning| {
-        let is_it =
-            name.get(..beginning.len()).is_some_and(|it| it.eq_ignore_ascii_case(beginning));
-        is_it
-            && !name[beginning.len()..].starts_with(|next: char| next.is_lowercase() || next == '_')
-    })
-}
 
 impl<'a> StatementReader<'a> {
     /// An instruction that is not read, a call, an assignment or a label.
@@ -108,14 +41,15 @@ impl<'a> StatementReader<'a> {
         if !is_assignment && self.setting(first)? {
             return Ok(());
         }
-        let assigned = if is_assignment { Some(name) } else { self.written_argument(name)? };
+        let assigned =
+            if is_assignment { Some(name) } else { self.name_in_written_argument(name)? };
         skip_balanced(&mut self.tokens, |tokens, _| begins_another(tokens))?;
         self.tokens.demand(b';', "a semicolon")?;
         let what = {
             let name = name.to_string();
             match is_assignment {
                 true => NotRead::Assignment { name },
-                false if moves_the_robot(&name) => NotRead::Motion { name },
+                false if Effect::Moves.is_of(&name) => NotRead::Motion { name },
                 false => NotRead::Instruction { name },
             }
         };
@@ -133,7 +67,7 @@ impl<'a> StatementReader<'a> {
     /// nothing read, for another instruction or one that is not as RAPID has it.
     fn setting(&mut self, first: Token) -> Result<bool, RapidFault> {
         let name = self.tokens.text_of(first);
-        if !MotionSettings::INSTRUCTIONS.iter().any(|own| own.eq_ignore_ascii_case(name)) {
+        if !Effect::Sets.is_of(name) {
             return Ok(false);
         }
         let mark = self.tokens.mark();
@@ -155,18 +89,17 @@ impl<'a> StatementReader<'a> {
     }
 
     /// The name in the argument that an instruction writes to; reads up to it.
-    fn written_argument(&mut self, instruction: &str) -> Result<Option<&'a str>, RapidFault> {
-        let Some((_, place)) =
-            WRITING.iter().find(|(name, _)| name.eq_ignore_ascii_case(instruction))
-        else {
-            return Ok(None);
-        };
+    fn name_in_written_argument(
+        &mut self,
+        instruction: &str,
+    ) -> Result<Option<&'a str>, RapidFault> {
+        let Some(place) = written_argument(instruction) else { return Ok(None) };
         let mut required = 0;
         loop {
             if !self.tokens.peek().is(b'\\') && self.tokens.peek().kind != TokenKind::End {
                 required += 1;
             }
-            if required == *place {
+            if required == place {
                 if self.tokens.at_assigned_name() {
                     self.tokens.take()?;
                     self.tokens.take()?;
@@ -180,34 +113,6 @@ impl<'a> StatementReader<'a> {
             if !self.tokens.take_if(b',')? {
                 return Ok(None);
             }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn instructions_that_move_are_recognized_by_whole_words() {
-        for name in [
-            "MoveLDO",
-            "movejdo",
-            "TriggLIOs",
-            "ArcLStart",
-            "ArcL",
-            "EGMMoveL",
-            "EGMMoveC",
-            "SpotL",
-            "DispL",
-            "ArcL1",
-        ] {
-            assert!(moves_the_robot(name), "{name}");
-        }
-        for name in
-            ["DisplayText", "PaintColor", "ArcCheck", "Set", "MoveHome", "SearchLine", "searchl_1"]
-        {
-            assert!(!moves_the_robot(name), "{name}");
         }
     }
 }

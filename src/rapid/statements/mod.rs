@@ -2,10 +2,7 @@
 
 pub(crate) mod blocks;
 pub(crate) mod declarations;
-mod displaced_by;
 mod instructions;
 pub(crate) mod moves;
 pub(crate) mod reader;
-mod routines;
-pub(crate) mod scopes;
 mod statement;

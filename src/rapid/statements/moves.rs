@@ -29,14 +29,14 @@ pub(crate) struct WrittenMove<'a> {
     pub(crate) settings: MotionSettings,
 }
 
-/// What an option puts in the place of a part of the speed or of the zone.
+/// The value of an option that replaces a part of the speed or of the zone.
 pub(crate) enum Replacement<'a> {
     /// It has no value.
     Nothing,
     Value(Expression<'a>),
 }
 
-/// What replaces a part of the speed or of the zone.
+/// The options that replace a part of the speed or of the zone.
 #[derive(Default)]
 pub(crate) struct Overrides<'a> {
     /// `\V`.

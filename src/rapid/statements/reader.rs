@@ -1,17 +1,18 @@
-//! The state of the reader of statements: results and position.
+//! The state of the reader of statements: results, names and position.
 
+use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::blocks::Blocks;
 use super::declarations::Declared;
-use super::displaced_by::DisplacedBy;
 use super::moves::WrittenMove;
-use super::scopes::{Named, Scopes};
-use crate::error::RapidFault;
+use crate::error::{RapidFault, RapidFaultKind};
+use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Routine;
+use crate::rapid::data::moves::MoveKind;
 use crate::rapid::data::settings::{MotionSettings, Setting};
-use crate::rapid::data::skipped::{NotRead, Skipped};
+use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
 use crate::rapid::expression::content::Placed;
 use crate::rapid::expression::names::At;
 use crate::rapid::text::tokens::{Token, Tokens};
@@ -53,7 +54,7 @@ pub(super) enum Stage {
     Ended,
 }
 
-/// Reads the statements of a text.
+/// A reader of the statements of a text.
 pub(crate) struct StatementReader<'a> {
     pub(super) tokens: Tokens<'a>,
     pub(super) written: Written<'a>,
@@ -61,7 +62,7 @@ pub(crate) struct StatementReader<'a> {
     /// Index of the routine, from 1; 0 outside routines.
     pub(super) routine: usize,
     pub(super) displaced_by: DisplacedBy,
-    /// What the instructions of the routine have set.
+    /// The settings of the instructions of the routine.
     pub(super) settings: MotionSettings,
 }
 
@@ -102,7 +103,7 @@ impl<'a> StatementReader<'a> {
         block.or_else(|| self.current_routine().map(|routine| routine.kind.end()))
     }
 
-    /// Declares a name in the scope of the routine or of the module.
+    /// Declare a name in the scope of the routine or of the module.
     pub(super) fn declare(
         &mut self,
         at: Token,
@@ -139,5 +140,98 @@ impl<'a> StatementReader<'a> {
     pub(super) fn skip_unfinished(&mut self, from: Token) {
         let statement = self.tokens.text_of(from).to_string();
         self.skip(from, NotRead::Unfinished { statement });
+    }
+}
+
+/// Whether a name is a placeholder: for something that the program does not name yet.
+pub(crate) fn is_placeholder(name: &str) -> bool {
+    name.starts_with('<')
+}
+
+/// The meaning of a name.
+#[derive(Clone)]
+pub(crate) enum Named {
+    /// Data, by their index.
+    Datum(usize),
+    /// Something that has no value here, with the reason.
+    Other(Unresolved),
+}
+
+/// The names of the module and of each routine.
+pub(crate) struct Scopes {
+    /// By the index of the routine, from 1; 0 for the module. Names are in lower case.
+    names: Vec<BTreeMap<String, Named>>,
+}
+
+impl Scopes {
+    pub(crate) fn new() -> Self {
+        Self { names: Vec::from([BTreeMap::new()]) }
+    }
+
+    /// Begin the scope of the next routine.
+    pub(crate) fn add_routine(&mut self) {
+        self.names.push(BTreeMap::new());
+    }
+
+    /// Declare a name, which must not exist yet; `routine_name` is for the message. A placeholder
+    /// declares nothing.
+    pub(crate) fn declare(
+        &mut self,
+        routine: usize,
+        routine_name: Option<&str>,
+        name: &str,
+        named: Named,
+    ) -> Result<(), RapidFaultKind> {
+        let Some(scope) = self.names.get_mut(routine).filter(|_| !is_placeholder(name)) else {
+            return Ok(());
+        };
+        match scope.insert(name.to_lowercase(), named) {
+            None => Ok(()),
+            Some(_) => Err(RapidFaultKind::SameName {
+                name: name.to_string(),
+                routine: routine_name.map(ToString::to_string),
+            }),
+        }
+    }
+
+    /// Find a name in lower case, in a routine or else in the module.
+    pub(crate) fn find(&self, routine: usize, lower: &str) -> Option<&Named> {
+        let local = if routine > 0 {
+            self.names.get(routine).and_then(|scope| scope.get(lower))
+        } else {
+            None
+        };
+        local.or_else(|| self.names.first().and_then(|scope| scope.get(lower)))
+    }
+
+    /// Data of the module by their names in lower case.
+    pub(crate) fn module_data(self) -> impl Iterator<Item = (String, usize)> {
+        let module = self.names.into_iter().next().unwrap_or_default();
+        module.into_iter().filter_map(|(name, named)| match named {
+            Named::Datum(index) => Some((name, index)),
+            Named::Other(_) => None,
+        })
+    }
+}
+
+/// Line of the instruction that displaces the following moves to poses in a routine. `MoveAbsJ` is
+/// not displaced, and external axes do not concern the arm.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct DisplacedBy {
+    line: Option<usize>,
+}
+
+impl DisplacedBy {
+    pub(crate) fn line(self, kind: MoveKind) -> Option<usize> {
+        self.line.filter(|_| kind != MoveKind::MoveAbsJ)
+    }
+
+    /// Record an instruction on a line.
+    pub(crate) fn see(&mut self, name: &str, line: usize) {
+        if Effect::Displaces.is_of(name) {
+            self.line = Some(line);
+        } else if Effect::EndsDisplacement.is_of(name) {
+            self.line = None;
+        }
     }
 }

@@ -1,24 +1,22 @@
-//! A module's statements in sequence: declarations and moves are read, everything else is listed as
-//! not read.
+//! A module's statements in sequence: declarations, moves and routines are read, everything else is
+//! listed as not read.
 
 use alloc::format;
-use alloc::string::ToString;
+use alloc::string::{String, ToString};
 
 use super::blocks::is_flow;
 use super::declarations::{Declaration, read_declaration, read_name, storage_at};
 use super::moves::{WrittenMove, read_move};
-use super::reader::{Stage, StatementReader, Written};
-use super::scopes::Named;
+use super::reader::{Named, Stage, StatementReader, Written, is_placeholder};
 use crate::error::{RapidFault, RapidFaultKind};
-use crate::rapid::data::module::{RoutineKind, Scope};
+use crate::rapid::data::module::{Routine, RoutineKind, Scope};
 use crate::rapid::data::moves::MoveKind;
-use crate::rapid::data::reason::Unresolved;
-use crate::rapid::data::skipped::NotRead;
+use crate::rapid::data::unread::{NotRead, Unresolved};
 use crate::rapid::text::tokens::{Token, TokenKind};
 use crate::rapid::text::words::Capitals;
 
 impl<'a> StatementReader<'a> {
-    /// Reads a whole text.
+    /// Read a whole text.
     pub(crate) fn read(text: &'a str) -> Result<Written<'a>, RapidFault> {
         let mut reader = Self::new(text)?;
         while reader.tokens.peek().kind != TokenKind::End {
@@ -33,7 +31,7 @@ impl<'a> StatementReader<'a> {
         let (inside, missing) = if let Some((word, end)) = self.written.blocks.innermost() {
             (word.to_string(), end)
         } else if let Some(routine) = self.current_routine() {
-            (format!("{} {}", routine.kind.word(), routine.name), routine.kind.end())
+            (format!("{} {}", routine.kind.name(), routine.name), routine.kind.end())
         } else if self.stage == Stage::Module {
             (format!("MODULE {}", self.written.name.unwrap_or_default()), "ENDMODULE")
         } else {
@@ -128,21 +126,17 @@ impl<'a> StatementReader<'a> {
 
     /// A datum or a routine, perhaps after LOCAL or TASK.
     fn declaration(&mut self, first: Token) -> Result<(), RapidFault> {
-        let scope = match (self.tokens.take_word("LOCAL")?, self.tokens.at_word("TASK")) {
-            (true, _) => Scope::Local,
-            (false, true) => {
-                self.tokens.take()?;
-                Scope::Task
-            }
-            (false, false) => Scope::Global,
-        };
+        let word = self.tokens.text_of(self.tokens.peek());
+        let scope = Scope::named(word).unwrap_or(Scope::Global);
+        if scope != Scope::Global {
+            self.tokens.take()?;
+        }
         if let Some(storage) = storage_at(&self.tokens) {
             let place = (self.routine, scope, storage);
             let declaration = read_declaration(&mut self.tokens, first.start, place)?;
             return self.add_declaration(first, declaration);
         }
-        let kinds = [RoutineKind::Proc, RoutineKind::Func, RoutineKind::Trap];
-        match kinds.into_iter().find(|kind| self.tokens.at_word(kind.word())) {
+        match RoutineKind::named(self.tokens.text_of(self.tokens.peek())) {
             Some(kind) if scope != Scope::Task => self.begin_routine(kind, first),
             _ if self.tokens.at_word("ALIAS") => self.alias(first),
             // A procedure may have the name Task.
@@ -223,5 +217,119 @@ impl<'a> StatementReader<'a> {
         self.written.blocks.read(&mut self.tokens, word, token)?;
         self.skip(token, NotRead::Flow { word: word.to_string() });
         Ok(())
+    }
+}
+
+impl StatementReader<'_> {
+    pub(crate) fn begin_routine(
+        &mut self,
+        kind: RoutineKind,
+        first: Token,
+    ) -> Result<(), RapidFault> {
+        if let Some(end) = self.expected_end() {
+            return Err(self.tokens.unexpected(end));
+        }
+        self.tokens.take()?;
+        if kind == RoutineKind::Func {
+            read_name(&mut self.tokens, "the type of the function")?;
+        }
+        let name = read_name(&mut self.tokens, "the name of the routine")?;
+        if is_placeholder(name) {
+            return self.unfinished_routine(kind, name, first);
+        }
+        self.declare(first, name, Named::Other(Unresolved::Routine))?;
+        let (line, column) = self.tokens.line_and_column(first.start);
+        self.written.scopes.add_routine();
+        self.written.routines.push(Routine {
+            kind,
+            name: name.to_string(),
+            header: String::new(),
+            line,
+            column,
+        });
+        self.routine = self.written.routines.len();
+        (self.displaced_by, self.settings) = Default::default();
+        if self.tokens.peek().is(b'(') {
+            self.parameters(name)?;
+        }
+        let header = self.written.text[first.start..self.tokens.last_end].to_string();
+        if let Some(routine) = self.written.routines.last_mut() {
+            routine.header = header;
+        }
+        Ok(())
+    }
+
+    /// Skip a routine without a name, up to its end: its content could not be distinguished from
+    /// that of another one.
+    fn unfinished_routine(
+        &mut self,
+        kind: RoutineKind,
+        name: &str,
+        first: Token,
+    ) -> Result<(), RapidFault> {
+        while !self.tokens.take_word(kind.end())? {
+            if self.tokens.peek().kind == TokenKind::End {
+                let kind = RapidFaultKind::UnexpectedEnd {
+                    inside: format!("{} {name}", kind.name()),
+                    missing: kind.end(),
+                };
+                return Err(self.tokens.fault(self.tokens.peek().start, kind));
+            }
+            self.tokens.take()?;
+        }
+        self.skip_unfinished(first);
+        Ok(())
+    }
+
+    /// Read the parameters in parentheses: the name of each is the last word before a comma, a bar
+    /// or a backslash.
+    fn parameters(&mut self, routine: &str) -> Result<(), RapidFault> {
+        let open = self.tokens.take()?;
+        let mut last = None;
+        loop {
+            let token = self.tokens.peek();
+            match token.kind {
+                TokenKind::End | TokenKind::Symbol(b';') => {
+                    return Err(self
+                        .tokens
+                        .fault(open.start, RapidFaultKind::Unclosed { bracket: '(' }));
+                }
+                TokenKind::Name => last = Some(token),
+                TokenKind::Symbol(b',' | b'|' | b'\\' | b')') => {
+                    if let Some(name) = last.take() {
+                        let text = self.tokens.text_of(name);
+                        self.declare(
+                            name,
+                            text,
+                            Named::Other(Unresolved::Parameter { routine: routine.to_string() }),
+                        )?;
+                    }
+                }
+                TokenKind::Placeholder => last = None,
+                _ => {}
+            }
+            self.tokens.take()?;
+            if token.is(b')') {
+                return Ok(());
+            }
+        }
+    }
+
+    pub(crate) fn end_routine(&mut self, kind: RoutineKind) -> Result<(), RapidFault> {
+        if let Some((_, end)) = self.written.blocks.innermost() {
+            return Err(self.tokens.unexpected(end));
+        }
+        match self.current_routine().map(|routine| routine.kind) {
+            Some(open) if open == kind => {}
+            Some(open) => return Err(self.tokens.unexpected(open.end())),
+            None => {
+                return Err(self
+                    .tokens
+                    .unexpected("a declaration or an instruction (no routine is open)"));
+            }
+        }
+        self.routine = 0;
+        (self.displaced_by, self.settings) = Default::default();
+        self.tokens.take().map(|_| ())
     }
 }

@@ -7,7 +7,7 @@ use std::vec::Vec;
 
 use crate::error::Error;
 use crate::kinematics::Robot;
-use crate::rapid::{Code, Diagnostic, MotionOptions, check, parse};
+use crate::rapid::{Code, Finding, MotionOptions, check, parse};
 
 const DATA: &str = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
     CONST robtarget a:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
@@ -21,7 +21,7 @@ fn text(moves: &str) -> String {
 }
 
 /// What a check finds, without the edges of quarters: these targets have axis 4 at zero.
-fn checked(text: &str) -> Vec<Diagnostic> {
+fn checked(text: &str) -> Vec<Finding> {
     let robot = Robot::named("IRB 2600-12/1.65").unwrap();
     let module = parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let mut found = check(&robot, &module, text, &MotionOptions::default()).unwrap();
@@ -33,7 +33,7 @@ fn codes(moves: &str) -> Vec<Code> {
     checked(&text(moves)).iter().map(|it| it.code).collect()
 }
 
-/// A text with the corrections of its diagnostics.
+/// A text with the corrections of its findings.
 fn corrected(text: &str) -> String {
     let mut edits: Vec<_> = checked(text).into_iter().flat_map(|it| it.edits).collect();
     edits.sort_by_key(|edit| edit.span.start);
@@ -89,7 +89,7 @@ fn each_fault_has_its_code() {
 
 #[test]
 fn a_singular_target_is_ambiguous_and_a_singular_line_is_found() {
-    let robot = Robot::named("IRB 2600-12/1.65").unwrap();
+    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     let target = |degrees: [f64; 6]| {
         let joints = crate::rapid::JointTarget { robax_deg: degrees, extax: [9e9; 6] };
         crate::rapid::calc_rob_t(&robot, &joints, None, None).unwrap()

@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use super::*;
 use crate::error::{Error, RapidFaultKind};
-use crate::rapid::NotRead;
+use crate::rapid::data::unread::NotRead;
 
 /// The types with the shapes of their values: `n` a number, `w` a whole one, `b` a truth value, `s`
 /// a string.

@@ -15,7 +15,8 @@ use std::string::String;
 use std::string::ToString;
 use std::vec::Vec;
 
-use super::{Content, Module, Reason, Skipped, Value, parse};
+use super::data::unread::Reason;
+use super::{Content, Module, Skipped, Value, parse};
 
 fn read(text: &str) -> Module {
     parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"))

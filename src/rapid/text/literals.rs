@@ -34,7 +34,7 @@ pub(crate) fn decimal(text: &str, start: usize) -> Option<(f64, usize)> {
             return None;
         }
     }
-    // What follows may belong to it, as in 0x1F, 1.5.2 and 12abc.
+    // The next byte may belong to it, as in 0x1F, 1.5.2 and 12abc.
     let follows = bytes.get(end).copied().unwrap_or(b' ');
     if is_word_byte(follows) || !follows.is_ascii() || follows == b'.' {
         return None;

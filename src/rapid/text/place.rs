@@ -32,7 +32,7 @@ impl Place {
     }
 }
 
-/// The number of newlines. A byte counts those of a chunk, so that many bytes are compared at once.
+/// The number of newlines. A byte counts a chunk's, so that many bytes are compared at once.
 fn newlines(bytes: &[u8]) -> usize {
     let of_piece = |piece: &[u8]| piece.iter().map(|byte| u8::from(*byte == b'\n')).sum::<u8>();
     bytes.chunks(usize::from(u8::MAX)).map(|piece| usize::from(of_piece(piece))).sum()

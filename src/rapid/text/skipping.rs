@@ -1,4 +1,4 @@
-//! Skips what is not read, with balanced brackets.
+//! Skip unread text with balanced brackets.
 
 use alloc::vec::Vec;
 

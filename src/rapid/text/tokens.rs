@@ -19,7 +19,7 @@ pub(crate) const LONGEST_STRING: usize = 2048;
 /// Characters at the end of a file: blanks, and what some systems append to the text.
 const END_OF_FILE: [char; 8] = ['\0', '\u{1a}', ' ', '\t', '\r', '\n', '\u{b}', '\u{c}'];
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TokenKind {
     /// An identifier or a reserved word.
@@ -52,7 +52,7 @@ impl Token {
     }
 }
 
-/// Reads tokens in sequence, with one token of lookahead.
+/// A reader of tokens in sequence, with one token of lookahead.
 pub(crate) struct Tokens<'a> {
     pub(crate) text: &'a str,
     next: Token,

@@ -63,63 +63,48 @@ impl Capitals {
 }
 
 /// RAPID's reserved words, sorted.
+#[rustfmt::skip]
 const RESERVED: [&str; 55] = [
-    "ALIAS",
-    "AND",
-    "BACKWARD",
-    "CASE",
-    "CONNECT",
-    "CONST",
-    "DEFAULT",
-    "DIV",
-    "DO",
-    "ELSE",
-    "ELSEIF",
-    "ENDFOR",
-    "ENDFUNC",
-    "ENDIF",
-    "ENDMODULE",
-    "ENDPROC",
-    "ENDRECORD",
-    "ENDTEST",
-    "ENDTRAP",
-    "ENDWHILE",
-    "ERROR",
-    "EXIT",
-    "FALSE",
-    "FOR",
-    "FROM",
-    "FUNC",
-    "GOTO",
-    "IF",
-    "INOUT",
-    "LOCAL",
-    "MOD",
-    "MODULE",
-    "NOSTEPIN",
-    "NOT",
-    "OR",
-    "PERS",
-    "PROC",
-    "RAISE",
-    "RECORD",
-    "RETRY",
-    "RETURN",
-    "STEP",
-    "SYSMODULE",
-    "TEST",
-    "THEN",
-    "TO",
-    "TRAP",
-    "TRUE",
-    "TRYNEXT",
-    "UNDO",
-    "VAR",
-    "VIEWONLY",
-    "WHILE",
-    "WITH",
-    "XOR",
+    "ALIAS", "AND", "BACKWARD", "CASE", "CONNECT", "CONST", "DEFAULT", "DIV", "DO", "ELSE",
+    "ELSEIF", "ENDFOR", "ENDFUNC", "ENDIF", "ENDMODULE", "ENDPROC", "ENDRECORD", "ENDTEST",
+    "ENDTRAP", "ENDWHILE", "ERROR", "EXIT", "FALSE", "FOR", "FROM", "FUNC", "GOTO", "IF", "INOUT",
+    "LOCAL", "MOD", "MODULE", "NOSTEPIN", "NOT", "OR", "PERS", "PROC", "RAISE", "RECORD", "RETRY",
+    "RETURN", "STEP", "SYSMODULE", "TEST", "THEN", "TO", "TRAP", "TRUE", "TRYNEXT", "UNDO", "VAR",
+    "VIEWONLY", "WHILE", "WITH", "XOR",
 ];
+
+/// Defines enums whose variants are words of RAPID.
+macro_rules! words {
+    ($(
+        $(#[$meta:meta])*
+        $visibility:vis enum $Enum:ident { $($(#[$note:meta])* $Variant:ident = $word:literal,)* }
+    )*) => {$(
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        $visibility enum $Enum {
+            $($(#[$note])* $Variant,)*
+        }
+
+        impl $Enum {
+            /// Its word in RAPID.
+            #[must_use]
+            $visibility fn name(self) -> &'static str {
+                match self {
+                    $(Self::$Variant => $word,)*
+                }
+            }
+
+            /// The variant with a word, in any case.
+            pub(crate) fn named(word: &str) -> Option<Self> {
+                $(if word.eq_ignore_ascii_case($word) {
+                    return Some(Self::$Variant);
+                })*
+                None
+            }
+        }
+    )*};
+}
+pub(crate) use words;
 
 /// The reserved words as numbers.
 const RESERVED_NUMBERS: [u128; RESERVED.len()] = {

@@ -15,7 +15,7 @@ const MARGIN: f64 = 1e-9;
 /// are half a turn from the seed, to [`MARGIN`] [1]: ten times what that may change.
 const TIE: f64 = 1e-8;
 
-/// What a choice among solutions depends on, besides the seed.
+/// Limits and weights of a choice among solutions.
 #[derive(Clone, Copy)]
 pub(crate) struct Choice<const N: usize> {
     weights: [f64; N],
@@ -62,7 +62,7 @@ impl<const N: usize> Choice<N> {
         for joint in 0..N {
             for lane in 0..LANES {
                 seed[joint][lane] = seeds[lane][joint];
-                // What is not a number is in no bound.
+                // NaN is in no bound.
                 certain[lane] &= u64::from(seed[joint][lane].abs() <= MOST_ANGLE);
             }
         }

@@ -4,7 +4,7 @@ use super::{AnswerRow, Block, BlockSlots, Choice, Columns, LaneKernel, PoseRow, 
 use crate::kinematics::structure::end_frames::Seen;
 use crate::lanes::{Column, Flags, Kernel, LANES};
 
-/// What is wanted of the solutions of rows.
+/// The solutions of rows to write.
 pub(crate) enum Wanted<'a, const N: usize, const S: usize> {
     /// All of them, each in its slot.
     Slots { q: &'a mut [AnswerRow<N, S>], status: &'a mut [StatusRow<S>] },

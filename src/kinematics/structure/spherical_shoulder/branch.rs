@@ -1,12 +1,12 @@
 //! The branches of the arm in branch-free arithmetic, which runs in lanes.
 //!
-//! The equations are those of `elbow`, `wrist` and `shoulder`. A branch near a singularity or the
-//! edge of reach is not regular; those modules then decide.
+//! They have the equations of `elbow` and `wrist`. A branch near a singularity or the edge of reach
+//! is not regular; `solve` then decides.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::links::Links;
+use super::elbow::Links;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::joint_map::JointMap;

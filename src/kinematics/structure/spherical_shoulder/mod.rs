@@ -3,19 +3,12 @@
 //!
 //! `docs/spherical_shoulder.md` has the derivation, with the equation numbers cited in the code.
 
-mod block;
 mod branch;
 mod elbow;
 mod geometry;
 mod joint_7;
-mod links;
-mod measure;
-mod one_pose;
-mod quartic;
-mod shoulder;
+mod lanes;
 mod solve;
-mod target;
-mod turn;
 mod wrist;
 
 pub(crate) use geometry::SphericalShoulder;
@@ -25,7 +18,7 @@ pub(crate) use joint_7::EDGES;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use branch::Constants;
-use measure::PATTERN;
+use geometry::PATTERN;
 
 use super::Structure;
 use super::branches::Branches;
@@ -57,7 +50,7 @@ impl Structure<7, 8> for SphericalShoulder {
     type Kernel = Constants;
 
     fn measure(mdh: &mut Mdh<7>) -> Result<Self, UnknownStructure> {
-        measure::measure(mdh)
+        geometry::measure(mdh)
     }
 
     fn joint_map(&self) -> &JointMap<7> {

@@ -6,9 +6,9 @@ use core::f64::consts::PI;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::SphericalShoulder;
-use super::links::Elbow;
-use super::shoulder::shoulder;
-use super::target::Target;
+use super::elbow::Elbow;
+use super::elbow::Target;
+use super::wrist::shoulder;
 use super::wrist::{Wrist, Wrists};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;

@@ -126,7 +126,7 @@ fn judge(arm: &Solved, theta: &[f64; 7]) -> Option<String> {
     None
 }
 
-/// The branches without those of the other elbow whose wrist is at its edge: that one may be up to
+/// The branches, without the other elbow if its wrist is at its edge: that one may be up to
 /// a nanometer beyond reach.
 fn reached(arm: &Solved, theta: &[f64; 7], branches: &Branches<7>) -> Branches<7> {
     let (own, mut reached) = (arm.arm.slot(theta) & 2, *branches);

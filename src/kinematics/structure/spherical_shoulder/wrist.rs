@@ -1,15 +1,15 @@
 //! Joints 5 and 6: two ways to turn the forearm so that the shoulder is where the hand frame has
-//! it.
+//! it; and joints 1, 2 and 3, which have the remaining rotation.
 
+use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::links::Elbow;
-use super::links::Links;
-use super::target::Target;
-use super::turn::Turn;
-use crate::kinematics::pose::angles::sign_of;
-use crate::kinematics::thresholds::SHOULDER_MERGE;
+use super::elbow::{Elbow, Links, Target};
+use crate::kinematics::pose::angles::{sign_of, wrap};
+use crate::kinematics::structure::free_choice::SeedPolicy;
+use crate::kinematics::structure::zyz::{First, Zyz, zyz};
+use crate::kinematics::thresholds::{REGULAR_WRIST_SIN, SEEDED_FREE, SHOULDER_MERGE};
 use crate::report::FreeJoint;
 
 /// One pair of angles of joints 5 and 6.
@@ -139,4 +139,68 @@ fn on_6(elbow: &Elbow, target: &Target<'_>, aside: f64, rounding: f64) -> Wrist 
     };
     let [x, _, z] = target.seen;
     Wrist { fifth: fifth(elbow, target, x * sixth.cos + z * sixth.sin), sixth }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turn {
+    pub(super) theta: f64,
+    pub(super) sin: f64,
+    pub(super) cos: f64,
+}
+
+impl Turn {
+    pub(super) fn of(theta: f64) -> Self {
+        let (sin, cos) = theta.sin_cos();
+        Self { theta, sin, cos }
+    }
+
+    /// The angle of the direction (cos, sin), of any length; `None` for length zero.
+    pub(super) fn towards(sin: f64, cos: f64) -> Self {
+        let norm = sin.hypot(cos);
+        if norm == 0.0 {
+            return Self { theta: 0.0, sin: 0.0, cos: 1.0 };
+        }
+        Self { theta: sin.atan2(cos), sin: sin / norm, cos: cos / norm }
+    }
+
+    /// Of two angles that a pose determines for a joint with lever at most `lever` [m], the one
+    /// nearer to the angle `free`. A path keeps `free` as far as that moves the pose within its
+    /// uncertainty: no leap from the angle that an undetermined pose left.
+    pub(super) fn from_pose(twins: [Self; 2], free: f64, lever: f64, policy: SeedPolicy) -> Self {
+        let [a, b] = twins;
+        let nearer = if (b.theta - free).cos() > (a.theta - free).cos() { b } else { a };
+        if policy != SeedPolicy::Path {
+            return nearer;
+        }
+        let open = (SEEDED_FREE / lever).min(1.0).asin();
+        Self::of(nearer.theta + wrap(free - nearer.theta).clamp(-open, open))
+    }
+}
+
+/// The angles of the shoulder (eq. 63 and 64). `error` is how far rounding may rotate the upper
+/// arm.
+pub(super) fn shoulder(elbow: &Elbow, wrist: &Wrist, target: &Target<'_>, error: f64) -> Zyz {
+    let upper_arm = target.rotation * upper_arm_to_hand(elbow, wrist).transpose();
+    let first = First { joint: 1, theta: target.free_theta[0], policy: target.free.policy };
+    // Even if elbow and wrist are more uncertain than that, the upper arm is not, once they are
+    // chosen.
+    zyz(&upper_arm, &first, error.min(REGULAR_WRIST_SIN))
+}
+
+/// `Ry(theta_4) Rz(theta_5) Ry(theta_6)`.
+fn upper_arm_to_hand(elbow: &Elbow, wrist: &Wrist) -> Matrix3<f64> {
+    let (s4, c4) = (elbow.sin_4, elbow.cos_4);
+    let (s5, c5) = (wrist.fifth.sin, wrist.fifth.cos);
+    let (s6, c6) = (wrist.sixth.sin, wrist.sixth.cos);
+    Matrix3::new(
+        c4 * (c5 * c6) - s4 * s6,
+        -c4 * s5,
+        c4 * (c5 * s6) + s4 * c6,
+        s5 * c6,
+        c5,
+        s5 * s6,
+        -s4 * (c5 * c6) - c4 * s6,
+        s4 * s5,
+        c4 * c6 - s4 * (c5 * s6),
+    )
 }

@@ -1,5 +1,5 @@
-//! The arm with its wrist locked, or with axis 4 locked: solved by a path that may deviate in
-//! orientation.
+//! The arm with a part of its wrist locked, and its motions at singularities: the wrist straight,
+//! the elbow just not straight.
 
 use core::f64::consts::PI;
 
@@ -8,11 +8,13 @@ use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::SphericalWrist;
-use super::wrist::{forearm_to_flange, wrist_rotation};
+use super::arm::{forearm_to_flange, wrist_rotation};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::planar_arm::{Elbow, PlanarArm, Shoulder};
+use crate::kinematics::structure::singular_wrist::SingularWrist;
 use crate::kinematics::thresholds::LEAST_LINK;
+use crate::report::FreeJoint;
 
 impl SphericalWrist {
     /// The joint vectors that bring a point of the tool to `point` with the wrist angles of `q`: up
@@ -68,7 +70,7 @@ impl SphericalWrist {
         self.with_best_turn(theta, &n, q)
     }
 
-    /// The same with theta_5 locked too: only the best rotation.
+    /// [`Self::with_axis_4_locked`] with theta_5 locked too: only the best rotation.
     pub(crate) fn with_axes_4_and_5_locked(&self, m: &Matrix3<f64>, q: &[f64; 6]) -> [f64; 6] {
         let theta = self.theta(q);
         self.with_best_turn(theta, &(wrist_rotation(-theta[3], 0.0, 0.0) * m), q)
@@ -95,5 +97,53 @@ impl SphericalWrist {
         let ((sin_1, cos_1), (sin_23, cos_23)) = (theta_1.sin_cos(), (theta_2 + theta_3).sin_cos());
         let shoulder = Shoulder { sin_1, cos_1, x: 0.0, error: 0.0 };
         forearm_to_flange(&shoulder, &Elbow { theta_2, theta_3, sin_23, cos_23 }, rotation)
+    }
+}
+
+impl SphericalWrist {
+    /// `q` with joint 5 at its singularity, on one or the other side of it by the least amount that
+    /// is still distinguished.
+    pub(crate) fn with_straight_wrist(&self, q: &[f64; 6], side: f64) -> [f64; 6] {
+        let theta_5 = self.theta(q)[4];
+        let straight = PI * (theta_5 / PI).round();
+        let mut q = *q;
+        q[4] += self.joint_map.signs[4] * (straight + side * 2.0 * f64::EPSILON - theta_5);
+        q
+    }
+
+    /// `q` with an elbow that is just not straight, behind the lower arm or in front of it.
+    pub(crate) fn with_bent_elbow(&self, q: &[f64; 6], behind: bool) -> [f64; 6] {
+        let PlanarArm { c2, k, .. } = self.planar;
+        let elbow = self.planar.elbow_angle(self.theta(q)[2]);
+        let straight = PI * (elbow / PI).round();
+        let r = (c2 + k * straight.cos()).abs();
+        let bend = 1.1 * (self.planar.straight_m2(r).sqrt() / (c2 * k));
+        let side = if behind { -straight.cos() } else { straight.cos() };
+        let mut q = *q;
+        q[2] += self.joint_map.signs[2] * (straight + side * bend - elbow);
+        q
+    }
+}
+
+impl SingularWrist<6> for SphericalWrist {
+    fn sin_5(&self, q: &[f64; 6]) -> f64 {
+        self.theta(q)[4].sin()
+    }
+
+    fn wrist_pair(&self, q: &[f64; 6]) -> FreeJoint {
+        self.free_wrist(self.theta(q)[4])
+    }
+
+    fn with_straight_wrist(&self, q: &[f64; 6], side: f64) -> [f64; 6] {
+        self.with_straight_wrist(q, side)
+    }
+
+    fn with_bent_elbow(&self, q: &[f64; 6], behind: bool) -> [f64; 6] {
+        self.with_bent_elbow(q, behind)
+    }
+
+    fn with_wrist_of(&self, t_shoulder_wrist: &Pose, q: &[f64; 6], flipped: bool) -> [f64; 6] {
+        let m = self.rotation_in_forearm(t_shoulder_wrist.rotation.matrix(), q);
+        self.with_wrist(&m, q, flipped)
     }
 }

@@ -4,25 +4,20 @@
 //! `docs/spherical_wrist.md` has the derivation, with the equation numbers cited in the code.
 
 mod arm;
-mod block;
 mod branch;
 mod geometry;
+mod lanes;
 mod locked;
-mod measure;
-mod one_pose;
-mod opw;
-mod singular;
 mod solve;
-mod wrist;
 
+pub use geometry::OpwParameters;
 pub(crate) use geometry::SphericalWrist;
-pub use opw::OpwParameters;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
 use branch::Constants;
-use measure::PATTERN;
+use geometry::PATTERN;
 
 use super::Structure;
 use super::branches::Branches;
@@ -55,7 +50,7 @@ impl Structure<6, 8> for SphericalWrist {
     type Kernel = Constants;
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
-        measure::measure(mdh)
+        geometry::measure(mdh)
     }
 
     fn joint_map(&self) -> &JointMap<6> {

@@ -138,7 +138,7 @@ impl SphericalWrist {
     }
 
     /// The combination of joints that is fixed where axes 4 and 6 act as one, as they nearly do
-    /// near a joint 5 like that of `q`.
+    /// near the joint 5 of `q`.
     pub(crate) fn wrist_pair(&self, q: &[f64; 6]) -> FreeJoint {
         self.free_wrist(self.theta(q)[4])
     }

@@ -1,8 +1,8 @@
 //! The branches of the arm in branch-free arithmetic, which runs in lanes.
 //!
-//! The equations are those of `planar_arm`, `wrist` and `solve`. Directions are not normalized,
+//! They have the equations of `planar_arm`, `wrist` and `solve`. Directions are not normalized,
 //! which an arc tangent does not need. A branch near a singularity or the edge of reach is not
-//! regular; those modules then decide.
+//! regular; `solve` and `reaching` then decide.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -55,7 +55,7 @@ impl Constants {
         }
     }
 
-    /// The same arm; only branches that leave a path nothing to choose are regular.
+    /// Narrow the arm to regular branches that leave a path nothing to choose.
     pub(super) fn on_path(self) -> Self {
         let regular_x = self.regular_x * (PATH_SHOULDER / REGULAR_SHOULDER);
         Self { regular_x, regular_sin_5: PATH_WRIST_SIN, ..self }

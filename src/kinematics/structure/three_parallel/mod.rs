@@ -1,16 +1,12 @@
-//! Arms with three parallel axes, such as those of Universal Robots: axis 1 perpendicular to the
+//! Arms with three parallel axes, as Universal Robots makes them: axis 1 perpendicular to the
 //! parallel axes 2, 3 and 4, axis 5 perpendicular to them and axis 6 perpendicular to axis 5.
 //!
 //! `docs/three_parallel.md` has the derivation, with the equation numbers (from 31 on) cited in the
 //! code.
 
-mod block;
 mod branch;
-mod circle;
 mod geometry;
-mod measure;
-mod one_pose;
-mod plane;
+mod lanes;
 mod reaching;
 mod solve;
 mod wrist;
@@ -21,7 +17,7 @@ pub(crate) use geometry::ThreeParallel;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use branch::Constants;
-use measure::PATTERN;
+use geometry::PATTERN;
 
 use super::Structure;
 use super::branches::Branches;
@@ -54,7 +50,7 @@ impl Structure<6, 8> for ThreeParallel {
     type Kernel = Constants;
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
-        measure::measure(mdh)
+        geometry::measure(mdh)
     }
 
     fn joint_map(&self) -> &JointMap<6> {

@@ -4,8 +4,8 @@
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::ThreeParallel;
-use super::plane::PlaneUncertainty;
 use super::reaching::Reaching;
+use super::wrist::PlaneUncertainty;
 use super::wrist::{Turn, Wrist, seen_from_plane, sin_5};
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;

@@ -1,0 +1,317 @@
+//! Records of what a module declares and moves, and of what is wrong with it.
+
+use pyo3::IntoPyObjectExt;
+use pyo3::basic::CompareOp;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use super::values::content;
+use crate::python::record::{self, record_methods};
+use crate::python::records::Array;
+use crate::rapid::{self, Datum, Target};
+
+/// Define a record by its fields.
+macro_rules! record {
+    (
+        $(#[$doc:meta])*
+        $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)+ }
+    ) => {
+        $(#[$doc])*
+        #[pyclass(module = "irbkin.rapid", frozen, get_all)]
+        pub(crate) struct $name { $($(#[$field_doc])* pub(super) $field: $type,)+ }
+        record_methods!($name { $($field: $type,)+ });
+    };
+}
+
+record! {
+    /// A data declaration. Values are as declared: assignments of a program are not followed.
+    Declaration {
+        /// Its name, as it is written.
+        name: String,
+        /// RAPID's name of its type.
+        data_type: String,
+        /// Its scope: "LOCAL", "TASK" or "".
+        scope: String,
+        /// Its storage class: "CONST", "PERS" or "VAR".
+        storage: String,
+        /// The routine that declares it; None for the module.
+        routine: Option<String>,
+        /// A record; nested lists of records for an array; None without a value.
+        value: Py<PyAny>,
+        /// Line of the text, from 1.
+        line: usize,
+        /// Column of the text, from 1.
+        column: usize,
+    }
+}
+
+record! {
+    /// An argument as it is written, without its name, and its value by the declarations.
+    ///
+    /// Data that the module assigns have no value.
+    Argument {
+        /// The argument as it is written.
+        text: String,
+        /// Its value; None if the declarations do not give it.
+        value: Py<PyAny>,
+        /// Why the value is unknown; None if it is known.
+        reason: Option<String>,
+    }
+}
+
+record! {
+    /// How a move is made: by the instructions before it in its routine, or else by the settings
+    /// that a program starts with.
+    MotionSettings {
+        /// ConfL: whether MoveL and MoveC must arrive with the configuration of the target.
+        conf_l: bool,
+        /// ConfJ: whether MoveJ must arrive with the configuration of the target.
+        conf_j: bool,
+        /// SingArea, near the wrist singularity: "Off", "Wrist" or "LockAxis4".
+        sing_area: String,
+        /// CirPathMode, the orientation in a MoveC: "PathFrame", "ObjectFrame", "CirPointOri",
+        /// "Wrist45", "Wrist46" or "Wrist56".
+        cir_path_mode: String,
+    }
+}
+
+record! {
+    /// A move instruction.
+    Move {
+        /// The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ".
+        kind: String,
+        /// The routine that contains it.
+        routine: Option<String>,
+        /// The target: an `Argument` with a RobTarget, of MoveAbsJ with a JointTarget.
+        target: Py<Argument>,
+        /// The point on the circle of a MoveC.
+        via: Option<Py<Argument>>,
+        /// The speed as it is written, such as "v1000".
+        speed: String,
+        /// The zone as it is written, such as "z50".
+        zone: String,
+        /// The tool: a ToolData.
+        tool: Py<Argument>,
+        /// The work object of \WObj; without it wobj0.
+        wobj: Option<Py<Argument>>,
+        /// The other optional arguments: name and text; no text for a switch.
+        options: Py<PyTuple>,
+        /// Line of the text, from 1.
+        line: usize,
+        /// Column of the text, from 1.
+        column: usize,
+        /// Line of the PDispOn or PDispSet that displaces it, which is not followed.
+        displaced: Option<usize>,
+        /// The data of `speed`: a SpeedData, with the speed of \V.
+        speed_data: Py<Argument>,
+        /// The data of `zone`: a ZoneData, with the radius of \Z.
+        zone_data: Py<Argument>,
+        /// The duration of \T, which replaces the speed [s].
+        time: Option<Py<Argument>>,
+        /// The settings of ConfL, ConfJ, SingArea and CirPathMode before it.
+        settings: Py<MotionSettings>,
+    }
+}
+
+record! {
+    /// A move of a motion.
+    MotionMove {
+        /// The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ".
+        kind: String,
+        /// Its index in `Module.moves`.
+        module_index: usize,
+        /// Line of the instruction.
+        line: usize,
+        /// When it begins [s], halfway through the corner before it.
+        start: f64,
+        /// When it ends [s], halfway through the corner behind it.
+        end: f64,
+        /// The length of the tool's way in the work object [m].
+        length: f64,
+        /// The joints at its target [rad], shape (6,), which is met or passed; None if the move is
+        /// left out.
+        q: Option<Array>,
+        /// Whether it is made as it is programmed. Otherwise the joints go straight to its target
+        /// at their limits or, without `q`, it is left out.
+        as_programmed: bool,
+    }
+}
+
+record! {
+    /// Something wrong with a move, in a table, a motion or a check. `str` has the line, too.
+    Finding {
+        /// A letter for the group and three digits, such as "C201"; docs/guide/check.md has the
+        /// codes.
+        code: String,
+        /// The code in words, such as "wrong-confdata".
+        name: String,
+        /// Line of the instruction, from 1.
+        line: usize,
+        /// Column of the instruction, from 1.
+        column: usize,
+        /// The routine that contains it.
+        routine: Option<String>,
+        /// Index of the move in `RoutineMotion.moves`, or of the row in a TargetTable; for an
+        /// instruction that is not read, of the next move.
+        move_index: usize,
+        /// The instruction and what is wrong with it, in one line.
+        message: String,
+        /// The joint that it is about, from 1.
+        joint: Option<usize>,
+        /// The value that was found, in SI units: the speed of a joint, its step in a flip, how far
+        /// outside limits or reach, the distance from a singularity, a duration.
+        value: Option<f64>,
+        /// The bound that the value must not exceed or, of a singularity, must not be below.
+        bound: Option<f64>,
+        /// The corrections: first byte and end in `Module.source` as UTF-8, and the text that takes
+        /// their place. Empty if nothing corrects it.
+        edits: Py<PyTuple>,
+    }
+}
+
+record! {
+    /// A part of the text that is not read.
+    Skipped {
+        /// Line of the text, from 1.
+        line: usize,
+        /// Column of the text, from 1.
+        column: usize,
+        /// The routine that contains it; None for the module.
+        routine: Option<String>,
+        /// Its kind and, of a datum, why it is not read.
+        what: String,
+        /// The part as it is written.
+        text: String,
+    }
+}
+
+record! {
+    /// The joint angles of m targets.
+    TargetTable {
+        /// The instruction of each target, or "robtarget".
+        kinds: Py<PyTuple>,
+        /// Each target as it is written, or the name of its declaration.
+        names: Py<PyTuple>,
+        /// Line of the instruction or of the declaration, shape (m,).
+        lines: Array,
+        /// Joint angles [rad], shape (m, n), NaN if there are none.
+        q: Array,
+        /// The configuration of the joint angles, int32 arrays of shape (m,); without joint angles
+        /// the configuration of the target.
+        configuration: Py<PyAny>,
+        /// Angle of joint 5 from 0 or 180 deg [rad], shape (m,).
+        wrist: Array,
+        /// Angle between upper arm and forearm from stretched or folded [rad], shape (m,).
+        elbow: Array,
+        /// Distance of the wrist center from axis 1 [m], shape (m,).
+        shoulder: Array,
+        /// For each target a `Finding`, if there are no joint angles, or others than the target
+        /// requests.
+        findings: Py<PyTuple>,
+    }
+}
+
+#[pymethods]
+impl Finding {
+    fn __str__(&self) -> String {
+        if self.line > 0 {
+            format!("line {}: {}", self.line, self.message)
+        } else {
+            self.message.clone()
+        }
+    }
+}
+
+impl Finding {
+    pub(super) fn of(py: Python<'_>, finding: &rapid::Finding) -> PyResult<Self> {
+        let rapid::Finding { code, line, column, move_index, joint, value, bound, .. } = *finding;
+        let edits = finding.edits.iter().map(|edit| (edit.span.start, edit.span.end, &edit.text));
+        Ok(Self {
+            code: code.id().into(),
+            name: code.name().into(),
+            line,
+            column,
+            routine: finding.routine.clone(),
+            move_index,
+            message: finding.message.clone(),
+            joint,
+            value,
+            bound,
+            edits: PyTuple::new(py, edits)?.unbind(),
+        })
+    }
+}
+
+impl From<&rapid::Skipped> for Skipped {
+    fn from(part: &rapid::Skipped) -> Self {
+        let rapid::Skipped { line, column, routine, what, text } = part.clone();
+        Self { line, column, routine, what: what.to_string(), text }
+    }
+}
+
+impl Declaration {
+    pub(super) fn of(py: Python<'_>, datum: &Datum) -> PyResult<Self> {
+        Ok(Self {
+            name: datum.name.clone(),
+            data_type: datum.data_type.name().into(),
+            scope: datum.scope.name().into(),
+            storage: datum.storage.name().into(),
+            routine: datum.routine.clone(),
+            value: content(py, &datum.content)?.unbind(),
+            line: datum.line,
+            column: datum.column,
+        })
+    }
+}
+
+/// An argument as it is written, with its value or the reason why that is unknown.
+fn argument<'py, T: Clone + IntoPyObject<'py>>(
+    py: Python<'py>,
+    text: &str,
+    value: &Result<T, impl ToString>,
+) -> PyResult<Py<Argument>> {
+    let (value, reason) = match value {
+        Ok(value) => (value.clone().into_py_any(py)?, None),
+        Err(reason) => (py.None(), Some(reason.to_string())),
+    };
+    Py::new(py, Argument { text: text.to_owned(), value, reason })
+}
+
+impl Move {
+    pub(super) fn of(py: Python<'_>, step: &rapid::Move) -> PyResult<Self> {
+        let rapid::Argument { text, value, .. } = &step.target;
+        let target = match value {
+            Ok(Target::RobTarget(target)) => argument(py, text, &Ok::<_, String>(*target)),
+            Ok(Target::JointTarget(target)) => argument(py, text, &Ok::<_, String>(*target)),
+            Err(reason) => argument(py, text, &Err::<f64, _>(reason.to_string())),
+        };
+        let via = step.via.as_ref().map(|via| argument(py, &via.text, &via.value));
+        let wobj = step.wobj.as_ref().map(|wobj| argument(py, &wobj.text, &wobj.value));
+        let time = step.time.as_ref().map(|time| {
+            let is_time = |option: &&rapid::MoveOption| option.name.eq_ignore_ascii_case("T");
+            let text = step.options.iter().find(is_time).and_then(|option| option.text.as_deref());
+            argument(py, text.unwrap_or_default(), time)
+        });
+        let options = step.options.iter().map(|option| (&option.name, &option.text));
+        let rapid::MotionSettings { conf_l, conf_j, sing_area, cir_path_mode } = step.settings;
+        let (sing_area, cir_path_mode) = (sing_area.name().into(), cir_path_mode.name().into());
+        Ok(Self {
+            kind: step.kind.name().into(),
+            routine: step.routine.clone(),
+            target: target?,
+            via: via.transpose()?,
+            speed: step.speed.clone(),
+            zone: step.zone.clone(),
+            tool: argument(py, &step.tool.text, &step.tool.value)?,
+            wobj: wobj.transpose()?,
+            options: PyTuple::new(py, options)?.unbind(),
+            line: step.line,
+            column: step.column,
+            displaced: step.displaced,
+            speed_data: argument(py, &step.speed, &step.speed_data)?,
+            zone_data: argument(py, &step.zone, &step.zone_data)?,
+            time: time.transpose()?,
+            settings: Py::new(py, MotionSettings { conf_l, conf_j, sing_area, cir_path_mode })?,
+        })
+    }
+}

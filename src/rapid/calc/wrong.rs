@@ -1,0 +1,141 @@
+//! Findings on targets and on the paths between them, in words.
+
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::{String, ToString};
+
+use crate::error::{Error, RapidFault};
+use crate::kinematics::{BreakReason, Robot, SingularityKind};
+use crate::rapid::data::finding::{Code, Finding};
+use crate::rapid::data::records::NOT_THERE;
+use crate::rapid::data::value::Value;
+use crate::report::Explanation;
+
+/// A result or a finding.
+pub(in crate::rapid) type Found<T> = Result<T, Box<Finding>>;
+
+/// RAPID's name of an error of [`calc_joint_t`](crate::rapid::calc_joint_t): `ERR_OUTSIDE_REACH` if
+/// the arm is too short or too long, `ERR_ROBLIMIT` if solutions exist, but none inside the limits
+/// with the requested configuration. `None` for errors that no controller reports.
+#[must_use]
+pub fn error_name(error: &Error) -> Option<&'static str> {
+    match error {
+        Error::Unreachable(Explanation::OutOfReach(_) | Explanation::NoRoots { .. }) => {
+            Some("ERR_OUTSIDE_REACH")
+        }
+        Error::Unreachable(_) | Error::NoConfiguration(_) => Some("ERR_ROBLIMIT"),
+        _ => None,
+    }
+}
+
+/// An error with its name in RAPID, if it has one.
+fn named(error: &Error) -> String {
+    let name = error_name(error).map(|name| format!("{name}: ")).unwrap_or_default();
+    format!("{name}{error}")
+}
+
+/// A target without joint angles.
+pub(in crate::rapid) fn not_solved(error: &Error) -> Finding {
+    let code = match error {
+        Error::Unreachable(Explanation::OutOfReach(_) | Explanation::NoRoots { .. }) => {
+            Code::OutOfReach
+        }
+        Error::Unreachable(_) => Code::OutsideLimits,
+        Error::NoConfiguration(_) | Error::InvalidJoints(_) => Code::WrongConfdata,
+        _ => Code::InvalidFrame,
+    };
+    let finding = Finding::new(code, named(error));
+    match error {
+        Error::Unreachable(explanation) => finding.explained(explanation),
+        _ => finding,
+    }
+}
+
+/// A target whose configuration no solution has, where the nearest joint angles are taken.
+pub(in crate::rapid) fn nearest_taken(missed: &Error) -> Finding {
+    let words = format!("{}; the nearest to the joints before is taken", named(missed));
+    Finding::new(Code::WrongConfdata, words)
+}
+
+/// A target whose configuration more than one solution has.
+pub(in crate::rapid) fn ambiguous(count: usize) -> Finding {
+    let words =
+        format!("{count} solutions have its confdata; the nearest to the joints before is taken");
+    Finding::new(Code::AmbiguousConfdata, words)
+}
+
+/// A move that the instruction on a line displaces.
+pub(in crate::rapid) fn displaced(line: usize) -> Finding {
+    let words = format!("line {line} displaces it, which is not followed");
+    Finding::new(Code::NotFollowed, words)
+}
+
+/// A jointtarget with the angle [deg] of an axis, from 1, that does not exist.
+pub(in crate::rapid) fn absent(axis: usize, degrees: f64) -> Finding {
+    let written = if degrees.to_bits() == NOT_THERE.to_bits() {
+        "9E9".to_string()
+    } else {
+        Value::Num(degrees).to_string()
+    };
+    Finding::new(Code::AbsentAxis, format!("axis {axis} is {written}: it is not there"))
+}
+
+/// Joint angles outside the limits: the joint that exceeds them most, or the linkage.
+pub(in crate::rapid) fn outside<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Option<Finding> {
+    let limits = robot.limits();
+    if limits.contains(q) {
+        return None;
+    }
+    let farthest =
+        (0..N).max_by(|a, b| limits.excess(*a, q[*a]).total_cmp(&limits.excess(*b, q[*b])))?;
+    let excess = limits.excess(farthest, q[farthest]);
+    let is_joint = excess > 0.0;
+    let (what, excess) = if is_joint {
+        (format!("J{}", farthest + 1), excess)
+    } else {
+        ("the linkage (q3 - q2)".to_string(), limits.linkage_excess(q))
+    };
+    let words =
+        format!("ERR_ROBLIMIT: {what} is outside its limits by {:.1} deg", excess.to_degrees());
+    let finding = Finding::new(Code::OutsideLimits, words).with_value(excess, 0.0);
+    Some(if is_joint { finding.of_joint(farthest + 1) } else { finding })
+}
+
+/// No line or arc between two targets.
+pub(in crate::rapid) fn no_path(error: &Error) -> Box<Finding> {
+    let words = match error {
+        Error::Rapid(RapidFault { kind, .. }) => format!("{kind}"),
+        error => format!("{error}"),
+    };
+    Finding::new(Code::NoPath, words).into()
+}
+
+/// A path that the joints cannot follow from a part of it on, 0 to 1.
+pub(in crate::rapid) fn broken(part: f64, reason: BreakReason) -> Box<Finding> {
+    let words = format!("at {:.0} % of the way, {reason}", part * 1e2);
+    let finding = match reason {
+        BreakReason::Jump { joint, by, .. } => {
+            Finding::new(Code::Flip, words).of_joint(joint).with_value(by, 0.0)
+        }
+        BreakReason::Unreachable(explanation) => {
+            Finding::new(Code::PathBlocked, words).explained(&explanation)
+        }
+        _ => Finding::new(Code::PathBlocked, words),
+    };
+    finding.into()
+}
+
+/// A path that passes a singularity at a distance [rad; m of the shoulder], 0 if it crosses it.
+pub(in crate::rapid) fn passes(kind: SingularityKind, part: f64, distance: f64) -> Finding {
+    let (code, name, size, unit) = match kind {
+        SingularityKind::ELBOW => (Code::ElbowSingularity, "elbow", distance.to_degrees(), "deg"),
+        SingularityKind::SHOULDER => (Code::ShoulderSingularity, "shoulder", distance * 1e3, "mm"),
+        _ => (Code::WristSingularity, "wrist", distance.to_degrees(), "deg"),
+    };
+    let how = if distance > 0.0 {
+        format!("passes the {name} singularity at {size:.3} {unit}")
+    } else {
+        format!("crosses the {name} singularity")
+    };
+    Finding::new(code, format!("{how}, at {:.0} % of the way", part * 1e2))
+}

@@ -1,0 +1,151 @@
+//! Reasons why values are unknown, and skipped parts of a text. Names and words
+//! are as they are written.
+
+use core::fmt;
+
+use alloc::string::String;
+
+use thiserror::Error;
+
+/// The reason why an expression has no value here.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum Reason {
+    #[error("* is taught on the controller, its value is not in the text")]
+    Taught,
+    /// It contains a placeholder.
+    #[error("it is not finished")]
+    Unfinished,
+    #[error("it depends on whether an optional argument is there")]
+    OptionalArgument,
+    /// Such as `DIV`.
+    #[error("this operator is not evaluated")]
+    Operator,
+    #[error("NOT is not evaluated")]
+    Negation,
+    #[error("arithmetic of {type_name} is not evaluated")]
+    Arithmetic { type_name: &'static str },
+    #[error("{name} is not evaluated")]
+    Function { name: String },
+    #[error("{name} is declared in this module, it is not evaluated")]
+    OwnFunction { name: String },
+    #[error("{name} with {argument} is not evaluated")]
+    FunctionArgument { name: String, argument: String },
+    /// An array is declared as a copy of another one.
+    #[error("refers to {name}, and arrays are not copied")]
+    CopiedArray { name: String },
+    #[error("the value of the array is not an aggregate")]
+    NoAggregate,
+    #[error("refers to {name}, {why}")]
+    Reference { name: String, why: Unresolved },
+}
+
+/// The reason why a name has no value here.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum Unresolved {
+    /// Neither the module nor its context declares it.
+    #[error("which is not in this module")]
+    NotDeclared,
+    #[error("the variable of a loop")]
+    LoopVariable,
+    #[error("of type {type_name}, which is not read")]
+    OtherType { type_name: String },
+    #[error("whose declaration is not finished")]
+    Unfinished,
+    #[error("a type")]
+    Type,
+    #[error("a routine")]
+    Routine,
+    #[error("a parameter of {routine}")]
+    Parameter { routine: String },
+    #[error("whose value is not known")]
+    ValueNotKnown,
+    #[error("whose declaration has no value")]
+    NoValue,
+    /// A size or an index must be constant.
+    #[error("which can change")]
+    CanChange,
+    #[error("which is a whole array")]
+    WholeArray,
+    #[error("which has no such element")]
+    NoSuchElement,
+    #[error("{by}")]
+    Assigned { by: AssignedBy },
+    /// A program assigns another datum, to which its declaration refers.
+    #[error("which depends on {name}, {by}")]
+    AssignedThrough { name: String, by: AssignedBy },
+}
+
+/// The place of an assignment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum AssignedBy {
+    /// The statement on a line, from 1; 0 if it was not read from a text.
+    Line(usize),
+    /// Another module, with its name.
+    Module(Option<String>),
+}
+
+impl fmt::Display for AssignedBy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "which line {line} assigns"),
+            Self::Module(Some(module)) => write!(f, "which module {module} assigns"),
+            Self::Module(None) => f.write_str("which another module assigns"),
+        }
+    }
+}
+
+impl Reason {
+    /// Clear the line, as for something that was not read from a text.
+    pub(crate) fn clear_line(&mut self) {
+        if let Self::Reference { why, .. } = self
+            && let Unresolved::Assigned { by } | Unresolved::AssignedThrough { by, .. } = why
+            && let AssignedBy::Line(line) = by
+        {
+            *line = 0;
+        }
+    }
+}
+
+/// A part of the text that is not read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Skipped {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1, in characters.
+    pub column: usize,
+    /// The routine that contains it; `None` for the module.
+    pub routine: Option<String>,
+    /// Its kind and, for a datum, why it is not read.
+    pub what: NotRead,
+    /// The text, which is written back as it is.
+    pub text: String,
+}
+
+/// The kind of a part of the text that is not read.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum NotRead {
+    /// A statement, by its first word, with a placeholder in it.
+    #[error("{statement} is not finished")]
+    Unfinished { statement: String },
+    /// A datum of a type that is read, whose value is unknown.
+    #[error("{name}: {reason}")]
+    Datum { name: String, reason: Reason },
+    #[error("{name}: type {type_name} is not read")]
+    DatumOfType { name: String, type_name: String },
+    #[error("RECORD {name} is not read")]
+    Record { name: String },
+    #[error("ALIAS {name} is not read")]
+    Alias { name: String },
+    /// A line that begins, divides or ends a branch, a loop or a handler, by its word in capitals.
+    #[error("{word} is not executed")]
+    Flow { word: String },
+    #[error("label {name} is not read")]
+    Label { name: String },
+    #[error("{name} is assigned a value, which is not followed")]
+    Assignment { name: String },
+    #[error("{name} moves the robot, but is not read")]
+    Motion { name: String },
+    /// Another instruction, or a call of a routine.
+    #[error("{name} is not an instruction that is read")]
+    Instruction { name: String },
+}
