@@ -138,12 +138,7 @@ mod urdf;
 
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find, left_out};
-pub use error::{
-    CalibratedFault, Error, JointFault, LeftOut, ModelFault, MotionFault, Names, NoConfiguration,
-    PlanFault, PoseFault, UnknownRobot, UrdfFault,
-};
-#[cfg(feature = "rapid")]
-pub use error::{FrameFault, Missing, RapidFault, RapidFaultKind, RoutineFault};
+pub use error::{Error, LeftOut, NoConfiguration, UnknownRobot};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
     AnyRobot, Break, BreakReason, ConfigurationRequest, Corrections, Definition, DhRow,

@@ -353,7 +353,7 @@ fn configurations_that_the_arm_cannot_have_are_refused() {
     assert_eq!(
         message(ur3.configuration(&[0.1; 6])),
         "this robot has no ABB configuration: its structure is \"three parallel axes\", not a \
-         six-axis arm with a spherical wrist"
+         six-axis arm with a spherical wrist (the slot of a solution names its branch)"
     );
     assert_eq!(
         message(robot.configuration(&[f64::NAN; 6])),

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::nalgebra::{Rotation3, Vector3};
-use irbkin::{CalibratedFault, Corrections, JacobianFrame, Mdh, Pose, Robot};
+use irbkin::{Corrections, JacobianFrame, Mdh, Pose, Robot};
 
 use crate::common::Rng;
 
@@ -130,8 +130,8 @@ fn a_corrected_robot_has_the_corrected_poses() {
         for size in [1e-4, 1e-2, 0.3] {
             let mut corrections = drawn(&mut rng, size);
             if robot.is_coupled() {
-                let refusal = robot.with_corrections(&corrections).unwrap_err();
-                assert_eq!(refusal, CalibratedFault::Coupled.into());
+                let refusal = robot.with_corrections(&corrections).unwrap_err().to_string();
+                assert!(refusal.contains("correct its uncoupled() twin"), "{refusal}");
                 corrections.rows = Corrections::NONE.rows;
             }
             let corrected = robot.with_corrections(&corrections).unwrap();

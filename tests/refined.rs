@@ -3,9 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::batch::Batch;
-use irbkin::{
-    CalibratedFault, Corrections, Follower, Mdh, Robot, SingularityKind, Solution, Status,
-};
+use irbkin::{Corrections, Follower, Mdh, Robot, SingularityKind, Solution, Status};
 
 use crate::common::{Rng, apart, poses_or};
 
@@ -211,13 +209,11 @@ fn an_arm_that_is_not_the_nominal_one_is_refused() {
     let table = Mdh { ..calibrated(&irb, 1e-3, &mut Rng::new(27)).mdh().clone() };
     let general = Robot::serial_chain(table).unwrap();
     let refined = general.with_nominal(&irb).unwrap();
-    let twice = refined.with_nominal(&refined).unwrap_err();
-    let structure = "refined spherical wrist";
-    assert_eq!(twice, CalibratedFault::Structure { structure }.into());
-    let coupled = nominal("IRB 2400-10/1.55");
-    assert_eq!(irb.with_nominal(&coupled).unwrap_err(), CalibratedFault::Coupled.into());
+    let twice = refined.with_nominal(&refined).unwrap_err().to_string();
+    assert!(twice.contains("\"refined spherical wrist\", it must have a closed form"), "{twice}");
+    let coupled = irb.with_nominal(&nominal("IRB 2400-10/1.55")).unwrap_err().to_string();
+    assert!(coupled.contains("correct its uncoupled() twin"), "{coupled}");
     let panda: Robot<7> = Robot::named("Panda").unwrap();
-    let structure = "spherical shoulder";
-    let seven = panda.with_nominal(&panda).unwrap_err();
-    assert_eq!(seven, CalibratedFault::Structure { structure }.into());
+    let seven = panda.with_nominal(&panda).unwrap_err().to_string();
+    assert!(seven.contains("\"spherical shoulder\", it must have a closed form"), "{seven}");
 }

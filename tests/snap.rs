@@ -9,9 +9,7 @@ use std::fmt::Debug;
 
 use crate::common::{Rng, reach_of};
 use irbkin::batch::Batch;
-use irbkin::{
-    DhRow, Error, JointLimits, Mdh, ModelFault, Pose, Robot, Sdh, Solutions, pose_to_rows,
-};
+use irbkin::{DhRow, Error, JointLimits, Mdh, Pose, Robot, Sdh, Solutions, pose_to_rows};
 
 const XARM7: &str = include_str!("data/few_digits/xarm7.urdf");
 const PUMA560: &str = include_str!("data/few_digits/puma560.urdf");
@@ -183,10 +181,6 @@ fn nearly_parallel_axes_are_accepted_with_the_proposed_snap() {
     assert!(text.contains(joint), "the joint that is tilted");
     let tilted = text.replace(joint, r#"<origin rpy="0.00000002 0 0" xyz="0 0 0.7""#);
     let error = Robot::<6>::from_urdf(&tilted, None, None).unwrap_err();
-    let Error::InvalidModel(ModelFault::NearlyParallel { snap, .. }) = &error else {
-        panic!("{error}")
-    };
-    assert_eq!(*snap, Some(1e-7));
     assert!(error.to_string().ends_with("; snap=1e-7 would take it"), "{error}");
     assert!(Robot::<6>::from_urdf_snapped(&tilted, None, None, 1e-7).is_ok());
 }

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 use std::fmt::Write;
 
 use crate::common::{Rng, kuka_kr6};
-use irbkin::{Error, ModelFault, Names, PoseDifference, Robot, UrdfFault};
+use irbkin::{Error, PoseDifference, Robot};
 
 const IRB2600: &str = include_str!("data/irb2600.urdf");
 const ROUNDED: &str = include_str!("data/irb2600_rounded.urdf");
@@ -164,7 +164,8 @@ fn base_and_tip_must_be_links_one_below_the_other() {
     );
     assert_eq!(
         of(None, Some("base_link")),
-        "URDF: 0 revolute joints lead from \"base_link\" to \"base_link\", there must be 6"
+        "URDF: 0 revolute joints lead from \"base_link\" to \"base_link\", there must be 6 \
+         (choose base and tip)"
     );
     let all = "\"base_link\", \"base\", \"base_link_inertia\", \"shoulder_link\", \
         \"upper_arm_link\", \"forearm_link\", \"wrist_1_link\", \
@@ -192,37 +193,46 @@ fn base_and_tip_must_be_links_one_below_the_other() {
 
 #[test]
 fn invalid_urdf_is_reported_with_its_line() {
-    let of = words;
-    assert_eq!(
-        of("<robot>\n <link name='a'>\n</robot>"),
-        "URDF: line 3, column 1 is not XML: expected 'link' tag, not 'robot'"
-    );
-    assert_eq!(
-        of("\n\n<robot>\n <link name='a' name='b'/>"),
-        "URDF: line 4, column 17 is not XML: attribute 'name' is already defined"
-    );
-    assert_eq!(
-        of("<robot>\n <link name='a'/>"),
-        "URDF: line 2, column 18 is not XML: the text ends before the robot does"
-    );
-    assert_eq!(of(""), "URDF: line 1, column 1 is not XML: the text ends before the robot does");
-    assert_eq!(of("arm.urdf"), "URDF: line 1, column 1 is not XML: unknown token");
-    assert_eq!(
-        of("<!DOCTYPE r [<!ENTITY a 'b'>]><robot/>"),
-        "URDF: line 1, column 1 is not XML: it has a document type, which is not read"
-    );
-    assert_eq!(of("<sdf version='1.6'/>"), "URDF: the first element is <sdf>, it must be <robot>");
-    assert_eq!(of("<robot name='a'/>"), "URDF: the robot has no links");
-    assert_eq!(of("<robot>\n<link/></robot>"), "URDF: line 2: <link> has no name");
-    assert_eq!(of("<robot><joint/></robot>"), "URDF: line 1: <joint> has no name");
-    let expand = "it must be expanded first (xacro arm.urdf.xacro > arm.urdf)";
-    let declared = "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n\n<link name='a'>\
-        <xacro:box/></link></robot>";
-    assert_eq!(of(declared), format!("URDF: line 3 is xacro, <xacro:box>: {expand}"));
-    assert_eq!(
-        of("<robot>\n<xacro:arm/></robot>"),
-        format!("URDF: line 2 is xacro, <xacro:...>: {expand}")
-    );
+    for (text, reason) in [
+        ("", "line 1, column 1 is not XML: the text ends before the robot does"),
+        ("arm.urdf", "line 1, column 1 is not XML: unknown token"),
+        (
+            "<robot>\n <link name='a'/>",
+            "line 2, column 18 is not XML: the text ends before the robot does",
+        ),
+        (
+            "<robot>\n <link name='a'>\n</robot>",
+            "line 3, column 1 is not XML: expected 'link' tag, not 'robot'",
+        ),
+        (
+            "\n\n<robot>\n <link name='a' name='b'/>",
+            "line 4, column 17 is not XML: attribute 'name' is already defined",
+        ),
+        (
+            "<!DOCTYPE r [<!ENTITY a 'b'>]><robot/>",
+            "line 1, column 1 is not XML: it has a document type, which is not read",
+        ),
+        (
+            "<sdf version='1.6'/>",
+            "the first element is <sdf>, it must be <robot>: convert the file to URDF",
+        ),
+        ("<robot name='a'/>", "the robot has no links"),
+        ("<robot>\n<link/></robot>", "line 2: <link> has no name"),
+        ("<robot><joint/></robot>", "line 1: <joint> has no name"),
+        (
+            "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>\n\n<link name='a'><xacro:box/>\
+             </link></robot>",
+            "line 3 is xacro, <xacro:box>: it must be expanded first (xacro arm.urdf.xacro > \
+             arm.urdf)",
+        ),
+        (
+            "<robot>\n<xacro:arm/></robot>",
+            "line 2 is xacro, <xacro:...>: it must be expanded first (xacro arm.urdf.xacro > \
+             arm.urdf)",
+        ),
+    ] {
+        assert_eq!(words(text), format!("URDF: {reason}"));
+    }
 }
 
 #[test]
@@ -234,59 +244,49 @@ fn blanks_or_a_byte_order_mark_before_the_text_do_not_matter() {
 
 #[test]
 fn links_and_joints_must_form_a_tree() {
-    let robot = |inside: &str| {
-        words(&format!(
-            "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>{inside}</robot>"
-        ))
-    };
     let joint = |name: &str, parent: &str, child: &str| {
         format!(
             "<joint name='{name}' type='fixed'><parent link='{parent}'/><child link='{child}'/>\
              </joint>"
         )
     };
-    assert_eq!(
-        robot("<link name='b'/>"),
-        "URDF: two links are named \"b\", each must have a name of its own"
-    );
-    let twice = joint("j", "a", "b") + &joint("j", "b", "c");
-    assert_eq!(robot(&twice), "URDF: two joints are named \"j\", each must have a name of its own");
-    assert_eq!(
-        robot(&joint("j", "a", "x")),
-        "URDF: joint \"j\" has the child \"x\", which is not a link"
-    );
-    assert_eq!(
-        robot(&joint("j", "y", "a")),
-        "URDF: joint \"j\" has the parent \"y\", which is not a link"
-    );
-    let two = joint("i", "a", "c") + &joint("j", "b", "c");
-    assert_eq!(
-        robot(&two),
-        "URDF: link \"c\" is the child of joints \"i\" and \"j\", it must be that of one"
-    );
-    let ring = joint("i", "a", "b") + &joint("j", "b", "c") + &joint("k", "c", "a");
-    assert_eq!(
-        robot(&ring),
-        "URDF: the links \"b\", \"c\", \"a\" form a loop, they must form a tree"
-    );
-    let apart = joint("i", "b", "c") + &joint("j", "c", "b");
-    assert!(robot(&apart).contains("form a loop, they must form a tree"));
-    assert_eq!(
-        robot(&joint("j", "a", "a")),
-        "URDF: the links \"a\" form a loop, they must form a tree"
-    );
-    assert_eq!(robot("<joint name='j'/>"), "URDF: line 1: <joint> has no type");
-    assert_eq!(
-        robot("<joint name='j' type='fixed'><child link='a'/></joint>"),
-        "URDF: line 1: <joint> has no <parent link=\"...\">"
-    );
-    assert_eq!(
-        robot("<joint name='j' type='fixed'><parent link='a'/><child/></joint>"),
-        "URDF: line 1: <joint> has no <child link=\"...\">"
-    );
-    let parents = "<joint name='j' type='fixed'><parent link='a'/><parent link='b'/><child \
-        link='c'/></joint>";
-    assert_eq!(robot(parents), "URDF: joint \"j\" has two <parent>, it must have at most one");
+    let fixed = |inside: &str| format!("<joint name='j' type='fixed'>{inside}</joint>");
+    for (inside, reason) in [
+        (
+            "<link name='b'/>".to_owned(),
+            "two links are named \"b\", each must have a name of its own",
+        ),
+        (
+            joint("j", "a", "b") + &joint("j", "b", "c"),
+            "two joints are named \"j\", each must have a name of its own",
+        ),
+        (joint("j", "a", "x"), "joint \"j\" has the child \"x\", which is not a link"),
+        (joint("j", "y", "a"), "joint \"j\" has the parent \"y\", which is not a link"),
+        (
+            joint("i", "a", "c") + &joint("j", "b", "c"),
+            "link \"c\" is the child of joints \"i\" and \"j\", it must be the child of one",
+        ),
+        (
+            joint("i", "a", "b") + &joint("j", "b", "c") + &joint("k", "c", "a"),
+            "the links \"b\", \"c\", \"a\" form a loop, they must form a tree",
+        ),
+        (
+            joint("i", "b", "c") + &joint("j", "c", "b"),
+            "the links \"b\", \"c\" form a loop, they must form a tree",
+        ),
+        (joint("j", "a", "a"), "the links \"a\" form a loop, they must form a tree"),
+        ("<joint name='j'/>".to_owned(), "line 1: <joint> has no type"),
+        (fixed("<child link='a'/>"), "line 1: <joint> has no <parent link=\"...\">"),
+        (fixed("<parent link='a'/><child/>"), "line 1: <joint> has no <child link=\"...\">"),
+        (
+            fixed("<parent link='a'/><parent link='b'/><child link='c'/>"),
+            "joint \"j\" has two <parent>, it must have at most one",
+        ),
+    ] {
+        let links = "<link name='a'/><link name='b'/><link name='c'/>";
+        let text = format!("<robot name='r'>{links}{inside}</robot>");
+        assert_eq!(words(&text), format!("URDF: {reason}"));
+    }
 }
 
 /// The IRB 2600 with a part of its third joint's text changed.
@@ -303,7 +303,7 @@ fn only_independent_revolute_joints_may_be_between_base_and_tip() {
     for kind in ["prismatic", "planar", "floating", "revolut", "Revolute", ""] {
         let wanted = format!(
             "URDF: joint \"joint_3\" is {kind:?}, between base and tip it must be revolute, \
-             continuous or fixed"
+             continuous or fixed (choose base and tip beside it)"
         );
         assert_eq!(tool(&third("revolute", kind)), wanted);
     }
@@ -320,7 +320,8 @@ fn only_independent_revolute_joints_may_be_between_base_and_tip() {
     let fixed = third("revolute", "fixed");
     assert_eq!(
         tool(&fixed),
-        "URDF: 5 revolute joints lead from \"base_link\" to \"tool0\", there must be 6"
+        "URDF: 5 revolute joints lead from \"base_link\" to \"tool0\", there must be 6 (choose \
+         base and tip)"
     );
     // What is not between them does not matter.
     let aside = IRB2600.replace(
@@ -332,66 +333,45 @@ fn only_independent_revolute_joints_may_be_between_base_and_tip() {
 
 #[test]
 fn numbers_are_named_with_their_joint() {
-    let of = |from, to| words(&third(from, to));
     let xyz = "xyz=\"0 0 0.7\"";
-    let joint = "URDF: joint \"joint_3\"";
+    for (from, to, reason) in [
+        (xyz, "xyz=\"0 0\"", "origin xyz is \"0 0\", it must be three numbers"),
+        (xyz, "xyz=\"0 0 0.7 1\"", "origin xyz is \"0 0 0.7 1\", it must be three numbers"),
+        (xyz, "xyz=\"0 0 0,7\"", "origin xyz is \"0 0 0,7\", it must be three numbers"),
+        (
+            xyz,
+            "xyz=\"0 0 ${a}\"",
+            "origin xyz is \"0 0 ${a}\", it must be three numbers (is it xacro that was not \
+             expanded?)",
+        ),
+        (xyz, "xyz=\"0 0 nan\"", "origin xyz is NaN, it must be finite"),
+        (xyz, "xyz=\"0 0 1e999\"", "origin xyz is inf, it must be finite"),
+        (xyz, "xyz=\"0 0 1e7\"", "origin xyz is 1e7, its size must be at most 1e6"),
+        (xyz, "rpy=\"0 0 1e9\"", "origin rpy is 1e9, its size must be at most 1e5"),
+        ("xyz=\"0 1 0\"", "xyz=\"0 0 0\"", "axis is 0 0 0, it must have a length"),
+        ("xyz=\"0 1 0\"", "xyz=\"0 inf 0\"", "axis is inf, it must be finite"),
+        (
+            "lower=\"-3",
+            "lower=\"x-3",
+            "limit lower is \"x-3.141592653589793\", it must be a number",
+        ),
+        (
+            "velocity=\"3",
+            "velocity=\"1 3",
+            "limit velocity is \"1 3.0543261909900767\", it must be a number",
+        ),
+        (
+            "<limit",
+            "<limits",
+            "is revolute and has no <limit>; a joint without limits is continuous",
+        ),
+        ("<axis", "<axis/><axis", "has two <axis>, it must have at most one"),
+    ] {
+        assert_eq!(words(&third(from, to)), format!("URDF: joint \"joint_3\" {reason}"));
+    }
     assert_eq!(
-        of(xyz, "xyz=\"0 0\""),
-        format!("{joint} origin xyz is \"0 0\", it must be three numbers")
-    );
-    assert_eq!(
-        of(xyz, "xyz=\"0 0 0.7 1\""),
-        format!("{joint} origin xyz is \"0 0 0.7 1\", it must be three numbers")
-    );
-    assert_eq!(
-        of(xyz, "xyz=\"0 0 0,7\""),
-        format!("{joint} origin xyz is \"0 0 0,7\", it must be three numbers")
-    );
-    let xacro = "it must be three numbers (is it xacro that was not expanded?)";
-    assert_eq!(
-        of(xyz, "xyz=\"0 0 ${a}\""),
-        format!("{joint} origin xyz is \"0 0 ${{a}}\", {xacro}")
-    );
-    assert_eq!(of(xyz, "xyz=\"0 0 nan\""), format!("{joint} origin xyz is NaN, it must be finite"));
-    assert_eq!(
-        of(xyz, "xyz=\"0 0 1e999\""),
-        format!("{joint} origin xyz is inf, it must be finite")
-    );
-    assert_eq!(
-        of(xyz, "xyz=\"0 0 1e7\""),
-        format!("{joint} origin xyz is 1e7, its size must be at most 1e6")
-    );
-    assert_eq!(
-        of(xyz, "rpy=\"0 0 1e9\""),
-        format!("{joint} origin rpy is 1e9, its size must be at most 1e5")
-    );
-    assert_eq!(
-        of("xyz=\"0 1 0\"", "xyz=\"0 0 0\""),
-        format!("{joint} axis is 0 0 0, it must have a length")
-    );
-    assert_eq!(
-        of("xyz=\"0 1 0\"", "xyz=\"0 inf 0\""),
-        format!("{joint} axis is inf, it must be finite")
-    );
-    assert_eq!(
-        of("lower=\"-3", "lower=\"x-3"),
-        format!("{joint} limit lower is \"x-3.141592653589793\", it must be a number")
-    );
-    assert_eq!(
-        of("velocity=\"3", "velocity=\"1 3"),
-        format!("{joint} limit velocity is \"1 3.0543261909900767\", it must be a number")
-    );
-    assert_eq!(
-        of("lower=\"-", "lower=\"9"),
+        words(&third("lower=\"-", "lower=\"9")),
         "joint 3 limit is empty: lower 93.1415926535898 rad > upper 1.3089969389957472 rad"
-    );
-    assert_eq!(
-        of("<limit", "<limits"),
-        format!("{joint} is revolute and has no <limit>; a joint without limits is continuous")
-    );
-    assert_eq!(
-        of("<axis", "<axis/><axis"),
-        format!("{joint} has two <axis>, it must have at most one")
     );
 }
 
@@ -560,12 +540,4 @@ fn nearly_parallel_axes_are_distinguished_from_parallel_ones() {
         "axes 2 and 3 are 4.6e-8 rad off parallel, their common normal is 1.5e7 m away, it must be at most 1e6 m (write the angles with all their digits); snap=1e-7 would take it"
     );
     assert!((of("3.1").unwrap().mdh().rows[2].alpha.abs() - 3.1).abs() < 1e-12);
-}
-
-#[test]
-fn faults_can_be_distinguished() {
-    let error = six(UR5E, None, None).unwrap_err();
-    let tips = Names { listed: vec!["\"ft_frame\"".to_owned(), "\"tool0\"".to_owned()], more: 0 };
-    let fault = UrdfFault::SeveralTips { base: "base_link".to_owned(), wanted: vec![6], tips };
-    assert_eq!(error, Error::InvalidModel(ModelFault::Urdf(fault)));
 }

@@ -1,251 +1,26 @@
-//! What can be wrong with a RAPID text.
+//! RAPID texts, routines and frames that are refused.
 
 use core::fmt;
 
 use alloc::string::String;
 
-use super::{Names, RoutineFault};
+use thiserror::Error;
 
-/// What is wrong with a RAPID text, and where.
-#[derive(Clone, Debug, PartialEq)]
+use super::{Names, PoseFault};
+
+/// Why a RAPID text is refused, and where.
+#[derive(Clone, Debug, PartialEq, Error)]
 pub struct RapidFault {
-    /// Line, from 1; 0 for data that stand in no text.
+    /// Line, from 1; 0 for data that are not in a text.
     pub line: usize,
-    /// Column, from 1, in characters; 0 for data that stand in no text.
+    /// Column, from 1, in characters; 0 for data that are not in a text.
     pub column: usize,
-    /// What is wrong.
+    /// The reason.
     pub kind: RapidFaultKind,
 }
 
-/// The ways in which a RAPID text can be broken. `thing` is a type and a name, or an instruction
-/// and its argument.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum RapidFaultKind {
-    /// A string does not end on its line.
-    UnterminatedString,
-    /// What begins as a number is none.
-    BadNumber {
-        /// As it is written.
-        text: String,
-    },
-    /// A number is too large, or an arithmetic has no finite result.
-    NotFinite {
-        /// As it is written.
-        text: String,
-    },
-    /// RAPID has no such character outside strings and comments.
-    UnexpectedCharacter {
-        /// The character.
-        character: char,
-    },
-    /// A bracket, parenthesis or brace is not closed; the place is where it opens.
-    Unclosed {
-        /// The opening character.
-        bracket: char,
-    },
-    /// Something is at a place where something else is expected.
-    Unexpected {
-        /// What is there.
-        found: String,
-        /// What is expected.
-        wanted: &'static str,
-    },
-    /// The text ends too early.
-    UnexpectedEnd {
-        /// What it ends inside of.
-        inside: String,
-        /// What is missing.
-        missing: &'static str,
-    },
-    /// A record has another number of components.
-    ComponentCount {
-        /// The thing.
-        thing: String,
-        /// The component, empty for the thing as a whole.
-        part: String,
-        /// Components that it has.
-        found: usize,
-        /// Components that it must have.
-        wanted: usize,
-    },
-    /// A value is of another type.
-    ComponentType {
-        /// The thing.
-        thing: String,
-        /// The component, empty for the thing as a whole.
-        part: String,
-        /// What it is.
-        found: String,
-        /// What it must be.
-        wanted: &'static str,
-    },
-    /// A component of confdata is no whole number.
-    NotWhole {
-        /// The thing.
-        thing: String,
-        /// The component.
-        part: String,
-        /// Its value.
-        value: f64,
-    },
-    /// A record has no such component.
-    NoSuchComponent {
-        /// As it is written.
-        text: String,
-        /// The type of what stands before the component.
-        of: &'static str,
-        /// The component.
-        component: String,
-    },
-    /// A dimension of an array has another number of elements.
-    ArraySize {
-        /// The thing.
-        thing: String,
-        /// The dimension, from 1.
-        dimension: usize,
-        /// Elements of its value.
-        found: usize,
-        /// Its size.
-        wanted: usize,
-    },
-    /// The size of an array is no positive whole number.
-    ArrayDimension {
-        /// The thing.
-        thing: String,
-        /// The dimension, from 1.
-        dimension: usize,
-        /// Its size.
-        value: f64,
-    },
-    /// An array has too many dimensions.
-    Dimensions {
-        /// The thing.
-        thing: String,
-        /// Dimensions that it has.
-        found: usize,
-        /// Most that an array has.
-        bound: usize,
-    },
-    /// An index lies outside its array.
-    Index {
-        /// As it is written.
-        text: String,
-        /// The index.
-        value: f64,
-        /// The size of the array.
-        size: usize,
-    },
-    /// An element is asked for with another number of indices.
-    IndexCount {
-        /// As it is written.
-        text: String,
-        /// Indices that it has.
-        found: usize,
-        /// Dimensions of the array.
-        wanted: usize,
-    },
-    /// Two things of one scope have the same name.
-    SameName {
-        /// The name.
-        name: String,
-        /// The routine, or none for the module.
-        routine: Option<String>,
-    },
-    /// Values refer to one another in a circle.
-    Circular {
-        /// The circle.
-        names: Names,
-    },
-    /// A name or a string is so long that what tells of it often would not be read in linear time;
-    /// RAPID's own are far shorter.
-    TooLong {
-        /// What it is.
-        what: &'static str,
-        /// Its bytes.
-        found: usize,
-        /// Most bytes.
-        bound: usize,
-    },
-    /// Brackets or blocks are nested too deep.
-    TooDeep {
-        /// The deepest that is read.
-        bound: usize,
-    },
-    /// A second module begins in one text.
-    SecondModule,
-    /// An instruction has another number of arguments.
-    ArgumentCount {
-        /// The instruction.
-        instruction: &'static str,
-        /// Arguments that it has.
-        found: usize,
-        /// Arguments that it must have.
-        wanted: usize,
-    },
-    /// A name is none that RAPID could read.
-    NotAName {
-        /// The name.
-        name: String,
-    },
-    /// A text that should be a record is none.
-    NoRecord {
-        /// As it is written, its beginning.
-        text: String,
-    },
-    /// A text to be written anew is not the one of which the module was read.
-    OtherText {
-        /// Its bytes.
-        found: usize,
-        /// Bytes of the one that was read.
-        wanted: usize,
-    },
-    /// One place of a text is to get two values.
-    TwoValues {
-        /// Whose place.
-        thing: String,
-    },
-    /// A routine is no single motion.
-    Routine(RoutineFault),
-    /// A value is to be put where there is none.
-    NoSuchValue {
-        /// What there is not.
-        missing: Missing,
-    },
-}
-
-/// What a module does not have. `thing` is a type and a name.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Missing {
-    /// A datum of an index.
-    Datum {
-        /// The index.
-        index: usize,
-        /// Data that the module has.
-        count: usize,
-    },
-    /// An element of a datum.
-    Element {
-        /// The datum.
-        thing: String,
-        /// The element, from 0.
-        element: usize,
-    },
-    /// A single value in an array.
-    Single {
-        /// The array.
-        thing: String,
-    },
-    /// A text that says the same as the data and moves that a module is made of.
-    Module {
-        /// What of them is not read.
-        what: String,
-    },
-}
-
 impl RapidFault {
-    /// A fault of something that stands in no text.
+    /// A fault of data that are not in a text.
     pub(crate) fn nowhere(kind: RapidFaultKind) -> Self {
         Self { line: 0, column: 0, kind }
     }
@@ -260,7 +35,136 @@ impl fmt::Display for RapidFault {
     }
 }
 
-/// "robtarget p10", or "robtarget p10: robconf" where a part is meant.
+/// The faults of a RAPID text. `thing` is a type and a name, or an instruction and
+/// its argument; `part` is a component of it, or empty; `text` is as it is written.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RapidFaultKind {
+    #[error("the string has no closing quote on its line")]
+    UnterminatedString,
+    #[error("{text} is not a number")]
+    BadNumber { text: String },
+    #[error("{text} is not finite, every number must be")]
+    NotFinite { text: String },
+    #[error("{character:?} has no place outside a string or a comment")]
+    UnexpectedCharacter { character: char },
+    /// At the place where it opens.
+    #[error("{bracket} is not closed")]
+    Unclosed { bracket: char },
+    #[error("expected {wanted}, found {found}")]
+    Unexpected { found: String, wanted: &'static str },
+    #[error("the text ends inside {inside}: {missing} is missing")]
+    UnexpectedEnd { inside: String, missing: &'static str },
+    #[error("{} has {}, it must have {wanted}", Part(.thing, .part), Count(*.found, "component"))]
+    ComponentCount { thing: String, part: String, found: usize, wanted: usize },
+    #[error("{} is {found}, it must be {wanted}", Part(.thing, .part))]
+    ComponentType { thing: String, part: String, found: String, wanted: &'static str },
+    #[error("{} is {value}, it must be a whole number", Part(.thing, .part))]
+    NotWhole { thing: String, part: String, value: f64 },
+    /// `of`: a type.
+    #[error("{text}: {of} has no component {component}")]
+    NoSuchComponent { text: String, of: &'static str, component: String },
+    #[error(
+        "{thing}: dimension {dimension} has {}, it must have {wanted}", Count(*.found, "element")
+    )]
+    ArraySize { thing: String, dimension: usize, found: usize, wanted: usize },
+    #[error(
+        "{thing}: size of dimension {dimension} is {value}, it must be a positive whole number"
+    )]
+    ArrayDimension { thing: String, dimension: usize, value: f64 },
+    #[error("{thing} has {}, it must have at most {bound}", Count(*.found, "dimension"))]
+    Dimensions { thing: String, found: usize, bound: usize },
+    #[error("{text}: index {value} must be a whole number from 1 to {size}")]
+    Index { text: String, value: f64, size: usize },
+    #[error(
+        "{text} has {found} {}, {}",
+        if *.found == 1 { "index" } else { "indices" }, Indices(*.wanted)
+    )]
+    IndexCount { text: String, found: usize, wanted: usize },
+    /// `routine`: `None` for the module.
+    #[error("{name} is declared twice in {}", .routine.as_deref().unwrap_or("the module"))]
+    SameName { name: String, routine: Option<String> },
+    #[error("values refer to one another in a circle: {names}")]
+    Circular { names: Names },
+    /// In bytes. A longer one could not be named often in linear time.
+    #[error("a {what} has {found} bytes, it must have at most {bound}")]
+    TooLong { what: &'static str, found: usize, bound: usize },
+    #[error("nested deeper than {bound}, the deepest that is read")]
+    TooDeep { bound: usize },
+    #[error("a second module begins, a text must hold one")]
+    SecondModule,
+    #[error("{instruction} has {}, it must have {wanted}", Count(*.found, "argument"))]
+    ArgumentCount { instruction: &'static str, found: usize, wanted: usize },
+    #[error("{name:?} is not a RAPID identifier (a letter, then letters, digits, _)")]
+    NotAName { name: String },
+    /// The beginning of the text.
+    #[error("{text} is not a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata")]
+    NoRecord { text: String },
+    #[error("this is not the text of the module: it has {found} bytes, it must have {wanted}")]
+    OtherText { found: usize, wanted: usize },
+    #[error("{thing} is given two values, it must get one")]
+    TwoValues { thing: String },
+    #[error("{0}")]
+    Routine(RoutineFault),
+    #[error("there is no {missing}")]
+    NoSuchValue { missing: Missing },
+}
+
+/// A part that a module does not have. Indices count from 0.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Missing {
+    #[error("datum {index}, the module has {count}")]
+    Datum { index: usize, count: usize },
+    #[error("element {element} of {thing}")]
+    Element { thing: String, element: usize },
+    #[error("single value in the array {thing}")]
+    Single { thing: String },
+    /// `what`: of the data and moves of which a text was to be made.
+    #[error("module of these data: {what}")]
+    Module { what: String },
+}
+
+/// Why a routine is not a single motion.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RoutineFault {
+    #[error("the module has no routine {name:?}; it has: {known}")]
+    Unknown { name: String, known: Names },
+    #[error("give routine, one that moves: {moving}")]
+    Which { moving: Names },
+    #[error("{routine} has no move that is read")]
+    NoMoves { routine: String },
+    #[error(
+        "{word} decides which moves are made: give a routine without branches, loops and jumps \
+         around its moves"
+    )]
+    Branch { word: String },
+    /// The first finding.
+    #[error("no move can be made: {finding}")]
+    NoMotion { finding: String },
+}
+
+/// Why a robtarget cannot be seen in its tool and its work object.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FrameFault {
+    #[error(
+        "the robot holds {}: robhold must be TRUE for one of them",
+        if *.both { "the tool and the work object" } else { "neither the tool nor the work object" }
+    )]
+    Held { both: bool },
+    /// `unit`: as `ufmec` has it.
+    #[error(
+        "the work object's user frame is moved (ufprog FALSE) by the mechanical unit \"{unit}\": \
+         its position is not in the data"
+    )]
+    Moved { unit: String },
+    #[error("{field}: {fault}")]
+    Pose { field: &'static str, fault: PoseFault },
+}
+
+/// "robtarget p10", or "robtarget p10: robconf" for a part.
 struct Part<'a>(&'a str, &'a str);
 
 impl fmt::Display for Part<'_> {
@@ -279,117 +183,14 @@ impl fmt::Display for Count {
     }
 }
 
-impl fmt::Display for RapidFaultKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::UnterminatedString => write!(f, "the string has no closing quote on its line"),
-            Self::BadNumber { text } => write!(f, "{text} is not a number"),
-            Self::NotFinite { text } => write!(f, "{text} is not finite, every number must be"),
-            Self::UnexpectedCharacter { character } => {
-                write!(f, "{character:?} has no place outside a string or a comment")
-            }
-            Self::Unclosed { bracket } => write!(f, "{bracket} is not closed"),
-            Self::Unexpected { found, wanted } => write!(f, "expected {wanted}, found {found}"),
-            Self::UnexpectedEnd { inside, missing } => {
-                write!(f, "the text ends inside {inside}: {missing} is missing")
-            }
-            Self::ComponentCount { thing, part, found, wanted } => {
-                write!(
-                    f,
-                    "{} has {}, it must have {wanted}",
-                    Part(thing, part),
-                    Count(*found, "component")
-                )
-            }
-            Self::ComponentType { thing, part, found, wanted } => {
-                write!(f, "{} is {found}, it must be {wanted}", Part(thing, part))
-            }
-            Self::NotWhole { thing, part, value } => {
-                write!(f, "{} is {value}, it must be a whole number", Part(thing, part))
-            }
-            Self::NoSuchComponent { text, of, component } => {
-                write!(f, "{text}: {of} has no component {component}")
-            }
-            Self::ArraySize { thing, dimension, found, wanted } => {
-                write!(
-                    f,
-                    "{thing}: dimension {dimension} has {}, it must have {wanted}",
-                    Count(*found, "element")
-                )
-            }
-            Self::ArrayDimension { thing, dimension, value } => {
-                write!(
-                    f,
-                    "{thing}: size of dimension {dimension} is {value}, it must be a positive \
-                     whole number"
-                )
-            }
-            Self::Dimensions { thing, found, bound } => {
-                write!(
-                    f,
-                    "{thing} has {}, it must have at most {bound}",
-                    Count(*found, "dimension")
-                )
-            }
-            Self::Index { text, value, size } => {
-                write!(f, "{text}: index {value} must be a whole number from 1 to {size}")
-            }
-            Self::IndexCount { text, found, wanted } => {
-                let indices = if *found == 1 { "index" } else { "indices" };
-                write!(f, "{text} has {found} {indices}, ")?;
-                if *wanted == 0 {
-                    write!(f, "but it is not an array")
-                } else {
-                    write!(f, "it must have {wanted}")
-                }
-            }
-            Self::SameName { name, routine: None } => {
-                write!(f, "{name} is declared twice in the module")
-            }
-            Self::SameName { name, routine: Some(routine) } => {
-                write!(f, "{name} is declared twice in {routine}")
-            }
-            Self::Circular { names } => {
-                write!(f, "values refer to one another in a circle: {names}")
-            }
-            Self::TooLong { what, found, bound } => {
-                write!(f, "a {what} has {found} bytes, it must have at most {bound}")
-            }
-            Self::TooDeep { bound } => {
-                write!(f, "nested deeper than {bound}, the deepest that is read")
-            }
-            Self::SecondModule => write!(f, "a second module begins, a text must hold one"),
-            Self::ArgumentCount { instruction, found, wanted } => {
-                write!(f, "{instruction} has {}, it must have {wanted}", Count(*found, "argument"))
-            }
-            Self::NotAName { name } => {
-                write!(f, "{name:?} is not a RAPID identifier (a letter, then letters, digits, _)")
-            }
-            Self::NoRecord { text } => write!(
-                f,
-                "{text} is not a robtarget, jointtarget, tooldata, wobjdata, pose or loaddata"
-            ),
-            Self::OtherText { found, wanted } => {
-                write!(
-                    f,
-                    "this is not the text of the module: it has {found} bytes, it must have \
-                     {wanted}"
-                )
-            }
-            Self::TwoValues { thing } => write!(f, "{thing} is given two values, it must get one"),
-            Self::Routine(fault) => fault.fmt(f),
-            Self::NoSuchValue { missing } => write!(f, "there is no {missing}"),
-        }
-    }
-}
+/// The number of indices that an element must have; 0 without an array.
+struct Indices(usize);
 
-impl fmt::Display for Missing {
+impl fmt::Display for Indices {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Datum { index, count } => write!(f, "datum {index}, the module has {count}"),
-            Self::Element { thing, element } => write!(f, "element {element} of {thing}"),
-            Self::Single { thing } => write!(f, "single value in the array {thing}"),
-            Self::Module { what } => write!(f, "module of these data: {what}"),
+        match self.0 {
+            0 => f.write_str("but it is not an array"),
+            wanted => write!(f, "it must have {wanted}"),
         }
     }
 }

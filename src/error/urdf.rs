@@ -1,382 +1,122 @@
-//! What can be wrong with a URDF.
+//! URDF texts that are refused.
 
 use core::fmt;
 
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::names::Counts;
-pub use super::names::Names;
+use thiserror::Error;
 
-/// What is wrong with a URDF.
-#[derive(Clone, Debug, PartialEq)]
+use super::lists::{Listed, Names};
+
+/// Why a URDF is refused. Lines and columns count from 1.
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum UrdfFault {
-    /// The bytes are no UTF-8.
-    NotUtf8 {
-        /// Index of the first byte that is none.
-        byte: usize,
-    },
-    /// The text is no XML.
-    NotXml {
-        /// Line, from 1.
-        line: usize,
-        /// Column, from 1.
-        column: usize,
-        /// What the parser says.
-        what: String,
-    },
-    /// The text declares more namespaces than can be read in linear time.
-    Namespaces {
-        /// Line of the first that is one too many, from 1.
-        line: usize,
-        /// The most that are read.
-        bound: usize,
-    },
-    /// An element has more attributes than can be read in linear time.
-    Attributes {
-        /// Line of the element, from 1.
-        line: usize,
-        /// Name of the element.
-        element: String,
-        /// The most that are read.
-        bound: usize,
-    },
-    /// The first element is no robot.
-    NotRobot {
-        /// Name of the first element.
-        found: String,
-    },
-    /// The text is xacro, from which URDF is made.
-    Xacro {
-        /// Line, from 1.
-        line: usize,
-        /// Name of the first element that is xacro's.
-        element: String,
-    },
-    /// An element lacks something.
-    Missing {
-        /// Line of the element, from 1.
-        line: usize,
-        /// Name of the element.
-        element: &'static str,
-        /// What it lacks.
-        missing: &'static str,
-    },
-    /// Two links or two joints have the same name.
-    SameName {
-        /// Name of the element.
-        element: &'static str,
-        /// The name.
-        name: String,
-    },
-    /// A joint has an element twice.
-    Twice {
-        /// The joint.
-        joint: String,
-        /// Name of the element.
-        element: &'static str,
-    },
-    /// A joint is fixed to a link that is not there.
-    UnknownLink {
-        /// The joint.
-        joint: String,
-        /// `parent` or `child`.
-        role: &'static str,
-        /// Name of the link.
-        link: String,
-    },
-    /// A link is the child of two joints.
-    TwoParents {
-        /// The link.
-        link: String,
-        /// The joints.
-        joints: [String; 2],
-    },
-    /// Links form a loop.
-    Loop {
-        /// The links of the loop.
-        links: Names,
-    },
-    /// Not one link is without a parent, but none or several, and `base` does not choose.
-    Roots {
-        /// The links without a parent.
-        links: Names,
-    },
-    /// `base` or `tip` is no link.
-    NoSuchLink {
-        /// `base` or `tip`.
-        field: &'static str,
-        /// The name.
-        name: String,
-        /// Every link, or those whose names are close.
-        links: Names,
-    },
-    /// The tip does not hang on the base.
-    NotBelow {
-        /// The tip.
-        tip: String,
-        /// The base.
-        base: String,
-    },
-    /// Several links could be the tip.
-    SeveralTips {
-        /// The base.
-        base: String,
-        /// The number of joints that the arm must have.
-        wanted: Vec<usize>,
-        /// The links.
-        tips: Names,
-    },
-    /// No link at the end of a chain could be the tip.
-    NoTip {
-        /// The base.
-        base: String,
-        /// The number of joints that the arm must have.
-        wanted: Vec<usize>,
-        /// The links at the end of a chain, and what keeps each from being the tip.
-        ends: Names,
-    },
-    /// A joint between base and tip is neither revolute, continuous nor fixed.
-    JointType {
-        /// The joint.
-        joint: String,
-        /// Its type.
-        kind: String,
-    },
-    /// A joint between base and tip follows another one.
-    Mimic {
-        /// The joint.
-        joint: String,
-        /// The joint that it follows.
-        of: String,
-    },
-    /// The arm has another number of joints.
-    JointCount {
-        /// The base.
-        base: String,
-        /// The tip.
-        tip: String,
-        /// Revolute joints between them.
-        found: usize,
-        /// The number of joints that the arm must have.
-        wanted: Vec<usize>,
-    },
-    /// A revolute joint has no limit.
-    NoLimit {
-        /// The joint.
-        joint: String,
-    },
-    /// An attribute does not hold its numbers.
-    NotNumbers {
-        /// The joint.
-        joint: String,
-        /// Element and attribute.
-        field: &'static str,
-        /// What the attribute holds.
-        text: String,
-        /// How many numbers it must hold.
-        wanted: usize,
-    },
-    /// A number is NaN or infinite.
-    NotFinite {
-        /// The joint.
-        joint: String,
-        /// Element and attribute.
-        field: &'static str,
-        /// The number.
-        value: f64,
-    },
-    /// A number is too large to calculate with.
-    TooLarge {
-        /// The joint.
-        joint: String,
-        /// Element and attribute.
-        field: &'static str,
-        /// The number.
-        value: f64,
-        /// The largest size.
-        bound: f64,
-    },
-    /// The axis of a joint has no length.
-    NoAxis {
-        /// The joint.
-        joint: String,
-    },
+    #[error("byte {byte} is not valid UTF-8")]
+    NotUtf8 { byte: usize },
+    /// `what`: the parser's words.
+    #[error("line {line}, column {column} is not XML: {what}")]
+    NotXml { line: usize, column: usize, what: String },
+    /// More could not be read in linear time.
+    #[error("line {line} declares one namespace (xmlns) too many: at most {bound} are read")]
+    Namespaces { line: usize, bound: usize },
+    /// More could not be read in linear time.
+    #[error("line {line}: <{element}> has too many attributes: at most {bound} are read")]
+    Attributes { line: usize, element: String, bound: usize },
+    #[error("the first element is <{found}>, it must be <robot>: convert the file to URDF")]
+    NotRobot { found: String },
+    #[error(
+        "line {line} is xacro, <{element}>: it must be expanded first (xacro arm.urdf.xacro > \
+         arm.urdf)"
+    )]
+    Xacro { line: usize, element: String },
+    #[error("line {line}: <{element}> has no {missing}")]
+    Missing { line: usize, element: &'static str, missing: &'static str },
+    #[error("two {element}s are named {name:?}, each must have a name of its own")]
+    SameName { element: &'static str, name: String },
+    #[error("joint {joint:?} has two <{element}>, it must have at most one")]
+    Twice { joint: String, element: &'static str },
+    /// `role`: "parent" or "child".
+    #[error("joint {joint:?} has the {role} {link:?}, which is not a link")]
+    UnknownLink { joint: String, role: &'static str, link: String },
+    #[error(
+        "link {link:?} is the child of joints {:?} and {:?}, it must be the child of one",
+        .joints[0], .joints[1]
+    )]
+    TwoParents { link: String, joints: [String; 2] },
+    #[error("the links {links} form a loop, they must form a tree")]
+    Loop { links: Names },
+    /// The links without a parent.
+    #[error("{}", Roots(.links))]
+    Roots { links: Names },
+    /// `field`: "base" or "tip". `links`: all, or those with names that are close.
+    #[error("{field} {name:?} is not a link{}", Close(.links))]
+    NoSuchLink { field: &'static str, name: String, links: Names },
+    #[error("tip {tip:?} is not below base {base:?}: no joints lead from base to tip")]
+    NotBelow { tip: String, base: String },
+    #[error(
+        "{} revolute joints lead from {base:?} to several ends: {tips}; tip must name the one to \
+         take",
+        Listed(.wanted, " or ")
+    )]
+    SeveralTips { base: String, wanted: Vec<usize>, tips: Names },
+    /// The ends of chains, each with the reason why it is not the tip.
+    #[error(
+        "{} revolute joints lead from {base:?} to no end of a chain: {ends}",
+        Listed(.wanted, " or ")
+    )]
+    NoTip { base: String, wanted: Vec<usize>, ends: Names },
+    #[error(
+        "joint {joint:?} is {kind:?}, between base and tip it must be revolute, continuous or \
+         fixed (choose base and tip beside it)"
+    )]
+    JointType { joint: String, kind: String },
+    #[error("joint {joint:?} mimics {of:?}, between base and tip each joint must turn by itself")]
+    Mimic { joint: String, of: String },
+    #[error(
+        "{found} revolute joints lead from {base:?} to {tip:?}, there must be {} (choose base and \
+         tip)",
+        Listed(.wanted, " or ")
+    )]
+    JointCount { base: String, tip: String, found: usize, wanted: Vec<usize> },
+    #[error("joint {joint:?} is revolute and has no <limit>; a joint without limits is continuous")]
+    NoLimit { joint: String },
+    /// `field`: element and attribute. `wanted`: one or three numbers.
+    #[error(
+        "joint {joint:?} {field} is {text:?}, it must be {}{}",
+        if *.wanted == 1 { "a number" } else { "three numbers" },
+        if .text.contains('$') { " (is it xacro that was not expanded?)" } else { "" }
+    )]
+    NotNumbers { joint: String, field: &'static str, text: String, wanted: usize },
+    #[error("joint {joint:?} {field} is {value}, it must be finite")]
+    NotFinite { joint: String, field: &'static str, value: f64 },
+    #[error("joint {joint:?} {field} is {value:e}, its size must be at most {bound:e}")]
+    TooLarge { joint: String, field: &'static str, value: f64, bound: f64 },
+    #[error("joint {joint:?} axis is 0 0 0, it must have a length")]
+    NoAxis { joint: String },
 }
 
-impl fmt::Display for UrdfFault {
+/// None or several links without a parent.
+struct Roots<'a>(&'a Names);
+
+impl fmt::Display for Roots<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotUtf8 { .. }
-            | Self::NotXml { .. }
-            | Self::Namespaces { .. }
-            | Self::Attributes { .. }
-            | Self::NotRobot { .. }
-            | Self::Xacro { .. }
-            | Self::Missing { .. } => self.fmt_text(f),
-            Self::SameName { .. }
-            | Self::Twice { .. }
-            | Self::UnknownLink { .. }
-            | Self::TwoParents { .. }
-            | Self::Loop { .. }
-            | Self::Roots { .. }
-            | Self::NoSuchLink { .. }
-            | Self::NotBelow { .. }
-            | Self::SeveralTips { .. }
-            | Self::NoTip { .. } => self.fmt_tree(f),
-            Self::JointType { .. }
-            | Self::Mimic { .. }
-            | Self::JointCount { .. }
-            | Self::NoLimit { .. }
-            | Self::NotNumbers { .. }
-            | Self::NotFinite { .. }
-            | Self::TooLarge { .. }
-            | Self::NoAxis { .. } => self.fmt_joint(f),
+        if self.0.is_empty() {
+            return f.write_str("the robot has no links");
         }
+        write!(f, "several links have no parent: {}; base must name the one to begin at", self.0)
     }
 }
 
-impl UrdfFault {
-    /// Of a text, and of an element of it.
-    fn fmt_text(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotUtf8 { byte } => write!(f, "byte {byte} is not valid UTF-8"),
-            Self::NotXml { line, column, what } => {
-                write!(f, "line {line}, column {column} is not XML: {what}")
-            }
-            Self::Namespaces { line, bound } => {
-                write!(
-                    f,
-                    "line {line} declares one namespace (xmlns) too many: at most {bound} are read"
-                )
-            }
-            Self::Attributes { line, element, bound } => {
-                write!(
-                    f,
-                    "line {line}: <{element}> has too many attributes: at most {bound} are read"
-                )
-            }
-            Self::NotRobot { found } => {
-                write!(f, "the first element is <{found}>, it must be <robot>")
-            }
-            Self::Xacro { line, element } => {
-                write!(
-                    f,
-                    "line {line} is xacro, <{element}>: it must be expanded first \
-                     (xacro arm.urdf.xacro > arm.urdf)"
-                )
-            }
-            Self::Missing { line, element, missing } => {
-                write!(f, "line {line}: <{element}> has no {missing}")
-            }
-            _ => Ok(()),
-        }
-    }
+/// Links instead of one that does not exist.
+struct Close<'a>(&'a Names);
 
-    /// Of links and of how joints connect them.
-    fn fmt_tree(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::SameName { element, name } => {
-                write!(f, "two {element}s are named {name:?}, each must have a name of its own")
-            }
-            Self::Twice { joint, element } => {
-                write!(f, "joint {joint:?} has two <{element}>, it must have at most one")
-            }
-            Self::UnknownLink { joint, role, link } => {
-                write!(f, "joint {joint:?} has the {role} {link:?}, which is not a link")
-            }
-            Self::TwoParents { link, joints: [one, two] } => {
-                write!(
-                    f,
-                    "link {link:?} is the child of joints {one:?} and {two:?}, it must be that of \
-                     one"
-                )
-            }
-            Self::Loop { links } => {
-                write!(f, "the links {links} form a loop, they must form a tree")
-            }
-            Self::Roots { links } if links.listed.is_empty() => write!(f, "the robot has no links"),
-            Self::Roots { links } => write!(
-                f,
-                "several links have no parent: {links}; base must name the one to begin at"
-            ),
-            Self::NoSuchLink { field, name, links } if links.listed.is_empty() => {
-                write!(f, "{field} {name:?} is not a link, and no link has a name close to it")
-            }
-            Self::NoSuchLink { field, name, links } => {
-                write!(f, "{field} {name:?} is not a link; there are {links}")
-            }
-            Self::NotBelow { tip, base } => {
-                write!(f, "tip {tip:?} is not below base {base:?}: no joints lead from base to tip")
-            }
-            Self::SeveralTips { base, wanted, tips } => {
-                let wanted = Counts(wanted);
-                write!(
-                    f,
-                    "{wanted} revolute joints lead from {base:?} to several ends: {tips}; tip \
-                     must name the one to take"
-                )
-            }
-            Self::NoTip { base, wanted, ends } => {
-                write!(
-                    f,
-                    "{} revolute joints lead from {base:?} to no end of a chain: {ends}",
-                    Counts(wanted)
-                )
-            }
-            _ => Ok(()),
+impl fmt::Display for Close<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_empty() {
+            return f.write_str(", and no link has a name close to it");
         }
-    }
-
-    /// Of a joint between base and tip.
-    fn fmt_joint(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::JointType { joint, kind } => {
-                write!(
-                    f,
-                    "joint {joint:?} is {kind:?}, between base and tip it must be revolute, \
-                     continuous or fixed"
-                )
-            }
-            Self::Mimic { joint, of } => write!(
-                f,
-                "joint {joint:?} mimics {of:?}, between base and tip each joint must turn by itself"
-            ),
-            Self::JointCount { base, tip, found, wanted } => {
-                write!(
-                    f,
-                    "{found} revolute joints lead from {base:?} to {tip:?}, there must be {}",
-                    Counts(wanted)
-                )
-            }
-            Self::NoLimit { joint } => write!(
-                f,
-                "joint {joint:?} is revolute and has no <limit>; a joint without limits is \
-                 continuous"
-            ),
-            Self::NotNumbers { joint, field, text, wanted } => {
-                let of = if *wanted == 1 { "a number" } else { "three numbers" };
-                write!(f, "joint {joint:?} {field} is {text:?}, it must be {of}")?;
-                if text.contains('$') {
-                    write!(f, " (is it xacro that was not expanded?)")
-                } else {
-                    Ok(())
-                }
-            }
-            Self::NotFinite { joint, field, value } => {
-                write!(f, "joint {joint:?} {field} is {value}, it must be finite")
-            }
-            Self::TooLarge { joint, field, value, bound } => {
-                write!(
-                    f,
-                    "joint {joint:?} {field} is {value:e}, its size must be at most {bound:e}"
-                )
-            }
-            Self::NoAxis { joint } => {
-                write!(f, "joint {joint:?} axis is 0 0 0, it must have a length")
-            }
-            _ => Ok(()),
-        }
+        write!(f, "; there are {}", self.0)
     }
 }

@@ -1,5 +1,9 @@
 //! Joints that singular poses leave undetermined.
 
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
 /// A joint that a singular pose leaves free: the solution is one of a self-motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -9,7 +13,7 @@ pub enum FreeJoint {
     Base,
     /// The wrist center is on axis 2: q2 is free, q1 and q3 are fixed, the wrist follows.
     Upper,
-    /// The same of an arm with coupled axes 2 and 3: q3 goes with q2.
+    /// As `Upper`, for an arm with coupled axes 2 and 3: q3 moves with q2.
     UpperCoupled,
     /// Axes 4 and 6 are one: q4 is free, q4 + q6 is fixed.
     WristSum,
@@ -43,7 +47,7 @@ pub enum FreeJoint {
 struct SelfMotion {
     /// Number of the free joint, from 1.
     joint: usize,
-    /// What stays fixed.
+    /// The words for the fixed joints, but for a chain.
     fixed: &'static str,
     rest: Rest,
     /// The branches that it runs through, each by what its slots differ in from that of a solution
@@ -66,43 +70,8 @@ const ONE_BRANCH: &[&[usize]] = &[&[0, 1]];
 /// Joints of a chain that moves with its ends standing still.
 const JOINTS: usize = 6;
 
-/// Length of the longest words for what stands still: of five joints.
-const MOST_LETTERS: usize = 4 * JOINTS;
-
-/// The words for what stands still, by the joints that move, and their lengths.
-static STANDING: [([u8; MOST_LETTERS], usize); 1 << JOINTS] = {
-    let mut words = [([0; MOST_LETTERS], 0); 1 << JOINTS];
-    let mut moving = 0;
-    while moving < words.len() {
-        let mut joint = 0;
-        while joint < JOINTS {
-            if moving >> joint & 1 == 0 {
-                let (letters, length) = &mut words[moving];
-                if *length > 0 {
-                    (letters[*length], letters[*length + 1]) = (b',', b' ');
-                    *length += 2;
-                }
-                [letters[*length], letters[*length + 1]] = [b'q', b"123456"[joint]];
-                *length += 2;
-            }
-            joint += 1;
-        }
-        moving += 1;
-    }
-    words
-};
-
-/// The joints of a chain that stand still, in words.
-const fn standing(moving: u8) -> &'static str {
-    let (letters, length) = &STANDING[moving as usize % (1 << JOINTS)];
-    match core::str::from_utf8(letters.split_at(*length).0) {
-        Ok(words) if *length > 0 => words,
-        _ => "nothing",
-    }
-}
-
 impl FreeJoint {
-    /// Every one of them but those of a chain.
+    /// All but the ones of a chain.
     #[cfg(test)]
     const ALL: [Self; 11] = [
         Self::Base,
@@ -118,13 +87,13 @@ impl FreeJoint {
         Self::LastSum,
     ];
 
-    /// Every one of them.
+    /// All of them.
     #[cfg(test)]
     pub(crate) fn all() -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().chain((1..1 << JOINTS).map(|moving| Self::Chain { moving }))
     }
 
-    /// That of a chain of which these joints move; `None` if none does.
+    /// The free joint of a chain of which these joints move; `None` if all stand still.
     pub(crate) fn of_chain(moving: [bool; JOINTS]) -> Option<Self> {
         let bits = moving.iter().rev().fold(0, |bits, moves| 2 * bits + u8::from(*moves));
         (bits > 0).then_some(Self::Chain { moving: bits })
@@ -143,9 +112,7 @@ impl FreeJoint {
             Self::Forearm => (5, "q4, q6", Rest::Still(&[4, 6])),
             Self::Hand => (6, "q4, q5", Rest::Still(&[4, 5])),
             Self::LastSum => (5, "q5 + q7", Rest::Partner(7, 1.0)),
-            Self::Chain { moving } => {
-                (moving.trailing_zeros() as usize + 1, standing(moving), Rest::Still(&[]))
-            }
+            Self::Chain { moving } => (moving.trailing_zeros() as usize + 1, "", Rest::Still(&[])),
         };
         let branches: &[&[usize]] = match self {
             Self::ShoulderSum | Self::ShoulderDifference => &[&[0, 4]],
@@ -163,10 +130,13 @@ impl FreeJoint {
         self.motion().joint
     }
 
-    /// What stays fixed along the self-motion.
+    /// Name what stays fixed along the self-motion: "q2, q3", "q4 + q6", "nothing".
     #[must_use]
-    pub const fn fixed(self) -> &'static str {
-        self.motion().fixed
+    pub fn fixed(self) -> String {
+        let Self::Chain { moving } = self else { return self.motion().fixed.into() };
+        let still = (0..JOINTS).filter(|joint| moving >> joint & 1 == 0);
+        let still: Vec<_> = still.map(|joint| format!("q{}", joint + 1)).collect();
+        if still.is_empty() { "nothing".into() } else { still.join(", ") }
     }
 
     /// The joint whose sum with the free one, or difference from it (a sign of -1), is all that is
@@ -206,7 +176,7 @@ mod tests {
         }
         let chain = |moving| FreeJoint::of_chain(moving).unwrap();
         let ends = chain([true, false, false, false, false, true]);
-        assert_eq!((ends.joint(), ends.fixed()), (1, "q2, q3, q4, q5"));
+        assert_eq!((ends.joint(), ends.fixed()), (1, "q2, q3, q4, q5".into()));
         assert_eq!(chain([true; 6]).fixed(), "nothing");
         assert_eq!(chain([false, true, true, true, true, true]).joint(), 2);
         assert_eq!(FreeJoint::of_chain([false; 6]), None);

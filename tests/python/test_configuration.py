@@ -85,20 +85,6 @@ def test_a_single_pose_without_the_configuration_lists_those_that_exist():
     np.testing.assert_allclose(nearest, Q, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("configuration", "message"),
-    [
-        ((0, 0, 0, 8), "cfx is 8, it must be 0 to 7"),
-        ((0, 0.5, 0, 0), "cf4 is 0.5, it must be a whole number"),
-        ((0, 0, np.nan, 0), "cf6 is NaN, it must be a whole number"),
-        ((0, 0, 0), r"configuration must have shape \(..., 4\), got \(3,\)"),
-    ],
-)
-def test_invalid_configurations_are_refused(configuration, message):
-    with pytest.raises(irbkin.InvalidJointsError, match=message):
-        ROBOT.ik_configured(ROBOT.fk(Q), configuration)
-
-
 @pytest.mark.parametrize("seed", [None, Q])
 def test_a_slot_that_the_arm_does_not_have_is_refused_in_a_batch_too(seed):
     pose = np.stack([ROBOT.fk(Q)] * 2)
@@ -111,26 +97,6 @@ def test_a_slot_that_the_arm_does_not_have_is_refused_in_a_batch_too(seed):
         irbkin.InvalidJointsError, match="it must be a whole number of at most 2147483647"
     ):
         ROBOT.ik_configured(pose, (2**31, 0, 0, 0))
-
-
-def test_an_unknown_fallback_is_refused():
-    pose = ROBOT.fk(Q)
-    with pytest.raises(TypeError, match="needs a seed"):
-        ROBOT.ik_configured(pose, (0, 0, 0, 0), fallback="nearest")
-    with pytest.raises(TypeError, match="a seed is for fallback"):
-        ROBOT.ik_configured(pose, (0, 0, 0, 0), seed=Q)
-    with pytest.raises(ValueError, match='must be "nearest" or None, got "first"'):
-        ROBOT.ik_configured(pose, (0, 0, 0, 0), fallback="first", seed=Q)
-
-
-@pytest.mark.parametrize("name", ["UR3", "Panda"])
-def test_arms_of_other_structures_have_no_configuration(name):
-    robot = irbkin.Robot(name)
-    q = np.full(robot.dof, 0.3)
-    with pytest.raises(irbkin.InvalidModelError, match=f'its structure is "{robot.structure}"'):
-        robot.configuration(q)
-    with pytest.raises(irbkin.InvalidModelError, match="this robot has no ABB configuration"):
-        robot.ik_configured(robot.fk(q), (0, 0, 0, 0))
 
 
 @pytest.mark.parametrize("value", [np.inf, np.nan, -2e5])

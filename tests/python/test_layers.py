@@ -83,7 +83,7 @@ def test_nested_braces_are_taken_apart():
         ("kinematics::JointLimits::new", "kinematics/chain/limits.rs"),
         ("kinematics::thresholds::MOST_ANGLE", "kinematics/thresholds.rs"),
         ("kinematics::pose::Pose", "kinematics/pose/mod.rs"),
-        ("Error", "error.rs"),
+        ("Error", "error/mod.rs"),
     ],
 )
 def test_a_name_is_found_where_it_is_defined(path, file):

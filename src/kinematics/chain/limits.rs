@@ -376,7 +376,7 @@ mod tests {
         let refused = |limits: [[f64; 2]; 6]| JointLimits::new(limits).unwrap_err().to_string();
         assert_eq!(
             refused([[-180.0, 180.0]; 6]),
-            "joint 1 limit is -180 to 180 rad, beyond 50 rad as are those of most joints (did you \
+            "joint 1 limit is -180 to 180 rad, beyond 50 rad as are the limits of most joints (did you \
              pass degrees? for no limit give inf)"
         );
         let degrees =

@@ -1,7 +1,7 @@
 //! A robot with corrected parameters: what a calibration makes of it.
 
 use super::Robot;
-use crate::error::{CalibratedFault, Error};
+use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::corrections::{Corrections, correction};
 use crate::kinematics::pose::Pose;
 
@@ -32,7 +32,7 @@ impl<const N: usize> Robot<N> {
             self.clone()
         } else {
             if self.is_coupled() {
-                return Err(CalibratedFault::Coupled.into());
+                return Err(ModelFault::CoupledTable.into());
             }
             Self::of_table(corrections.table(self.mdh()))?
                 .with_name(self.name.clone())

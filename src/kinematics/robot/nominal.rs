@@ -3,7 +3,7 @@
 use alloc::boxed::Box;
 
 use super::{Definition, Robot};
-use crate::error::{CalibratedFault, Error};
+use crate::error::{Error, ModelFault};
 use crate::kinematics::pose::PoseDifference;
 use crate::kinematics::structure::known::refined;
 use crate::kinematics::thresholds::FAR_FROM_NOMINAL;
@@ -31,13 +31,13 @@ impl<const N: usize> Robot<N> {
     /// part of the reach.
     pub fn with_nominal(&self, nominal: &Self) -> Result<Self, Error> {
         if self.is_coupled() || nominal.is_coupled() {
-            return Err(CalibratedFault::Coupled.into());
+            return Err(ModelFault::CoupledTable.into());
         }
         self.check_near(nominal)?;
         let closed_form = nominal.inverse.as_ref().filter(|_| nominal.is_closed_form());
         let refined = closed_form
             .and_then(|inverse| refined(inverse, &nominal.chain, &self.chain, &self.limits))
-            .ok_or(CalibratedFault::Structure { structure: nominal.structure() })?;
+            .ok_or(ModelFault::NominalStructure { structure: nominal.structure() })?;
         let definition = Definition::Refined {
             mdh: self.mdh().clone(),
             nominal: Box::new(nominal.definition.clone()),
@@ -64,6 +64,6 @@ impl<const N: usize> Robot<N> {
             return Ok(());
         }
         let (position, rotation) = (off.position, off.rotation);
-        Err(CalibratedFault::Far { position, rotation, bound: [bound * reach, bound] }.into())
+        Err(ModelFault::FarFromNominal { position, rotation, bound: [bound * reach, bound] }.into())
     }
 }

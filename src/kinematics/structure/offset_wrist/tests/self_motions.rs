@@ -56,7 +56,7 @@ fn the_free_joint_is_named_and_moves_along_the_self_motion() {
     let pose = upright(0.8, 0.4);
     for one in &gofa.ik(&pose).unwrap() {
         let free = one.free_joint.unwrap();
-        assert_eq!((free.joint(), free.fixed()), (1, "q2, q3, q4, q5"));
+        assert_eq!((free.joint(), free.fixed()), (1, "q2, q3, q4, q5".into()));
         for value in [-3.0, 0.0, 1.2, 4.0] {
             let moved = gofa.with_free_joint(&pose, one, value).unwrap().unwrap();
             assert_eq!(moved.q[0], value);

@@ -1,0 +1,87 @@
+//! Errors of input. A message names the field, the value, the bound and, where one is likely, the
+//! slip.
+//!
+//! A caller matches [`Error`] and prints the fault inside it: the types of faults have no public
+//! names.
+
+mod input;
+mod lists;
+mod model;
+mod motion;
+#[cfg(feature = "rapid")]
+mod rapid;
+#[cfg(test)]
+mod tests;
+mod urdf;
+
+pub(crate) use self::input::{JointFault, PoseFault};
+pub(crate) use self::lists::Names;
+pub use self::lists::{LeftOut, NoConfiguration, UnknownRobot};
+pub(crate) use self::model::ModelFault;
+pub(crate) use self::motion::{MotionFault, PlanFault};
+#[cfg(feature = "rapid")]
+pub use self::rapid::RapidFault;
+#[cfg(feature = "rapid")]
+pub(crate) use self::rapid::{FrameFault, Missing, RapidFaultKind, RoutineFault};
+pub(crate) use self::urdf::UrdfFault;
+use crate::report::Explanation;
+
+/// Why a call was refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The pose is not a rigid transform.
+    #[error(transparent)]
+    InvalidPose(#[from] PoseFault),
+    /// The joint vector does not fit this arm.
+    #[error(transparent)]
+    InvalidJoints(#[from] JointFault),
+    /// The arm cannot be built, or cannot do what was asked.
+    #[error(transparent)]
+    InvalidModel(#[from] ModelFault),
+    /// An argument of a trajectory or a path is invalid.
+    #[error(transparent)]
+    InvalidMotion(#[from] MotionFault),
+    /// An argument of a plan is invalid.
+    #[error(transparent)]
+    InvalidPlan(#[from] PlanFault),
+    /// The catalog has no arm of that name.
+    #[error(transparent)]
+    UnknownRobot(#[from] UnknownRobot),
+    /// The RAPID text is broken.
+    #[cfg(feature = "rapid")]
+    #[error(transparent)]
+    Rapid(#[from] RapidFault),
+    /// A tool and a work object do not go together, or are not poses.
+    #[cfg(feature = "rapid")]
+    #[error(transparent)]
+    Frame(#[from] FrameFault),
+    /// No solution is inside the limits.
+    #[error("{0}")]
+    Unreachable(Explanation),
+    /// Solutions are inside the limits, none with the configuration that was asked for.
+    #[error(transparent)]
+    NoConfiguration(#[from] NoConfiguration),
+    /// The processor lacks these instructions.
+    #[error("the instruction set \"{name}\" is not supported by this CPU")]
+    NoInstructionSet {
+        /// Name of the set.
+        name: &'static str,
+    },
+    /// A slice of a batch has another number of elements.
+    #[error("{field} has {found} elements, it must have {wanted}")]
+    WrongLength {
+        /// Name of the argument.
+        field: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that it must have.
+        wanted: usize,
+    },
+}
+
+impl From<UrdfFault> for Error {
+    fn from(fault: UrdfFault) -> Self {
+        ModelFault::Urdf(fault).into()
+    }
+}

@@ -1,0 +1,242 @@
+//! The outcome of a solve in a sentence: reach, limits; and ABB's numbers of a solution.
+
+use core::fmt;
+
+use thiserror::Error;
+
+/// Whether the wrist center reaches the pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Reach {
+    /// It does.
+    Reached,
+    /// The pose is beyond the stretched arm.
+    TooFar {
+        /// How far beyond [m].
+        shortfall: f64,
+    },
+    /// The pose is closer than the folded arm, or inside the cylinder of the lateral offset.
+    TooNear {
+        /// How far inside [m].
+        shortfall: f64,
+    },
+    /// The polynomial of an arm without a closed form has no real root. How far the pose is out of
+    /// reach is not known.
+    NoRoots,
+}
+
+impl Reach {
+    /// The distance missing for the wrist center to reach the pose [m]: zero when reached, NaN when
+    /// not known.
+    #[must_use]
+    pub fn shortfall(self) -> f64 {
+        match self {
+            Self::Reached => 0.0,
+            Self::NoRoots => f64::NAN,
+            Self::TooFar { shortfall } | Self::TooNear { shortfall } => shortfall,
+        }
+    }
+
+    /// Return the one of two with the smaller shortfall, `self` if they are equal.
+    pub(crate) fn nearer(self, other: Self) -> Self {
+        if other.shortfall() < self.shortfall() { other } else { self }
+    }
+}
+
+/// How near a robot gets to a pose that it does not reach.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Approach {
+    /// Distance of the tool from the pose [m].
+    pub position: f64,
+    /// Angle between them [rad].
+    pub rotation: f64,
+}
+
+/// One sentence on the outcome of a solve. Joints count from 1; `solutions` are counted without
+/// regard to limits.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Explanation {
+    /// Solutions inside the limits exist.
+    #[error("{}", Found(*.solutions, *.inside))]
+    Found {
+        /// All solutions.
+        solutions: usize,
+        /// Solutions inside the limits.
+        inside: usize,
+    },
+    /// Solutions exist, none inside the limits.
+    #[error(
+        "all {solutions} outside limits; nearest: J{joint} by {:.1} deg", .excess.to_degrees()
+    )]
+    OutsideLimits {
+        /// All solutions.
+        solutions: usize,
+        /// The joint that keeps the best of them out.
+        joint: usize,
+        /// How far that joint is outside [rad].
+        excess: f64,
+    },
+    /// Solutions exist, none inside the limits: only the linkage of coupled axes 2 and 3 keeps the
+    /// best of them out.
+    #[error(
+        "all {solutions} outside limits; nearest: the linkage (q3 - q2) by {:.1} deg",
+        .excess.to_degrees()
+    )]
+    OutsideLinkage {
+        /// All solutions.
+        solutions: usize,
+        /// How far q3 - q2 is outside the limits of the linkage [rad].
+        excess: f64,
+    },
+    /// The wrist center does not reach the pose.
+    #[error("{}", OutOfReach(*.0))]
+    OutOfReach(
+        /// On which side, and by how much.
+        Reach,
+    ),
+    /// The pose leaves a joint free, but the arm does not reach it with that joint at this angle.
+    #[error("the robot does not reach the pose with J{joint} at {:.3} deg", .value.to_degrees())]
+    FreeOutOfReach {
+        /// The free joint.
+        joint: usize,
+        /// Its angle [rad].
+        value: f64,
+    },
+    /// An arm without a closed form has no solution.
+    #[error(
+        "{}{}",
+        if *.certified { NO_ROOTS } else { NOT_CERTAIN }, Nearest(*.approach)
+    )]
+    NoRoots {
+        /// Whether that is certain.
+        certified: bool,
+        /// How near the arm gets, if that was searched.
+        approach: Option<Approach>,
+    },
+    /// Solutions inside the limits exist, none with this arm angle.
+    #[error(
+        "no solution inside the limits has the arm angle {:.3} deg (ik_nearest takes any)",
+        .arm_angle.to_degrees()
+    )]
+    NoArmAngle {
+        /// The arm angle [rad].
+        arm_angle: f64,
+    },
+    /// The caller's filter rejected every solution.
+    #[error("the filter rejected every solution")]
+    FilteredOut,
+}
+
+const NO_ROOTS: &str = "out of reach: no closed form; 0 real roots";
+const NOT_CERTAIN: &str = "no solution found, which is not certain: no closed form";
+
+/// How many solutions there are, and how many of them inside the limits.
+struct Found(usize, usize);
+
+impl fmt::Display for Found {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self(1, 1) => f.write_str("1 solution, inside limits"),
+            Self(solutions, inside) => write!(f, "{solutions} solutions, {inside} inside limits"),
+        }
+    }
+}
+
+/// The end of a sentence: how near the arm gets.
+struct Nearest(Option<Approach>);
+
+impl fmt::Display for Nearest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |Approach { position, rotation }| {
+            let degrees = rotation.to_degrees();
+            write!(f, "; nearest approach {} and {degrees:.1} deg", Millimeters(position))
+        })
+    }
+}
+
+/// The reason of an empty answer.
+struct OutOfReach(Reach);
+
+impl fmt::Display for OutOfReach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let shortfall = self.0.shortfall();
+        let by = Millimeters(shortfall);
+        match self.0 {
+            Reach::NoRoots => f.write_str(NO_ROOTS),
+            Reach::TooNear { .. } => write!(f, "wrist center {by} too near to be reached"),
+            _ if shortfall > FAR_BEYOND => write!(
+                f,
+                "wrist center {by} beyond reach (is the pose in millimeters? meters are wanted)"
+            ),
+            _ => write!(f, "wrist center {by} beyond reach"),
+        }
+    }
+}
+
+/// The distance beyond reach from which a pose is taken for one in millimeters [m]: no arm of the
+/// catalog reaches 5 m, and its poses in millimeters are 100 m away and more.
+const FAR_BEYOND: f64 = 20.0;
+
+/// A length in mm, with a decimal from 0.1 mm on and in scientific notation below.
+struct Millimeters(f64);
+
+impl fmt::Display for Millimeters {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mm = self.0 * 1e3;
+        if mm >= 0.1 { write!(f, "{mm:.1} mm") } else { write!(f, "{mm:.1e} mm") }
+    }
+}
+
+/// ABB's confdata `[cf1, cf4, cf6, cfx]`: quarter turns of axes 1, 4 and 6, and the branch of the
+/// arm.
+///
+/// A quarter turn's number is `floor(angle / 90 deg)`. `cfx` is 4 (wrist center behind axis 1) + 2
+/// (behind the lower arm) + 1 (q5 < 0). Arms of other structures count as their
+/// [`ConfigurationRule`] says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "python",
+    pyo3::pyclass(module = "irbkin", frozen, get_all, sequence, from_py_object)
+)]
+pub struct Configuration {
+    /// Quarter turn of axis 1.
+    pub cf1: i32,
+    /// Quarter turn of axis 4.
+    pub cf4: i32,
+    /// Quarter turn of axis 6.
+    pub cf6: i32,
+    /// The branch of an arm that bends backwards; zero for one with coupled axes 2 and 3.
+    pub cfx: i32,
+}
+
+impl fmt::Display for Configuration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { cf1, cf4, cf6, cfx } = self;
+        write!(f, "[{cf1}, {cf4}, {cf6}, {cfx}]")
+    }
+}
+
+/// How a controller counts the configurations of an arm.
+///
+/// docs/abb.md says how each rule was validated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum ConfigurationRule {
+    /// Six axes with a spherical wrist: cf is the floor of the quarter turns, cfx the slot.
+    SphericalWrist,
+    /// GoFa: cf is the floor of the quarter turns, cfx counts as for a wrist whose center is the
+    /// intersection of axes 4 and 5. A configuration may name two joint vectors of a pose.
+    OffsetWrist,
+    /// YuMi: cf is the nearest number of quarter turns, cfx 4 (q2 < 0) + 2 (q3 below the stretched
+    /// elbow) + 1 (q5 < 0) of ABB's axes 2, 3 and 5. The arm angle completes it.
+    ArmAngle {
+        /// The direction, in the frame before the first link, from which the arm angle counts.
+        reference: [f64; 3],
+    },
+}
