@@ -1,4 +1,5 @@
-//! Cubic splines with continuous second derivative through rows of numbers.
+//! Splines through rows of numbers, cubic and quintic: their pieces by coefficients from the constant
+//! upwards (docs/motion.md, eq. 1 to 3, 9 to 12).
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -13,16 +14,26 @@ pub(crate) enum Ends<'a> {
     NotAKnot,
 }
 
-/// The derivatives of a cubic spline at its knots, by knot and column.
+/// The pieces of a cubic spline with continuous second derivative, by piece and column.
 ///
 /// `points` has a row of `columns` numbers for each of `knots`, of which there are at least two.
-/// The derivatives solve a tridiagonal system, one for all columns (eq. 9, 10 of docs/motion.md).
-pub(crate) fn cubic_slopes(
+pub(crate) fn cubic<const TERMS: usize>(
     knots: &[f64],
     points: &[f64],
     columns: usize,
     ends: Ends<'_>,
-) -> Vec<f64> {
+) -> Vec<[f64; TERMS]> {
+    let slopes = cubic_slopes(knots, points, columns, ends);
+    pieces(knots, columns, |[start, end], length| {
+        let [positions, slopes] = [points, &slopes].map(|rows| [rows[start], rows[end]]);
+        hermite(positions, slopes, length)
+    })
+}
+
+/// The derivatives of a cubic spline at its knots, by knot and column.
+///
+/// They solve a tridiagonal system, one for all columns (eq. 9, 10).
+fn cubic_slopes(knots: &[f64], points: &[f64], columns: usize, ends: Ends<'_>) -> Vec<f64> {
     let system = System { knots, points, columns, ends };
     let last = knots.len() - 1;
     // Thomas' elimination: what is left of a row is x = side - factor * x of the next one.
@@ -45,8 +56,7 @@ pub(crate) fn cubic_slopes(
     sides
 }
 
-/// The cubic over a length between two positions with slopes: its coefficients from the constant
-/// upwards (eq. 3).
+/// The cubic over a length between two positions with slopes: its coefficients (eq. 3).
 #[inline]
 pub(crate) fn hermite(positions: [f64; 2], slopes: [f64; 2], length: f64) -> [f64; 4] {
     let ([start, end], [first, last]) = (positions, slopes);
@@ -121,4 +131,109 @@ impl System<'_> {
             }
         }
     }
+}
+
+/// A row of two equations of the derivatives.
+type Block = [[f64; 2]; 2];
+
+/// The pieces of a quintic spline, at rest at both ends, whose first four derivatives are
+/// continuous.
+///
+/// Velocity and acceleration at the inner knots solve a block tridiagonal system (eq. 11, 12).
+pub(crate) fn quintic<const TERMS: usize>(
+    knots: &[f64],
+    points: &[f64],
+    columns: usize,
+) -> Vec<[f64; TERMS]> {
+    let count = knots.len();
+    let way = |piece: usize, column: usize| {
+        points[(piece + 1) * columns + column] - points[piece * columns + column]
+    };
+    // The elimination of what is left of each inner knot: x = side - factor * x of the next one.
+    let mut factors: Vec<Block> = vec![[[0.0; 2]; 2]; count];
+    let mut states = vec![[0.0; 2]; count * columns];
+    for knot in 1..count - 1 {
+        let (l, r) = (knots[knot] - knots[knot - 1], knots[knot + 1] - knots[knot]);
+        let (l2, r2) = (l * l, r * r);
+        let (l3, r3) = (l2 * l, r2 * r);
+        let left = [[-24.0 / l2, -3.0 / l], [-168.0 / l3, -24.0 / l2]];
+        let middle = [
+            [-36.0 / l2 + 36.0 / r2, 9.0 / l + 9.0 / r],
+            [-192.0 / l3 - 192.0 / r3, 36.0 / l2 - 36.0 / r2],
+        ];
+        let right = [[24.0 / r2, -3.0 / r], [-168.0 / r3, 24.0 / r2]];
+        let pivot = inverse(minus(middle, product(left, factors[knot - 1])));
+        factors[knot] = product(pivot, right);
+        for column in 0..columns {
+            let (before, after) = (way(knot - 1, column), way(knot, column));
+            let side = [
+                60.0 * (after / r3 - before / l3),
+                -360.0 * (after / (r3 * r) + before / (l3 * l)),
+            ];
+            let known = applied(left, states[(knot - 1) * columns + column]);
+            states[knot * columns + column] =
+                applied(pivot, [side[0] - known[0], side[1] - known[1]]);
+        }
+    }
+    for knot in (1..count - 1).rev() {
+        for column in 0..columns {
+            let next = applied(factors[knot], states[(knot + 1) * columns + column]);
+            let state = &mut states[knot * columns + column];
+            *state = [state[0] - next[0], state[1] - next[1]];
+        }
+    }
+    pieces(knots, columns, |ends, length| {
+        let [start, end] = ends.map(|index| [points[index], states[index][0], states[index][1]]);
+        quintic_between(start, end, length)
+    })
+}
+
+/// The quintic over a length between two positions with velocities and accelerations: its
+/// coefficients (eq. 1, 2).
+#[inline]
+pub(crate) fn quintic_between(start: [f64; 3], end: [f64; 3], length: f64) -> [f64; 6] {
+    let ([p, v, a], t) = (start, length);
+    // The remainder for the three free terms after the terms that the start fixes.
+    let position = end[0] - p - t * (v + 0.5 * t * a);
+    let velocity = t * (end[1] - v - t * a);
+    let acceleration = 0.5 * t * t * (end[2] - a);
+    let c3 = (10.0 * position - 4.0 * velocity + acceleration) / (t * t * t);
+    let c4 = (-15.0 * position + 7.0 * velocity - 2.0 * acceleration) / (t * t * t * t);
+    let c5 = (6.0 * position - 3.0 * velocity + acceleration) / (t * t * t * t * t);
+    [p, v, 0.5 * a, c3, c4, c5]
+}
+
+/// The pieces of a spline: of each column, between the numbers at two indices, over a length.
+fn pieces<const N: usize, const TERMS: usize>(
+    knots: &[f64],
+    columns: usize,
+    piece: impl Fn([usize; 2], f64) -> [f64; N],
+) -> Vec<[f64; TERMS]> {
+    let mut pieces = Vec::with_capacity((knots.len() - 1) * columns);
+    for (knot, ends) in knots.windows(2).enumerate() {
+        for start in knot * columns..(knot + 1) * columns {
+            let mut terms = [0.0; TERMS];
+            terms[..N].copy_from_slice(&piece([start, start + columns], ends[1] - ends[0]));
+            pieces.push(terms);
+        }
+    }
+    pieces
+}
+
+fn product(a: Block, b: Block) -> Block {
+    let element = |row: usize, column: usize| a[row][0] * b[0][column] + a[row][1] * b[1][column];
+    [[element(0, 0), element(0, 1)], [element(1, 0), element(1, 1)]]
+}
+
+fn minus(a: Block, b: Block) -> Block {
+    [[a[0][0] - b[0][0], a[0][1] - b[0][1]], [a[1][0] - b[1][0], a[1][1] - b[1][1]]]
+}
+
+fn inverse([[a, b], [c, d]]: Block) -> Block {
+    let determinant = a * d - b * c;
+    [[d / determinant, -b / determinant], [-c / determinant, a / determinant]]
+}
+
+fn applied(a: Block, x: [f64; 2]) -> [f64; 2] {
+    [a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1]]
 }

@@ -1178,7 +1178,9 @@ class Robot:
         largest joint velocity relative to `max_velocity` (1 rad/s where that is not known). Of
         those, that with the smallest weighted sum of squared joint steps and of what being near
         limits and singularities costs; `order` makes the sum come first. Both are exact over the
-        tool angles of `rotation`, which are then refined around the best ones, to half a degree.
+        tool angles of `rotation`, which are then refined around the best ones, to half a degree. A
+        path of 64 poses or more with free axes is planned along some of its poses first, then in
+        bands around that plan.
         Every step of the answer is shown to be continuous between its two poses.
 
         Args:

@@ -293,9 +293,9 @@ pub(crate) const MOST_AXIS_STEPS: usize = 1001;
 /// Most external axes of a plan [1]: a track and a positioner of two axes.
 pub(crate) const MOST_EXTERNAL: usize = 3;
 
-/// Most axes beside the tool angle that are free in a plan [1]: [`MOST_EXTERNAL`], two of a cone
-/// and an offset.
-pub(crate) const MOST_FREE_AXES: usize = MOST_EXTERNAL + 3;
+/// Most axes that are free in a plan [1]: [`MOST_EXTERNAL`], two of a cone, an offset and the tool
+/// angle.
+pub(crate) const MOST_FREE_AXES: usize = MOST_EXTERNAL + 4;
 
 /// Largest value of an external axis [m, rad].
 pub(crate) const MOST_EXTERNAL_VALUE: f64 = 1000.0;

@@ -8,26 +8,26 @@ use nalgebra::{Rotation3, Translation3, Unit, Vector3};
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
+use super::line::Turn;
 use super::line::part;
 use super::spacing::Spacing;
-use super::turn::Turn;
 use crate::error::{Error, MotionFault};
 use crate::kinematics::thresholds::LEAST_BEND;
 use crate::kinematics::{Pose, checked_pose};
 
-/// What the tool's orientation does along an arc; ABB's names are those of CirPathMode.
+/// The orientation of the tool along an arc; ABB's names are values of CirPathMode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ArcOrientation {
-    /// It turns evenly relative to the path (ABB: \PathFrame). That of the second pose is not
+    /// It turns evenly relative to the path (ABB: \PathFrame). The second pose's is not
     /// regarded.
     #[default]
     Path,
-    /// It turns evenly relative to the base (ABB: \ObjectFrame). That of the second pose is not
+    /// It turns evenly relative to the base (ABB: \ObjectFrame). The second pose's is not
     /// regarded.
     Object,
-    /// It turns evenly to that of the second pose, then to that of the third (ABB: \CirPointOri).
+    /// It turns evenly to the second pose's, then to the third's (ABB: \CirPointOri).
     Via,
 }
 

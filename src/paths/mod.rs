@@ -12,23 +12,17 @@
 //! ```
 
 mod arc;
-pub(crate) mod corner;
-mod curve;
-pub(crate) mod leg;
 pub(crate) mod line;
-mod polyline;
+pub(crate) mod polyline;
 mod spacing;
 mod spline;
-mod turn;
-pub(crate) mod zone;
 
 pub use arc::{ArcOrientation, arc};
+pub(crate) use line::Turn;
 pub use line::line;
-pub use polyline::{corner_distance, polyline};
+pub use polyline::{Zone, corner_distance, polyline};
 pub use spacing::Spacing;
 pub use spline::spline;
-pub(crate) use turn::Turn;
-pub use zone::Zone;
 
 #[cfg(test)]
 mod spline_tests;

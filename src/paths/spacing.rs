@@ -52,7 +52,7 @@ impl Spacing {
 
     /// Steps that the tool takes in a period [s] at a speed [m/s], in which it turns by at most an
     /// angle [rad]: [`Self::step`] of `speed * period`. So poses a period apart move the tool at
-    /// that speed or, where its way is no whole number of steps, a little slower.
+    /// that speed or, where its way has a fraction of a step, a little slower.
     ///
     /// # Errors
     ///

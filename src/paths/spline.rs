@@ -2,24 +2,47 @@
 
 use alloc::vec::Vec;
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
 use nalgebra::Vector3;
 
-use super::curve::Curve;
+use super::line::Turn;
 use super::line::{line, part};
 use super::spacing::Spacing;
-use super::turn::Turn;
 use crate::error::{Error, MotionFault};
 use crate::kinematics::thresholds::{LEAST_TURN, LEAST_WAY};
 use crate::kinematics::{Pose, PoseDifference, checked_pose};
-use crate::spline::{Ends, cubic_slopes};
+use crate::spline::{Ends, cubic};
 
 /// Parts of a span in which the rate of its turn is measured.
 const RATE_PARTS: usize = 16;
 
-/// What the largest rate of a turn may exceed that of the parts by, as a part of its excess over
+/// Excess of the largest rate of a turn over the largest of the parts, as a part of its excess over
 /// the mean rate [1]: the rate of the blend (27), as (1 - x^2)^2, falls by a hundredth within the
 /// part next to its top.
 const RATE_MARGIN: f64 = 0.05;
+
+/// Even parts of a curve, in each of which its speed has one place at most where it is least: there
+/// a curve that nearly stops has a kink of its speed.
+const PARTS: usize = 16;
+
+/// Most places at which the speed of a cubic is least.
+const MOST_SLOW: usize = 3;
+
+/// Panels, over each of which the length is a sum of five terms: the parts, cut at those places.
+const PANELS: usize = PARTS + MOST_SLOW;
+
+/// Halvings that bring a bracket of a place to the last digit.
+const HALVINGS: usize = 53;
+
+/// Rounds of Newton's iteration for a place on a curve: it converges in three or four, and halving
+/// a panel replaces a step that leaves its bracket.
+const MOST_ROUNDS: usize = 60;
+
+/// Gauss' five places in -1 .. 1, one side, and their weights.
+const PLACES: [f64; 3] = [0.0, 0.538_469_310_105_683_1, 0.906_179_845_938_664];
+const WEIGHTS: [f64; 3] =
+    [0.568_888_888_888_888_9, 0.478_628_670_499_366_47, 0.236_926_885_056_189_1];
 
 /// Poses along a smooth curve through poses, all of which are met.
 ///
@@ -104,18 +127,10 @@ fn add_run(poses: &[Pose], indices: &[usize], spans: &mut Vec<Span>) -> Result<(
     }
     let points: Vec<f64> =
         poses.iter().flat_map(|pose| pose.translation.vector.data.0[0]).collect();
-    let slopes = cubic_slopes(&knots, &points, 3, Ends::NotAKnot);
-    let row = |rows: &[f64], knot: usize| Vector3::from_column_slice(&rows[3 * knot..][..3]);
-    let curves: Vec<Curve> = knots
-        .windows(2)
-        .enumerate()
-        .map(|(span, ends)| {
-            let both = [span, span + 1];
-            let (points, slopes) =
-                (both.map(|knot| row(&points, knot)), both.map(|knot| row(&slopes, knot)));
-            Curve::new(points, slopes, ends[1] - ends[0])
-        })
-        .collect();
+    let pieces: Vec<[f64; 4]> = cubic(&knots, &points, 3, Ends::NotAKnot);
+    let spans_of_run = knots.windows(2).zip(pieces.chunks_exact(3));
+    let curves: Vec<Curve> =
+        spans_of_run.map(|(ends, pieces)| Curve::new(pieces, ends[1] - ends[0])).collect();
     let turns: Vec<Vector3<f64>> = poses
         .windows(2)
         .zip(&indices[1..])
@@ -205,4 +220,126 @@ impl Span {
 /// From 0 to 1 with two derivatives that are zero at both ends (eq. 27).
 fn blend(part: f64) -> f64 {
     part * part * part * (10.0 + part * (6.0 * part - 15.0))
+}
+
+/// A cubic in space with a parameter from 0 to 1, by its length.
+#[derive(Clone)]
+struct Curve {
+    terms: [Vector3<f64>; 4],
+    /// Where the panels begin, and the end.
+    edges: [f64; PANELS + 1],
+    /// Lengths up to the end of each panel [m] (eq. 24).
+    lengths: [f64; PANELS],
+}
+
+impl Curve {
+    /// The cubic whose coordinates have these coefficients over a range of a parameter.
+    fn new(pieces: &[[f64; 4]], range: f64) -> Self {
+        let mut power = 1.0;
+        let terms = core::array::from_fn(|order| {
+            let term = Vector3::from_fn(|axis, _| pieces[axis][order] * power);
+            power *= range;
+            term
+        });
+        let mut curve = Self { terms, edges: [1.0; PANELS + 1], lengths: [0.0; PANELS] };
+        for part in 0..PARTS {
+            curve.edges[part] = even(part);
+        }
+        let mut next = PARTS;
+        for part in 0..PARTS {
+            if let Some(place) = curve.slowest(even(part), even(part + 1))
+                && next < PANELS
+            {
+                curve.edges[next] = place;
+                next += 1;
+            }
+        }
+        curve.edges.sort_unstable_by(f64::total_cmp);
+        let mut sum = 0.0;
+        for panel in 0..PANELS {
+            sum += curve.between(curve.edges[panel], curve.edges[panel + 1]);
+            curve.lengths[panel] = sum;
+        }
+        curve
+    }
+
+    /// The place between two others at which the speed is least.
+    fn slowest(&self, mut low: f64, mut high: f64) -> Option<f64> {
+        let [_, c1, c2, c3] = self.terms;
+        // Half of the derivative of the speed's square.
+        let growth = |u: f64| {
+            let first = c1 + (c2 * 2.0 + c3 * (3.0 * u)) * u;
+            first.dot(&(c2 * 2.0 + c3 * (6.0 * u)))
+        };
+        if !(growth(low) < 0.0 && growth(high) > 0.0) {
+            return None;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if growth(middle) < 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(high)
+    }
+
+    /// Length [m].
+    fn length(&self) -> f64 {
+        self.lengths[PANELS - 1]
+    }
+
+    /// The point at a part of the length, 0 to 1.
+    fn at(&self, part: f64) -> Vector3<f64> {
+        let [c0, c1, c2, c3] = self.terms;
+        let u = self.parameter(part * self.length());
+        c0 + (c1 + (c2 + c3 * u) * u) * u
+    }
+
+    fn speed(&self, u: f64) -> f64 {
+        let [_, c1, c2, c3] = self.terms;
+        (c1 + (c2 * 2.0 + c3 * (3.0 * u)) * u).norm()
+    }
+
+    /// The length between two parameters, by Gauss' rule.
+    fn between(&self, start: f64, end: f64) -> f64 {
+        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+        let both =
+            |place: f64| self.speed(middle - half * place) + self.speed(middle + half * place);
+        let outer = WEIGHTS[1] * both(PLACES[1]) + WEIGHTS[2] * both(PLACES[2]);
+        half * (WEIGHTS[0] * self.speed(middle) + outer)
+    }
+
+    /// The parameter at a length.
+    fn parameter(&self, length: f64) -> f64 {
+        let panel = self.lengths[..PANELS - 1].partition_point(|end| *end <= length);
+        let before = if panel == 0 { 0.0 } else { self.lengths[panel - 1] };
+        let start = self.edges[panel];
+        let (mut low, mut high) = (start, self.edges[panel + 1]);
+        let rest = length - before;
+        let part = rest / (self.lengths[panel] - before);
+        // A curve without length is at one place all along.
+        let mut u = if part.is_nan() { low } else { low + (high - low) * part };
+        for _ in 0..MOST_ROUNDS {
+            let off = self.between(start, u) - rest;
+            if off.abs() <= f64::EPSILON * self.length() {
+                break;
+            }
+            if off > 0.0 {
+                high = u;
+            } else {
+                low = u;
+            }
+            let next = u - off / self.speed(u);
+            u = if low < next && next < high { next } else { 0.5 * (low + high) };
+        }
+        u
+    }
+}
+
+/// Where an even part begins.
+#[expect(clippy::cast_precision_loss, reason = "a small count")]
+fn even(part: usize) -> f64 {
+    part as f64 / PARTS as f64
 }

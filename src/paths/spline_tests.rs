@@ -4,9 +4,9 @@ use std::vec::Vec;
 
 use nalgebra::{Rotation3, Translation3, Vector3};
 
+use super::line::Turn;
 use super::spline::{Span, spans};
 use super::tests::{apart, random, skew};
-use super::turn::Turn;
 use super::*;
 use crate::kinematics::{Pose, PoseDifference};
 use crate::rng::Rng;

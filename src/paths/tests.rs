@@ -181,8 +181,7 @@ fn zones_are_those_of_abb() {
 #[cfg(feature = "rapid")]
 #[test]
 fn a_corner_between_a_line_and_an_arc_has_no_kink() {
-    use super::corner::{Corner, Rounded};
-    use super::leg::Leg;
+    use super::polyline::{Corner, Leg, Rounded};
     let mut rng = Rng::new(31);
     for _ in 0..200 {
         let [a, b, c, d] = [(); 4].map(|()| random(&mut rng));

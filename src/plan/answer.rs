@@ -1,4 +1,4 @@
-//! What a plan answers.
+//! The answer of a plan: joints at each pose, breaks, and the reasons for them.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -19,7 +19,7 @@ pub struct Plan {
     /// The values of the external axes at each pose [m, rad]; none where a plan with breaks has no
     /// joint angles.
     pub external: Vec<Vec<f64>>,
-    /// What is used of the tolerances at each pose: the tilts about the two axes that the tool does
+    /// The part of the tolerances that is used at each pose: the tilts about the two axes that the tool does
     /// not point in [rad], if there is a cone, then the offset [m], if there is one.
     pub tolerance: Vec<Vec<f64>>,
     /// The slot of the branch at each pose.
@@ -85,7 +85,7 @@ pub enum StrandReason {
         /// Its velocity as a part of the limit.
         ratio: f64,
     },
-    /// The joint would turn while the tool does not move, or the way leads out of reach between two
+    /// The joint would turn while the tool does not move, or the path leads out of reach between two
     /// poses.
     Jump {
         /// The joint, from 1.
@@ -120,7 +120,7 @@ pub struct NoPlan {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// What was asked for does not fit.
+    /// The path or the options are invalid.
     Invalid(Error),
     /// The path cannot be followed without a break.
     NoPlan(Box<NoPlan>),

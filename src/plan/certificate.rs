@@ -1,19 +1,17 @@
-//! Whether an arm can go from node to node without a jump: the steps of a way are halved until they
-//! shrink, as those of `follow` are (docs/plan.md, eq. 8).
+//! Whether an arm can go from node to node without a jump: the steps of a joint path are halved until
+//! they shrink, as `follow` does (docs/plan.md, eq. 8).
 
 use alloc::vec;
 use alloc::vec::Vec;
 
 use nalgebra::Translation3;
 
-use super::freedom::Values;
-use super::layer::{Grid, Layer, Node};
+use super::graph::{Grid, Layer, Node, Values};
 use super::nodes::Arm;
-use super::way::Way;
 use crate::kinematics::thresholds::{CONTINUOUS_STEP, EXAMINED_STEP};
 use crate::kinematics::{Pose, Slot, Solution, Status, largest, nearest_turn, pose_to_rows, steps};
 
-/// How often a step is halved in search of a continuous way: down to a millionth of it.
+/// How often a step is halved in search of a continuous motion: down to a millionth of it.
 pub(super) const HALVINGS: u32 = 20;
 
 /// How much of a step its halves may have [1].
@@ -33,57 +31,51 @@ const AT_FOLD: f64 = 1e-4;
 /// Motion in which a branch may pass into another, through the singularity that they share [rad].
 const AT_CHANGE: f64 = 1e-5;
 
-/// How far a way that was followed may end from the joint angles that it leads to [rad].
+/// How far a step that was followed may end from the joint angles that it leads to [rad].
 pub(super) const ARRIVED: f64 = 1e-6;
 
-/// What is between two nodes.
+/// The motion between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Between {
     /// A continuous motion.
     Continuous,
     /// A continuous motion that leads elsewhere: to another turn or branch.
     Elsewhere,
-    /// A jump, or a part of the way that no joint vector inside the limits reaches.
+    /// A jump, or a part that no joint vector inside the limits reaches.
     Jump,
 }
 
 /// Two nodes of neighboring layers, with joint angles whose difference is the step.
 #[derive(Clone, Copy)]
-pub(super) struct Hop<'a> {
+pub(super) struct Step<'a> {
     layers: [&'a Layer; 2],
     nodes: [Node; 2],
     q: [[f64; 6]; 2],
-    angles: [f64; 2],
     values: [Values; 2],
 }
 
-impl<'a> Hop<'a> {
+impl<'a> Step<'a> {
     pub(super) fn new(
-        arm: &Arm<'_>,
         grid: &Grid,
         layers: [&'a Layer; 2],
         nodes: [Node; 2],
         q: [[f64; 6]; 2],
     ) -> Self {
-        let [first, second] = [0, 1].map(|end| layers[end].tool_angle(grid, nodes[end].bin));
-        let turn = arm.freedom.angle_step(first, second);
-        let values = [0, 1].map(|end| layers[end].values(grid, nodes[end].station));
-        Self { layers, nodes, q, angles: [first, first + turn], values }
+        let values = [0, 1].map(|end| layers[end].values(grid, nodes[end].cell));
+        Self { layers, nodes, q, values }
     }
 
-    /// The pose of the tool at a part of the way, 0 to 1: straight, at an even rate of rotation.
+    /// The pose of the tool at a part of the step, 0 to 1: straight, at an even rate of rotation.
     fn pose(&self, arm: &Arm<'_>, part: f64) -> Pose {
-        let [first, last] = self.angles;
         let [from, to] = &self.values;
-        let values = core::array::from_fn(|axis| from[axis] + part * (to[axis] - from[axis]));
-        arm.freedom.tool(&self.path_pose(part), &values, first + part * (last - first))
+        arm.freedom.tool(&self.path_pose(part), &arm.freedom.between(from, to, part))
     }
 
     fn path_pose(&self, part: f64) -> Pose {
         let [from, to] = self.layers;
         let rotation = to.turn.map_or(from.pose.rotation, |turn| turn.at(part));
-        let way = to.pose.translation.vector - from.pose.translation.vector;
-        Pose::from_parts(Translation3::from(from.pose.translation.vector + way * part), rotation)
+        let shift = to.pose.translation.vector - from.pose.translation.vector;
+        Pose::from_parts(Translation3::from(from.pose.translation.vector + shift * part), rotation)
     }
 
     /// The pose half way, without the turn of the tool.
@@ -91,19 +83,19 @@ impl<'a> Hop<'a> {
         self.path_pose(0.5)
     }
 
-    fn step(&self) -> f64 {
+    fn size(&self) -> f64 {
         largest(&steps(&self.q[0], &self.q[1]))
     }
 
-    /// Whether the branch has, half way, joint angles between those of both nodes (eq. 8). Where it
-    /// has not, the way has to be followed.
+    /// Whether the branch has, half way, joint angles between both nodes (eq. 8). Where it
+    /// has not, the step has to be followed.
     fn is_halved_by(&self, arm: &Arm<'_>, grid: &Grid, q: &[[f64; 6]], status: &[u8]) -> bool {
         let [from, to] = &self.q;
         let slot = self.nodes[0].slot;
         if slot != self.nodes[1].slot || status[slot] & Status::WITHIN_LIMITS.bits() == 0 {
             return false;
         }
-        let whole = self.step();
+        let whole = self.size();
         let middle = core::array::from_fn(|joint| nearest_turn(q[slot][joint], from[joint]));
         let bound = (HALF * whole).max(CONTINUOUS_STEP);
         whole <= EXAMINED_STEP
@@ -126,7 +118,7 @@ impl<'a> Hop<'a> {
     /// Follow the branch from the first node to the second, in steps that are halved until they are
     /// small; a jump does not shrink.
     pub(super) fn followed(&self, arm: &Arm<'_>) -> Between {
-        let bound = (self.step() / 4.0).clamp(CONTINUOUS_STEP, EXAMINED_STEP);
+        let bound = (self.size() / 4.0).clamp(CONTINUOUS_STEP, EXAMINED_STEP);
         match self.end(arm, bound, arm.has_names()) {
             None => Between::Jump,
             Some(q) if largest(&steps(&q, &self.q[1])) <= ARRIVED => Between::Continuous,
@@ -139,7 +131,11 @@ impl<'a> Hop<'a> {
     /// through the singularity that they share.
     pub(super) fn end(&self, arm: &Arm<'_>, bound: f64, at_folds: bool) -> Option<[f64; 6]> {
         let (mut q, mut slot) = (self.q[0], Slot::new(self.nodes[0].slot));
-        let mut room = if at_folds { arm.room(&self.pose(arm, 0.0), &q) } else { f64::INFINITY };
+        let mut clear = if at_folds {
+            arm.distance_of_branches(&self.pose(arm, 0.0), &q)
+        } else {
+            f64::INFINITY
+        };
         let widest = if arm.has_names() { 1.0 } else { WIDEST_OF_ORDINALS };
         let (mut done, mut width, mut depth) = (0.0, widest, 0);
         while done < 1.0 {
@@ -147,14 +143,18 @@ impl<'a> Hop<'a> {
             let nearest = arm.robot.ik_nearest(&self.pose(arm, end), &q, &[1.0; 6]);
             let next = nearest.ok().and_then(|Solution { q: next, slot: at, .. }| {
                 let moved = largest(&steps(&q, &next));
-                let ahead = if at_folds { arm.room(&self.pose(arm, end), &next) } else { room };
+                let ahead = if at_folds {
+                    arm.distance_of_branches(&self.pose(arm, end), &next)
+                } else {
+                    clear
+                };
                 let is_change = at_folds && at != slot && moved > AT_CHANGE;
-                let is_clear = moved <= (OF_FOLD * (room + ahead)).max(AT_FOLD) && !is_change;
+                let is_clear = moved <= (OF_FOLD * (clear + ahead)).max(AT_FOLD) && !is_change;
                 (moved <= bound && is_clear).then_some((next, at, ahead))
             });
             match next {
                 Some((next, at, ahead)) => {
-                    (q, slot, room, done) = (next, at, ahead, end);
+                    (q, slot, clear, done) = (next, at, ahead, end);
                     if depth > 0 {
                         (width, depth) = (width * 2.0, depth - 1);
                     }
@@ -174,7 +174,7 @@ fn are_within(distance: f64, q: &[f64; 6], other: &[f64; 6]) -> bool {
 
 impl Arm<'_> {
     /// How far the other branches are from a joint vector at a pose, the nearest one [rad].
-    fn room(&self, pose: &Pose, q: &[f64; 6]) -> f64 {
+    fn distance_of_branches(&self, pose: &Pose, q: &[f64; 6]) -> f64 {
         let Ok(solutions) = self.robot.ik(pose) else { return f64::INFINITY };
         let apart = |other: [f64; 6]| {
             let parts = other.iter().zip(q).map(|(other, q)| (nearest_turn(*other, *q) - q).abs());
@@ -189,44 +189,49 @@ impl Arm<'_> {
         two[1]
     }
 
-    /// The steps of a way that are not continuous, by the layer that they lead to. Not all, if the
-    /// caller stops it.
-    pub(super) fn doubts(&self, grid: &Grid, layers: &[Layer], way: &Way) -> Vec<(usize, Between)> {
-        /// Steps that are looked at together, of named slots and of ordinals: those are followed.
+    /// The steps along nodes of `layers` that are not continuous, by the number of
+    /// the node that they lead to. Not all, if the caller stops it.
+    pub(super) fn discontinuities(
+        &self,
+        grid: &Grid,
+        layers: &[Layer],
+        (nodes, q): (&[Node], &[[f64; 6]]),
+    ) -> Vec<(usize, Between)> {
+        /// Steps that are examined together, of named slots and of ordinals, which are followed.
         const PARTS: [usize; 2] = [512, 16];
         let has_names = self.has_names();
         let count = PARTS[usize::from(!has_names)];
-        let mut doubts = Vec::new();
-        let mut q = vec![0.0; count * grid.slots * 6];
+        let mut found = Vec::new();
+        let mut solved = vec![0.0; count * grid.slots * 6];
         let mut status = vec![0; count * grid.slots];
-        let hops = (1..way.nodes.len()).map(|step| {
-            let layer = way.from + step;
-            let nodes = [way.nodes[step - 1], way.nodes[step]];
-            let q = [way.q[step - 1], way.q[step]];
-            (layer, Hop::new(self, grid, [&layers[layer - 1], &layers[layer]], nodes, q))
-        });
-        let mut part: Vec<(usize, Hop<'_>)> = Vec::with_capacity(count);
+        let mut part: Vec<(usize, Step<'_>)> = Vec::with_capacity(count);
         let mut poses = Vec::with_capacity(count);
-        let mut hops = hops.peekable();
-        while hops.peek().is_some() && self.watch.goes_on() {
+        let mut steps = (1..nodes.len()).map(|at| {
+            let (layers, nodes) = ([&layers[at - 1], &layers[at]], [nodes[at - 1], nodes[at]]);
+            (at, Step::new(grid, layers, nodes, [q[at - 1], q[at]]))
+        });
+        while self.watch.goes_on() {
             part.clear();
-            part.extend(hops.by_ref().take(count));
+            part.extend(steps.by_ref().take(count));
+            if part.is_empty() {
+                break;
+            }
             if has_names {
                 poses.clear();
-                poses.extend(part.iter().map(|(_, hop)| pose_to_rows(&hop.pose(self, 0.5))));
-                self.solve_part(&poses, &mut q, &mut status);
+                poses.extend(part.iter().map(|(_, step)| pose_to_rows(&step.pose(self, 0.5))));
+                self.solve_part(&poses, &mut solved, &mut status);
             }
-            let rows = q.as_chunks::<6>().0.chunks(grid.slots).zip(status.chunks(grid.slots));
-            for ((layer, hop), (q, status)) in part.iter().zip(rows) {
-                if has_names && hop.is_halved_by(self, grid, q, status) {
+            let rows = solved.as_chunks::<6>().0.chunks(grid.slots);
+            for ((at, step), (q, status)) in part.iter().zip(rows.zip(status.chunks(grid.slots))) {
+                if has_names && step.is_halved_by(self, grid, q, status) {
                     continue;
                 }
-                match hop.followed(self) {
+                match step.followed(self) {
                     Between::Continuous => {}
-                    doubt => doubts.push((*layer, doubt)),
+                    between => found.push((*at, between)),
                 }
             }
         }
-        doubts
+        found
     }
 }

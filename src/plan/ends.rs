@@ -2,11 +2,9 @@
 
 use core::f64::consts::TAU;
 
-use super::freedom::Values;
-use super::layer::{Own, Waypoint};
+use super::graph::{Own, Values, Waypoint};
 use super::nodes::Arm;
 use super::options::PlanOptions;
-use super::stations::Stations;
 use crate::error::{Error, PlanFault};
 use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_FREE_AXES, PLAN_END_OFF};
 use crate::kinematics::{Pose, PoseDifference, check_seed, nearest_turn};
@@ -59,75 +57,57 @@ impl Given {
         let mut values = Values::default();
         values[..external.len()].copy_from_slice(external);
         let tool = arm.robot.fk(q);
-        let (angle, values) = arm.freedom.found(pose, &tool, values);
-        let turned = arm.freedom.tool(pose, &values, angle);
-        let PoseDifference { position, rotation } = PoseDifference::between(&turned, &tool);
+        let mut values = arm.freedom.nearest(pose, &tool, values);
+        let met = arm.freedom.tool(pose, &values);
+        let PoseDifference { position, rotation } = PoseDifference::between(&met, &tool);
         if position.max(rotation) > PLAN_END_OFF {
             let bound = PLAN_END_OFF;
             return Err(PlanFault::EndOff { field, position, rotation, bound }.into());
         }
-        let station = station(arm, field, &values)?;
-        let (bin, angle) = Self::bin(arm, field, angle)?;
+        let cell = nearest_cell(arm, field, &mut values)?;
         let slot = match arm.robot.slot_of(q) {
             Some(slot) => slot.index(),
             None => arm.ordinal(q)?,
         };
-        Ok(Self { q: *q, slot, own: Own { station, bin, angle, values } })
-    }
-
-    /// The bin nearest to a tool angle, and the angle next to that of the bin.
-    fn bin(arm: &Arm<'_>, field: &'static str, angle: f64) -> Result<(usize, f64), Error> {
-        let Some(rotation) = arm.freedom.rotation else { return Ok((0, angle)) };
-        let [lower, upper] = rotation.range();
-        let middle = 0.5 * (lower + upper);
-        let angle = nearest_turn(angle, middle);
-        if angle < lower - PLAN_END_OFF || angle > upper + PLAN_END_OFF {
-            return Err(PlanFault::EndAngle { field, angle, bounds: [lower, upper] }.into());
-        }
-        if rotation.steps() == 1 {
-            return Ok((0, angle));
-        }
-        let number = nearest_whole((angle - lower) / rotation.step()).max(0.0);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "at most the number of tool angles"
-        )]
-        let number = number as usize;
-        // The upper end of a full turn is its lower one.
-        let over = number >= rotation.steps();
-        if over && rotation.is_full() {
-            return Ok((number - rotation.steps(), angle - TAU));
-        }
-        Ok((number.min(rotation.steps() - 1), angle))
+        Ok(Self { q: *q, slot, own: Own { cell, values } })
     }
 }
 
-/// The station nearest to values of the free axes.
-fn station(arm: &Arm<'_>, field: &'static str, values: &Values) -> Result<usize, Error> {
+/// The cell nearest to values of the free axes; a tool angle becomes the one next to its cell.
+fn nearest_cell(arm: &Arm<'_>, field: &'static str, values: &mut Values) -> Result<usize, Error> {
     let mut numbers = [0; MOST_FREE_AXES];
     for (index, axis) in arm.freedom.axes.iter().enumerate() {
         let [lower, upper] = axis.range;
+        if axis.is_rotation() {
+            values[index] = nearest_turn(values[index], 0.5 * (lower + upper));
+        }
         let value = values[index];
         // NaN is in no range.
-        let is_inside = value >= lower - PLAN_END_OFF && value <= upper + PLAN_END_OFF;
-        if !is_inside {
+        if !(lower - PLAN_END_OFF..=upper + PLAN_END_OFF).contains(&value) {
             let bounds = [lower, upper];
-            return Err(PlanFault::EndValue { field, index, value, bounds }.into());
+            return Err(if axis.is_rotation() {
+                PlanFault::EndAngle { field, angle: value, bounds }.into()
+            } else {
+                PlanFault::EndValue { field, index, value, bounds }.into()
+            });
         }
-        let number = nearest_whole((value - lower) / axis.step()).max(0.0);
+        let number = if axis.steps > 1 { (value - lower) / axis.step() } else { 0.0 };
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "at most the number of values"
         )]
-        let number = number as usize;
+        let number = nearest_whole(number).max(0.0) as usize;
         numbers[index] = number.min(axis.steps - 1);
+        // The upper end of a full turn is its lower one.
+        if axis.is_cyclic && number >= axis.steps {
+            (numbers[index], values[index]) = (number - axis.steps, value - TAU);
+        }
     }
-    if !arm.freedom.allows(values) {
-        let rotation = arm.freedom.tilt(values) - arm.freedom.cone;
+    let rotation = arm.freedom.tilt(values) - arm.freedom.cone;
+    if rotation > PLAN_END_OFF {
         let (position, bound) = (0.0, PLAN_END_OFF);
         return Err(PlanFault::EndOff { field, position, rotation, bound }.into());
     }
-    Ok(Stations::of(&arm.freedom.axes).station(numbers))
+    Ok(arm.grid().cell(numbers))
 }

@@ -1,5 +1,4 @@
-//! What is free at each pose of a path besides the joints: the tool angle, and axes beside it
-//! (docs/plan.md, eq. 1).
+//! Axes that are free at each pose of a path besides the joints (docs/plan.md, eq. 1).
 
 use alloc::vec::Vec;
 
@@ -7,20 +6,14 @@ use alloc::vec::Vec;
 use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Matrix3, Rotation3, Translation3, Vector3};
 
-use super::axis::ToolAxis;
-use super::carrier::Carried;
-use super::options::{PlanOptions, ToolRotation};
-use super::step::Moved;
+use super::axes::{Carried, ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
+use super::graph::{Grid, Moved, Values};
 use crate::kinematics::thresholds::{
-    COARSEST_TOOL_STEP, LIMIT_TOLERANCE, MOST_FREE_AXES, REFINED_OFFSET, REFINED_TOOL_STEP,
-    REFINED_TRACK,
+    LIMIT_TOLERANCE, MOST_FREE_AXES, REFINED_OFFSET, REFINED_TOOL_STEP, REFINED_TRACK,
 };
 use crate::kinematics::{Pose, nearest_turn};
 
-/// A value of each free axis; 0 beyond those that there are.
-pub(super) type Values = [f64; MOST_FREE_AXES];
-
-/// What a free axis does.
+/// The motion of a free axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Motion {
     /// An external axis.
@@ -29,26 +22,36 @@ pub(super) enum Motion {
     Tilt(usize),
     /// The tool is shifted along an axis of the pose.
     Offset(ToolAxis),
+    /// The tool is turned about one of its axes.
+    Rotation(ToolAxis),
 }
 
-/// A free axis: its values, and what it costs to move it.
+/// A free axis: its values, and the cost of moving it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FreeAxis {
     pub(super) motion: Motion,
     pub(super) range: [f64; 2],
     pub(super) steps: usize,
-    /// Infinite of a tolerance.
+    /// Whether the last value is next to the first: a full turn.
+    pub(super) is_cyclic: bool,
+    /// Infinite of a tolerance and of the tool angle.
     pub(super) velocity: f64,
     pub(super) weight: f64,
 }
 
 impl FreeAxis {
-    /// The distance of two neighboring values [m, rad].
+    /// An axis of the tool, which costs nothing.
+    fn of_tool(motion: Motion, range: [f64; 2], steps: usize) -> Self {
+        Self { motion, range, steps, is_cyclic: false, velocity: f64::INFINITY, weight: 0.0 }
+    }
+
+    /// The distance of two neighboring values [m, rad]; 0 of a single value.
     pub(super) fn step(&self) -> f64 {
         let [lower, upper] = self.range;
+        let intervals = if self.is_cyclic { self.steps } else { self.steps - 1 };
         #[expect(clippy::cast_precision_loss, reason = "a small count")]
-        let intervals = (self.steps - 1) as f64;
-        (upper - lower) / intervals
+        let step = (upper - lower) / intervals.max(1) as f64;
+        step
     }
 
     /// The distance to which values are refined [m, rad].
@@ -56,21 +59,24 @@ impl FreeAxis {
         match self.motion {
             Motion::Carrier(Carried::Robot(_)) => REFINED_TRACK,
             Motion::Offset(_) => REFINED_OFFSET,
-            Motion::Carrier(Carried::Object(..)) | Motion::Tilt(_) => REFINED_TOOL_STEP,
+            _ => REFINED_TOOL_STEP,
         }
     }
 
-    /// Whether moving it turns the tool as seen from the robot.
-    pub(super) fn is_rotary(&self) -> bool {
-        matches!(self.motion, Motion::Carrier(Carried::Object(..)))
+    pub(super) fn is_rotation(&self) -> bool {
+        matches!(self.motion, Motion::Rotation(_))
+    }
+
+    /// The difference of two values [m, rad]: of a full turn, the shorter way round.
+    pub(super) fn difference(&self, from: f64, to: f64) -> f64 {
+        if self.is_cyclic { nearest_turn(to - from, 0.0) } else { to - from }
     }
 }
 
 /// Everything that is free.
 #[derive(Clone, Debug)]
 pub(super) struct Freedom {
-    pub(super) rotation: Option<ToolRotation>,
-    /// External axes, then tolerances.
+    /// External axes, then tolerances, then the tool angle.
     pub(super) axes: Vec<FreeAxis>,
     /// Number of external axes.
     pub(super) external: usize,
@@ -79,55 +85,76 @@ pub(super) struct Freedom {
 }
 
 impl Freedom {
-    pub(super) fn of(options: &PlanOptions) -> Self {
-        let mut axes: Vec<FreeAxis> = options
-            .external
-            .iter()
-            .map(|axis| FreeAxis {
-                motion: Motion::Carrier(axis.carried()),
-                range: axis.range(),
-                steps: axis.steps(),
-                velocity: axis.max_velocity(),
-                weight: axis.weight(),
-            })
-            .collect();
-        let tolerance = |motion, range, steps| FreeAxis {
-            motion,
-            range,
-            steps,
-            velocity: f64::INFINITY,
-            weight: 0.0,
+    pub(super) fn new(
+        external: &[ExternalAxis],
+        cone: Option<ToolCone>,
+        offset: Option<ToolOffset>,
+        rotation: Option<ToolRotation>,
+    ) -> Self {
+        let carrier = |axis: &ExternalAxis| FreeAxis {
+            velocity: axis.max_velocity(),
+            weight: axis.weight(),
+            ..FreeAxis::of_tool(Motion::Carrier(axis.carried()), axis.range(), axis.steps())
         };
-        if let Some(cone) = options.cone {
+        let mut axes: Vec<FreeAxis> = external.iter().map(carrier).collect();
+        if let Some(cone) = cone {
             let range = [-cone.angle(), cone.angle()];
-            axes.extend([0, 1].map(|axis| tolerance(Motion::Tilt(axis), range, cone.steps())));
+            let tilt = |axis| FreeAxis::of_tool(Motion::Tilt(axis), range, cone.steps());
+            axes.extend([0, 1].map(tilt));
         }
-        if let Some(offset) = options.offset {
-            axes.push(tolerance(Motion::Offset(offset.axis()), offset.range(), offset.steps()));
+        if let Some(offset) = offset {
+            let motion = Motion::Offset(offset.axis());
+            axes.push(FreeAxis::of_tool(motion, offset.range(), offset.steps()));
         }
-        let cone = options.cone.map_or(0.0, |cone| cone.angle());
-        Self { rotation: options.rotation, axes, external: options.external.len(), cone }
+        if let Some(rotation) = rotation {
+            let (motion, steps) = (Motion::Rotation(rotation.axis()), rotation.steps());
+            let axis = FreeAxis::of_tool(motion, rotation.range(), steps);
+            axes.push(FreeAxis { is_cyclic: rotation.is_full(), ..axis });
+        }
+        let cone = cone.map_or(0.0, |cone| cone.angle());
+        Self { axes, external: external.len(), cone }
     }
 
-    /// The same with tool angles that are at least ten degrees apart, for a first search.
-    pub(super) fn coarser(&self) -> Self {
-        let rotation = self.rotation.map(|rotation| rotation.coarser(COARSEST_TOOL_STEP));
-        Self { rotation, axes: self.axes.clone(), ..*self }
+    /// The whole grid, for a number of slots.
+    pub(super) fn grid(&self, slots: usize) -> Grid {
+        let (mut counts, mut cyclic) = ([1; MOST_FREE_AXES], [false; MOST_FREE_AXES]);
+        let mut steps = Values::default();
+        for (axis, own) in self.axes.iter().enumerate() {
+            (counts[axis], steps[axis], cyclic[axis]) = (own.steps, own.step(), own.is_cyclic);
+        }
+        Grid::new(slots, counts, steps, cyclic)
+    }
+
+    /// The values of the first cell of the whole grid.
+    pub(super) fn first(&self) -> Values {
+        let mut first = Values::default();
+        for (first, axis) in first.iter_mut().zip(&self.axes) {
+            *first = axis.range[0];
+        }
+        first
+    }
+
+    /// Which axis is the tool angle.
+    pub(super) fn rotation(&self) -> Option<usize> {
+        self.axes.iter().position(FreeAxis::is_rotation)
     }
 
     /// The axis in which the tool points.
     fn pointing(&self) -> ToolAxis {
-        self.rotation.map_or(ToolAxis::Z, |rotation| rotation.axis())
+        match self.axes.last() {
+            Some(FreeAxis { motion: Motion::Rotation(axis), .. }) => *axis,
+            _ => ToolAxis::Z,
+        }
     }
 
     /// A pose of the path seen from the robot, its external axes at their values.
-    pub(super) fn carried(&self, pose: &Pose, values: &Values) -> Pose {
+    fn carried(&self, pose: &Pose, values: &Values) -> Pose {
         let mut pose = *pose;
         // The object first, from the axis that holds it on; then the robot.
         for carries_object in [true, false] {
             for (axis, value) in self.axes[..self.external].iter().zip(values).rev() {
                 if let Motion::Carrier(carried) = axis.motion
-                    && axis.is_rotary() == carries_object
+                    && matches!(carried, Carried::Object(..)) == carries_object
                 {
                     pose = carried.seen(&pose, *value);
                 }
@@ -136,51 +163,34 @@ impl Freedom {
         pose
     }
 
-    /// The pose of the tool, its own angle left out (eq. 1).
-    pub(super) fn placed(&self, pose: &Pose, values: &Values) -> Pose {
-        if self.axes.is_empty() {
-            return *pose;
-        }
-        let mut placed = self.carried(pose, values);
+    /// The pose of the tool with everything that is free (eq. 1).
+    pub(super) fn tool(&self, pose: &Pose, values: &Values) -> Pose {
+        let mut tool = self.carried(pose, values);
         let mut tilt = Vector3::zeros();
         for (axis, value) in self.axes.iter().zip(values) {
             match axis.motion {
-                Motion::Carrier(_) => {}
+                Motion::Carrier(_) | Motion::Rotation(_) => {}
                 Motion::Tilt(number) => tilt[self.pointing().others()[number]] = *value,
                 Motion::Offset(axis) => {
-                    let direction = placed.rotation.matrix().column(axis.index()).into_owned();
-                    placed.translation =
-                        Translation3::from(placed.translation.vector + direction * *value);
+                    let direction = tool.rotation.matrix().column(axis.index()).into_owned();
+                    let shifted = tool.translation.vector + direction * *value;
+                    tool.translation = Translation3::from(shifted);
                 }
             }
         }
         if self.cone > 0.0 {
-            placed.rotation *= Rotation3::new(tilt);
+            tool.rotation *= Rotation3::new(tilt);
         }
-        placed
+        if let Some(rotation) = self.rotation() {
+            tool.rotation = turned(&tool.rotation, self.pointing(), values[rotation]);
+        }
+        tool
     }
 
-    /// A placed pose, turned by a tool angle of which sine and cosine are given.
-    pub(super) fn turned(&self, placed: &Pose, (sin, cos): (f64, f64)) -> Pose {
-        let Some(rotation) = self.rotation else { return *placed };
-        let [first, second] = rotation.axis().others();
-        let own = placed.rotation.matrix();
-        let mut turned: Matrix3<f64> = *own;
-        let (one, two) = (own.column(first), own.column(second));
-        turned.set_column(first, &(one * cos + two * sin));
-        turned.set_column(second, &(two * cos - one * sin));
-        Pose::from_parts(placed.translation, Rotation3::from_matrix_unchecked(turned))
-    }
-
-    /// The pose of the tool with everything that is free (eq. 1).
-    pub(super) fn tool(&self, pose: &Pose, values: &Values, angle: f64) -> Pose {
-        self.turned(&self.placed(pose, values), angle.sin_cos())
-    }
-
-    /// What moving the axes costs in a time [s] (eq. 4).
+    /// The cost of moving the axes in a time [s] (eq. 4).
     pub(super) fn moved(&self, time: f64, from: &Values, to: &Values) -> Moved {
         let mut moved = Moved::default();
-        for (axis, (from, to)) in self.axes.iter().zip(from.iter().zip(to)) {
+        for (axis, (from, to)) in self.axes[..self.external].iter().zip(from.iter().zip(to)) {
             let step = to - from;
             moved.most = moved.most.max(step.abs() / (axis.velocity * time));
             moved.squares += axis.weight * (step * step);
@@ -190,29 +200,32 @@ impl Freedom {
 
     /// Whether values are inside their ranges.
     pub(super) fn allows(&self, values: &Values) -> bool {
-        let mut ranges = self.axes.iter().zip(values).map(|(axis, value)| (axis.range, *value));
-        ranges.all(|([lower, upper], value)| {
-            value >= lower - LIMIT_TOLERANCE && value <= upper + LIMIT_TOLERANCE
+        self.axes.iter().zip(values).all(|(axis, value)| {
+            let [lower, upper] = axis.range;
+            axis.is_cyclic || (lower - LIMIT_TOLERANCE..=upper + LIMIT_TOLERANCE).contains(value)
         }) && self.tilt(values) <= self.cone + LIMIT_TOLERANCE
     }
 
     /// How far the tool is tilted [rad].
     pub(super) fn tilt(&self, values: &Values) -> f64 {
+        if self.cone == 0.0 {
+            return 0.0;
+        }
         let axes = self.axes.iter().zip(values);
         let tilts = axes.filter(|(axis, _)| matches!(axis.motion, Motion::Tilt(_)));
         tilts.map(|(_, value)| value * value).sum::<f64>().sqrt()
     }
 
-    /// The tool angle and the values of the tolerances with which a pose of the path, its external
-    /// axes at `values`, comes nearest to a pose of the tool.
-    pub(super) fn found(&self, pose: &Pose, tool: &Pose, mut values: Values) -> (f64, Values) {
+    /// The values of the tolerances and of the tool angle with which a pose of the path, its
+    /// external axes at `values`, comes nearest to a pose of the tool.
+    pub(super) fn nearest(&self, pose: &Pose, tool: &Pose, mut values: Values) -> Values {
         let carried = self.carried(pose, &values);
         let relative = carried.rotation.inverse() * tool.rotation;
         let [first, second] = self.pointing().others();
         let matrix = relative.matrix();
         let sin = matrix[(second, first)] - matrix[(first, second)];
         let angle = sin.atan2(matrix[(first, first)] + matrix[(second, second)]);
-        let angle = if self.rotation.is_some() { angle } else { 0.0 };
+        let angle = if self.rotation().is_some() { angle } else { 0.0 };
         let mut about = Vector3::zeros();
         about[self.pointing().index()] = -angle;
         let tilt = (relative * Rotation3::new(about)).scaled_axis();
@@ -223,24 +236,30 @@ impl Freedom {
                 Motion::Carrier(_) => {}
                 Motion::Tilt(number) => *value = tilt[[first, second][number]],
                 Motion::Offset(axis) => *value = shift[axis.index()],
+                Motion::Rotation(_) => *value = angle,
             }
         }
-        (angle, values)
+        values
     }
 
-    /// The angle by which the tool turns from one tool angle to another: of a full circle, the
-    /// shorter way round.
-    pub(super) fn angle_step(&self, from: f64, to: f64) -> f64 {
-        match self.rotation {
-            Some(rotation) if rotation.is_full() => nearest_turn(to - from, 0.0),
-            _ => to - from,
+    /// The values at a part of the distance between two, 0 to 1.
+    pub(super) fn between(&self, from: &Values, to: &Values, part: f64) -> Values {
+        let mut values = *from;
+        for (axis, own) in self.axes.iter().enumerate() {
+            values[axis] += part * own.difference(from[axis], to[axis]);
         }
+        values
     }
+}
 
-    /// What a tool angle may be [rad]; `None` of a full turn.
-    pub(super) fn angles(&self) -> Option<[f64; 2]> {
-        let rotation = self.rotation.filter(|rotation| !rotation.is_full())?;
-        let [lower, upper] = rotation.range();
-        Some([lower - LIMIT_TOLERANCE, upper + LIMIT_TOLERANCE])
-    }
+/// An orientation, turned by an angle about one of its axes.
+fn turned(rotation: &Rotation3<f64>, axis: ToolAxis, angle: f64) -> Rotation3<f64> {
+    let [first, second] = axis.others();
+    let (sin, cos) = angle.sin_cos();
+    let own = rotation.matrix();
+    let mut turned: Matrix3<f64> = *own;
+    let (one, two) = (own.column(first), own.column(second));
+    turned.set_column(first, &(one * cos + two * sin));
+    turned.set_column(second, &(two * cos - one * sin));
+    Rotation3::from_matrix_unchecked(turned)
 }

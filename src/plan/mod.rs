@@ -1,5 +1,5 @@
-//! The best joint path along a whole path of poses: over every branch, every turn and, where the
-//! tool may be turned, every tool angle. The equations are in docs/plan.md.
+//! The best joint path along a whole path of poses: over every branch, every turn and every value of
+//! what is free, such as the tool angle. The equations are in docs/plan.md.
 //!
 //! ```
 //! use irbkin::paths::{Spacing, line};
@@ -16,51 +16,43 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
+// The arguments and the answer.
 mod answer;
-mod axis;
-mod caller;
-mod carrier;
-mod certificate;
-mod closed;
-mod edges;
-mod ends;
-mod field;
-mod freedom;
-mod guide;
-mod layer;
-mod nodes;
+mod axes;
 mod options;
+
+// The ladder graph: what is free, the nodes of each pose, the branches between them.
+mod branches;
+mod ends;
+mod freedom;
+mod graph;
+mod joints;
+mod ladder;
+mod nodes;
+
+// The best joint path through it.
+mod best;
+mod lanes;
+mod search;
+
+// The plan: proven between the poses, refined, or explained.
+mod certificate;
 mod planner;
 mod reasons;
 mod refine;
 mod robot;
-mod search;
-mod sieve;
-mod soft;
-mod stations;
-mod step;
-mod strands;
-mod tolerance;
-mod turns;
-mod way;
-mod window;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
-pub use axis::ToolAxis;
-pub use caller::Accept;
+pub use axes::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
+pub use options::{Accept, PlanOptions, PlanOrder};
 #[cfg(feature = "python")]
-pub(crate) use caller::{Caller, Watch};
-pub use carrier::ExternalAxis;
-pub use options::{PlanOptions, PlanOrder, ToolRotation};
-pub use tolerance::{ToolCone, ToolOffset};
+pub(crate) use options::{Caller, Watch};
 
-#[cfg(test)]
-mod carrier_tests;
 #[cfg(test)]
 mod exhaustive;
 #[cfg(test)]
-mod sieve_tests;
+mod free_axes_tests;
 #[cfg(test)]
-mod strand_tests;
+mod ordinals_tests;
 #[cfg(test)]
 mod tests;

@@ -1,110 +1,13 @@
-//! What a plan is asked for.
+//! The options of a plan, and the questions that it asks its caller.
 
 use alloc::vec::Vec;
-use core::f64::consts::{PI, TAU};
 
-use super::axis::ToolAxis;
-use super::carrier::{ExternalAxis, checked_count};
-use super::tolerance::{ToolCone, ToolOffset};
+use super::axes::{ExternalAxis, ToolCone, ToolOffset, ToolRotation};
 use crate::error::{Error, PlanFault};
 use crate::kinematics::check_weights;
-use crate::kinematics::thresholds::{FULL_TURN, MOST_TOOL_ANGLES};
-use crate::lanes::whole_below;
+use crate::kinematics::thresholds::MOST_EXTERNAL;
 
-/// The angles by which the tool may be turned about one of its axes at each pose of a path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToolRotation {
-    steps: usize,
-    lower: f64,
-    upper: f64,
-    axis: ToolAxis,
-}
-
-impl ToolRotation {
-    /// `steps` angles from `lower` to `upper` [rad] about an axis of the tool.
-    ///
-    /// Of a full turn, the upper end is the lower one and does not count twice: 36 steps are 10
-    /// degrees apart. Of less, both ends count: 7 steps from -30 to 30 degrees are 10 apart.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidPlan`] for no steps or more than 3600, a range that is
-    /// empty, not finite or more than a full turn, and one step of a range that has a width.
-    pub fn new(steps: usize, lower: f64, upper: f64, axis: ToolAxis) -> Result<Self, Error> {
-        let width = upper - lower;
-        // NaN is in no range.
-        let fits = (0.0..=TAU + FULL_TURN).contains(&width) && lower.abs() <= 2.0 * TAU;
-        if !fits {
-            return Err(PlanFault::RotationRange { lower, upper }.into());
-        }
-        let least = if width == 0.0 { 1 } else { 2 };
-        if !(least..=MOST_TOOL_ANGLES).contains(&steps) {
-            let bounds = [least, MOST_TOOL_ANGLES];
-            return Err(PlanFault::RotationSteps { found: steps, bounds }.into());
-        }
-        Ok(Self { steps: if width == 0.0 { 1 } else { steps }, lower, upper, axis })
-    }
-
-    /// `steps` angles all around the tool's z axis.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::new`].
-    pub fn full(steps: usize) -> Result<Self, Error> {
-        Self::new(steps, -PI, PI, ToolAxis::Z)
-    }
-
-    /// Number of angles.
-    #[must_use]
-    pub fn steps(&self) -> usize {
-        self.steps
-    }
-
-    /// The same range with angles that are at least so far apart [rad].
-    pub(super) fn coarser(self, step: f64) -> Self {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a small count"
-        )]
-        let most = whole_below((self.upper - self.lower) / step + FULL_TURN) as usize;
-        let ends = usize::from(!self.is_full());
-        let least = if self.steps == 1 { 1 } else { 2 };
-        Self { steps: self.steps.min((most + ends).max(least)), ..self }
-    }
-
-    /// The lower and the upper end [rad].
-    #[must_use]
-    pub fn range(&self) -> [f64; 2] {
-        [self.lower, self.upper]
-    }
-
-    /// The axis.
-    #[must_use]
-    pub fn axis(&self) -> ToolAxis {
-        self.axis
-    }
-
-    /// Whether the angles go all around.
-    #[must_use]
-    pub fn is_full(&self) -> bool {
-        self.upper - self.lower >= TAU - FULL_TURN
-    }
-
-    /// The angle between two neighbors [rad].
-    #[must_use]
-    pub fn step(&self) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "a small count")]
-        let steps = self.steps as f64;
-        match self.steps {
-            1 => 0.0,
-            _ if self.is_full() => TAU / steps,
-            _ => (self.upper - self.lower) / (steps - 1.0),
-        }
-    }
-}
-
-/// What of two ways without a break makes the better one.
+/// The order in which bottleneck and sum make one joint path better than another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PlanOrder {
     /// The smaller bottleneck; if they are equal, the smaller sum.
@@ -115,7 +18,7 @@ pub enum PlanOrder {
 }
 
 impl PlanOrder {
-    /// What is to be as small as possible, what comes first in front.
+    /// The two costs, in the order in which they count.
     pub(super) fn cost(self, bottleneck: f64, sum: f64) -> (f64, f64) {
         match self {
             Self::Bottleneck => (bottleneck, sum),
@@ -124,7 +27,7 @@ impl PlanOrder {
     }
 }
 
-/// What a plan is asked for besides the path.
+/// The options of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanOptions {
     /// The free rotation of the tool; `None` if each pose fixes the orientation.
@@ -150,13 +53,13 @@ pub struct PlanOptions {
     pub closed: bool,
     /// Cost of moving each joint.
     pub weights: [f64; 6],
-    /// What of two ways makes the better one.
+    /// Whether the bottleneck or the sum comes first.
     pub order: PlanOrder,
-    /// What a joint at its limit costs [rad^2/s^2]: as much as one of weight 1 that moves with the
+    /// Cost of a joint at its limit [rad^2/s^2]: as much as one of weight 1 that moves with the
     /// root of it. Half way from the middle to the limit it costs a quarter.
     pub limit_cost: f64,
-    /// The same of each of the singularities of wrist, elbow and shoulder [rad^2/s^2]; nothing of
-    /// an arm whose structure does not have these.
+    /// The cost of being at one of the singularities of wrist, elbow and shoulder [rad^2/s^2];
+    /// nothing of an arm whose structure does not have these.
     pub singularity_cost: f64,
 }
 
@@ -185,7 +88,10 @@ impl PlanOptions {
     /// Check what does not depend on the robot, for a path of `count` poses.
     pub(super) fn check(&self, count: usize) -> Result<(), Error> {
         check_weights(&self.weights)?;
-        checked_count(&self.external)?;
+        if self.external.len() > MOST_EXTERNAL {
+            let (found, most) = (self.external.len(), MOST_EXTERNAL);
+            return Err(PlanFault::External { found, most }.into());
+        }
         let costs = [("limit_cost", self.limit_cost), ("singularity_cost", self.singularity_cost)];
         for (field, value) in costs {
             if !(value >= 0.0 && value.is_finite()) {
@@ -220,5 +126,33 @@ impl PlanOptions {
             Some(times) => times.clone(),
             None => (0..count).map(even).collect(),
         }
+    }
+}
+
+/// After how many layers the caller is asked whether to go on.
+const WATCHED: usize = 64;
+
+/// A caller's own test of joint vectors, asked for many at a time: whether each is accepted, or
+/// nothing to stop.
+pub type Accept<'a> = dyn FnMut(&[[f64; 6]]) -> Option<Vec<bool>> + 'a;
+
+/// A caller: its test of joint vectors, if it has one, and whether to go on.
+pub(crate) struct Caller<'a, 'b> {
+    pub(crate) accept: Option<&'a mut Accept<'b>>,
+    pub(crate) watch: Watch<'a>,
+}
+
+/// Whether to go on; without a caller to ask, always.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Watch<'a>(pub(crate) Option<&'a dyn Fn() -> bool>);
+
+impl Watch<'_> {
+    pub(super) fn goes_on(self) -> bool {
+        self.0.is_none_or(|goes_on| goes_on())
+    }
+
+    /// Whether a loop over many ends here: it asks now and then, not at once.
+    pub(super) fn ends_at(self, number: usize) -> bool {
+        number % WATCHED == WATCHED - 1 && !self.goes_on()
     }
 }

@@ -3,15 +3,14 @@
 use alloc::vec::Vec;
 
 use super::answer::PlanError;
-use super::caller::{Accept, Caller};
-use super::certificate::{Between, HALVINGS, Hop};
+use super::best::JointPath;
+use super::certificate::{Between, HALVINGS, Step};
 use super::ends::Given;
-use super::field::{Ends, Field};
-use super::layer::{Grid, Layer, Node, Waypoint};
+use super::graph::{Grid, Layer, Node, Waypoint};
+use super::joints::TurnStates;
+use super::ladder::{Ends, Ladder};
 use super::nodes::Arm;
-use super::options::{PlanOptions, PlanOrder};
-use super::turns::TurnStates;
-use super::way::Way;
+use super::options::{Accept, Caller, PlanOptions, PlanOrder};
 use crate::error::{Error, PlanFault};
 use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_PLAN_NODES};
 use crate::kinematics::{largest, steps};
@@ -27,10 +26,10 @@ pub(super) struct Planner<'a> {
     pub(super) layers: Vec<Layer>,
     pub(super) ends: Ends,
     pub(super) speed: f64,
-    /// What the best way costs, about, if that is known: of the cost that comes first.
+    /// An estimate of the cost that comes first.
     pub(super) expected: Option<f64>,
     pub(super) closed: bool,
-    /// Whether only ways through all layers count.
+    /// Whether only joint paths through all layers count.
     pub(super) whole: bool,
     pub(super) order: PlanOrder,
     /// Joints whose turns mattered so far.
@@ -46,7 +45,7 @@ impl<'a> Planner<'a> {
         given: &[Option<Given>; 2],
     ) -> Result<Self, Error> {
         let grid = arm.grid();
-        let found = path.len().saturating_mul(grid.len());
+        let found = path.len().saturating_mul(grid.slots * grid.cells);
         if found > MOST_PLAN_NODES {
             return Err(PlanFault::Nodes { found, most: MOST_PLAN_NODES }.into());
         }
@@ -65,7 +64,7 @@ impl<'a> Planner<'a> {
             states: TurnStates::default(),
         };
         for joint in 0..6 {
-            if arm.soft.is_some_and(|soft| soft.tells(arm.joints, joint)) {
+            if arm.node_cost.is_some_and(|cost| cost.depends_on_turns(arm.joints, joint)) {
                 planner.states.add(joint, arm.joints)?;
             }
         }
@@ -85,8 +84,7 @@ impl<'a> Planner<'a> {
         self.arm.solve(&self.grid, &mut self.layers, range.clone());
         let last = self.layers.len() - 1;
         if self.closed && range.contains(&last) {
-            let (q, present) = (self.layers[0].q.clone(), self.layers[0].present.clone());
-            (self.layers[last].q, self.layers[last].present) = (q, present);
+            self.layers[last].q = self.layers[0].q.clone();
         }
         let edges = range.start.max(1)..(range.end + 1).min(self.layers.len());
         self.arm.find_crossings(&self.grid, &mut self.layers, edges);
@@ -96,15 +94,15 @@ impl<'a> Planner<'a> {
     fn fix(&mut self, layer: usize, given: &Given) -> [i32; 6] {
         let joints = self.arm.joints;
         let q = core::array::from_fn(|joint| joints.first_turn(joint, given.q[joint]));
-        let node = Node { slot: given.slot, station: given.own.station, bin: given.own.bin };
+        let node = Node { slot: given.slot, cell: given.own.cell };
         let layer = &mut self.layers[layer];
         layer.own = Some(given.own);
         layer.put(&self.grid, node, Some(q));
         core::array::from_fn(|joint| joints.turn_of(joint, q[joint], given.q[joint]))
     }
 
-    pub(super) fn field(&self) -> Field<'_> {
-        Field {
+    pub(super) fn ladder(&self) -> Ladder<'_> {
+        Ladder {
             grid: self.grid,
             joints: self.arm.joints,
             freedom: self.arm.freedom,
@@ -114,96 +112,97 @@ impl<'a> Planner<'a> {
             ends: self.ends,
             whole: self.whole,
             order: self.order,
-            soft: self.arm.soft,
+            node_cost: self.arm.node_cost,
             watch: self.arm.watch,
         }
     }
 
-    /// [`Field::best_way`], with the turns told apart that mattered before.
-    fn best_way(&mut self, from: usize) -> Result<Option<Way>, PlanError> {
+    /// [`Ladder::best_path`], with the turns counted that mattered before.
+    fn best_path(&mut self, from: usize) -> Result<Option<JointPath>, PlanError> {
         let mut states = core::mem::take(&mut self.states);
-        let way = self.field().best_way(from, &mut states)?;
+        let path = self.ladder().best_path(from, &mut states)?;
         self.states = states;
-        if let Some(way) = &way {
-            self.expected = Some(way.cost(self.order).0);
+        if let Some(path) = &path {
+            self.expected = Some(path.cost(self.order).0);
         }
-        Ok(way)
+        Ok(path)
     }
 
-    /// The best way from a layer on whose steps are all continuous and whose nodes the caller
-    /// accepts; `None` if there is none, not even to the layer itself.
-    pub(super) fn proven_way(
+    /// The best joint path from a layer on whose steps are all continuous and whose nodes the
+    /// caller accepts; `None` without a node at the layer itself.
+    pub(super) fn proven_path(
         &mut self,
         from: usize,
         caller: &mut Caller<'_, '_>,
-    ) -> Result<Option<Way>, PlanError> {
+    ) -> Result<Option<JointPath>, PlanError> {
         let mut reach = 1;
         loop {
-            let way =
-                if self.closed && from == 0 { self.closed_way()? } else { self.best_way(from)? };
-            let Some(way) = way else { return Ok(None) };
-            let doubts = self.arm.doubts(&self.grid, &self.layers, &way);
+            let path =
+                if self.closed && from == 0 { self.closed_path()? } else { self.best_path(from)? };
+            let Some(path) = path else { return Ok(None) };
+            let (layers, along) = (&self.layers[from..], (&path.nodes[..], &path.q[..]));
+            let open = self.arm.discontinuities(&self.grid, layers, along);
             if !self.arm.watch.goes_on() {
                 return Err(PlanError::Stopped);
             }
-            if !doubts.is_empty() {
-                // From the end, so that layers that are put in do not move those to come.
-                for (layer, doubt) in doubts.into_iter().rev() {
-                    self.resolve(&way, layer, doubt)?;
+            if open.is_empty() {
+                if self.is_accepted(&path, reach, caller)? {
+                    return Ok(Some(path));
                 }
-                continue;
+                reach *= 2;
             }
-            if self.is_accepted(&way, reach, caller)? {
-                return Ok(Some(way));
+            // From the end, so that layers that are put in do not move the others.
+            for (step, between) in open.into_iter().rev() {
+                self.resolve(&path, step, between)?;
             }
-            reach *= 2;
         }
     }
 
-    /// The best way that ends with the joint angles that it begins with; the best one that does not
-    /// if there is none.
-    fn closed_way(&mut self) -> Result<Option<Way>, PlanError> {
+    /// The best joint path that ends with the joint angles that it begins with; otherwise the
+    /// best open one.
+    fn closed_path(&mut self) -> Result<Option<JointPath>, PlanError> {
         let last = self.layers.len() - 1;
-        let Some(open) = self.best_way(0)? else { return Ok(None) };
+        let Some(open) = self.best_path(0)? else { return Ok(None) };
         if open.reached() < last {
             return Ok(Some(open));
         }
         let mut states = self.states.clone();
-        let mut field = self.field();
-        field.ends.closed = true;
-        field.whole = true;
-        let closed = field.closed_way(&mut states)?;
+        let mut ladder = self.ladder();
+        ladder.ends.closed = true;
+        ladder.whole = true;
+        let closed = ladder.best_closed_path(&mut states)?;
         if self.whole {
             return Ok(closed);
         }
         if closed.is_some() || last == 0 {
             return Ok(Some(closed.unwrap_or(open)));
         }
-        let mut shorter = self.field();
+        let mut shorter = self.ladder();
         shorter.layers = &self.layers[..last];
         shorter.ends.last = None;
-        shorter.best_way(0, &mut states)
+        shorter.best_path(0, &mut states)
     }
 
-    /// Deal with a step of a way that is not continuous.
-    fn resolve(&mut self, way: &Way, layer: usize, doubt: Between) -> Result<(), Error> {
-        let step = layer - way.from;
-        let nodes = [way.nodes[step - 1], way.nodes[step]];
-        let q = [way.q[step - 1], way.q[step]];
-        let edge = nodes.map(|node| self.grid.number(node));
+    /// Split, slow down or refuse a step of a joint path that is not continuous.
+    fn resolve(&mut self, path: &JointPath, step: usize, between: Between) -> Result<(), Error> {
+        let layer = path.from + step;
+        let nodes = [path.nodes[step - 1], path.nodes[step]];
+        let q = [path.q[step - 1], path.q[step]];
         let depth = self.layers[layer].depth;
-        if doubt == Between::Elsewhere && depth < HALVINGS {
+        if between == Between::Elsewhere && depth < HALVINGS {
             return self.split(layer, nodes, q);
         }
-        // Of many values of free axes, edges are not looked at one by one: a jump does not shrink.
-        if self.grid.stations.len() > 1 {
-            let stations = nodes.map(|node| node.station);
-            if depth < HALVINGS_OF_AXES && self.grid.stations.are_neighbors(stations) {
+        // Beside the tool angle, edges are not examined one by one: a jump does not shrink.
+        let mut axes = self.arm.freedom.axes.iter().zip(self.grid.counts);
+        if axes.any(|(axis, count)| count > 1 && !axis.is_rotation()) {
+            let is_near = self.grid.apart(nodes.map(|node| node.cell)) <= 1;
+            if depth < HALVINGS_OF_AXES && is_near {
                 return self.split(layer, nodes, q);
             }
-            self.layers[layer].cap = 0.5 * self.field().bottleneck(layer, nodes);
+            self.layers[layer].cap = 0.5 * self.ladder().bottleneck(layer, nodes);
             return Ok(());
         }
+        let edge = nodes.map(|node| self.grid.number(node));
         if !self.layers[layer].refused.contains(&edge) {
             self.layers[layer].refused.push(edge);
         }
@@ -217,12 +216,10 @@ impl<'a> Planner<'a> {
     /// Put a layer half way before a layer.
     fn split(&mut self, layer: usize, nodes: [Node; 2], q: [[f64; 6]; 2]) -> Result<(), Error> {
         let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
-        let hop = Hop::new(&self.arm, &self.grid, [before, after], nodes, q);
-        let pose = hop.middle();
+        let pose = Step::new(&self.grid, [before, after], nodes, q).middle();
         let time = 0.5 * (before.time + after.time);
         let mut middle = Layer::new(pose, time, None, &self.grid);
-        middle.base = before.base + 0.5 * self.arm.freedom.angle_step(before.base, after.base);
-        middle.bases = core::array::from_fn(|axis| 0.5 * (before.bases[axis] + after.bases[axis]));
+        middle.first = self.arm.freedom.between(&before.first, &after.first, 0.5);
         middle.depth = after.depth + 1;
         middle.cap = 2.0 * after.cap;
         let (first, last) = (before.pose.rotation, after.pose.rotation);
@@ -237,16 +234,17 @@ impl<'a> Planner<'a> {
         Ok(())
     }
 
-    /// Look at the other edges of a step where one is not continuous: at those about as large.
+    /// Examine the other edges of a step where one is not continuous: those about as large, between
+    /// cells about as far apart.
     fn examine(&mut self, layer: usize, nodes: [Node; 2], least: f64) {
         let grid = self.grid;
         let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
-        let apart = grid.apart(nodes[0].bin, nodes[1].bin).max(1);
+        let apart = grid.apart(nodes.map(|node| node.cell)).max(1);
+        let window = grid.full_window().map(|sides| sides.map(|side| side.min(apart)));
         let mut refused = Vec::new();
         for (to, q) in after.nodes(&grid) {
-            for offset in 0..(2 * apart + 1).min(grid.bins) {
-                let bin = to.bin + grid.bins + offset - apart.min(grid.bins);
-                let from = Node { bin: bin % grid.bins, ..to };
+            for cell in grid.around(to.cell, &window) {
+                let from = Node { cell, ..to };
                 let edge = [grid.number(from), grid.number(to)];
                 let Some(q_before) = before.joints(&grid, from) else { continue };
                 let steps = self.arm.joints.steps(&q_before, &q);
@@ -254,8 +252,8 @@ impl<'a> Planner<'a> {
                     continue;
                 }
                 let Some(ends) = self.arm.joints.inside(&q_before, &steps) else { continue };
-                let hop = Hop::new(&self.arm, &grid, [before, after], [from, to], ends);
-                if hop.followed(&self.arm) == Between::Jump {
+                let step = Step::new(&grid, [before, after], [from, to], ends);
+                if step.followed(&self.arm) == Between::Jump {
                     refused.push(edge);
                 }
             }
@@ -264,23 +262,23 @@ impl<'a> Planner<'a> {
         self.layers[layer].is_examined = true;
     }
 
-    /// Whether the caller accepts every node of a way. If not, those around it that are `reach`
-    /// tool angles away are asked for, too.
+    /// Whether the caller accepts every node of a joint path. If not, it is asked for the nodes
+    /// around that are up to `reach` values away, too.
     fn is_accepted(
         &mut self,
-        way: &Way,
+        path: &JointPath,
         reach: usize,
         caller: &mut Caller<'_, '_>,
     ) -> Result<bool, PlanError> {
         let Some(accept) = &mut caller.accept else { return Ok(true) };
         let grid = self.grid;
-        let number = |step: usize| (way.from + step, grid.number(way.nodes[step]));
+        let number = |step: usize| (path.from + step, grid.number(path.nodes[step]));
         let is_new = |layers: &[Layer], (layer, node): &(usize, usize)| -> bool {
             !layers[*layer].accepted.contains(node) && !layers[*layer].rejected.contains(node)
         };
-        let mut open: Vec<_> = (0..way.nodes.len()).map(number).collect();
-        open.retain(|place| is_new(&self.layers, place));
-        let q: Vec<_> = open.iter().map(|(layer, _)| way.q[layer - way.from]).collect();
+        let mut open: Vec<_> = (0..path.nodes.len()).map(number).collect();
+        open.retain(|key| is_new(&self.layers, key));
+        let q: Vec<_> = open.iter().map(|(layer, _)| path.q[layer - path.from]).collect();
         let rejected = self.ask(&open, &q, accept)?;
         if rejected.is_empty() {
             return Ok(true);
@@ -290,35 +288,35 @@ impl<'a> Planner<'a> {
             let node = grid.node(*number);
             for near in layer.saturating_sub(1)..(layer + 2).min(self.layers.len()) {
                 for (other, q) in self.layers[near].nodes(&grid) {
-                    let apart = grid.apart(other.bin, node.bin);
-                    let place = (near, grid.number(other));
-                    if other.slot == node.slot && apart <= reach && is_new(&self.layers, &place) {
-                        around.push((place, q));
+                    let apart = grid.apart([other.cell, node.cell]);
+                    let key = (near, grid.number(other));
+                    if other.slot == node.slot && apart <= reach && is_new(&self.layers, &key) {
+                        around.push((key, q));
                     }
                 }
             }
         }
-        around.sort_unstable_by_key(|(place, _)| *place);
-        around.dedup_by_key(|(place, _)| *place);
-        let (places, q): (Vec<_>, Vec<_>) = around.into_iter().unzip();
-        self.ask(&places, &q, accept)?;
+        around.sort_unstable_by_key(|(key, _)| *key);
+        around.dedup_by_key(|(key, _)| *key);
+        let (keys, q): (Vec<_>, Vec<_>) = around.into_iter().unzip();
+        self.ask(&keys, &q, accept)?;
         Ok(false)
     }
 
     /// Ask the caller for nodes; take those away that are rejected, and return them.
     fn ask(
         &mut self,
-        places: &[(usize, usize)],
+        keys: &[(usize, usize)],
         q: &[[f64; 6]],
         accept: &mut Accept<'_>,
     ) -> Result<Vec<(usize, usize)>, PlanError> {
-        if places.is_empty() {
+        if keys.is_empty() {
             return Ok(Vec::new());
         }
         let verdicts = accept(q).filter(|verdicts| verdicts.len() == q.len());
         let verdicts = verdicts.ok_or(PlanError::Stopped)?;
         let mut rejected = Vec::new();
-        for ((layer, number), is_accepted) in places.iter().zip(verdicts) {
+        for ((layer, number), is_accepted) in keys.iter().zip(verdicts) {
             let at = &mut self.layers[*layer];
             if is_accepted {
                 at.accepted.push(*number);

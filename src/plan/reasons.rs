@@ -4,11 +4,11 @@ use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 
 use super::answer::{StrandEnd, StrandReason};
-use super::layer::{Grid, Layer, Node};
+use super::best::JointPath;
+use super::branches::nearest_solution;
+use super::graph::{Layer, Node};
 use super::planner::Planner;
-use super::step::Rates;
-use super::strands::nearest_solution;
-use super::way::Way;
+use super::search::SlotReach;
 use crate::error::Error;
 use crate::kinematics::thresholds::{CROSSING_JUMP, CROSSING_STEP};
 use crate::kinematics::{SingularityKind, largest, nearest_turn};
@@ -18,20 +18,19 @@ use crate::report::Explanation;
 type Step = (Node, Node, [f64; 6]);
 
 impl Planner<'_> {
-    /// Where and why each branch that begins at the first layer of a way ends.
-    pub(super) fn strand_ends(&self, way: &Way) -> Result<Vec<StrandEnd>, Error> {
+    /// Where and why each branch that begins at the first layer of a joint path ends.
+    pub(super) fn branch_ends(&self, path: &JointPath) -> Result<Vec<StrandEnd>, Error> {
         let mut ends = Vec::new();
         for slot in 0..self.grid.slots {
-            let layer = way.alive[slot] + 1;
-            let first = self.layers[way.from..].first();
-            let begins = first.is_some_and(|layer| layer.has_slot(&self.grid, slot));
-            let lived = way.alive[slot] > way.from || begins;
-            if !lived {
+            let reach = &path.slots[slot];
+            let layer = reach.layer + 1;
+            let begins = !self.layers[path.from].of_slot(&self.grid, slot).is_empty();
+            if reach.layer == path.from && !begins {
                 continue;
             }
             let pose_index = self.index_of(layer.min(self.layers.len() - 1));
             let reason = if layer < self.layers.len() {
-                self.reason(slot, way.from, layer)?
+                self.reason(slot, reach)?
             } else {
                 StrandReason::NotAtEnd
             };
@@ -46,10 +45,11 @@ impl Planner<'_> {
         index.unwrap_or_default()
     }
 
-    /// Why a branch does not go on to a layer.
-    fn reason(&self, slot: usize, from: usize, layer: usize) -> Result<StrandReason, Error> {
+    /// Why a branch ends where it does.
+    fn reason(&self, slot: usize, reach: &SlotReach) -> Result<StrandReason, Error> {
+        let layer = reach.layer + 1;
         let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
-        if !after.has_slot(&self.grid, slot) {
+        if after.of_slot(&self.grid, slot).is_empty() {
             if after.rejected.iter().any(|number| self.grid.node(*number).slot == slot) {
                 return Ok(StrandReason::Rejected);
             }
@@ -58,12 +58,12 @@ impl Planner<'_> {
             }
             return self.unreachable(slot, [before, after]);
         }
-        let all = of_slot(&self.grid, before, slot);
+        let all = before.of_slot(&self.grid, slot);
         let smallest = self.least_step(slot, (&all, after), |(_, _, steps)| largest(steps));
         let Some((first, to, steps)) = smallest else {
             return self.unreachable(slot, [before, after]);
         };
-        if let Some(too_fast) = self.too_fast(slot, from, layer) {
+        if let Some(too_fast) = self.too_fast(slot, reach) {
             return Ok(too_fast);
         }
         let edge = [first, to].map(|node| self.grid.number(node));
@@ -92,17 +92,15 @@ impl Planner<'_> {
         self.arm.robot.singularity(&middle).kinds
     }
 
-    /// That a branch has no node at a layer.
+    /// Why a branch has no node at a layer.
     fn unreachable(
         &self,
         slot: usize,
         [before, after]: [&Layer; 2],
     ) -> Result<StrandReason, Error> {
-        let last = before.nodes(&self.grid).find(|(node, _)| node.slot == slot);
-        let (station, bin) = last.map_or((0, 0), |(node, _)| (node.station, node.bin));
-        let (values, angle) =
-            (after.values(&self.grid, station), after.tool_angle(&self.grid, bin));
-        let pose = self.arm.freedom.tool(&after.pose, &values, angle);
+        let last = before.of_slot(&self.grid, slot).first().copied();
+        let cell = last.map_or(0, |(node, _)| node.cell);
+        let pose = self.arm.freedom.tool(&after.pose, &after.values(&self.grid, cell));
         let solutions = self.arm.robot.ik(&pose)?;
         let continued = if self.arm.has_names() {
             solutions.slot(slot).copied()
@@ -129,27 +127,27 @@ impl Planner<'_> {
         Ok(StrandReason::Limit { joint: joint + 1, value, bounds })
     }
 
-    /// What is too fast of the slowest step of a branch to a layer, from where ways that begin at
-    /// layer `from` reach, if any is.
-    fn too_fast(&self, slot: usize, from: usize, layer: usize) -> Option<StrandReason> {
+    /// The joint or axis that is too fast in the slowest step of a branch from the nodes that
+    /// were reached.
+    fn too_fast(&self, slot: usize, reach: &SlotReach) -> Option<StrandReason> {
         if self.speed.is_infinite() {
             return None;
         }
+        let layer = reach.layer + 1;
         let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
-        let time = after.time - before.time;
-        let rates = Rates::of(self.arm.joints, time);
+        let (time, rates) = (self.ladder().time(layer), self.ladder().rates(layer));
         let fastest = |(from, to, steps): &Step| {
             let values = [(before, from), (after, to)];
-            let [from, to] = values.map(|(layer, node)| layer.values(&self.grid, node.station));
+            let [from, to] = values.map(|(layer, node)| layer.values(&self.grid, node.cell));
             let joints = steps.iter().zip(rates.parts).map(|(step, rate)| step.abs() * rate);
-            let axes = self.arm.freedom.axes.iter().zip(from.iter().zip(to));
+            let axes = self.arm.freedom.axes[..self.arm.freedom.external].iter();
+            let axes = axes.zip(from.iter().zip(to));
             let axes = axes.map(|(axis, (from, to))| (to - from).abs() / (axis.velocity * time));
             let parts = joints.chain(axes).enumerate();
             parts.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
         };
-        let reached = self.field().reached(from, layer - 1, &self.states)?;
-        let mut sources = of_slot(&self.grid, before, slot);
-        sources.retain(|(node, _)| reached.contains(&self.grid.number(*node)));
+        let mut sources = before.of_slot(&self.grid, slot);
+        sources.retain(|(node, _)| reach.nodes.contains(&self.grid.number(*node)));
         let slowest = self.least_step(slot, (&sources, after), |step| fastest(step).1)?;
         let (number, ratio) = fastest(&slowest);
         (ratio > self.speed).then_some(match number.checked_sub(6) {
@@ -158,14 +156,14 @@ impl Planner<'_> {
         })
     }
 
-    /// The least step from nodes of a branch to those of a layer.
+    /// The least step from nodes of a branch to the nodes of a layer.
     fn least_step(
         &self,
         slot: usize,
         (sources, layer): (&[(Node, [f64; 6])], &Layer),
         size: impl Fn(&Step) -> f64,
     ) -> Option<Step> {
-        let ends = of_slot(&self.grid, layer, slot);
+        let ends = layer.of_slot(&self.grid, slot);
         let pairs = sources.iter().flat_map(|from| ends.iter().map(move |to| (from, to)));
         let steps =
             pairs.map(|((from, q), (to, next))| (*from, *to, self.arm.joints.steps(q, next)));
@@ -196,7 +194,7 @@ impl Planner<'_> {
     /// Why no branch has a node at the first layer, if none has.
     pub(super) fn none_at_start(&self) -> Result<Vec<StrandEnd>, Error> {
         let first = &self.layers[0];
-        let slots = (0..self.grid.slots).filter(|slot| !first.has_slot(&self.grid, *slot));
+        let slots = (0..self.grid.slots).filter(|slot| first.of_slot(&self.grid, *slot).is_empty());
         let end = |slot| {
             let reason = if first.rejected.iter().any(|number| self.grid.node(*number).slot == slot)
             {
@@ -208,9 +206,4 @@ impl Planner<'_> {
         };
         slots.map(end).collect()
     }
-}
-
-/// The nodes of a branch in a layer.
-fn of_slot(grid: &Grid, layer: &Layer, slot: usize) -> Vec<(Node, [f64; 6])> {
-    layer.nodes(grid).filter(|(node, _)| node.slot == slot).collect()
 }

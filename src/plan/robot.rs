@@ -5,32 +5,30 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::answer::{NoPlan, Plan, PlanBreak, PlanError};
-use super::caller::{Accept, Caller, Watch};
+use super::best::JointPath;
 use super::ends::Given;
 use super::freedom::Freedom;
-use super::guide::guided;
-use super::layer::Waypoint;
+use super::graph::Waypoint;
+use super::joints::{NodeCost, PlannedJoints};
 use super::nodes::Arm;
-use super::options::{PlanOptions, PlanOrder};
+use super::options::{Accept, Caller, PlanOptions, Watch};
 use super::planner::Planner;
-use super::sieve::may_be_passed;
-use super::soft::Soft;
-use super::turns::PlannedJoints;
-use super::way::Way;
+use super::refine::coarse_to_fine;
 use crate::error::{Error, ModelFault, PlanFault};
-use crate::kinematics::thresholds::PLAN_END_OFF;
+use crate::kinematics::thresholds::{COARSEST_TOOL_STEP, PLAN_END_OFF};
 use crate::kinematics::{Pose, PoseDifference, Robot, checked_pose};
 
 impl Robot<6> {
     /// The best joint path along a path of poses.
     ///
-    /// Of all joint paths that are continuous, on whatever branch, with whatever turns and tool
-    /// angles, that with the smallest bottleneck: the largest velocity of a joint, relative to its
-    /// limit ([`Robot::max_velocity`]; 1 rad/s of each joint if it is unknown). Of those, that with
-    /// the smallest weighted sum of squares of joint steps, with what being near limits and
-    /// singularities costs; [`PlanOrder`] may be another. Both are exact over the tool angles of
-    /// the grid, which is then refined around the best ones. Every step is shown to be continuous
-    /// between its two poses.
+    /// Of all continuous joint paths, on any branch, with any turns and tool angles, return the one
+    /// with the smallest bottleneck: the largest velocity of a joint, relative to its limit
+    /// ([`Robot::max_velocity`]; 1 rad/s of each joint if it is unknown). Of several, the one with
+    /// the smallest weighted sum of squares of joint steps and of the costs of limits and
+    /// singularities; another [`PlanOrder`] puts the sum first. Both are exact over the grid of
+    /// what is free, which is then refined around the best values. A path of 64 poses or more with
+    /// free axes is planned along some of its poses first, then in bands around that plan. Every
+    /// step is shown to be continuous between its two poses.
     ///
     /// # Errors
     ///
@@ -42,7 +40,7 @@ impl Robot<6> {
     }
 
     /// [`Self::plan`] through joint vectors that `accept` accepts: it is asked for many at a time,
-    /// where the best way goes. Joint vectors that differ by full turns are asked for once.
+    /// along the best joint path. Joint vectors that differ by full turns are asked for once.
     ///
     /// # Errors
     ///
@@ -74,52 +72,36 @@ impl Robot<6> {
             Some(q) if q.iter().all(|angle| angle.is_finite()) => joints.around(&q),
             _ => joints,
         };
-        let freedom = Freedom::of(options);
-        let soft = Soft::of(self, options);
-        let arm =
-            Arm { robot: self, joints: &joints, freedom: &freedom, soft, watch: caller.watch };
+        let [fine, coarse] = freedoms(options);
+        let node_cost = NodeCost::new(self, options.limit_cost, options.singularity_cost);
+        let watch = caller.watch;
+        let arm = Arm { robot: self, joints: &joints, freedom: &fine, node_cost, watch };
         let points = waypoints(&path, options);
-        let ends = Given::both(&arm, &points, options)?;
-        let coarser = freedom.coarser();
-        let guided = guided(Arm { freedom: &coarser, ..arm }, &points, options, caller)?;
-        if let Some((guide, way)) = guided {
-            // A way of the whole grid is taken if it is better still.
-            let ends = [ends[0], if options.closed { ends[0] } else { ends[1] }];
-            let is_best = options.order == PlanOrder::Bottleneck
-                && !may_be_passed(arm, &points, &ends, way.bottleneck)?;
-            if is_best {
-                return Ok(guide.plan_of(&[way])?);
-            }
-            let mut planner = Planner::new(arm, &points, options, &ends)?;
-            planner.expected = Some(way.cost(options.order).0);
-            if let Some(other) = planner.way_within(way.bottleneck, caller)? {
-                let other = planner.refined(other, caller)?;
-                if other.cost(options.order) < way.cost(options.order) {
-                    return Ok(planner.plan_of(&[other])?);
-                }
-            }
-            return Ok(guide.plan_of(&[way])?);
+        let refined = coarse_to_fine(Arm { freedom: &coarse, ..arm }, &points, options, caller)?;
+        if let Some((planner, path)) = refined {
+            return Ok(planner.plan_of(&[path])?);
         }
+        let ends = Given::both(&arm, &points, options)?;
         let mut planner = Planner::new(arm, &points, options, &ends)?;
-        let mut ways = Vec::new();
+        let mut parts = Vec::new();
         let mut from = 0;
         while from < planner.layers.len() {
-            match planner.proven_way(from, caller)? {
-                Some(way) => {
-                    from = way.reached() + 1;
-                    ways.push(way);
+            match planner.proven_path(from, caller)? {
+                Some(part) => {
+                    from = part.reached() + 1;
+                    parts.push(part);
                 }
                 None => from += 1,
             }
         }
-        let is_whole = matches!(&ways[..], [way] if way.nodes.len() == planner.layers.len());
+        let is_whole = matches!(&parts[..], [part] if part.nodes.len() == planner.layers.len());
         if is_whole {
-            let way = planner.refined(ways.swap_remove(0), caller)?;
-            return Ok(planner.plan_of(&[way])?);
+            let part = planner.refined(parts.swap_remove(0), caller)?;
+            return Ok(planner.plan_of(&[part])?);
         }
-        let plan = planner.plan_of(&ways)?;
+        let plan = planner.plan_of(&parts)?;
         let end_index = reached_from_the_end(arm, &path, options, caller)?;
-        Err(PlanError::NoPlan(Box::new(planner.gap(&ways, plan, end_index)?)))
+        Err(PlanError::NoPlan(Box::new(planner.gap(&parts, plan, end_index)?)))
     }
 }
 
@@ -149,8 +131,15 @@ fn reached_from_the_end(
     let ends = Given::both(&arm, &points, &options)?;
     let mut planner = Planner::new(arm, &points, &options, &ends)?;
     let count = planner.layers.len();
-    let reached = planner.proven_way(0, caller)?.map_or(0, |way| way.reached() + 1);
+    let reached = planner.proven_path(0, caller)?.map_or(0, |path| path.reached() + 1);
     Ok(path.len() - 1 - planner.index_of(reached.min(count - 1)))
+}
+
+/// Everything that is free; with coarse tool angles, too.
+pub(super) fn freedoms(options: &PlanOptions) -> [Freedom; 2] {
+    let coarse = options.rotation.map(|rotation| rotation.coarser(COARSEST_TOOL_STEP));
+    [options.rotation, coarse]
+        .map(|rotation| Freedom::new(&options.external, options.cone, options.offset, rotation))
 }
 
 /// The poses of a path with their times.
@@ -182,8 +171,8 @@ fn checked_path(path: &[Pose], options: &PlanOptions) -> Result<Vec<Pose>, Error
 }
 
 impl Planner<'_> {
-    /// The plan of ways, with breaks between them.
-    fn plan_of(&self, ways: &[Way]) -> Result<Plan, Error> {
+    /// The plan of joint paths, with breaks between them.
+    fn plan_of(&self, parts: &[JointPath]) -> Result<Plan, Error> {
         let count = self.layers.iter().filter(|layer| layer.index.is_some()).count();
         let mut plan = Plan {
             q: vec![None; count],
@@ -197,27 +186,26 @@ impl Planner<'_> {
             certified: true,
         };
         let freedom = self.arm.freedom;
+        let rotation = freedom.rotation();
+        let tool = freedom.external..rotation.unwrap_or(freedom.axes.len());
         let mut leave = None;
-        for way in ways {
+        for part in parts {
             let mut angle: Option<f64> = None;
             let mut enter = None;
-            for (step, node) in way.nodes.iter().enumerate() {
-                let layer = &self.layers[way.from + step];
-                let own = layer.tool_angle(&self.grid, node.bin);
-                let next = angle.map_or(own, |angle| angle + freedom.angle_step(angle, own));
-                angle = Some(next);
+            let along = self.layers[part.from..].iter().zip(&part.nodes).zip(&part.q);
+            for ((layer, node), q) in along {
+                let values = layer.values(&self.grid, node.cell);
+                if let Some(axis) = rotation {
+                    let next = |from| from + freedom.axes[axis].difference(from, values[axis]);
+                    angle = Some(angle.map_or(values[axis], next));
+                }
                 let Some(index) = layer.index else { continue };
-                plan.q[index] = Some(way.q[step]);
-                plan.tool_angle[index] = next;
-                let values = layer.values(&self.grid, node.station);
-                let (external, tolerance) = values[..freedom.axes.len()].split_at(freedom.external);
-                plan.external[index] = external.to_vec();
-                plan.tolerance[index] = tolerance.to_vec();
-                plan.slot[index] = Some(if self.arm.has_names() {
-                    node.slot
-                } else {
-                    self.arm.ordinal(&way.q[step])?
-                });
+                plan.q[index] = Some(*q);
+                plan.tool_angle[index] = angle.unwrap_or_default();
+                plan.external[index] = values[..freedom.external].to_vec();
+                plan.tolerance[index] = values[tool.clone()].to_vec();
+                let slot = if self.arm.has_names() { node.slot } else { self.arm.ordinal(q)? };
+                plan.slot[index] = Some(slot);
                 if enter.is_none() {
                     enter = Some(index);
                     if leave.is_some() || index > 0 {
@@ -226,8 +214,8 @@ impl Planner<'_> {
                 }
                 leave = Some(index);
             }
-            plan.cost += way.squares;
-            plan.bottleneck = plan.bottleneck.max(way.bottleneck);
+            plan.cost += part.squares;
+            plan.bottleneck = plan.bottleneck.max(part.bottleneck);
         }
         if leave.is_none_or(|leave| leave + 1 < count) {
             plan.breaks.push(PlanBreak { leave, enter: None });
@@ -235,13 +223,13 @@ impl Planner<'_> {
         Ok(plan)
     }
 
-    /// Where and why the first way ends.
-    fn gap(&self, ways: &[Way], plan: Plan, end_index: usize) -> Result<NoPlan, Error> {
-        let Some(way) = ways.first().filter(|way| way.from == 0) else {
+    /// Where and why the first joint path ends.
+    fn gap(&self, parts: &[JointPath], plan: Plan, end_index: usize) -> Result<NoPlan, Error> {
+        let Some(part) = parts.first().filter(|part| part.from == 0) else {
             let ends = self.none_at_start()?;
             return Ok(NoPlan { pose_index: 0, end_index, ends, plan });
         };
-        let pose_index = self.index_of((way.reached() + 1).min(self.layers.len() - 1));
-        Ok(NoPlan { pose_index, end_index, ends: self.strand_ends(way)?, plan })
+        let pose_index = self.index_of((part.reached() + 1).min(self.layers.len() - 1));
+        Ok(NoPlan { pose_index, end_index, ends: self.branch_ends(part)?, plan })
     }
 }

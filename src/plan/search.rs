@@ -1,22 +1,23 @@
-//! The cheapest way through layers, by dynamic programming: exact, linear in the number of layers,
-//! no edge stored (docs/plan.md, eq. 5, 6).
+//! The cheapest joint path through the layers by dynamic programming: exact, linear in the number
+//! of layers, no edge stored (docs/plan.md, eq. 5, 6).
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::caller::Watch;
-use super::freedom::Freedom;
-use super::layer::{Grid, Layer, Node};
-use super::soft::Soft;
-use super::stations::Reach;
-use super::step::{Pass, Rates, Room};
-use super::turns::{PlannedJoints, TurnStates};
-use crate::lanes::LANES;
+use super::graph::{Edge, Node, Window};
+use super::joints::{TurnStates, whole};
+use super::ladder::Ladder;
+use super::lanes::{Pass, Relaxation, Source, Target, Work};
+use crate::lanes::{LANES, run};
 
-/// Marks a node that is entered by an edge from another branch, with the number of that edge.
-pub(super) const CROSSED: u32 = 1 << 31;
+/// Difference of two angles of a joint that may lead to another turn [rad]: a little less than half
+/// a turn.
+const OTHER_TURN: f64 = 3.0;
 
-/// The nodes and turns that a way may begin or end with: from the first to the last but one.
+/// Sources of edges that are kept at a time.
+const MOST_SOURCES: usize = 4096;
+
+/// The nodes and turns that a joint path may begin or end with: from the first to the last but one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bound {
     pub(super) nodes: [usize; 2],
@@ -33,321 +34,345 @@ impl Bound {
     }
 }
 
-/// For the edges into a layer: where in the layer before they come from.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Window {
-    /// How many bins below and above.
-    pub(super) bins: [usize; 2],
-    /// How far along each free axis.
-    pub(super) stations: Reach,
-}
-
 /// A search through layers.
 pub(super) struct Search<'a> {
-    pub(super) grid: Grid,
-    pub(super) joints: &'a PlannedJoints,
+    pub(super) ladder: Ladder<'a>,
     pub(super) states: &'a TurnStates,
-    pub(super) layers: &'a [Layer],
-    pub(super) freedom: &'a Freedom,
     pub(super) windows: &'a [Window],
     pub(super) first: Bound,
     pub(super) last: Bound,
-    pub(super) soft: Option<Soft<'a>>,
-    pub(super) watch: Watch<'a>,
 }
 
-/// Costs of the best ways to the nodes of the layer that was reached last.
+/// Costs of the best joint paths to the nodes of the layer that was reached last.
 pub(super) struct Passed {
-    /// That layer.
     pub(super) reached: usize,
-    /// The last layer where each slot was reached.
-    pub(super) alive: Vec<usize>,
-    /// The places of the pass, which had layers up to the one that was asked for.
-    places: Places,
+    /// How far each slot was reached.
+    pub(super) slots: Vec<SlotReach>,
+    /// For each combination of turns, of each node.
     costs: Vec<f64>,
+    /// Which node each node of each layer is entered from.
     by: Vec<u32>,
 }
 
-/// Where the costs and columns of nodes stand.
-#[derive(Clone, Copy)]
-pub(super) struct Places {
-    pub(super) margin: usize,
-    pitch: usize,
-    /// Places of a column.
-    pub(super) count: usize,
+/// How far a slot was reached: the last layer, and the nodes there.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SlotReach {
+    pub(super) layer: usize,
+    pub(super) nodes: Vec<usize>,
 }
 
-impl Places {
-    fn of(grid: &Grid, widest: usize) -> Self {
-        let pitch = grid.bins + 2 * widest;
-        Self { margin: widest, pitch, count: 2 * widest + grid.rows() * pitch + LANES }
-    }
+/// A step to a layer, and how it is taken.
+struct Step<'a> {
+    layer: usize,
+    pass: Pass,
+    cap: f64,
+    /// The cost of each node of the layer, for each combination of turns; empty if none.
+    node_costs: &'a [f64],
+}
 
-    pub(super) fn place(self, grid: &Grid, number: usize) -> usize {
-        let node = grid.node(number);
-        self.row(grid.row(node.slot, node.station)) + node.bin
-    }
-
-    /// First place of a row's bins.
-    pub(super) fn row(self, row: usize) -> usize {
-        self.margin + row * self.pitch
-    }
+/// The costs before and after a step, and which node each node is entered from.
+struct Costs<'a> {
+    before: &'a [f64],
+    after: &'a mut [f64],
+    by: &'a mut [u32],
 }
 
 impl Search<'_> {
-    /// The best ways from layer `from` to each node of layer `to`, or of the last layer before it
-    /// that is reached; `None` if the caller stops it.
+    /// The best joint paths from layer `from` to each node of layer `to`, or of the last layer
+    /// before it that is reached; `None` if the caller stops it.
     pub(super) fn pass(&self, pass: Pass, from: usize, to: usize, cap: f64) -> Option<Passed> {
-        let grid = &self.grid;
-        let places = self.places(from, to);
-        let states = self.states.len();
-        let size = states * places.count;
-        let mut costs = [vec![f64::INFINITY; size], vec![f64::INFINITY; size]];
-        let mut q = [vec![f64::NAN; 6 * places.count], vec![f64::NAN; 6 * places.count]];
-        let mut by = if pass == Pass::Squares { vec![0; (to - from) * size] } else { Vec::new() };
-        let mut unused = vec![0; if pass == Pass::Squares { 0 } else { size }];
-        let mut alive = vec![from; grid.slots];
-        let mut live = vec![true; grid.rows()];
-        let mut room = Room::default();
-        let soft = self.soft.filter(|_| pass == Pass::Squares);
-        let mut soft_costs = vec![0.0; if soft.is_some() { size } else { 0 }];
-        self.begin(from, places, &mut costs[0]);
-        self.load(places, &self.layers[from], &mut q[0]);
-        self.fill_margins(places, &mut costs[0]);
-        if !self.watch.goes_on() {
+        let Ladder { grid, layers, watch, .. } = self.ladder;
+        let size = self.states.len() * grid.len();
+        let (mut before, mut after) = (vec![f64::INFINITY; size], vec![f64::INFINITY; size]);
+        let is_summed = pass == Pass::Squares;
+        let mut all_by = vec![0; if is_summed { (to - from) * size } else { 0 }];
+        let mut unused = vec![0; if is_summed { 0 } else { size }];
+        let mut node_costs = Vec::new();
+        let mut slots = vec![SlotReach { layer: from, nodes: Vec::new() }; grid.slots];
+        let mut live = vec![[true; LANES]; grid.len() / LANES];
+        let mut work = Work::default();
+        self.begin(from, &mut before);
+        if !watch.goes_on() {
             return None;
         }
         for layer in from + 1..=to {
-            if self.watch.ends_at(layer) {
+            if watch.ends_at(layer) {
                 return None;
             }
-            if let Some(soft) = soft {
-                self.load_soft(places, layer, soft, &mut soft_costs);
+            if is_summed {
+                self.add_node_costs(layer, &mut node_costs);
             }
-            let [before, after] = &mut q;
-            self.load(places, &self.layers[layer], after);
-            let [costs_before, costs_after] = &mut costs;
-            let by_step = match pass {
-                Pass::Squares => &mut by[(layer - from - 1) * size..(layer - from) * size],
-                Pass::Bottleneck => &mut unused[..],
+            let by = if is_summed {
+                &mut all_by[(layer - from - 1) * size..(layer - from) * size]
+            } else {
+                &mut unused[..]
             };
             // Edges to another turn are infinitely fast in lanes, and are left out there.
-            let cap = cap.min(self.layers[layer].cap).min(f64::MAX);
-            let ends = Layers { layer, places, pass, cap, soft: &soft_costs, live: &live };
-            if self.layers[layer].refused.is_empty() {
-                self.step(&ends, [before, after], [costs_before, costs_after], by_step, &mut room);
-            } else {
-                self.step_by_itself(&ends, [costs_before, costs_after], by_step);
+            let cap = cap.min(layers[layer].cap).min(f64::MAX);
+            let step = Step { layer, pass, cap, node_costs: &node_costs };
+            let mut costs = Costs { before: &before, after: &mut after, by };
+            self.step(&step, &mut costs, &live, &mut work);
+            self.relax_singly(&step, &mut costs);
+            if !self.notes_reached(layer, [&before, &after], &mut live, &mut slots) {
+                return Some(Passed { reached: layer - 1, slots, costs: before, by: all_by });
             }
-            self.cross(&ends, [costs_before, costs_after], by_step);
-            if !self.survives(places, costs_after, &mut live) {
-                let [costs, _] = costs;
-                return Some(Passed { reached: layer - 1, alive, places, costs, by });
-            }
-            for (last, rows) in alive.iter_mut().zip(live.chunks(grid.stations.len())) {
-                *last = if rows.contains(&true) { layer } else { *last };
-            }
-            self.fill_margins(places, costs_after);
-            q.swap(0, 1);
-            costs.swap(0, 1);
+            core::mem::swap(&mut before, &mut after);
         }
-        let [costs, _] = costs;
-        Some(Passed { reached: to, alive, places, costs, by })
+        Some(Passed { reached: to, slots, costs: before, by: all_by })
     }
 
-    /// What each node of a layer costs, with each combination of turns.
-    fn load_soft(&self, places: Places, layer: usize, soft: Soft<'_>, costs: &mut [f64]) {
-        let time = self.layers[layer].time - self.layers[layer - 1].time;
-        for (node, q) in self.layers[layer].nodes(&self.grid) {
-            let place = places.place(&self.grid, self.grid.number(node));
+    /// The cost of each node of a layer, with each combination of turns.
+    fn add_node_costs(&self, layer: usize, costs: &mut Vec<f64>) {
+        let Ladder { grid, joints, layers, node_cost: Some(node_cost), .. } = self.ladder else {
+            return;
+        };
+        costs.resize(self.states.len() * grid.len(), 0.0);
+        for (node, q) in layers[layer].nodes(&grid) {
             for state in 0..self.states.len() {
                 let turns = self.states.turns(state);
-                let q =
-                    core::array::from_fn(|joint| self.joints.angle(joint, q[joint], turns[joint]));
-                costs[state * places.count + place] = soft.cost(&q, time);
+                let q = core::array::from_fn(|joint| joints.angle(joint, q[joint], turns[joint]));
+                let at = state * grid.len() + grid.number(node);
+                costs[at] = node_cost.at(&q, self.ladder.time(layer));
             }
         }
     }
 
-    /// The nodes that a way may begin at cost nothing so far.
-    fn begin(&self, from: usize, places: Places, costs: &mut [f64]) {
+    /// The nodes that a joint path may begin at cost nothing so far.
+    fn begin(&self, from: usize, costs: &mut [f64]) {
+        let Ladder { grid, joints, layers, .. } = self.ladder;
         let bound = if from == 0 { self.first } else { Bound::NONE };
-        for (node, q) in self.layers[from].nodes(&self.grid) {
-            let number = self.grid.number(node);
+        for (node, q) in layers[from].nodes(&grid) {
+            let number = grid.number(node);
             for state in 0..self.states.len() {
-                if bound.admits(number, state) && self.states.holds(self.joints, &q, state) {
-                    costs[state * places.count + places.place(&self.grid, number)] = 0.0;
+                if bound.admits(number, state) && self.states.holds(joints, &q, state) {
+                    costs[state * grid.len() + number] = 0.0;
                 }
             }
         }
     }
 
-    /// The joint angles of a layer as columns, with those from around the circle in the margins.
-    fn load(&self, places: Places, layer: &Layer, q: &mut [f64]) {
-        let grid = &self.grid;
-        if places.margin == 0 {
-            // Without margins the places are the nodes.
-            for (joint, q) in q.chunks_mut(places.count).enumerate() {
-                q[..grid.len()].copy_from_slice(layer.column(grid, joint));
-            }
-            return;
-        }
-        for row in 0..grid.rows() {
-            if !layer.present[row] && grid.bins >= LANES {
-                continue;
-            }
-            for joint in 0..6 {
-                let angles = layer.angles(grid, row, joint);
-                let start = joint * places.count + places.row(row);
-                copy(angles, &mut q[start..]);
-                if grid.cyclic {
-                    wrap(q, start, grid.bins, places.margin);
+    /// Note the nodes and slots of a layer that are reached; whether there are any.
+    fn notes_reached(
+        &self,
+        layer: usize,
+        [before, after]: [&[f64]; 2],
+        live: &mut [[bool; LANES]],
+        slots: &mut [SlotReach],
+    ) -> bool {
+        let grid = self.ladder.grid;
+        live.fill([false; LANES]);
+        for costs in after.chunks(grid.len()) {
+            for (live, costs) in live.iter_mut().zip(costs.as_chunks::<LANES>().0) {
+                for (live, cost) in live.iter_mut().zip(costs) {
+                    *live |= *cost < f64::INFINITY;
                 }
             }
         }
-    }
-
-    /// Costs in the margins: those from around the circle, or none.
-    fn fill_margins(&self, places: Places, costs: &mut [f64]) {
-        let (bins, margin) = (self.grid.bins, places.margin);
-        if margin == 0 {
-            return;
-        }
-        for costs in costs.chunks_mut(places.count) {
-            for row in 0..self.grid.rows() {
-                let start = places.row(row);
-                if self.grid.cyclic {
-                    wrap(costs, start, bins, margin);
-                } else {
-                    costs[start - margin..start].fill(f64::INFINITY);
-                    costs[start + bins..start + bins + margin].fill(f64::INFINITY);
-                }
+        for nodes in live.as_flattened().chunks(grid.width) {
+            for (slot, is_reached) in slots.iter_mut().zip(nodes) {
+                slot.layer = if *is_reached { layer } else { slot.layer };
             }
         }
-    }
-
-    pub(super) fn rates(&self, layer: usize) -> Rates {
-        let time = self.layers[layer].time - self.layers[layer - 1].time;
-        Rates::of(self.joints, time)
-    }
-
-    /// Whether any node of a layer is reached; notes the rows that are.
-    fn survives(&self, places: Places, costs: &[f64], live: &mut [bool]) -> bool {
-        let bins = self.grid.bins;
-        for (row, live) in live.iter_mut().enumerate() {
-            let start = places.row(row);
-            let mut columns = costs.chunks(places.count);
-            *live = columns
-                .any(|costs| costs[start..start + bins].iter().any(|cost| *cost < f64::INFINITY));
+        for (slot, own) in slots.iter_mut().enumerate().filter(|(_, own)| own.layer + 1 == layer) {
+            let is_reached = |number: &usize| {
+                before.iter().skip(*number).step_by(grid.len()).any(|cost| *cost < f64::INFINITY)
+            };
+            own.nodes = (slot..grid.len()).step_by(grid.width).filter(is_reached).collect();
         }
-        live.contains(&true)
+        slots.iter().any(|slot| slot.layer == layer)
     }
 
     /// The cheapest node of the layer that was reached, with its turns and its cost; of the last
-    /// layer, among those where the way may end.
+    /// layer, among those where the joint path may end.
     pub(super) fn cheapest(&self, passed: &Passed) -> Option<(usize, usize, f64)> {
-        let is_last = passed.reached + 1 == self.layers.len();
+        let is_last = passed.reached + 1 == self.ladder.layers.len();
         let bound = if is_last { self.last } else { Bound::NONE };
-        let places = passed.places;
         let mut best: Option<(usize, usize, f64)> = None;
-        for number in 0..self.grid.len() {
-            for state in 0..self.states.len() {
-                let place = places.place(&self.grid, number);
-                let cost = passed.costs[state * places.count + place];
-                let is_better = cost < best.map_or(f64::INFINITY, |(_, _, least)| least);
-                if is_better && bound.admits(number, state) {
-                    best = Some((number, state, cost));
-                }
+        for (at, cost) in passed.costs.iter().enumerate() {
+            let (state, number) = (at / self.ladder.grid.len(), at % self.ladder.grid.len());
+            let is_better = *cost < best.map_or(f64::INFINITY, |(_, _, least)| least);
+            if is_better && bound.admits(number, state) {
+                best = Some((number, state, *cost));
             }
         }
         best
     }
 
-    /// The nodes of the layer that was reached, with any turns.
-    pub(super) fn reached(&self, passed: &Passed) -> Vec<usize> {
-        let is_reached = |number: &usize| {
-            let place = passed.places.place(&self.grid, *number);
-            let mut columns = passed.costs.chunks(passed.places.count);
-            columns.any(|costs| costs[place] < f64::INFINITY)
-        };
-        (0..self.grid.len()).filter(is_reached).collect()
-    }
-
-    /// The way to a node, from layer `from` on: its nodes, and its state at the beginning.
-    pub(super) fn way_to(
+    /// The joint path to a node, from layer `from` on: its nodes, and its state at the beginning.
+    pub(super) fn path_to(
         &self,
         passed: &Passed,
         from: usize,
         (mut number, mut state): (usize, usize),
     ) -> (Vec<Node>, usize) {
-        let grid = &self.grid;
-        let places = passed.places;
-        let size = self.states.len() * places.count;
+        let Ladder { grid, joints, layers, .. } = self.ladder;
+        let size = self.states.len() * grid.len();
         let mut nodes = vec![grid.node(number)];
         for layer in (from + 1..=passed.reached).rev() {
-            let at = (layer - from - 1) * size + state * places.count + places.place(grid, number);
-            let label = passed.by[at];
-            let to = grid.node(number);
-            let before = if label & CROSSED != 0 {
-                self.layers[layer].crossings[(label & !CROSSED) as usize][0]
-            } else {
-                let mut sources = self.sources(layer, to);
-                let from = sources.find(|(_, own)| *own == label);
-                grid.number(from.map_or(to, |(from, _)| from))
-            };
-            let q = self.layers[layer].joints(grid, to).unwrap_or_default();
-            let from = grid.node(before);
-            let q_before = self.layers[layer - 1].joints(grid, from).unwrap_or_default();
+            let q = layers[layer].joints(&grid, grid.node(number)).unwrap_or_default();
+            let at = (layer - from - 1) * size + state * grid.len() + number;
+            number = passed.by[at] as usize;
+            let q_before = layers[layer - 1].joints(&grid, grid.node(number)).unwrap_or_default();
             let turns = self.states.turns(state);
             let turns_before = core::array::from_fn(|joint| {
-                turns[joint] + self.joints.step(joint, q_before[joint], q[joint]).1
+                turns[joint] + joints.step(joint, q_before[joint], q[joint]).1
             });
             state = self.states.state(&turns_before).unwrap_or_default();
-            number = before;
-            nodes.push(from);
+            nodes.push(grid.node(number));
         }
         nodes.reverse();
         (nodes, state)
     }
 
-    fn places(&self, from: usize, to: usize) -> Places {
-        Places::of(&self.grid, self.widest(from, to))
+    /// Take the edges on their own branch.
+    fn step(
+        &self,
+        step: &Step<'_>,
+        costs: &mut Costs<'_>,
+        live: &[[bool; LANES]],
+        work: &mut Work,
+    ) {
+        let Ladder { grid, layers, .. } = self.ladder;
+        let blocks = grid.width / LANES;
+        costs.after.fill(f64::INFINITY);
+        for (block, q) in layers[step.layer].q.iter().enumerate() {
+            if q[0].iter().all(|angle| angle.is_nan()) {
+                continue;
+            }
+            let (cell, lanes) = (block / blocks, block % blocks);
+            let begin = work.sources.len();
+            for from in grid.around(cell, &self.windows[step.layer]) {
+                let block = from * blocks + lanes;
+                if live[block].contains(&true) {
+                    let moved = self.ladder.moved(step.layer, [from, cell]);
+                    work.sources.push(Source { block, live: live[block], moved });
+                }
+            }
+            work.targets.push(Target { block, sources: [begin, work.sources.len()] });
+            if work.sources.len() >= MOST_SOURCES {
+                self.step_in_lanes(step, costs, work);
+            }
+        }
+        self.step_in_lanes(step, costs, work);
     }
 
-    fn widest(&self, from: usize, to: usize) -> usize {
-        let bins = self.windows[from + 1..=to].iter().flat_map(|window| window.bins);
-        bins.fold(0, usize::max)
+    /// Take the edges from sources into targets, in lanes; empty both.
+    fn step_in_lanes(&self, step: &Step<'_>, costs: &mut Costs<'_>, work: &mut Work) {
+        let layers = self.ladder.layers;
+        macro_rules! relax {
+            ($squares:literal) => {
+                run(Relaxation::<'_, $squares> {
+                    q: &layers[step.layer - 1].q,
+                    before: costs.before.as_chunks().0,
+                    next: &layers[step.layer].q,
+                    after: costs.after.as_chunks_mut().0,
+                    by: costs.by.as_chunks_mut().0,
+                    node_costs: step.node_costs.as_chunks().0,
+                    rates: self.ladder.rates(step.layer),
+                    counted: core::array::from_fn(|joint| self.states.has(joint)),
+                    cap: step.cap,
+                    work: &mut *work,
+                })
+            };
+        }
+        match step.pass {
+            Pass::Bottleneck => relax!(false),
+            Pass::Squares => relax!(true),
+        }
+        work.targets.clear();
+        work.sources.clear();
     }
-}
 
-/// The layers between which a step is taken, and how.
-pub(super) struct Layers<'a> {
-    /// The later one.
-    pub(super) layer: usize,
-    pub(super) places: Places,
-    pub(super) pass: Pass,
-    pub(super) cap: f64,
-    /// What each node of it costs, for each combination of turns; empty if nothing.
-    pub(super) soft: &'a [f64],
-    /// Which rows of the earlier one are reached.
-    pub(super) live: &'a [bool],
-}
-
-/// Copy a few numbers: by lanes, without a call.
-fn copy(from: &[f64], to: &mut [f64]) {
-    let (lanes, rest) = from.as_chunks::<LANES>();
-    let (to_lanes, _) = to.as_chunks_mut::<LANES>();
-    for (from, to) in lanes.iter().zip(to_lanes) {
-        *to = *from;
+    /// Take the edges that lanes do not take: those to another turn, those into nodes with a
+    /// refused edge, and those from one branch to another.
+    fn relax_singly(&self, step: &Step<'_>, costs: &mut Costs<'_>) {
+        let Ladder { grid, layers, .. } = self.ladder;
+        let next = &layers[step.layer];
+        let mut refused: Vec<usize> = next.refused.iter().map(|[_, to]| *to).collect();
+        refused.sort_unstable();
+        refused.dedup();
+        for number in refused {
+            for state in 0..self.states.len() {
+                costs.after[state * grid.len() + number] = f64::INFINITY;
+            }
+            self.enter(step, number, costs);
+        }
+        if self.states.len() > 1 {
+            for (node, q) in next.nodes(&grid) {
+                self.turn(step, grid.number(node), &q, costs);
+            }
+        }
+        for edge in next.crossings.iter().filter(|edge| !next.refused.contains(edge)) {
+            self.relax(step, *edge, costs);
+        }
     }
-    for (from, to) in rest.iter().zip(&mut to[LANES * lanes.len()..]) {
-        *to = *from;
-    }
-}
 
-/// Copy both ends of a run of numbers to the margins beyond the opposite ends.
-fn wrap(numbers: &mut [f64], start: usize, bins: usize, margin: usize) {
-    let end = start + bins;
-    numbers.copy_within(end - margin..end, start - margin);
-    numbers.copy_within(start..start + margin, end);
+    /// Take all edges on its own branch into a node.
+    fn enter(&self, step: &Step<'_>, number: usize, costs: &mut Costs<'_>) {
+        let Ladder { grid, layers, .. } = self.ladder;
+        let node = grid.node(number);
+        for cell in grid.around(node.cell, &self.windows[step.layer]) {
+            let edge = [grid.number(Node { cell, ..node }), number];
+            if !layers[step.layer].refused.contains(&edge) {
+                self.relax(step, edge, costs);
+            }
+        }
+    }
+
+    /// Leave out the turns that a node does not have; take the edges into it that lead to another
+    /// turn.
+    fn turn(&self, step: &Step<'_>, number: usize, q: &[f64; 6], costs: &mut Costs<'_>) {
+        let Ladder { grid, joints, layers, .. } = self.ladder;
+        let counted = || (0..6).filter(|joint| self.states.has(*joint));
+        if counted().any(|joint| joints.last_turn(joint, q[joint]) + 1 < whole(joints.count(joint)))
+        {
+            for state in (0..self.states.len()).filter(|s| !self.states.holds(joints, q, *s)) {
+                costs.after[state * grid.len() + number] = f64::INFINITY;
+            }
+        }
+        let node = grid.node(number);
+        let is_far = |cell: usize| {
+            let before = layers[step.layer - 1].joints(&grid, Node { cell, ..node });
+            before.is_some_and(|before| {
+                counted().any(|joint| (q[joint] - before[joint]).abs() > OTHER_TURN)
+            })
+        };
+        if grid.around(node.cell, &self.windows[step.layer]).any(is_far) {
+            self.enter(step, number, costs);
+        }
+    }
+
+    /// Take an edge if it is better than the one that was taken, for every combination of turns.
+    fn relax(&self, step: &Step<'_>, edge: Edge, costs: &mut Costs<'_>) {
+        let Ladder { grid, joints, layers, .. } = self.ladder;
+        let [from, to] = edge.map(|number| grid.node(number));
+        let q_before = layers[step.layer - 1].joints(&grid, from);
+        let Some((q_before, q)) = q_before.zip(layers[step.layer].joints(&grid, to)) else {
+            return;
+        };
+        let (mut steps, mut carried) = ([0.0; 6], [0; 6]);
+        for joint in 0..6 {
+            (steps[joint], carried[joint]) = joints.step(joint, q_before[joint], q[joint]);
+        }
+        let moved = self.ladder.moved(step.layer, [from.cell, to.cell]);
+        let cost = self.ladder.rates(step.layer).cost(&steps, moved);
+        if cost.0 > step.cap {
+            return;
+        }
+        let [from, to] = edge;
+        for state in (0..self.states.len()).filter(|state| self.states.holds(joints, &q, *state)) {
+            let turns = self.states.turns(state);
+            let turns_before = core::array::from_fn(|joint| turns[joint] + carried[joint]);
+            let Some(state_before) = self.states.state(&turns_before) else { continue };
+            let (before, at) = (state_before * grid.len() + from, state * grid.len() + to);
+            let node_cost = step.node_costs.get(at).copied().unwrap_or_default();
+            let continued = step.pass.continued(costs.before[before], cost, step.cap) + node_cost;
+            if continued < costs.after[at] {
+                costs.after[at] = continued;
+                if let Some(by) = costs.by.get_mut(at) {
+                    *by = u32::try_from(from).unwrap_or_default();
+                }
+            }
+        }
+    }
 }

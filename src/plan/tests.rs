@@ -4,19 +4,17 @@ use std::vec::Vec;
 
 use core::f64::consts::{PI, TAU};
 
-use super::caller::Watch;
+use super::best::JointPath;
 use super::certificate::Between;
 use super::exhaustive::{Turned, edge, exhaustive, turned};
-use super::field::{Ends, Field};
 use super::freedom::Freedom;
-use super::layer::{Grid, Layer, Node};
+use super::graph::{Grid, Layer, Node, Values};
+use super::joints::{NodeCost, PlannedJoints, TurnStates};
+use super::ladder::{Ends, Ladder};
 use super::nodes::Arm;
+use super::options::Watch;
 use super::planner::Planner;
-use super::robot::waypoints;
-use super::soft::Soft;
-use super::stations::Stations;
-use super::turns::{PlannedJoints, TurnStates};
-use super::way::Way;
+use super::robot::{freedoms, waypoints};
 use super::{ExternalAxis, PlanError, PlanOptions, PlanOrder, ToolAxis, ToolRotation};
 use crate::kinematics::{JointLimits, Pose, Robot, largest, pose_from_euler_zyx, steps};
 use crate::paths::Turn;
@@ -28,33 +26,35 @@ fn below(rng: &mut Rng, count: usize) -> usize {
 
 /// Layers with random joint angles: nothing of them is geometry.
 fn random_layers(rng: &mut Rng, joints: &PlannedJoints, freedom: &Freedom) -> (Grid, Vec<Layer>) {
-    let stations = Stations::of(&freedom.axes);
-    let grid = Grid {
-        slots: 1 + below(rng, 2),
-        stations,
-        bins: 1 + below(rng, if stations.len() > 1 { 2 } else { 3 }),
-        step: 0.1,
-        cyclic: below(rng, 2) == 0,
-    };
+    let slots = if below(rng, 8) == 0 { 9 } else { 1 + below(rng, 2) };
+    let mut grid = freedom.grid(slots);
+    if let Some(axis) = freedom.rotation() {
+        grid.steps[axis] = 0.1;
+    }
     let (start, end) = (Pose::identity(), pose_from_euler_zyx([0.0; 3], [3.0, 0.0, 0.0]).unwrap());
     let (mut layers, mut time) = (Vec::new(), 0.0);
     for index in 0..2 + below(rng, 3) {
         time += 0.1;
         let mut layer = Layer::new(start, time, Some(index), &grid);
-        layer.bases[0] = rng.between(-0.1, 0.1);
+        layer.first[0] = rng.between(-0.1, 0.1);
         // So large a turn that no window is narrower than all tool angles.
         layer.turn = Some(Turn::new(&start.rotation, &end.rotation, None, 0).unwrap());
-        for number in 0..grid.len() {
-            if below(rng, 6) > 0 {
+        for (cell, slot) in
+            (0..grid.cells).flat_map(|cell| (0..slots).map(move |slot| (cell, slot)))
+        {
+            // Of many slots few have nodes: an exhaustive search has to end.
+            if below(rng, 6) > 0 && (slots < 9 || below(rng, 5) == 0) {
                 let q = core::array::from_fn(|joint| {
                     let [lower, upper] = joints.limits(joint);
                     joints.first_turn(joint, rng.between(lower, upper))
                 });
-                layer.put(&grid, grid.node(number), Some(q));
+                layer.put(&grid, Node { slot, cell }, Some(q));
             }
         }
         if index > 0 {
-            let pair = |rng: &mut Rng| [below(rng, grid.len()), below(rng, grid.len())];
+            let node =
+                |rng: &mut Rng| Node { slot: below(rng, slots), cell: below(rng, grid.cells) };
+            let pair = |rng: &mut Rng| [node(rng), node(rng)].map(|node| grid.number(node));
             for _ in 0..below(rng, 3) {
                 let refused = pair(rng);
                 layer.refused.push(refused);
@@ -89,7 +89,7 @@ fn close(a: f64, b: f64) -> bool {
 }
 
 #[test]
-fn the_best_way_is_that_of_an_exhaustive_search() {
+fn the_best_path_is_that_of_an_exhaustive_search() {
     let (mut rng, mut whole) = (Rng::new(7), 0);
     for case in 0..10_000 {
         let robot = wide(&mut rng);
@@ -98,8 +98,8 @@ fn the_best_way_is_that_of_an_exhaustive_search() {
         let freedom = random_freedom(&mut rng);
         let (grid, layers) = random_layers(&mut rng, &joints, &freedom);
         let speed = if case % 3 == 0 { rng.between(2.0, 12.0) } else { f64::INFINITY };
-        let (order, soft, mut states) = random_costs(&mut rng, &robot, &joints);
-        let field = Field {
+        let (order, node_cost, mut states) = random_costs(&mut rng, &robot, &joints);
+        let ladder = Ladder {
             grid,
             joints: &joints,
             freedom: &freedom,
@@ -109,42 +109,46 @@ fn the_best_way_is_that_of_an_exhaustive_search() {
             ends: Ends::default(),
             whole: false,
             order,
-            soft,
+            node_cost,
             watch: Watch::default(),
         };
-        let (count, bottleneck, squares) = exhaustive(&field, |_, _| true);
-        let Some(way) = field.best_way(0, &mut states).unwrap() else {
+        let (count, bottleneck, squares) = exhaustive(&ladder, |_, _| true);
+        let Some(best) = ladder.best_path(0, &mut states).unwrap() else {
             assert_eq!(count, 0, "case {case}");
             continue;
         };
-        assert_eq!(way.nodes.len(), count, "case {case}");
-        assert!(close(way.bottleneck, bottleneck), "case {case}: {} {bottleneck}", way.bottleneck);
-        assert!(close(way.squares, squares), "case {case}: {} {squares}", way.squares);
-        assert_is_a_way(&field, &way);
+        assert_eq!(best.nodes.len(), count, "case {case}");
+        assert!(
+            close(best.bottleneck, bottleneck),
+            "case {case}: {} {bottleneck}",
+            best.bottleneck
+        );
+        assert!(close(best.squares, squares), "case {case}: {} {squares}", best.squares);
+        assert_is_a_path(&ladder, &best);
         whole += usize::from(count == layers.len());
     }
-    assert!(whole > 3_000, "{whole} whole ways");
+    assert!(whole > 3_000, "{whole} whole paths");
 }
 
 /// An order of costs and, in half of the cases, costs of being near limits and singularities, with
-/// the turns that they tell apart.
+/// the joints whose turns they make count.
 fn random_costs<'a>(
     rng: &mut Rng,
     robot: &'a Robot<6>,
     joints: &PlannedJoints,
-) -> (PlanOrder, Option<Soft<'a>>, TurnStates) {
+) -> (PlanOrder, Option<NodeCost<'a>>, TurnStates) {
     let order = if below(rng, 2) == 0 { PlanOrder::Bottleneck } else { PlanOrder::Sum };
     let mut cost = || if below(rng, 4) == 0 { rng.between(0.0, 1e4) } else { 0.0 };
-    let options =
-        PlanOptions { limit_cost: cost(), singularity_cost: cost(), ..PlanOptions::default() };
-    let (soft, mut states) = (Soft::of(robot, &options), TurnStates::default());
-    for joint in (0..6).filter(|joint| soft.is_some_and(|soft| soft.tells(joints, *joint))) {
-        states.add(joint, joints).unwrap();
+    let (node_cost, mut states) = (NodeCost::new(robot, cost(), cost()), TurnStates::default());
+    for joint in 0..6 {
+        if node_cost.is_some_and(|cost| cost.depends_on_turns(joints, joint)) {
+            states.add(joint, joints).unwrap();
+        }
     }
-    (order, soft, states)
+    (order, node_cost, states)
 }
 
-/// Nothing free, or a track with a few places.
+/// A track with a few values or none, and a few tool angles or none, all around or not.
 fn random_freedom(rng: &mut Rng) -> Freedom {
     let steps = below(rng, 4);
     let external: Vec<_> = (steps > 1)
@@ -156,11 +160,14 @@ fn random_freedom(rng: &mut Rng) -> Freedom {
         })
         .into_iter()
         .collect();
-    Freedom::of(&PlanOptions { external, ..PlanOptions::default() })
+    let count = 1 + below(rng, if steps > 1 { 2 } else { 3 });
+    let upper = if below(rng, 2) == 0 { PI } else { 0.0 };
+    let rotation = ToolRotation::new(count, -PI, upper, ToolAxis::Z).ok();
+    Freedom::new(&external, None, None, rotation)
 }
 
 #[test]
-fn the_best_closed_way_is_that_of_an_exhaustive_search() {
+fn the_best_closed_path_is_that_of_an_exhaustive_search() {
     let (mut rng, mut whole) = (Rng::new(8), 0);
     for case in 0..4_000 {
         let robot = wide(&mut rng);
@@ -169,10 +176,10 @@ fn the_best_closed_way_is_that_of_an_exhaustive_search() {
         let (grid, mut layers) = random_layers(&mut rng, &joints, &freedom);
         let (first, rest) = layers.split_first_mut().unwrap();
         let last = rest.last_mut().unwrap();
-        (last.q, last.present) = (first.q.clone(), first.present.clone());
-        last.bases = first.bases;
-        let (order, soft, mut states) = random_costs(&mut rng, &robot, &joints);
-        let field = Field {
+        last.q = first.q.clone();
+        last.first = first.first;
+        let (order, node_cost, mut states) = random_costs(&mut rng, &robot, &joints);
+        let ladder = Ladder {
             grid,
             joints: &joints,
             freedom: &freedom,
@@ -182,46 +189,50 @@ fn the_best_closed_way_is_that_of_an_exhaustive_search() {
             ends: Ends { closed: true, ..Ends::default() },
             whole: true,
             order,
-            soft,
+            node_cost,
             watch: Watch::default(),
         };
         let is_closed = |first: &Turned, last: &Turned| {
             first.number == last.number && largest(&steps(&first.q, &last.q)) < 1e-9
         };
-        let (count, bottleneck, squares) = exhaustive(&field, is_closed);
-        let way = field.closed_way(&mut states).unwrap();
-        assert_eq!(way.is_some(), count == layers.len(), "case {case}");
-        let Some(way) = way else { continue };
-        assert!(close(way.bottleneck, bottleneck), "case {case}: {} {bottleneck}", way.bottleneck);
-        assert!(close(way.squares, squares), "case {case}: {} {squares}", way.squares);
-        assert_is_a_way(&field, &way);
+        let (count, bottleneck, squares) = exhaustive(&ladder, is_closed);
+        let best = ladder.best_closed_path(&mut states).unwrap();
+        assert_eq!(best.is_some(), count == layers.len(), "case {case}");
+        let Some(best) = best else { continue };
+        assert!(
+            close(best.bottleneck, bottleneck),
+            "case {case}: {} {bottleneck}",
+            best.bottleneck
+        );
+        assert!(close(best.squares, squares), "case {case}: {} {squares}", best.squares);
+        assert_is_a_path(&ladder, &best);
         whole += 1;
     }
-    assert!(whole > 1_000, "{whole} closed ways");
+    assert!(whole > 1_000, "{whole} closed paths");
 }
 
-/// A way's joint angles are those of its nodes, inside the limits, and cost what it says.
-fn assert_is_a_way(field: &Field<'_>, way: &Way) {
+/// The joint angles belong to the nodes, are inside the limits, and cost what the joint path says.
+fn assert_is_a_path(ladder: &Ladder<'_>, best: &JointPath) {
     let (mut most, mut squares) = (0.0_f64, 0.0);
-    for (step, (node, q)) in way.nodes.iter().zip(&way.q).enumerate() {
-        let own = field.layers[step].joints(&field.grid, *node).unwrap();
+    for (step, (node, q)) in best.nodes.iter().zip(&best.q).enumerate() {
+        let own = ladder.layers[step].joints(&ladder.grid, *node).unwrap();
         for joint in 0..6 {
             let turns = (q[joint] - own[joint]) / TAU;
             assert!((turns - turns.round()).abs() < 1e-9);
         }
-        assert!(field.joints.contain(q));
+        assert!(ladder.joints.contain(q));
         if step > 0 {
             let turned = |node: &Node, q: [f64; 6]| Turned {
-                number: field.grid.number(*node),
+                number: ladder.grid.number(*node),
                 node: *node,
                 q,
             };
-            let from = turned(&way.nodes[step - 1], way.q[step - 1]);
-            let (own_most, own) = edge(field, step, &from, &turned(node, *q)).unwrap();
+            let from = turned(&best.nodes[step - 1], best.q[step - 1]);
+            let (own_most, own) = edge(ladder, step, &from, &turned(node, *q)).unwrap();
             (most, squares) = (most.max(own_most), squares + own);
         }
     }
-    assert!(close(most, way.bottleneck) && close(squares, way.squares));
+    assert!(close(most, best.bottleneck) && close(squares, best.squares));
 }
 
 /// A short random path of an arm.
@@ -241,7 +252,7 @@ pub(super) fn random_path(robot: &Robot<6>, rng: &mut Rng, count: usize, size: f
 }
 
 #[test]
-fn no_wider_window_and_no_more_turns_find_a_better_way() {
+fn no_wider_window_and_no_more_turns_find_a_better_path() {
     let (mut rng, mut whole) = (Rng::new(11), 0);
     for case in 0..60 {
         let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
@@ -255,38 +266,39 @@ fn no_wider_window_and_no_more_turns_find_a_better_way() {
         };
         let options =
             PlanOptions { rotation, order, limit_cost, singularity_cost, ..PlanOptions::default() };
-        let freedom = Freedom::of(&options);
-        let (soft, watch) = (Soft::of(&robot, &options), Watch::default());
-        let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom, soft, watch };
+        let [freedom, _] = freedoms(&options);
+        let node_cost = NodeCost::new(&robot, limit_cost, singularity_cost);
+        let watch = Watch::default();
+        let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom, node_cost, watch };
         let planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
-        let field = planner.field();
+        let ladder = planner.ladder();
         // All pairs, layer by layer.
-        let layers: Vec<_> = field.layers.iter().map(|layer| turned(&field, layer)).collect();
+        let layers: Vec<_> = ladder.layers.iter().map(|layer| turned(&ladder, layer)).collect();
         let mut costs = std::vec![0.0; layers[0].len()];
         for layer in 1..layers.len() {
             costs = layers[layer]
                 .iter()
                 .map(|to| {
-                    let ways = layers[layer - 1].iter().zip(&costs).filter_map(|(from, cost)| {
-                        let (most, squares) = edge(&field, layer, from, to)?;
+                    let all = layers[layer - 1].iter().zip(&costs).filter_map(|(from, cost)| {
+                        let (most, squares) = edge(&ladder, layer, from, to)?;
                         Some(match order {
                             PlanOrder::Bottleneck => most.max(*cost),
                             PlanOrder::Sum => squares + cost,
                         })
                     });
-                    ways.fold(f64::INFINITY, f64::min)
+                    all.fold(f64::INFINITY, f64::min)
                 })
                 .collect();
         }
         let least = costs.into_iter().fold(f64::INFINITY, f64::min);
-        let way = field.best_way(0, &mut planner.states.clone()).unwrap().unwrap();
-        assert_eq!(way.nodes.len() == 4, least.is_finite(), "case {case}");
+        let best = ladder.best_path(0, &mut planner.states.clone()).unwrap().unwrap();
+        assert_eq!(best.nodes.len() == 4, least.is_finite(), "case {case}");
         if least.is_finite() {
-            assert!(close(way.cost(order).0, least), "case {case}: {way:?} {least}");
+            assert!(close(best.cost(order).0, least), "case {case}: {best:?} {least}");
             whole += 1;
         }
     }
-    assert!(whole >= 30, "{whole} whole ways");
+    assert!(whole >= 30, "{whole} whole paths");
 }
 
 #[test]
@@ -295,25 +307,25 @@ fn a_step_through_a_flip_is_no_continuous_one() {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let joints = PlannedJoints::of(&robot, [1.0; 6]);
     let options = PlanOptions::default();
-    let freedom = Freedom::of(&options);
-    let (soft, watch) = (None, Watch::default());
-    let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom, soft, watch };
+    let [freedom, _] = freedoms(&options);
+    let (node_cost, watch) = (None, Watch::default());
+    let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom, node_cost, watch };
     let path: Vec<Pose> = [0.01, -0.01].map(|q5| robot.fk(&[0.2, 0.1, 0.3, 0.0, q5, 0.4])).to_vec();
     let mut planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
     // Of the branches only the two that differ by the wrist: others have no singularity there.
     for slot in 2..planner.grid.slots {
-        let node = Node { slot, station: 0, bin: 0 };
+        let node = Node { slot, cell: 0 };
         planner.layers.iter_mut().for_each(|layer| layer.put(&planner.grid, node, None));
     }
-    let way = planner.field().best_way(0, &mut TurnStates::default()).unwrap().unwrap();
-    assert!(way.bottleneck < 0.1, "the way through the singularity: {}", way.bottleneck);
-    assert!(arm.doubts(&planner.grid, &planner.layers, &way).is_empty());
+    let best = planner.ladder().best_path(0, &mut TurnStates::default()).unwrap().unwrap();
+    assert!(best.bottleneck < 0.1, "the path through the singularity: {}", best.bottleneck);
+    assert!(arm.discontinuities(&planner.grid, &planner.layers, (&best.nodes, &best.q)).is_empty());
     // Without the crossing, a flip is all that is left, and it is seen.
     planner.layers[1].crossings.clear();
-    let way = planner.field().best_way(0, &mut TurnStates::default()).unwrap().unwrap();
-    assert!(way.q[0].iter().zip(&way.q[1]).any(|(a, b)| (a - b).abs() > 3.0));
-    let doubts = arm.doubts(&planner.grid, &planner.layers, &way);
-    assert!(matches!(doubts[..], [(1, Between::Jump | Between::Elsewhere)]), "{doubts:?}");
+    let best = planner.ladder().best_path(0, &mut TurnStates::default()).unwrap().unwrap();
+    assert!(best.q[0].iter().zip(&best.q[1]).any(|(a, b)| (a - b).abs() > 3.0));
+    let open = arm.discontinuities(&planner.grid, &planner.layers, (&best.nodes, &best.q));
+    assert!(matches!(open[..], [(1, Between::Jump | Between::Elsewhere)]), "{open:?}");
 }
 
 #[test]
@@ -337,10 +349,12 @@ fn plans_meet_their_poses_and_their_options() {
                 }
                 Err(error) => panic!("{name}: {error}"),
             };
-            let freedom = Freedom::of(&options);
+            let [freedom, _] = freedoms(&options);
             for (index, q) in plan.q.iter().enumerate() {
                 let Some(q) = q else { continue };
-                let pose = freedom.tool(&path[index], &Default::default(), plan.tool_angle[index]);
+                let mut values = Values::default();
+                values[0] = plan.tool_angle[index];
+                let pose = freedom.tool(&path[index], &values);
                 assert!(robot.residual(q, &pose).largest() < 1e-9, "{name} {case} {index}");
                 assert!(robot.limits().contains(q));
             }

@@ -81,7 +81,7 @@ impl PyRobot {
             Ends::read(start, "start", rows.len(), axes)?,
             Ends::read(end, "end", rows.len(), axes)?,
         );
-        // What is wrong with a path, in its place, and the paths that are planned.
+        // The error of each path, in its place, and the paths that are planned.
         let mut faults = Vec::with_capacity(rows.len());
         let mut jobs = Vec::with_capacity(rows.len());
         for (index, path) in rows.iter().enumerate() {

@@ -4,7 +4,7 @@
 use nalgebra::ComplexField as _;
 
 use super::polynomial::{TERMS, derivatives};
-use crate::spline::hermite;
+use crate::spline::{hermite, quintic_between};
 
 /// Most pieces of one motion: the seven phases of a jerk-limited one.
 const MOST_PIECES: usize = 7;
@@ -52,7 +52,7 @@ pub enum Profile {
     Cubic,
     /// Constant acceleration, constant velocity, constant deceleration; at rest at both ends.
     Trapezoid,
-    /// The same with jerk that is constant by phases: acceleration has no jumps.
+    /// A trapezoid with jerk that is constant by phases: acceleration has no jumps.
     SCurve,
 }
 
@@ -97,16 +97,9 @@ impl AxisMotion {
     /// `duration` is positive [s].
     #[must_use]
     pub fn quintic(start: AxisState, end: AxisState, duration: f64) -> Self {
-        let t = duration;
-        let (v, a) = (start.velocity, start.acceleration);
-        // What is left for the three free terms after those that the start fixes.
-        let position = end.position - start.position - t * (v + 0.5 * t * a);
-        let velocity = t * (end.velocity - v - t * a);
-        let acceleration = 0.5 * t * t * (end.acceleration - a);
-        let c3 = (10.0 * position - 4.0 * velocity + acceleration) / (t * t * t);
-        let c4 = (-15.0 * position + 7.0 * velocity - 2.0 * acceleration) / (t * t * t * t);
-        let c5 = (6.0 * position - 3.0 * velocity + acceleration) / (t * t * t * t * t);
-        Self::single([start.position, v, 0.5 * a, c3, c4, c5, 0.0], duration)
+        let ends = [start, end].map(|state| [state.position, state.velocity, state.acceleration]);
+        let [c0, c1, c2, c3, c4, c5] = quintic_between(ends[0], ends[1], duration);
+        Self::single([c0, c1, c2, c3, c4, c5, 0.0], duration)
     }
 
     /// The polynomial of degree three between two positions with velocities (eq. 3).
@@ -212,7 +205,7 @@ impl AxisMotion {
         self.starts[self.count]
     }
 
-    /// The same way over another duration, as long or longer: no limit is exceeded that was kept.
+    /// Stretch the motion to another duration, as long or longer: limits that it keeps are kept.
     #[must_use]
     pub fn stretched(mut self, duration: f64) -> Self {
         self.stretch(duration);

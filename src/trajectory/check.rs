@@ -5,7 +5,7 @@ use crate::error::{Error, MotionFault};
 use crate::kinematics::check_seed;
 use crate::kinematics::thresholds::{LEAST_DURATION, MOST_DURATION};
 
-/// Check that limits are positive; infinity is none.
+/// Check that limits are positive; infinity is no limit.
 pub(super) fn check_limits(field: &'static str, limits: &[f64]) -> Result<(), Error> {
     match limits.iter().position(|limit| limit.is_nan() || *limit <= 0.0) {
         None => Ok(()),

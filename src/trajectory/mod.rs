@@ -22,11 +22,8 @@ mod joint;
 mod piece;
 mod piecewise;
 mod polynomial;
-#[cfg(feature = "rapid")]
-mod programmed;
 mod retime;
 mod sampling;
-mod spline;
 mod tool_speed;
 mod waypoints;
 
@@ -36,7 +33,7 @@ pub use joint::{Synchronization, joint, joint_within};
 pub(crate) use piecewise::TrajectoryParts;
 pub use piecewise::{Peaks, Trajectory};
 #[cfg(feature = "rapid")]
-pub(crate) use programmed::{evenly, within_times};
+pub(crate) use retime::{evenly, within_times};
 pub use retime::{retime, retime_tool};
 pub use tool_speed::{ToolSpeedLimits, at_tool_speed, tool_lengths, tool_speed_limits};
 pub use waypoints::{SplineKind, spline, through};

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::polynomial::TERMS;
 
-/// What is left of a sum of numbers that cancel, as a part of them.
+/// Remainder of a sum of numbers that cancel, as a part of them.
 const CANCELED: f64 = 64.0 * f64::EPSILON;
 
 /// Rounds of a search that ends after a few: each leaves a corner of a polygon behind.
@@ -49,11 +49,11 @@ impl Piece<'_> {
     }
 }
 
-/// What the limits of acceleration say of the paces x before and y after a piece:
+/// The limits of acceleration as conditions on the paces x before and y after a piece:
 /// `-limit <= by_before * x + by_after * y <= limit` for each Bernstein coefficient of each joint
 /// (eq. 15). Rest at both ends is always inside.
 pub(super) struct Strips {
-    /// Those with a part of x, solved for it: |x - slope * y| <= half.
+    /// Conditions with a part of x, solved for it: |x - slope * y| <= half.
     lines: Vec<Line>,
     /// The largest y by those without.
     most_after: f64,
@@ -140,7 +140,7 @@ impl Strips {
             let (low_slope, low_half) =
                 if lower.lower(right) > 0.0 { (lower.slope, -lower.half) } else { (0.0, 0.0) };
             let next = (half - low_half) / (low_slope - slope);
-            // The same place again: only rounding is left.
+            // No progress: only rounding is left.
             if next.is_nan() || next >= right {
                 break;
             }

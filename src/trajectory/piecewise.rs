@@ -78,7 +78,7 @@ pub struct Peaks {
     pub velocity: f64,
     /// Acceleration [rad/s^2].
     pub acceleration: f64,
-    /// Jerk [rad/s^3] inside the pieces: a jump of the acceleration at a knot is no jerk.
+    /// Jerk [rad/s^3] inside the pieces: a jump of the acceleration at a knot does not count.
     pub jerk: f64,
 }
 
@@ -271,7 +271,7 @@ impl Trajectory {
         peaks
     }
 
-    /// The same way at another pace: every time multiplied by `factor`.
+    /// Change the pace: multiply every time by `factor`.
     ///
     /// # Errors
     ///

@@ -19,13 +19,16 @@ use super::check::{check_duration, check_path_limits, check_rows};
 use super::piece::{Piece, Strips};
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, shifted};
-use super::spline::cubic;
 use super::tool_speed::{ToolPath, check_speed};
 use crate::error::{Error, MotionFault};
-use crate::spline::Ends;
+use crate::spline::{Ends, cubic};
 
 /// Pieces of the grid, at least: a path of few waypoints is cut finer.
 const LEAST_PIECES: usize = 1000;
+
+/// Pieces of the grid between two rests of a program, at least.
+#[cfg(feature = "rapid")]
+const PROGRAMMED_PIECES: usize = 48;
 
 /// Angle by which the path's direction in joint space may turn on a piece of the grid [rad]: that
 /// of a path through random waypoints takes 1 % longer than the shortest.
@@ -62,8 +65,8 @@ pub fn retime(
 /// The fastest trajectory along samples of a path, from rest to rest, at which the tool is nowhere
 /// faster than a speed [m/s]: where the other limits allow, it has that speed (eq. 30).
 ///
-/// As [`retime`], but over `lengths`, those of the tool's path up to each row [m], as
-/// [`tool_lengths`](super::tool_lengths) gives them: the same spline as that of
+/// As [`retime`], but over the `lengths` of the tool's path up to each row [m], as
+/// [`tool_lengths`](super::tool_lengths) gives them: the spline of
 /// [`at_tool_speed`](super::at_tool_speed).
 ///
 /// # Errors
@@ -85,6 +88,63 @@ pub fn retime_tool(
     }
     let most = max_tool_speed * max_tool_speed;
     Grid::fine(&path.knots, &path.terms, dof).retimed(max_velocity, max_acceleration, most)
+}
+
+/// Joints that go evenly from row to row [rad]. The times of the rows [s] begin at zero and do not
+/// decrease; rows at one time are equal.
+#[cfg(feature = "rapid")]
+pub(crate) fn evenly<const N: usize>(times: &[f64], rows: &[[f64; N]]) -> Trajectory {
+    let mut terms = Vec::with_capacity(rows.len() * N);
+    for (ends, rows) in times.windows(2).zip(rows.windows(2)) {
+        let duration = ends[1] - ends[0];
+        terms.extend((0..N).map(|joint| {
+            let mut even = [0.0; TERMS];
+            even[0] = rows[0][joint];
+            if duration > 0.0 {
+                even[1] = (rows[1][joint] - rows[0][joint]) / duration;
+            }
+            even
+        }));
+    }
+    match rows {
+        [only] => Trajectory::still(only),
+        _ => Trajectory::new(N, times.to_vec(), terms),
+    }
+}
+
+/// The fastest trajectory along rows of joints [rad] from rest to rest, with the time of each row
+/// [s]. The path is a cubic spline as in `retime`, the limits hold in the same way (eq. 13 to 16),
+/// and from each row to the next it takes `least` [s] or more (eq. 35).
+#[cfg(feature = "rapid")]
+pub(crate) fn within_times<const N: usize>(
+    rows: &[[f64; N]],
+    least: &[f64],
+    max_velocity: &[f64; N],
+    max_acceleration: &[f64; N],
+) -> Result<(Trajectory, Vec<f64>), Error> {
+    // Rows that repeat the one before have its knot.
+    let (mut lengths, mut points, mut knots) = (vec![0.0], rows[0].to_vec(), vec![0]);
+    let mut caps = Vec::with_capacity(least.len());
+    for (ends, least) in rows.windows(2).zip(least) {
+        let way = ends[0].iter().zip(&ends[1]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+        let before = lengths[lengths.len() - 1];
+        if before + way > before {
+            lengths.push(before + way);
+            points.extend_from_slice(&ends[1]);
+            caps.push((way / least) * (way / least));
+        }
+        knots.push(lengths.len() - 1);
+    }
+    if lengths.len() == 1 {
+        return Ok((evenly(&[0.0], &rows[..1]), vec![0.0; rows.len()]));
+    }
+    let parts = PROGRAMMED_PIECES.div_ceil(lengths.len() - 1);
+    let spline = cubic(&lengths, &points, N, Ends::NotAKnot);
+    let grid = Grid::of(&lengths, &spline, N, |_, _| parts);
+    let timed =
+        grid.paced(max_velocity, max_acceleration, |piece| caps[piece / parts])?.checked()?;
+    let times = knots.iter().map(|knot| timed.knots()[knot * parts]).collect();
+    Ok((timed, times))
 }
 
 /// The rows that differ from the one before, and the length of the polygon up to each.
@@ -110,7 +170,7 @@ fn polygon(q: &[f64], dof: usize) -> Result<(Vec<f64>, Vec<f64>), Error> {
 }
 
 /// The spline, cut into pieces that are short enough.
-pub(super) struct Grid {
+struct Grid {
     dof: usize,
     lengths: Vec<f64>,
     /// By piece and joint.
@@ -125,7 +185,7 @@ impl Grid {
     }
 
     /// Each piece of a spline, cut into as many parts as `parts` says of its terms and length.
-    pub(super) fn of(
+    fn of(
         knots: &[f64],
         spline: &[[f64; TERMS]],
         dof: usize,
@@ -159,7 +219,7 @@ impl Grid {
     }
 
     /// The path at the largest paces within limits, of which none exceeds the cap of its piece.
-    pub(super) fn paced(
+    fn paced(
         &self,
         max_velocity: &[f64],
         max_acceleration: &[f64],
@@ -202,7 +262,7 @@ impl Grid {
 /// The number of parts of a cubic piece that turn by [`PIECE_TURN`] at most, from 0 to
 /// [`MOST_PARTS`].
 ///
-/// A path turns by less than the integral of the size of q'' by that of q'. Both are taken as the
+/// A path turns by less than the integral of the size of q'' by the size of q'. Both are taken as the
 /// means of their ends.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to MOST_PARTS")]
 fn parts_of_turn(terms: &[[f64; TERMS]], length: f64) -> usize {

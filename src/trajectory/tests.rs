@@ -203,7 +203,7 @@ fn a_path_that_goes_back_on_itself_keeps_its_limits() {
 
 #[test]
 fn a_straight_path_takes_the_time_of_a_trapezoid() {
-    // Along a line the fastest pace is that of the trapezoid.
+    // Along a line the fastest pace is a trapezoid's.
     let timed = retime(&[0.0, 0.0, 1.0, -2.0], &[1.0, 1.5], &[4.0, 4.0]).unwrap();
     let none = f64::INFINITY;
     let shared = AxisLimits { velocity: 0.75, acceleration: 2.0, jerk: none };

@@ -13,13 +13,12 @@ use super::check::{check_duration, check_finite, check_path_limits, check_rows};
 use super::piece::Piece;
 use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
-use super::spline::cubic;
 use crate::error::{Error, MotionFault};
 use crate::kinematics::Pose;
 use crate::kinematics::thresholds::{JOINED_POSITION, LEAST_WAY, LIMIT_ROUNDING};
-use crate::spline::Ends;
+use crate::spline::{Ends, cubic};
 
-/// What the limits of the joints leave of the speed of the tool along a path.
+/// Limits of the speed of the tool along a path, by the limits of the joints.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ToolSpeedLimits {
@@ -72,7 +71,7 @@ pub fn tool_speed_limits(
 
 /// The trajectory at a constant speed of the tool [m/s], moving at both ends.
 ///
-/// The other arguments are those of [`tool_speed_limits`].
+/// The other arguments are as in [`tool_speed_limits`].
 ///
 /// # Errors
 ///
@@ -172,7 +171,7 @@ impl ToolPath {
     }
 
     /// The highest speeds at the rows, from which the acceleration follows everywhere, for q'' is
-    /// linear on each piece; and those of the velocities between (eq. 28, 29).
+    /// linear on each piece; and the velocities between (eq. 28, 29).
     fn limits(&self, max_velocity: &[f64], max_acceleration: &[f64]) -> ToolSpeedLimits {
         let joints = || max_velocity.iter().zip(max_acceleration).enumerate();
         let pieces = self.knots.len() - 1;
@@ -229,7 +228,7 @@ struct Most {
 impl Most {
     const NONE: Self = Self { speed: f64::INFINITY, joint: 0 };
 
-    /// By that of a joint, from 0; one that does not move and has no limit has none.
+    /// Lower it to the limit of a joint, from 0; a joint that does not move has no limit.
     fn lower(&mut self, speed: f64, joint: usize) {
         if speed < self.speed {
             *self = Self { speed, joint: joint + 1 };

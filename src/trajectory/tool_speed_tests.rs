@@ -78,7 +78,7 @@ fn at_each_row_the_joint_that_is_named_has_its_limit() {
     for _ in 0..50 {
         let own = Case::random(&mut rng, 12);
         let limits = own.limits();
-        // The same path without limits, at each row's own speed.
+        // Without limits, the path at each row's own speed.
         let none = std::vec![f64::INFINITY; DOF];
         for (row, (speed, joint)) in limits.speed.iter().zip(&limits.joint).enumerate() {
             let motion = at_tool_speed(&own.q, &own.lengths, *speed, &none, &none).unwrap();

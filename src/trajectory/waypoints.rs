@@ -8,9 +8,8 @@ use nalgebra::ComplexField as _;
 use super::axis::AxisLimits;
 use super::check::{check_axes, check_duration, check_finite, check_rows};
 use super::piecewise::Trajectory;
-use super::spline::{cubic, quintic};
 use crate::error::{Error, MotionFault};
-use crate::spline::Ends;
+use crate::spline::{Ends, cubic, quintic};
 
 /// How smooth a curve through waypoints is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

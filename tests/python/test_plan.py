@@ -92,12 +92,6 @@ def test_a_plan_meets_every_pose_and_limit(rotation):
     assert pickle.loads(pickle.dumps(plan)) == plan
 
 
-def test_a_free_rotation_never_costs_more_than_a_fixed_one():
-    T = weld(60)
-    bottlenecks = [ROBOT.plan(T, rotation=steps).bottleneck for steps in (None, 4, 12, 36)]
-    assert bottlenecks == sorted(bottlenecks, reverse=True)
-
-
 @pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "UR5e"])
 def test_no_plan_hides_a_jump(name):
     """`make plans` looks at 50,000 lines of each arm."""
@@ -309,14 +303,6 @@ def test_a_given_end_stays_on_long_paths(rotation):
     plan = ROBOT.plan(T, rotation=rotation, start=first)
     np.testing.assert_allclose(plan.q[0], first, atol=1e-12)
     np.testing.assert_allclose(plan.tool_angle[0], 0.123, atol=1e-9)
-
-
-def test_a_closed_path_with_a_free_tool_ends_where_it_starts():
-    T = weld(200)
-    plan = ROBOT.plan(T, rotation=36, closed=True)
-    np.testing.assert_allclose(plan.q[0], plan.q[-1], atol=1e-9)
-    assert is_continuous(ROBOT, T, plan)
-    assert plan.bottleneck >= ROBOT.plan(T, rotation=36).bottleneck * 0.9
 
 
 def test_ramps_are_better_than_steps_of_the_grid():

@@ -52,51 +52,12 @@ def test_the_fastest_speed_is_constant_and_reaches_the_limit():
     assert move.duration == pytest.approx(0.8 / fastest, rel=1e-12)
 
 
-def test_limits_of_acceleration_hold_too():
-    limits = trajectory.tool_speed_limits(Q, LINE, VELOCITY, ACCELERATION)
-    assert (limits.speed <= trajectory.tool_speed_limits(Q, LINE, VELOCITY).speed).all()
-    move = trajectory.at_tool_speed(Q, LINE, limits.fastest, VELOCITY, ACCELERATION)
-    peaks = move.peaks()
-    parts = np.r_[peaks.velocity / VELOCITY, peaks.acceleration / ACCELERATION]
-    assert 1 - 1e-9 <= parts.max() <= 1 + 1e-9
-
-
 def test_a_speed_that_is_too_fast_names_the_joint_and_the_sample():
     with pytest.raises(
         InvalidMotionError,
         match=r"joint 4 allows 0\.352240 m/s at row 495 of q, 0\.400000 m/s is asked",
     ):
         trajectory.at_tool_speed(Q, LINE, 0.4, VELOCITY)
-
-
-@pytest.mark.parametrize("speed", [0.1, 0.25, 0.5, 2.0])
-def test_retiming_keeps_the_speed_of_the_tool_and_the_limits(speed):
-    move = trajectory.retime(Q, VELOCITY, ACCELERATION, T=LINE, max_tool_speed=speed, steps=10_000)
-    peaks = move.peaks()
-    assert (peaks.velocity <= VELOCITY * (1 + 1e-9)).all()
-    assert (peaks.acceleration <= ACCELERATION * (1 + 1e-9)).all()
-    speeds = tool_speeds(move)
-    assert speeds.max() <= speed * (1 + 1e-6)
-    assert speeds[[0, -1]] == pytest.approx(0, abs=1e-9)
-    if speed <= 0.25:
-        assert (speeds > speed * (1 - 1e-6)).mean() > 0.9
-    assert move.duration >= trajectory.retime(Q, VELOCITY, ACCELERATION).duration * 0.999
-
-
-def test_a_turn_in_place_is_refused_and_a_repeated_sample_left_out():
-    turned = paths.spline(
-        [START, END, END @ irbkin.pose([0, 0, 0], euler_zyx=[0.3, 0, 0])], step=0.01, turn=0.05
-    )
-    q = ROBOT.follow(turned, np.zeros(6)).q
-    with pytest.raises(InvalidMotionError, match=r"moves by 0\.0e0 m to row 81 of q"):
-        trajectory.at_tool_speed(q, turned, 0.01, VELOCITY)
-    # Without a speed of the tool it has a pace.
-    assert trajectory.retime(q, VELOCITY, ACCELERATION).duration > 0
-    twice = np.repeat(np.arange(1000), 2)
-    once = trajectory.tool_speed_limits(Q, LINE, VELOCITY)
-    limits = trajectory.tool_speed_limits(Q[twice], LINE[twice], VELOCITY)
-    np.testing.assert_array_equal(limits.speed, once.speed[twice])
-    assert limits.fastest == once.fastest
 
 
 def test_one_sample_is_a_still_trajectory():

@@ -119,7 +119,7 @@ impl<'a> Follower<'a> {
     }
 
     /// The joint vector of the next pose of the path [rad], with the reason if it is reached by a
-    /// jump; no joint vector, with the reason, if there is none.
+    /// jump; if there is no solution, no joint vector and the reason.
     ///
     /// # Errors
     ///
@@ -248,7 +248,7 @@ impl<'a> Follower<'a> {
 pub struct Followed {
     /// Joint angles for each pose [rad]; `None` if the pose is not reached.
     pub q: Vec<Option<[f64; 6]>>,
-    /// Angle between the tool's orientation and that of each pose [rad].
+    /// Angle between the tool's orientation and the orientation of each pose [rad].
     pub orientation_error: Vec<Option<f64>>,
     /// Where the joints cannot follow, with the reason.
     pub breaks: Vec<Break>,

@@ -348,7 +348,7 @@ impl Walk<'_> {
             let error = |q: [f64; 6]| PoseDifference::between(&self.robot.fk(&q), pose).rotation;
             self.followed.orientation_error.push(self.followed.q[index].map(error));
         }
-        // What was not come to, when the path stopped.
+        // The rest of the path after it stopped.
         self.followed.q.resize(self.path.len(), None);
         self.followed.orientation_error.resize(self.path.len(), None);
         self.followed

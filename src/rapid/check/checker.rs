@@ -13,7 +13,7 @@ use crate::error::{Error, RapidFault, RapidFaultKind};
 use crate::kinematics::thresholds::{CONFIGURATION_EDGE, LEAST_WAY};
 use crate::kinematics::{Pose, Robot};
 use crate::paths::ArcOrientation;
-use crate::paths::leg::Leg;
+use crate::paths::polyline::Leg;
 use crate::rapid::calc::target::with_flange;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;

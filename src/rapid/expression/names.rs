@@ -6,7 +6,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use crate::paths::zone::PREDEFINED as ZONES;
+use crate::paths::polyline::PREDEFINED as ZONES;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::records::{LoadData, SpeedData, ToolData, WobjData, ZoneData};
 use crate::rapid::data::unread::{AssignedBy, Unresolved};

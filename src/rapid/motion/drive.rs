@@ -13,9 +13,8 @@ use crate::kinematics::{
     BreakReason, ConfigurationRequest, FollowOptions, Pose, Robot, SingularityKind,
     SingularityMode, largest_step,
 };
-use crate::paths::corner::{Corner, Rounded};
-use crate::paths::leg::Leg;
 use crate::paths::line::part;
+use crate::paths::polyline::{Corner, Leg, Rounded};
 use crate::paths::{ArcOrientation, Spacing};
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::wrong::{Found, broken, no_path, passes};

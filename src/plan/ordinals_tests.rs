@@ -53,7 +53,7 @@ fn a_path_that_can_be_followed_has_a_plan_that_goes_on_without_jumps() {
                     for (index, (q, pose)) in q.iter().zip(&path).enumerate() {
                         let apart = PoseDifference::between(&robot.fk(q), pose);
                         assert!(apart.largest() < 1e-9, "{name}, case {case}: {apart:?}");
-                        // The slot is that of the solution.
+                        // The slot belongs to the solution.
                         let own = robot.ik(pose).unwrap();
                         let slot = own.slot(plan.slot[index].unwrap()).unwrap();
                         let off = |joint: usize| nearest_turn(slot.q[joint] - q[joint], 0.0);

@@ -1,13 +1,14 @@
-//! External axes, tolerances and closed ways against what they promise.
+//! External axes and tolerances against what they promise.
 
 use core::f64::consts::{PI, TAU};
 use std::vec::Vec;
 
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
 
+use super::ToolRotation;
+use super::robot::freedoms;
 use super::tests::random_path;
 use super::{ExternalAxis, Plan, PlanError, PlanOptions, ToolAxis, ToolCone, ToolOffset};
-use super::{ToolRotation, freedom::Freedom};
 use crate::error::{Error, PlanFault};
 use crate::kinematics::{Pose, PoseDifference, Robot, largest, pose_from_euler_zyx, steps};
 use crate::paths::{Spacing, line};
@@ -139,7 +140,7 @@ fn tolerances_never_raise_the_bottleneck_and_are_kept() {
         match (narrow, plan) {
             (Some(_), None) => panic!("case {case}: a plan is lost"),
             (Some(narrow), Some(plan)) => {
-                // A rotation is refined around another way.
+                // A rotation is refined around another path.
                 let slack = if wide.rotation.is_some() { 1.3 } else { 1.0 + 1e-9 };
                 assert!(plan.bottleneck <= narrow.bottleneck * slack, "case {case}");
                 better += usize::from(plan.bottleneck < 0.9 * narrow.bottleneck);
@@ -157,8 +158,8 @@ fn a_given_start_fixes_external_axes_and_tolerances() {
     let external = [track(13)].to_vec();
     let offset = Some(ToolOffset::new(-0.02, 0.02, 5, ToolAxis::Z).unwrap());
     let free = PlanOptions { external, offset, ..PlanOptions::default() };
-    let values = [-1.234, 0.0, 0.0, 0.0, 0.0, 0.0];
-    let tool = Freedom::of(&free).tool(&path[0], &[values[0], 0.013, 0.0, 0.0, 0.0, 0.0], 0.0);
+    let [freedom, _] = freedoms(&free);
+    let tool = freedom.tool(&path[0], &[-1.234, 0.013, 0.0, 0.0, 0.0, 0.0, 0.0]);
     let start = robot.ik_nearest(&tool, &[0.0; 6], &[1.0; 6]).unwrap().q;
     let options =
         PlanOptions { start: Some(start), start_external: [-1.234].to_vec(), ..free.clone() };

@@ -1,4 +1,4 @@
-//! Joints as a plan sees them: their limits, their turns, what a step of each costs.
+//! Joints of a plan: their limits, their turns, the cost of a step, the cost of joint angles.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -28,7 +28,7 @@ pub(super) struct PlannedJoints {
     are_narrow: [bool; 6],
     /// How many turns an angle may have inside the limits.
     counts: [usize; 6],
-    /// The turn around which those of a joint without limits are counted.
+    /// The turn around which the turns of a joint without limits are counted.
     middle: [i32; 6],
     /// Whether the step of a joint is taken modulo a turn: if it may have more than one.
     pub(super) wraps: [bool; 6],
@@ -76,7 +76,7 @@ impl PlannedJoints {
         }
     }
 
-    /// Count the turns of joints without limits around those of `q`.
+    /// Count the turns of joints without limits around the turns of `q`.
     pub(super) fn around(mut self, q: &[f64; 6]) -> Self {
         self.middle = core::array::from_fn(|joint| {
             #[expect(clippy::cast_possible_truncation, reason = "angles are small")]
@@ -117,8 +117,7 @@ impl PlannedJoints {
             && (angle - low < EITHER_END || high - angle < EITHER_END)
     }
 
-    /// Joint angles, those of them that may be at either end of their limits on the side of
-    /// neighboring ones.
+    /// Joint angles; one that may be at either end of its limits is at the end nearer to a neighbor.
     pub(super) fn beside(&self, q: &[f64; 6], neighbor: &[f64; 6]) -> [f64; 6] {
         core::array::from_fn(|joint| {
             let step = q[joint] - neighbor[joint];
@@ -177,12 +176,6 @@ impl PlannedJoints {
         [self.low[joint] + LIMIT_TOLERANCE, self.high[joint] - LIMIT_TOLERANCE]
     }
 
-    /// What the step of each joint is divided by to be a part of its velocity limit, as a factor,
-    /// for a step that takes `time` [s].
-    pub(super) fn rates(&self, time: f64) -> [f64; 6] {
-        self.velocity.map(|velocity| 1.0 / (velocity * time))
-    }
-
     /// The step of a joint from one angle to another, modulo a turn where that is free (eq. 3),
     /// and the turns that were taken off.
     pub(super) fn step(&self, joint: usize, from: f64, to: f64) -> (f64, i32) {
@@ -196,7 +189,7 @@ impl PlannedJoints {
         (step - TAU * turns, carried)
     }
 
-    /// Joint angles inside the limits, and those that steps lead to from there, inside too.
+    /// Joint angles inside the limits, and where steps lead from there, inside too.
     pub(super) fn inside(&self, q: &[f64; 6], steps: &[f64; 6]) -> Option<[[f64; 6]; 2]> {
         let (mut from, mut to) = (*q, *q);
         for joint in 0..6 {
@@ -217,12 +210,38 @@ impl PlannedJoints {
     }
 }
 
-/// The joints whose turns a search tells apart: one state for each combination.
+/// The cost of being near limits and near singularities [rad^2/s^2] (docs/plan.md, eq. 4).
+#[derive(Clone, Copy)]
+pub(super) struct NodeCost<'a> {
+    robot: &'a Robot<6>,
+    limits: f64,
+    singularities: f64,
+}
+
+impl<'a> NodeCost<'a> {
+    /// `None` if neither costs anything.
+    pub(super) fn new(robot: &'a Robot<6>, limits: f64, singularities: f64) -> Option<Self> {
+        (limits > 0.0 || singularities > 0.0).then_some(Self { robot, limits, singularities })
+    }
+
+    /// Whether the turns of a joint differ in cost.
+    pub(super) fn depends_on_turns(&self, joints: &PlannedJoints, joint: usize) -> bool {
+        self.limits > 0.0 && joints.wraps[joint] && !joints.is_unlimited(joint)
+    }
+
+    /// The cost of joint angles at which a step ends that takes `time` [s].
+    pub(super) fn at(&self, q: &[f64; 6], time: f64) -> f64 {
+        let [limits, singularities] = self.robot.nearness(q);
+        (self.limits * limits + self.singularities * singularities) * time * time
+    }
+}
+
+/// The joints whose turns a search counts: one state for each combination.
 #[derive(Clone, Debug)]
 pub(super) struct TurnStates {
-    /// Those joints, with the number of turns of each.
+    /// These joints, with the number of turns of each.
     joints: [Option<usize>; 6],
-    /// The turns of each state; 0 of joints that are not told apart.
+    /// The turns of each state; 0 of the other joints.
     turns: Vec<[i32; 6]>,
 }
 
@@ -233,7 +252,7 @@ impl Default for TurnStates {
 }
 
 impl TurnStates {
-    /// Tell the turns of another joint apart.
+    /// Count the turns of another joint.
     pub(super) fn add(&mut self, joint: usize, joints: &PlannedJoints) -> Result<(), Error> {
         let found = self.len().saturating_mul(joints.count(joint));
         if found > MOST_TURN_STATES {
@@ -255,7 +274,7 @@ impl TurnStates {
         self.turns.len()
     }
 
-    /// The turn of each joint in a state; 0 of those that are not told apart.
+    /// The turn of each joint in a state; 0 of a joint whose turns are not counted.
     pub(super) fn turns(&self, state: usize) -> [i32; 6] {
         self.turns[state]
     }
@@ -271,7 +290,7 @@ impl TurnStates {
         })
     }
 
-    /// The state of turns; `None` if there is none.
+    /// The state of turns, if they have one.
     pub(super) fn state(&self, turns: &[i32; 6]) -> Option<usize> {
         let (mut state, mut size) = (0, 1);
         for (count, turn) in self.joints.iter().zip(turns) {
@@ -283,7 +302,7 @@ impl TurnStates {
         Some(state)
     }
 
-    /// Whether every joint that is told apart may have its turn of a state.
+    /// Whether every joint whose turns are counted may have its turn of a state.
     pub(super) fn holds(&self, joints: &PlannedJoints, q: &[f64; 6], state: usize) -> bool {
         let turns = self.turns(state);
         (0..6).all(|joint| !self.has(joint) || turns[joint] <= joints.last_turn(joint, q[joint]))
