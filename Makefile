@@ -7,16 +7,18 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 RUST_SOURCES := $(shell find src -name '*.rs') Cargo.toml
-BUILT := $(VENV)/.irbkin-built
+# Profile of the extension in .venv: develop, or release, which also serves the wheel.
+PROFILE ?= develop
+BUILT := $(VENV)/.irbkin-$(PROFILE)
+RELEASED := $(VENV)/.irbkin-release
 PEERS := .venv-peers
 NO_STD := --no-default-features --features libm
 # A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at
 # the first that fails. The widest set is the default.
 ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); \
 	for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
-ON_EACH_NARROWER_SET := \
-	sets=$$($(BIN)/python -c 'from irbkin import _core; print(*_core.instruction_sets()[:-1])'); \
-	for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
+# A first build keeps nothing for the next one: it is faster.
+FIRST := $(if $(wildcard target/debug/incremental),,env CARGO_INCREMENTAL=0)
 # Run a command under a name; if it takes long, print the name and the seconds.
 STEP := @tests/step.sh
 # A download that breaks off is no reason to fail.
@@ -29,10 +31,15 @@ REMAPPED = --remap-path-prefix=$${CARGO_HOME:-$$HOME/.cargo}/registry/src/= \
 # The same flags for the environment and for the wheel: one build serves both.
 EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
 
-.PHONY: help run test test-recipes test-ros ros-starts check stubs catalog bench bench-peers instructions stages ulp million general offset-wrists plans configurations hardsets fuzz wheel packages clean toolchains
+SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
+
+.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros wheel packages stubs clean \
+	toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
-	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | grep -v '^evidence-' | sed -E 's/:.*## /\t/' | expand -t 14
+	@echo; echo "Suites of \`make evidence\`:"
+	@sed -nE 's/^evidence-([a-z-]+):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
 toolchains:
 	@command -v cargo >/dev/null || { echo "cargo is missing: install a Rust toolchain (1.89 or newer), https://rustup.rs"; exit 1; }
@@ -46,10 +53,10 @@ $(VENV)/.made: | toolchains
 	@$(PIP_INSTALL) 'maturin>=1.9,<2' 'numpy>=1.23'
 	@touch $@
 
-$(BUILT): $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
+$(VENV)/.irbkin-%: $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
 	$(STEP) "Build irbkin into $(VENV) (about a minute)" env VIRTUAL_ENV=$(abspath $(VENV)) $(EXTENSION_FLAGS) \
-		bash -c '$(BIN)/maturin develop --release >$(VENV)/build.log 2>&1 || { cat $(VENV)/build.log; exit 1; }'
-	@touch $@
+		bash -c '$(BIN)/maturin develop --profile $* >$(VENV)/build.log 2>&1 || { cat $(VENV)/build.log; exit 1; }'
+	@rm -f $(VENV)/.irbkin-* && touch $@
 
 $(VENV)/.groups: $(VENV)/.made pyproject.toml
 	$(STEP) "Install test tools and reference packages into $(VENV)" $(PIP_INSTALL) --group test --group check
@@ -58,44 +65,44 @@ $(VENV)/.groups: $(VENV)/.made pyproject.toml
 run: $(BUILT) ## Solve a pose of an IRB 2600 and show all solutions
 	@$(BIN)/python examples/01_solve_a_pose.py
 
-test: $(BUILT) $(VENV)/.groups ## Run all tests, in Rust and Python
+# The extension and the Rust tests are of different profiles: they compile at the same time.
+test: | toolchains ## Run all tests, in Rust and Python
 	@mkdir -p target && rm -f $(SKIPPED)
-	$(STEP) "Compile the Rust tests" cargo test --lib --tests --no-run
+	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.groups rust-tests
 	$(STEP) "Rust tests" env IRBKIN_SKIPPED=$(abspath $(SKIPPED)) cargo test --lib --tests
 	$(STEP) "Rust documentation tests" cargo test --doc
-	@$(ON_EACH_NARROWER_SET) tests/step.sh "Laws on $$set" cargo test --test suite -- laws:: recall:: hard_sets:: reach_and_paths::; done
-	$(STEP) "Compile without std" cargo test $(NO_STD),rapid --lib --test suite --no-run
-	$(STEP) "Rust unit tests without std" cargo test $(NO_STD),rapid --lib
-	$(STEP) "Laws without std" cargo test $(NO_STD),rapid --test suite -- laws:: coupled:: configuration:: allocation:: rapid:: rapid_calc::
+	# tests/lanes.rs shows that all other sets agree bit for bit.
+	$(STEP) "Laws on the baseline" env IRBKIN_INSTRUCTION_SET=baseline cargo test --test suite -- laws:: hard_sets::
 	@if [ -e $(SKIPPED) ]; then sort $(SKIPPED); fi; echo "Skipped in Rust: $$(cat $(SKIPPED) 2>/dev/null | wc -l)"
-	$(STEP) "Python tests" $(BIN)/python -m pytest
+	$(STEP) "Python tests" $(BIN)/python -m pytest -n auto --dist loadfile
 
-test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars and xarray, run docs/recipes.md
-	@if tests/step.sh "Install what docs/recipes.md needs" $(PIP_INSTALL) --group recipes; then \
+lints:
+	cargo fmt --check
+	$(STEP) "clippy" cargo clippy --quiet --all-targets --features serde,python -- -D warnings
+	$(STEP) "clippy without std" cargo clippy --quiet --lib $(NO_STD),rapid -- -D warnings
+	$(STEP) "clippy without rapid" cargo clippy --quiet --lib --no-default-features --features std,urdf -- -D warnings
+
+rust-tests:
+	$(STEP) "Compile the Rust tests" $(FIRST) cargo test --quiet --lib --tests --no-run
+
+test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars and xarray, run docs/guide/recipes.md
+	@if tests/step.sh "Install what docs/guide/recipes.md needs" $(PIP_INSTALL) --group recipes; then \
 		tests/step.sh "Recipes" $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k recipes; \
 	else \
-		echo "SKIPPED: docs/recipes.md was not run: its packages cannot be installed (the reason is above)"; \
+		echo "SKIPPED: docs/guide/recipes.md was not run: its packages cannot be installed (the reason is above)"; \
 	fi
 
 # In a ROS of its own each; only where one cannot be installed it is skipped, with the reason.
 test-ros: $(BUILT) ## Install ROS 1 and ROS 2, build the workspace, check both nodes
 	@tests/ros/test.sh $(abspath $(BIN)/python)
 
-ros-starts: $(BUILT) ## End COUNT (200) nodes of each ROS with SIGTERM: none may hang
-	@tests/ros/test.sh --starts $(or $(COUNT),200) $(abspath $(BIN)/python)
-
-check: $(BUILT) $(VENV)/.groups ## Check format, lints, types, stubs, docs, benches and examples
-	cargo fmt --check
-	$(STEP) "clippy" cargo clippy --all-targets -- -D warnings
-	$(STEP) "clippy with serde" cargo clippy --lib --features serde -- -D warnings
-	$(STEP) "clippy with python" cargo clippy --lib --features python -- -D warnings
-	$(STEP) "clippy without std" cargo clippy --lib $(NO_STD) -- -D warnings
-	$(STEP) "clippy without std, with rapid" cargo clippy --lib $(NO_STD),rapid -- -D warnings
-	$(STEP) "clippy without rapid" cargo clippy --all-targets --no-default-features --features std,urdf -- -D warnings
+# Lints and the extension are of different profiles: they compile at the same time.
+check: | toolchains ## Check format, lints, types, stubs, docs, benches and examples
+	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.groups lints
 	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features serde
 	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
-	$(STEP) "benches in Python run" $(BIN)/python benches/python_calls.py >/dev/null
+	$(STEP) "benches in Python run" env QUICK=1 $(BIN)/python benches/python_calls.py >/dev/null
 	$(STEP) "the bench of structured poses runs" env QUICK=1 $(BIN)/python benches/structured_poses.py >/dev/null
 	$(STEP) "the bench of motion runs" env MOVES=1000 $(BIN)/python benches/motion.py >/dev/null
 	$(STEP) "the bench of limits runs" env TRAJECTORIES=200 LINES=10 $(BIN)/python benches/motion_limits.py >/dev/null
@@ -105,15 +112,13 @@ check: $(BUILT) $(VENV)/.groups ## Check format, lints, types, stubs, docs, benc
 	$(STEP) "the bench of a check runs" env MOVES=1000 $(BIN)/python benches/rapid_check.py >/dev/null
 	$(STEP) "the bench of the command runs" env CALLS=1 $(BIN)/python benches/command.py >/dev/null
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
-	$(STEP) "instructions are counted" env CARGO_PROFILE_BENCH_LTO=off CARGO_PROFILE_BENCH_CODEGEN_UNITS=16 \
-		$(BIN)/python benches/instructions.py >/dev/null
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
 	$(STEP) "mypy" $(BIN)/mypy --no-error-summary
 	$(STEP) "stubs" $(BIN)/python -m mypy.stubtest irbkin --concise --allowlist tests/python/stubtest_allow.txt
 	$(STEP) "examples in Python run" bash -eu -c 'for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done'
 
-bench: $(BUILT) ## Time single poses, batches, Python's calls and a RAPID module
+bench: $(RELEASED) ## Time single poses, batches, Python's calls and a RAPID module
 	cargo bench --bench one_pose --bench batch
 	$(BIN)/python benches/python_calls.py
 	$(BIN)/python benches/structured_poses.py
@@ -143,48 +148,63 @@ $(PEERS)/.irbkin-built: $(PEERS)/.made $(RUST_SOURCES) $(wildcard python/irbkin/
 	@$(PEERS)/bin/pip install --quiet --force-reinstall --no-deps $(PEERS)/wheel/irbkin-*.whl
 	@touch $@
 
-bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages; WRITE=1 writes docs/benchmarks.md
+bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages; WRITE=1 writes docs/evidence/benchmarks.md
 	$(PEERS)/bin/python -m benches.peers $(if $(QUICK),--quick) $(if $(WRITE),--write)
 
-instructions: | toolchains ## Count instructions with valgrind; WRITE=1 records them
-	@$(PYTHON) benches/instructions.py $(if $(WRITE),--write)
+evidence: ## Run a suite of long tests or counts: SUITE=...
+	@echo " $(SUITES) " | grep -q " $(or $(SUITE),-) " || { echo "SUITE= is one of: $(SUITES)"; exit 2; }
+	@$(MAKE) --no-print-directory evidence-$(SUITE)
 
-stages: | toolchains ## Show the time of a pose by stages, with perf; SETS="avx2 avx512"
-	@$(PYTHON) benches/stages.py $(SETS)
-
-ulp: | toolchains ## Compare arc tangent, sine and cosine with correctly rounded ones
-	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
-
-offset-wrists: | toolchains ## Count what is found of arms with an offset wrist; JOINT_VECTORS (1000) of each set
-	JOINT_VECTORS=$(or $(JOINT_VECTORS),1000) cargo test --release --lib offset_wrist::tests::each_arm -- --nocapture
-
-million: | toolchains ## Solve a million poses of each arm; count missed and incorrect ones
+evidence-million: | toolchains ## A million poses of each arm on each instruction set: missed, incorrect
 	$(ON_EACH_SET) IRBKIN_POSES=1000000 cargo test --quiet --release --test suite -- recall:: --nocapture --test-threads=1; done
 
-plans: $(BUILT) $(VENV)/.groups ## Plan 100,000 random lines, halve each step of each plan
-	IRBKIN_PLANS=50000 $(BIN)/python -m pytest --quiet -s -k hides_a_jump tests/python/test_plan.py
-
-general: | toolchains ## Solve POSES (20,000) poses of 20 arms without a closed form; count what is lost
+evidence-general: $(BUILT) $(VENV)/.groups ## POSES (20,000) poses of 20 arms without a closed form: found, lost
 	IRBKIN_POSES=$(or $(POSES),20000) cargo test --quiet --release --test suite -- recall::general recall::offset_wrist --nocapture --test-threads=1
 	IRBKIN_POSES=$(or $(POSES),20000) cargo test --quiet --release --lib structure::general -- --nocapture --test-threads=1
+	IRBKIN_POSES=200 $(BIN)/python -m pytest --quiet tests/python/test_general_oracles.py
 
-configurations: | toolchains ## Check confdata at 100,000 poses of every ABB arm
-	IRBKIN_POSES=100000 cargo test --quiet --release --test suite -- configuration:: --nocapture --test-threads=1
+evidence-offset-wrists: | toolchains ## JOINT_VECTORS (1000) of each set, arms with an offset wrist
+	JOINT_VECTORS=$(or $(JOINT_VECTORS),1000) cargo test --release --lib offset_wrist::tests::each_arm -- --nocapture
 
-hardsets: | toolchains ## Solve poses and follow paths at and near every singularity
+evidence-hardsets: | toolchains ## Poses and paths at and near every singularity
 	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test suite -- hard_sets:: follow:: --nocapture --test-threads=1; done
 	$(ON_EACH_SET) IRBKIN_POSES=200 cargo test --quiet --release --test suite -- reach_and_paths:: --nocapture --test-threads=1; done
 	IRBKIN_POSES=1000 cargo test --quiet --release --lib spherical_shoulder -- --nocapture --test-threads=1
 	IRBKIN_POSES=20 cargo test --quiet --release --test suite -- redundancy:: nearest:: --nocapture --test-threads=1
 
+evidence-plans: $(BUILT) $(VENV)/.groups ## 100,000 random lines planned, each step halved
+	IRBKIN_PLANS=50000 $(BIN)/python -m pytest --quiet -s -k hides_a_jump tests/python/test_plan.py
+
+evidence-configurations: | toolchains ## confdata at 100,000 poses of every ABB arm
+	IRBKIN_POSES=100000 cargo test --quiet --release --test suite -- configuration:: --nocapture --test-threads=1
+
+evidence-fuzz: | toolchains ## Four million invalid RAPID texts: no panic, linear time
+	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test suite -- rapid_fuzz:: --nocapture --test-threads=1
+
+evidence-ulp: | toolchains ## Arc tangent, sine and cosine against correctly rounded ones
+	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
+
+evidence-no-std: | toolchains ## Laws and unit tests without the standard library
+	cargo test $(NO_STD),rapid --lib
+	cargo test $(NO_STD),rapid --test suite -- laws:: coupled:: configuration:: allocation:: rapid:: rapid_calc::
+
+evidence-stages: | toolchains ## Time of a pose by stages, with perf; SETS="avx2 avx512"
+	@$(PYTHON) benches/stages.py $(SETS)
+
+evidence-instructions: | toolchains ## Instructions of a call, with valgrind; WRITE=1 records them
+	@$(PYTHON) benches/instructions.py $(if $(WRITE),--write)
+
+evidence-ros-starts: $(BUILT) ## COUNT (200) nodes of each ROS ended with SIGTERM: none may hang
+	@tests/ros/test.sh --starts $(or $(COUNT),200) $(abspath $(BIN)/python)
+
+docs: $(BUILT) $(VENV)/.groups ## Write generated tables and transcripts, draw the pictures, build cargo doc
+	IRBKIN_WRITE=1 cargo test --quiet --test suite -- catalog_page::
+	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k transcripts
+	for script in eight_solutions slots motion plans singularities; do $(BIN)/python docs/pictures/$$script.py; done
+	cargo doc --no-deps --features serde
+
 stubs: $(BUILT) ## Write the docstrings of the type stubs from those of the extension
 	$(BIN)/python tests/python/stub_docs.py
-
-catalog: | toolchains ## Write the tables of docs/catalog.md
-	IRBKIN_WRITE=1 cargo test --quiet --test suite -- catalog_page::
-
-fuzz: | toolchains ## Read four million invalid RAPID texts: no panic, linear time
-	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test suite -- rapid_fuzz:: --nocapture --test-threads=1
 
 wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
 	rm -rf dist/venv dist/irbkin-*.whl

@@ -1,5 +1,6 @@
-"""Count the instructions of a call and compare them with the recorded ones: `make instructions`,
-WRITE=1 records.
+"""Count the instructions of a call and compare them with the recorded ones.
+
+`make evidence SUITE=instructions`; WRITE=1 records.
 """
 
 from __future__ import annotations
@@ -63,8 +64,8 @@ def page(counts: dict[str, list[int]]) -> str:
 Counted by callgrind, without start and preparation. Batch figures are for one of 512 poses. The
 counts depend on the compiler, not on the load of the machine. valgrind does not run AVX-512.
 
-`make instructions` counts again and shows the difference; `make instructions WRITE=1` writes this
-page. Recorded with {toolchain()}.
+`make evidence SUITE=instructions` counts again and shows the difference; with `WRITE=1` it writes
+this page. Recorded with {toolchain()}.
 
 | IRB 2600-12/1.65 | {" | ".join(SETS)} |
 |---|---:|---:|

@@ -1,5 +1,5 @@
-//! What `make instructions` counts and `make stages` samples: `instructions WHAT SET TIMES` does
-//! one thing that many times.
+//! The calls that the suites `instructions` and `stages` of `make evidence` count and sample:
+//! `instructions WHAT SET TIMES` does one thing that many times.
 //!
 //! `instructions sets` lists the instruction sets of this processor. Without arguments it does
 //! everything once on each: a proof that it runs.

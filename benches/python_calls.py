@@ -5,6 +5,7 @@ same run.
 from __future__ import annotations
 
 import itertools
+import os
 import statistics
 import subprocess
 import sys
@@ -17,9 +18,10 @@ import irbkin
 import numpy as np
 from peers.machine import cpu
 
-ROUNDS = 15
-CALLS = 2000
-POSES = 100_000
+QUICK = bool(os.environ.get("QUICK"))
+ROUNDS = 1 if QUICK else 15
+CALLS = 20 if QUICK else 2000
+POSES = 5_000 if QUICK else 100_000
 
 
 class Row(NamedTuple):
@@ -163,11 +165,11 @@ def sizes(robot: irbkin.Robot) -> None:
     """Print the time of a pose in batches of many sizes, on one thread and on two: the threads are
     worth it from 5,000 poses on, and a million poses are written to memory, not to a cache.
     """
-    most = 1_000_000
+    most = 10_000 if QUICK else 1_000_000
     q = np.random.default_rng(1).uniform(*robot.limits.T, size=(most, 6))
     T, out = robot.fk(q), (np.empty((most, 8, 6)), np.empty((most, 8), np.uint8))
     print(f"\n{'ik_batch(out=) of':24}{'ns a pose':>12}{'2 threads':>12}{'gain':>9}")
-    for count in (512, 5_000, 10_000, 50_000, 100_000, most):
+    for count in (512, 5_000, *(() if QUICK else (10_000, 50_000, 100_000)), most):
         answer = tuple(array[:count] for array in out)
         calls = [partial(robot.ik_batch, T[:count], out=answer, threads=n) for n in (1, 2)]
         times = np.full((2, ROUNDS), np.inf)

@@ -1,5 +1,6 @@
-"""Show where the time of a pose goes, stage by stage: `make stages`. Needs Linux's perf, nm and
-addr2line.
+"""Show where the time of a pose goes, stage by stage: `make evidence SUITE=stages`.
+
+Needs Linux's perf, nm and addr2line.
 
 perf samples a call that is repeated. A sample belongs to the stage that lists the innermost of the
 functions, inlined ones too, that it fell into.

@@ -1,5 +1,5 @@
-//! The tables of docs/catalog.md match the catalog. With IRBKIN_WRITE=1 (`make catalog`) they are
-//! written.
+//! The tables of docs/evidence/catalog.md match the catalog. With IRBKIN_WRITE=1
+//! (`make docs`) they are written.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::fs;
@@ -8,8 +8,7 @@ use std::path::Path;
 use irbkin::{CatalogArm, CatalogGeometry, catalog, left_out};
 
 const COMMON_HEAD: [&str; 3] = ["arm", "payload [kg]", "reach [m]"];
-const COMMON_TAIL: [&str; 4] =
-    ["limits of axes 1 to n", "speeds", "sources", "disagreements and remarks"];
+const COMMON_TAIL: [&str; 3] = ["limits of axes 1 to n", "speeds", "sources"];
 
 /// Name of a table in the page, the columns that describe its geometry.
 const TABLES: [(&str, &[&str]); 5] = [
@@ -65,10 +64,8 @@ fn row_of(arm: &CatalogArm, geometry: Vec<String>) -> String {
         || "-".to_owned(),
         |speeds| speeds.iter().map(f64::to_string).collect::<Vec<_>>().join(", "),
     );
-    // The sources come first in the provenance.
-    let remarks = arm.provenance.split_once("; ").map_or("", |(_, remarks)| remarks).to_owned();
     let head = [arm.name.to_owned(), known(arm.payload), known(arm.reach)];
-    row(head.into_iter().chain(geometry).chain([limits, speeds, arm.sources.to_string(), remarks]))
+    row(head.into_iter().chain(geometry).chain([limits, speeds, arm.sources.to_string()]))
 }
 
 fn table(name: &str, columns: &[&str]) -> String {
@@ -91,12 +88,12 @@ fn left_out_table() -> String {
 
 #[test]
 fn the_tables_of_the_page_are_those_of_the_catalog() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/catalog.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/evidence/catalog.md");
     let page = fs::read_to_string(&path).unwrap();
     let mut made = page.clone();
     let tables = TABLES.map(|(name, columns)| (name, table(name, columns)));
     for (name, table) in tables.into_iter().chain([("left out", left_out_table())]) {
-        let start = format!("<!-- {name}: written by make catalog -->\n");
+        let start = format!("<!-- {name}: written by make docs -->\n");
         let (before, rest) = made.split_once(&start).unwrap();
         let (_, after) = rest.split_once("<!-- end -->").unwrap();
         made = format!("{before}{start}\n{table}\n<!-- end -->{after}");
@@ -106,7 +103,7 @@ fn the_tables_of_the_page_are_those_of_the_catalog() {
     } else {
         assert!(
             page == made,
-            "docs/catalog.md is not what the catalog says: make catalog writes it"
+            "docs/evidence/catalog.md is not what the catalog says: make docs writes it"
         );
     }
 }

@@ -1,5 +1,5 @@
 //! Laws of ABB's confdata. `IRBKIN_POSES` sets the number of poses of each arm;
-//! `make configurations` runs a hundred thousand.
+//! `make evidence SUITE=configurations` runs a hundred thousand.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

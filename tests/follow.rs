@@ -1,7 +1,7 @@
 //! A smooth joint path is followed without a jump; where there is no way, the break reports where
 //! and why.
 //!
-//! `make hardsets` prints the table.
+//! `make evidence SUITE=hardsets` prints the table.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss, clippy::float_cmp, missing_docs)]
 
 use crate::common;
@@ -416,7 +416,7 @@ fn random_paths_through_several_singularities_are_followed() {
          behind a stretched elbow; worst orientation {orientation:.1e} rad"
     );
     // A straight elbow leaves the forearm undetermined by 2e-7 rad on either side
-    // (docs/accuracy.md, section 9).
+    // (docs/evidence/accuracy.md, section 9).
     assert!(orientation < 4e-7);
     assert!(followed_smoothly * 100 >= paths * 99);
 }

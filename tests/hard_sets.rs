@@ -1,7 +1,7 @@
 //! Poses at and near every singularity: each branch is found, no solution is incorrect, none is a
 //! duplicate. Poses slightly out of reach: no solution, and the correct shortfall.
 //!
-//! `make hardsets` prints one row per set with more poses; `make test` runs fewer.
+//! `make evidence SUITE=hardsets` prints one row per set with more poses; `make test` runs fewer.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::thresholds;

@@ -1,8 +1,8 @@
 //! Every joint vector that makes a pose is found, with no incorrect and no duplicate solution, for
 //! many random poses.
 //!
-//! One by one and in a batch. `make million` runs a million poses on each instruction set and
-//! prints the table; `make test` runs fewer.
+//! One by one and in a batch. `make evidence SUITE=million` runs a million poses on each
+//! instruction set and prints the table; `make test` runs fewer.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::f64::consts::PI;

@@ -1,8 +1,8 @@
 //! Laws of `Robot::<7>::ik_nearest`, especially near the stretched arm: there the angles of joint 7
 //! that reach a pose are an interval narrower than any grid.
 //!
-//! `IRBKIN_POSES` is the number of poses for each arm and distance; `make hardsets` prints one row
-//! per arm with more.
+//! `IRBKIN_POSES` is the number of poses for each arm and distance; `make evidence
+//! SUITE=hardsets` prints one row per arm with more.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

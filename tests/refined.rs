@@ -1,5 +1,5 @@
 //! A calibrated arm by way of its nominal one. `IRBKIN_POSES` sets the number of poses of the rates
-//! in docs/calibrate.md, which `--nocapture` prints.
+//! in docs/guide/calibrate.md, which `--nocapture` prints.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::batch::Batch;

@@ -17,7 +17,8 @@ from .recall import recall, sets_of
 from .rows import ROWS, gather, run
 
 ROOT = Path(__file__).parents[2]
-PAGE, PICTURE = ROOT / "docs" / "benchmarks.md", ROOT / "docs" / "pictures" / "peers.svg"
+PAGE = ROOT / "docs" / "evidence" / "benchmarks.md"
+PICTURE = ROOT / "docs" / "pictures" / "peers.svg"
 
 
 def main() -> None:

@@ -12,7 +12,7 @@ from .contenders import Contender
 from .contenders.contender import Task
 from .contenders.motion import ACCELERATION, FEW, MANY, VELOCITY
 
-# Joint angles of the example of docs/motion.md [rad].
+# Joint angles of the example of docs/guide/motion.md [rad].
 START = np.radians([0.0, -90, 0, 0, 90, -180])
 END = np.radians([90.0, -100, 40, 10, 60, -120])
 # Joint angles of the ends of the line [rad].

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -99,5 +100,6 @@ def draw(results: Sequence[Result], path: Path) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, metadata={"Date": None})
         plt.close(figure)
-    # matplotlib leaves blanks at the ends of lines.
-    path.write_text("\n".join(line.rstrip() for line in path.read_text().splitlines()) + "\n")
+    # matplotlib writes a line for each point, and leaves blanks at the ends of lines.
+    svg = re.sub(r'"[^"]*"', lambda text: " ".join(text[0].split()), path.read_text())
+    path.write_text("\n".join(line.rstrip() for line in svg.splitlines()) + "\n")

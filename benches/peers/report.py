@@ -40,6 +40,15 @@ def times(result: Result) -> Table:
     return table
 
 
+def brief(table: Table) -> Table:
+    """Times without the ratio to the yardstick and without what irbkin's row has checked alike."""
+    alike = table[1][-1]
+    return [
+        [*line[:3], "" if number > 1 and line[-1] == alike else line[-1]]
+        for number, line in enumerate(table)
+    ]
+
+
 def losses(recalls: Sequence[Recall]) -> Table:
     """Solutions that each contender missed, and what else its answers hold."""
     head = ["missed of", *(f"{each.poses.name} ({each.known})" for each in recalls)]
@@ -84,12 +93,12 @@ def document(
     results: Sequence[Result],
     missing: dict[str, str],
 ) -> str:
-    """The generated part of docs/benchmarks.md."""
+    """The generated part of docs/evidence/benchmarks.md."""
     parts = ["\n\n".join(textwrap.fill(line, 100) for line in machine)]
     for arm, tallies in recalls.items():
         parts += [f"### Solutions missed, {arm}", markdown(losses(tallies))]
     for result in results:
-        parts += [f"### {result.row.title}", markdown(times(result))]
+        parts += [f"### {result.row.title}", markdown(brief(times(result)))]
         parts += ["\n".join(f"- {line}" for line in result.absent)] if result.absent else []
     if missing:
         parts.append("Not installed: " + ", ".join(missing) + ".")

@@ -1,17 +1,13 @@
 """Make the picture of the README: the eight solutions of one pose of an IRB 2600, as skeletons.
 
-Run without arguments: it writes eight_solutions.svg next to itself and prints its name. It needs
-`irbkin[plot]`. The same irbkin and matplotlib give the same file.
+Run without arguments. It needs `irbkin[plot]`.
 """
-
-from pathlib import Path
 
 import irbkin
 import matplotlib as mpl
+from drawing import HERE, STYLE, save
 from irbkin import plot
-from singularities import STYLE
 
-HERE = Path(__file__).parent
 FACING = ("facing the target", "reaching over backward")
 ELBOW = ("elbow up", "elbow down")
 
@@ -26,8 +22,7 @@ def main() -> None:
             elbow = ELBOW[bool(slot & 2) != bool(slot & 4)]
             words = f"slot {slot}: {elbow}, J5 {'<' if slot & 1 else '>'} 0\n{FACING[slot >> 2]}"
             axes.set_title(words, fontsize=9)
-        figure.savefig(HERE / "eight_solutions.svg", metadata={"Date": None, "Creator": None})
-    print(HERE / "eight_solutions.svg")
+        save(figure, "eight_solutions", HERE)
 
 
 if __name__ == "__main__":

@@ -1,31 +1,19 @@
-"""Draw the pictures of docs/plot.md: a quintic, a line through the wrist singularity, a slice of
-the reach, skeletons.
+"""Draw the pictures of docs/guide/plot.md: a quintic, a line through the wrist singularity, a slice
+of the reach, skeletons.
 
-Run without arguments: it writes the SVG files next to itself and prints their sizes. It needs
-`irbkin[plot]`. The same irbkin and matplotlib give the same files.
+Run without arguments. It needs `irbkin[plot]`.
 """
-
-from pathlib import Path
 
 import irbkin
 import matplotlib as mpl
 import numpy as np
+from drawing import STYLE, save
 from irbkin import paths, plot, trajectory
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from singularities import STYLE
 
-HERE = Path(__file__).parent
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 # Joint angles of the article's example, whose zero of axes 2 and 6 is the table's.
 START, END = np.radians([[0, -90, 0, 0, 90, -180], [90, -100, 40, 10, 60, -120]])
-
-
-def save(figure: Figure, name: str) -> None:
-    """Write one picture."""
-    target = HERE / f"{name}.svg"
-    figure.savefig(target, metadata={"Date": None, "Creator": None})
-    print(f"{target.name}: {target.stat().st_size / 1000:.0f} kB")
 
 
 def quintic() -> None:

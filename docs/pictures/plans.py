@@ -1,33 +1,22 @@
-"""Draw the pictures of docs/plan.md, docs/placement.md and docs/map.md: the weld of example 10, the
-bases that were tried for a table of parts, and slices of a map.
+"""Draw the pictures of plans, placements and maps in docs/guide: the weld of example 10, the bases
+that were tried for a table of parts, and slices of a map.
 
-Run without arguments: it writes the SVG files next to itself and prints their sizes. It needs
-`irbkin[plot]`. The same irbkin and matplotlib give the same files.
+Run without arguments. It needs `irbkin[plot]`.
 """
 
 import importlib.util
-from pathlib import Path
 from typing import Any
 
 import irbkin
 import irbkin.map
 import matplotlib as mpl
 import numpy as np
+from drawing import HERE, STYLE, save
 from irbkin import placement, plot
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from singularities import STYLE
 
-HERE = Path(__file__).parent
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 TORCH = ROBOT.with_tool(irbkin.pose([0.05, 0, 0.35]))
-
-
-def save(figure: Figure, name: str) -> None:
-    """Write one picture."""
-    target = HERE / f"{name}.svg"
-    figure.savefig(target, dpi=150, metadata={"Date": None, "Creator": None})
-    print(f"{target.name}: {target.stat().st_size / 1000:.0f} kB")
 
 
 def weld() -> None:

@@ -1,19 +1,17 @@
-"""Draw the pictures of docs/singularities.md: joint traces through singularities, and the answers
-of `ik` next to them.
+"""Draw the pictures of docs/theory/singularities.md: joint traces through singularities,
+and the answers of `ik` next to them.
 
-Run without arguments: it writes the SVG files next to itself and prints their names. The same
-irbkin and matplotlib give the same files.
+Run without arguments. It needs `irbkin[plot]`.
 """
 
 from collections.abc import Callable
 from itertools import pairwise
-from pathlib import Path
-from typing import Any
 
 import irbkin
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
+from drawing import HERE, STYLE, save
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -22,30 +20,11 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Joints = list[float]
 
-HERE = Path(__file__).parent
 SAMPLES = 201
 PATH = np.linspace(-1, 1, SAMPLES)
 COLORS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#555555")
-STYLE: dict[Any, Any] = {
-    "axes.edgecolor": "#777777",
-    "axes.grid": True,
-    "axes.spines.right": False,
-    "axes.spines.top": False,
-    "axes.titlesize": 9,
-    "backend": "svg",
-    "font.sans-serif": ["DejaVu Sans", "Verdana"],
-    "font.size": 9,
-    "grid.color": "#dddddd",
-    "grid.linewidth": 0.6,
-    "lines.linewidth": 1.6,
-    "path.simplify_threshold": 0.3,
-    "savefig.facecolor": "white",
-    "svg.fonttype": "none",
-    "svg.hashsalt": "irbkin",
-}
-
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
-# Its lengths [m], named as in docs/conventions.md, and J3 of the stretched arm.
+# Its lengths [m], named as in docs/guide/conventions.md, and J3 of the stretched arm.
 A1, A2, C1, C2, C3, C4 = 0.150, -0.115, 0.445, 0.700, 0.795, 0.085
 STRETCHED = float(np.arctan2(-A2, C3) - np.pi / 2)
 LEANING = -0.6
@@ -102,14 +81,6 @@ def panels(count: int) -> tuple[Figure, list[Axes]]:
     )
     grid[0, 0].set_ylabel("joint angle [deg]")
     return figure, list(grid[0])
-
-
-def save(figure: Figure, name: str) -> None:
-    """Write one picture."""
-    target = HERE / f"{name}.svg"
-    figure.savefig(target, metadata={"Date": None, "Creator": None})
-    plt.close(figure)
-    print(f"{target.name}: {target.stat().st_size / 1000:.0f} kB")
 
 
 def save_traces(figure: Figure, axes: Axes, name: str) -> None:
@@ -242,7 +213,7 @@ def branches() -> None:
         Patch(facecolor=color, edgecolor="#777777", label=label) for color, label in BANDS.values()
     ]
     figure.legend(handles=patches, loc="outside lower center", ncols=2, frameon=False, fontsize=8)
-    save(figure, "singularities_branches")
+    save(figure, "singularities_branches", HERE)
 
 
 def main() -> None:

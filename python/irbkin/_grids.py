@@ -64,24 +64,24 @@ class Placement(NamedTuple):
     slack: npt.NDArray[np.float64]
     """The margin of each target, shape (m,); NaN where it is not reached."""
     q: npt.NDArray[np.float64]
-    """Joint angles with that margin [rad], shape (m, 6); of a path, those of its plan. NaN where a
-    target is not reached.
+    """Joint angles with that margin [rad], shape (m, 6); of a path, the joints of its plan. NaN
+    where a target is not reached.
     """
     tool_angle: npt.NDArray[np.float64]
     """The angle that the tool is turned by [rad], shape (m,); zeros without a free rotation."""
     nowhere: tuple[int, ...]
     """The targets that are reached from no base that was tried."""
     plan: Plan | None
-    """The plan of a path; None without `path`, or if there is none."""
+    """The plan of a path; None without `path` or without a plan."""
     grid: BaseGrid
-    """What the grid has shown, for `irbkin.plot.placement`."""
+    """The values of the grid, for `irbkin.plot.placement`."""
     reason: str
     """The outcome in a sentence."""
 
 
 @by_value
 class ReachMap(NamedTuple):
-    """What an arm reaches: a grid of positions, each with every orientation."""
+    """The reach of an arm: a grid of positions, each with every orientation."""
 
     x: npt.NDArray[np.float64]
     """Positions along x [m], shape (i,)."""
@@ -96,11 +96,11 @@ class ReachMap(NamedTuple):
     solutions: npt.NDArray[np.int64]
     """Number of solutions inside the limits, all orientations together, shape (i, j, k)."""
     margin: npt.NDArray[np.float64]
-    """The smallest margin of the orientations that are reached, that of an orientation being
+    """The smallest margin of the orientations that are reached, the margin of an orientation being
     `IkMargin.margin`, shape (i, j, k). NaN where none is reached.
     """
     singularities: npt.NDArray[np.float64]
-    """The same of `IkMargin.singularities`: the worst distance from singularities."""
+    """`IkMargin.singularities` in the same way: the worst distance from singularities."""
 
     @property
     def share(self) -> npt.NDArray[np.float64]:

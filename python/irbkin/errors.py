@@ -1,4 +1,4 @@
-"""Errors of irbkin. Every message names the field, the value and the bound."""
+"""The errors of irbkin. Every message names the field, the value and the bound."""
 
 from __future__ import annotations
 

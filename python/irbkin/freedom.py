@@ -1,4 +1,4 @@
-"""Freedoms of `Robot.plan` at each pose besides the joints."""
+"""The freedom that `Robot.plan` has at each pose besides the joints."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Track(NamedTuple):
     max_velocity: float = 1.0
     """Velocity limit [m/s]."""
     weight: float = 1.0
-    """Cost of moving it, as the weights of the joints."""
+    """Cost of moving it, beside the weights of the joints."""
 
 
 class Positioner(NamedTuple):
@@ -95,4 +95,4 @@ class Positioner(NamedTuple):
     max_velocity: float = 1.0
     """Velocity limit [rad/s]."""
     weight: float = 1.0
-    """Cost of moving it, as the weights of the joints."""
+    """Cost of moving it, beside the weights of the joints."""

@@ -1,11 +1,8 @@
 """Many poses at once give what each gives alone."""
 
-import threading
-
 import irbkin
 import numpy as np
 import pytest
-from arms import ABB, KUKA_KR6
 from irbkin import IkBatch, Status
 from reference import apart, random_pose
 
@@ -81,13 +78,31 @@ def test_a_batch_of_every_kind_of_array_equals_single(robot, poses, kind):
         assert_same_bits(q, single.q_by_slot)
 
 
-@pytest.mark.parametrize("threads", [2, 0])
-def test_threads_that_share_the_work_change_no_bit(robot, poses, threads):
-    """Fewer than 8192 poses are not shared."""
-    many = np.concatenate([poses] * 85)
-    whole, shared = robot.ik_batch(many), robot.ik_batch(many, threads=threads)
-    assert_same_bits(shared.q, whole.q)
-    np.testing.assert_array_equal(shared.status, whole.status)
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "Panda"])
+@pytest.mark.parametrize("kind", [None, *KINDS])
+def test_forward_batches_equal_single(name, kind):
+    robot = irbkin.Robot(name)
+    most = np.repeat([0.0, 3.0, 400.0, 9e4, 2e5], 21)[
+        :, None
+    ]  # the lanes count turns up to 1e5 rad
+    q = most * np.random.default_rng(7).uniform(-1, 1, (most.size, robot.dof))
+    given = KINDS[kind](q) if kind else q
+    for found, wanted in (
+        (robot.fk(given), [robot.fk(row) for row in given]),
+        (robot.link_frames(given), [robot.link_frames(row) for row in given]),
+        (robot.jacobian(given), [robot.jacobian(row) for row in given]),
+        (robot.jacobian(given, frame="tool"), [robot.jacobian(row, frame="tool") for row in given]),
+    ):
+        assert_same_bits(found, wanted)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3, 7, 0, 5000])
+def test_threads_and_chunks_change_no_bit(robot, poses, threads):
+    whole = robot.ik_batch(poses)
+    for part, first in ((poses, 0), (poses[501:], 501), (poses[3:4], 3)):
+        batch = robot.ik_batch(part, threads=threads)
+        np.testing.assert_array_equal(batch.q, whole.q[first : first + len(part)])
+        np.testing.assert_array_equal(batch.status, whole.status[first : first + len(part)])
 
 
 @pytest.mark.parametrize("lead", [(), (1,), (0,), (2, 3), (2, 0, 3), (2, 3, 4, 1)])
@@ -187,25 +202,6 @@ def test_a_pose_beyond_reach_has_status_zero():
     batch = robot.ik_batch(irbkin.pose([[5.0, 0, 0]][0]))
     assert (batch.status == 0).all()
     assert np.isnan(batch.q).all()
-
-
-def test_calls_from_many_threads_do_not_disturb_each_other():
-    robots = [irbkin.Robot(name) for name in ABB] + [irbkin.Robot.from_opw(**KUKA_KR6)]
-    poses = [robot.fk(np.random.default_rng(6).uniform(-0.5, 0.5, (500, 6))) for robot in robots]
-    wanted = [robot.ik_batch(made).q for robot, made in zip(robots, poses, strict=True)]
-    found = [None] * len(robots)
-
-    def work(i):
-        for _ in range(5):
-            found[i] = robots[i].ik_batch(poses[i]).q
-
-    workers = [threading.Thread(target=work, args=(i,)) for i in range(len(robots))]
-    for worker in workers:
-        worker.start()
-    for worker in workers:
-        worker.join()
-    for one, other in zip(found, wanted, strict=True):
-        np.testing.assert_array_equal(one, other)
 
 
 def test_nearest_takes_any_leading_shape_and_one_seed_for_all(robot, poses):

@@ -18,7 +18,7 @@ from irbkin.cli.checker import Checker, fix
 from irbkin.cli.sources import Source, read_modules
 
 ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs" / "check.md").read_text()
+PAGE = (ROOT / "docs" / "guide" / "check.md").read_text()
 NAME = "IRB 2600-12/1.65"
 ROBOT = irbkin.Robot(NAME)
 CODES = [code for code, _, _ in check_codes()]

@@ -252,19 +252,19 @@ def test_rows_are_read_as_people_write_them(content):
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("900,0,600,0,160,0\n900,O,600,0,160,0\n", "stdin:2:5: 'O' is no finite number"),
+        ("900,0,600,0,160,0\n900,O,600,0,160,0\n", "stdin:2:5: 'O' is not a finite number"),
         ("900,0,600,0,160,0\n\n900,0,600,0,160\n", "stdin:3: 5 columns, the first line has 6"),
-        ("x,y,z,rz,ry,rx\n900,0,600,,160,0\n", "stdin:2:11: '' is no finite number"),
+        ("x,y,z,rz,ry,rx\n900,0,600,,160,0\n", "stdin:2:11: '' is not a finite number"),
         ("x,y,z,rz,ry\n900,0,600,0,160\n", "stdin:1: no column 'qw'"),
         ("900,0\n", "stdin:1: 2 columns; a pose has x_mm, y_mm, z_mm, qw"),
         ("", "stdin: has no rows"),
         ("x,y,z,rz,ry,rx\n", "stdin: has no rows"),
         ("900,0,600,2,0,0,0\n", "stdin: row 1: the quaternion qw, qx, qy, qz has norm 2"),
-        ("900,0,1_0,0,160,0\n", "'1_0' is no finite number"),
-        (b"900,0,600,0,160,0\n900,\xff,600,0,160,0\n", "stdin:2:5: '?' is no finite number"),
+        ("900,0,1_0,0,160,0\n", "'1_0' is not a finite number"),
+        (b"900,0,600,0,160,0\n900,\xff,600,0,160,0\n", "stdin:2:5: '?' is not a finite number"),
         (b"\xff\xfe9\x00", "UTF-16"),
         (b"PK\x03\x04", "archive"),
-        (b"\x93NUMPY\x09", "is no .npy file that can be read"),
+        (b"\x93NUMPY\x09", "is not a .npy file that can be read"),
     ],
 )
 def test_broken_rows_have_their_line_and_column(content, message):
@@ -361,13 +361,16 @@ def test_a_filter_that_leaves_no_arm_says_so():
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["fk", NAME, "nan", 0, 0, 0, 0, 0], "joint angles: 'nan' is no finite number"),
+        (["fk", NAME, "nan", 0, 0, 0, 0, 0], "joint angles: 'nan' is not a finite number"),
         (["fk", NAME, 0, "1e9", 0, 0, 0, 0], "joint 2 at 1e+09 deg is too large"),
-        (["fk", NAME, *[0] * 6, "--tool", 0, 0, "inf"], "--tool: 'inf' is no finite number"),
+        (["fk", NAME, *[0] * 6, "--tool", 0, 0, "inf"], "--tool: 'inf' is not a finite number"),
         (["fk", NAME, *[0] * 6, "--tool", 0, 0, 100000], "it must be at most 50000 mm"),
         (["fk", NAME, *[0] * 6, "--tool", 0, 0, 1, 0, -400, 0], "--tool: ry is -400 deg"),
         (["ik", NAME, "--xyz", 850, 0, 0, "--euler", 400, 0, 0], "--euler: rz is 400 deg"),
-        (["ik", NAME, "--xyz", 850, 0, 0, "--confdata", 0, 0, 0, 0.5], "'0.5' is no whole number"),
+        (
+            ["ik", NAME, "--xyz", 850, 0, 0, "--confdata", 0, 0, 0, 0.5],
+            "'0.5' is not a whole number",
+        ),
         (["ik", "Panda", "--xyz", 4, 0, 0, "--given", 3], "as 3=11.5"),
         (["ik", "Panda", "--xyz", 4, 0, 0, "--given", f"{'9' * 20}=5"], "must be 1 to 7"),
         (["ik", "Panda", "--xyz", 4, 0, 0, "--q7", "1e9"], "--q7: 1e+09 deg is too large"),
@@ -468,7 +471,7 @@ def test_a_broken_path_is_reported(tmp_path):
     assert done.stderr.count(b"slot 0 at pose 1: ") == 1
     assert done.stderr.count(b"\n") == 1
     far.write_text("900,0,600,0,160,0\nnan,0,600,0,160,0\n")
-    assert "far.csv:2:1: 'nan' is no finite number" in refused("plan", NAME, far)
+    assert "far.csv:2:1: 'nan' is not a finite number" in refused("plan", NAME, far)
 
 
 def test_a_plan_is_that_of_the_library(corners, tmp_path):
@@ -547,7 +550,7 @@ def test_plots_are_files_of_their_format(tmp_path, joints_csv):
         done = run("plot", NAME, kind, *words, "-o", file)
         assert done.returncode == 0, done
         assert file.read_bytes().startswith(start)
-    assert ".foo is none of" in refused("plot", NAME, "solutions", *XYZ, "-o", "a.foo")
+    assert ".foo is not among" in refused("plot", NAME, "solutions", *XYZ, "-o", "a.foo")
     assert "has no ending" in refused("plot", NAME, "solutions", *XYZ, "-o", "a")
     assert "takes a FILE" in refused("plot", NAME, "path", "-o", "a.svg")
 

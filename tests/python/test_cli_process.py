@@ -113,7 +113,7 @@ def test_rows_before_a_broken_one_are_written_before_the_message():
         timeout=60,
     )
     *lines, last = done.stdout.decode().splitlines()
-    assert last == "irbkin: stdin:200001:1: 'x' is no finite number"
+    assert last == "irbkin: stdin:200001:1: 'x' is not a finite number"
     assert len(lines) > 100_000
     assert len({line.count(",") for line in lines}) == 1
 

@@ -40,15 +40,6 @@ def test_joints_are_the_controllers_and_the_twins_differ_by_axis_2():
     assert ROBOT.coupled() == ROBOT
 
 
-def test_limits_hold_for_the_controllers_axis_3():
-    # Axis 3 as far as its limit, axis 2 leaning: the serial angle is far outside -60..65 deg.
-    q = np.deg2rad([10, 80, 60, 20, 30, 40])
-    nearest = ROBOT.ik_nearest(ROBOT.fk(q), seed=q)
-    np.testing.assert_allclose(nearest, q, rtol=0, atol=1e-12)
-    with pytest.raises(irbkin.UnreachableError, match="outside limits"):
-        ROBOT.ik_nearest(ROBOT.fk(q + np.deg2rad([0, 0, 10, 0, 0, 0])), seed=q)
-
-
 def test_the_linkage_has_limits_where_they_are_given():
     robot = ROBOT.with_linkage_limits(LINKAGE)
     assert ROBOT.linkage_limits is None

@@ -14,21 +14,20 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 README = ROOT / "README.md"
-PACKAGE = ROOT / "docs" / "package.md"
-DOCS = sorted((ROOT / "docs").glob("*.md"))
+DOCS = sorted((ROOT / "docs").rglob("*.md"))
 PAGES = [README, ROOT / "ARCHITECTURE.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *DOCS]
 BLOCK = re.compile(r"^```python\n(.*?)^```$(?:\n\n```text\n(.*?)^```$)?", re.MULTILINE | re.DOTALL)
 FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 RUN = [page for page in PAGES if BLOCK.search(page.read_text())]
 # Transcripts of a shell, and the files that they read: their names stand behind the fence.
-TRANSCRIBED = [ROOT / "docs" / "cli.md", ROOT / "docs" / "check.md"]
+TRANSCRIBED = [ROOT / "docs" / "guide" / "cli.md", ROOT / "docs" / "guide" / "check.md"]
 SHELL = re.compile(
     r"^```(?:console\n(?P<console>.*?)|\w+ (?P<file>[\w-]+\.\w+)\n(?P<content>.*?))^```$",
     re.MULTILINE | re.DOTALL,
 )
 README_WORDS = 700
 # Packages of the group "recipes" that a page needs.
-NEEDED = {"recipes.md": ("jax", "polars", "xarray")}
+NEEDED = {"recipes.md": ("jax", "polars", "xarray", "distributed")}
 LINE = 100
 
 
@@ -105,22 +104,6 @@ def test_the_readme_is_short():
     assert words(README.read_text()) <= README_WORDS
 
 
-def package_page(readme):
-    """The page of the package registries: the README without pictures, its links as paths."""
-    page = re.sub(r"^!\[[^]]*\]\([^)]*\)\n\n", "", readme, flags=re.MULTILINE)
-    page = re.sub(r"\[(`?)([^]]*?)\1\]\(\2\)", r"`\2`", page)
-    return re.sub(r"\[([^]]*)\]\(([^)#]*)(?:#[^)]*)?\)", r"\1 (`\2`)", page)
-
-
-def test_the_page_of_the_package_is_the_readme_without_pictures_and_links():
-    page = package_page(README.read_text())
-    assert "](" not in page
-    if os.environ.get("IRBKIN_WRITE") == "1":
-        PACKAGE.write_text(page)
-    how = "IRBKIN_WRITE=1 pytest tests/python/test_documents.py writes it"
-    assert PACKAGE.read_text() == page, f"docs/package.md is not what README.md says: {how}"
-
-
 def anchors(page):
     """The anchors of a page's headings, as GitHub makes them."""
     headings = re.findall(r"^#+ (.*)$", FENCED.sub("", page.read_text()), re.MULTILINE)
@@ -152,8 +135,10 @@ def test_files_that_are_named_exist():
     assert not [file for file in files if not (ROOT / file).exists()]
 
 
-def test_make_targets_that_are_named_exist():
+def test_make_targets_and_suites_that_are_named_exist():
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
     for page in PAGES:
-        for target in re.findall(r"`make ([a-z-]+)`", page.read_text()):
+        text = page.read_text()
+        suites = [f"evidence-{suite}" for suite in re.findall(r"SUITE=([a-z-]+)", text)]
+        for target in [*re.findall(r"`make ([a-z-]+)`", text), *suites]:
             assert target in targets, f"{page.name}: make {target}"

@@ -1,6 +1,5 @@
 """Maps: each number by its definition, whatever the blocks, threads, workers and interruptions."""
 
-import inspect
 import pickle
 import signal
 import subprocess
@@ -57,92 +56,6 @@ def test_more_orientations_than_are_solved_at_a_time_are_all_counted(monkeypatch
     for size in (1, 5, 30):
         monkeypatch.setattr(_reach, "AT_A_TIME", size)
         assert whole() == wanted
-
-
-def test_a_cluster_has_the_same_map(client):
-    found = irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, client=client, block=4)
-    assert found == whole()
-
-
-def test_an_error_of_a_worker_is_raised_here(client):
-    with pytest.raises(RuntimeError, match="no scene"):
-        irbkin.map.plan_batch(ROBOT, paths(8), accept=broken, client=client, block=2)
-    # And the cluster goes on.
-    assert irbkin.map.reach(ROBOT, 1.0, 0.0, 1.0, SPREAD, client=client).reached.shape == (1, 1, 1)
-
-
-def broken(q: np.ndarray) -> np.ndarray:
-    raise RuntimeError("no scene")
-
-
-def paths(count: int) -> list[np.ndarray]:
-    rng = np.random.default_rng(8)
-    made = []
-    for number in range(count):
-        ends = [
-            irbkin.pose(rng.uniform([0.7, -0.4, 0.4], [1.1, 0.4, 0.8]), euler_zyx=[0, 2.7, 0.2])
-            for _ in range(2)
-        ]
-        made.append(irbkin.paths.line(*ends, steps=20 + number))
-    made[3][5, 2, 3] += 3.0
-    made[4][2, 0, 0] = np.nan
-    return made
-
-
-def assert_same(found: tuple[object, ...], wanted: tuple[object, ...]) -> None:
-    assert len(found) == len(wanted)
-    for one, other in zip(found, wanted, strict=True):
-        assert type(one) is type(other)
-        if isinstance(one, irbkin.Plan):
-            assert one == other
-        else:
-            assert str(one) == str(other)
-            assert getattr(one, "plan", None) == getattr(other, "plan", None)
-
-
-def test_a_cluster_takes_every_option_of_the_robot():
-    def taken(function):
-        return inspect.signature(function).parameters.keys()
-
-    assert taken(ROBOT.plan_batch) < taken(irbkin.map.plan_batch)
-
-
-@pytest.mark.parametrize(
-    "options",
-    [
-        {},
-        {"rotation": 12, "block": 2},
-        {"weights": [2, 1, 1, 1, 1, 1]},
-        {"order": "sum", "limit_cost": 0.1, "singularity_cost": 0.2},
-    ],
-)
-def test_plans_of_a_cluster_are_those_of_the_robot(client, options):
-    given = paths(9)
-    wanted = ROBOT.plan_batch(given, **{k: v for k, v in options.items() if k != "block"})
-    assert_same(
-        irbkin.map.plan_batch(ROBOT, given, client=client, **{"block": 4, **options}), wanted
-    )
-    assert_same(irbkin.map.plan_batch(ROBOT, iter(given), **options), wanted)
-    kinds = [type(answer) for answer in wanted]
-    assert kinds[3:5] == [irbkin.PathError, irbkin.InvalidPoseError]
-    assert irbkin.Plan in kinds
-
-
-def test_starts_and_times_go_with_their_paths(client):
-    given = [path for index, path in enumerate(paths(9)) if index not in (3, 4)]
-    starts = np.array([ROBOT.ik(path[0]).within_limits()[-1].q for path in given])
-    times = [np.linspace(0, 60 + index, len(path)) for index, path in enumerate(given)]
-    for options in ({"start": starts}, {"start": list(starts[0])}, {"times": times}):
-        found = irbkin.map.plan_batch(ROBOT, given, client=client, block=3, **options)
-        assert_same(found, ROBOT.plan_batch(given, **options))
-    with pytest.raises(irbkin.InvalidMotionError, match="times must be 7 arrays"):
-        irbkin.map.plan_batch(ROBOT, given, client=client, times=times[:-1])
-    with pytest.raises(irbkin.InvalidJointsError, match=r"\(7, 6\)"):
-        irbkin.map.plan_batch(ROBOT, given, client=client, start=starts[:-1])
-    with pytest.raises(irbkin.InvalidPoseError, match=r"paths\[1\]"):
-        irbkin.map.plan_batch(ROBOT, [given[0], given[1][:, :3]], client=client)
-    with pytest.raises(ValueError, match="block is 0"):
-        irbkin.map.plan_batch(ROBOT, given, block=0)
 
 
 def test_a_map_is_written_and_read(tmp_path):
@@ -242,7 +155,7 @@ def test_the_map_of_something_else_is_not_touched(tmp_path):
     with pytest.raises(ValueError, match=r"output must be a file \.npz"):
         irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, output=tmp_path / "reach.csv")
     np.savez(tmp_path / "other.npz", a=1)
-    with pytest.raises(ValueError, match="is no map: it has no margin"):
+    with pytest.raises(ValueError, match="is not a map: it has no margin"):
         irbkin.map.load(tmp_path / "other.npz")
     with pytest.raises(FileExistsError, match="is of another map"):
         irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, output=tmp_path / "other.npz")
@@ -250,7 +163,7 @@ def test_the_map_of_something_else_is_not_touched(tmp_path):
     (tmp_path / "half.npz").write_bytes(before[: len(before) // 2])
     (tmp_path / "empty.npz").touch()
     for name in ("array.npy", "half.npz", "empty.npz"):
-        with pytest.raises(ValueError, match="is no map"):
+        with pytest.raises(ValueError, match="is not a map"):
             irbkin.map.load(tmp_path / name)
     with pytest.raises(FileNotFoundError):
         irbkin.map.load(tmp_path / "none.npz")
@@ -331,21 +244,6 @@ def test_bad_input_is_refused_with_its_name():
         arguments = {"robot": ROBOT, "x": X, "y": Y, "z": Z, "orientations": SPREAD, **change}
         with pytest.raises(error, match=message):
             irbkin.map.reach(**arguments)
-    with pytest.raises(TypeError, match="robot must be a Robot"):
-        irbkin.map.plan_batch("UR5e", [])
     for number in (2.5, "3"):
         with pytest.raises(irbkin.InvalidPoseError, match="it must be a whole number"):
             irbkin.map.orientations(number)
-
-
-def test_a_cluster_is_not_needed_for_the_import():
-    """Nor does a star import replace Python's own map."""
-    program = """
-import sys
-sys.modules["distributed"] = sys.modules["dask"] = None
-import irbkin, irbkin.map
-irbkin.map.reach(irbkin.Robot("UR5e"), 0.4, 0.1, 0.3, irbkin.map.orientations(3))
-from irbkin import *
-assert map is __builtins__.map
-"""
-    subprocess.run([sys.executable, "-c", program], check=True, timeout=60)

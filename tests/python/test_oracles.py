@@ -6,7 +6,7 @@ import pinocchio
 import pytest
 import roboticstoolbox
 import spatialmath
-from arms import ABB, PANDA
+from arms import ABB, PANDA, ur_rows
 from reference import link, move, reach, rounding, turn
 
 ARMS = {arm.name: arm for arm in (ABB["IRB 2600-12/1.65"], PANDA)}
@@ -85,3 +85,18 @@ def test_poses_and_jacobians_agree(arm, robot, bound, oracle, request):
         if robot.structure == "spherical wrist":
             for solution in robot.ik(pose):
                 np.testing.assert_allclose(solve(solution.q)[0], pose, rtol=0, atol=2 * bound)
+
+
+def test_a_standard_table_is_the_chain_of_the_toolbox():
+    rows = ur_rows("ur3")
+    chain = roboticstoolbox.DHRobot(
+        [
+            roboticstoolbox.RevoluteDH(alpha=alpha, a=a, d=d, offset=theta)
+            for alpha, a, d, theta in rows
+        ]
+    )
+    robot = irbkin.Robot.from_sdh(rows)
+    bound = rounding(reach(rows))
+    for q in np.random.default_rng(13).uniform(-3, 3, (SAMPLES, 6)):
+        np.testing.assert_allclose(robot.fk(q), chain.fkine(q).A, rtol=0, atol=bound)
+        np.testing.assert_allclose(robot.jacobian(q), chain.jacob0(q), rtol=0, atol=2 * bound)

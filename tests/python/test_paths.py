@@ -3,14 +3,11 @@
 import irbkin
 import numpy as np
 import pytest
-from irbkin import InvalidJointsError, InvalidPoseError
-from irbkin.records import Break
-from reference import move
+from irbkin import Break, InvalidJointsError, InvalidPoseError
+from reference import apart, move, rotation_apart
 
 NAME = "IRB 2600-12/1.65"
 TIMES = np.linspace(-1, 1, 201)
-# Distances from q5 = 0, also around 1e-12, below which a pose does not determine axis 4.
-NEAR = [0.0, 1e-13, 1e-12, 2e-12, 3e-12, 1e-11, 1e-10, 1e-9, 1e-7, 1e-4]
 
 
 @pytest.fixture(scope="module")

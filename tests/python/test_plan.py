@@ -94,7 +94,7 @@ def test_a_plan_meets_every_pose_and_limit(rotation):
 
 @pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "UR5e"])
 def test_no_plan_hides_a_jump(name):
-    """`make plans` looks at 50,000 lines of each arm."""
+    """`make evidence SUITE=plans` looks at 50,000 lines of each arm."""
     count = int(os.environ.get("IRBKIN_PLANS", "150"))
     robot, rng, found, gaps = irbkin.Robot(name), np.random.default_rng(5), 0, []
     hidden = []

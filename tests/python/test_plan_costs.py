@@ -10,7 +10,7 @@ WEIGHTS = np.array([1, 2, 0.5, 1, 3, 0.2])
 
 
 def cost(robot, q, times, weights=1.0, limit_cost=0.0, singularity_cost=0.0):
-    """Eq. 4 of docs/plan.md, summed over the steps of a path."""
+    """Eq. 4 of docs/guide/plan.md, summed over the steps of a path."""
     dt = np.diff(times)
     lower, upper = robot.limits.T
     limits = np.abs(q[1:] - (lower + upper) / 2) / ((upper - lower) / 2)

@@ -74,22 +74,6 @@ def test_turns_are_those_of_brute_force(robot):
             assert all(s.is_within_limits for s in turns)
 
 
-def test_turns_of_wide_limits(robot, pose):
-    """Up to three turns of each joint fit into +-400 deg: 2^6 to 3^6 of each solution."""
-    wide = robot.with_limits(WIDE)
-    solutions = wide.ik(pose)
-    turns = solutions.turns()
-    assert len(turns) == len(brute_force(solutions, WIDE))
-    assert len(turns) >= 8 * 2**6
-    assert apart(turns.q, wide.ik(pose).q_by_slot[[s.slot for s in turns]]).max() <= 1e-12
-    assert len(np.unique(np.round(turns.q, 9), axis=0)) == len(turns)
-
-
-def test_a_joint_without_limits_has_no_other_turn(robot, pose):
-    free = robot.with_limits([[-np.inf, np.inf]] * 6)
-    np.testing.assert_array_equal(free.ik(pose).turns().q, free.ik(pose).q)
-
-
 def test_turns_without_end_are_refused(robot, pose):
     wide = robot.with_limits([[-1e4, 1e4]] * 6)
     with pytest.raises(ValueError, match=r"more than 1e6 \(are they in radians\?\)"):
@@ -141,18 +125,6 @@ def test_ik_nearest_is_the_nearest_solution(robot):
             apart(robot.ik_nearest(pose, q), q)
             <= 1e-14 * 4 / robot.singularity(q).min_singular_value + 1e-9
         )
-
-
-@pytest.mark.parametrize("name", ABB)
-def test_ik_nearest_holds_the_free_joints_of_the_seed(name):
-    """At q5 = 0 axis 4 stays where it is, and axis 6 takes the rest; so does axis 1 with the wrist
-    center above it.
-    """
-    arm, rng = irbkin.Robot(name), np.random.default_rng(4)
-    for q in rng.uniform(0.8 * arm.limits[:, 0], 0.8 * arm.limits[:, 1], (20, 6)):
-        q[4] = 0.0
-        if arm.singularity(q).elbow > 0.1 and arm.singularity(q).shoulder > 0.1:
-            assert np.abs(arm.ik_nearest(arm.fk(q), q) - q).max() <= 1e-9
 
 
 def test_filter_hands_over_solutions_that_are_sequences_too(robot, pose):

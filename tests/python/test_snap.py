@@ -55,28 +55,6 @@ def test_a_table_is_accepted_with_the_proposed_snap():
         assert pickle.loads(pickle.dumps(text)) == text
 
 
-@pytest.mark.parametrize(
-    ("name", "snap", "family"),
-    [("puma560", "1e-8", "spherical wrist"), ("xarm7", "1e-5", "spherical shoulder")],
-)
-def test_a_published_urdf_is_accepted_with_the_proposed_snap(name, snap, family):
-    path = DATA / f"{name}.urdf"
-    text = Robot.from_urdf(path)
-    assert str(text).endswith(f"; snap={snap} would take it")
-    assert "0.000000" not in str(text)
-    robot = Robot.from_urdf(path, snap=float(snap))
-    assert robot.structure == family
-    assert Robot.from_urdf(path, snap=1e-3).mdh.tolist() == robot.mdh.tolist()
-    q = np.random.default_rng(4).uniform(-1, 1, (200, robot.dof))
-    assert np.abs(robot.fk(q) - text.fk(q)).max() <= 6 * float(snap) * 1.5
-    for joints, pose in zip(q, robot.fk(q), strict=True):
-        solutions = robot.ik(pose, *joints[6:])
-        assert max(solution.residual for solution in solutions) <= 1e-14
-        assert np.abs(solutions.q - joints).max(axis=1).min() <= 1e-8
-    for arm in (text, robot):
-        assert pickle.loads(pickle.dumps(arm)) == arm
-
-
 @pytest.mark.parametrize("snap", [-1e-9, 2e-3, np.nan, np.inf])
 def test_a_snap_has_bounds(snap):
     for build in (

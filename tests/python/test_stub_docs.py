@@ -55,7 +55,7 @@ def documented():
                         yield f"{name}.{member}", getattr(thing, member)
 
 
-@pytest.mark.parametrize(("name", "thing"), list(documented()))
+@pytest.mark.parametrize(("name", "thing"), sorted(documented(), key=lambda found: found[0]))
 def test_a_docstring_begins_with_a_sentence_and_fits_a_line(name, thing):
     doc = inspect.getdoc(thing)
     assert doc, name

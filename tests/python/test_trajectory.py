@@ -11,11 +11,6 @@ from irbkin import InvalidJointsError, InvalidMotionError, IrbkinError, trajecto
 # The article's example, as axis angles of the Denavit-Hartenberg table.
 START = np.radians([0, -90, 0, 0, 90, -180])
 END = np.radians([90, -100, 40, 10, 60, -120])
-LIMITS = {
-    "max_velocity": np.radians([175, 175, 175, 360, 360, 500]),
-    "max_acceleration": np.array([10.0, 9, 12, 30, 30, 40]),
-    "max_jerk": 200.0,
-}
 
 
 def test_the_article_s_quintic_is_that_of_roboticstoolbox():
@@ -46,20 +41,6 @@ def test_given_ends_are_met():
         strict=True,
     ):
         np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-12)
-
-
-def test_a_spline_passes_its_waypoints_in_time():
-    q, t = np.random.default_rng(4).uniform(-1, 1, (6, 3)), [0, 0.5, 0.7, 2, 2.5, 4]
-    for profile in ("quintic", "cubic"):
-        move = trajectory.spline(q, t=t, profile=profile)
-        np.testing.assert_allclose(move.sample(t).q, q, rtol=0, atol=1e-12)
-        assert abs(move.sample([0, 4]).dq).max() < 1e-10
-        # Only differences of times count.
-        later = trajectory.spline(q, t=np.add(t, 5), profile=profile)
-        np.testing.assert_allclose(later.t, move.t, rtol=0, atol=1e-12)
-    fast = trajectory.spline(q, max_velocity=2.0, max_acceleration=9.0)
-    assert (fast.peaks().velocity <= 2 * (1 + 1e-9)).all()
-    assert (fast.peaks().acceleration <= 9 * (1 + 1e-9)).all()
 
 
 def duration_of_toppra(path, velocity, acceleration):
@@ -128,17 +109,6 @@ def test_parts_join_to_the_whole():
     assert slow.duration == 4.0
     np.testing.assert_allclose(slow.dq, move.dq / 2, rtol=0, atol=1e-14)
     assert len(move.resampled(101)) == 101
-
-
-def test_a_start_that_is_the_end_is_a_still_trajectory():
-    for move in (
-        trajectory.joint(START, START),
-        trajectory.joint(START, START, profile="s_curve", **LIMITS),
-        trajectory.retime(np.tile(START, (5, 1)), 1.0, 1.0),
-    ):
-        np.testing.assert_allclose(move.q, np.tile(START, (len(move), 1)), rtol=0, atol=1e-15)
-        assert not move.dq.any()
-        assert not move.ddq.any()
 
 
 NAN = [np.nan] * 6

@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pinocchio
 import pytest
-from arms import KUKA_KR6
 from irbkin import InvalidModelError, Robot
 from reference import rounding, turn
 
@@ -83,12 +82,6 @@ def test_poses_from_and_to_other_links(base, tip):
     assert_agrees(robot, by_pinocchio(text, base, tip), 2 * rounding(reach(robot) + 1))
 
 
-def test_a_chain_of_too_few_joints_is_counted():
-    words = '^URDF: 5 revolute joints lead from "link_1" to "tip", there must be 6 or 7 '
-    with pytest.raises(InvalidModelError, match=words):
-        Robot.from_urdf(TEXTS["tilted"], "link_1", "tip")
-
-
 def test_the_table_with_both_ends_is_the_arm():
     robot = Robot.from_urdf(TEXTS["tilted"])
     assert np.abs(robot._root - np.eye(4)).max() > 0.1
@@ -98,25 +91,6 @@ def test_the_table_with_both_ends_is_the_arm():
     for other in ("irb2600", "kr6_r700", "iiwa14"):
         np.testing.assert_array_equal(Robot.from_urdf(TEXTS[other])._root, np.eye(4))
     np.testing.assert_array_equal(Robot("IRB 2600-12/1.65")._root, np.eye(4))
-
-
-@pytest.mark.parametrize(
-    ("name", "other"),
-    [
-        ("irb2600", Robot("IRB 2600-12/1.65")),
-        ("kr6_r700", Robot.from_opw(**KUKA_KR6)),
-    ],
-)
-def test_a_known_structure_has_the_same_slots(name, other):
-    robot = Robot.from_urdf(TEXTS[name])
-    assert robot.structure == "spherical wrist"
-    for q in np.random.default_rng(2).uniform(-1.5, 1.5, (SAMPLES, 6)):
-        pose = other.fk(q)
-        np.testing.assert_allclose(robot.fk(q), pose, atol=1e-14)
-        if min(abs(np.sin(q[4])), robot.singularity(q).min_singular_value) < 1e-2:
-            continue
-        found, wanted = robot.with_limits(other.limits).ik(pose), other.ik(pose)
-        np.testing.assert_allclose(found.q_by_slot, wanted.q_by_slot, atol=1e-11)
 
 
 @pytest.mark.parametrize(
@@ -219,15 +193,12 @@ def chain(kinds, extra=""):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
+        ("<robot", "line 1, column 7 is not XML: the text ends before the robot does"),
+        (b"<robot name='\xff'/>", "byte 13 is not valid UTF-8"),
         ("<robot name='\ud800'/>", "byte 13 is not valid UTF-8"),
         (
             chain(["revolute"] * 5),
             '6 or 7 revolute joints lead from "l0" to no end of a chain: "l5" (5)',
-        ),
-        (
-            chain(["revolute"] * 3 + ["planar"] + ["revolute"] * 3),
-            '6 or 7 revolute joints lead from "l0" to no end of a chain: '
-            '"l7" (behind joint "j3", planar)',
         ),
     ],
 )
@@ -254,23 +225,3 @@ def test_an_arm_without_closed_form_is_general():
     text = chain(["revolute", "continuous"] * 3)
     robot = Robot.from_urdf(text)
     assert_agrees(robot, by_pinocchio(text, None, "l6"), 2 * rounding(reach(robot) + 1))
-
-
-def test_hostile_text_is_an_invalid_model():
-    deep = "<robot>" + "<a>" * 100_000 + "</a>" * 100_000 + "</robot>"
-    entities = "".join(f'<!ENTITY e{i} "{f"&e{i - 1};" * 10}">' for i in range(1, 10))
-    bomb = f'<!DOCTYPE r [<!ENTITY e0 "lol">{entities}]><robot name="&e9;"/>'
-    wide = chain(["fixed"] * 100_000)
-    for text in (
-        deep,
-        deep[: len(deep) // 2],
-        bomb,
-        wide,
-        "<" * 100_000,
-        "<robot>\0</robot>",
-        "<\U0001f916/>",
-    ):
-        with pytest.raises(InvalidModelError, match=r"^URDF: "):
-            Robot.from_urdf(text)
-        with pytest.raises(InvalidModelError, match=r"^URDF: "):
-            Robot.from_urdf(text.encode())

@@ -1,6 +1,6 @@
 """Start a node many times and end each with SIGTERM: every one must end by itself.
 
-    make ros-starts COUNT=200
+    make evidence SUITE=ros-starts COUNT=200
 
 The first half is ended shortly after it is ready, the second at any time of its start. `spin` is
 the ROS 2 node with rclpy's own `spin`, for comparison: it waits forever now and then.

@@ -1,7 +1,7 @@
 """Calibration: the parameters of an arm from measured poses or positions of its tool.
 
 `irbkin.calibrate` needs the extra scipy: `pip install 'irbkin[calibrate]'`. What is fitted and how
-is in docs/calibrate.md.
+is in docs/guide/calibrate.md.
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 # Angle and part of the spread of positions that a robot may be off before its base and tool are
 # aligned first, and after that at most: a calibration corrects an arm, it does not find one.
 FAR_ANGLE, FAR_PART = 0.2, 0.1
-# Distance that it may be off in any case [m]: those of short moves are small.
+# Distance that it may be off in any case [m]: short moves have small errors.
 FAR_LENGTH = 0.02
 # Joint vectors all over the joint space, by which parameters are told from one another [1].
 EVERYWHERE = 100
@@ -56,7 +56,7 @@ def calibrate(
     Parameters are the frame of the base, the Denavit-Hartenberg table with joint offsets and, next
     to parallel axes, Hayati's rotation about y, and the frame of the tool. Of these, the ones that
     the measurements determine are fitted. A base or a tool that is far off is aligned first. See
-    docs/calibrate.md.
+    docs/guide/calibrate.md.
 
     Args:
         robot: The nominal robot, with its nominal base and tool.
@@ -65,7 +65,7 @@ def calibrate(
         fit: What is fitted: some of "base", "table" and "tool".
         position_std: Standard deviation of a measured coordinate [m].
         rotation_std: The same of an angle [rad]. Only their ratio matters: 0.1 mm and 0.5 mrad are
-            those of targets 0.2 m apart.
+            targets 0.2 m apart.
         loss: "linear" for least squares; any other of scipy's, such as "huber" or "cauchy", gives
             measurements less weight that are more than three times the scatter off.
         folds: Number of parts for cross-validation, each left out once; 0 for none.

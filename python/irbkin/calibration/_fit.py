@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 # Steps within which least squares of corrections converge; the first guess is near.
 MOST_STEPS = 200
-# Relative change of parameters at which they have; the next step would be its square. And that of
-# the sum of squares: rounding.
+# Relative change of parameters at which they have (the next step would be its square), and of the
+# sum of squares (rounding).
 CONVERGED, SETTLED = 1e-10, 1e-15
 # Median absolute deviation of a normal distribution to its standard deviation.
 FROM_MEDIAN = 1.4826
@@ -69,24 +69,14 @@ def errors_of(poses: Floats, measurements: Measurements) -> tuple[Floats, Floats
     position = poses[:, :3, 3] - measurements.position
     if measurements.rotation is None:
         return position, np.zeros((len(poses), 0))
+    from scipy.spatial.transform import Rotation  # type: ignore[import-untyped]
+
     turned = poses[:, :3, :3] @ np.swapaxes(measurements.rotation, 1, 2)
-    return position, _rotation_vectors(turned)
+    return position, np.asarray(Rotation.from_matrix(turned).as_rotvec(), dtype=np.float64)
 
 
 def _flat(jacobian: Floats) -> Floats:
     return jacobian.reshape(-1, jacobian.shape[-1])
-
-
-def _rotation_vectors(rotation: Floats) -> Floats:
-    """Axis times angle of rotations, (m, 3, 3) to (m, 3)."""
-    odd = (rotation - np.swapaxes(rotation, 1, 2)) / 2
-    axis = np.stack([odd[:, 2, 1], odd[:, 0, 2], odd[:, 1, 0]], axis=1)
-    sine = np.linalg.norm(axis, axis=1)
-    angle = np.arctan2(sine, (np.trace(rotation, axis1=1, axis2=2) - 1) / 2)
-    # Less than 1e-8 from none, the sine is the angle.
-    scale = np.divide(angle, sine, out=np.ones_like(sine), where=sine > 1e-8)
-    vectors: Floats = axis * scale[:, None]
-    return vectors
 
 
 def _inverse_left_jacobian(vectors: Floats) -> Floats:
@@ -111,7 +101,7 @@ def fit(problem: Problem, kept: Sequence[int], start: Floats) -> Floats:
     """
     if problem.loss == "linear":
         return _solve(problem, kept, start, 1.0)
-    # What counts as far is measured by the scatter of all: twice, for the first fit has outliers.
+    # The scatter of all residuals measures how far is far: twice, for the first fit has outliers.
     found = _solve(replace(problem, loss="linear"), kept, start, 1.0)
     for _ in range(2):
         found = _solve(problem, kept, found, _outlying(problem, found))

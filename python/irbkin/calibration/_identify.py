@@ -17,16 +17,16 @@ if TYPE_CHECKING:
     from irbkin._arrays import Floats
 
 # Part of a column that is not a combination of those chosen, above which it is chosen [1]: less,
-# and its standard error is ten thousand times that of a parameter by itself.
+# and its standard error is ten thousand times as large as of a parameter by itself.
 DETERMINED = 1e-4
-# The same where it can only be rounding: of poses all over the joint space.
+# The bound where it can only be rounding: of poses all over the joint space.
 INDEPENDENT = 1e-7
 # Most parameters that a reason names, and their least part of the largest.
 PARTNERS, PARTNER = 3, 0.2
 
 
 def chosen(jacobian: Floats, tiers: Sequence[Sequence[int]], least: float) -> list[int]:
-    """Indices of independent columns, those of earlier tiers first.
+    """Indices of independent columns, earlier tiers first.
 
     Args:
         jacobian: Weighted Jacobian, shape (k, p).
@@ -59,7 +59,7 @@ def reason(
 
     Args:
         jacobian: Weighted Jacobian of the measurements, shape (k, p).
-        everywhere: That of poses all over the joint space.
+        everywhere: The Jacobian of poses all over the joint space.
         kept: Columns that are fitted.
         index: The column that is not.
         names: Names of the columns.

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from irbkin._arrays import Floats
     from irbkin._core import Robot
 
-# Ratio of the spreads of measured and nominal positions from which the units differ [1]: those of
-# inches and centimeters are 39 and 100, that of any two arms is not.
+# Ratio of the spreads of measured and nominal positions from which the units differ [1]: inches
+# and centimeters have 39 and 100, no two arms have.
 UNITS = 25.0
 # Largest angle between joint vectors that count as one [rad].
 SAME_JOINTS = 1e-6
@@ -121,7 +121,7 @@ def _check_units(robot: Robot, measurements: Measurements) -> None:
     own, theirs = spread(robot.fk(measurements.q)[:, :3, 3]), spread(measurements.position)
     if theirs > UNITS * own:
         raise CalibrationError(
-            f"measured positions are spread by {theirs:.4g} m, those of the robot at q by "
+            f"measured positions are spread by {theirs:.4g} m, the robot's at q by "
             f"{own:.4g} m: meters are wanted (did you pass millimeters?)"
         )
 

@@ -1,4 +1,4 @@
-"""What a calibration returns."""
+"""Records of a calibration."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ class Calibration(NamedTuple):
     position_error: Floats
     """Distance of each pose from its measurement after the fit [m], shape (m,)."""
     rotation_error: Floats
-    """The same angles [rad], shape (m,); (0,) where positions were measured."""
+    """These angles [rad], shape (m,); (0,) where positions were measured."""
     condition: float
     """Condition number of the Jacobian in the fitted parameters, its columns scaled to one."""
 

@@ -1,4 +1,4 @@
-"""The command `irbkin`: one verb a file, imported when it is called (docs/cli.md)."""
+"""The command `irbkin`: one verb a file, imported when it is called (docs/guide/cli.md)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["main"]
 VERBS = {
     "catalog": "list the arms, or show one",
     "fk": "pose of the tool of joint angles",
-    "ik": "joint angles of a pose: all solutions, the nearest, or that of a confdata",
+    "ik": "joint angles of a pose: all solutions, the nearest, or the one of a confdata",
     "check": "find what is wrong with the moves of RAPID modules, and correct confdata",
     "path": "joints along a path of poses, on one branch",
     "plan": "the best joints along a path of poses, over branches, turns and tool angles",
@@ -26,7 +26,7 @@ VERBS = {
 OVERVIEW = """usage: irbkin VERB ... [--help]
 
 Kinematics of industrial robot arms. Angles in degrees, lengths in millimeters, as headers say;
-arrays in .npy files are those of the Python package, in radians and meters.
+arrays in .npy files are as in the Python package, in radians and meters.
 
 {verbs}
 
@@ -42,7 +42,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command.
 
     Args:
-        arguments: Without the program's name; those of the process when not given.
+        arguments: Without the program's name; the process's when not given.
 
     Returns:
         The exit code.

@@ -33,7 +33,7 @@ class Parser:
         self.add = self.parser.add_argument
 
     def parsed(self, given: Sequence[str]) -> argparse.Namespace:
-        """The arguments; a negative number is no option, with an exponent either."""
+        """The arguments; a negative number is not an option, with an exponent either."""
         return self.parser.parse_args([f" {it}" if NUMBER.fullmatch(it) else it for it in given])
 
     def add_robot(self) -> None:
@@ -76,7 +76,7 @@ class Parser:
 
 
 class _Help(argparse.RawDescriptionHelpFormatter):
-    """Help of one width: asking for that of the terminal would import what nothing else needs."""
+    """Help of one width: asking the terminal would import what nothing else needs."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, width=96)

@@ -18,7 +18,7 @@ WRONG = 2
 """Wrong usage, or input that is broken."""
 INTERRUPTED = 128 + signal.SIGINT
 CLOSED_PIPE = 141
-"""What a shell gives a program that writes into a closed pipe."""
+"""The exit code of a program that writes into a closed pipe."""
 
 
 OWN_WORDS = {
@@ -31,11 +31,11 @@ OWN_WORDS = {
     "T has no solution to draw": "the pose has no solution to draw",
     "is step in m, or speed in m/s and dt in s?": "take a larger --step",
 }
-"""What the library says in its units and calls, and what the command says in their place."""
+"""Words of the library in its units and calls, and the command's in their place."""
 
 
 class CommandError(Exception):
-    """What ends the command, with its exit code."""
+    """An end of the command, with its exit code."""
 
     def __init__(self, message: str, code: int = WRONG) -> None:
         super().__init__(message)
@@ -64,7 +64,7 @@ def guarded(run: Callable[[], int]) -> int:
         try:
             return run()
         finally:
-            # What was written stands before what is wrong.
+            # Rows that were written come before the message.
             sys.stdout.flush()
     except CommandError as failure:
         complain(failure)

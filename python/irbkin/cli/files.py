@@ -36,7 +36,7 @@ def replaced(name: str) -> Iterator[BinaryIO]:
     """A file to write, which takes the place of another one when it is whole.
 
     It is written beside it and renamed. A link stays a link; the permissions of a file that is
-    there are kept. What is no plain file, such as a pipe, is written directly.
+    there are kept. What is not a plain file, such as a pipe, is written directly.
     """
     target = os.path.realpath(name)
     if os.path.isdir(target):

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 HELP = """A grid of positions, each with every orientation of the tool: the share that is reached
 inside the limits, the number of solutions, the smallest margin from limits and singularities. A
-map in a file .npz (that of irbkin.map) goes on where a run was ended, and is told level by level.
+map in a file .npz (as of irbkin.map) goes on where a run was ended, and is shown level by level.
 The exit code is 1 if nothing is reached."""
 EXAMPLES = """  irbkin map "IRB 2600-12/1.65" --x 400 1600 --y -800 800 --z 0 1600 --step 200
   irbkin map "IRB 2600-12/1.65" --x 400 1600 --y 0 0 --z 0 1600 --euler 0 180 0 --csv

@@ -24,7 +24,7 @@ def number(text: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value) or "_" in text:
-        raise ArgumentTypeError(f"{text.strip()!r} is no finite number")
+        raise ArgumentTypeError(f"{text.strip()!r} is not a finite number")
     return value
 
 
@@ -65,14 +65,14 @@ def whole(text: str) -> int:
     try:
         return int(text)
     except ValueError:
-        raise ArgumentTypeError(f"{text.strip()!r} is no whole number") from None
+        raise ArgumentTypeError(f"{text.strip()!r} is not a whole number") from None
 
 
 def confdata(text: str) -> int:
     """A whole number of 32 bits, as confdata has."""
     value = whole(text)
     if abs(value) >= 2**31:
-        raise ArgumentTypeError(f"{value} is no number of a confdata")
+        raise ArgumentTypeError(f"{value} is not a number of a confdata")
     return value
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import csv
 import io
 import math
 import sys
@@ -56,7 +57,7 @@ class Rows:
         self.add(columns, array)
 
     def note(self, key: str, value: Any, words: str) -> None:
-        """What is said of all rows, behind them."""
+        """Add a note on all rows, behind them."""
         self.notes.append((key, value, words))
 
     def close(self) -> None:
@@ -72,7 +73,7 @@ class Rows:
             self.begin()
 
     def begin(self) -> None:
-        """What stands before the rows."""
+        """Write the part before the rows."""
         raise NotImplementedError
 
     def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
@@ -80,12 +81,12 @@ class Rows:
         raise NotImplementedError
 
     def end(self) -> None:
-        """What stands behind the rows."""
+        """Write the part behind the rows."""
         raise NotImplementedError
 
 
 class Table(Rows):
-    """Rows on paper, as they are read by people; nothing where there is no row."""
+    """Rows on paper, as they are read by people; empty without rows."""
 
     def begin(self) -> None:
         """The width of each column."""
@@ -130,44 +131,31 @@ def _cell(value: Any, form: str) -> str:
 
 
 class Csv(Rows):
-    """Rows for other programs: names with units, then numbers; nothing where there is none."""
+    """Rows for other programs: names with units, then numbers; empty where one is missing."""
 
     def begin(self) -> None:
         """The names."""
-        self.put(",".join(column.key for column in self.columns) + "\n")
-        self.form = ",".join("%s" if c.form.endswith("s") else "%.12g" for c in self.columns)
+        self._put([[column.key for column in self.columns]])
 
     def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
         """Some rows."""
-        lists = []
-        has_gaps = False
-        for values, column in zip(columns, self.columns, strict=True):
-            if column.form.endswith("s"):
-                lists.append([_quoted("" if value is None else str(value)) for value in values])
-                continue
-            numbers = np.asarray(values, dtype=np.float64)
-            has_gaps = has_gaps or bool(np.isnan(numbers).any())
-            lists.append(numbers.tolist())
-        self.count += len(lists[0])
-        rows = zip(*lists, strict=True)
-        if has_gaps:
-            lines = [",".join(map(_number, row)) for row in rows]
-        else:
-            lines = [self.form % row for row in rows]
-        self.put("\n".join([*lines, ""]))
+        rows = [[_text(value) for value in row] for row in zip(*_lists(columns), strict=True)]
+        self.count += len(rows)
+        self._put(rows)
+
+    def _put(self, rows: list[list[str]]) -> None:
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows(rows)
+        self.put(text.getvalue())
 
     def end(self) -> None:
         """Nothing."""
 
 
-def _number(value: Any) -> str:
+def _text(value: Any) -> str:
     if isinstance(value, str):
         return value
-    return "" if math.isnan(value) else f"{value:.12g}"
-
-
-def _quoted(text: str) -> str:
-    return '"' + text.replace('"', '""') + '"' if any(it in text for it in ',"\n') else text
+    return "" if value is None or math.isnan(value) else f"{value:.12g}"
 
 
 class Json(Rows):
@@ -220,13 +208,10 @@ class Npy(Rows):
 
     def end(self) -> None:
         """The header."""
-        header = io.BytesIO()
         content = {"descr": "<f8", "fortran_order": False, "shape": (self.count, *self.shape)}
-        text = repr(content)
-        header.write(b"\x93NUMPY\x01\x00" + (HEADER - 10).to_bytes(2, "little"))
-        header.write(text.ljust(HEADER - 11).encode() + b"\n")
+        magic = b"\x93NUMPY\x01\x00" + (HEADER - 10).to_bytes(2, "little")
         self.file.seek(0)
-        self.file.write(header.getvalue())
+        self.file.write(magic + repr(content).ljust(HEADER - 11).encode() + b"\n")
 
 
 ENDINGS = {".csv": Csv, ".json": Json, ".npy": Npy}

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 HELP = """Branch, turns of the joints and, with --rotation, the angle of the tool about its z are
 chosen for the whole path: the largest joint speed is the least possible, and every step is shown to
-be continuous (docs/plan.md). Without a way the exit code is 1, and stderr says where and why each
-branch ends."""
+be continuous (docs/guide/plan.md). Without a path the exit code is 1, and stderr says where and why
+each branch ends."""
 EXAMPLES = """  irbkin plan "IRB 2600-12/1.65" poses.csv
   irbkin plan "IRB 2600-12/1.65" corners.csv --through lines --rotation 36 --csv
   irbkin plan "IRB 2600-12/1.65" seam.csv --through lines --track 0 1 0 -3000 3000
@@ -93,7 +93,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
         rows.note("certified", plan.certified, "every step is shown to be continuous")
         turned = poses @ _about_z(plan.tool_angle)
-        # The speed of a tool that a track carries is not that of the arm alone.
+        # The speed of a tool that a track carries is not the arm's alone.
         if arguments.track is None and (best := fastest(robot, plan.q, turned)):
             speed, joint = best
             words = f"tool speed up to {speed * 1e3:.0f} mm/s, limited by J{joint}"

@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     figure = _drawn(arguments, robot)
     known = figure.canvas.get_supported_filetypes()
     if ending not in known:
-        raise CommandError(f"{arguments.output}: .{ending} is none of {', '.join(sorted(known))}")
+        raise CommandError(f"{arguments.output}: .{ending} is not among {', '.join(sorted(known))}")
     with replaced(arguments.output) as file:
         figure.savefig(file, format=ending)
     return FINE

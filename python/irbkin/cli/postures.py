@@ -19,7 +19,7 @@ POSE = (
     *(Column(name, "", "8.5f") for name in ("qw", "qx", "qy", "qz")),
 )
 NO_CONFDATA = np.iinfo(np.int32).min
-"""What `configuration` has in rows of angles that are too large for one."""
+"""The numbers of `configuration` in rows of angles that are too large for one."""
 EULER = tuple(Column(name, "deg", "8.2f") for name in ("rz", "ry", "rx"))
 
 

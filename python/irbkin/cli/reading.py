@@ -74,7 +74,7 @@ def _as_poses(rows: Floats, name: str, before: int) -> Floats:
 
 
 def _parts(name: str, layout: Layout) -> Iterator[tuple[Floats, bool]]:
-    """Rows in parts, and whether they are those of an array."""
+    """Rows in parts, and whether they come from an array."""
     count = 0
     with opened(name) as file:
         start = file.peek(len(MAGIC))[: len(MAGIC)]  # type: ignore[attr-defined]
@@ -101,7 +101,7 @@ def _array(file: BinaryIO, name: str, layout: Layout) -> Iterator[Floats]:
         read = getattr(np.lib.format, f"read_array_header_{version[0]}_0")
         shape, is_fortran, dtype = read(file)
     except (ValueError, AttributeError) as error:
-        raise CommandError(f"{shown(name)}: is no .npy file that can be read: {error}") from None
+        raise CommandError(f"{shown(name)}: is not a .npy file that can be read: {error}") from None
     if shape == layout.shape:
         shape = (1, *shape)
     if shape[1:] != layout.shape or dtype.kind not in "fiu" or is_fortran:

@@ -32,7 +32,7 @@ class Heading(NamedTuple):
 
 @dataclass(frozen=True)
 class Layout:
-    """What rows are."""
+    """The meaning of rows."""
 
     what: str
     choices: tuple[tuple[Heading, ...], ...]
@@ -151,7 +151,7 @@ class Text:
                 if is_used and not is_heading and not _is_finite(field):
                     word = field.strip().encode("utf-8", "replace").decode()[:40]
                     raise CommandError(
-                        f"{self.name}:{number}:{column}: {word!r} is no finite number"
+                        f"{self.name}:{number}:{column}: {word!r} is not a finite number"
                     )
                 column += len(field) + 1
 

@@ -60,7 +60,7 @@ def read_path(arguments: argparse.Namespace, robot: Robot) -> Floats:
     poses = read_all(read_poses(arguments.file))
     wrong = np.flatnonzero(~np.isfinite(poses).all(axis=(1, 2)))
     if len(wrong):
-        raise CommandError(f"{arguments.file}: row {wrong[0] + 1} is no pose: it is not finite")
+        raise CommandError(f"{arguments.file}: row {wrong[0] + 1} is not a pose: it is not finite")
     if arguments.through == "lines":
         return paths.polyline(poses, zone, step=step, turn=np.radians(2.0))
     if arguments.through == "spline":

@@ -1,7 +1,4 @@
-"""Maps of reach and dexterity, and plans of many paths: on one machine, or on a cluster by the
-same functions.
-
-A cluster needs dask: `pip install 'irbkin[map]'`, and `client=distributed.Client(...)`.
+"""Maps of reach and dexterity; docs/guide/recipes.md has one on a cluster.
 
 >>> import irbkin, irbkin.map
 >>> robot = irbkin.Robot("IRB 2600-12/1.65")
@@ -14,8 +11,7 @@ A cluster needs dask: `pip install 'irbkin[map]'`, and `client=distributed.Clien
 from __future__ import annotations
 
 from irbkin._grids import ReachMap
-from irbkin.map._plans import plan_batch
 from irbkin.map._reach import orientations, reach
 from irbkin.map._store import load
 
-__all__ = ["ReachMap", "load", "orientations", "plan_batch", "reach"]
+__all__ = ["ReachMap", "load", "orientations", "reach"]

@@ -9,7 +9,6 @@ import numpy as np
 
 from irbkin._arguments import check_robot, count
 from irbkin._arrays import as_array, finite
-from irbkin._blocks import worked
 from irbkin._core import Robot, __version__
 from irbkin._grids import ReachMap
 from irbkin.errors import InvalidPoseError
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from irbkin._arrays import Floats
-    from irbkin._blocks import Client
     from irbkin.map._store import Part
 
 # Poses that are solved at a time, and poses of a block: a tenth of a second and more.
@@ -31,7 +29,7 @@ AT_A_TIME, IN_A_BLOCK = 1 << 14, 1 << 18
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """What is mapped."""
+    """The grid to map."""
 
     robot: Robot
     axes: tuple[Floats, Floats, Floats]
@@ -88,7 +86,6 @@ def reach(
     *,
     q7: float | None = None,
     output: str | PathLike[str] | None = None,
-    client: Client | None = None,
     threads: int = 1,
     block: int | None = None,
     progress: Callable[[int, int], object] | None = None,
@@ -96,8 +93,7 @@ def reach(
     """Map what an arm reaches: for each position of a grid, how many orientations are reached
     inside the limits, in how many ways, and how near to limits and singularities.
 
-    The answer does not depend on blocks, threads, or machines. Memory is that of the answer and of
-    one block for each worker.
+    The answer does not depend on blocks or threads. Memory holds the answer and one block.
 
     Args:
         robot: The arm, with its tool and base.
@@ -108,10 +104,9 @@ def reach(
         q7: Angle of joint 7 of a seven-axis arm [rad].
         output: File (.npz) of the map, which `load` reads. A run that was ended goes on where it
             was; blocks that are ready are kept in a folder beside it until the map is whole.
-        client: A `distributed.Client`, whose workers take the blocks: `pip install 'irbkin[map]'`.
         threads: Number of threads for each block; 0 for one a core.
         block: Positions of a block; about 260,000 poses when not given.
-        progress: Called with the number of positions that are ready, and that of all.
+        progress: Called with the number of positions that are ready, and of all.
 
     Returns:
         The map.
@@ -136,8 +131,8 @@ def reach(
     done = positions - sum(last - first for first, last in blocks)
     if progress is not None:
         progress(done, positions)
-    for (first, last), part in worked(client, solved, grid, blocks):
-        store.add(first, last, part)
+    for first, last in blocks:
+        store.add(first, last, solved(grid, first, last))
         done += last - first
         if progress is not None:
             progress(done, positions)
@@ -147,9 +142,8 @@ def reach(
     return found
 
 
-def solved(grid: Grid, block: tuple[int, int]) -> Part:
-    """The numbers of a range of positions."""
-    first, last = block
+def solved(grid: Grid, first: int, last: int) -> Part:
+    """Return the numbers of a range of positions."""
     count = last - first
     reached, solutions = np.zeros(count, np.int64), np.zeros(count, np.int64)
     margin, singularities = np.full(count, np.inf), np.full(count, np.inf)

@@ -101,7 +101,7 @@ class Store:
         shutil.rmtree(self._parts, ignore_errors=True)
 
     def _write(self, path: Path, fields: Mapping[str, Any]) -> None:
-        """Write a file beside its place, then move it there: there is no half of one."""
+        """Write a file beside its place, then move it there: a file is whole or absent."""
         beside = path.with_name(f"{path.stem}.{os.getpid()}.tmp")
         try:
             with beside.open("wb") as file:
@@ -122,7 +122,7 @@ def _arrays(path: Path) -> dict[str, npt.NDArray[Any]]:
             stored = np.load(file)
             return {name: stored[name] for name in stored.files}
         except (AttributeError, ValueError, EOFError, zipfile.BadZipFile) as fault:
-            raise ValueError(f"{path} is no map: {fault}") from fault
+            raise ValueError(f"{path} is not a map: {fault}") from fault
 
 
 def load(path: str | PathLike[str]) -> ReachMap:
@@ -133,10 +133,10 @@ def load(path: str | PathLike[str]) -> ReachMap:
 
     Raises:
         OSError: The file cannot be read.
-        ValueError: It is no map.
+        ValueError: It is not a map.
     """
     stored = _arrays(Path(path))
     missing = sorted(set(ReachMap._fields) - set(stored))
     if missing:
-        raise ValueError(f"{path} is no map: it has no {missing[0]}")
+        raise ValueError(f"{path} is not a map: it has no {missing[0]}")
     return ReachMap(**{name: stored[name] for name in ReachMap._fields})

@@ -26,7 +26,7 @@ NOT_REACHED = -np.inf
 
 
 class Scores(NamedTuple):
-    """What bases are worth; the first that differs decides."""
+    """The value of bases; the first that differs decides."""
 
     reached: Floats
     """Number of targets that are reached, shape (k,)."""
@@ -43,7 +43,7 @@ class Scores(NamedTuple):
         return order[::-1]
 
     def of(self, index: int) -> tuple[float, float, float]:
-        """Those of one base, to be compared."""
+        """The values of one base, to be compared."""
         return (
             float(self.reached[index]),
             float(self.progress[index]),
@@ -80,7 +80,7 @@ class Scene:
         self.turned = self.targets[:, None] @ _turns(axis, self.angles)
 
     def _check(self) -> None:
-        """Refuse what is no pose, and what no plan would take.
+        """Refuse what is not a pose, and what no plan would take.
 
         Raises:
             IrbkinError: Of the class that `ik` and `plan` raise.
@@ -103,7 +103,7 @@ class Scene:
         return self.robot.ik_margin(inverse(base) @ self.turned, threads=self.threads).margin
 
     def scores(self, bases: Floats, above: float | None = None) -> Scores:
-        """What bases, shape (k, 4, 4), are worth.
+        """Return the value of bases, shape (k, 4, 4).
 
         Of a path, plans are left out that cannot have a margin above one that is given.
         """
@@ -139,7 +139,7 @@ class Scene:
         best = NOT_REACHED if above is None else above
         while order:
             now, order = order[:block], order[block:]
-            # The angles of a plan are not those of the grid alone: then its margin has no bound.
+            # A plan has angles beside those on the grid: then its margin has no bound.
             is_bounded = above is not None and self.rotation is None
             if is_bounded and bounds.margin[now[0]] <= best:
                 break

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from irbkin._arguments import check_robot
-from irbkin._blocks import worked
 from irbkin._grids import BaseGrid, Placement
 from irbkin.placement._region import Bases
 from irbkin.placement._scene import NOT_REACHED, Scene, Scores, inverse
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
 
     from irbkin import Robot
     from irbkin._arrays import Floats
-    from irbkin._blocks import Client
     from irbkin._grids import Region
     from irbkin.freedom import ToolRotation
     from irbkin.placement._scene import Flags
@@ -42,18 +40,17 @@ def best_base(
     steps: int | Sequence[int] = 9,
     refine: bool = True,
     frame: npt.ArrayLike | None = None,
-    client: Client | None = None,
     threads: int = 1,
 ) -> Placement:
     """Where a robot should stand so that it reaches all targets with the largest margin.
 
-    The margin of a base is the smallest of all targets. That of a target is the largest of its
+    The margin of a base is the smallest of all targets, the margin of a target the largest of its
     solutions inside the limits: their distance from limits and singularities, `Robot.margin`. With
-    `path`, it is that of the joints of `robot.plan`, without breaks. First each base of a grid is
-    tried, then steps that are halved ten times are made around the five best ones.
+    `path`, it is taken along the joints of `robot.plan`, without breaks. First each base of a grid
+    is tried, then steps that are halved ten times are made around the five best ones.
 
     Args:
-        robot: The arm, with its tool. The orientation of its base is that of the mounting: a
+        robot: The arm, with its tool. The orientation of its base is the mounting: a
             hanging robot is one whose base is turned over. Its position does not count.
         T: Targets, shape (m, 4, 4), translation [m].
         region: Where the base may be.
@@ -62,7 +59,6 @@ def best_base(
         steps: Number of values across each range of the region, or four such numbers.
         refine: Whether to search around the best of the grid.
         frame: Frame in which the region is given, shape (4, 4); the world where not given.
-        client: A `distributed.Client`, whose workers take the bases: `pip install 'irbkin[map]'`.
         threads: Number of threads; 0 for one a core.
 
     Returns:
@@ -70,7 +66,7 @@ def best_base(
         most; `reason` says which targets are reached nowhere. There is no exception for that.
 
     Raises:
-        InvalidPoseError: T has a wrong shape or holds a matrix that is no pose, or a region, steps
+        InvalidPoseError: T has a wrong shape or a matrix that is not a pose, or a region, steps
             or frame that are none.
         InvalidMotionError: A rotation that is empty; of a path, two poses half a turn apart.
         InvalidModelError: The arm has seven joints.
@@ -82,9 +78,9 @@ def best_base(
     search = Search(scene, bases)
     poses = scene.turned.shape[0] * scene.turned.shape[1]
     size = max(1, IN_A_BLOCK // poses)
-    blocks = [(first, values[first : first + size]) for first in range(0, len(values), size)]
-    parts = {block[0]: part for block, part in worked(client, _scored, search, blocks)}
-    ordered = [parts[first] for first, _ in blocks]
+    ordered = [
+        _scored(search, values[first : first + size]) for first in range(0, len(values), size)
+    ]
     scores = Scores(
         reached=np.concatenate([part.reached for part in ordered]),
         progress=np.concatenate([part.progress for part in ordered]),
@@ -95,18 +91,16 @@ def best_base(
     starts = [Start(values[i], scores.of(i), scores.anywhere) for i in ranked.tolist()[:STARTS]]
     best = starts[0]
     if refine:
-        numbers = range(len(starts))
-        jobs = [(number, starts[number]) for number in numbers]
-        ends = {job[0]: end for job, end in worked(client, _refined, search, jobs)}
-        for number in numbers:
-            best = best._replace(anywhere=best.anywhere | ends[number].anywhere)
-            if ends[number].score > best.score:
-                best = ends[number]._replace(anywhere=best.anywhere)
+        for start in starts:
+            end = _refined(search, start)
+            best = best._replace(anywhere=best.anywhere | end.anywhere)
+            if end.score > best.score:
+                best = end._replace(anywhere=best.anywhere)
     return _answer(search, scores, best)
 
 
 class Search(NamedTuple):
-    """What all parts of a search share."""
+    """The state that all parts of a search share."""
 
     scene: Scene
     bases: Bases
@@ -122,14 +116,14 @@ class Start(NamedTuple):
     """Which targets some base that was tried reaches."""
 
 
-def _scored(search: Search, block: tuple[int, Floats]) -> Scores:
-    """What bases of the grid are worth."""
-    return search.scene.scores(search.bases.poses(block[1]))
+def _scored(search: Search, values: Floats) -> Scores:
+    """Return the values of bases of the grid."""
+    return search.scene.scores(search.bases.poses(values))
 
 
-def _refined(search: Search, job: tuple[int, Start]) -> Start:
+def _refined(search: Search, start: Start) -> Start:
     """The best base that steps of falling size lead to."""
-    (scene, bases), (_, (value, score, anywhere)) = search, job
+    (scene, bases), (value, score, anywhere) = search, start
     step = 0.5 * bases.spacing()
     for _ in range(HALVINGS):
         for _ in range(MOVES):

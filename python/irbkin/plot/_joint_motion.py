@@ -37,7 +37,7 @@ def trajectory(
     """Draw position, velocity and acceleration of all joints over time.
 
     Without limits, three panels show all joints. With limits, each joint has a row, and what is
-    beyond a limit is shaded. The curves are those of the polynomials, not of the samples.
+    beyond a limit is shaded. The curves are the polynomials, not the samples.
 
     Args:
         motion: The trajectory.
@@ -51,7 +51,7 @@ def trajectory(
         The figure. Axes are in deg, deg/s and deg/s^2 over s.
 
     Raises:
-        TypeError: `motion` is no Trajectory, or `robot` no Robot.
+        TypeError: `motion` is not a Trajectory, or `robot` not a Robot.
         InvalidMotionError: A limit has a wrong shape, is NaN, or is not positive; a robot has
             another number of joints.
     """

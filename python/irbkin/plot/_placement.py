@@ -49,9 +49,9 @@ def placement(
         The figure: axes in m, turns in deg, in the frame of the region.
 
     Raises:
-        TypeError: `found` is no Placement.
+        TypeError: `found` is not a Placement.
         InvalidPoseError: `T` has a wrong shape.
-        ValueError: `across` is no two coordinates.
+        ValueError: `across` is not two coordinates.
     """
     if not isinstance(found, Placement):
         raise TypeError(f"found must be a Placement, got {type(found).__name__}")

@@ -48,7 +48,7 @@ def plan(
         robot: The arm of the plan.
         plan: The answer of `robot.plan`, or the plan with breaks of a PathError.
         times: Times of the poses [s], shape (m,), as they were given to `robot.plan`. Without them
-            the velocities are those of the fastest even pace, at which one reaches its limit.
+            velocities are at the fastest even pace, at which one reaches its limit.
         figure: Where to draw; a new figure if not given.
 
     Returns:
@@ -56,7 +56,7 @@ def plan(
         zero; joints and velocities are in %.
 
     Raises:
-        TypeError: `robot` is no Robot, or `plan` no Plan.
+        TypeError: `robot` is not a Robot, or `plan` not a Plan.
         InvalidJointsError: The plan has another number of joints.
         InvalidMotionError: `times` has a wrong shape or does not increase.
     """

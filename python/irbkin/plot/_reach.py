@@ -53,10 +53,10 @@ def reach(
         The figure: the distance along `azimuth` and the height, in m.
 
     Raises:
-        InvalidPoseError: `orientation` has a wrong shape or is no rotation; `azimuth` is not
+        InvalidPoseError: `orientation` has a wrong shape or is not a rotation; `azimuth` is not
             finite.
         ValueError: Fewer than 2 or more than 2000 steps.
-        TypeError: `robot` is no Robot.
+        TypeError: `robot` is not a Robot.
         UnreachableError: No cell has a solution inside the limits.
     """
     check_robot(robot)

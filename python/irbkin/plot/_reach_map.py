@@ -50,8 +50,8 @@ def reach_map(
         The figure: axes in m.
 
     Raises:
-        TypeError: `found` is no ReachMap.
-        ValueError: Another quantity, or `across` is no two axes.
+        TypeError: `found` is not a ReachMap.
+        ValueError: Another quantity, or `across` is not two axes.
     """
     if not isinstance(found, ReachMap):
         raise TypeError(f"found must be a ReachMap, got {type(found).__name__}")

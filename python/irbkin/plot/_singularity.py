@@ -45,7 +45,7 @@ def singularity(
 
     Raises:
         InvalidJointsError: `q` or `t` has a wrong shape.
-        TypeError: `robot` is no Robot.
+        TypeError: `robot` is not a Robot.
     """
     check_robot(robot)
     rows = as_array(q, "q", (None, robot.dof), InvalidJointsError)

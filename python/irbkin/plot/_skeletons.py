@@ -100,8 +100,8 @@ def solutions(
 
     Raises:
         UnreachableError: The pose has no solution; the message has the reason.
-        InvalidPoseError: `T` is no pose.
-        TypeError: `robot` is no Robot.
+        InvalidPoseError: `T` is not a pose.
+        TypeError: `robot` is not a Robot.
     """
     check_robot(robot)
     found = robot.ik(T) if q7 is None else robot.ik(T, q7=q7)
@@ -206,7 +206,7 @@ def _angles(axes: Axes, robot: Robot, solution: Solution) -> None:
 
 
 def _legend(drawn: Canvas, has_axis_5: bool) -> None:
-    """What the colors are."""
+    """The legend of the colors."""
     rows = [*PARTS, *[("axis 5", VERMILION, 1.6)] * has_axis_5, ("other solutions", GHOST, 2.5)]
     lines = [
         Line2D([], [], color=color, linewidth=width, label=name) for name, color, width in rows

@@ -1,4 +1,4 @@
-"""What the pictures share: colors, line styles, the look of axes."""
+"""The style of the pictures: colors, line styles, the look of axes."""
 
 from __future__ import annotations
 

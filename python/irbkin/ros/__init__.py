@@ -1,4 +1,4 @@
-"""What a ROS node answers, without ROS: the nodes of ROS 1 and ROS 2 in `ros/` share it.
+"""Answers of a ROS node, without ROS: the nodes of ROS 1 and ROS 2 in `ros/` share it.
 
 `Kinematics` reads requests and fills responses of the services of `irbkin_interfaces`: objects with
 these attributes, of ROS 1, of ROS 2, or plain structures as in tests.

@@ -28,7 +28,7 @@ LIMIT_TOLERANCE = 1e-9
 
 _A = TypeVar("_A", bound=Answer)
 
-# What a node makes a message of a trajectory's point of: positions [rad], velocities [rad/s],
+# A point of a trajectory, of which a node makes a message: positions [rad], velocities [rad/s],
 # accelerations [rad/s^2] and the time from the start [s].
 Point = Callable[[list[float], list[float], list[float], float], Any]
 
@@ -51,7 +51,7 @@ class Kinematics:
         max_acceleration: Limits of planned paths [rad/s^2], shape (n,). No catalog has them:
             without them `plan_path` plans nothing.
         track: A track under the robot, along which `plan_path` may move it.
-        track_name: Its name, behind those of the joints.
+        track_name: Its name, behind the joint names.
         track_acceleration: Its limit [m/s^2].
 
     Raises:
@@ -132,7 +132,7 @@ class Kinematics:
             # bytes fit `uint8[]` of both: ROS 1 sends nothing else, ROS 2 takes any sequence.
             filled.slots = bytes(solution.slot for solution in solutions)
             filled.statuses = bytes(solution.status for solution in solutions)
-            # What is filled stays if no solution is inside the limits.
+            # The filled fields stay if no solution is inside the limits.
             seed = _vector(request.seed) if len(request.seed) else self.last
             filled.nearest = solutions.nearest(seed, self._weights).q.tolist()
             return solutions.explain()

@@ -1,6 +1,6 @@
 """Messages of ROS as far as irbkin reads and writes them: any object with these attributes.
 
-Those of ROS 1 (`geometry_msgs.msg.Pose` of genpy) and of ROS 2 (of rosidl) fit, as does a plain
+Messages of ROS 1 (`geometry_msgs.msg.Pose` of genpy) and of ROS 2 (of rosidl) fit, as does a plain
 structure with the same fields. Numbers of a sequence arrive as a tuple, a list, an `array.array`
 or, of `uint8[]` in ROS 1, as `bytes`.
 """
@@ -78,7 +78,7 @@ class PoseStampedMessage(Stamped, Protocol):
 
 
 class Answer(Protocol):
-    """What responses have in common."""
+    """The fields that responses have in common."""
 
     success: bool
     message: str

@@ -30,7 +30,7 @@ class Parameter(NamedTuple):
     default: str
     """Its default as text; "" for none."""
     description: str
-    """What it is, with its unit."""
+    """Its meaning, with the unit."""
 
 
 def _text(name: str, default: str, description: str) -> Parameter:
@@ -52,7 +52,7 @@ PARAMETERS = (
     ),
     _numbers("start", "Joints to which the first target's solution is near [rad]; zeros if empty"),
     _numbers("weights", "Cost of moving each joint; ones if empty"),
-    _numbers("max_velocity", "Limits of planned paths [rad/s]; those of the robot if empty"),
+    _numbers("max_velocity", "Limits of planned paths [rad/s]; the robot's if empty"),
     _numbers("max_acceleration", "Limits of planned paths [rad/s^2]; plan_path needs them"),
     _numbers(
         "track",

@@ -44,8 +44,8 @@ impl Apart {
 ///
 /// Next to an elbow limit, and with b != 0 near the shoulder's tangent plane, twins differ by
 /// the square root of rounding, and below the merge threshold one stands for both
-/// (docs/accuracy.md, section 4). What turns the forearm turns the split of theta_4 and theta_6 by
-/// that over sin theta_5.
+/// (docs/evidence/accuracy.md, section 4). A turn of the forearm turns the split of theta_4 and
+/// theta_6 by itself over sin theta_5.
 fn found_bound(arm: &WristArm, place: &Place) -> (f64, f64) {
     let (c2, k) = (arm.opw.c2, arm.k());
     let mut position = 8.0 * f64::EPSILON * (1.0 + arm.reach());

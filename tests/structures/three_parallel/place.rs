@@ -51,7 +51,7 @@ fn theta_2(arm: &ParallelArm, theta: &[f64; 6], x: f64, rng: &mut Rng) -> Option
 }
 
 /// How far the joints found may be from those that made the pose, by their uncertainty from
-/// rounding (docs/accuracy.md, sections 3 to 5).
+/// rounding (docs/evidence/accuracy.md, sections 3 to 5).
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// theta_1 and theta_5 [rad].
