@@ -163,6 +163,9 @@ evidence-general: $(BUILT) $(VENV)/.groups ## POSES (20,000) poses of 20 arms wi
 	IRBKIN_POSES=$(or $(POSES),20000) cargo test --quiet --release --lib structure::general -- --nocapture --test-threads=1
 	IRBKIN_POSES=200 $(BIN)/python -m pytest --quiet tests/python/test_general_oracles.py
 
+evidence-certificates: | toolchains ## POSES (10,000,000) poses drawn to be hard: certified, missed
+	IRBKIN_POSES=$(or $(POSES),10000000) cargo test --quiet --release --test suite -- certificates:: --nocapture
+
 evidence-offset-wrists: | toolchains ## JOINT_VECTORS (1000) of each set, arms with an offset wrist
 	JOINT_VECTORS=$(or $(JOINT_VECTORS),1000) cargo test --release --lib offset_wrist::tests::each_arm -- --nocapture
 

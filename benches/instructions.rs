@@ -72,7 +72,7 @@ fn repeat_batch(robot: &Robot<6>, what: &str, times: u32) {
     match what {
         "batch fk" => {
             again(times, || {
-                Batch::new(None).fk(robot, &q, black_box(&mut answers[..rows * 16])).unwrap()
+                Batch::new(None).fk(robot, &q, black_box(&mut answers[..rows * 16])).unwrap();
             });
         }
         "batch jacobian" => {

@@ -83,7 +83,7 @@
 // If another crate of the build links std, its float methods shadow those imported for no_std.
 #![cfg_attr(not(feature = "std"), allow(unused_imports))]
 
-// What calculates is left out then, so that this is the error that is seen.
+// Calculations are left out then, so that this is the error that is seen.
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
     "irbkin needs the feature `std` or, without the standard library, `libm`: build with \

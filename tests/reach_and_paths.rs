@@ -350,7 +350,6 @@ fn is_clear(arm: &Arm, path: &[[f64; 6]], near: Near) -> bool {
 }
 
 #[test]
-#[expect(clippy::large_stack_arrays, reason = "four robots")]
 fn smooth_paths_past_several_singularities_are_followed() {
     asked_set();
     let mut report = String::new();

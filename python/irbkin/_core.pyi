@@ -419,11 +419,11 @@ class IkMargin(_Record):
     @property
     def margin(self) -> _Floats:
         """The largest margin (the smaller part of `Margin`) of the solutions inside the limits,
-        each with the full turns that leave the most room, shape (...). NaN where there is none.
+        each with the full turns that leave the most room, shape (...). NaN without an answer.
         """
     @property
     def singularities(self) -> _Floats:
-        """Their largest `Margin.singularities`, shape (...). NaN where there is none."""
+        """Their largest `Margin.singularities`, shape (...). NaN without an answer."""
     @property
     def solutions(self) -> npt.NDArray[np.uint8]:
         """Their number, shape (...)."""
@@ -603,7 +603,7 @@ class Plan(_Record):
         """
     @property
     def slot(self) -> npt.NDArray[np.int64]:
-        """The slot of the branch at each pose, shape (m,); -1 where there is none."""
+        """The slot of the branch at each pose, shape (m,); -1 without a branch."""
     @property
     def external(self) -> _Floats:
         """Values of the external axes of `carrier` at each pose [m, rad], shape (m, k); NaN
@@ -779,7 +779,7 @@ class Robot:
         Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it);
         `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 0 if unknown. A
         parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
-        See docs/conventions.md.
+        See docs/guide/conventions.md.
         """
     @property
     def name(self) -> str:
@@ -956,7 +956,7 @@ class Robot:
         Slots are the nominal robot's. The answer is not complete: a pair of branches that the
         nominal robot does not have is not seen, which happens next to a fold; and a branch whose
         refinement fails has its slot flagged MERGED. Meant for tracking, `ik_nearest`, `follow` and
-        `plan`. Rates: docs/calibrate.md.
+        `plan`. Rates: docs/guide/calibrate.md.
 
         Args:
             nominal: A Robot with a closed form, or its catalog name. Its base, tool and limits do
@@ -971,7 +971,8 @@ class Robot:
         """Return the robot with corrected base, table and tool: what `irbkin.calibrate` makes of
         it.
 
-        Corrections of base and tool alone leave the structure as it is. See docs/calibrate.md.
+        Corrections of base and tool alone leave the structure as it is. See
+        docs/guide/calibrate.md.
 
         Args:
             corrections: What is added to each parameter, shape (12 + 5 n,): x, y, z [m], rx, ry, rz
@@ -1337,9 +1338,9 @@ class Robot:
             Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape
             (...) for many. cf is floor(angle / 90 deg), of a YuMi the nearest whole number. cfx is
             the slot of a spherical wrist, 0 for an arm with coupled axes 2 and 3, whose controller
-            does not use it; docs/abb.md has the rules of GoFa and YuMi. In a batch, a row that is
-            not finite, or has an angle beyond 1e5 rad, has -2147483648, the least int32, in all
-            four: `ik_configured` gives NaN for it.
+            does not use it; docs/guide/abb.md has the rules of GoFa and YuMi. In a batch, a row
+            that is not finite, or has an angle beyond 1e5 rad, has -2147483648, the least int32, in
+            all four: `ik_configured` gives NaN for it.
 
         Raises:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
@@ -1554,7 +1555,7 @@ class Solutions:
     def certified(self) -> bool:
         """Whether these are certain to be all solutions of the pose, limits not regarded. Always
         where the structure has a closed form, never where it is a refined one. For other arms:
-        their number is that of the roots of a polynomial, and no joint moves freely.
+        their number equals the roots of a polynomial, and no joint moves freely.
         """
     @property
     def reach(self) -> Reach:
@@ -1642,29 +1643,41 @@ class _RapidRecord:
 
 @final
 class Pose(_RapidRecord):
+    """`pose`: a frame."""
+
     @property
-    def trans_mm(self) -> tuple[float, ...]: ...
+    def trans_mm(self) -> tuple[float, ...]:
+        """Position [mm]."""
     @property
-    def rot(self) -> tuple[float, ...]: ...
+    def rot(self) -> tuple[float, ...]:
+        """Quaternion w, x, y, z."""
     def __new__(
         cls,
         trans_mm: _Numbers = ...,
         rot: _Numbers = ...,
     ) -> Pose: ...
     @staticmethod
-    def of(T: npt.ArrayLike) -> Pose: ...
-    def matrix(self) -> _Floats: ...
+    def of(T: npt.ArrayLike) -> Pose:
+        """Return the frame of a homogeneous matrix, shape (4, 4), translation [m]."""
+    def matrix(self) -> _Floats:
+        """Return the homogeneous matrix, shape (4, 4), translation [m]."""
 
 @final
 class RobTarget(_RapidRecord):
+    """`robtarget`: a pose of the tool in the work object, a configuration, and external axes."""
+
     @property
-    def trans_mm(self) -> tuple[float, ...]: ...
+    def trans_mm(self) -> tuple[float, ...]:
+        """Position [mm]."""
     @property
-    def rot(self) -> tuple[float, ...]: ...
+    def rot(self) -> tuple[float, ...]:
+        """Quaternion w, x, y, z."""
     @property
-    def robconf(self) -> Configuration: ...
+    def robconf(self) -> Configuration:
+        """Quarter turns of axes 1, 4 and 6, and the slot."""
     @property
-    def extax(self) -> tuple[float, ...]: ...
+    def extax(self) -> tuple[float, ...]:
+        """External axes [deg or mm]; 9e9 for an axis that does not exist."""
     def __new__(
         cls,
         trans_mm: _Numbers,
@@ -1675,35 +1688,51 @@ class RobTarget(_RapidRecord):
     @staticmethod
     def of(
         T: npt.ArrayLike, robconf: Iterable[int] | Configuration, extax: _Numbers = ...
-    ) -> RobTarget: ...
-    def matrix(self) -> _Floats: ...
+    ) -> RobTarget:
+        """Return the target of a homogeneous matrix, shape (4, 4), translation [m]."""
+    def matrix(self) -> _Floats:
+        """Return the homogeneous matrix of the tool in the work object, shape (4, 4),
+        translation [m].
+        """
 
 @final
 class JointTarget(_RapidRecord):
+    """`jointtarget`: angles of the robot's axes, and external axes."""
+
     @property
-    def robax_deg(self) -> tuple[float, ...]: ...
+    def robax_deg(self) -> tuple[float, ...]:
+        """The controller's angles [deg]."""
     @property
-    def extax(self) -> tuple[float, ...]: ...
+    def extax(self) -> tuple[float, ...]:
+        """External axes [deg or mm]; 9e9 for an axis that does not exist."""
     def __new__(
         cls,
         robax_deg: _Numbers,
         extax: _Numbers = ...,
     ) -> JointTarget: ...
     @staticmethod
-    def of(q: _Numbers, extax: _Numbers = ...) -> JointTarget: ...
+    def of(q: _Numbers, extax: _Numbers = ...) -> JointTarget:
+        """Return the target of joint angles [rad], shape (6,)."""
     @property
-    def q(self) -> _Floats: ...
+    def q(self) -> _Floats:
+        """Joint angles [rad], shape (6,)."""
 
 @final
 class LoadData(_RapidRecord):
+    """`loaddata`: mass and inertia of a load; kinematics does not use them."""
+
     @property
-    def mass_kg(self) -> float: ...
+    def mass_kg(self) -> float:
+        """Mass [kg]."""
     @property
-    def cog_mm(self) -> tuple[float, ...]: ...
+    def cog_mm(self) -> tuple[float, ...]:
+        """Center of gravity [mm]."""
     @property
-    def aom(self) -> tuple[float, ...]: ...
+    def aom(self) -> tuple[float, ...]:
+        """Axes of moment, a quaternion w, x, y, z."""
     @property
-    def inertia(self) -> tuple[float, ...]: ...
+    def inertia(self) -> tuple[float, ...]:
+        """Moments of inertia ix, iy, iz [kg m^2]."""
     def __new__(
         cls,
         mass_kg: float = ...,
@@ -1714,12 +1743,17 @@ class LoadData(_RapidRecord):
 
 @final
 class ToolData(_RapidRecord):
+    """`tooldata`: a tool. The default is tool0."""
+
     @property
-    def robhold(self) -> bool: ...
+    def robhold(self) -> bool:
+        """Whether the robot holds it; a tool that it does not hold is stationary."""
     @property
-    def tframe(self) -> Pose: ...
+    def tframe(self) -> Pose:
+        """The frame of the tool in the flange frame; in the world frame if it is stationary."""
     @property
-    def tload(self) -> LoadData: ...
+    def tload(self) -> LoadData:
+        """Its load."""
     def __new__(
         cls,
         robhold: bool = ...,
@@ -1729,16 +1763,23 @@ class ToolData(_RapidRecord):
 
 @final
 class WobjData(_RapidRecord):
+    """`wobjdata`: a work object, at `uframe * oframe`. The default is wobj0."""
+
     @property
-    def robhold(self) -> bool: ...
+    def robhold(self) -> bool:
+        """Whether the robot holds it, under a stationary tool."""
     @property
-    def ufprog(self) -> bool: ...
+    def ufprog(self) -> bool:
+        """Whether the user frame is fixed; otherwise `ufmec` moves it."""
     @property
-    def ufmec(self) -> str: ...
+    def ufmec(self) -> str:
+        """The mechanical unit that moves the user frame."""
     @property
-    def uframe(self) -> Pose: ...
+    def uframe(self) -> Pose:
+        """User frame in the world frame; in the flange frame if the robot holds the work object."""
     @property
-    def oframe(self) -> Pose: ...
+    def oframe(self) -> Pose:
+        """Object frame in the user frame."""
     def __new__(
         cls,
         robhold: bool = ...,
@@ -1750,14 +1791,20 @@ class WobjData(_RapidRecord):
 
 @final
 class SpeedData(_RapidRecord):
+    """`speeddata`: how fast a move is."""
+
     @property
-    def v_tcp_mm_s(self) -> float: ...
+    def v_tcp_mm_s(self) -> float:
+        """Speed of the tool center point [mm/s]."""
     @property
-    def v_ori_deg_s(self) -> float: ...
+    def v_ori_deg_s(self) -> float:
+        """Speed of its reorientation [deg/s]."""
     @property
-    def v_leax_mm_s(self) -> float: ...
+    def v_leax_mm_s(self) -> float:
+        """Speed of linear external axes [mm/s]."""
     @property
-    def v_reax_deg_s(self) -> float: ...
+    def v_reax_deg_s(self) -> float:
+        """Speed of rotating external axes [deg/s]."""
     def __new__(
         cls,
         v_tcp_mm_s: float,
@@ -1768,20 +1815,29 @@ class SpeedData(_RapidRecord):
 
 @final
 class ZoneData(_RapidRecord):
+    """`zonedata`: how a move ends. The default is fine."""
+
     @property
-    def finep(self) -> bool: ...
+    def finep(self) -> bool:
+        """Whether the robot stops at the target."""
     @property
-    def pzone_tcp_mm(self) -> float: ...
+    def pzone_tcp_mm(self) -> float:
+        """Radius around the target in which the tool center point leaves the line [mm]."""
     @property
-    def pzone_ori_mm(self) -> float: ...
+    def pzone_ori_mm(self) -> float:
+        """Radius in which the reorientation leaves its way [mm]."""
     @property
-    def pzone_eax_mm(self) -> float: ...
+    def pzone_eax_mm(self) -> float:
+        """Radius for external axes [mm]."""
     @property
-    def zone_ori_deg(self) -> float: ...
+    def zone_ori_deg(self) -> float:
+        """Reorientation that is left where it leaves its way [deg]."""
     @property
-    def zone_leax_mm(self) -> float: ...
+    def zone_leax_mm(self) -> float:
+        """Way of linear external axes that is left where they leave it [mm]."""
     @property
-    def zone_reax_deg(self) -> float: ...
+    def zone_reax_deg(self) -> float:
+        """Way of rotating external axes that is left where they leave it [deg]."""
     def __new__(
         cls,
         finep: bool = ...,
@@ -1795,22 +1851,32 @@ class ZoneData(_RapidRecord):
 
 @final
 class Declaration(_Record):
+    """A data declaration. Values are as declared: assignments of a program are not followed."""
+
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Its name, as it is written."""
     @property
-    def data_type(self) -> str: ...
+    def data_type(self) -> str:
+        """RAPID's name of its type."""
     @property
-    def scope(self) -> Literal["LOCAL", "TASK", ""]: ...
+    def scope(self) -> Literal["LOCAL", "TASK", ""]:
+        """Its scope: "LOCAL", "TASK" or ""."""
     @property
-    def storage(self) -> Literal["CONST", "PERS", "VAR"]: ...
+    def storage(self) -> Literal["CONST", "PERS", "VAR"]:
+        """Its storage class: "CONST", "PERS" or "VAR"."""
     @property
-    def routine(self) -> str | None: ...
+    def routine(self) -> str | None:
+        """The routine that declares it; None for the module."""
     @property
-    def value(self) -> Any: ...
+    def value(self) -> Any:
+        """A record; nested lists of records for an array; None without a value."""
     @property
-    def line(self) -> int: ...
+    def line(self) -> int:
+        """Line of the text, from 1."""
     @property
-    def column(self) -> int: ...
+    def column(self) -> int:
+        """Column of the text, from 1."""
     def __new__(
         cls,
         name: str,
@@ -1825,12 +1891,20 @@ class Declaration(_Record):
 
 @final
 class Argument(_Record):
+    """An argument as it is written, without its name, and its value by the declarations.
+
+    Data that the module assigns have no value.
+    """
+
     @property
-    def text(self) -> str: ...
+    def text(self) -> str:
+        """The argument as it is written."""
     @property
-    def value(self) -> Any: ...
+    def value(self) -> Any:
+        """Its value; None if the declarations do not give it."""
     @property
-    def reason(self) -> str | None: ...
+    def reason(self) -> str | None:
+        """Why the value is unknown; None if it is known."""
     def __new__(
         cls,
         text: str,
@@ -1840,16 +1914,26 @@ class Argument(_Record):
 
 @final
 class MotionSettings(_Record):
+    """How a move is made: by the instructions before it in its routine, or else by the settings
+    that a program starts with.
+    """
+
     @property
-    def conf_l(self) -> bool: ...
+    def conf_l(self) -> bool:
+        """ConfL: whether MoveL and MoveC must arrive with the configuration of the target."""
     @property
-    def conf_j(self) -> bool: ...
+    def conf_j(self) -> bool:
+        """ConfJ: whether MoveJ must arrive with the configuration of the target."""
     @property
-    def sing_area(self) -> Literal["Off", "Wrist", "LockAxis4"]: ...
+    def sing_area(self) -> Literal["Off", "Wrist", "LockAxis4"]:
+        """SingArea, near the wrist singularity: "Off", "Wrist" or "LockAxis4"."""
     @property
     def cir_path_mode(
         self,
-    ) -> Literal["PathFrame", "ObjectFrame", "CirPointOri", "Wrist45", "Wrist46", "Wrist56"]: ...
+    ) -> Literal["PathFrame", "ObjectFrame", "CirPointOri", "Wrist45", "Wrist46", "Wrist56"]:
+        """CirPathMode, the orientation in a MoveC: "PathFrame", "ObjectFrame", "CirPointOri",
+        "Wrist45", "Wrist46" or "Wrist56".
+        """
     def __new__(
         cls,
         conf_l: bool,
@@ -1862,38 +1946,56 @@ class MotionSettings(_Record):
 
 @final
 class Move(_Record):
+    """A move instruction."""
+
     @property
-    def kind(self) -> Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]: ...
+    def kind(self) -> Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]:
+        """The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
     @property
-    def routine(self) -> str | None: ...
+    def routine(self) -> str | None:
+        """The routine that contains it."""
     @property
-    def target(self) -> Argument: ...
+    def target(self) -> Argument:
+        """The target: an `Argument` with a RobTarget, of MoveAbsJ with a JointTarget."""
     @property
-    def via(self) -> Argument | None: ...
+    def via(self) -> Argument | None:
+        """The point on the circle of a MoveC."""
     @property
-    def speed(self) -> str: ...
+    def speed(self) -> str:
+        """The speed as it is written, such as "v1000"."""
     @property
-    def zone(self) -> str: ...
+    def zone(self) -> str:
+        """The zone as it is written, such as "z50"."""
     @property
-    def tool(self) -> Argument: ...
+    def tool(self) -> Argument:
+        """The tool: a ToolData."""
     @property
-    def wobj(self) -> Argument | None: ...
+    def wobj(self) -> Argument | None:
+        r"""The work object of \WObj; without it wobj0."""
     @property
-    def options(self) -> tuple[tuple[str, str | None], ...]: ...
+    def options(self) -> tuple[tuple[str, str | None], ...]:
+        """The other optional arguments: name and text; no text for a switch."""
     @property
-    def line(self) -> int: ...
+    def line(self) -> int:
+        """Line of the text, from 1."""
     @property
-    def column(self) -> int: ...
+    def column(self) -> int:
+        """Column of the text, from 1."""
     @property
-    def displaced(self) -> int | None: ...
+    def displaced(self) -> int | None:
+        """Line of the PDispOn or PDispSet that displaces it, which is not followed."""
     @property
-    def speed_data(self) -> Argument: ...
+    def speed_data(self) -> Argument:
+        r"""The data of `speed`: a SpeedData, with the speed of \V."""
     @property
-    def zone_data(self) -> Argument: ...
+    def zone_data(self) -> Argument:
+        r"""The data of `zone`: a ZoneData, with the radius of \Z."""
     @property
-    def time(self) -> Argument | None: ...
+    def time(self) -> Argument | None:
+        r"""The duration of \T, which replaces the speed [s]."""
     @property
-    def settings(self) -> MotionSettings: ...
+    def settings(self) -> MotionSettings:
+        """The settings of ConfL, ConfJ, SingArea and CirPathMode before it."""
     def __new__(
         cls,
         kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"],
@@ -1916,22 +2018,36 @@ class Move(_Record):
 
 @final
 class MotionMove(_Record):
+    """A move of a motion."""
+
     @property
-    def kind(self) -> Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]: ...
+    def kind(self) -> Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]:
+        """The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
     @property
-    def module_index(self) -> int: ...
+    def module_index(self) -> int:
+        """Its index in `Module.moves`."""
     @property
-    def line(self) -> int: ...
+    def line(self) -> int:
+        """Line of the instruction."""
     @property
-    def start(self) -> float: ...
+    def start(self) -> float:
+        """When it begins [s], halfway through the corner before it."""
     @property
-    def end(self) -> float: ...
+    def end(self) -> float:
+        """When it ends [s], halfway through the corner behind it."""
     @property
-    def length(self) -> float: ...
+    def length(self) -> float:
+        """The length of the tool's way in the work object [m]."""
     @property
-    def q(self) -> _Floats | None: ...
+    def q(self) -> _Floats | None:
+        """The joints at its target [rad], shape (6,), which is met or passed; None if the move
+        is left out.
+        """
     @property
-    def as_programmed(self) -> bool: ...
+    def as_programmed(self) -> bool:
+        """Whether it is made as it is programmed. Otherwise the joints go straight to its target
+        at their limits or, without `q`, it is left out.
+        """
     def __new__(
         cls,
         kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"],
@@ -1946,28 +2062,49 @@ class MotionMove(_Record):
 
 @final
 class Finding(_Record):
+    """Something wrong with a move, in a table, a motion or a check. `str` has the line, too."""
+
     @property
-    def code(self) -> str: ...
+    def code(self) -> str:
+        """A letter for the group and three digits, such as "C201"; docs/guide/check.md has the
+        codes.
+        """
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """The code in words, such as "wrong-confdata"."""
     @property
-    def line(self) -> int: ...
+    def line(self) -> int:
+        """Line of the instruction, from 1."""
     @property
-    def column(self) -> int: ...
+    def column(self) -> int:
+        """Column of the instruction, from 1."""
     @property
-    def routine(self) -> str | None: ...
+    def routine(self) -> str | None:
+        """The routine that contains it."""
     @property
-    def move_index(self) -> int: ...
+    def move_index(self) -> int:
+        """Index of the move in `RoutineMotion.moves`, or of the row in a TargetTable; for an
+        instruction that is not read, of the next move.
+        """
     @property
-    def message(self) -> str: ...
+    def message(self) -> str:
+        """The instruction and what is wrong with it, in one line."""
     @property
-    def joint(self) -> int | None: ...
+    def joint(self) -> int | None:
+        """The joint that it is about, from 1."""
     @property
-    def value(self) -> float | None: ...
+    def value(self) -> float | None:
+        """The value that was found, in SI units: the speed of a joint, its step in a flip, how
+        far outside limits or reach, the distance from a singularity, a duration.
+        """
     @property
-    def bound(self) -> float | None: ...
+    def bound(self) -> float | None:
+        """The bound that the value must not exceed or, of a singularity, must not be below."""
     @property
-    def edits(self) -> tuple[tuple[int, int, str], ...]: ...
+    def edits(self) -> tuple[tuple[int, int, str], ...]:
+        """The corrections: first byte and end in `Module.source` as UTF-8, and the text that
+        takes their place. Empty if nothing corrects it.
+        """
     def __new__(
         cls,
         code: str,
@@ -1985,16 +2122,23 @@ class Finding(_Record):
 
 @final
 class Skipped(_Record):
+    """A part of the text that is not read."""
+
     @property
-    def line(self) -> int: ...
+    def line(self) -> int:
+        """Line of the text, from 1."""
     @property
-    def column(self) -> int: ...
+    def column(self) -> int:
+        """Column of the text, from 1."""
     @property
-    def routine(self) -> str | None: ...
+    def routine(self) -> str | None:
+        """The routine that contains it; None for the module."""
     @property
-    def what(self) -> str: ...
+    def what(self) -> str:
+        """Its kind and, of a datum, why it is not read."""
     @property
-    def text(self) -> str: ...
+    def text(self) -> str:
+        """The part as it is written."""
     def __new__(
         cls,
         line: int,
@@ -2006,24 +2150,39 @@ class Skipped(_Record):
 
 @final
 class TargetTable(_Record):
+    """The joint angles of m targets."""
+
     @property
-    def kinds(self) -> tuple[str, ...]: ...
+    def kinds(self) -> tuple[str, ...]:
+        """The instruction of each target, or "robtarget"."""
     @property
-    def names(self) -> tuple[str, ...]: ...
+    def names(self) -> tuple[str, ...]:
+        """Each target as it is written, or the name of its declaration."""
     @property
-    def lines(self) -> npt.NDArray[np.int64]: ...
+    def lines(self) -> npt.NDArray[np.int64]:
+        """Line of the instruction or of the declaration, shape (m,)."""
     @property
-    def q(self) -> _Floats: ...
+    def q(self) -> _Floats:
+        """Joint angles [rad], shape (m, n), NaN if there are none."""
     @property
-    def configuration(self) -> ConfigurationBatch: ...
+    def configuration(self) -> ConfigurationBatch:
+        """The configuration of the joint angles, int32 arrays of shape (m,); without joint
+        angles the configuration of the target.
+        """
     @property
-    def wrist(self) -> _Floats: ...
+    def wrist(self) -> _Floats:
+        """Angle of joint 5 from 0 or 180 deg [rad], shape (m,)."""
     @property
-    def elbow(self) -> _Floats: ...
+    def elbow(self) -> _Floats:
+        """Angle between upper arm and forearm from stretched or folded [rad], shape (m,)."""
     @property
-    def shoulder(self) -> _Floats: ...
+    def shoulder(self) -> _Floats:
+        """Distance of the wrist center from axis 1 [m], shape (m,)."""
     @property
-    def findings(self) -> tuple[Finding | None, ...]: ...
+    def findings(self) -> tuple[Finding | None, ...]:
+        """For each target a `Finding`, if there are no joint angles, or others than the target
+        requests.
+        """
     def __new__(
         cls,
         kinds: tuple[str, ...],
@@ -2060,12 +2219,12 @@ class Module(Mapping[str, Any]):
     @property
     def data(self) -> Mapping[str, Any]:
         """The data of the module itself, in the order of the text: names to records, to nested
-        lists of records for arrays, to None where the declaration has no value. Those of
-        routines are in `declarations`.
+        lists of records for arrays, to None if the declaration has no value. Data of routines
+        are in `declarations`.
         """
     @property
     def declarations(self) -> tuple[Declaration, ...]:
-        """Every declaration, including those of routines: a tuple of `Declaration`."""
+        """Every declaration, of routines too: a tuple of `Declaration`."""
     @property
     def moves(self) -> tuple[Move, ...]:
         """MoveJ, MoveL, MoveC and MoveAbsJ in the order of the text, whatever branch or loop
@@ -2073,7 +2232,7 @@ class Module(Mapping[str, Any]):
         """
     @property
     def skipped(self) -> tuple[Skipped, ...]:
-        """What was not read, in the order of the text: a tuple of `Skipped`."""
+        """The parts that were not read, in the order of the text: a tuple of `Skipped`."""
     def rewritten(self, values: Mapping[str, Any]) -> str:
         """Return the source with other values for some data; everything else, comments included,
         stays as it is, character for character.
@@ -2095,7 +2254,7 @@ class Module(Mapping[str, Any]):
     def items(self) -> ItemsView[str, Any]:
         """Return the pairs (name, value) of the module's own data, in the order of the text."""
     def get(self, name: str, default: Any = None, /) -> Any:
-        """Return the value of a datum of the module; `default` where there is none of that name."""
+        """Return the value of a datum of the module; `default` if the module has no such name."""
     def __getitem__(self, name: str, /) -> Any: ...
     def __contains__(self, name: object, /) -> bool: ...
     def __len__(self) -> int: ...
@@ -2106,9 +2265,45 @@ class Module(Mapping[str, Any]):
     def __reduce__(self) -> tuple[Callable[..., Module], tuple[str, tuple[Module, ...]]]: ...
 
 # Text determines the type: a module, or any record.
-def parse(text: str | bytes, context: Iterable[Module] | None = None) -> Any: ...
-def parse_module(text: str | bytes, context: Iterable[Module] | None = None) -> Module: ...
-def dump(value: Any, name: str = "Data") -> str: ...
+def parse(text: str | bytes, context: Iterable[Module] | None = None) -> Any:
+    """Parse a RAPID module, with or without MODULE around it, or a single record.
+
+    Args:
+        text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1. Text
+            that begins with a bracket is one robtarget, jointtarget, tooldata, wobjdata, pose or
+            loaddata, as `dump` writes them, determined by its shape.
+        context: Modules in which names that the text does not declare are looked for: their data
+            that are not LOCAL.
+
+    Returns:
+        Module; or RobTarget, JointTarget, ToolData, WobjData, Pose or LoadData.
+
+    Raises:
+        RapidError: The text is broken; the message and the attributes `line` and `column` have the
+            place. Unknown statements are no error: they are skipped and listed in `Module.skipped`.
+    """
+
+def parse_module(text: str | bytes, context: Iterable[Module] | None = None) -> Module:
+    """Parse a RAPID module, as `parse`; a record is refused."""
+
+def dump(value: Any, name: str = "Data") -> str:
+    """Return the RAPID text of a record, of a module, or of a mapping of names to values.
+
+    `parse` gives back modules with all their data, and single RobTarget, JointTarget, ToolData,
+    WobjData, Pose and LoadData. The text of any other single value belongs into a declaration:
+    alone its shape does not determine its type, and `parse` refuses it.
+
+    Args:
+        value: RobTarget, JointTarget, ToolData, WobjData, Pose, LoadData, SpeedData, ZoneData,
+            Configuration, a number, a tuple of 3 (pos), 4 (orient) or 6 (extjoint) numbers, nested
+            lists of these for an array: the text of the value. A Module, or a mapping of names to
+            values: the text of a module, with tools and work objects as PERS, others as CONST.
+        name: Name of the module that is made of a mapping.
+
+    Raises:
+        RapidError: A value is not RAPID data or not finite, or a name is not an identifier.
+    """
+
 def calc_joint_t(
     robot: Robot,
     target: RobTarget,
@@ -2124,8 +2319,8 @@ def calc_joint_t(
     Args:
         robot: The arm. Work objects are given in the world, in which the robot's base is.
         target: RobTarget.
-        tool: ToolData; the robot's own tool where not given.
-        wobj: WobjData; the world where not given.
+        tool: ToolData; by default the robot's own tool.
+        wobj: WobjData; by default the world.
         fallback: With "nearest", the solution nearest to `seed` where none has the configuration.
         seed: Joint vector [rad], shape (n,), of the fallback, and to which the solution of a GoFa
             is the nearest where its configuration names two.
@@ -2142,8 +2337,8 @@ def calc_joint_t(
         InvalidJointsError: The arm has no such cfx.
         RapidError: The robot holds both tool and work object or neither, or a mechanical unit moves
             the work object.
-        InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa or YuMi of
-            the catalog.
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa or YuMi
+            of the catalog.
     """
 
 def calc_rob_t(
@@ -2158,8 +2353,8 @@ def calc_rob_t(
     Args:
         robot: The arm. Work objects are given in the world, in which the robot's base is.
         joints: JointTarget, or joint angles [rad], shape (n,).
-        tool: ToolData; the robot's own tool where not given.
-        wobj: WobjData; the world where not given.
+        tool: ToolData; by default the robot's own tool.
+        wobj: WobjData; by default the world.
 
     Returns:
         RobTarget, with the external axes of `joints`; eax_a of a YuMi is its arm angle.
@@ -2190,8 +2385,8 @@ def calc_moves(
         TargetTable. `findings` says what is wrong with the target of a row.
 
     Raises:
-        InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa or YuMi of
-            the catalog.
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa or YuMi
+            of the catalog.
     """
 
 def calc_targets(
@@ -2209,8 +2404,8 @@ def calc_targets(
     Args:
         robot: The arm.
         module: Module.
-        tool: ToolData; the robot's own tool where not given.
-        wobj: WobjData; the world where not given.
+        tool: ToolData; by default the robot's own tool.
+        wobj: WobjData; by default the world.
         fallback: With "nearest", a target whose configuration no solution has gets the one nearest
             to the joints before it.
         seed: Joint vector [rad] before the first target, shape (n,).
@@ -2253,7 +2448,7 @@ def check(
         RapidError: A code that does not exist.
         InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
             million samples.
-        InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
             catalog.
     """
 
@@ -2302,7 +2497,7 @@ def motion(
         InvalidMotionError: A limit or a step that is not positive and finite, a robot without
             velocities, or more than ten million samples.
         InvalidJointsError: A start that is not finite or has a wrong shape.
-        InvalidModelError: The arm has no confdata: no spherical wrist, and it is no GoFa of the
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
             catalog.
     """
 
@@ -2344,12 +2539,12 @@ class RoutineMotion:
         """The moves of the routine, in order: a tuple of `MotionMove`."""
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What is wrong with moves, in order: a tuple of `Finding`."""
+        """The findings on moves, in order: a tuple of `Finding`."""
     def to_module(self, name: str = "Motion") -> Module:
         r"""Return the motion as a module: a MoveAbsJ to the joints of each target that is met or
         passed, with its external axes, speed, zone, \T, tool and work object.
 
-        The path between the targets is that of the joints. Tools and work objects are declared as
+        Between the targets the joints move evenly. Tools and work objects are declared as
         PERS; speeds and zones that are not RAPID's own are written as numbers.
 
         Args:
@@ -2359,7 +2554,7 @@ class RoutineMotion:
             Module, which `dump` writes.
 
         Raises:
-            RapidError: The name is none.
+            RapidError: The name is not a RAPID identifier.
         """
     def __len__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...
@@ -2754,7 +2949,7 @@ def polyline(
     Args:
         T: Poses, shape (m, 4, 4).
         zones: For each pose a radius [m] or one of ABB's names, "fine", "z0" .. "z200"; or one for
-            all. Those of the first and the last pose do not matter: both are met.
+            all. Zones of the first and the last pose do not matter: both are met.
         steps: Number of poses of the path.
         step: Instead of `steps`, the largest distance of two poses along the lines [m].
         turn: With or instead of `step`, the largest turn between two poses along the lines [rad].

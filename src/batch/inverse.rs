@@ -167,7 +167,7 @@ impl Batch<'_> {
     }
 
     /// Arm angles [rad] of rows of seven joint angles, as [`Robot::arm_angle`] returns them; NaN
-    /// where there is none.
+    /// where the row has no answer.
     ///
     /// # Errors
     ///

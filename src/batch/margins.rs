@@ -18,9 +18,9 @@ const JOINT_VECTORS: usize = 1024;
 #[derive(Debug)]
 pub struct Margins<'a> {
     /// The largest [`Margin::least`] of the solutions inside the limits, each with the full turns
-    /// that leave the most room; NaN where there is none.
+    /// that leave the most room; NaN without an answer.
     pub margin: &'a mut [f64],
-    /// The largest [`Margin::singularities`] of them; NaN where there is none.
+    /// The largest [`Margin::singularities`] of them; NaN without an answer.
     pub singularities: &'a mut [f64],
     /// Their number.
     pub solutions: &'a mut [u8],

@@ -11,7 +11,8 @@ use crate::report::ConfigurationRule;
 const GOFA: &str = "CRB 15000-";
 
 impl CatalogArm {
-    /// How the controller of the arm counts configurations, if in a way of its own: docs/abb.md.
+    /// How the controller of the arm counts configurations, if in a way of its own:
+    /// docs/guide/abb.md.
     #[must_use]
     pub fn own_configuration_rule(&self) -> Option<ConfigurationRule> {
         if self.maker == "ABB" && self.name.starts_with(GOFA) {

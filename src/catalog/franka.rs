@@ -2,7 +2,7 @@
 //!
 //! Denavit-Hartenberg rows as published by Franka (control parameters documentation), with the
 //! flange in the last row; validated against a pose recorded on a machine
-//! (petercorke/robotics-toolbox-matlab#107). Limits and velocities are those of Franka's data
+//! (petercorke/robotics-toolbox-matlab#107). Limits and velocities come from Franka's data
 //! sheet.
 
 use super::{AngleUnit, CatalogArm, CatalogGeometry};

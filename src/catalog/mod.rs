@@ -23,7 +23,7 @@ pub struct CatalogArm {
     pub name: &'static str,
     /// "ABB", "Universal Robots", "Franka", "FANUC" or "UFACTORY".
     pub maker: &'static str,
-    /// What it carries [kg], as its type name or the maker's data sheet has it; of several
+    /// Payload [kg], as its type name or the maker's data sheet has it; of several
     /// generations the least.
     pub payload: Option<f64>,
     /// Reach [m] in the type name or the maker's data sheet: rounded, and for ABB's arms to the
@@ -114,7 +114,7 @@ pub enum CatalogGeometry {
     },
     /// Modified Denavit-Hartenberg rows: alpha [deg], a [mm], d [mm], theta offset [deg].
     Mdh(&'static [[f64; 4]]),
-    /// The same of an arm that stands turned on a body, to whose frame poses refer.
+    /// A table of an arm that stands turned on a body, to whose frame poses refer.
     StandingMdh {
         /// Position of the frame before the first row [mm].
         xyz: [f64; 3],
@@ -141,7 +141,7 @@ fn standing(xyz: [f64; 3], turns: [f64; 3]) -> Pose {
     IsometryMatrix3::from_parts(position.into(), x * y * z)
 }
 
-/// Every arm of the catalog: ABB's by type number, then those of other makers.
+/// Every arm of the catalog: ABB's by type number, then other makers' arms.
 pub fn catalog() -> impl Iterator<Item = &'static CatalogArm> {
     abb::SERIES
         .into_iter()

@@ -1,5 +1,5 @@
 //! Every threshold of the library that answers and flags depend on, with its unit and its reason.
-//! `docs/accuracy.md` derives them. Parameters of one algorithm are beside it.
+//! `docs/evidence/accuracy.md` derives them. Parameters of one algorithm are beside it.
 
 /// How far a rotation's columns may deviate from orthonormal and still be repaired: the largest
 /// element of `R^T R - I` [1]. Elements in single precision (6e-8 off) and in text with six digits
@@ -180,7 +180,7 @@ pub const MOST_ANGLE: f64 = 1e5;
 /// [rad, m]: the rounding of a table in text. The deviation is removed.
 pub(crate) const FORM_TOLERANCE: f64 = 1e-9;
 
-/// How far the tool of a calibrated arm may be from that of its nominal one [rad, or part of the
+/// How far the tool of a calibrated arm may be from its nominal one's [rad, or part of the
 /// reach]: Newton's method starts from the nominal joints, and no maker's arm is so far off.
 pub(crate) const FAR_FROM_NOMINAL: f64 = 0.05;
 
@@ -224,7 +224,7 @@ pub const TAUGHT_BEYOND_LIMITS: f64 = 1.5 * core::f64::consts::PI / 180.0;
 pub(crate) const ARM_ANGLE_OFF: f64 = 1e-6;
 
 /// Square of a length below which a mirror does not turn it [(m/rad)^2, 1]: the least whose digits,
-/// and those of what it is summed from, are all there. The length counts as zero, which moves a
+/// and of its summands, are all there. The length counts as zero, which moves a
 /// singular value by no more than its root.
 pub(crate) const REFLECTED_SQUARE: f64 = 1e-290;
 
@@ -249,7 +249,7 @@ pub(crate) const LIMIT_ROUNDING: f64 = 1e-9;
 /// equally long, to 2e-9 rad.
 pub(crate) const HALF_TURN_COS: f64 = 1e-9;
 
-/// Least part of a given axis along that of a half turn for it to choose the way [1].
+/// Least part of a given axis along a half turn's for it to choose the way [1].
 pub(crate) const LEAST_ALONG: f64 = 1e-6;
 
 /// Least distance of the second point of an arc from the line through the others, by their distance

@@ -2,9 +2,6 @@
 
 use core::sync::atomic::{AtomicU8, Ordering};
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch};
-
 use crate::error::Error;
 
 /// The instruction sets that kernels are compiled for. The widest one of the processor is chosen
@@ -19,7 +16,7 @@ pub enum InstructionSet {
     Baseline,
     /// AVX2 and FMA: four lanes.
     Avx2,
-    /// AVX-512, as Ice Lake has it: eight lanes.
+    /// AVX-512 (F, DQ, VL): eight lanes.
     Avx512,
 }
 
@@ -30,6 +27,10 @@ pub(crate) trait Kernel {
 
     /// Whether there is enough parallel work for 512-bit registers to pay off: the processor lowers
     /// its clock and joins ports for them.
+    #[cfg_attr(
+        not(all(feature = "std", target_arch = "x86_64")),
+        expect(dead_code, reason = "there is no choice of widths")
+    )]
     const WIDE: bool;
 
     /// Compute the answer; `FUSED` if the instruction set multiplies and adds in one rounding. Must
@@ -72,10 +73,17 @@ impl InstructionSet {
 
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     fn is_available(self) -> bool {
+        use std::arch::is_x86_feature_detected as has;
         match self {
             Self::Baseline => true,
-            Self::Avx2 => Level::new().as_avx2().is_some(),
-            Self::Avx512 => Level::new().as_avx512().is_some(),
+            Self::Avx2 => has!("avx2") && has!("fma"),
+            Self::Avx512 => {
+                has!("avx2")
+                    && has!("avx512f")
+                    && has!("avx512dq")
+                    && has!("avx512vl")
+                    && has!("fma")
+            }
         }
     }
 
@@ -110,92 +118,32 @@ impl InstructionSet {
 
 /// Run a kernel on the instruction set in use.
 #[inline]
+#[cfg_attr(
+    all(feature = "std", target_arch = "x86_64"),
+    expect(unsafe_code, reason = "a function for instructions that were detected")
+)]
 pub(crate) fn run<K: Kernel>(kernel: K) -> K::Answer {
-    run_vectors(Columns(kernel))
-}
-
-/// A kernel of columns as one of vectors.
-struct Columns<K>(K);
-
-impl<K: Kernel> VectorKernel for Columns<K> {
-    type Answer = K::Answer;
-    const WIDE: bool = K::WIDE;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _: S) -> K::Answer {
-        // Wider vectors than those of the baseline are fused.
-        if const { S::f64s::LEN > 2 || BASELINE_FUSED } {
-            self.0.run::<true>()
-        } else {
-            self.0.run::<false>()
-        }
+    match InstructionSet::in_use() {
+        #[cfg(all(feature = "std", target_arch = "x86_64"))]
+        // SAFETY: the set in use is one that `is_available` found in this processor.
+        InstructionSet::Avx512 if K::WIDE => unsafe { with_avx512(kernel) },
+        #[cfg(all(feature = "std", target_arch = "x86_64"))]
+        // SAFETY: as above; a processor with AVX-512 has AVX2 and FMA.
+        InstructionSet::Avx512 | InstructionSet::Avx2 => unsafe { with_avx2(kernel) },
+        _ => kernel.run::<BASELINE_FUSED>(),
     }
 }
 
-/// A computation in vectors, which is compiled for each instruction set.
-///
-/// Everything in it must be `#[inline(always)]`, without closures: a function of its own is
-/// compiled for the baseline.
-pub(crate) trait VectorKernel {
-    /// The result.
-    type Answer;
-
-    /// [`Kernel::WIDE`]
-    #[cfg_attr(
-        not(all(feature = "std", target_arch = "x86_64")),
-        expect(dead_code, reason = "there is no choice of widths")
-    )]
-    const WIDE: bool = true;
-
-    /// Compute the answer.
-    fn run<S: Simd>(self, simd: S) -> Self::Answer;
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,fma")]
+fn with_avx512<K: Kernel>(kernel: K) -> K::Answer {
+    kernel.run::<true>()
 }
 
-/// Run a kernel on the instruction set in use. AVX-512 is taken where the processor has what
-/// Ice Lake has of it, else AVX2: the bits are the same.
-#[inline]
-pub(crate) fn run_vectors<K: VectorKernel>(kernel: K) -> K::Answer {
-    run_on(InstructionSet::in_use(), kernel)
-}
-
-/// Run a kernel on an instruction set.
-#[inline]
-pub(crate) fn run_on<K: VectorKernel>(set: InstructionSet, kernel: K) -> K::Answer {
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    if set != InstructionSet::Baseline {
-        let level = Level::new();
-        if K::WIDE
-            && set == InstructionSet::Avx512
-            && let Some(simd) = level.as_avx512()
-        {
-            return vectorized(simd, kernel);
-        }
-        if let Some(simd) = level.as_avx2() {
-            return vectorized(simd, kernel);
-        }
-    }
-    let _ = set;
-    on_baseline(kernel)
-}
-
-/// Run a kernel on what the crate is compiled for.
-#[inline]
-fn on_baseline<K: VectorKernel>(kernel: K) -> K::Answer {
-    // Not the other sets below AVX2, for which no kernel need be compiled.
-    #[cfg(target_arch = "x86_64")]
-    if let Some(simd) = Level::baseline().as_sse2() {
-        return vectorized(simd, kernel);
-    }
-    dispatch!(Level::baseline(), simd => kernel.run(simd))
-}
-
-#[cfg(target_arch = "x86_64")]
-#[inline(always)]
-fn vectorized<S: Simd, K: VectorKernel>(simd: S, kernel: K) -> K::Answer {
-    simd.vectorize(
-        #[inline(always)]
-        || kernel.run(simd),
-    )
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[target_feature(enable = "avx2,fma")]
+fn with_avx2<K: Kernel>(kernel: K) -> K::Answer {
+    kernel.run::<true>()
 }
 
 /// Run `work` on each set of this processor in turn, one caller at a time, then return to the

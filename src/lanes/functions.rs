@@ -1,8 +1,8 @@
 //! Branch-free arc tangent, sine and cosine, for kernels.
 //!
-//! Within 2 ulp of the correctly rounded value for every argument (`docs/lanes.md`), with the
-//! special values of the standard library's functions. `docs/lanes/coefficients.py` computes the
-//! constants.
+//! Within 2 ulp of the correctly rounded value for every argument (`docs/theory/lanes.md`), with
+//! the special values of the standard library's functions. `docs/theory/lanes/coefficients.py`
+//! computes the constants.
 
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
@@ -60,8 +60,8 @@ const COS: [f64; 6] = [
 const PI_2_PARTS: [f64; 3] =
     [1.570_796_326_792_333_3, 2.563_344_151_583_955_8e-12, 1.056_299_906_698_742_8e-23];
 
-/// 1.5 * 2^52: adding it to a number rounds that to a whole one, whose low bits are then those of
-/// the sum.
+/// 1.5 * 2^52: adding it to a number rounds that to a whole one, whose low bits are then the
+/// sum's.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// The smallest positive number, which replaces the zero in 0/0.

@@ -13,15 +13,17 @@ mod number;
 mod vector;
 
 pub use dispatch::InstructionSet;
-pub(crate) use dispatch::{Kernel, VectorKernel, run, run_vectors};
 #[cfg(test)]
-pub(crate) use dispatch::{on_each_set, run_on};
+pub(crate) use dispatch::on_each_set;
+pub(crate) use dispatch::{Kernel, run};
 pub(crate) use functions::{
     MOST_SIN_COS, atan2, atan2_of, mul_add, nearest_whole, sin_cos, sin_cos_of, whole_above,
     whole_below,
 };
 pub(crate) use number::{Number, cross, dot};
-pub(crate) use vector::{Vector, same, transposed};
+#[cfg(test)]
+pub(crate) use vector::run_on;
+pub(crate) use vector::{Vector, VectorKernel, run_vectors, same, transposed};
 
 /// Lanes of a block: the widest vector of any instruction set, in `f64`.
 pub(crate) const LANES: usize = 8;

@@ -30,7 +30,7 @@ pub(crate) trait Number:
     /// The absolute value.
     fn size(self) -> Self;
 
-    /// The same size with the sign of another number.
+    /// Return the size with the sign of another number.
     fn signed_as(self, sign: Self) -> Self;
 
     /// `yes` where this number is above another, else `no`: also where one is not a number.

@@ -3,12 +3,13 @@
 //!
 //! A loop over lanes becomes vector instructions where its columns are stored soon. An elimination
 //! of nine columns by six rows keeps hundreds of numbers between its stores; as loops it
-//! is much slower than as vectors. The vectors are those of `fearless_simd`.
+//! is much slower than as vectors. The vectors are `fearless_simd`'s.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch, f64x8};
 
 use super::LANES;
+use super::dispatch::InstructionSet;
 
 /// A number for each lane, in registers of an instruction set.
 pub(crate) type Vector<S> = f64x8<S>;
@@ -63,4 +64,64 @@ fn turned_over<S: Simd>(mut rows: [Vector<S>; LANES]) -> [Vector<S>; LANES] {
         rows = next;
     }
     rows
+}
+
+/// A computation in vectors, which is compiled for each instruction set.
+///
+/// Everything in it must be `#[inline(always)]`, without closures: a function of its own is
+/// compiled for the baseline.
+pub(crate) trait VectorKernel {
+    /// The result.
+    type Answer;
+
+    /// Compute the answer.
+    fn run<S: Simd>(self, simd: S) -> Self::Answer;
+}
+
+/// Run a kernel on the instruction set in use. AVX-512 is taken where the processor has what
+/// Ice Lake has of it, else AVX2: the bits are the same.
+#[inline]
+pub(crate) fn run_vectors<K: VectorKernel>(kernel: K) -> K::Answer {
+    run_on(InstructionSet::in_use(), kernel)
+}
+
+/// Run a kernel on an instruction set.
+#[inline]
+pub(crate) fn run_on<K: VectorKernel>(set: InstructionSet, kernel: K) -> K::Answer {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    {
+        let level = Level::new();
+        if set == InstructionSet::Avx512
+            && let Some(simd) = level.as_avx512()
+        {
+            return vectorized(simd, kernel);
+        }
+        if set != InstructionSet::Baseline
+            && let Some(simd) = level.as_avx2()
+        {
+            return vectorized(simd, kernel);
+        }
+    }
+    let _ = set;
+    on_baseline(kernel)
+}
+
+/// Run a kernel on what the crate is compiled for.
+#[inline]
+fn on_baseline<K: VectorKernel>(kernel: K) -> K::Answer {
+    // Not the other sets below AVX2, for which no kernel need be compiled.
+    #[cfg(target_arch = "x86_64")]
+    if let Some(simd) = Level::baseline().as_sse2() {
+        return vectorized(simd, kernel);
+    }
+    dispatch!(Level::baseline(), simd => kernel.run(simd))
+}
+
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn vectorized<S: Simd, K: VectorKernel>(simd: S, kernel: K) -> K::Answer {
+    simd.vectorize(
+        #[inline(always)]
+        || kernel.run(simd),
+    )
 }

@@ -1,5 +1,5 @@
 //! Paths of the tool: lines, arcs, polylines with rounded corners and splines, as poses. The
-//! equations are in docs/motion.md.
+//! equations are in docs/guide/motion.md.
 //!
 //! ```
 //! use irbkin::paths::{Spacing, line};

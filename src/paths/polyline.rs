@@ -21,8 +21,8 @@ pub fn corner_distance(radius: f64, angle: f64) -> f64 {
     0.5 * radius * (0.5 * angle).sin()
 }
 
-/// Poses along lines from one pose to the next, corners rounded by `zones`, one for each pose; those
-/// of the first and the last pose are met whatever their zones are.
+/// Poses along lines from one pose to the next, corners rounded by `zones`, one for each pose; the
+/// first and the last pose are met whatever their zones are.
 ///
 /// Inside a zone the position runs on a parabola, as ABB's manual has it, which leaves the lines
 /// where the zone begins (eq. 21). A zone reaches half of the way to the next corner at most. The

@@ -1,5 +1,5 @@
-//! Branches from one layer to the next: the edges between two of them, and the order of the slots of
-//! arms whose slots are ordinals (docs/plan.md, sections 1, 2).
+//! Branches from one layer to the next: the edges between two of them, and the order of the slots
+//! of arms whose slots are ordinals (docs/guide/plan.md, sections 1, 2).
 
 use alloc::vec;
 use core::f64::consts::TAU;

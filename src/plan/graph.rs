@@ -1,5 +1,5 @@
 //! The ladder graph of a plan: at each pose a layer of nodes, every branch at every value of what
-//! is free (docs/plan.md, section 1).
+//! is free (docs/guide/plan.md, section 1).
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -88,7 +88,7 @@ impl Grid {
         numbers.iter().zip(self.counts).fold(0, |cell, (number, count)| cell * count + number)
     }
 
-    /// The values in a cell [m, rad], with those of the first cell.
+    /// The values in a cell [m, rad], from the values of the first cell.
     pub(super) fn values(&self, first: &Values, cell: usize) -> Values {
         if self.cells == 1 {
             return *first;

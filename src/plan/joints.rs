@@ -18,7 +18,7 @@ const EITHER_END: f64 = 4.0 * LIMIT_TOLERANCE;
 /// Turns of a joint that has a limit on one side only.
 const HALF_FREE_TURNS: f64 = 64.0;
 
-/// The joints of an arm in a plan (docs/plan.md, eq. 2, 3).
+/// The joints of an arm in a plan (docs/guide/plan.md, eq. 2, 3).
 #[derive(Clone, Debug)]
 pub(super) struct PlannedJoints {
     /// The least and the greatest angle that count as inside [rad].
@@ -210,7 +210,7 @@ impl PlannedJoints {
     }
 }
 
-/// The cost of being near limits and near singularities [rad^2/s^2] (docs/plan.md, eq. 4).
+/// The cost of being near limits and near singularities [rad^2/s^2] (docs/guide/plan.md, eq. 4).
 #[derive(Clone, Copy)]
 pub(super) struct NodeCost<'a> {
     robot: &'a Robot<6>,

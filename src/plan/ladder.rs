@@ -1,5 +1,5 @@
 //! The layers of a path as a graph to search, and how far apart what is free at two neighboring
-//! poses needs to be searched (docs/plan.md, eq. 7).
+//! poses needs to be searched (docs/guide/plan.md, eq. 7).
 
 use alloc::vec::Vec;
 
@@ -169,7 +169,7 @@ impl Ladder<'_> {
             return window;
         }
         let turned = layer.turn.map_or(0.0, |turn| turn.angle) + factor * farthest.turn;
-        // The values of a joint vector that is given are next to those of its cell.
+        // The values of a joint vector that is given are next to its cell's.
         let has_own = before.own.or(layer.own).is_some();
         for (number, axis) in self.freedom.axes.iter().enumerate() {
             let distance = match axis.motion {

@@ -1,4 +1,5 @@
-//! The best edge into every node of a layer, eight slots of a cell in lanes (docs/plan.md, eq. 3 to 6).
+//! The best edge into every node of a layer, eight slots of a cell in lanes (docs/guide/plan.md,
+//! eq. 3 to 6).
 
 use alloc::vec::Vec;
 use core::f64::consts::TAU;

@@ -1,5 +1,5 @@
-//! The best joint path along a whole path of poses: over every branch, every turn and every value of
-//! what is free, such as the tool angle. The equations are in docs/plan.md.
+//! The best joint path along a whole path of poses: over every branch, every turn and every value
+//! of what is free, such as the tool angle. The equations are in docs/guide/plan.md.
 //!
 //! ```
 //! use irbkin::paths::{Spacing, line};

@@ -1,5 +1,5 @@
-//! The nodes of layers: inverse kinematics of everything that is free, in lanes (docs/plan.md,
-//! eq. 1, 2).
+//! The nodes of layers: inverse kinematics of everything that is free, in lanes
+//! (docs/guide/plan.md, eq. 1, 2).
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -119,7 +119,7 @@ impl Arm<'_> {
     }
 
     /// At nodes with a joint that may be at either end of its limits, choose the end on the side of
-    /// the layer before, or of the layer after where there is none.
+    /// the layer before, or of the layer after if it is the first.
     fn choose_ends(&self, grid: &Grid, layers: &mut [Layer], nodes: &[(usize, Node)]) {
         let has_names = self.has_names();
         for (layer, node) in nodes {

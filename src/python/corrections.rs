@@ -14,7 +14,8 @@ use crate::kinematics::{AnyRobot, Corrections, Robot};
 impl PyRobot {
     /// Return the robot with corrected base, table and tool: what `irbkin.calibrate` makes of it.
     ///
-    /// Corrections of base and tool alone leave the structure as it is. See docs/calibrate.md.
+    /// Corrections of base and tool alone leave the structure as it is. See
+    /// docs/guide/calibrate.md.
     ///
     /// Args:
     ///     corrections: What is added to each parameter, shape (12 + 5 n,): x, y, z [m], rx, ry, rz
@@ -37,7 +38,7 @@ impl PyRobot {
     /// Slots are the nominal robot's. The answer is not complete: a pair of branches that the
     /// nominal robot does not have is not seen, which happens next to a fold; and a branch whose
     /// refinement fails has its slot flagged MERGED. Meant for tracking, `ik_nearest`, `follow` and
-    /// `plan`. Rates: docs/calibrate.md.
+    /// `plan`. Rates: docs/guide/calibrate.md.
     ///
     /// Args:
     ///     nominal: A Robot with a closed form, or its catalog name. Its base, tool and limits do

@@ -112,7 +112,7 @@ impl<const N: usize> Found<N> {
         self.robot.explained_answer(&self.solutions, self.q7)
     }
 
-    /// The cheapest solution inside the limits from `seed`, or why there is none. Solutions that
+    /// The cheapest solution inside the limits from `seed`, or the reason. Solutions that
     /// were turned keep their angles.
     pub(super) fn cheapest(
         &self,

@@ -160,7 +160,7 @@ impl PyRobot {
     /// Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it);
     /// `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 0 if unknown. A
     /// parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
-    /// See docs/conventions.md.
+    /// See docs/guide/conventions.md.
     fn to_urdf(&self) -> String {
         on!(self.arm(), robot => robot.to_urdf())
     }

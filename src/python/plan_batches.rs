@@ -181,7 +181,7 @@ impl<'py> Ends<'py> {
         Err(Fault::Joints.error(q.py(), message))
     }
 
-    /// That of the path `index`, and the values of the external axes.
+    /// Return the start of the path `index`, and the values of the external axes.
     fn of(&self, index: usize) -> PyResult<(Option<[f64; 6]>, Vec<f64>)> {
         let Some(rows) = &self.rows else { return Ok((None, Vec::new())) };
         let row = if rows.is_single() { 0 } else { index };

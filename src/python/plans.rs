@@ -137,7 +137,7 @@ impl PyRobot {
     }
 }
 
-/// A plan, or the exception of why there is none.
+/// A plan, or the exception with the reason.
 pub(super) fn answer<'py>(
     py: Python<'py>,
     planned: &Result<Plan, PlanError>,

@@ -166,9 +166,9 @@ impl PyRobot {
     ///     Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape
     ///     (...) for many. cf is floor(angle / 90 deg), of a YuMi the nearest whole number. cfx is
     ///     the slot of a spherical wrist, 0 for an arm with coupled axes 2 and 3, whose controller
-    ///     does not use it; docs/abb.md has the rules of GoFa and YuMi. In a batch, a row that is
-    ///     not finite, or has an angle beyond 1e5 rad, has -2147483648, the least int32, in all
-    ///     four: `ik_configured` gives NaN for it.
+    ///     does not use it; docs/guide/abb.md has the rules of GoFa and YuMi. In a batch, a row
+    ///     that is not finite, or has an angle beyond 1e5 rad, has -2147483648, the least int32, in
+    ///     all four: `ik_configured` gives NaN for it.
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.

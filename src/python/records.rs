@@ -117,9 +117,9 @@ record! {
     /// How much room the solutions of poses leave.
     IkMargin {
         /// The largest margin (the smaller part of `Margin`) of the solutions inside the limits,
-        /// each with the full turns that leave the most room, shape (...). NaN where there is none.
+        /// each with the full turns that leave the most room, shape (...). NaN without an answer.
         margin: Array,
-        /// Their largest `Margin.singularities`, shape (...). NaN where there is none.
+        /// Their largest `Margin.singularities`, shape (...). NaN without an answer.
         singularities: Array,
         /// Their number, shape (...).
         solutions: Array,
@@ -239,7 +239,7 @@ record! {
         /// The angle by which the tool is turned at each pose [rad], shape (m,), without jumps of a
         /// full turn; zeros without a free rotation.
         tool_angle: Array,
-        /// The slot of the branch at each pose, shape (m,); -1 where there is none.
+        /// The slot of the branch at each pose, shape (m,); -1 without a branch.
         slot: Array,
         /// Values of the external axes of `carrier` at each pose [m, rad], shape (m, k); NaN where
         /// a plan with breaks has none.

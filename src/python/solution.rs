@@ -116,7 +116,7 @@ impl PySolution {
     #[getter]
     fn free_joint(&self) -> Option<FreeJoint> {
         let free = on!(&self.of, member => member.solution.free_joint);
-        free.map(|free| FreeJoint { joint: free.joint(), fixed: free.fixed().to_string() })
+        free.map(|free| FreeJoint { joint: free.joint(), fixed: free.fixed() })
     }
 
     /// Return the solution of the same pose with the free joint at another angle.

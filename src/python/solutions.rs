@@ -74,7 +74,7 @@ impl PySolutions {
 
     /// Whether these are certain to be all solutions of the pose, limits not regarded. Always where
     /// the structure has a closed form, never where it is a refined one. For other arms: their
-    /// number is that of the roots of a polynomial, and no joint moves freely.
+    /// number equals the roots of a polynomial, and no joint moves freely.
     #[getter]
     fn certified(&self) -> bool {
         on!(&self.found, found => found.solutions.is_certified())

@@ -151,7 +151,7 @@ pub(super) fn arc<'py>(
 /// Args:
 ///     T: Poses, shape (m, 4, 4).
 ///     zones: For each pose a radius [m] or one of ABB's names, "fine", "z0" .. "z200"; or one for
-///         all. Those of the first and the last pose do not matter: both are met.
+///         all. Zones of the first and the last pose do not matter: both are met.
 ///     steps: Number of poses of the path.
 ///     step: Instead of `steps`, the largest distance of two poses along the lines [m].
 ///     turn: With or instead of `step`, the largest turn between two poses along the lines [rad].

@@ -203,6 +203,10 @@ impl fmt::Display for Millimeters {
     feature = "python",
     pyo3::pyclass(module = "irbkin", frozen, get_all, sequence, from_py_object)
 )]
+#[cfg_attr(
+    all(feature = "python", feature = "serde"),
+    expect(clippy::unsafe_derive_deserialize, reason = "the unsafe methods are pyo3's")
+)]
 pub struct Configuration {
     /// Quarter turn of axis 1.
     pub cf1: i32,
@@ -223,7 +227,7 @@ impl fmt::Display for Configuration {
 
 /// How a controller counts the configurations of an arm.
 ///
-/// docs/abb.md says how each rule was validated.
+/// docs/guide/abb.md says how each rule was validated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

@@ -50,13 +50,13 @@ struct SelfMotion {
     /// The words for the fixed joints, but for a chain.
     fixed: &'static str,
     rest: Rest,
-    /// The branches that it runs through, each by what its slots differ in from that of a solution
-    /// of it. The free joint may flip what turns with it or bring another singularity; the two
-    /// elbows of a stretched arm are one solution and go apart along the self-motion.
+    /// The branches that it runs through, each by the bits in which its slots differ from a
+    /// solution of it. The free joint may flip what turns with it or bring another singularity; the
+    /// two elbows of a stretched arm are one solution and go apart along the self-motion.
     branches: &'static [&'static [usize]],
 }
 
-/// What the other joints do.
+/// The motion of the other joints.
 enum Rest {
     /// One of them moves: its number, from 1, and the sign with which its sum with the free one is
     /// fixed.

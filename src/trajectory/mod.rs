@@ -1,5 +1,5 @@
 //! Trajectories of joints: from one joint vector to another, through many, along a path in the
-//! shortest time; exact between samples. The equations are in docs/motion.md.
+//! shortest time; exact between samples. The equations are in docs/guide/motion.md.
 //!
 //! ```
 //! use irbkin::trajectory::{AxisLimits, Profile, Synchronization, joint_within};

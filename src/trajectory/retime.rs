@@ -30,8 +30,8 @@ const LEAST_PIECES: usize = 1000;
 #[cfg(feature = "rapid")]
 const PROGRAMMED_PIECES: usize = 48;
 
-/// Angle by which the path's direction in joint space may turn on a piece of the grid [rad]: that
-/// of a path through random waypoints takes 1 % longer than the shortest.
+/// Angle by which the path's direction in joint space may turn on a piece of the grid [rad]: the
+/// motion of a path through random waypoints takes 1 % longer than the shortest.
 const PIECE_TURN: f64 = 0.04;
 
 /// Most pieces between two samples: memory is linear in the samples.

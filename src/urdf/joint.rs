@@ -31,7 +31,7 @@ pub(super) struct Placed {
     xyz: [f64; 3],
     /// Roll, pitch and yaw of the child in the parent [rad].
     rpy: [f64; 3],
-    /// The motion; `None` for a fixed joint, and for that of a linkage.
+    /// The motion; `None` for a fixed joint, and for a linkage's.
     pub(super) motion: Option<Motion>,
     /// The linkage that the joint stands for, if it does.
     pub(super) linkage: Option<Linkage>,
@@ -71,7 +71,7 @@ impl Motion {
 }
 
 impl Linkage {
-    /// The axis, as that of [`Motion`].
+    /// The axis, as in [`Motion`].
     pub(super) fn axis(&self, t_base_child: &Pose, snap: f64) -> JointAxis {
         axis(self.direction, t_base_child, snap)
     }
@@ -121,7 +121,7 @@ impl<'a> Joint<'a> {
         matches!(self.kind, "revolute" | "continuous")
     }
 
-    /// Whether the joint turns as far as another one, the other way, as that of a linkage does;
+    /// Whether the joint turns as far as another one, the other way, as a linkage's does;
     /// whether it is one depends on the joints before it.
     pub(super) fn is_linkage(&self) -> bool {
         let is = |mimic: Node<'_, '_>, attribute, value: f64, default: f64| {
@@ -194,7 +194,7 @@ impl<'a> Joint<'a> {
             .ok_or_else(|| UrdfFault::NoAxis { joint: self.name.to_owned() })
     }
 
-    /// The motion; `None` for a fixed joint, and for that of a linkage.
+    /// The motion; `None` for a fixed joint, and for a linkage's.
     fn motion(&self) -> Result<Option<Motion>, UrdfFault> {
         if !self.turns() {
             return Ok(None);

@@ -29,7 +29,7 @@ impl<const N: usize> Robot<N> {
     /// `tip` is the link whose poses are given; by default the only one at the end of a chain of
     /// `N` revolute joints. Joints are numbered from base to tip; fixed joints, and joints that are
     /// not between them, are not counted. A joint turns in the sense of its axis. Limits and
-    /// velocities are those of the text. A velocity that is missing or zero is unknown, and one
+    /// velocities are the text's. A velocity that is missing or zero is unknown, and one
     /// unknown velocity leaves the robot without velocities. A joint that mimics joint 2 with the
     /// multiplier -1, on the axis of joint 3 and before it, is a parallelogram linkage: the arm is
     /// then [`Robot::coupled`].

@@ -1,7 +1,7 @@
 //! The text of a URDF of a robot.
 //!
 //! At zero joint angles the frame of every link is parallel to `base_link`, so that origins and
-//! axes can be read as those of a drawing. A number has all the digits that it needs to be read
+//! axes can be read as in a drawing. A number has all the digits that it needs to be read
 //! back as it is.
 //!
 //! References: ROS wiki, urdf/XML/robot, link and joint; REP 199 (`base`, `flange`, `tool0`).
@@ -17,7 +17,7 @@ use nalgebra::{Translation3, Vector3};
 use super::text::{Hinge, Text};
 use crate::kinematics::{AnyRobot, DhRow, Pose, Robot, constant_pose};
 
-/// What a file without masses and shapes needs to say.
+/// The head of a file without masses and shapes.
 const HEAD: &[&str] = &[
     "<!-- Kinematics only, in meters and radians: no masses, no shapes. An effort or a velocity of",
     "     0 is unknown. At zero joint angles every link but tool0 is parallel to base_link. -->",
@@ -72,7 +72,7 @@ impl<const N: usize> Robot<N> {
     }
 }
 
-/// What is written of a robot, whatever its number of joints.
+/// The written part of a robot, whatever its number of joints.
 struct Arm<'a> {
     name: &'a str,
     base: &'a Pose,

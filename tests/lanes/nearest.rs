@@ -100,7 +100,6 @@ fn seed<const N: usize>(row: usize, q: &[f64; N], rng: &mut Rng) -> [f64; N] {
 }
 
 #[test]
-#[expect(clippy::large_stack_arrays, reason = "four robots")]
 fn the_nearest_of_a_coupled_arm_is_the_nearest_alone() {
     let mut rng = Rng::new(8);
     let narrow = |robot: Robot<6>| {

@@ -3,7 +3,8 @@
 import irbkin
 import numpy as np
 import pytest
-from irbkin import FreeJoint, InvalidJointsError
+from irbkin import InvalidJointsError
+from irbkin.records import FreeJoint
 
 ROBOT = irbkin.Robot("IRB 140-6/0.81")
 Q = np.array([0.1, 0.2, 0.3, 0.4, 0, 0.6])

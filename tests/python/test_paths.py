@@ -3,8 +3,9 @@
 import irbkin
 import numpy as np
 import pytest
-from irbkin import Break, InvalidJointsError, InvalidPoseError
-from reference import apart, move, rotation_apart
+from irbkin import InvalidJointsError, InvalidPoseError
+from irbkin.records import Break
+from reference import move
 
 NAME = "IRB 2600-12/1.65"
 TIMES = np.linspace(-1, 1, 201)

@@ -6,7 +6,7 @@
 //! `PickNikRobotics/abb_ros2` @ 0705714217, `SaltworkerMLU/robotkinematicscatalogue` @ ea88ef98a3,
 //! 4rtur1t0/ARTE @ a8df0b121e, `bourumir-wyngs/rs-opw-kinematics` @ fb51d85bd7,
 //! `rpiRobotics/abb_motion_program_exec` @ 3891d1b78a, `compas-dev/compas_fab` @ 293d7aa033. What
-//! is left out, and why: docs/catalog.md.
+//! is left out, and why: docs/evidence/catalog.md.
 
 mod heavy;
 mod large;

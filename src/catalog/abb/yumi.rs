@@ -4,7 +4,7 @@
 //! `unit_tests/compare_to_robotstudio.m`) need axis 2 at 306 mm: 305 is in
 //! robotkinematicscatalogue. The angles at which the arms of the IRB 14000 stand are
 //! `gravity_alpha`, `gravity_beta` and `gravity_gamma` of a controller's MOC.cfg; their places are
-//! fitted to its home targets, and those of `yumi_description` are within 0.2 mm.
+//! fitted to its home targets, and the ones in `yumi_description` are within 0.2 mm.
 
 use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
 use crate::report::ConfigurationRule;

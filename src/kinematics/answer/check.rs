@@ -29,7 +29,7 @@ pub(crate) fn check_angle(field: &'static str, joint: usize, value: f64) -> Resu
     Ok(())
 }
 
-/// Check an arm angle, as [`check_angle`] does that of a joint.
+/// Check an arm angle, as [`check_angle`] checks a joint.
 pub(crate) fn check_arm_angle(value: f64) -> Result<(), Error> {
     if value.abs() <= MOST_ANGLE {
         Ok(())

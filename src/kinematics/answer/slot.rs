@@ -29,7 +29,7 @@ impl Slot {
         Self(4 * u8::from(first) + 2 * u8::from(second) + u8::from(third))
     }
 
-    /// The same branch with the wrist, the last of the three signs, flipped or not.
+    /// Return the branch with the wrist, the last of the three signs, flipped or not.
     pub(crate) const fn flipped_to(self, flipped: bool) -> Self {
         Self(self.0 & !1 | flipped as u8)
     }

@@ -41,7 +41,7 @@ impl<const N: usize> Solution<N> {
 pub(crate) enum Place<const N: usize> {
     /// The branch does not exist.
     Empty,
-    /// The branch coincides with that of another slot, which holds the solution. Its flags are its
+    /// The branch coincides with another slot's, which holds the solution. Its flags are its
     /// singularities and MERGED.
     Merged(Status),
     Found(Solution<N>),
@@ -65,7 +65,7 @@ impl<const N: usize> Place<N> {
     }
 }
 
-/// Every solution of a pose or, if there is none, the reason.
+/// Every solution of a pose or, if it has no solution, the reason.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Solutions<const N: usize> {
@@ -160,7 +160,7 @@ impl<const N: usize> Solutions<N> {
 
     /// Whether these are certain to be all solutions of the pose, limits not regarded: for a
     /// structure with a closed form always, for a refined one never; for others where their number
-    /// is that of the roots of a polynomial, and no self-motion is among them.
+    /// equals the roots of a polynomial, and no self-motion is among them.
     #[must_use]
     pub fn is_certified(&self) -> bool {
         self.is_certified

@@ -21,7 +21,7 @@ bitflags::bitflags! {
         /// of its cylinder, where the front and back branch meet. For seven axes: axes 1 and 3
         /// coincide.
         const SHOULDER = 16;
-        /// The slot is empty because its solution coincides with that of another slot at a
+        /// The slot is empty because its solution coincides with another slot's at a
         /// singularity.
         const MERGED = 32;
         /// The input of this row was invalid.

@@ -40,7 +40,7 @@ pub(crate) struct Axes<const W: usize> {
 }
 
 impl<const W: usize> Axes<W> {
-    /// The same frame in every lane.
+    /// Broadcast a frame to every lane.
     pub(crate) fn of(pose: &Pose) -> Self {
         let r = pose.rotation.matrix();
         let axis = |j: usize| [[r[(0, j)]; W], [r[(1, j)]; W], [r[(2, j)]; W]];
@@ -68,7 +68,7 @@ impl<const W: usize> Axes<W> {
     }
 
     /// Takes the frames on by `Rx(alpha) Tx(a) Ry(beta) Rz(theta + q) Tz(d)`, with the sines and
-    /// cosines of beta and q (docs/calibrate.md, eq. 20 to 22).
+    /// cosines of beta and q (docs/guide/calibrate.md, eq. 20 to 22).
     #[inline(always)]
     pub(crate) fn advance_tilted<const FUSED: bool>(
         &mut self,

@@ -2,7 +2,7 @@
 //! turns.
 //!
 //! The controller of such an arm measures q3 from the base, not from the upper arm: its q3 is q3 of
-//! the serial chain plus q2 (docs/spherical_wrist.md, eq. 25).
+//! the serial chain plus q2 (docs/theory/spherical_wrist.md, eq. 25).
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
@@ -11,7 +11,7 @@ use nalgebra::RealField as _;
 
 use crate::kinematics::thresholds::MOST_ANGLE;
 
-/// The joint angles of the serial chain for those of the controller [rad].
+/// Convert the controller's joint angles to the serial chain's [rad].
 #[inline(always)]
 pub(crate) fn uncoupled<const N: usize>(mut q: [f64; N]) -> [f64; N] {
     if let [_, q2, q3, ..] = &mut q[..] {
@@ -28,7 +28,7 @@ fn far(angle: f64, other: f64) -> f64 {
     (sin * other_cos - cos * other_sin).atan2(cos * other_cos + sin * other_sin)
 }
 
-/// The joint angles of the controller for those of the serial chain [rad].
+/// Convert the serial chain's joint angles to the controller's [rad].
 pub(crate) fn coupled<const N: usize>(mut q: [f64; N]) -> [f64; N] {
     if let [_, q2, q3, ..] = &mut q[..] {
         *q3 += *q2;

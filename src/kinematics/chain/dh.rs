@@ -109,8 +109,8 @@ pub(crate) fn check_snap(value: f64) -> Result<(), Error> {
 }
 
 impl<const N: usize> From<Sdh<N>> for Mdh<N> {
-    /// The twist and length of a standard row follow its joint, those of a modified row precede it:
-    /// they shift by one row, and those of the last row join the flange.
+    /// The twist and length of a standard row follow its joint, in a modified row they precede it:
+    /// they shift by one row, and the last row's join the flange.
     fn from(sdh: Sdh<N>) -> Self {
         let (mut alpha, mut a) = (0.0, 0.0);
         let rows = sdh.rows.map(|row| {

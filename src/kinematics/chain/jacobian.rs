@@ -25,7 +25,7 @@ impl<const N: usize> Chain<N> {
     /// Column `i` is `z_i x (p_tool - p_i)` over `z_i`, with axis and origin of frame `i` itself:
     /// in a modified table a joint turns about its own frame's z, in a standard one about the
     /// frame's before it. Reference: Siciliano et al., Robotics, 2009, eq. 3.30, with the
-    /// modified-DH index shift of docs/conventions.md.
+    /// modified-DH index shift of docs/guide/conventions.md.
     #[must_use]
     pub(crate) fn jacobian(&self, q: &[f64; N], frame: JacobianFrame) -> SMatrix<f64, 6, N> {
         let rows = self.jacobian_rows(q, frame);
@@ -155,7 +155,7 @@ pub(in crate::kinematics) fn jacobian_rows<
 }
 
 /// With q3 measured from the base, q2 turns the serial joint 3 back: the column of joint 3 is
-/// subtracted from that of joint 2 (eq. 26).
+/// subtracted from joint 2's (eq. 26).
 #[inline(always)]
 fn take_coupling_back<const N: usize, const W: usize>(rows: &mut [[[f64; W]; N]; 6]) {
     for row in rows {

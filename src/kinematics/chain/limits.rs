@@ -34,7 +34,7 @@ impl<const N: usize> JointLimits<N> {
         Ok(limits)
     }
 
-    /// Limits that a robot had: of a coupled twin, those of most joints may be wide.
+    /// Limits that a robot had: of a coupled twin, most of them may be wide.
     pub(crate) fn stored(limits: [[f64; 2]; N]) -> Result<Self, Error> {
         for (i, [lower, upper]) in limits.into_iter().enumerate() {
             check(["lower limit of joint", "upper limit of joint"], i + 1, [lower, upper])?;
@@ -65,7 +65,7 @@ impl<const N: usize> JointLimits<N> {
         Err(ModelFault::LimitsInDegrees { joint: joint + 1, lower, upper, bound }.into())
     }
 
-    /// The same limits with linkage limits: (lower, upper) of q3 - q2 [rad], at whatever turn.
+    /// Return the limits with linkage limits: (lower, upper) of q3 - q2 [rad], at whatever turn.
     pub(crate) fn with_linkage(self, linkage: Option<[f64; 2]>) -> Result<Self, Error> {
         if let Some([lower, upper]) = linkage {
             check(["lower limit of the linkage", "upper limit of the linkage"], 0, [lower, upper])?;
@@ -76,7 +76,7 @@ impl<const N: usize> JointLimits<N> {
         Ok(Self { linkage, ..self })
     }
 
-    /// The same limits with the linkage limits of `others`.
+    /// Return the limits with the linkage limits of `others`.
     pub(crate) fn with_linkage_of(self, others: &Self) -> Self {
         Self { linkage: others.linkage, ..self }
     }
@@ -107,7 +107,7 @@ impl<const N: usize> JointLimits<N> {
         ]
     }
 
-    /// Those of the coupled twin: the limit of joint 3 is the linkage's.
+    /// Return the limits of the coupled twin: the limit of joint 3 is the linkage's.
     pub(crate) fn coupled(self) -> Self {
         self.twin(
             1.0,
@@ -116,7 +116,7 @@ impl<const N: usize> JointLimits<N> {
         )
     }
 
-    /// The limits of the uncoupled arm: the linkage limit, where known, becomes that of joint 3.
+    /// The limits of the uncoupled arm: the linkage limit, where known, becomes joint 3's.
     pub(crate) fn uncoupled(self) -> Self {
         let mut twin = self.twin(-1.0, None);
         if let Some([lower, upper]) = self.linkage {

@@ -57,7 +57,7 @@ impl<const N: usize> Chain<N> {
         chain
     }
 
-    /// The same chain with its base at `t_world_base`; poses and Jacobians are then in the world
+    /// Return the chain with its base at `t_world_base`; poses and Jacobians are then in the world
     /// frame.
     #[must_use]
     pub(crate) fn with_base(mut self, t_world_base: Pose) -> Self {
@@ -66,7 +66,7 @@ impl<const N: usize> Chain<N> {
         self
     }
 
-    /// The same chain with its tool center point at `t_flange_tool`.
+    /// Return the chain with its tool center point at `t_flange_tool`.
     #[must_use]
     pub(crate) fn with_tool(mut self, t_flange_tool: Pose) -> Self {
         self.t_flange_tool = t_flange_tool;
@@ -74,8 +74,8 @@ impl<const N: usize> Chain<N> {
         self
     }
 
-    /// The same chain with the joint angles of a controller that couples axes 2 and 3, or with the
-    /// angles of the serial chain.
+    /// Return the chain with the joint angles of a controller that couples axes 2 and 3, or with
+    /// the angles of the serial chain.
     #[must_use]
     pub(crate) fn with_coupling(mut self, coupled: bool) -> Self {
         self.coupled = coupled;
@@ -105,7 +105,7 @@ impl<const N: usize> Chain<N> {
         &self.t_flange_tool
     }
 
-    /// Whether axes 2 and 3 are coupled: then joint 3 is that of the table plus joint 2.
+    /// Whether axes 2 and 3 are coupled: then joint 3 is the table's plus joint 2.
     #[must_use]
     pub(crate) fn is_coupled(&self) -> bool {
         self.coupled

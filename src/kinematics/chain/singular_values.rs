@@ -84,7 +84,7 @@ impl<const N: usize> Kernel for Block<'_, N> {
     }
 }
 
-/// Those of the Jacobians for these sines and cosines.
+/// Return the singular values for these sines and cosines.
 #[inline(always)]
 fn singular_values<const N: usize, const W: usize, const FUSED: bool>(
     chain: &Chain<N>,
@@ -160,7 +160,7 @@ impl<const W: usize> Bidiagonal<W> {
     }
 
     /// `-p / p'` of `p(x) = det(L^T L - x)`, the product of the pivots: one over the sum of
-    /// `slope / pivot`, a slope being that of `-pivot`.
+    /// `slope / pivot`, a slope being the slope of `-pivot`.
     #[inline(always)]
     fn newton_step<const FUSED: bool>(&self, x: f64, lane: usize) -> f64 {
         let mut rest = self.diagonal[0][lane] - x;

@@ -1,5 +1,6 @@
-//! Two nearly parallel axes, skew in both directions: as a table has them, with a common normal that
-//! may be far away, and with Hayati's rotation instead (docs/calibrate.md, eq. 7 to 9, 20 to 22).
+//! Two nearly parallel axes, skew in both directions: as a table has them, with a common normal
+//! that may be far away, and with Hayati's rotation instead (docs/guide/calibrate.md, eq. 7 to 9,
+//! 20 to 22).
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -131,7 +132,7 @@ mod tests {
                 for value in corrections.rows.as_flattened_mut() {
                     *value = rng.between(-skew, skew);
                 }
-                // That of the first row is next to the base, which has no row.
+                // The first row's is next to the base, which has no row.
                 corrections.rows[0] = [0.0; 5];
                 let (base, flange) = (Pose::identity(), Pose::identity());
                 let table = corrections.table(&Mdh { base, rows, flange }).rows;

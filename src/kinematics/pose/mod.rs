@@ -161,8 +161,8 @@ pub fn pose_from_xyzw(xyz: [f64; 3], xyzw: [f64; 4]) -> Result<Pose, Error> {
     pose_of_quaternion(xyz, [w, x, y, z], "x, y, z, w")
 }
 
-/// A pose from a translation [m] and the rows of a rotation matrix, checked and repaired as those
-/// of [`pose_from_rows`].
+/// A pose from a translation [m] and the rows of a rotation matrix, checked and repaired as by
+/// [`pose_from_rows`].
 ///
 /// # Errors
 ///

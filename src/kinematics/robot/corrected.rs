@@ -10,7 +10,7 @@ impl<const N: usize> Robot<N> {
     ///
     /// Corrections of base and tool alone leave the structure as it is. Corrections of the table
     /// make an arm of general structure; corrections of two nearly parallel axes may put their
-    /// common normal far away (docs/calibrate.md, section 2).
+    /// common normal far away (docs/guide/calibrate.md, section 2).
     ///
     /// # Errors
     ///
@@ -49,7 +49,7 @@ impl<const N: usize> Robot<N> {
     ///
     /// `corrections` is where it is taken: [`Corrections::NONE`] at the robot as it is. Column
     /// `theta` of a row is the column of its joint in [`Robot::jacobian`], if axes 2 and 3 are not
-    /// coupled. Derivation: docs/calibrate.md, eq. 2 to 6.
+    /// coupled. Derivation: docs/guide/calibrate.md, eq. 2 to 6.
     ///
     /// # Errors
     ///

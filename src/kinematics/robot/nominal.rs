@@ -20,7 +20,7 @@ impl<const N: usize> Robot<N> {
     ///
     /// Slots belong to the nominal arm. The answer is not complete: a pair of branches that the
     /// nominal arm has not is not seen, next to a fold. A branch whose refinement fails has its
-    /// slot flagged [`MERGED`](crate::Status::MERGED). Rates: docs/calibrate.md, section 5.
+    /// slot flagged [`MERGED`](crate::Status::MERGED). Rates: docs/guide/calibrate.md, section 5.
     ///
     /// Base, tool, limits and velocities belong to this robot.
     ///

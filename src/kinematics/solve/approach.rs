@@ -44,7 +44,7 @@ impl Robot<6> {
 
 impl<const N: usize> Robot<N> {
     /// An explanation, with the nearest approach to the pose where no solution is. Joint 7, which a
-    /// search keeps inside its limits, is inside them; those of other joints are not regarded.
+    /// search keeps inside its limits, is inside them; other limits are not regarded.
     pub(super) fn with_approach(&self, explanation: Explanation, pose: &Pose) -> Explanation {
         match explanation {
             Explanation::NoRoots { certified, .. } => {
@@ -115,7 +115,7 @@ impl<const N: usize> Robot<N> {
         }
     }
 
-    /// What is missing to a pose: along, then about, each axis of the base [m].
+    /// Return the way that is missing to a pose: along, then about, each axis of the base [m].
     fn way(&self, pose: &Pose, lengths: f64, q: &[f64; N]) -> Vector6<f64> {
         let tool = self.fk(q);
         let along = pose.translation.vector - tool.translation.vector;

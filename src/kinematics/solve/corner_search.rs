@@ -2,9 +2,9 @@
 //!
 //! Along the family the arm bends and straightens, and where it is stretched or folded the family
 //! ends or comes back on the other elbow. The angles of joint 6 at which it turns about or ends,
-//! its corners, are known (docs/three_parallel.md). Between two of them the family may be narrower
-//! than any step of a turn, and next to one of them the elbow moves with the root of the free
-//! joint.
+//! its corners, are known (docs/theory/three_parallel.md). Between two of them the family may be
+//! narrower than any step of a turn, and next to one of them the elbow moves with the root of the
+//! free joint.
 
 use core::f64::consts::{PI, TAU};
 
@@ -46,7 +46,8 @@ impl Arc {
         self.middle - self.half * part.cos()
     }
 
-    /// What the angle is taken at: from 0 at the lower corner to pi at the upper one.
+    /// Return the part at which the angle is taken: from 0 at the lower corner to pi at the upper
+    /// one.
     fn part(&self, angle: f64) -> f64 {
         ((self.middle - angle) / self.half).clamp(-1.0, 1.0).acos()
     }

@@ -4,7 +4,7 @@
 //! formula names: a straight elbow leaves the forearm undetermined, and with it the split of q4 and
 //! q6. A joint vector with the undetermined joint at a desired value is off the pose by about that
 //! much; a few damped Newton steps move the other joints until it reaches the pose
-//! (docs/singularities.md, section 3).
+//! (docs/theory/singularities.md, section 3).
 //!
 //! Reference: Nakamura and Hanafusa, Inverse Kinematic Solutions with Singularity Robustness, 1986.
 
@@ -26,7 +26,7 @@ const GAIN: f64 = 0.8;
 /// only to 1e-5 are not moved.
 pub(super) const DAMPED: f64 = 1e-10;
 
-/// The same if the kept joints leave nothing undetermined: damps only what no joint moves.
+/// The damping if the kept joints leave nothing undetermined: damps only what no joint moves.
 pub(super) const DETERMINED: f64 = 1e-18;
 
 /// Largest step of a joint [rad]: farther away, the Jacobian differs too much.

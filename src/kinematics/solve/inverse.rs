@@ -19,7 +19,8 @@ impl Robot<6> {
     /// A pose out of reach has no solutions; [`Solutions::reach`] gives the reason. At a
     /// singularity, a joint that the pose leaves undetermined is zero, or the middle of its limits
     /// if zero is outside them; joint 6 of three parallel axes takes the angle nearest to that with
-    /// which the arm reaches. Derivations: docs/spherical_wrist.md, docs/three_parallel.md.
+    /// which the arm reaches. Derivations: docs/theory/spherical_wrist.md,
+    /// docs/theory/three_parallel.md.
     ///
     /// # Errors
     ///
@@ -34,7 +35,7 @@ impl Robot<7> {
     /// Every joint vector that brings the tool to `pose` with joint 7 at `q7` [rad], or with the
     /// joint of [`Robot::locked`] at its angle where `q7` is `None`.
     ///
-    /// Otherwise as [`Robot::<6>::ik`]. Derivation: docs/spherical_shoulder.md.
+    /// Otherwise as [`Robot::<6>::ik`]. Derivation: docs/theory/spherical_shoulder.md.
     ///
     /// # Errors
     ///

@@ -4,7 +4,7 @@
 //! has self-motions; twins half a turn apart, of which a solve keeps one; and, near two
 //! singularities at once, joints that rounding leaves undetermined. Each of these yields
 //! candidates. One that reaches the pose inside the limits may be the answer, and the cheapest is
-//! (docs/singularities.md, section 3).
+//! (docs/theory/singularities.md, section 3).
 
 use core::f64::consts::PI;
 
@@ -24,7 +24,7 @@ use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::{LIMIT_SLACK, SOLUTION_OFF};
 use crate::report::FreeJoint;
 
-/// Number of arms of a pose whose wrists are searched: those of the choices of
+/// Number of arms of a pose whose wrists are searched: by the choices of
 /// [`NearestSearch::choices`], at most four each.
 const ARMS: usize = 24;
 
@@ -65,8 +65,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// Whether nothing of these solutions is left to be chosen: they are regular, and Newton's
-    /// method has brought them to the pose. Those of a closed form may be beside a singularity that
-    /// rounding hides.
+    /// method has brought them to the pose. Solutions of a closed form may be beside a singularity
+    /// that rounding hides.
     pub(super) fn are_regular(&self, solutions: &Solutions<N>) -> bool {
         let is_regular = |solution: &Solution<N>| solution.singularities().is_empty();
         !self.is_closed_form() && solutions.iter().all(is_regular)
@@ -301,9 +301,9 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     }
 
     /// The joints that may be undetermined at a solution and move more than a partner: the one that
-    /// it names and, near another singularity, that of axis 1 or 2, which a singular wrist hides.
+    /// it names and, near another singularity, axis 1's or 2's, which a singular wrist hides.
     fn self_motions_of(&self, solution: &Solution<N>) -> [Option<FreeJoint>; 3] {
-        // That of a chain is walked along.
+        // A chain's is walked along.
         let is_searched =
             |free: &FreeJoint| free.partner().is_none() && !matches!(free, FreeJoint::Chain { .. });
         let named = solution.free_joint.filter(is_searched);

@@ -52,9 +52,9 @@ impl Pair {
     /// seed; `None` if no angle keeps both inside.
     ///
     /// With the partner `m` turns on, the cost is a parabola of the angle `a`
-    /// (docs/singularities.md, eq. 81), restricted by the limits to an interval. The least cost for
-    /// each `m` is a convex function of `m`, so the best turns are adjacent to those of the pair of
-    /// angles that would be chosen if the sum were free.
+    /// (docs/theory/singularities.md, eq. 81), restricted by the limits to an interval. The least
+    /// cost for each `m` is a convex function of `m`, so the best turns are adjacent to the turns
+    /// of the pair of angles that would be chosen if the sum were free.
     pub(super) fn nearest<const N: usize>(
         &self,
         limits: &JointLimits<N>,

@@ -60,7 +60,7 @@ impl<const N: usize> Robot<N> {
             Some(Solution { q: self.limits().wrap(q), ..*solution })
         } else {
             let solutions = self.solve_with_free_joint(pose, solution, free, value)?;
-            // The same branch, or the one that it becomes.
+            // Its branch, or the one that it becomes.
             let mut slots = free.branches().iter().copied().flatten();
             slots.find_map(|other| solutions.slot(solution.slot.index() ^ other).copied())
         };

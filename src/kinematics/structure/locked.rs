@@ -131,7 +131,7 @@ pub(crate) struct Locked {
     six: Arc<dyn Inverse<6>>,
     /// The other six joints.
     chain: Chain<6>,
-    locked: LockedJoint,
+    joint: LockedJoint,
     limits: JointLimits<6>,
 }
 
@@ -143,23 +143,23 @@ impl Locked {
         locked: LockedJoint,
         limits: JointLimits<6>,
     ) -> Option<Arc<dyn Inverse<N>>> {
-        of_count::<Arc<dyn Inverse<7>>, _>(Arc::new(Self { six, chain, locked, limits }))
+        of_count::<Arc<dyn Inverse<7>>, _>(Arc::new(Self { six, chain, joint: locked, limits }))
     }
 
     fn others(&self, q: &[f64; 7]) -> [f64; 6] {
-        others(q, self.locked.joint)
+        others(q, self.joint.joint)
     }
 
     /// An answer of the six joints without solutions.
     fn unsolved(&self, pose: &Pose, angle: f64) -> Solutions<6> {
-        Solutions::none(self.six.slot_count(), self.locked.seen(pose, angle), self.limits)
+        Solutions::none(self.six.slot_count(), self.joint.seen(pose, angle), self.limits)
     }
 }
 
 impl Inverse<7> for Locked {
     /// The six joints may have a structure, the seven have none.
     fn name(&self) -> &'static str {
-        if self.locked.joint == 6 { "general" } else { self.six.name() }
+        if self.joint.joint == 6 { "general" } else { self.six.name() }
     }
 
     fn slot_count(&self) -> usize {
@@ -172,17 +172,17 @@ impl Inverse<7> for Locked {
 
     fn between(&self, chain: &Chain<7>, limits: &JointLimits<7>) -> Arc<dyn Inverse<7>> {
         let six_chain = self.chain.clone().with_base(*chain.base()).with_tool(*chain.tool());
-        let limits = limits.without(self.locked.joint);
+        let limits = limits.without(self.joint.joint);
         let six = self.six.between(&six_chain, &limits);
-        let locked = LockedJoint::new(chain, self.locked.joint, self.locked.at);
-        Arc::new(Self { six, chain: six_chain, locked, limits })
+        let locked = LockedJoint::new(chain, self.joint.joint, self.joint.at);
+        Arc::new(Self { six, chain: six_chain, joint: locked, limits })
     }
 
     fn solve_in_lanes(&self, solutions: &mut Solutions<7>, locked: f64) -> bool {
         let mut six = self.unsolved(&solutions.pose, locked);
         let is_regular = self.six.solve_in_lanes(&mut six, f64::NAN);
         if is_regular {
-            self.locked.extend(&six, locked, solutions);
+            self.joint.extend(&six, locked, solutions);
         }
         is_regular
     }
@@ -195,7 +195,7 @@ impl Inverse<7> for Locked {
         let mut six = self.unsolved(&solutions.pose, locked);
         let free = FreeChoice { q: self.others(&free.q), policy: free.policy };
         self.six.solve(&mut six, f64::NAN, &free);
-        self.locked.extend(&six, locked, solutions);
+        self.joint.extend(&six, locked, solutions);
     }
 
     fn singular(&self, q: &[f64; 7]) -> (Option<SingularDistances>, SingularityKind) {
@@ -216,16 +216,16 @@ impl Inverse<7> for Locked {
     }
 
     fn member(&self, pose: &Pose, q: &[f64; 7], joint: usize, value: f64) -> Option<[f64; 7]> {
-        let angle = q[self.locked.joint];
-        let pose = self.locked.seen(pose, angle);
+        let angle = q[self.joint.joint];
+        let pose = self.joint.seen(pose, angle);
         let six = self.six.member(&pose, &self.others(q), joint, value)?;
-        Some(self.locked.joints(&six, angle))
+        Some(self.joint.joints(&six, angle))
     }
 
     fn walk(&self, pose: &Pose, q: &[f64; 7], pass: &mut TakeStep<'_, 7>) {
-        let angle = q[self.locked.joint];
-        let seven = |six: &[f64; 6]| self.locked.joints(six, angle);
+        let angle = q[self.joint.joint];
+        let seven = |six: &[f64; 6]| self.joint.joints(six, angle);
         let pass = &mut |start: &[f64; 6], end: &[f64; 6]| pass(&seven(start), &seven(end));
-        self.six.walk(&self.locked.seen(pose, angle), &self.others(q), pass);
+        self.six.walk(&self.joint.seen(pose, angle), &self.others(q), pass);
     }
 }

@@ -2,7 +2,7 @@
 //! perpendicular to the parallel axes 2 and 3.
 //!
 //! Both structures of six-axis arms use it. The equations have their numbers in
-//! docs/spherical_wrist.md.
+//! docs/theory/spherical_wrist.md.
 
 use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
@@ -164,7 +164,7 @@ impl PlanarArm {
         if turns_outward { [-inward, outward] } else { [-outward, inward] }
     }
 
-    /// Whether the plane of a shoulder, turned to that of the other one, leaves the wrist center off
+    /// Whether the plane of a shoulder, turned to the other one's, leaves the wrist center off
     /// by no more than `off` on the way [m], for b != 0 (eq. 46).
     pub(crate) fn is_one_shoulder(&self, shoulder: &Shoulder, off: f64) -> bool {
         self.b != 0.0 && shoulder.x * shoulder.x <= 2.0 * self.b.abs() * off
@@ -370,8 +370,8 @@ impl PlanarArm {
         })
     }
 
-    /// The angles of an elbow from the direction of the upper arm, of any length, and that of the
-    /// forearm, of unit length to rounding (eq. 10 to 12).
+    /// The angles of an elbow from the direction of the upper arm, of any length, and the direction
+    /// of the forearm, of unit length to rounding (eq. 10 to 12).
     fn elbow(&self, upper: [f64; 2], forearm: [f64; 2]) -> Elbow {
         let (sin_psi, cos_psi) = (self.a2 / self.k, self.c3 / self.k);
         // The direction of a forearm that is much shorter than the upper arm is a small difference:

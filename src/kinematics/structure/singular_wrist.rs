@@ -11,7 +11,7 @@ pub(crate) trait SingularWrist<const N: usize> {
     fn sin_5(&self, q: &[f64; N]) -> f64;
 
     /// The combination of joints that is fixed where axes 4 and 6 act as one, as they nearly do
-    /// near a joint 5 like that of `q`.
+    /// near a joint 5 as in `q`.
     fn wrist_pair(&self, q: &[f64; N]) -> FreeJoint;
 
     /// `q` with joint 5 at its singularity, on one or the other side of it by the least amount that

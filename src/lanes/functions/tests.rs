@@ -105,7 +105,7 @@ impl Draws for Rng {
 
 /// The number of doubles between two values; two NaN are equal, zeros of different sign are not.
 fn ulps(a: f64, b: f64) -> u64 {
-    // The bits of doubles, minus those of zero, count them on each side of zero.
+    // The bits of doubles, minus zero's, count them on each side of zero.
     let place = |number: f64| {
         let size = (number.to_bits() & !SIGN).cast_signed();
         if number.is_sign_negative() { -1 - size } else { size }

@@ -1,4 +1,4 @@
-//! The same functions for vectors, with the same bits.
+//! The functions for vectors, with the same bits.
 
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 

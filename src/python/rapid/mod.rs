@@ -11,13 +11,13 @@ use std::sync::Arc;
 
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyMapping, PyTuple};
+use pyo3::types::{PyMapping, PyTuple};
 
 pub(super) use self::checks::{check, check_codes};
-pub(super) use self::module::RapidModule;
+pub(super) use self::module::{RapidModule, parse, parse_module};
 use self::program::{Finding, TargetTable};
 pub(super) use self::routine_motion::{PyRoutineMotion, motion};
-use self::values::{Elements, read, read_content, read_joint_target, record};
+use self::values::{Elements, read, read_content, read_joint_target};
 use super::arm::{Arm, on};
 use super::configured::{Options, check_rule};
 use super::errors::{rapid_fault, to_py};
@@ -51,82 +51,6 @@ pub(super) fn add_records(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<program::Finding>()?;
     module.add_class::<program::Skipped>()?;
     module.add_class::<program::TargetTable>()
-}
-
-/// Parse a RAPID module, with or without MODULE around it, or a single record.
-///
-/// Args:
-///     text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1. Text
-///         that begins with a bracket is one robtarget, jointtarget, tooldata, wobjdata, pose or
-///         loaddata, as `dump` writes them, determined by its shape.
-///     context: Modules in which names that the text does not declare are looked for: their data
-///         that are not LOCAL.
-///
-/// Returns:
-///     Module; or RobTarget, JointTarget, ToolData, WobjData, Pose or LoadData.
-///
-/// Raises:
-///     RapidError: The text is broken; the message and the attributes `line` and `column` have the
-///         place. Unknown statements are no error: they are skipped and listed in `Module.skipped`.
-#[pyfunction]
-#[pyo3(signature = (text, context=None))]
-pub(super) fn parse<'py>(
-    text: &Bound<'py, PyAny>,
-    context: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let py = text.py();
-    let source = decoded(text)?;
-    if source.trim_start().starts_with('[') {
-        return record(py, &rapid::parse_record(&source).map_err(|error| to_py(py, &error))?);
-    }
-    Ok(Bound::new(py, module_of(py, source, context)?)?.into_any())
-}
-
-/// Parse a RAPID module, as `parse`; a record is refused.
-#[pyfunction]
-#[pyo3(signature = (text, context=None))]
-pub(super) fn parse_module(
-    text: &Bound<'_, PyAny>,
-    context: Option<&Bound<'_, PyAny>>,
-) -> PyResult<RapidModule> {
-    module_of(text.py(), decoded(text)?, context)
-}
-
-fn module_of(
-    py: Python<'_>,
-    source: String,
-    context: Option<&Bound<'_, PyAny>>,
-) -> PyResult<RapidModule> {
-    if is_path(&source) {
-        let message = format!("{source:?} is a path, parse takes the text of a module: use load");
-        return Err(rapid_fault(py, message));
-    }
-    let mut others = Vec::new();
-    if let Some(context) = context {
-        for other in context.try_iter()? {
-            others.push(other?.cast_into::<RapidModule>()?);
-        }
-    }
-    let context: Vec<&Module> = others.iter().map(|other| &other.get().module).collect();
-    let module =
-        py.detach(|| rapid::parse(&source, &context)).map_err(|error| to_py(py, &error))?;
-    let context = others.into_iter().map(Bound::unbind).collect();
-    Ok(RapidModule::new(module, source, context))
-}
-
-/// Whether a text is the path of a module: one word with its ending, which no RAPID text is.
-fn is_path(text: &str) -> bool {
-    let endings = [".mod", ".modx", ".sys", ".sysx", ".prg"];
-    let (text, marks) = (text.trim().to_ascii_lowercase(), ['\n', ';', '[', '"', '!']);
-    endings.iter().any(|ending| text.ends_with(ending)) && !text.contains(marks)
-}
-
-/// RAPID text from a str, or from the bytes of a file.
-fn decoded(text: &Bound<'_, PyAny>) -> PyResult<String> {
-    match text.cast::<PyBytes>() {
-        Ok(bytes) => Ok(rapid::decode(bytes.as_bytes()).into_owned()),
-        Err(_) => text.extract(),
-    }
 }
 
 /// Return the RAPID text of a record, of a module, or of a mapping of names to values.

@@ -12,11 +12,7 @@ use crate::rapid::{JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, rapid
 use crate::report::Configuration;
 
 /// The homogeneous matrix of a frame.
-fn matrix<'py>(
-    py: Python<'py>,
-    trans_mm: [f64; 3],
-    rot: [f64; 4],
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
+fn matrix(py: Python<'_>, trans_mm: [f64; 3], rot: [f64; 4]) -> PyResult<Bound<'_, PyArray2<f64>>> {
     let pose = pose_from_wxyz(trans_mm.map(|mm| mm / 1e3), rot);
     Ok(pose_array(py, &pose.map_err(|error| to_py(py, &error))?))
 }

@@ -118,8 +118,8 @@ pub(in crate::rapid) fn target_of<T>(argument: &Argument<T>) -> Found<&T> {
     value.map_err(|reason| Finding::unknown(Code::UnknownTarget, reason, reason.to_string()).into())
 }
 
-/// The name of an element of an array, by its index in the order of the values; without sizes that
-/// of the datum.
+/// The name of an element of an array, by its index in the order of the values; without sizes the
+/// name of the datum.
 fn element(name: &str, sizes: &[usize], mut number: usize) -> String {
     if sizes.is_empty() {
         return name.to_string();
@@ -180,13 +180,14 @@ impl<'a, const N: usize> Table<'a, N> {
                 robconf = target.robconf;
                 self.solved(&target, frames_of(self.robot, step))
             }
-            Ok(Err(joints)) => match absent_axis::<N>(&joints) {
-                Some((axis, degrees)) => Err(absent(axis, degrees).into()),
-                None => {
+            Ok(Err(joints)) => {
+                if let Some((axis, degrees)) = absent_axis::<N>(&joints) {
+                    Err(absent(axis, degrees).into())
+                } else {
                     let q = joint_vector(&joints);
                     Ok((q, outside(self.robot, &q)))
                 }
-            },
+            }
         };
         self.add(row, solved, robconf);
     }

@@ -199,7 +199,9 @@ atom!(f64: Num; i32: Whole; bool: Bool; String: Text;);
 
 impl<const N: usize> Part for [f64; N] {
     fn put(&self, atoms: &mut Atoms) {
-        self.iter().for_each(|number| number.put(atoms));
+        for number in self {
+            number.put(atoms);
+        }
     }
 
     fn take(atoms: &mut Source) -> Option<Self> {
@@ -214,7 +216,9 @@ impl<const N: usize> Part for [f64; N] {
 impl Part for Configuration {
     fn put(&self, atoms: &mut Atoms) {
         let Self { cf1, cf4, cf6, cfx } = self;
-        [cf1, cf4, cf6, cfx].into_iter().for_each(|number| number.put(atoms));
+        for number in [cf1, cf4, cf6, cfx] {
+            number.put(atoms);
+        }
     }
 
     fn take(atoms: &mut Source) -> Option<Self> {

@@ -260,7 +260,7 @@ impl StatementReader<'_> {
     }
 
     /// Skip a routine without a name, up to its end: its content could not be distinguished from
-    /// that of another one.
+    /// another one's.
     fn unfinished_routine(
         &mut self,
         kind: RoutineKind,

@@ -20,7 +20,7 @@ fn text(moves: &str) -> String {
     format!("MODULE M\n{DATA}\nPROC main()\n{moves}\nENDPROC\nENDMODULE")
 }
 
-/// What a check finds, without the edges of quarters: these targets have axis 4 at zero.
+/// The findings of a check, without the edges of quarters: these targets have axis 4 at zero.
 fn checked(text: &str) -> Vec<Finding> {
     let robot = Robot::named("IRB 2600-12/1.65").unwrap();
     let module = parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));

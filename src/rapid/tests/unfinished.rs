@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use super::*;
 
-/// What is reported for the statements of a routine.
+/// The reports for the statements of a routine.
 fn skipped(statements: &str) -> Vec<String> {
     let module = read(&format!("MODULE M\nPROC main()\n{statements}\nENDPROC\nENDMODULE"));
     again(&module, &[]);

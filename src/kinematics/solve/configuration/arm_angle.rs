@@ -1,7 +1,7 @@
 //! The arm angle of a YuMi: the seventh number that, with a pose, determines its joints.
 //!
 //! Reference: Elias and Wen, Redundancy Parameterization of the ABB YuMi Robot Arm,
-//! arXiv:2505.23111, 2025. docs/abb.md has the equations.
+//! arXiv:2505.23111, 2025. docs/guide/abb.md has the equations.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -13,7 +13,7 @@ use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion_curve::Joints;
 use crate::kinematics::thresholds::ARM_ANGLE_OFF;
 
-/// What the arm angle of a pose is measured by (docs/abb.md, eq. A4).
+/// The measure of the arm angle of a pose (docs/guide/abb.md, eq. A4).
 pub(super) struct ArmAngle<'a> {
     robot: &'a Robot<7>,
     /// The unit vector from shoulder to wrist.
@@ -25,7 +25,8 @@ pub(super) struct ArmAngle<'a> {
 }
 
 impl<'a> ArmAngle<'a> {
-    /// That of a pose; `None` if the wrist is at the shoulder, or straight along the reference.
+    /// Return the measure for a pose; `None` if the wrist is at the shoulder, or straight along the
+    /// reference.
     pub(super) fn of(robot: &'a Robot<7>, reference: [f64; 3], pose: &Pose) -> Option<Self> {
         let t_world_last = pose * (robot.mdh().flange * robot.tool()).inverse();
         let wrist = t_world_last * Point3::new(0.0, 0.0, -robot.mdh().rows[6].d);

@@ -42,17 +42,17 @@ const STEPS: u32 = 2000;
 /// start there [rad].
 const NEAR: f64 = 0.02;
 
-/// Angle by which joints differ from those of another solution, at least [rad].
+/// Angle by which joints differ from another solution's, at least [rad].
 const APART: f64 = 1e-6;
 
-/// Angle by which what the members of a self-motion have in common differs from that of another, at
+/// Angle by which the common part of the members of a self-motion differs from another's, at
 /// least [rad]: along it, it may change by as much as the arm angle may, and a singularity adds.
 const FREE_APART: f64 = 1e-5;
 
 /// Number of solutions of one pose and arm angle that are kept: the most seen is sixteen.
 pub(super) const MOST: usize = 48;
 
-/// Those that are found.
+/// The solutions found.
 pub(super) type Found = [Option<Solution<7>>; MOST];
 
 /// The solutions with one joint at an angle, and which of them a curve has passed.

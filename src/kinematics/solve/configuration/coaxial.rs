@@ -24,7 +24,7 @@ const PAIRS: [([usize; 3], FreeJoint); 2] =
 /// tells the members of the self-motion apart by their arm angles.
 const STRAIGHT: f64 = 2e-9;
 
-/// What the members of a solution's self-motion have in common: all but how two axes share their
+/// The common part of the members of a solution's self-motion: all but how two axes share their
 /// sum.
 pub(super) fn shared(solution: &Solution<7>) -> [f64; 7] {
     let mut q = solution.q;

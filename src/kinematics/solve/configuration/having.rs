@@ -29,8 +29,8 @@ pub(super) struct Having<'a, const N: usize, S> {
 }
 
 impl<const N: usize> Robot<N> {
-    /// Those of `solutions` that have a configuration, at most `beyond` the limits [rad]; `None` if
-    /// none has it.
+    /// Return the ones of `solutions` that have a configuration, at most `beyond` the limits [rad];
+    /// `None` if none has it.
     pub(super) fn having<'a, S: Iterator<Item = Solution<N>> + Clone>(
         &'a self,
         rule: &'a ConfigurationRule,
@@ -62,8 +62,8 @@ impl<const N: usize> Robot<N> {
 }
 
 impl<const N: usize, S: Iterator<Item = Solution<N>> + Clone> Having<'_, N, S> {
-    /// Those at 2 pi equivalents that can be counted. An axis 5 at -180 deg is one at +180 deg with
-    /// another branch.
+    /// Return the 2 pi equivalents that can be counted. An axis 5 at -180 deg is one at +180 deg
+    /// with another branch.
     fn members(&self) -> impl Iterator<Item = Solution<N>> {
         self.solutions
             .clone()

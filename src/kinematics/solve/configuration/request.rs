@@ -1,4 +1,4 @@
-//! What is asked of a solution besides its pose: its configuration, and what completes it.
+//! The request for a solution besides its pose: its configuration, and what completes it.
 
 use crate::error::Error;
 use crate::kinematics::answer::check::{check_arm_angle, check_seed};

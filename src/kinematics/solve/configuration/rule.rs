@@ -1,4 +1,4 @@
-//! The configuration of a joint vector: pure functions of the joint angles (docs/abb.md).
+//! The configuration of a joint vector: pure functions of the joint angles (docs/guide/abb.md).
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -100,8 +100,8 @@ impl<const N: usize> Robot<N> {
         }
     }
 
-    /// ABB's confdata of a joint vector [rad]. On the edge of a quarter turn, it is that of the one
-    /// which begins there.
+    /// ABB's confdata of a joint vector [rad]. On the edge of a quarter turn, the one that begins
+    /// there counts.
     ///
     /// # Errors
     ///
@@ -126,8 +126,8 @@ impl<const N: usize> Robot<N> {
         Configuration { cf1, cf4, cf6, cfx }
     }
 
-    /// The three quantities, angles [rad] or parts of the arm's length [1], whose signs are the bits
-    /// 4, 2 and 1 of cfx (docs/abb.md, eq. A1 to A3).
+    /// The three quantities, angles [rad] or parts of the arm's length [1], whose signs are the
+    /// bits 4, 2 and 1 of cfx (docs/guide/abb.md, eq. A1 to A3).
     pub(super) fn sides(&self, rule: &ConfigurationRule, q: &[f64; N]) -> [f64; 3] {
         let ([_, second, third, fourth, fifth, rest @ ..], [_, axis_2, axis_3, axis_4, ..]) =
             (&q[..], &self.mdh().rows[..])

@@ -17,12 +17,12 @@ use crate::kinematics::structure::spherical_wrist::SphericalWrist;
 use crate::kinematics::thresholds::{CONFIGURATION_EDGE, SEEDED_FREE, SOLUTION_OFF};
 use crate::report::{Configuration, ConfigurationRule};
 
-/// How closely the slot of a solution must match that of a configuration.
+/// How closely the slot of a solution must match a configuration's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Closeness {
-    /// The same slot, or axis 5 is zero to rounding.
+    /// Equal, or axis 5 is zero to rounding.
     Same,
-    /// The same slot after an elbow that is straight to rounding is bent.
+    /// Equal after an elbow that is straight to rounding is bent.
     Bent,
     /// Either of two slots that meet at a singularity, or within the edge.
     Met,

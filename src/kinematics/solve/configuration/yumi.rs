@@ -92,7 +92,7 @@ impl Robot<7> {
         }
     }
 
-    /// Those of the joint vectors of a pose and arm angle that have a configuration, the nearest to
+    /// Return the joint vectors of a pose and arm angle that have a configuration, the nearest to
     /// a seed first; of a self-motion the member nearest to it.
     fn having_at(
         &self,

@@ -40,7 +40,7 @@ impl Search<'_> {
         })
     }
 
-    /// A point of the curve, and those of other branches nearby that are nearest to the seed (eq.
+    /// A point of the curve, and points of other branches nearby that are nearest to the seed (eq.
     /// 74); `None` if no branch is nearby.
     fn branches_near(&self, q: &[f64; 7]) -> Option<[Option<Point>; 7]> {
         let Scaled { roots, way, sizes, rows } = self.scaled(q, &self.weights)?;

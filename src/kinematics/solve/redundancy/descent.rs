@@ -27,7 +27,7 @@ impl Search<'_> {
         self.descend_by(start, FIRST_CURVE_STEP);
     }
 
-    /// The same with a first step [rad].
+    /// Descend with a first step [rad].
     pub(super) fn descend_by(&mut self, start: Point, first: f64) {
         for edge in self.edges(&start).into_iter().flatten() {
             self.downhill(edge, first);

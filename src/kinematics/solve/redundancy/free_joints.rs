@@ -1,4 +1,5 @@
-//! What a pose leaves undetermined besides joint 7: at a singularity, whole self-motions reach it.
+//! Joints that a pose leaves undetermined besides joint 7: at a singularity, whole self-motions
+//! reach it.
 
 use core::f64::consts::TAU;
 
@@ -57,7 +58,7 @@ pub(super) struct Scaled {
 
 impl Search<'_> {
     /// Search the nearest of the joint vectors among which the undetermined joints choose, starting
-    /// from those of a sample.
+    /// from a sample's.
     pub(super) fn choose_free_joints(&mut self, sample: &Sample) -> Result<(), Error> {
         if !self.are_named {
             self.choose_member(sample);

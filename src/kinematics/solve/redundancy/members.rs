@@ -43,7 +43,7 @@ impl Search<'_> {
         }
     }
 
-    /// The same from all over the range of joints: at the edge of reach a pose may have solutions
+    /// Start from all over the range of joints: at the edge of reach a pose may have solutions
     /// at single angles of joint 7, which no sample meets.
     pub(super) fn start_anywhere(&mut self) {
         let robot = self.robot;

@@ -1,9 +1,9 @@
 //! Finds the joint vector of a seven-joint arm, which has one joint more than a pose needs, that is
 //! nearest to a seed.
 //!
-//! docs/spherical_shoulder.md, section 5, has the method and its guarantees. [`grid`] samples joint
-//! 7 between the edges of reach, [`descent`] descends the valleys of the cost that it finds,
-//! [`crossing`] continues on the other branch where the curve nearly crosses itself, and
+//! docs/theory/spherical_shoulder.md, section 5, has the method and its guarantees. [`grid`]
+//! samples joint 7 between the edges of reach, [`descent`] descends the valleys of the cost that it
+//! finds, [`crossing`] continues on the other branch where the curve nearly crosses itself, and
 //! [`free_joints`] and [`members`] choose the joints that a pose leaves undetermined.
 
 mod crossing;
@@ -168,7 +168,7 @@ struct Search<'a> {
     weights: [f64; 7],
     /// The least cost and its joint vector.
     best: Option<(f64, [f64; 7])>,
-    /// The same for joint vectors that are farther off the pose than permitted: the pose is
+    /// Search among joint vectors that are farther off the pose than permitted: the pose is
     /// slightly beyond reach.
     nearly: Option<(f64, [f64; 7])>,
     missed: Missed,

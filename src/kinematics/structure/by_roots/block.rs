@@ -35,7 +35,7 @@ impl<M: ByRoots> LaneKernel<6, SLOTS> for RootKernel<M> {
         _: f64,
     ) -> Option<Solved> {
         let Self(method) = self;
-        if !method.may_be_regular(t_first_last) {
+        if method.closure().target(*t_first_last).is_beyond() {
             return None;
         }
         let mut solved = Solved::NEW;
@@ -139,7 +139,7 @@ fn different(
     let (mut frames, mut count, mut places) = ([Frame::IDENTITY; LANES], 0, [None; LANES]);
     for (lane, place) in places.iter_mut().enumerate() {
         let frame = poses.frame(lane);
-        if !method.may_be_regular(&frame) {
+        if method.closure().target(frame).is_beyond() {
             continue;
         }
         if count == 0 || frames[count - 1] != frame {

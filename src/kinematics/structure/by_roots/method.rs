@@ -1,4 +1,4 @@
-//! What arms whose solutions are at roots have in common.
+//! The contract of a method whose solutions are at the roots of a polynomial.
 
 use core::fmt::Debug;
 
@@ -12,7 +12,8 @@ use crate::kinematics::structure::trigonometric::{RootBlock, TrigonometricPolyno
 /// Slots of an arm whose solutions have no names: as many as six joints can have.
 pub(crate) const SLOTS: usize = MOST_SLOTS;
 
-/// A way to the solutions of a pose at the roots of a polynomial of the angle of one joint.
+/// A polynomial of the angle of one joint that is zero at every solution of a pose, and the
+/// candidates at an angle.
 pub(crate) trait ByRoots: Clone + Debug + PartialEq {
     /// A pose, prepared for this arm.
     type Posed;
@@ -20,25 +21,34 @@ pub(crate) trait ByRoots: Clone + Debug + PartialEq {
     /// The closure of the arm's joints.
     fn closure(&self) -> &Closure;
 
-    /// Whether the last frame of a pose may be regular; if not, it is not prepared.
-    fn may_be_regular(&self, last: &Frame) -> bool;
-
-    /// Prepare a pose. Must be `#[inline(always)]`.
-    fn posed<S: Simd>(&self, simd: S, last: &Frame) -> Self::Posed;
-
-    /// The polynomial of a pose. Must be `#[inline(always)]`.
-    fn polynomial<S: Simd>(&self, simd: S, posed: &Self::Posed) -> TrigonometricPolynomial;
+    /// How many solutions a simple root has.
+    fn per_root(&self) -> usize;
 
     /// The joint, from 0, whose angle is a root of the polynomial, or the negative of one: a sign.
     fn searched(&self) -> (usize, f64);
 
-    /// Bring a candidate at each root of a block to its pose, as often as a root has solutions;
-    /// pass them on, with the root of each. Must be `#[inline(always)]`.
+    /// Prepare a pose. Must be `#[inline(always)]`.
+    fn posed<S: Simd>(&self, simd: S, last: &Frame) -> Self::Posed;
+
+    /// Return the polynomial of a pose. Must be `#[inline(always)]`.
+    fn polynomial<S: Simd>(&self, simd: S, posed: &Self::Posed) -> TrigonometricPolynomial;
+
+    /// Bring the best candidate at each simple root of a block to its pose, or as many as a root has
+    /// solutions; pass them on, with the root of each. Must be `#[inline(always)]`.
     fn candidates<S: Simd>(
         &self,
         simd: S,
         all: &[Self::Posed],
         roots: &RootBlock,
         pass: impl FnMut(&Candidates, &RootBlock),
+    );
+
+    /// Bring every candidate at angles to the pose, whether these are roots or only near some.
+    fn every_candidate<S: Simd>(
+        &self,
+        simd: S,
+        posed: &Self::Posed,
+        angles: &RootBlock,
+        pass: impl FnMut(&Candidates),
     );
 }

@@ -6,6 +6,7 @@ use arrayvec::ArrayVec;
 use fearless_simd::prelude::*;
 
 use super::method::ByRoots;
+use super::search::quasi_random;
 use super::solved::{Found, Solved};
 use crate::kinematics::structure::closure::Candidates;
 use crate::kinematics::structure::end_frames::Frame;
@@ -13,7 +14,7 @@ use crate::kinematics::structure::lanes::JointRow;
 use crate::kinematics::structure::trigonometric::{RootBlock, SimpleRoots};
 use crate::lanes::{LANES, Vector, VectorKernel, run_vectors, transposed};
 
-/// How far a solution may be from its root [rad]: what is farther away may be that of another root.
+/// How far a solution may be from its root [rad]: farther away it may belong to another root.
 const AT_ROOT: f64 = 1e-6;
 
 /// Solve for poses of the last frame, up to eight, by joint angles.
@@ -36,6 +37,35 @@ pub(crate) fn regular_of(method: &impl ByRoots, poses: &[Frame]) -> usize {
     poses.iter().filter(is_regular).count()
 }
 
+/// How far values of a polynomial may be off at least, relative to its size at other poses [1]: next
+/// to singularities of the elimination it may vanish as a whole, by factors of 1e-20 and less.
+pub(crate) const NOISE_OF_SIZE: f64 = f64::EPSILON;
+
+/// Random poses that show how large a polynomial is.
+const POSES: usize = 15;
+
+/// Return how large the polynomial of a method is at random poses: the median.
+pub(crate) fn size_of(method: &impl ByRoots) -> f64 {
+    let size = |index| run_vectors(Size(method, method.closure().last_frame(&quasi_random(index))));
+    let mut sizes: [f64; POSES] = core::array::from_fn(size);
+    sizes.sort_unstable_by(f64::total_cmp);
+    sizes[POSES / 2]
+}
+
+/// The size of the polynomial of a pose.
+struct Size<'a, M: ByRoots>(&'a M, Frame);
+
+impl<M: ByRoots> VectorKernel for Size<'_, M> {
+    type Answer = f64;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> f64 {
+        let Self(method, last) = self;
+        let size = method.polynomial(simd, &method.posed(simd, &last)).size();
+        if size.is_finite() { size } else { 0.0 }
+    }
+}
+
 /// The solve of poses that may be regular, compiled for each instruction set.
 struct Solve<'a, M: ByRoots> {
     method: &'a M,
@@ -55,7 +85,7 @@ impl<M: ByRoots> VectorKernel for Solve<'_, M> {
         let mut roots = SimpleRoots::new();
         for pose in poses {
             posed.push(method.posed(simd, pose));
-            roots.push(method.polynomial(simd, &posed[posed.len() - 1]));
+            roots.push(method.polynomial(simd, &posed[posed.len() - 1]).in_doubt());
             found.push(Found::new());
         }
         let closure = method.closure();

@@ -31,7 +31,7 @@ pub(crate) struct Target<T = f64> {
 }
 
 impl Target {
-    /// The same, in the lanes of a number.
+    /// Broadcast to the lanes of a number.
     #[inline(always)]
     pub(crate) fn in_lanes<T: Number>(&self, like: T) -> Target<T> {
         Target { frame: self.frame.in_lanes(like) }
@@ -47,7 +47,7 @@ impl Target {
 /// The six conditions at a configuration, and their derivatives by each joint.
 #[derive(Clone, Copy)]
 pub(super) struct Conditions<T> {
-    /// What is missing to the target: along, then about, each axis.
+    /// The differences to the target: along, then about, each axis.
     pub(super) missing: [T; 6],
     /// By joint and condition.
     pub(super) columns: [[T; 6]; 6],
@@ -80,7 +80,7 @@ impl Closure {
         Self { links, tilts, reach: unit, rounding: ROUNDING }
     }
 
-    /// The same between end frames with these lengths [m], which add to the rounding.
+    /// Return the closure between end frames with these lengths [m], which add to the rounding.
     pub(crate) fn between(self, ends: f64) -> Self {
         Self { rounding: ROUNDING * (1.0 + ends / self.reach), ..self }
     }
@@ -91,7 +91,7 @@ impl Closure {
         Target { frame: t_first_last.in_units(1.0 / self.reach) }
     }
 
-    /// What a configuration reaches.
+    /// Return the target that a configuration reaches.
     pub(crate) fn reached(&self, theta: &[f64; 6]) -> Target {
         let (sin, cos) = sines(theta);
         let (Placed { x, y, z, origin }, _) = self.frames(&sin, &cos);
@@ -160,7 +160,7 @@ impl Closure {
         Conditions { missing: missing(&last, target), columns }
     }
 
-    /// What is missing to the target, alone.
+    /// Return the differences to the target, alone.
     #[inline(always)]
     pub(super) fn missing<T: Number>(
         &self,

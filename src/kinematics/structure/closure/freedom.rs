@@ -10,7 +10,7 @@ use crate::kinematics::chain::dh::DhRow;
 use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::report::{Freedom, UnknownStructure};
 
-/// Least singular value that is a freedom [1]. Those of arms with lengths of some use are above
+/// Least singular value that is a freedom [1]. Arms with lengths of some use have more than
 /// 1e-3 somewhere.
 const LEAST: f64 = 1e-8;
 

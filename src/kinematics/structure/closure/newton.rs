@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 
 use super::chain::{Closure, Target, largest};
-use super::configuration::{Configuration, ISOLATED, SINGULAR};
+use super::configuration::{Configuration, ISOLATED, REGULAR};
 use super::reflections::Triangle;
 use crate::lanes::{
     Column, LANES, Number as _, Vector, VectorKernel, atan2_of, run_vectors, sin_cos_of,
@@ -30,7 +30,7 @@ const NEAR: f64 = 1e-3;
 /// Residual up to which two differ by rounding [1].
 const ROUNDING: f64 = 1e-15;
 
-/// What the least singular value is at least, as a part of the determinant [1]: `(5 / 12)^(5 / 2)`
+/// Lower bound of the least singular value, as a part of the determinant [1]: `(5 / 12)^(5 / 2)`
 /// (eq. 98a).
 const OF_DETERMINANT: f64 = 0.112;
 
@@ -42,17 +42,17 @@ pub(crate) struct Candidates {
     /// The largest of the six conditions that is left [1].
     pub(crate) residual: Column,
     /// The least singular value of the conditions' derivatives, to a small factor, or a lower bound
-    /// of it that is above [`SINGULAR`] [1].
+    /// of it that is above [`REGULAR`] [1].
     pub(crate) least: Column,
 }
 
 impl Candidates {
     /// Whether what is in a lane closes, away from every singularity.
     pub(crate) fn is_regular(&self, closure: &Closure, lane: usize) -> bool {
-        self.residual[lane] <= closure.accepts() && self.least[lane] > SINGULAR
+        self.residual[lane] <= closure.accepts() && self.least[lane] > REGULAR
     }
 
-    /// Replace what is in lanes, as bits, by those of others.
+    /// Replace lanes, as bits, by the lanes of others.
     pub(crate) fn take_lanes(&mut self, others: &Self, mut lanes: u64) {
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize;
@@ -70,10 +70,10 @@ impl Candidates {
         core::array::from_fn(|joint| self.theta[joint][lane])
     }
 
-    /// What is in a lane, as it is.
+    /// Return the candidate in a lane, as it is.
     pub(super) fn configuration(&self, lane: usize) -> Configuration {
         let (residual, least) = (self.residual[lane], self.least[lane]);
-        Configuration { theta: self.theta(lane), residual, least, ..Configuration::NONE }
+        Configuration { theta: self.theta(lane), residual, least, moving: None }
     }
 }
 
@@ -138,7 +138,7 @@ impl Closure {
         }
         let residual = largest(&self.missing(target, &sin, &cos));
         let least = determinant * (OF_DETERMINANT / (self.reach * self.reach * self.reach));
-        let has_arrived = residual.simd_le(0.5 * self.rounding) & least.simd_gt(SINGULAR);
+        let has_arrived = residual.simd_le(0.5 * self.rounding) & least.simd_gt(REGULAR);
         let mut candidates = Candidates {
             theta: [[0.0; LANES]; 6],
             residual: residual.to_array(),
@@ -167,7 +167,7 @@ impl Closure {
             let residual = largest(&conditions.missing);
             let is_better = residual.simd_lt(best);
             best = is_better.select(residual, best);
-            let triangle = Triangle::unrolled(conditions.columns, [conditions.missing]);
+            let triangle = Triangle::of(conditions.columns, [conditions.missing]);
             let step = triangle.back(triangle.right[0]);
             let size = largest(&step);
             let was_moving = is_moving;
@@ -208,7 +208,7 @@ impl Closure {
             let cos = is_last.select(cos[joint], best_cos[joint]);
             candidates.theta[joint] = atan2_of(sin, cos).to_array();
         }
-        // What is singular is examined anyway, and rounding moves none far.
+        // A singular one is examined anyway, and rounding moves none far.
         let is_elsewhere = !is_last & last.simd_gt(ROUNDING);
         let may_be_regular = best.simd_le(self.accepts()) & least.simd_gt(ISOLATED);
         let mut returned = (is_elsewhere & may_be_regular).to_bitmask();

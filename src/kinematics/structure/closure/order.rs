@@ -49,7 +49,7 @@ pub(crate) fn in_order(
     (order, !is_tied)
 }
 
-/// The same for solutions with these angles, which are not in lanes.
+/// Order solutions with these angles, which are not in lanes.
 pub(crate) fn in_order_one_by_one<'a>(
     count: usize,
     theta: impl Fn(usize) -> &'a [f64; 6],
@@ -67,7 +67,7 @@ pub(crate) fn in_order_one_by_one<'a>(
     })
 }
 
-/// What is tied with a solution, with what is tied with that, and so on.
+/// Return the solutions tied with one, the ones tied with these, and so on.
 fn chain(near: &[u64; MOST_SLOTS], number: usize) -> u64 {
     let (mut chain, mut new) = (near[number], near[number]);
     while new != 0 {

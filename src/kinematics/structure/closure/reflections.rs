@@ -3,14 +3,6 @@
 
 use crate::lanes::Number;
 
-/// Largest inverse of the diagonal by which singular vectors are found [1]: products of four of
-/// them are numbers, and below its inverse a singular value is zero.
-const MOST_INVERSE: f64 = 1e30;
-
-/// Rounds of inverse iteration: each multiplies the error of a singular vector by the square of the
-/// ratio of the least two singular values.
-const ROUNDS: usize = 3;
-
 /// `Q^T A` of six columns A, and of right sides.
 pub(super) struct Triangle<T, const N: usize> {
     /// By column and row; below the diagonal is what is left of the reflections.
@@ -21,20 +13,10 @@ pub(super) struct Triangle<T, const N: usize> {
 }
 
 impl<T: Number, const N: usize> Triangle<T, N> {
-    /// Householder's reflections, a column after the other.
+    /// Reflect one column after the other (Householder); written out, solves take a twentieth less
+    /// time.
     #[inline(always)]
     pub(super) fn of(columns: [[T; 6]; 6], right: [[T; 6]; N]) -> Self {
-        let mut triangle = Self { columns, right, inverse: columns[0] };
-        for k in 0..6 {
-            triangle.reflect(k);
-        }
-        triangle
-    }
-
-    /// The same, with the columns written out, for Newton's method: solves take a twentieth less,
-    /// for 23 kB of code in three instruction sets.
-    #[inline(always)]
-    pub(super) fn unrolled(columns: [[T; 6]; 6], right: [[T; 6]; N]) -> Self {
         let mut triangle = Self { columns, right, inverse: columns[0] };
         triangle.reflect(0);
         triangle.reflect(1);
@@ -53,7 +35,7 @@ impl<T: Number, const N: usize> Triangle<T, N> {
         let (length, first) = (product_of::<6, T>(mirror, mirror, k).root(), mirror[k]);
         let (sum, zero) = (length + first.size(), first.like(0.0));
         let product = length * sum;
-        // What is zero already needs no reflection.
+        // A zero needs no reflection.
         let scale = product.if_above(zero, first.like(-1.0) / product, zero);
         // 1 / length, without another division.
         let of_length = product.if_above(zero, -(scale * sum), first.like(f64::INFINITY));
@@ -107,44 +89,6 @@ impl<T: Number, const N: usize> Triangle<T, N> {
     }
 }
 
-impl Triangle<f64, 0> {
-    /// The least singular value with its vectors, by inverse iteration: `A v = least u`. Where two
-    /// are as small, one of their directions.
-    pub(super) fn least_vectors(mut self) -> (f64, [f64; 6], [f64; 6]) {
-        self.inverse = self.inverse.map(|inverse| inverse.clamp(-MOST_INVERSE, MOST_INVERSE));
-        let mut v = unit(self.back(unit(self.grown())));
-        for _ in 1..ROUNDS {
-            v = unit(self.back(unit(self.forth(v))));
-        }
-        let y = self.forth(v);
-        (square(&y).root().recip(), self.mirrored(unit(y)), v)
-    }
-
-    /// The solution `R^T y = right`.
-    fn forth(&self, right: [f64; 6]) -> [f64; 6] {
-        let mut y = right;
-        for k in 0..6 {
-            for row in 0..k {
-                y[k] -= self.columns[k][row] * y[row];
-            }
-            y[k] *= self.inverse[k];
-        }
-        y
-    }
-
-    /// `Q y`.
-    fn mirrored(&self, mut y: [f64; 6]) -> [f64; 6] {
-        for k in (0..6).rev() {
-            let mirror = &self.columns[k];
-            let square = product_of::<6, f64>(mirror, mirror, k);
-            if square > 0.0 {
-                reflect::<6, f64>(mirror, -2.0 / square, &mut y, k);
-            }
-        }
-        y
-    }
-}
-
 /// Reflect rows k to `END - 1` of a column in a mirror with this normal; the scale is minus two
 /// over the square of its length.
 #[inline(always)]
@@ -179,9 +123,4 @@ fn square<T: Number>(of: &[T; 6]) -> T {
         sum = part.times_plus(*part, sum);
     }
     sum
-}
-
-fn unit(of: [f64; 6]) -> [f64; 6] {
-    let scale = square(&of).root().recip();
-    of.map(|part| part * scale)
 }

@@ -1,65 +1,211 @@
-//! Self-motions: the walk along one.
+//! Self-motions of the chain: joint vectors of one pose along a curve, followed by predictor and
+//! corrector.
 //!
 //! Docs: general.md, eq. 103.
 
-use core::ops::ControlFlow;
-
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::chain::{Closure, Target};
-use super::member::{Member, interpolated};
+use super::configuration::Configuration;
 use crate::kinematics::pose::angles::wrap;
 
+/// How near two configurations may be to be examined for being the same [rad].
+const NEAR: f64 = 0.02;
+
 /// Step along a self-motion [rad], and the least where it bends.
-pub(super) const STEP: f64 = 0.2;
+const STEP: f64 = 0.2;
 const LEAST_STEP: f64 = STEP / 512.0;
 
-/// How far from where it is foreseen a member may be, as a part of the step [1]: farther away it is
-/// one of another self-motion, which nearly crosses this one, or the way bends sharply.
-const FORESEEN: f64 = 0.05;
+/// Step by which a singular configuration is tried for a self-motion [rad]: at a fold the closure
+/// is then off by the square of it.
+const TRIED: f64 = 0.02;
+
+/// How far from where it is predicted a member may be, as a part of the step [1]: farther away it is
+/// one of another self-motion, which nearly crosses this one, or the curve bends sharply.
+const PREDICTED: f64 = 0.05;
 
 /// Steps along a self-motion, at most: eight turns of its fastest joint.
 const MOST_STEPS: usize = 400;
 
-/// How far a configuration of the self-motion may be from the polynomial between two members [rad].
+/// Steps of Newton's method to a member, at most, and the one that is its last [rad].
+const MOST_CORRECTIONS: usize = 8;
+const CONVERGED: f64 = 1e-8;
+
+/// Singular value below which a direction is free [1].
+const FREE: f64 = 1e-6;
+
+/// Sweeps of a singular value decomposition, at most.
+const SWEEPS: usize = 60;
+
+/// How far a configuration of the self-motion may be from the polynomial between two members [rad],
+/// and beyond these, as a part of the step.
 const ON_CURVE: f64 = 0.02;
-
-/// How far it may be from the place of the self-motion that is found for it [rad].
-const ON_MOTION: f64 = 1e-5;
-
-/// How far from there it may be if the chain closes between the two, too [rad]: where self-motions
-/// cross or nearly do, the closure is below its rounding as far as the root of that.
-const SAME_IF_JOINED: f64 = 2e-3;
-
-/// How far beyond the ends of a step it may be, as a part of it [1].
 const BEYOND: f64 = 0.05;
+
+/// Angle by which a joint that moves does so on the way [rad].
+const MOVES: f64 = 1e-3;
+
+/// How near a joint is brought to its angle [rad].
+const AT_PLACE: f64 = 1e-14;
+
+/// Angle from which on a joint passes half a turn rather than its place [rad].
+const FAR: f64 = 1.0;
+
+/// Steps of the secant method, at most.
+const MOST_SECANTS: usize = 8;
+
+/// A joint vector of a self-motion, and by how much each joint moves there, as a unit vector.
+#[derive(Clone, Copy)]
+pub(crate) struct Member {
+    pub(crate) theta: [f64; 6],
+    direction: SVector<f64, 6>,
+}
 
 /// A self-motion.
 pub(crate) struct SelfMotion<'a> {
-    pub(super) closure: &'a Closure,
-    pub(super) target: &'a Target,
-    pub(super) start: Member,
+    closure: &'a Closure,
+    target: &'a Target,
+    start: Member,
+    /// Whether two directions are free at once.
+    pub(super) is_surface: bool,
 }
 
-impl SelfMotion<'_> {
-    /// Walk along it in both directions, or once around, until `pass` breaks off: it gets the ends
-    /// of each step.
-    pub(crate) fn around(&self, pass: &mut dyn FnMut(&Member, &Member) -> ControlFlow<()>) {
-        let Self { closure, target, start: Member { theta, direction } } = *self;
-        let apart = |other: &[f64; 6]| {
-            theta.iter().zip(other).fold(0.0, |most: f64, (a, b)| most.max(wrap(a - b).abs()))
+/// The findings of a walk along a self-motion.
+pub(super) struct Way {
+    /// How far each joint was from its first angle, at most [rad].
+    most: [f64; 6],
+    /// The member with the first joint that moves at its given angle; of several the nearest.
+    pub(super) member: Option<[f64; 6]>,
+}
+
+impl Way {
+    /// Return which joints move.
+    pub(super) fn moving(&self) -> [bool; 6] {
+        self.most.map(|most| most > MOVES)
+    }
+}
+
+impl Closure {
+    /// Whether two directions are free at a configuration.
+    pub(super) fn has_two_free(&self, theta: &[f64; 6]) -> bool {
+        self.derivatives(theta).singular_values()[4] < FREE
+    }
+
+    /// Whether two configurations that close are one: they are near one another and the chain
+    /// closes in the middle, too, where two solutions do not (eq. 98c).
+    pub(super) fn are_one(&self, target: &Target, a: &Configuration, b: &Configuration) -> bool {
+        let way: [f64; 6] = core::array::from_fn(|i| wrap(b.theta[i] - a.theta[i]));
+        way.iter().all(|angle| angle.abs() < NEAR) && {
+            let middle = core::array::from_fn(|i| a.theta[i] + 0.5 * way[i]);
+            self.residual(target, &middle) <= self.accepts()
+                || a.is_singular() && b.is_singular() && self.joins(target, &a.theta, way)
+        }
+    }
+
+    /// Whether the chain closes half of a way from a configuration, too.
+    fn joins(&self, target: &Target, theta: &[f64; 6], way: [f64; 6]) -> bool {
+        let way = SVector::from(way);
+        let from = Member { theta: *theta, direction: way.normalize() };
+        let middle = SVector::from(*theta) + way * 0.5;
+        let half = self.member_ahead(target, &from, 0.5 * way.norm(), middle.into());
+        half.is_some_and(|half| (SVector::from(half.theta) - middle).norm() < 0.25 * way.norm())
+    }
+
+    fn closes(&self, target: &Target, theta: &[f64; 6]) -> bool {
+        self.residual(target, theta) <= self.accepts()
+    }
+
+    /// Return the member that is `s` ahead of another one along its direction (eq. 103), by Newton's
+    /// method from a guess.
+    fn member_ahead(
+        &self,
+        target: &Target,
+        from: &Member,
+        s: f64,
+        guess: [f64; 6],
+    ) -> Option<Member> {
+        let mut theta = SVector::from(guess);
+        for _ in 0..MOST_CORRECTIONS {
+            let (jacobian, missing) = self.linear(target, &theta.into());
+            let done = from.direction.dot(&(theta - SVector::from(from.theta)));
+            let (correction, ahead) = correction(&jacobian, &missing, &from.direction, s - done)?;
+            let size = correction.amax();
+            if size.is_nan() || size > 1.0 {
+                return None;
+            }
+            theta += correction;
+            if size < CONVERGED {
+                let member = Member { theta: theta.into(), direction: ahead.normalize() };
+                return self.closes(target, &member.theta).then_some(member);
+            }
+        }
+        None
+    }
+}
+
+/// The correction that meets the conditions and the step along a direction best, and its derivative
+/// by the step: by the normal equations; where self-motions cross, the shortest one.
+fn correction(
+    jacobian: &SMatrix<f64, 6, 6>,
+    missing: &SVector<f64, 6>,
+    along: &SVector<f64, 6>,
+    step: f64,
+) -> Option<(SVector<f64, 6>, SVector<f64, 6>)> {
+    let normal = jacobian.transpose() * jacobian + along * along.transpose();
+    if let Some(triangle) = normal.cholesky()
+        && triangle.l_dirty().diagonal().amin() > FREE
+    {
+        let right = jacobian.transpose() * missing + along * step;
+        return Some((triangle.solve(&right), triangle.solve(along)));
+    }
+    let svd = jacobian.try_svd(true, true, f64::EPSILON, SWEEPS)?;
+    let (u, v_t) = (svd.u?, svd.v_t?);
+    let mut shortest = SVector::<f64, 6>::zeros();
+    for (row, value) in svd.singular_values.iter().enumerate().filter(|(_, value)| **value > FREE) {
+        shortest += v_t.row(row).transpose() * (u.column(row).dot(missing) / value);
+    }
+    Some((shortest + along * (step - along.dot(&shortest)), *along))
+}
+
+impl<'a> SelfMotion<'a> {
+    /// Return the self-motion through a configuration that closes, if it is on one: the chain closes
+    /// a step ahead along the direction in which it hardly changes, too.
+    pub(crate) fn through(
+        closure: &'a Closure,
+        target: &'a Target,
+        theta: &[f64; 6],
+    ) -> Option<Self> {
+        let svd = closure.derivatives(theta).try_svd(false, true, f64::EPSILON, SWEEPS)?;
+        let (values, v_t) = (svd.singular_values, svd.v_t?);
+        let is_surface = values[4] < FREE;
+        for row in if is_surface { [5, 4] } else { [5, 5] } {
+            let from = Member { theta: *theta, direction: v_t.row(row).transpose() };
+            let guess = SVector::from(*theta) + from.direction * TRIED;
+            if let Some(start) = closure.member_ahead(target, &from, TRIED, guess.into()) {
+                return Some(Self { closure, target, start, is_surface });
+            }
+        }
+        None
+    }
+
+    /// Follow it in both directions, or once around: `pass` gets the ends of each step.
+    pub(crate) fn around(&self, pass: &mut dyn FnMut([&Member; 2])) {
+        let Self { closure, target, start, .. } = self;
+        let apart = |other: &Member| {
+            (0..6).fold(0.0, |most: f64, i| most.max(wrap(start.theta[i] - other.theta[i]).abs()))
         };
-        for direction in [direction, direction.map(|part| -part)] {
-            let mut one = Member { theta, direction };
+        for sign in [1.0, -1.0] {
+            let mut one = Member { direction: start.direction * sign, ..*start };
             // The change of the direction along the way.
-            let mut bend = [0.0; 6];
+            let mut bend = SVector::zeros();
             let (mut length, mut walked, mut is_back) = (STEP, 0.0, false);
             for _ in 0..MOST_STEPS {
-                let guess = core::array::from_fn(|i| {
-                    one.theta[i] + length * (one.direction[i] + 0.5 * length * bend[i])
-                });
-                let next = closure.member_ahead(target, &one, length, guess);
-                let is_near = |next: &Member| next.is_within(FORESEEN * length, &guess);
+                let guess =
+                    SVector::from(one.theta) + (one.direction + bend * (0.5 * length)) * length;
+                let next = closure.member_ahead(target, &one, length, guess.into());
+                let is_near = |next: &Member| {
+                    (SVector::from(next.theta) - guess).amax() <= PREDICTED * length
+                };
                 // A crossing that is nearer than the least step is passed straight on.
                 let Some(next) = next.filter(|next| length == LEAST_STEP || is_near(next)) else {
                     if length == LEAST_STEP {
@@ -68,48 +214,122 @@ impl SelfMotion<'_> {
                     length = (0.5 * length).max(LEAST_STEP);
                     continue;
                 };
+                pass([&one, &next]);
                 // One step more than around, which passes the start.
-                if pass(&one, &next).is_break() || is_back {
+                if is_back {
                     return;
                 }
                 walked += length;
-                is_back = walked > 3.5 * STEP && apart(&next.theta) < 0.6 * STEP;
-                bend = core::array::from_fn(|i| (next.direction[i] - one.direction[i]) / length);
+                is_back = walked > 3.5 * STEP && apart(&next) < 0.6 * STEP;
+                bend = (next.direction - one.direction) / length;
                 (one, length) = (next, (2.0 * length).min(STEP));
             }
         }
     }
 
+    /// Follow it, and find the member whose first joint that moves is at its angle of `near`.
+    pub(super) fn followed(&self, near: &[f64; 6], pass: &mut dyn FnMut([&Member; 2])) -> Way {
+        let mut most = [0.0_f64; 6];
+        let mut passed: [Option<(f64, [f64; 6])>; 6] = [None; 6];
+        self.around(&mut |ends| {
+            pass(ends);
+            for joint in 0..6 {
+                let far = wrap(ends[1].theta[joint] - self.start.theta[joint]).abs();
+                most[joint] = most[joint].max(far);
+                if let Some(theta) = self.member_between(ends, joint, near[joint]) {
+                    let far =
+                        (0..6).fold(0.0, |most: f64, i| most.max(wrap(theta[i] - near[i]).abs()));
+                    if passed[joint].is_none_or(|(least, _)| far < least) {
+                        passed[joint] = Some((far, theta));
+                    }
+                }
+            }
+        });
+        let first = most.iter().position(|most| *most > MOVES);
+        Way { most, member: first.and_then(|first| passed[first]).map(|(_, theta)| theta) }
+    }
+
+    /// Return the member between two of them, ends included, with a joint at an angle.
+    fn member_between(
+        &self,
+        [start, end]: [&Member; 2],
+        joint: usize,
+        at: f64,
+    ) -> Option<[f64; 6]> {
+        let off = |one: &Member| wrap(one.theta[joint] - at);
+        let [here, there] = [off(start), off(end)];
+        let mut member = *start;
+        if here.abs() > AT_PLACE {
+            let is_passed = (here < 0.0) != (there < 0.0) && here.abs() + there.abs() < FAR;
+            if !is_passed {
+                return None;
+            }
+            // The secant method.
+            let along = |one: &Member| {
+                start.direction.dot(&(SVector::from(one.theta) - SVector::from(start.theta)))
+            };
+            member = *end;
+            let (mut before, mut last) = ((0.0, here), (along(end), there));
+            for _ in 0..MOST_SECANTS {
+                if last.1.abs() <= AT_PLACE {
+                    break;
+                }
+                let s = last.0 - last.1 * (last.0 - before.0) / (last.1 - before.1);
+                member = self.closure.member_ahead(self.target, start, s, member.theta)?;
+                (before, last) = (last, (s, off(&member)));
+            }
+        }
+        // Its last rounding goes, too: who asks for zero gets zero.
+        let rounding = off(&member);
+        if rounding.abs() <= AT_PLACE {
+            member.theta[joint] -= rounding;
+        }
+        self.closure.closes(self.target, &member.theta).then_some(member.theta)
+    }
+
+    /// Return the member with a joint at its angle of `near`; of several the nearest.
+    pub(crate) fn member(&self, joint: usize, near: &[f64; 6]) -> Option<[f64; 6]> {
+        let mut nearest: Option<(f64, [f64; 6])> = None;
+        self.around(&mut |ends| {
+            if let Some(theta) = self.member_between(ends, joint, near[joint]) {
+                let far = (0..6).fold(0.0, |most: f64, i| most.max(wrap(theta[i] - near[i]).abs()));
+                if nearest.is_none_or(|(least, _)| far < least) {
+                    nearest = Some((far, theta));
+                }
+            }
+        });
+        nearest.map(|(_, theta)| theta)
+    }
+
     /// Whether a configuration is on the way between two members.
-    pub(super) fn passes(&self, ends: [&Member; 2], theta: &[f64; 6]) -> bool {
-        let [one, next] = ends.map(|end| SVector::from(end.theta));
-        let place = one.zip_map(&SVector::from(*theta), |one, angle| one + wrap(angle - one));
-        let chord = next - one;
-        let part = (place - one).dot(&chord) / chord.norm_squared();
-        // What is next to an end counts for both steps.
+    pub(super) fn passes(&self, [one, next]: [&Member; 2], other: &Configuration) -> bool {
+        let from = SVector::from(one.theta);
+        let place = from.zip_map(&SVector::from(other.theta), |one, angle| one + wrap(angle - one));
+        let chord = SVector::from(next.theta) - from;
+        let part = (place - from).dot(&chord) / chord.norm_squared();
         if !(-BEYOND..=1.0 + BEYOND).contains(&part) {
             return false;
         }
-        let between = interpolated(ends, part);
-        let off = (place - between).amax();
-        off < ON_MOTION
-            || off < ON_CURVE && {
-                let s = SVector::from(ends[0].direction).dot(&(between - one));
-                let member = self.closure.member_ahead(self.target, ends[0], s, between.into());
-                member.is_some_and(|member| {
-                    let apart = place - SVector::from(member.theta);
-                    apart.amax() < ON_MOTION
-                        || apart.amax() < SAME_IF_JOINED && self.is_flat(&member, &apart)
-                })
-            }
+        let between = interpolated([one, next], part);
+        (place - between).amax() < ON_CURVE && {
+            let s = one.direction.dot(&(between - from));
+            let member = self.closure.member_ahead(self.target, one, s, between.into());
+            member.is_some_and(|member| {
+                let member = Configuration { theta: member.theta, least: 0.0, ..*other };
+                self.closure.are_one(self.target, &member, other)
+            })
+        }
     }
+}
 
-    /// Whether the chain closes half of a way from a member, too.
-    fn is_flat(&self, member: &Member, way: &SVector<f64, 6>) -> bool {
-        let Member { theta, .. } = *member;
-        let from = Member { theta, direction: way.normalize().into() };
-        let middle = SVector::from(theta) + way * 0.5;
-        let half = self.closure.member_ahead(self.target, &from, 0.5 * way.norm(), middle.into());
-        half.is_some_and(|half| (SVector::from(half.theta) - middle).norm() < 0.25 * way.norm())
-    }
+/// The place at a part of the way between two members, by a cubic polynomial.
+fn interpolated([one, next]: [&Member; 2], part: f64) -> SVector<f64, 6> {
+    let [from, to] = [one, next].map(|end| SVector::from(end.theta));
+    // The arc is longer than its chord, by what its direction changes.
+    let length =
+        (to - from).norm() * (1.0 + (next.direction - one.direction).norm_squared() / 24.0);
+    let rest = 1.0 - part;
+    from * (rest * rest * (1.0 + 2.0 * part))
+        + to * (part * part * (1.0 + 2.0 * rest))
+        + (one.direction * rest - next.direction * part) * (part * rest * length)
 }

@@ -31,7 +31,7 @@ fn random(rng: &mut Rng) -> Closure {
 /// Candidates around a configuration, converged and taken.
 fn found(closure: &Closure, target: &Target, around: &[f64; 6], off: f64) -> Accepted {
     let mut rng = Rng::new(3);
-    let mut accepted = Accepted::NONE;
+    let mut accepted = Accepted::new();
     let mut theta = [[0.0; LANES]; 6];
     for lane in 0..LANES {
         for joint in 0..6 {
@@ -116,9 +116,7 @@ fn two_solutions_next_to_a_fold_are_two_and_at_it_one() {
             }
             let accepted = found(&closure, &target, &theta, 1e-3);
             let count = accepted.as_slice().len();
-            assert!(accepted.is_certain() && (1..=2).contains(&count), "{off:e} {accepted:?}");
-            // Farther away, both are regular, and each has its own basin.
-            assert!(off > 1e-4 || accepted.root_count() == 2, "{off:e}: {accepted:?}");
+            assert!((1..=2).contains(&count), "{off:e} {accepted:?}");
             counts[count] += 1;
             let near = accepted.as_slice().iter().map(|one| one.distance(&theta));
             let nearest = near.fold(9.0, f64::min);
@@ -145,7 +143,7 @@ fn a_self_motion_stands_once_with_its_direction() {
         }
         compared += 1;
         // Points all along the self-motion.
-        let mut accepted = Accepted::NONE;
+        let mut accepted = Accepted::new();
         let mut points = theta.map(|angle| [angle; LANES]);
         for lane in 0..LANES {
             let turn = 0.7 * lane as f64;
@@ -155,13 +153,9 @@ fn a_self_motion_stands_once_with_its_direction() {
         let candidates = closure.converged(&target, &points);
         accepted.take(&closure, &target, &candidates, LANES);
         accepted.represent(&closure, &target, &[0.0; 6]);
-        assert!(accepted.is_certain() && accepted.as_slice().len() == 1, "{accepted:?}");
-        assert!(accepted.as_slice()[0].is_free(), "{accepted:?}");
-        let motion = closure.self_motions(&target, &accepted.as_slice()[0].theta).next();
-        let direction = motion.unwrap().start.direction;
-        let expected = core::f64::consts::FRAC_1_SQRT_2;
-        assert!((direction[3] + direction[5]).abs() < 1e-9);
-        assert!((direction[3].abs() - expected).abs() < 1e-9);
+        assert!(accepted.as_slice().len() == 1, "{accepted:?}");
+        let moving = accepted.as_slice()[0].moving;
+        assert_eq!(moving, Some([false, false, false, true, false, true]), "{accepted:?}");
     }
     assert!(compared > 100);
 }
@@ -172,27 +166,4 @@ fn out_of_reach_nothing_is_accepted() {
     let mut target = closure.reached(&[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
     target.frame.origin[0] += 2.0;
     assert!(found(&closure, &target, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6], 1.0).as_slice().is_empty());
-}
-
-#[test]
-fn the_curve_has_the_least_singular_value_and_its_direction() {
-    let mut rng = Rng::new(7);
-    let mut near = 0;
-    for _ in 0..20_000 {
-        let closure = random(&mut rng);
-        let theta: [f64; 6] = rng.angles();
-        let target = closure.reached(&theta);
-        let (jacobian, _) = closure.linear(&target, &theta);
-        let values = jacobian.singular_values();
-        // The error shrinks by the square of this ratio in a round.
-        if values[5] > 0.1 * values[4] {
-            continue;
-        }
-        near += 1;
-        let curve = closure.curve(&target, &theta).unwrap();
-        let along = jacobian * nalgebra::SVector::from(*curve.direction());
-        assert!((curve.least - values[5]).abs() < 1e-4 * values[5], "{} {values}", curve.least);
-        assert!((along.norm() - values[5]).abs() < 1e-3 * values[5], "{along} {values}");
-    }
-    assert!(near > 1000, "{near}");
 }

@@ -4,8 +4,7 @@
 use nalgebra::SVector;
 
 use super::chain::{Closure, Target};
-use super::configuration::{Configuration, Kind};
-use super::member::SWEEPS;
+use super::configuration::Configuration;
 
 /// Singular value below which a direction is left out [1]. Next to three solutions that merge, one
 /// is the residual to the power of two thirds: 1e-9 where it closes.
@@ -17,21 +16,24 @@ const MOST_STEP: f64 = 0.1;
 /// Steps at most: where solutions merge, a step goes part of the way.
 const MOST_STEPS: usize = 40;
 
+/// Sweeps of a singular value decomposition, at most.
+const SWEEPS: usize = 60;
+
 impl Closure {
-    /// A configuration that closes next to an approximate one, if steps lead to one. Whether it is
-    /// isolated remains open.
+    /// Return a configuration that closes next to an approximate one, if steps lead to one.
     pub(super) fn closing(&self, target: &Target, theta: &[f64; 6]) -> Option<Configuration> {
         let (mut theta, mut best) = (SVector::from(*theta), None::<Configuration>);
         for _ in 0..MOST_STEPS {
             let (jacobian, missing) = self.linear(target, &theta.into());
             let svd = jacobian.try_svd(true, true, f64::EPSILON, SWEEPS)?;
             let least = svd.singular_values[5];
-            if let Some(one) = self.accepted(target, theta.into(), least, Kind::Regular) {
+            let residual = self.residual(target, &theta.into());
+            if residual <= self.accepts() {
                 // As long as it gets better.
-                if best.is_some_and(|best| best.residual < 2.0 * one.residual) {
+                if best.is_some_and(|best| best.residual < 2.0 * residual) {
                     break;
                 }
-                best = Some(one);
+                best = Some(Configuration { theta: theta.into(), residual, least, moving: None });
             }
             let (u, v_t) = (svd.u?, svd.v_t?);
             let mut step = SVector::<f64, 6>::zeros();

@@ -15,7 +15,7 @@ pub(super) struct Left {
     of_1: [Moments; 3],
 }
 
-/// What the left side tells of t1, or one in each lane.
+/// The equations of the left side in t1, or one in each lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Second<T = f64> {
     /// The moments along z that do not depend on t1.
@@ -139,7 +139,7 @@ fn orthogonal(vectors: [[Complex; 4]; 3]) -> [Complex; 4] {
         normals[from] = complex_mirror(turned, from);
     }
     let last = [[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [1.0, 0.0]];
-    // What is orthogonal to the conjugates is so without them.
+    // A vector orthogonal to the conjugates is so without them.
     normals.iter().rev().fold(last, complex_reflected)
 }
 

@@ -1,14 +1,13 @@
-//! Regular poses by the first split of an arm: candidates at the roots of its determinant.
+//! A split as a method: candidates at the roots of its determinant.
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use fearless_simd::prelude::*;
 
-use super::back::{Angle, completed, eliminated};
+use super::back::{Angle, completed, eliminated, pencil};
 use super::determinant::Rest;
 use super::equated::Equated;
-use super::geometry::General;
 use super::pose_link::PoseLink;
 use super::split::{Posed, Split};
 use crate::kinematics::structure::by_roots::ByRoots;
@@ -17,43 +16,40 @@ use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{RootBlock, TrigonometricPolynomial};
 use crate::lanes::{LANES, Vector, same, sin_cos_of};
 
-/// The split of an arm that is tried first.
+/// One of the splits of an arm.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct FirstSplit {
+pub(crate) struct AtSplit {
     closure: Closure,
     splits: Arc<Vec<Split>>,
+    number: usize,
 }
 
-impl FirstSplit {
-    pub(super) fn new(closure: &Closure, splits: &Arc<Vec<Split>>) -> Self {
-        Self { closure: *closure, splits: Arc::clone(splits) }
-    }
-
-    pub(super) fn of(arm: &General) -> Self {
-        Self::new(&arm.closure, &arm.splits)
+impl AtSplit {
+    pub(super) fn new(closure: &Closure, splits: &Arc<Vec<Split>>, number: usize) -> Self {
+        Self { closure: *closure, splits: Arc::clone(splits), number }
     }
 
     fn split(&self) -> &Split {
-        &self.splits[0]
+        &self.splits[self.number]
     }
 }
 
-/// A pose in the first split.
+/// A pose in a split.
 #[derive(Clone, Copy)]
 pub(crate) struct AtTarget {
     target: Target,
     posed: Posed,
 }
 
-impl ByRoots for FirstSplit {
+impl ByRoots for AtSplit {
     type Posed = AtTarget;
 
     fn closure(&self) -> &Closure {
         &self.closure
     }
 
-    fn may_be_regular(&self, last: &Frame) -> bool {
-        !self.closure.target(*last).is_beyond()
+    fn per_root(&self) -> usize {
+        1
     }
 
     #[inline(always)]
@@ -64,7 +60,7 @@ impl ByRoots for FirstSplit {
 
     #[inline(always)]
     fn polynomial<S: Simd>(&self, simd: S, pose: &AtTarget) -> TrigonometricPolynomial {
-        pose.posed.polynomial(simd, self.closure.rounding)
+        pose.posed.polynomial(simd, self.closure.rounding, self.split().least_noise)
     }
 
     fn searched(&self) -> (usize, f64) {
@@ -99,5 +95,31 @@ impl ByRoots for FirstSplit {
         let [t4, t3] = eliminated(&Rest::at(&equations, &sin, &cos, false).null_vector());
         let [sin, cos] = completed(self.split(), &link, &[t3, t4, t5]);
         pass(&self.closure.converge(&target, &sin, &cos), roots);
+    }
+
+    /// From one null vector, and from the pencil of two (eq. 90).
+    fn every_candidate<S: Simd>(
+        &self,
+        simd: S,
+        AtTarget { target, posed: Posed { link, equations, .. } }: &AtTarget,
+        angles: &RootBlock,
+        mut pass: impl FnMut(&Candidates),
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, &angles.angles));
+                let t5 = Angle { sin, cos };
+                let (target, link) = (target.in_lanes(sin), link.in_lanes(sin));
+                let rest = Rest::at(&Equated::One(equations), &sin, &cos, false);
+                let null = rest.null_vectors();
+                let [one, other] = pencil(&null);
+                for powers in [null[0], one, other] {
+                    let [t4, t3] = eliminated(&powers);
+                    let [sin, cos] = completed(self.split(), &link, &[t3, t4, t5]);
+                    pass(&self.closure.converge(&target, &sin, &cos));
+                }
+            },
+        );
     }
 }

@@ -54,7 +54,7 @@ pub(super) fn eliminated<S: Simd>(powers: &Powers<S>) -> [Angle<S>; 2] {
     [Angle::of_half(dot(b, w), dot(a, w)), Angle::of(sign * sin, sign * cos)]
 }
 
-/// The two vectors of the pencil that two null vectors span: those of which each is `[w, x4 w]`
+/// The two vectors of the pencil that two null vectors span: each is `[w, x4 w]`
 /// (eq. 90).
 #[inline(always)]
 pub(super) fn pencil<S: Simd>(null: &[Powers<S>; 2]) -> [Powers<S>; 2] {
@@ -153,7 +153,7 @@ fn second<S: Simd>(
     Angle::of(sin, cos)
 }
 
-/// t0, which turns axis 2 of the left to that of the right, and t2, which then turns about it.
+/// t0, which turns axis 2 of the left to the right side's, and t2, which then turns about it.
 #[inline(always)]
 fn outer<S: Simd>(left: &Placed<Vector<S>>, right: &Placed<Vector<S>>) -> [Angle<S>; 2] {
     let [px, py, _] = left.origin;

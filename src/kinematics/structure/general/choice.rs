@@ -1,7 +1,7 @@
 //! The choice of splits for an arm: those that find every solution of poses that are drawn, random
 //! ones and structured ones.
 
-use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -9,13 +9,17 @@ use alloc::vec::Vec;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::at_roots::FirstSplit;
-use super::attempt::Attempt;
+use super::at_roots::AtSplit;
 use super::split::{SPLITS, Split};
-use crate::kinematics::structure::by_roots::{ByRoots as _, InCluster, regular_of};
-use crate::kinematics::structure::closure::{Accepted, Closure, Target};
+use crate::kinematics::structure::by_roots::{
+    ByRoots as _, NOISE_OF_SIZE, certifies, quasi_random, regular_of, size_of,
+};
+use crate::kinematics::structure::closure::{Accepted, Closure};
 use crate::kinematics::structure::end_frames::Frame;
-use crate::lanes::run_vectors;
+
+/// [`NOISE_OF_SIZE`] of an arm with three axes that meet in one point or are parallel [1]: a branch
+/// has a factor of its own then, which vanishes at a wrist singularity, but not its rounding.
+const NOISE_OF_PAIRS: f64 = 64.0 * NOISE_OF_SIZE;
 
 /// Splits that an arm keeps: one that is tried first, and others where its count is not certain.
 pub(super) const KEPT: usize = 4;
@@ -31,20 +35,6 @@ const OF_ANOTHER: usize = 3;
 
 /// Splits that are scored on the rest.
 const TRIED: usize = 6;
-
-/// Angles of a quasi-random sequence: multiples of powers of the inverse of the root of
-/// x^7 = x + 1. Reference: Roberts, The unreasonable effectiveness of quasirandom sequences, 2018.
-pub(crate) fn quasi_random(index: usize) -> [f64; 6] {
-    let root = 1.112_775_684_278_705_5_f64;
-    let mut step = 1.0;
-    core::array::from_fn(|_| {
-        step /= root;
-        #[expect(clippy::cast_precision_loss, reason = "a small number")]
-        let part = 0.5 + step * (index + 1) as f64;
-        let whole = crate::lanes::whole_below(part);
-        PI * (2.0 * (part - whole) - 1.0)
-    })
-}
 
 /// The joint vectors on which splits are scored: in general position; with joint 4 or 5, or both,
 /// at zero or a half turn; and at multiples of 90 and 45 deg.
@@ -83,40 +73,48 @@ pub(super) fn chosen(
     closure: &Closure,
     offsets: &[f64; 6],
 ) -> (Arc<Vec<Split>>, bool) {
-    let poses: Vec<(Target, [f64; 6])> =
-        drawn(offsets).into_iter().map(|theta| (closure.reached(&theta), theta)).collect();
+    let poses: Vec<(Frame, [f64; 6])> =
+        drawn(offsets).into_iter().map(|theta| (closure.last_frame(&theta), theta)).collect();
     let (first, rest) = poses.split_at(FIRST);
-    let total = |split: &Split, poses: &[_]| {
-        poses.iter().map(|pose| score(split, closure, pose)).sum::<usize>()
-    };
     // Of a split whose roots have two solutions each, a count would prove nothing.
-    let new = |number| {
-        let split = Split::new(links, number);
-        split.is_single().then(|| (total(&split, first), split))
+    let all = (0..SPLITS).map(|number| Split::new(links, number)).filter(Split::is_single);
+    let mut all = Arc::new(all.collect::<Vec<_>>());
+    // Of three axes that meet, as of a spherical wrist whose twists are off, roots are pairs.
+    let noise = if all.len() < SPLITS { NOISE_OF_PAIRS } else { NOISE_OF_SIZE };
+    let sizes: Vec<_> =
+        (0..all.len()).map(|number| size_of(&AtSplit::new(closure, &all, number))).collect();
+    for (split, size) in Arc::make_mut(&mut all).iter_mut().zip(sizes) {
+        split.least_noise = noise * size;
+    }
+    let total = |number: usize, poses: &[_]| {
+        let method = AtSplit::new(closure, &all, number);
+        poses.iter().map(|pose| score(&method, pose)).sum::<usize>()
     };
-    let mut splits: Vec<(usize, Split)> = (0..SPLITS).filter_map(new).collect();
-    sort(&mut splits);
-    for (score, split) in splits.iter_mut().take(TRIED) {
+    let mut scores: Vec<(usize, usize)> =
+        (0..all.len()).map(|number| (total(number, first), number)).collect();
+    sort(&mut scores);
+    for (score, number) in scores.iter_mut().take(TRIED) {
         // A split that finds next to nothing is not tried further.
         if *score > FIRST {
-            *score += total(split, rest);
+            *score += total(*number, rest);
         }
     }
-    sort(&mut splits);
-    let best = splits.first().map_or(0, |(score, _)| *score);
+    sort(&mut scores);
+    let best = scores.first().map_or(0, |(score, _)| *score);
     let mut kept: Vec<Split> = Vec::new();
-    for (score, split) in splits {
+    for (score, number) in scores {
+        let split = &all[number];
         // One whose determinant vanishes for the arm is of no use.
         let is_good = kept.is_empty() || 2 * score >= best;
         if is_good
             && kept.len() < KEPT
             && kept.iter().all(|other| other.searched() != split.searched())
         {
-            kept.push(split);
+            kept.push(split.clone());
         }
     }
     let kept = Arc::new(kept);
-    let is_mostly_regular = is_mostly_regular(&FirstSplit::new(closure, &kept), RANDOM);
+    let is_mostly_regular = is_mostly_regular(&AtSplit::new(closure, &kept, 0), RANDOM);
     (kept, is_mostly_regular)
 }
 
@@ -129,27 +127,25 @@ pub(super) fn taken(
 ) -> Option<Arc<Vec<Split>>> {
     let splits: Vec<_> = others.iter().map(|split| split.of(links)).collect();
     let splits = splits.iter().all(Split::is_single).then(|| Arc::new(splits))?;
-    is_mostly_regular(&FirstSplit::new(closure, &splits), OF_ANOTHER).then_some(splits)
+    is_mostly_regular(&AtSplit::new(closure, &splits, 0), OF_ANOTHER).then_some(splits)
 }
 
-/// Whether most of so many random poses are regular in the first split. Those of an arm that is next
-/// to one with a spherical wrist are not: their roots are pairs.
-fn is_mostly_regular(method: &FirstSplit, poses: usize) -> bool {
+/// Whether most of so many random poses are regular in the first split. Of an arm next
+/// to one with a spherical wrist they are not: their roots are pairs.
+fn is_mostly_regular(method: &AtSplit, poses: usize) -> bool {
     let closure = method.closure();
     let all: Vec<Frame> = (0..poses).map(|i| closure.last_frame(&quasi_random(i))).collect();
     2 * regular_of(method, &all) > poses
 }
 
-fn sort(splits: &mut [(usize, Split)]) {
-    splits.sort_by_key(|(score, _)| core::cmp::Reverse(*score));
+fn sort(scores: &mut [(usize, usize)]) {
+    scores.sort_by_key(|(score, _)| core::cmp::Reverse(*score));
 }
 
-/// Points of a split for a pose: two if it finds the joints that made it, one if it is certain.
-fn score(split: &Split, closure: &Closure, (target, theta): &(Target, [f64; 6])) -> usize {
-    let mut accepted = Accepted::REGULAR_ONLY;
-    let in_cluster = InCluster::Everywhere;
-    let attempt = Attempt { split, closure, target, in_cluster, accepted: &mut accepted };
-    let is_certain = run_vectors(attempt);
+/// Points of a split for a pose: two if it finds the joints that made it, one if it certifies them.
+fn score(method: &AtSplit, (last, theta): &(Frame, [f64; 6])) -> usize {
+    let mut accepted = Accepted::regular_only();
+    let is_certified = certifies(method, last, &mut accepted);
     let is_found = accepted.as_slice().iter().any(|one| one.distance(theta) < 1e-6);
-    2 * usize::from(is_found) + usize::from(is_certain)
+    2 * usize::from(is_found) + usize::from(is_certified)
 }

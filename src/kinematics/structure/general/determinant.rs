@@ -35,7 +35,7 @@ const REGULAR: f64 = 1e7;
 /// fold; with 4, none of 60,000.
 const OF_THE_POSE: f64 = 4.0;
 
-/// What is left of the matrix: six rows of six, for the powers 2 and 3 of x4, as a triangle.
+/// The rest of the matrix: six rows of six, for the powers 2 and 3 of x4, as a triangle.
 pub(super) struct Rest<S: Simd> {
     columns: [Six<S>; 6],
     pivots: [Pivot<S>; 6],
@@ -59,16 +59,26 @@ struct Pivot<S: Simd> {
 impl Posed {
     /// The determinant as a polynomial of t5 (eq. 91), with the noise of a pose that is rounded
     /// (eq. 92): all of it is noise where it is zero at every angle, or says too little.
-    pub(super) fn polynomial<S: Simd>(&self, simd: S, rounding: f64) -> TrigonometricPolynomial {
+    pub(super) fn polynomial<S: Simd>(
+        &self,
+        simd: S,
+        rounding: f64,
+        least_noise: f64,
+    ) -> TrigonometricPolynomial {
         // A function of its own for each instruction set: it is long.
         simd.vectorize(
             #[inline(always)]
-            || self.sampled(simd, rounding),
+            || self.sampled(simd, rounding, least_noise),
         )
     }
 
     #[inline(always)]
-    fn sampled<S: Simd>(&self, simd: S, rounding: f64) -> TrigonometricPolynomial {
+    fn sampled<S: Simd>(
+        &self,
+        simd: S,
+        rounding: f64,
+        least_noise: f64,
+    ) -> TrigonometricPolynomial {
         if !self.is_single {
             return TrigonometricPolynomial::UNKNOWN;
         }
@@ -85,6 +95,7 @@ impl Posed {
         let mut polynomial = TrigonometricPolynomial::of_samples(&samples).of_pose();
         let of_pose = change * (OF_THE_POSE * rounding);
         polynomial.noise = of_pose.to_array().into_iter().fold(polynomial.noise, f64::max);
+        polynomial.doubt = polynomial.noise.max(least_noise);
         if !regular.simd_gt(REGULAR * rounding).any_true() && self.vanishes(simd, rounding) {
             polynomial.noise = f64::INFINITY;
         }

@@ -22,7 +22,7 @@ impl General {
         Self::measured(mdh, None)
     }
 
-    /// The same for an arm that differs by a link from another one, whose splits are taken if they
+    /// Measure an arm that differs by a link from another one, whose splits are taken if they
     /// serve it, too: to choose takes milliseconds.
     pub(crate) fn like(mdh: &Mdh<6>, other: &Self) -> Result<Self, UnknownStructure> {
         Self::measured(mdh, Some(other))

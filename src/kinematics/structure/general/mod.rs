@@ -1,11 +1,11 @@
 //! Arms of six joints in general: every solution of any chain, by eliminating five joints from the
 //! closure of the loop and searching the sixth.
 //!
-//! `docs/general.md` has the derivation, with the equation numbers (from 81 on) cited in the code.
+//! `docs/theory/general.md` has the derivation, with the equation numbers (from 81 on) cited in the
+//! code.
 
 mod annihilator;
 mod at_roots;
-mod attempt;
 mod back;
 mod choice;
 mod determinant;
@@ -19,10 +19,9 @@ mod split;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use choice::quasi_random;
 pub(crate) use geometry::General;
 
-use at_roots::FirstSplit;
+use at_roots::AtSplit;
 use measure::PATTERN;
 
 use super::branches::Branches;
@@ -51,7 +50,7 @@ impl Structure<6, SLOTS> for General {
     /// a joint vector names its branch.
     const SLOT_NAMES: Option<&'static [&'static str; SLOTS]> = None;
 
-    type Kernel = RootKernel<FirstSplit>;
+    type Kernel = RootKernel<AtSplit>;
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
         Self::of(mdh)
@@ -68,8 +67,8 @@ impl Structure<6, SLOTS> for General {
         Self { closure: self.closure.between(ends), ..self }
     }
 
-    fn kernel(&self) -> Option<RootKernel<FirstSplit>> {
-        self.is_mostly_regular.then(|| RootKernel(FirstSplit::of(self)))
+    fn kernel(&self) -> Option<RootKernel<AtSplit>> {
+        self.is_mostly_regular.then(|| RootKernel(self.split(0)))
     }
 
     fn solve(&self, t_first_last: &Pose, _: f64, free: &FreeChoice<6>) -> Branches<6, SLOTS> {

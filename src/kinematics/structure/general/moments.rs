@@ -1,4 +1,4 @@
-//! The moments of a line, on which rigid motions act linearly (docs/general.md, eq. 82, 83).
+//! The moments of a line, on which rigid motions act linearly (docs/theory/general.md, eq. 82, 83).
 
 use fearless_simd::prelude::*;
 
@@ -85,8 +85,8 @@ impl Moments {
         Self(moments)
     }
 
-    /// What a rotation about z by an angle leaves alone, what it multiplies by the cosine, and by
-    /// the sine (eq. 84).
+    /// Return the parts that a rotation about z leaves alone, multiplies by the cosine, and by the
+    /// sine (eq. 84).
     pub(super) fn harmonics(&self) -> [Self; 3] {
         let (mut along, mut cos, mut sin) = (*self, Self([0.0; MOMENTS]), Self([0.0; MOMENTS]));
         for at in ACROSS {
@@ -104,8 +104,8 @@ impl Moments {
         [along, cos, sin.times(-1.0)]
     }
 
-    /// Those of a rotation back times `1 + x^2`, by powers of x, the tangent of half the angle
-    /// (eq. 88).
+    /// Return the parts of a rotation back times `1 + x^2`, by powers of x, the tangent of half the
+    /// angle (eq. 88).
     pub(super) fn powers_back(&self) -> [Self; 3] {
         let [along, cos, sin] = self.back();
         [along.plus(&cos, 1.0), sin.times(2.0), along.plus(&cos, -1.0)]

@@ -1,4 +1,4 @@
-//! What the candidates of a pose take of it.
+//! The part of a pose that its candidates need.
 
 use fearless_simd::prelude::*;
 
@@ -21,7 +21,7 @@ impl PoseLink {
         second: Second { along: [0.0; 6], weights: [[0.0; 6]; 2] },
     };
 
-    /// The same, in the lanes of a number.
+    /// Broadcast to the lanes of a number.
     #[inline(always)]
     pub(super) fn in_lanes<T: Number>(&self, like: T) -> PoseLink<T> {
         let Second { along, weights } = &self.second;
@@ -36,7 +36,7 @@ impl PoseLink {
 }
 
 impl<S: Simd> PoseLink<Vector<S>> {
-    /// Those of eight poses, one in each lane.
+    /// Gather eight poses, one in each lane.
     #[inline(always)]
     pub(super) fn of_each(simd: S, each: &[&PoseLink; LANES]) -> Self {
         let [mut links, mut inverses] = [[&each[0].link; LANES]; 2];

@@ -25,7 +25,7 @@ pub(super) const SPLITS: usize = 12;
 /// [1]: rounding of a table's angles.
 const OF_A_TABLE: f64 = 1e-10;
 
-/// The same for a pose: the root of the rounding that moves two roots which are as far apart, with
+/// The bound for a pose: the root of the rounding that moves two roots which are as far apart, with
 /// room.
 const OF_A_POSE: f64 = 1e-6;
 
@@ -38,20 +38,22 @@ pub(super) struct Split {
     pub(super) joints: [usize; 6],
     /// 1, or -1 where the loop is read backwards and t is the negative of the joint's angle.
     pub(super) sign: f64,
-    /// The links; that of the pose is the identity.
+    /// The links; the pose's is the identity.
     links: [Frame; 6],
     inverses: [Frame; 6],
     /// The link that is the pose.
     place: usize,
     /// The left side, for a pose on the right.
     left: Left,
-    /// What is before the pose, times the annihilator: by products of the angles before it. One
+    /// The links before the pose, times the annihilator: by products of the angles before it. One
     /// entry, unused, for a pose on the left.
     before: Vec<[Column; MOMENTS]>,
-    /// What is behind the pose, by products of the angles behind it, in lanes; and their number.
+    /// The links behind the pose, by products of the angles behind it, in lanes; and their number.
     /// For a pose on the left, the whole right side.
     behind: Vec<Moments<Column>>,
     behind_count: usize,
+    /// The least noise of the determinant, whatever its size at a pose.
+    pub(super) least_noise: f64,
 }
 
 /// A pose in a split: its link, and its equations.
@@ -97,6 +99,7 @@ impl Split {
             before: Vec::new(),
             behind: Vec::new(),
             behind_count: 0,
+            least_noise: 0.0,
         };
         let behind = split.behind_pose();
         split.behind = behind.chunks(LANES).map(Moments::columns).collect();
@@ -108,9 +111,9 @@ impl Split {
         split
     }
 
-    /// The same split of another loop.
+    /// Apply the split to another loop.
     pub(super) fn of(&self, links: &[Frame; 5]) -> Self {
-        Self::new(links, self.number)
+        Self { least_noise: self.least_noise, ..Self::new(links, self.number) }
     }
 
     /// Link 0 or 1 of a pose, in lanes.
@@ -133,11 +136,6 @@ impl Split {
     /// The joint that is searched, from 0.
     pub(super) fn searched(&self) -> usize {
         self.joints[5]
-    }
-
-    /// The angle that is a root of the determinant, by the angles of the table [rad].
-    pub(super) fn root_of(&self, theta: &[f64; 6]) -> f64 {
-        self.sign * theta[self.searched()]
     }
 
     /// The moments of axis 2 from the right, up to the pose: by products of the angles passed.
@@ -240,7 +238,7 @@ fn product<S: Simd>(
     sum.to_array()
 }
 
-/// What is not zero of a column of a matrix, with its rows.
+/// The elements of a column of a matrix that are not zero, with its rows.
 type Sparse = ArrayVec<(usize, f64), MOMENTS>;
 
 fn sparse(moments: &Moments) -> Sparse {
@@ -269,7 +267,7 @@ fn turned_back(k: usize, moments: &Moments) -> [Moments; 3] {
     if k == 5 { moments.back() } else { moments.powers_back() }
 }
 
-/// Every product with those of joint k: the power of joint 4 and the harmonic of joint 5 come
+/// Every product with joint k's: the power of joint 4 and the harmonic of joint 5 come
 /// first in the order.
 fn all_turned_back(k: usize, all: &[Moments]) -> Vec<Moments> {
     let all: Vec<_> = all.iter().map(|moments| turned_back(k, moments)).collect();

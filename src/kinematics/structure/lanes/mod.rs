@@ -50,8 +50,8 @@ pub(crate) trait LaneKernel<const N: usize, const S: usize>:
     /// The slots of a block of poses.
     type Block: Block<Self, N, S>;
 
-    /// The same kernel for the poses of a path: regular are those whose every branch is determined
-    /// so well that a path has nothing to choose. `None` if there is no such bound.
+    /// Return the kernel for the poses of a path: regular are poses whose every branch is
+    /// determined so well that a path has nothing to choose. `None` if there is no such bound.
     fn for_path(&self) -> Option<Self> {
         None
     }

@@ -114,7 +114,7 @@ fn write_some<K: LaneKernel<N, S>, const N: usize, const S: usize>(
     status.copy_from_slice(&flags[..status.len()]);
 }
 
-/// What a block is solved with. A type, because a closure is not inlined into a kernel for certain,
+/// The means to solve a block. A type, because a closure is not inlined into a kernel for certain,
 /// and then not compiled for its instructions.
 struct Lanes<'a, K: LaneKernel<N, S>, const N: usize, const S: usize> {
     kernel: &'a K,

@@ -21,7 +21,7 @@ impl<const N: usize, const S: usize> SlotColumns<N, S> {
         }
     }
 
-    /// The same, with the last joint equal to `given` in every slot that is found.
+    /// Write with the last joint equal to `given` in every slot that is found.
     #[inline(always)]
     pub(crate) fn wrap_given(&mut self, columns: &[JointColumn; N], given: &Column) {
         for joint in 0..N - 1 {

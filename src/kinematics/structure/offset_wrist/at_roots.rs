@@ -5,7 +5,7 @@
 
 use fearless_simd::prelude::*;
 
-use super::branch::{Branch, Plane, SLACK};
+use super::branch::{Branch, Plane, SIDES, SLACK};
 use super::geometry::Constants;
 use super::hand::{Hand, Moving};
 use super::resultant::polynomial;
@@ -16,10 +16,9 @@ use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{RootBlock, TrigonometricPolynomial};
 use crate::lanes::{Column, LANES, Number as _, Vector, sin_cos_of};
 
-/// Size of z4 . z5 - cos alpha_4 at a root, by which a branch may be worse than the best one and
-/// still be a candidate: at once [1], and as a multiple of the radius of the root [1/rad].
-const ALSO: f64 = 1e-9;
-const ALSO_BY_RADIUS: f64 = 30.0;
+/// How far the upper arm may be from its length for the condition of axis 5 to decide there, relative
+/// to the lengths of the arm [1].
+const NEAR: f64 = 1e-3;
 
 /// Up to eight roots, each of a pose.
 pub(super) struct AtRoots<'a, S: Simd> {
@@ -32,12 +31,6 @@ pub(super) struct AtRoots<'a, S: Simd> {
     branches: [Branch<Vector<S>>; 4],
 }
 
-/// The branches of which a root serves one: the nearest to a solution.
-pub(super) struct Served<'a, S: Simd> {
-    pub(super) branches: &'a [Branch<Vector<S>>],
-    pub(super) nearest: Branch<Vector<S>>,
-}
-
 impl ByRoots for Constants {
     type Posed = Frame;
 
@@ -45,8 +38,8 @@ impl ByRoots for Constants {
         &self.closure
     }
 
-    fn may_be_regular(&self, last: &Frame) -> bool {
-        !self.lengths.is_parallel_at(last)
+    fn per_root(&self) -> usize {
+        self.lengths.per_root()
     }
 
     #[inline(always)]
@@ -72,21 +65,46 @@ impl ByRoots for Constants {
         mut pass: impl FnMut(&Candidates, &RootBlock),
     ) {
         let per_root = self.lengths.per_root();
-        // Few roots with two solutions each share one block: those of the second are behind.
+        // Few roots with two solutions each share one block: the second ones are behind.
         let is_shared = per_root == 2 && 2 * roots.count <= LANES;
         let block = if is_shared { &roots.repeated(2) } else { roots };
         let last = Frame::of_lanes(simd, all, &block.of);
         let at_roots = AtRoots::new(self, &last, Vector::load_array_ref(simd, &block.angles));
-        let mut nearest = at_roots.served(0).nearest;
+        let mut nearest = at_roots.nearest(0);
         if is_shared {
             let lane = Vector::load_array_ref(simd, &LANE);
-            let (first, second) = (lane.like(LANE[roots.count] - 0.5), at_roots.served(1).nearest);
+            let (first, second) = (lane.like(LANE[roots.count] - 0.5), at_roots.nearest(1));
             nearest = Branch::where_above(lane, first, &second, &nearest);
         }
         pass(&at_roots.step(&nearest), block);
         if per_root == 2 && !is_shared {
-            pass(&at_roots.step(&at_roots.served(1).nearest), roots);
+            pass(&at_roots.step(&at_roots.nearest(1)), roots);
         }
+    }
+
+    /// Every branch, and where the links hardly span the distance of the wrist point that which
+    /// meets the condition of axis 5 instead (eq. 134).
+    fn every_candidate<S: Simd>(
+        &self,
+        simd: S,
+        posed: &Frame,
+        angles: &RootBlock,
+        mut pass: impl FnMut(&Candidates),
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let angles = Vector::load_array_ref(simd, &angles.angles);
+                let at_roots = AtRoots::new(self, &posed.in_lanes(angles), angles);
+                for branch in at_roots.branches.iter().chain(&at_roots.by_axis_5()) {
+                    // Without a branch there is no number, and no candidate.
+                    let is_one = branch.off.simd_lt(f64::INFINITY);
+                    if is_one.any_true() {
+                        pass(&at_roots.converge(branch));
+                    }
+                }
+            },
+        );
     }
 }
 
@@ -125,20 +143,35 @@ impl<'a, S: Simd> AtRoots<'a, S> {
         Self { constants, last: *last, target, hand, sin_cos_6: [sin, cos], branches }
     }
 
-    /// The branches of solution `number` of each root.
+    /// Return the branch of solution `number` of each root that is nearest to one.
     #[inline(always)]
-    pub(super) fn served(&self, number: usize) -> Served<'_, S> {
+    fn nearest(&self, number: usize) -> Branch<Vector<S>> {
         let count = self.branches.len() / self.constants.lengths.per_root();
-        let branches = &self.branches[number * count..][..count];
-        let mut nearest = branches[0];
-        for branch in &branches[1..] {
-            nearest = nearest.or_nearer(branch);
+        let [first, rest @ ..] = &self.branches[number * count..][..count] else {
+            return self.branches[0];
+        };
+        rest.iter().fold(*first, |nearest, branch| nearest.or_nearer(branch))
+    }
+
+    /// Return the branches that meet the condition of axis 5; infinitely off where the upper arm is
+    /// then far from its length.
+    #[inline(always)]
+    fn by_axis_5(&self) -> [Branch<Vector<S>>; 4] {
+        let lengths = &self.constants.lengths;
+        let one = self.sin_cos_6[0].like(1.0);
+        let mut branches = self.branches;
+        for (branch, sides) in branches.iter_mut().zip(SIDES) {
+            let [shoulder, elbow] = sides.map(|side| one * side);
+            let plane = Plane::of(lengths, self.hand.at, shoulder);
+            *branch = plane.with_axis_5(lengths, elbow, SLACK);
+            let (misses, most) = (branch.misses(lengths), one.like(NEAR * lengths.extent));
+            branch.off = misses.if_above(most, one.like(f64::INFINITY), branch.off);
         }
-        Served { branches, nearest }
+        branches
     }
 
     /// Bring a branch of each root to its pose.
-    pub(super) fn converge(&self, branch: &Branch<Vector<S>>) -> Candidates {
+    fn converge(&self, branch: &Branch<Vector<S>>) -> Candidates {
         branch.off.token().vectorize(
             #[inline(always)]
             || {
@@ -166,21 +199,5 @@ impl<'a, S: Simd> AtRoots<'a, S> {
                 candidates
             },
         )
-    }
-}
-
-impl<S: Simd> Served<'_, S> {
-    /// How far from a solution branches are candidates, for roots with these radii [rad], and how
-    /// many are.
-    #[inline(always)]
-    pub(super) fn candidates(&self, radii: &Column) -> [Vector<S>; 2] {
-        let off = self.nearest.off;
-        let radii = Vector::load_array_ref(off.token(), radii);
-        let most = off.abs() + radii.scaled_plus(ALSO_BY_RADIUS, off.like(ALSO));
-        let (mut count, one) = (off.like(0.0), off.like(1.0));
-        for branch in self.branches {
-            count += branch.off.abs().if_above(most, off.like(0.0), one);
-        }
-        [most, count]
     }
 }

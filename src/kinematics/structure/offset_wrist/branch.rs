@@ -2,14 +2,11 @@
 //!
 //! Docs: offset_wrist.md, eq. 122 to 124 and 131 to 132.
 
-use fearless_simd::prelude::*;
-
 use super::geometry::{Lengths, Twists};
-use super::hand::Hand;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::lanes::{Column, Number, Vector, VectorKernel, cross, dot, sin_cos_of};
+use crate::lanes::{Number, cross, dot};
 
-/// Square of a length that has a direction, relative to those of the arm [1].
+/// Square of a length that has a direction, relative to the arm's [1].
 const LEAST_SQUARE: f64 = 1e-300;
 
 /// How far a branch may be out of reach and still be a candidate, relative to the squares of the
@@ -39,9 +36,6 @@ pub(super) struct Plane<T> {
     point: [T; 2],
     /// Axis 5 along x1, z1 and axis 2.
     axis_5: [T; 3],
-    /// The square of sigma, which is negative where the wrist point is nearer to axis 1 than the
-    /// plane of the arm [m^2].
-    pub(super) sigma2: T,
 }
 
 impl<T: Number> Plane<T> {
@@ -64,7 +58,7 @@ impl<T: Number> Plane<T> {
             square.if_above(least, x1[0] * scale, zero.like(1.0)),
             square.if_above(least, x1[1] * scale, zero),
         ];
-        Self::facing(lengths, x1, [sigma, h], axis_5, sigma2)
+        Self::facing(lengths, x1, [sigma, h], axis_5)
     }
 
     /// With x1 in a direction, and the wrist point at (sigma, h) from axis 1.
@@ -74,12 +68,11 @@ impl<T: Number> Plane<T> {
         x1: [T; 2],
         [sigma, h]: [T; 2],
         [zx, zy, zz]: [T; 3],
-        sigma2: T,
     ) -> Self {
         let radial = zx.times_plus(x1[0], zy * x1[1]);
         let lateral = zx.times_minus(x1[1], zy * x1[0]) * lengths.s1;
         let point = [sigma - sigma.like(lengths.a1), h];
-        Self { x1, point, axis_5: [radial, zz, lateral], sigma2 }
+        Self { x1, point, axis_5: [radial, zz, lateral] }
     }
 
     /// Factors of cosine and sine of the forearm, and what their sum must be, for axis 5 to be at
@@ -91,7 +84,7 @@ impl<T: Number> Plane<T> {
         ([rise * m, radial * -m], lateral.scaled_plus(-(e * cos_3), lateral.like(cos_4)))
     }
 
-    /// The same for the upper arm to have its length (eq. 124).
+    /// The condition for the upper arm to have its length (eq. 124).
     #[inline(always)]
     fn length_condition(&self, lengths: &Lengths) -> ([T; 2], T) {
         let Lengths { upper, forearm, v: [v1, v2], .. } = *lengths;
@@ -114,30 +107,6 @@ impl<T: Number> Plane<T> {
     #[inline(always)]
     pub(super) fn with_axis_5(&self, lengths: &Lengths, side: T, slack: f64) -> Branch<T> {
         self.branch(lengths, self.axis_condition(lengths), side, slack)
-    }
-
-    /// How far shoulder and elbow are inside their reach [1]: one of them is negative where there
-    /// is no branch.
-    #[inline(always)]
-    fn room(&self, lengths: &Lengths) -> [T; 2] {
-        let scale = 1.0 / (lengths.upper.abs() + lengths.forearm);
-        let ([x, y], wanted) = self.length_condition(lengths);
-        let at_elbow = x.times_plus(x, y * y) - wanted * wanted;
-        [self.sigma2 * (scale * scale), at_elbow * (scale * scale)]
-    }
-
-    /// Above zero if joint 6 must turn by more than an angle, known by its square, before the wrist
-    /// point can reach axis 1, where the sides of the shoulder meet, or axis 2 (eq. 133). It moves
-    /// by its distance from axis 6 at most.
-    #[inline(always)]
-    fn away(&self, lengths: &Lengths, turn: f64) -> T {
-        let Lengths { circle, b, .. } = *lengths;
-        let ([r, h], sigma2, zero) = (self.point, self.sigma2, self.sigma2.like(0.0));
-        let moved2 = turn * circle * circle;
-        let shoulder = sigma2 - zero.like(moved2 + turn * circle * b.abs());
-        let from_axis_2 = r.times_plus(r, h * h) - zero.like(2.0 * moved2);
-        let elbow = sigma2.times_plus(from_axis_2, zero.like(-moved2 * b * b));
-        shoulder.if_above(zero, elbow, shoulder)
     }
 
     /// The branch with the forearm along the unit vector with a given product with `factors`, on
@@ -254,58 +223,3 @@ fn combined<T: Number>(a: [T; 3], x: T, b: [T; 3], y: T) -> [T; 3] {
 
 /// The four branches of an arm for an angle of joint 6: shoulder and elbow on either side.
 pub(super) const SIDES: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
-
-/// Branches at eight angles of joint 6.
-pub(super) struct Seen {
-    /// z4 . z5 - cos alpha_4; infinite where there is no branch [1].
-    pub(super) off: Column,
-    /// How far shoulder and elbow are inside their reach [1].
-    pub(super) shoulder: Column,
-    pub(super) elbow: Column,
-    /// Above zero where shoulder and forearm turn slowly.
-    pub(super) away: Column,
-}
-
-/// The view of all branches, in the order of [`SIDES`], at eight angles [rad].
-pub(super) struct Look<'a> {
-    pub(super) lengths: &'a Lengths,
-    pub(super) hand: &'a Hand,
-    pub(super) angles: &'a Column,
-    /// The square of the angle in which shoulder and forearm are not to turn round [rad^2].
-    pub(super) turn: f64,
-}
-
-impl VectorKernel for Look<'_> {
-    type Answer = [Seen; 4];
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> [Seen; 4] {
-        let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, self.angles));
-        let hand = self.hand.in_lanes(sin).at([sin, cos]);
-        let front = Plane::of(self.lengths, hand, sin.like(1.0));
-        let behind = Plane::of(self.lengths, hand, sin.like(-1.0));
-        [
-            front.seen(&self, 1.0),
-            front.seen(&self, -1.0),
-            behind.seen(&self, 1.0),
-            behind.seen(&self, -1.0),
-        ]
-    }
-}
-
-impl<S: Simd> Plane<Vector<S>> {
-    #[inline(always)]
-    fn seen(&self, look: &Look<'_>, side: f64) -> Seen {
-        let Look { lengths, turn, .. } = *look;
-        let zero = self.sigma2.like(0.0);
-        let off = self.with_elbow(lengths, zero.like(side), 0.0).off;
-        let off = zero.if_above(self.sigma2, zero.like(f64::INFINITY), off);
-        let ([shoulder, elbow], away) = (self.room(lengths), self.away(lengths, turn));
-        Seen {
-            off: off.to_array(),
-            shoulder: shoulder.to_array(),
-            elbow: elbow.to_array(),
-            away: away.to_array(),
-        }
-    }
-}

@@ -14,23 +14,23 @@ pub(crate) struct OffsetWrist {
     /// of that of axes 5 and 6; joint angles are theta.
     pub(super) chain: Chain<6>,
     pub(super) constants: Constants,
-    /// The same arm as one in general, which is asked where the count of roots and that of
-    /// solutions differ.
+    /// The arm as one in general, whose splits are tried where the counts of roots and solutions
+    /// differ.
     pub(super) general: Box<General>,
 }
 
-/// What a solve needs of an arm.
+/// The constants of a solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Constants {
     pub(super) lengths: Lengths,
     pub(super) twists: Twists,
-    /// That of the arm in general.
+    /// The closure of the arm in general.
     pub(super) closure: Closure,
 }
 
 use crate::kinematics::thresholds::LEAST_LINK;
 
-/// The lengths and angles of the equations (docs/offset_wrist.md, section 1).
+/// The lengths and angles of the equations (docs/theory/offset_wrist.md, section 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lengths {
     /// Distance of axis 2 from axis 1 [m].
@@ -62,7 +62,7 @@ pub(super) struct Lengths {
     pub(super) circle: f64,
     /// The sum of the lengths of the rows [m].
     pub(super) extent: f64,
-    /// What the noise of the polynomial is at least.
+    /// The least noise of the polynomial.
     pub(super) least_noise: f64,
     /// Whether the polynomial is a square (eq. 129).
     pub(super) is_square: bool,

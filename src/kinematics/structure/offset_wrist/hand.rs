@@ -41,18 +41,13 @@ impl<T: Number> Hand<T> {
         hand
     }
 
-    /// The vertical component of axis 5: constant, factors of the cosine and sine of joint 6.
-    pub(super) fn rise_of_axis_5(&self) -> [T; 3] {
-        self.axis_5.map(|part| part[2])
-    }
-
     /// Wrist point and direction of axis 5 for joint 6.
     #[inline(always)]
     pub(super) fn at(&self, [sin, cos]: [T; 2]) -> ([T; 3], [T; 3]) {
         (turned(&self.point, sin, cos), turned(&self.axis_5, sin, cos))
     }
 
-    /// The same, and how both change with joint 6.
+    /// Return both, and how they change with joint 6.
     #[inline(always)]
     pub(super) fn moving(&self, [sin, cos]: [T; 2]) -> Moving<T> {
         let rates = (rate(&self.point, sin, cos), rate(&self.axis_5, sin, cos));
@@ -61,7 +56,7 @@ impl<T: Number> Hand<T> {
 }
 
 impl Hand {
-    /// The same, in the lanes of a number.
+    /// Broadcast to the lanes of a number.
     #[inline(always)]
     pub(super) fn in_lanes<T: Number>(&self, like: T) -> Hand<T> {
         let zero = like.like(0.0);

@@ -6,11 +6,11 @@ use nalgebra::ComplexField as _;
 use alloc::boxed::Box;
 
 use super::geometry::{Constants, Lengths, OffsetWrist, Twists};
-use super::resultant::least_noise;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::dh::{DhRow, Mdh};
 use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::by_roots::{NOISE_OF_SIZE, size_of};
 use crate::kinematics::structure::general::General;
 use crate::kinematics::thresholds::{LEAST_TWIST_SIN, POSITION_ROUNDING};
 use crate::report::{Pattern, Relation, UnknownStructure};
@@ -26,7 +26,12 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Measure the geometry of a table (docs/offset_wrist.md, section 1).
+/// How far the resultant may be off where joint 6 does not move the wrist point, relative to its size
+/// at other poses [1]: each branch has a factor of its own then, which vanishes where its wrist is
+/// straight, but not the rounding of what it is the difference of.
+const NOISE_OF_STRAIGHT: f64 = 2048.0 * f64::EPSILON;
+
+/// Measure the geometry of a table (docs/theory/offset_wrist.md, section 1).
 pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
     let rows = &mdh.rows;
     let links = rows.map(Link::new);
@@ -59,7 +64,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
     let [a1, cos_4] = [links[1].a, links[4].cos_alpha];
     let is_even = v[0] == 0.0 || (v[1] == 0.0 && cos_4 == 0.0);
     let is_square = is_even && [a1, b, cos_3].iter().all(|term| *term == 0.0);
-    let mut lengths = Lengths {
+    let lengths = Lengths {
         a1,
         upper: links[2].a,
         forearm,
@@ -94,7 +99,8 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         cos_5: links[5].cos_alpha,
     };
     let general = Box::new(General::of(mdh)?);
-    lengths.least_noise = least_noise(&lengths, general.closure());
-    let constants = Constants { lengths, twists, closure: *general.closure() };
+    let mut constants = Constants { lengths, twists, closure: *general.closure() };
+    let noise = if lengths.turns_wrist_point() { NOISE_OF_SIZE } else { NOISE_OF_STRAIGHT };
+    constants.lengths.least_noise = noise * size_of(&constants);
     Ok(OffsetWrist { chain, constants, general })
 }

@@ -1,20 +1,17 @@
 //! Arms with an offset wrist: axes 2 and 3 parallel, axis 4 meets axis 5, axis 6 does not meet
 //! them. Such are ABB's GoFa, FANUC's CRX, UFACTORY's xArm6 and Kinova's JACO2.
 //!
-//! `docs/offset_wrist.md` has the derivation, with the equation numbers (from 121 on) cited in the
-//! code.
+//! `docs/theory/offset_wrist.md` has the derivation, with the equation numbers (from 121 on) cited
+//! in the code.
 
 mod at_roots;
 mod branch;
-mod clusters;
 mod determinant;
 mod geometry;
 mod hand;
 mod measure;
-mod parallel;
 mod reach;
 mod resultant;
-mod search;
 mod solve;
 mod step;
 #[cfg(test)]

@@ -8,8 +8,8 @@ use nalgebra::ComplexField as _;
 
 use super::geometry::OffsetWrist;
 use super::hand::Hand;
-use super::search::sin_cos;
 use crate::kinematics::structure::end_frames::Frame;
+use crate::lanes::sin_cos;
 use crate::report::Reach;
 
 /// Angles of joint 6 at which the distance is taken first.
@@ -24,7 +24,10 @@ impl OffsetWrist {
     #[cold]
     pub(super) fn missed(&self, last: &Frame) -> Reach {
         let hand = Hand::of(&self.constants.lengths, last);
-        let at = |angle: f64| self.missed_by(&hand, sin_cos(angle));
+        let at = |angle: f64| {
+            let (sin, cos) = sin_cos::<false>(angle);
+            self.missed_by(&hand, [sin, cos])
+        };
         let step = TAU / ANGLES as f64;
         let (mut best, mut least) = (0.0, f64::INFINITY);
         for number in 0..ANGLES {

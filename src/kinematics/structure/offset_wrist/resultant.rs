@@ -6,24 +6,14 @@ use fearless_simd::prelude::*;
 
 use super::geometry::Lengths;
 use super::hand::Hand;
-use crate::kinematics::structure::closure::Closure;
-use crate::kinematics::structure::general::quasi_random;
 use crate::kinematics::structure::trigonometric::{
     SAMPLE_COS, SAMPLE_SIN, SAMPLES, TrigonometricPolynomial,
 };
-use crate::lanes::{LANES, Number, Vector, VectorKernel, run_vectors};
+use crate::lanes::{LANES, Number, Vector};
 
-/// What the rounding of a pose changes of the resultant, relative to its coefficients [1]: they are
+/// Noise of the resultant by the rounding of a pose, relative to its coefficients [1]: they are
 /// of degree 8 in the pose's elements, and no surplus harmonic shows it.
 const NOISE_OF_DEGREE_8: f64 = 64.0 * f64::EPSILON;
-
-/// The same where joint 6 does not move the wrist point, relative to the resultant at other poses
-/// [1]: each branch has a factor of its own then, which vanishes where its wrist is straight, but
-/// not the rounding of what it is the difference of.
-const NOISE_OF_STRAIGHT: f64 = 32.0 * NOISE_OF_DEGREE_8;
-
-/// Poses that tell how large the resultant is.
-const POSES: usize = 16;
 
 /// A number `u + sigma v`, where sigma is the distance of the wrist point from axis 1 along the
 /// plane of the arm, known by its square (eq. 127).
@@ -103,34 +93,11 @@ pub(super) fn polynomial<S: Simd>(
         || {
             let values = samples(simd, lengths, hand);
             let mut polynomial = TrigonometricPolynomial::of_samples(&values).of_pose();
-            polynomial.noise += NOISE_OF_DEGREE_8 * polynomial.size() + lengths.least_noise;
+            polynomial.noise += NOISE_OF_DEGREE_8 * polynomial.size();
+            polynomial.doubt = polynomial.noise.max(lengths.least_noise);
             polynomial
         },
     )
-}
-
-/// The size of the resultant of a pose.
-struct Size<'a>(&'a Lengths, Hand);
-
-impl VectorKernel for Size<'_> {
-    type Answer = f64;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> f64 {
-        polynomial(simd, self.0, &self.1).size()
-    }
-}
-
-/// The least noise of the resultant of an arm, whatever its size at a pose.
-pub(super) fn least_noise(lengths: &Lengths, closure: &Closure) -> f64 {
-    if lengths.turns_wrist_point() {
-        return 0.0;
-    }
-    let size = |index| {
-        let hand = Hand::of(lengths, &closure.last_frame(&quasi_random(index)));
-        run_vectors(Size(lengths, hand))
-    };
-    NOISE_OF_STRAIGHT * (0..POSES).map(size).fold(0.0, f64::max)
 }
 
 #[inline(always)]

@@ -187,7 +187,7 @@ fn at_zero(
     Some(at(low + ahead))
 }
 
-/// What was found of a set.
+/// The findings of a set.
 #[derive(Debug, Default)]
 struct Tally {
     count: usize,
@@ -207,9 +207,9 @@ fn tally(
     for q in joints(3).take(count).filter_map(|q| change(arm, q)) {
         let q = arm.joint_map().theta(&arm.joint_map().joints(q));
         tally.count += 1;
-        let mut found = Accepted::NONE;
+        let mut found = Accepted::new();
         let is_certified =
-            arm.solutions(&arm.chain.fk(&q), &FreeChoice::rest([0.0; 6]), &mut found);
+            arm.solutions(&Frame::of(&arm.chain.fk(&q)), &FreeChoice::rest([0.0; 6]), &mut found);
         let all = found.as_slice();
         // A regular solution is where it was. Of two that nearly merge, rounding moves each by the
         // root of itself over the curvature of the closure, which is 5e-10 at least: what is
@@ -234,7 +234,7 @@ fn tally(
 
 #[test]
 fn each_arm_is_found_or_the_answer_is_not_certified() {
-    let mut totals = [[0; 2]; SETS.len()];
+    let (mut totals, mut missed) = ([[0; 2]; SETS.len()], 0);
     for (name, arm) in arms() {
         for (set, change) in SETS {
             let tally = tally(&arm, change, asked());
@@ -242,19 +242,15 @@ fn each_arm_is_found_or_the_answer_is_not_certified() {
             assert_eq!(tally.missed_though_certified, 0, "{name}, {set}: {tally:?}");
             let total = &mut totals[SETS.iter().position(|(other, _)| *other == set).unwrap()];
             *total = [total[0] + tally.count, total[1] + tally.uncertified];
-            if set == "random" {
-                assert!(
-                    tally.missed == 0 && tally.uncertified * 100 <= tally.count,
-                    "{name}: {tally:?}"
-                );
-            }
+            assert!(set != "random" || tally.missed == 0, "{name}: {tally:?}");
+            missed += tally.missed;
         }
     }
-    // The arms whose every pose of a set has a self-motion are one in ten.
-    for ((set, _), [asked, uncertified]) in SETS.iter().zip(totals) {
-        let most = if *set == "multiples of 90 deg" { asked / 4 } else { asked / 8 };
-        assert!(uncertified <= most, "{set}: {uncertified} uncertified of {asked}");
-    }
+    let poses: usize = totals.iter().map(|[count, _]| count).sum();
+    std::println!("{missed} of {poses} missed; count and uncertified of each set: {totals:?}");
+    assert!(missed * 1000 <= poses, "{missed} of {poses}");
+    let [random, uncertified] = totals[0];
+    assert!(uncertified * 100 <= random, "{uncertified} of {random}");
 }
 
 /// Number of joint vectors of a set: `make offset-wrists` asks for more.

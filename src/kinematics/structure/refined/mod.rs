@@ -1,7 +1,7 @@
 //! A calibrated arm by way of its nominal one: every branch of the nominal arm, brought onto the
-//! pose by Newton's method (docs/calibrate.md, section 5).
+//! pose by Newton's method (docs/guide/calibrate.md, section 5).
 //!
-//! What it finds are the branches of the nominal arm. A pair of branches that the calibrated arm
+//! It finds the branches of the nominal arm. A pair of branches that the calibrated arm
 //! has and the nominal one has not is not seen: that happens next to folds.
 
 use alloc::sync::Arc;
@@ -130,7 +130,7 @@ impl Refined {
         for slot in 0..places.len() {
             let Some(theta) = &outcome.lost[slot] else { continue };
             let candidates = self.closure.converged(&target, &theta.map(|theta| [theta; LANES]));
-            let mut found = Accepted::NONE;
+            let mut found = Accepted::new();
             found.take(&self.closure, &target, &candidates, 1);
             for found in found.as_slice() {
                 let place = self.place(found.theta, Slot::new(slot), &limits);

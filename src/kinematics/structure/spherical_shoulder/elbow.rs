@@ -131,7 +131,7 @@ impl Links {
         theta_4 - self.psi[0].atan2(self.psi[1])
     }
 
-    /// Sine and cosine of joint 4 for those of the elbow angle (eq. 57).
+    /// Sine and cosine of joint 4 from the elbow angle's (eq. 57).
     pub(super) fn joint_4(&self, [sin_e, cos_e]: [f64; 2]) -> [f64; 2] {
         let [sin_psi, cos_psi] = self.psi;
         [sin_e * cos_psi + cos_e * sin_psi, cos_e * cos_psi - sin_e * sin_psi]

@@ -68,8 +68,8 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Measure the geometry in the frames at q = 0 (docs/spherical_shoulder.md, section 8). The rows
-/// give the lengths, so that none is lost to rounding; the frames give the directions.
+/// Measure the geometry in the frames at q = 0 (docs/theory/spherical_shoulder.md, section 8). The
+/// rows give the lengths, so that none is lost to rounding; the frames give the directions.
 pub(super) fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, UnknownStructure> {
     let rows = &mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });

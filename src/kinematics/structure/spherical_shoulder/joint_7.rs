@@ -1,5 +1,5 @@
 //! Joint 7: the angles at which an elbow or a wrist is at the edge of its reach
-//! (docs/spherical_shoulder.md, section 5).
+//! (docs/theory/spherical_shoulder.md, section 5).
 
 use core::f64::consts::{FRAC_PI_4, PI};
 

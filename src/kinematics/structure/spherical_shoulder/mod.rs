@@ -1,7 +1,8 @@
 //! Seven-axis arms with a spherical shoulder and an offset elbow, with the angle of joint 7 given:
 //! axes 1, 2, 3 through one point, axes 5 and 6 intersecting, axis 7 anywhere.
 //!
-//! `docs/spherical_shoulder.md` has the derivation, with the equation numbers cited in the code.
+//! `docs/theory/spherical_shoulder.md` has the derivation, with the equation numbers cited in the
+//! code.
 
 mod branch;
 mod elbow;

@@ -106,8 +106,8 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Measure the geometry in the frames at q = 0 (docs/spherical_wrist.md, section 7). The rows
-/// give the lengths, so that none is lost to rounding; the frames give the directions.
+/// Measure the geometry in the frames at q = 0 (docs/theory/spherical_wrist.md, section 7). The
+/// rows give the lengths, so that none is lost to rounding; the frames give the directions.
 pub(super) fn measure(mdh: &mut Mdh<6>) -> Result<SphericalWrist, UnknownStructure> {
     let rows = mdh.rows;
     let chain = Chain::new(Mdh { base: Pose::identity(), ..mdh.clone() });
@@ -215,7 +215,7 @@ pub struct OpwParameters {
 }
 
 /// Added to each theta to get the angle of the modified Denavit-Hartenberg row
-/// (docs/spherical_wrist.md, table 1).
+/// (docs/theory/spherical_wrist.md, table 1).
 const MDH_SHIFT: [f64; 6] = [0.0, -FRAC_PI_2, -FRAC_PI_2, 0.0, 0.0, PI];
 
 impl OpwParameters {

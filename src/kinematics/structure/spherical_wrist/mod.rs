@@ -1,7 +1,8 @@
 //! Arms with an ortho-parallel basis and a spherical wrist: axis 1 perpendicular to axis 2, axes 2
 //! and 3 parallel, axes 4, 5, 6 through one point.
 //!
-//! `docs/spherical_wrist.md` has the derivation, with the equation numbers cited in the code.
+//! `docs/theory/spherical_wrist.md` has the derivation, with the equation numbers cited in the
+//! code.
 
 mod arm;
 mod branch;

@@ -49,7 +49,7 @@ pub(crate) static PATTERN: Pattern = Pattern {
     ],
 };
 
-/// Measure the geometry in the frames at q = 0 (docs/three_parallel.md, section 6). The rows
+/// Measure the geometry in the frames at q = 0 (docs/theory/three_parallel.md, section 6). The rows
 /// give the lengths, so that none is lost to rounding; the frames give the directions.
 pub(super) fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, UnknownStructure> {
     let rows = &mdh.rows;

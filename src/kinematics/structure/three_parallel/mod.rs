@@ -1,8 +1,8 @@
 //! Arms with three parallel axes, as Universal Robots makes them: axis 1 perpendicular to the
 //! parallel axes 2, 3 and 4, axis 5 perpendicular to them and axis 6 perpendicular to axis 5.
 //!
-//! `docs/three_parallel.md` has the derivation, with the equation numbers (from 31 on) cited in the
-//! code.
+//! `docs/theory/three_parallel.md` has the derivation, with the equation numbers (from 31 on) cited
+//! in the code.
 
 mod branch;
 mod geometry;

@@ -28,7 +28,7 @@ const MOST_BLOCKS: usize = 17;
 pub(super) const MOST_BRACKETS: usize = MOST_BLOCKS * LANES;
 
 impl BracketBlock {
-    /// The same bracket in every lane.
+    /// Broadcast a bracket to every lane.
     #[inline(always)]
     fn splat(of: usize, [middle, low, high, start, sign]: [f64; 5]) -> Self {
         Self {
@@ -92,7 +92,7 @@ impl Brackets {
         Self { blocks: ArrayVec::new(), count: 0, is_complete: true }
     }
 
-    /// Numbers of those of wanted polynomials, up to eight, in another order, and how many they
+    /// Numbers of brackets of wanted polynomials, up to eight, in another order, and how many they
     /// are: first those that fill blocks with the brackets of one polynomial, then the rest.
     pub(super) fn packed(&self, is_wanted: impl Fn(usize) -> bool) -> ([u8; MOST_BRACKETS], usize) {
         let of =

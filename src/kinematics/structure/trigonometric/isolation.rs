@@ -2,7 +2,7 @@
 //!
 //! A polynomial has at most as many roots in an interval as its Bernstein coefficients change sign,
 //! and differs from that number by an even one. So no change is no root, one change is one root,
-//! and more are divided by de Casteljau's algorithm. A coefficient below the noise counts as either
+//! and more are halved by de Casteljau's algorithm. A coefficient below the noise counts as either
 //! sign. Reference: Lane and Riesenfeld, Bounds on a polynomial, BIT 21, 1981.
 
 #[cfg(not(feature = "std"))]
@@ -16,7 +16,6 @@ use super::brackets::Brackets;
 use super::clusters::Clusters;
 use super::part::{Coefficients, Part};
 use super::polynomial::TrigonometricPolynomial;
-use super::roots::Root;
 use super::tables::{POWERS, QUARTERS};
 use crate::lanes::{Column, LANES, Number as _, Vector};
 
@@ -30,7 +29,7 @@ const NEVER: f64 = -1e3;
 /// parts are divided before there are more of several.
 const MOST_BLOCKS: usize = 6;
 
-/// What is found, and what is to be divided.
+/// The findings, and the parts to be divided.
 pub(super) struct Search<'a> {
     parts: Parts,
     brackets: &'a mut Brackets,
@@ -77,14 +76,13 @@ impl Parts {
         let mut parts = [self.all[first]; LANES];
         parts[..count].copy_from_slice(&self.all[first..first + count]);
         let simd = left[0].token();
-        let cut = Vector::load_array(simd, parts.map(|part| part.cut));
         for (to, column) in right.iter_mut().zip(&self.columns[block]) {
             *to = Vector::load_array_ref(simd, column);
         }
         left[0] = right[0];
         for row in 1..=POWERS {
             for j in 0..=POWERS - row {
-                right[j] = (right[j + 1] - right[j]).mul_add(cut, right[j]);
+                right[j] = (right[j] + right[j + 1]) * 0.5;
             }
             left[row] = right[0];
         }
@@ -105,23 +103,18 @@ impl<'a> Search<'a> {
         Self { parts: Parts::new(), brackets, clusters }
     }
 
-    /// Find an interval for every root beside the known clusters: brackets of simple roots, as wide
-    /// as they can be, and clusters.
-    pub(super) fn isolate<S: Simd>(
-        &mut self,
-        simd: S,
-        all: &[TrigonometricPolynomial],
-        known: &[Root],
-    ) {
+    /// Find an interval for every root: brackets of simple roots, as wide as they can be, and
+    /// clusters.
+    pub(super) fn isolate<S: Simd>(&mut self, simd: S, all: &[TrigonometricPolynomial]) {
         // A function of its own for each instruction set: it is long.
         simd.vectorize(
             #[inline(always)]
-            || self.isolate_in(simd, all, known),
+            || self.isolate_in(simd, all),
         );
     }
 
     #[inline(always)]
-    fn isolate_in<S: Simd>(&mut self, simd: S, all: &[TrigonometricPolynomial], known: &[Root]) {
+    fn isolate_in<S: Simd>(&mut self, simd: S, all: &[TrigonometricPolynomial]) {
         let zero = Vector::splat(simd, 0.0);
         let (mut columns, mut divisions) = ([[zero; POWERS + 1]; QUARTERS], 0);
         for of in 0..=all.len() {
@@ -133,10 +126,10 @@ impl<'a> Search<'a> {
                 divisions += 1;
             }
             if let Some(polynomial) = all.get(of)
-                && !self.clusters.is_left(of)
+                && !self.clusters.have_abandoned(of)
             {
                 polynomial.on_arcs(simd, &mut columns);
-                self.begin(&columns, (of, polynomial.noise), known);
+                self.begin(&columns, (of, polynomial.noise));
             }
         }
         for part in &self.parts.all {
@@ -144,30 +137,17 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Begin with a polynomial with this number and noise: on all arcs, by quarters of the circle,
-    /// without what is in a known cluster.
+    /// Begin with a polynomial with this number and noise, on all arcs, by quarters of the circle.
     #[inline(always)]
     fn begin<S: Simd>(
         &mut self,
         quarters: &[Coefficients<Vector<S>>; QUARTERS],
         (of, noise): (usize, f64),
-        known: &[Root],
     ) {
         for (columns, arcs) in quarters.iter().zip(&ARCS_OF) {
             let seen = Seen::of(columns, columns[0].like(noise));
-            let whole = |lane: usize| Part::whole(of, noise, arcs[lane]);
-            let mut cut = 0;
-            for lane in if known.is_empty() { 0..0 } else { 0..LANES } {
-                let whole = whole(lane);
-                if let Some(cluster) = known.iter().find(|cluster| cluster.reaches(whole.arc)) {
-                    cut |= 1 << lane;
-                    for part in whole.without(cluster).into_iter().flatten() {
-                        self.parts.push(&in_lane(columns, lane), part);
-                    }
-                }
-            }
-            for lane in lanes_of(seen.open & !cut) {
-                self.take(&seen, lane, whole(lane));
+            for lane in lanes_of(seen.open) {
+                self.take(&seen, lane, Part::whole(of, noise, arcs[lane]));
             }
         }
     }
@@ -184,9 +164,7 @@ impl<'a> Search<'a> {
         for (end, columns) in [&*left, &*right].into_iter().enumerate() {
             let seen = Seen::of(columns, noise);
             for lane in lanes_of(seen.open).take_while(|lane| *lane < count) {
-                if parts[lane].keeps[end] {
-                    self.take(&seen, lane, parts[lane].divided()[end]);
-                }
+                self.take(&seen, lane, parts[lane].halves()[end]);
             }
         }
     }
@@ -206,19 +184,11 @@ impl<'a> Search<'a> {
     #[inline(never)]
     fn take_rest(&mut self, coefficients: &Coefficients<f64>, has_many: bool, part: Part) {
         let Self { parts, brackets, clusters } = self;
-        if clusters.is_left(part.of) {
+        if clusters.have_abandoned(part.of) {
             return;
         }
         let is_noise = |b: &f64| b.abs() <= part.noise;
-        let is_at_edge = || {
-            let may_be = is_noise(&coefficients[0]) || is_noise(&coefficients[POWERS]);
-            may_be && clusters.have_at_edge(&part)
-        };
-        if coefficients.iter().all(is_noise)
-            || clusters.is_narrow(&part)
-            || parts.all.is_full()
-            || is_at_edge()
-        {
+        if coefficients.iter().all(is_noise) || clusters.is_narrow(&part) || parts.all.is_full() {
             clusters.take(&part);
         } else if has_many || !part.take_pair(coefficients, brackets, clusters) {
             clusters.pass(&part);
@@ -227,7 +197,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// What coefficients show of roots: sets of lanes as bits.
+/// The roots that coefficients show: sets of lanes as bits.
 struct Seen<'a, S: Simd> {
     columns: &'a Coefficients<Vector<S>>,
     /// With a root, perhaps; with one simple root; with more than two, perhaps.
@@ -322,7 +292,7 @@ fn most_changes<S: Simd>(columns: &Coefficients<Vector<S>>, noise: Vector<S>) ->
     most_changes_of_any_sign(columns, noise)
 }
 
-/// The same where coefficients are below the noise.
+/// Count where coefficients are below the noise.
 #[inline(always)]
 fn most_changes_of_any_sign<S: Simd>(
     columns: &Coefficients<Vector<S>>,

@@ -1,13 +1,12 @@
 //! Trigonometric polynomials of degree 8, from samples: their noise, and all of their real roots.
 //!
 //! The condition for a six-joint chain to close, as a function of one joint angle, is such a
-//! polynomial. Its roots are the values of that joint in all solutions (docs/general.md, eq. 91 to
-//! 96).
+//! polynomial. Its roots are the values of that joint in all solutions (docs/theory/general.md, eq.
+//! 91 to 96).
 
 mod arcs;
 mod brackets;
 mod clusters;
-mod cut;
 mod isolation;
 mod pair;
 mod part;
@@ -15,12 +14,11 @@ mod polynomial;
 mod refinement;
 mod roots;
 mod search;
-mod simple_roots;
 mod tables;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use polynomial::TrigonometricPolynomial;
 pub(crate) use roots::{Root, Roots};
-pub(crate) use simple_roots::{RootBlock, SimpleRoots};
+pub(crate) use search::{RootBlock, SimpleRoots};
 pub(crate) use tables::{SAMPLE_COS, SAMPLE_SIN, SAMPLES};

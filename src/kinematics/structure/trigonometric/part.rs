@@ -16,26 +16,23 @@ pub(super) struct Part {
     pub(super) arc: usize,
     pub(super) low: f64,
     pub(super) high: f64,
-    /// Where it is to be divided, as a part of it, and which of its two parts count.
-    pub(super) cut: f64,
-    pub(super) keeps: [bool; 2],
 }
 
 impl Part {
-    /// A whole arc of a polynomial, to be divided in the middle.
+    /// Return a whole arc of a polynomial.
     #[inline(always)]
     pub(super) const fn whole(of: usize, noise: f64, arc: usize) -> Self {
-        Self { of, noise, arc, low: 0.0, high: 1.0, cut: 0.5, keeps: [true; 2] }
+        Self { of, noise, arc, low: 0.0, high: 1.0 }
     }
 
-    /// Its two parts.
+    /// Return its two halves.
     #[inline(always)]
-    pub(super) fn divided(&self) -> [Self; 2] {
-        let middle = self.low + self.cut * (self.high - self.low);
+    pub(super) fn halves(&self) -> [Self; 2] {
+        let middle = 0.5 * (self.low + self.high);
         [self.within(self.low, middle), self.within(middle, self.high)]
     }
 
-    /// What is between two places of the arc.
+    /// Return the part between two places of the arc.
     #[inline(always)]
     pub(super) fn within(&self, low: f64, high: f64) -> Self {
         Self { low, high, ..Self::whole(self.of, self.noise, self.arc) }
@@ -43,7 +40,7 @@ impl Part {
 
     pub(super) fn cluster(&self) -> Root {
         let [low, high] = [self.low, self.high].map(|place| angle(middle(self.arc), place));
-        Root { low, high, ..Root::NONE }
+        Root { low, high, is_simple: false, most: usize::MAX }
     }
 }
 

@@ -6,10 +6,10 @@ use super::tables::{DEGREE, FOURIER, ORDERS, SAMPLES};
 use crate::lanes::{LANES, Number, Vector, same, transposed};
 
 /// Size of the noise of a value, as a multiple of the largest surplus harmonic: the noise of a
-/// value is the sum of that of 17 coefficients, of which seven surplus ones are a sample.
+/// value is the sum of 17 coefficients' noise, of which seven surplus ones are a sample.
 const NOISE_OF_SURPLUS: f64 = 8.0;
 
-/// Size of the noise of a value that comes of a pose, as a multiple of that of the arithmetic: a
+/// Size of the noise of a value that comes of a pose, as a multiple of the arithmetic's: a
 /// pose is rounded ten times as often as what is calculated of it, and that changes the polynomial
 /// without leaving its degree, where no surplus harmonic shows it: with det J = 0 to rounding, a
 /// value that should be zero may be several times the noise of the arithmetic.
@@ -25,15 +25,19 @@ pub(crate) struct TrigonometricPolynomial<T = f64> {
     pub(crate) sin: [T; DEGREE + 1],
     /// Size below which a value counts as either sign.
     pub(crate) noise: T,
+    /// How far a value may be off in all: the noise, and what conditioning makes of rounding, which no
+    /// surplus harmonic shows.
+    pub(crate) doubt: T,
 }
 
 impl TrigonometricPolynomial {
     /// Zero everywhere.
     pub(super) const NONE: Self =
-        Self { cos: [0.0; DEGREE + 1], sin: [0.0; DEGREE + 1], noise: 0.0 };
+        Self { cos: [0.0; DEGREE + 1], sin: [0.0; DEGREE + 1], noise: 0.0, doubt: 0.0 };
 
     /// One of which nothing is known.
-    pub(crate) const UNKNOWN: Self = Self { noise: f64::INFINITY, ..Self::NONE };
+    pub(crate) const UNKNOWN: Self =
+        Self { noise: f64::INFINITY, doubt: f64::INFINITY, ..Self::NONE };
 
     /// The polynomial through values at the [`SAMPLES`] angles `2 pi j / 24`, in that order. The
     /// harmonics 9 to 12 that the values contain are its noise (eq. 92).
@@ -51,7 +55,7 @@ impl TrigonometricPolynomial {
         }
         let [low_cos, [cos_8, surplus @ ..], high_sin] =
             [harmonics[0].to_array(), harmonics[1].to_array(), harmonics[2].to_array()];
-        let mut polynomial = Self { cos: [0.0; 9], sin: [0.0; 9], noise: 0.0 };
+        let mut polynomial = Self { cos: [0.0; 9], sin: [0.0; 9], noise: 0.0, doubt: 0.0 };
         polynomial.cos[..8].copy_from_slice(&low_cos);
         polynomial.cos[8] = cos_8;
         polynomial.sin[1..].copy_from_slice(&high_sin);
@@ -63,9 +67,16 @@ impl TrigonometricPolynomial {
         polynomial
     }
 
-    /// The same with the noise of the pose from which the values are.
+    /// Return the polynomial with the noise of the pose from which the values are.
     pub(crate) fn of_pose(self) -> Self {
         Self { noise: NOISE_OF_POSE * self.noise, ..self }
+    }
+
+    /// Return the polynomial with all that its values may be off as noise: what it shows of its roots
+    /// is certain.
+    pub(crate) fn in_doubt(&self) -> Self {
+        let noise = self.noise.max(self.doubt);
+        Self { noise, doubt: noise, ..*self }
     }
 
     /// The sum of the sizes of the coefficients: no value is larger.
@@ -86,7 +97,7 @@ impl<T: Number> TrigonometricPolynomial<T> {
     #[inline(always)]
     pub(crate) fn values(&self, sin: T, cos: T) -> [T; 3] {
         // Horner's rule in powers of exp(i x): the value is the real part of the sum of
-        // (cos[k] - i sin[k]) exp(i k x), the derivatives those of its k i fold and -k k fold.
+        // (cos[k] - i sin[k]) exp(i k x), the derivatives are of its k i fold and -k k fold.
         let zero = sin.like(0.0);
         let mut sums = [[zero; 2]; 3];
         for k in (1..=DEGREE).rev() {
@@ -103,7 +114,7 @@ impl<T: Number> TrigonometricPolynomial<T> {
 }
 
 impl<S: Simd> TrigonometricPolynomial<Vector<S>> {
-    /// Those of these with the given numbers, a lane for each.
+    /// Gather the ones with the given numbers, a lane for each.
     #[inline(always)]
     pub(super) fn of_lanes(
         simd: S,
@@ -111,7 +122,8 @@ impl<S: Simd> TrigonometricPolynomial<Vector<S>> {
         numbers: &[usize; LANES],
     ) -> Self {
         let zero = Vector::splat(simd, 0.0);
-        let mut lanes = Self { cos: [zero; DEGREE + 1], sin: [zero; DEGREE + 1], noise: zero };
+        let mut lanes =
+            Self { cos: [zero; DEGREE + 1], sin: [zero; DEGREE + 1], noise: zero, doubt: zero };
         if let Some(one) = same(numbers) {
             let one = &all[one];
             for k in 0..=DEGREE {
@@ -127,6 +139,6 @@ impl<S: Simd> TrigonometricPolynomial<Vector<S>> {
             (cos[lane], sin[lane], noise[lane]) = (&one.cos, &one.sin, one.noise);
         }
         let noise = Vector::load_array(simd, noise);
-        Self { cos: transposed(simd, &cos), sin: transposed(simd, &sin), noise }
+        Self { cos: transposed(simd, &cos), sin: transposed(simd, &sin), noise, doubt: noise }
     }
 }

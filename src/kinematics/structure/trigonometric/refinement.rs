@@ -16,7 +16,7 @@ const MOST_NOISE: f64 = 1e-3;
 /// Steps at most: halving alone takes 12 for an arc.
 const MOST_STEPS: usize = 48;
 
-/// What the noise leaves of up to eight roots [rad].
+/// Up to eight roots, to the noise [rad].
 pub(super) struct Refined {
     pub(super) angles: Column,
     pub(super) radii: Column,

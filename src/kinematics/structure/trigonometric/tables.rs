@@ -174,7 +174,7 @@ const fn fine_sin(steps: usize) -> f64 {
 }
 
 /// Bernstein coefficients 0 to 6 of `cos(k x)` and of `sin(k x)` for x of half an arc to either side:
-/// by coefficient and order. Coefficient 12 - j of the cosine equals coefficient j, that of the sine
+/// by coefficient and order. Coefficient 12 - j of the cosine equals coefficient j, the sine's is
 /// its negative (eq. 94).
 pub(super) static BERNSTEIN: [[[f64; DEGREE + 1]; 2]; POWERS / 2 + 1] = bernstein();
 

@@ -54,13 +54,21 @@ impl VectorKernel for RootsOf<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Roots {
-        self.0.roots(simd, &[])
+        self.0.roots(simd)
     }
 }
 
 impl TrigonometricPolynomial {
     fn all_roots(&self) -> Roots {
         run_vectors(RootsOf(self))
+    }
+}
+
+impl Roots {
+    /// Return the number of roots if all are simple.
+    fn count_if_simple(&self) -> Option<usize> {
+        let are_simple = self.as_slice().iter().all(|root| root.is_simple);
+        (self.is_complete && are_simple).then_some(self.as_slice().len())
     }
 }
 

@@ -14,7 +14,7 @@ fn on_path(robot: &Robot<6>, pose: &Pose) -> Option<RegularAnswer<6>> {
 }
 
 impl Comparison {
-    /// The same of a pose on a path that is heading for `heading`.
+    /// Take a pose on a path that is heading for `heading`.
     fn take_on_path(&mut self, arm: &Arm, pose: Pose, heading: [f64; 6], what: &str) {
         let pose = checked_pose(&pose).unwrap();
         let Some(regular) = on_path(&arm.robot, &pose) else { return };

@@ -10,7 +10,7 @@ use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::lanes::on_each_set;
 
-/// Joint vectors of all sets, those of one set far from one another.
+/// Joint vectors of all sets, of each set far from one another.
 fn mixed(arm: &OffsetWrist, count: usize) -> Vec<[f64; 6]> {
     let of_all = |q| SETS.iter().filter_map(move |(_, change)| change(arm, q));
     joints(7).take(count).flat_map(of_all).collect()
@@ -38,9 +38,9 @@ fn a_regular_pose_has_the_solutions_of_the_whole_search() {
         let (mut count, mut uncertified) = (0, 0);
         for (q, frame) in all.iter().zip(frames(&arm, &all)) {
             let whole_search = || {
-                let mut found = Accepted::NONE;
+                let mut found = Accepted::new();
                 let free = FreeChoice::rest([0.0; 6]);
-                let is_certified = arm.solutions(&arm.chain.fk(q), &free, &mut found);
+                let is_certified = arm.solutions(&Frame::of(&arm.chain.fk(q)), &free, &mut found);
                 (found.as_slice().to_vec(), is_certified)
             };
             let is_certified = is_as_in_whole_search(&arm.constants, &frame, whole_search, name);

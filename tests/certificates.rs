@@ -1,0 +1,176 @@
+//! No certified answer lacks a solution: an attack by poses of random, structured and singular joint
+//! vectors, of arms as they are in tables and off these by what a calibration finds.
+//!
+//! `make evidence SUITE=certificates` asks ten million poses.
+#![allow(clippy::cast_possible_truncation, clippy::unwrap_used, missing_docs)]
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+use irbkin::{DhRow, JointLimits, Mdh, Pose, Robot};
+
+use crate::common::{Rng, apart, poses_or};
+
+/// How far the joint vector that made a pose may be from a solution [rad]: a regular one is off by
+/// rounding over its least singular value.
+const SAME: f64 = 1e-6;
+
+/// The same where solutions merge [rad]: rounding moves them by its root over the curvature.
+const MERGED: f64 = 1e-3;
+
+/// Joint vectors of each set for a table.
+const OF_A_TABLE: usize = 10;
+
+/// What a set of poses has shown.
+#[derive(Clone, Copy, Default)]
+struct Count {
+    poses: usize,
+    certified: usize,
+    missed: usize,
+    lacking: usize,
+}
+
+/// A family of tables.
+type Tables = (&'static str, fn(&mut Rng) -> Robot<6>);
+
+/// How a joint vector of a set is made of a random one.
+type Set = (&'static str, fn(&Robot<6>, &mut Rng, [f64; 6]) -> [f64; 6]);
+
+const TABLES: [Tables; 7] = [
+    ("catalog", |rng| named(pick(rng, &["GoFa 5", "GoFa 10", "CRX-10iA", "CRX-10iA/L", "xArm6"]))),
+    ("random", |rng| of_rows(core::array::from_fn(|_| random_row(rng)))),
+    ("spherical wrist, twists off", |rng| off(rng, &SPHERICAL, [1.0, 0.0, 0.0])),
+    ("spherical wrist, all off", |rng| off(rng, &SPHERICAL, [1.0, 1.0, 1.0])),
+    ("three parallel axes off", |rng| off(rng, &["UR3", "UR5e", "UR10e"], [1.0, 1.0, 1.0])),
+    ("offset wrist, twists off", |rng| off(rng, &["GoFa 5", "CRX-10iA/L"], [1.0, 0.0, 0.0])),
+    ("offset wrist, all off", |rng| off(rng, &["GoFa 5", "CRX-10iA/L"], [1.0, 1.0, 1.0])),
+];
+
+const SPHERICAL: [&str; 3] = ["IRB 2600-12/1.65", "IRB 120-3/0.58", "IRB 6700-150/3.2"];
+
+const SETS: [Set; 9] = [
+    ("random", |_, _, q| q),
+    ("multiples of 90 deg, nearly", |_, rng, q| near(rng, q, FRAC_PI_2)),
+    ("multiples of 45 deg, nearly", |_, rng, q| near(rng, q, FRAC_PI_4)),
+    ("some at multiples of 90 deg", |_, rng, q| {
+        q.map(|q| if rng.unit() < 0.5 { FRAC_PI_2 * (q / FRAC_PI_2).round() } else { q })
+    }),
+    ("q5 = 0", |_, _, q| [q[0], q[1], q[2], q[3], 0.0, q[5]]),
+    ("q5 next to 0", |_, rng, q| [q[0], q[1], q[2], q[3], small(rng), q[5]]),
+    ("q4 next to 0", |_, rng, q| [q[0], q[1], q[2], small(rng), q[4], q[5]]),
+    ("q5 = 0, forearm vertical", |_, _, [a, b, _, c, _, d]| [a, b, -FRAC_PI_2 - b, c, 0.0, d]),
+    ("det J = 0, nearly", |robot, rng, q| folded(robot, rng, q)),
+];
+
+fn pick<'a>(rng: &mut Rng, of: &[&'a str]) -> &'a str {
+    of[(rng.bits() % of.len() as u64) as usize]
+}
+
+/// Zero, or 1e-12 to 1e-2 of either sign.
+fn small(rng: &mut Rng) -> f64 {
+    if rng.unit() < 0.2 { 0.0 } else { rng.sign() * 10_f64.powf(rng.between(-12.0, -2.0)) }
+}
+
+fn near(rng: &mut Rng, q: [f64; 6], step: f64) -> [f64; 6] {
+    let size = small(rng);
+    q.map(|q| step * (q / step).round() + size * rng.between(-1.0, 1.0))
+}
+
+/// A joint vector with det J = 0 on the way of a joint, or next to there.
+fn folded(robot: &Robot<6>, rng: &mut Rng, mut q: [f64; 6]) -> [f64; 6] {
+    let joint = 1 + (rng.bits() % 4) as usize;
+    let at = |angle: f64| {
+        let mut q = q;
+        q[joint] = angle;
+        robot.jacobian_determinant(&q).unwrap()
+    };
+    let (mut low, mut high) = (q[joint], q[joint] + 0.5);
+    if at(low) * at(high) < 0.0 {
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *(if at(low) * at(middle) <= 0.0 { &mut high } else { &mut low }) = middle;
+        }
+    }
+    q[joint] = low + small(rng);
+    q
+}
+
+fn random_row(rng: &mut Rng) -> DhRow {
+    let (a, d) = (rng.between(-0.5, 0.5), rng.between(-0.5, 0.5));
+    DhRow::new(rng.between(0.3, 2.8), a, d, rng.angle())
+}
+
+fn of_rows(rows: [DhRow; 6]) -> Robot<6> {
+    let mdh = Mdh { base: Pose::identity(), rows, flange: Pose::identity() };
+    Robot::from_mdh(mdh).unwrap().with_limits(JointLimits::UNLIMITED)
+}
+
+fn named(name: &str) -> Robot<6> {
+    Robot::<6>::named(name).unwrap().with_limits(JointLimits::UNLIMITED)
+}
+
+/// An arm whose alpha, a and d are off, those times these factors, by 1e-7 to 1e-2.
+fn off(rng: &mut Rng, names: &[&str], [alpha, a, d]: [f64; 3]) -> Robot<6> {
+    let mut mdh = named(pick(rng, names)).mdh().clone();
+    let size = 10_f64.powf(rng.between(-7.0, -2.0));
+    // Some tables have text with few digits.
+    let is_rounded = rng.unit() < 0.3;
+    for row in &mut mdh.rows {
+        let mut part = || {
+            let part = rng.between(-4.0, 4.0);
+            size * if is_rounded { part.round() } else { part }
+        };
+        row.alpha += alpha * part();
+        row.a += a * part();
+        row.d += d * part();
+    }
+    Robot::from_mdh(mdh).unwrap().with_limits(JointLimits::UNLIMITED)
+}
+
+#[test]
+fn no_certified_answer_lacks_a_solution() {
+    let wanted = poses_or(40_000);
+    let mut rng = Rng::new(u64::try_from(wanted).unwrap());
+    let mut all = [[Count::default(); SETS.len()]; TABLES.len()];
+    let mut poses = 0;
+    while poses < wanted {
+        for ((_, table), counts) in TABLES.iter().zip(&mut all) {
+            let robot = table(&mut rng);
+            for ((set, change), count) in SETS.iter().zip(counts) {
+                for _ in 0..OF_A_TABLE {
+                    let made = rng.angles();
+                    let q = change(&robot, &mut rng, made);
+                    let solutions = robot.ik(&robot.fk(&q)).unwrap();
+                    let off = solutions.iter().map(|one| apart(&one.q, &q));
+                    let off = off.fold(f64::INFINITY, f64::min);
+                    count.poses += 1;
+                    count.certified += usize::from(solutions.is_certified());
+                    count.missed += usize::from(off > MERGED);
+                    if solutions.is_certified() && off > SAME {
+                        count.lacking += 1;
+                        println!("{set}: {q:?} of {:?}", robot.mdh().rows);
+                    }
+                }
+                poses += OF_A_TABLE;
+            }
+        }
+    }
+    let mut lacking = 0;
+    for ((name, _), counts) in TABLES.iter().zip(&all) {
+        for ((set, _), count) in SETS.iter().zip(counts) {
+            let Count { poses, certified, missed, .. } = *count;
+            println!(
+                "{name:28} {set:28} {poses:8} poses, {certified:8} certified, {missed:6} missed, {} \
+                 of them certified",
+                count.lacking
+            );
+            lacking += count.lacking;
+        }
+        let random = counts[0];
+        assert!(random.certified * 100 >= random.poses * 95, "{name}");
+    }
+    let certified: usize = all.iter().map(|counts| counts[0].certified).sum();
+    let random: usize = all.iter().map(|counts| counts[0].poses).sum();
+    println!("{lacking} of {poses} lacking; random poses certified: {certified} of {random}");
+    assert_eq!(lacking, 0);
+    assert!(certified * 1000 >= random * 995, "{certified} of {random}");
+}
