@@ -7,12 +7,9 @@ use std::path::Path;
 
 use irbkin::{CatalogArm, CatalogGeometry, catalog, left_out};
 
-const COMMON_HEAD: [&str; 3] = ["arm", "payload [kg]", "reach [m]"];
-const COMMON_TAIL: [&str; 3] = ["limits of axes 1 to n", "speeds", "sources"];
-
 /// Name of a table in the page, the columns that describe its geometry.
 const TABLES: [(&str, &[&str]); 5] = [
-    ("abb", &["a1", "a2", "c1", "c2", "c3", "c4", "coupled"]),
+    ("abb", &["a1", "a2", "c1", "c2", "c3", "c4"]),
     ("universal robots", &["d1", "a2", "a3", "d4", "d5", "d6"]),
     ("franka", &[]),
     ("yumi", &[]),
@@ -23,10 +20,8 @@ const TABLES: [(&str, &[&str]); 5] = [
 fn geometry(arm: &CatalogArm) -> (&'static str, Vec<String>) {
     let lengths = |mm: [f64; 6]| mm.map(|length| length.to_string()).to_vec();
     match arm.geometry {
-        CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, coupled } => {
-            let mut cells = lengths([a1, a2, c1, c2, c3, c4]);
-            cells.push(if coupled { "yes" } else { "" }.to_owned());
-            ("abb", cells)
+        CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, .. } => {
+            ("abb", lengths([a1, a2, c1, c2, c3, c4]))
         }
         CatalogGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
             ("universal robots", lengths([d1, a2, a3, d4, d5, d6]))
@@ -46,37 +41,44 @@ fn geometry(arm: &CatalogArm) -> (&'static str, Vec<String>) {
     }
 }
 
-fn limit(&[lower, upper]: &[f64; 2]) -> String {
-    #[expect(clippy::float_cmp, reason = "printed numbers")]
-    let symmetric = lower == -upper;
-    if symmetric { format!("+-{upper}") } else { format!("{lower}..{upper}") }
+/// The first columns of a table. The name of an ABB arm has its payload and its reach.
+fn head(table: &str) -> &'static [&'static str] {
+    if table == "abb" { &["arm"] } else { &["arm", "payload [kg]", "reach [m]"] }
 }
 
 fn row(cells: impl IntoIterator<Item = String>) -> String {
     format!("| {} |\n", cells.into_iter().collect::<Vec<_>>().join(" | "))
 }
 
-fn row_of(arm: &CatalogArm, geometry: Vec<String>) -> String {
+/// Payload and reach, if the table has them.
+fn figures(table: &str, arm: &CatalogArm) -> Vec<String> {
     let known =
         |figure: Option<f64>| figure.map_or_else(|| "-".to_owned(), |figure| figure.to_string());
-    let limits = arm.limits.iter().map(limit).collect::<Vec<_>>().join(", ");
-    let speeds = arm.max_velocity.map_or_else(
-        || "-".to_owned(),
-        |speeds| speeds.iter().map(f64::to_string).collect::<Vec<_>>().join(", "),
-    );
-    let head = [arm.name.to_owned(), known(arm.payload), known(arm.reach)];
-    row(head.into_iter().chain(geometry).chain([limits, speeds, arm.sources.to_string()]))
+    if table == "abb" { Vec::new() } else { vec![known(arm.payload), known(arm.reach)] }
 }
 
+/// A row for all arms with the same cells: their names, the cells, the number of their sources.
 fn table(name: &str, columns: &[&str]) -> String {
-    let heads = || COMMON_HEAD.iter().chain(columns).chain(&COMMON_TAIL);
+    let heads = || head(name).iter().chain(columns).chain(&["sources"]);
     let mut table = row(heads().map(|&head| head.to_owned()))
         + &format!("|{}\n", "---|".repeat(heads().count()));
+    let mut rows: Vec<(Vec<&str>, Vec<String>, Vec<String>)> = Vec::new();
     for arm in catalog() {
-        let (place, cells) = geometry(arm);
-        if place == name {
-            table += &row_of(arm, cells);
+        let (place, lengths) = geometry(arm);
+        if place != name {
+            continue;
         }
+        let cells = [figures(name, arm), lengths].concat();
+        let sources = arm.sources.to_string();
+        if let Some((names, _, counts)) = rows.iter_mut().find(|(_, known, _)| *known == cells) {
+            names.push(arm.name);
+            counts.push(sources);
+        } else {
+            rows.push((vec![arm.name], cells, vec![sources]));
+        }
+    }
+    for (names, cells, counts) in rows {
+        table += &row([vec![names.join(", ")], cells, vec![counts.join(", ")]].concat());
     }
     table
 }
