@@ -116,7 +116,7 @@ def batches(robot: irbkin.Robot) -> list[list[Row]]:
     T = robot.fk(q)
     poses, jacobians = np.empty((POSES, 4, 4)), np.empty((POSES, 6, 6))
     out = irbkin.IkBatch(np.empty((POSES, 8, 6)), np.empty((POSES, 8), np.uint8))
-    nearest, singular = np.empty((POSES, 6)), robot.singularity(q)
+    nearest = np.empty((POSES, 6))
     seeds = q + np.random.default_rng(2).normal(0.0, 0.05, size=q.shape)
     counted = robot.configuration(q)
     zero_poses, zero_jacobians, zero_joints, one_thread = (
@@ -152,7 +152,7 @@ def batches(robot: irbkin.Robot) -> list[list[Row]]:
             Row("ik_configured", lambda: robot.ik_configured(T, counted, out=nearest), one_thread),
             Row(
                 "singularity",
-                lambda: robot.singularity(q, out=singular),
+                lambda: robot.singularity(q),
                 one_thread,
                 "300 ns",
             ),

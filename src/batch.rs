@@ -18,5 +18,3 @@ mod threads;
 pub use inverse::{Configured, NO_CONFIGURATION};
 pub use margins::Margins;
 pub use pace::Batch;
-#[cfg(feature = "python")]
-pub(crate) use paths::PlanJob;

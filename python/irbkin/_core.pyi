@@ -25,7 +25,6 @@ from typing import (
 import numpy as np
 import numpy.typing as npt
 
-from irbkin.errors import IrbkinError
 from irbkin.freedom import Positioner, ToolCone, ToolOffset, ToolRotation, Track
 from irbkin.records import BreakReason, Reach, SingularityKind, SingularityMode, Status
 
@@ -699,10 +698,9 @@ class Robot:
         Args:
             rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, in this order too,
                 shape (6, 4) or (7, 4).
-            limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
-            name: A name of your own.
-            snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
-                at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
+            limits: As of `from_mdh`.
+            name: As of `from_mdh`.
+            snap: As of `from_mdh`.
 
         Raises:
             InvalidModelError: As `from_mdh`.
@@ -1011,15 +1009,12 @@ class Robot:
         self,
         q: npt.ArrayLike,
         *,
-        out: Singularity | tuple[npt.NDArray[Any], ...] | None = None,
         threads: int = 1,
     ) -> Singularity:
         """How far joint vectors are from the singularities.
 
         Args:
             q: Joint angles [rad], shape (..., n).
-            out: Where to write the answer of a batch: a Singularity, or a tuple, of arrays (...),
-                five of float64 and one of uint8.
             threads: Number of threads; 0 for one a core.
 
         Returns:
@@ -1029,7 +1024,6 @@ class Robot:
 
         Raises:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-            TypeError: `out` for a single joint vector, or of another kind.
         """
     def ik(
         self,
@@ -1231,57 +1225,6 @@ class Robot:
             InvalidModelError: The arm has seven joints.
             Exception: Whatever `accept` raises.
         """
-    def plan_batch(
-        self,
-        paths: Iterable[npt.ArrayLike],
-        *,
-        rotation: ToolRotation | int | None = None,
-        times: Iterable[npt.ArrayLike] | None = None,
-        start: npt.ArrayLike | None = None,
-        end: npt.ArrayLike | None = None,
-        closed: bool = False,
-        weights: npt.ArrayLike | None = None,
-        accept: Callable[[_Floats], npt.ArrayLike] | None = None,
-        carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
-        tolerance: ToolCone | ToolOffset | Sequence[ToolCone | ToolOffset] | None = None,
-        order: Literal["bottleneck", "sum"] = "bottleneck",
-        limit_cost: float = 0.0,
-        singularity_cost: float = 0.0,
-        threads: int = 1,
-    ) -> tuple[Plan | IrbkinError, ...]:
-        """`plan` of many paths at once, on several threads.
-
-        A path that has no plan, or is not a path, does not end the call: its exception is in its
-        place. The answer of a path does not depend on the others or on the number of threads.
-
-        Args:
-            paths: p paths, each of shape (m, 4, 4); their lengths may differ.
-            rotation: As for `plan`, of all paths.
-            times: p arrays, the times of the poses of each path [s], shape (m,).
-            start: Joint vector at the first pose [rad], shape (6,), or one for each path, (p, 6);
-                with the values of k external axes behind it, (6 + k,) or (p, 6 + k).
-            end: The same at the last pose.
-            closed: As for `plan`, of all paths.
-            weights: As for `plan`, of all paths.
-            accept: As for `plan`. Threads ask it one at a time.
-            carrier: As for `plan`, of all paths.
-            tolerance: As for `plan`, of all paths.
-            order: As for `plan`, of all paths.
-            limit_cost: As for `plan`, of all paths.
-            singularity_cost: As for `plan`, of all paths.
-            threads: Number of threads; 0 for one a core.
-
-        Returns:
-            One answer for each path, in order: a Plan, or the PathError, InvalidPoseError,
-            InvalidJointsError or InvalidMotionError that `plan` raises for it.
-
-        Raises:
-            InvalidPoseError: A path that has a wrong shape; the message has its index.
-            InvalidJointsError: A start, end or weights of a wrong shape.
-            InvalidMotionError: Times of a wrong shape or number, or a rotation that is empty.
-            InvalidModelError: The arm has seven joints.
-            Exception: Whatever `accept` raises.
-        """
     def follow(
         self,
         T: npt.ArrayLike,
@@ -1365,11 +1308,6 @@ class Robot:
             InvalidModelError: The other six joints do not move the tool in six independent ways.
             TypeError, ValueError: The arm has six joints; given does not map one joint.
         """
-    def unlocked(self) -> Robot:
-        """Return the same arm without a locked joint."""
-    @property
-    def locked_joint(self) -> tuple[int, float] | None:
-        """The joint that is locked, from 1, and its angle [rad], as (3, 0.2); None if none is."""
     @property
     def six_joints(self) -> Robot | None:
         """The other six joints of an arm with a locked one as a robot, with the arm's base,
@@ -1594,16 +1532,9 @@ class Solutions:
             InvalidJointsError: The seed or the weights are not finite or have a wrong shape.
         """
     def least_motion(self, seed: npt.ArrayLike, weights: npt.ArrayLike | None = None) -> Solution:
-        """Return the solution inside the limits that moves the joints the least from `seed`, 2 pi
-        equivalents considered: least sum of weights * |difference|.
-
-        Args:
-            seed: Joint vector [rad], shape (n,).
-            weights: Cost of moving each joint, shape (n,); ones when not given.
-
-        Raises:
-            UnreachableError: None is inside the limits; the message is `explain()`.
-            InvalidJointsError: The seed or the weights are not finite or have a wrong shape.
+        """Return the solution inside the limits that moves the joints the least from `seed`, 2
+        pi equivalents considered: least sum of weights * |difference|. Arguments and errors are
+        those of `nearest`.
         """
     def filter(self, accept: Callable[[Solution], object]) -> Solutions:
         """Return the solutions for which `accept(solution)` is true.
@@ -2406,9 +2337,8 @@ def calc_targets(
         module: Module.
         tool: ToolData; by default the robot's own tool.
         wobj: WobjData; by default the world.
-        fallback: With "nearest", a target whose configuration no solution has gets the one nearest
-            to the joints before it.
-        seed: Joint vector [rad] before the first target, shape (n,).
+        fallback: As of `calc_moves`.
+        seed: As of `calc_moves`.
 
     Returns:
         TargetTable. `findings` says what is wrong with the target of a row.
@@ -2781,10 +2711,10 @@ def at_tool_speed(
     `retime` with `max_tool_speed` begins and ends at rest, and is slower where limits demand it.
 
     Args:
-        q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
+        q: As of `retime`.
         T: Poses of the tool at the samples, shape (m, 4, 4).
         speed: Speed of the tool along `T` [m/s].
-        max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
+        max_velocity: As of `retime`.
         max_acceleration: Limits [rad/s^2], a number or shape (n,); none where it is not given.
         steps: Number of samples of the answer; as many as `q` has where it is not given.
 
@@ -2795,8 +2725,7 @@ def at_tool_speed(
         InvalidMotionError: A joint does not allow the speed: the message names it, the sample and
             the speed that it allows; the speed or a limit is not positive, or the tool only turns
             on a part of the path.
-        InvalidJointsError: A wrong shape, or an angle that is not finite.
-        InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+        InvalidJointsError, InvalidPoseError: As `retime`.
     """
 
 def tool_speed_limits(
@@ -2809,9 +2738,9 @@ def tool_speed_limits(
     joint limits it.
 
     Args:
-        q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
+        q: As of `retime`.
         T: Poses of the tool at the samples, shape (m, 4, 4).
-        max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
+        max_velocity: As of `retime`.
         max_acceleration: Limits [rad/s^2], a number or shape (n,); none where it is not given.
 
     Returns:
@@ -2822,8 +2751,7 @@ def tool_speed_limits(
     Raises:
         InvalidMotionError: No rows, a limit that is not positive, or a part of the path on which
             the tool only turns.
-        InvalidJointsError: A wrong shape, or an angle that is not finite.
-        InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+        InvalidJointsError, InvalidPoseError: As `retime`.
     """
 
 def path_spline(
@@ -2844,12 +2772,11 @@ def path_spline(
     Args:
         T: Poses, shape (m, 4, 4). One that repeats the one before it, within 1e-9 m and rad, is
             left out.
-        steps: Number of poses of the path.
-        step: Instead of `steps`, the largest distance of two poses along the curve [m].
-        turn: With or instead of `step`, the largest turn between two poses [rad].
-        speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-            fast or, for a whole number of steps, a little slower.
-        dt: With `speed`, the time from one pose to the next [s].
+        steps: As of `line`.
+        step: As of `line`, along the path.
+        turn: As of `line`.
+        speed: As of `line`.
+        dt: As of `line`.
 
     Returns:
         Poses, shape (k, 4, 4), with the poses of `T` among them: from each to the next in equal
@@ -2916,12 +2843,11 @@ def arc(
         orientation: "path", the tool turns evenly relative to the path (ABB's \PathFrame);
             "object", evenly relative to the base (\ObjectFrame); "via", evenly to the orientation
             of `T_via` and then of `T1` (\CirPointOri).
-        steps: Number of poses, both ends included.
-        step: Instead of `steps`, the largest distance of two poses along the arc [m].
-        turn: With or instead of `step`, the largest turn between two poses [rad].
-        speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-            fast or, for a whole number of steps, a little slower.
-        dt: With `speed`, the time from one pose to the next [s].
+        steps: As of `line`.
+        step: As of `line`, along the path.
+        turn: As of `line`.
+        speed: As of `line`.
+        dt: As of `line`.
 
     Returns:
         Poses, shape (m, 4, 4).
@@ -2950,12 +2876,11 @@ def polyline(
         T: Poses, shape (m, 4, 4).
         zones: For each pose a radius [m] or one of ABB's names, "fine", "z0" .. "z200"; or one for
             all. Zones of the first and the last pose do not matter: both are met.
-        steps: Number of poses of the path.
-        step: Instead of `steps`, the largest distance of two poses along the lines [m].
-        turn: With or instead of `step`, the largest turn between two poses along the lines [rad].
-        speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-            fast or, for a whole number of steps, a little slower.
-        dt: With `speed`, the time from one pose to the next [s].
+        steps: As of `line`.
+        step: As of `line`, along the path.
+        turn: As of `line`.
+        speed: As of `line`.
+        dt: As of `line`.
 
     Returns:
         Poses, shape (k, 4, 4). A corner with a zone of radius r, where the direction changes by an

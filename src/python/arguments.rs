@@ -9,6 +9,7 @@ use super::errors::Fault;
 use crate::kinematics::thresholds::MOST_SAMPLES;
 use crate::kinematics::{JacobianFrame, SingularityMode};
 use crate::paths::ArcOrientation;
+use crate::plan::{PlanOrder, ToolAxis};
 use crate::trajectory::{Profile, SplineKind, Synchronization};
 
 /// Look up the value that a word names.
@@ -16,68 +17,56 @@ pub(super) fn one_of<T: Copy>(field: &str, word: &str, words: &[(&str, T)]) -> P
     if let Some((_, value)) = words.iter().find(|(name, _)| *name == word) {
         return Ok(*value);
     }
-    let mut known = String::new();
-    for (index, (name, _)) in words.iter().enumerate() {
-        known += match index {
-            0 => "",
-            _ if index + 1 == words.len() => " or ",
-            _ => ", ",
-        };
-        known += "\"";
-        known += name;
-        known += "\"";
-    }
+    let known: Vec<String> = words.iter().map(|(name, _)| format!("{name:?}")).collect();
+    let known = match known.split_last() {
+        Some((last, others @ [_, ..])) => format!("{} or {last}", others.join(", ")),
+        _ => known.concat(),
+    };
     Err(PyValueError::new_err(format!("{field} must be {known}, got \"{word}\"")))
 }
 
-/// The frame of a Jacobian.
-pub(super) fn read_frame(frame: &str) -> PyResult<JacobianFrame> {
-    one_of("frame", frame, &[("base", JacobianFrame::Base), ("tool", JacobianFrame::Tool)])
-}
+/// The frames of a Jacobian.
+pub(super) const FRAMES: [(&str, JacobianFrame); 2] =
+    [("base", JacobianFrame::Base), ("tool", JacobianFrame::Tool)];
 
-/// Behavior of a path at the wrist singularity.
-pub(super) fn read_singularity_mode(singularity_mode: &str) -> PyResult<SingularityMode> {
-    let words = [
-        ("through", SingularityMode::Through),
-        ("error", SingularityMode::Error),
-        ("wrist", SingularityMode::Wrist),
-        ("lock_axis4", SingularityMode::LockAxis4),
-    ];
-    one_of("singularity_mode", singularity_mode, &words)
-}
+/// Behaviors of a path at the wrist singularity.
+pub(super) const SINGULARITY_MODES: [(&str, SingularityMode); 4] = [
+    ("through", SingularityMode::Through),
+    ("error", SingularityMode::Error),
+    ("wrist", SingularityMode::Wrist),
+    ("lock_axis4", SingularityMode::LockAxis4),
+];
 
-/// The profile of a motion between two joint vectors.
-pub(super) fn read_profile(profile: &str) -> PyResult<Profile> {
-    let words = [
-        ("quintic", Profile::Quintic),
-        ("cubic", Profile::Cubic),
-        ("trapezoid", Profile::Trapezoid),
-        ("s_curve", Profile::SCurve),
-    ];
-    one_of("profile", profile, &words)
-}
+/// Profiles of a motion between two joint vectors.
+pub(super) const PROFILES: [(&str, Profile); 4] = [
+    ("quintic", Profile::Quintic),
+    ("cubic", Profile::Cubic),
+    ("trapezoid", Profile::Trapezoid),
+    ("s_curve", Profile::SCurve),
+];
 
-/// The curve through waypoints.
-pub(super) fn read_spline(profile: &str) -> PyResult<SplineKind> {
-    let words = [("quintic", SplineKind::Quintic), ("cubic", SplineKind::Cubic)];
-    one_of("profile", profile, &words)
-}
+/// Curves through waypoints.
+pub(super) const SPLINES: [(&str, SplineKind); 2] =
+    [("quintic", SplineKind::Quintic), ("cubic", SplineKind::Cubic)];
 
 /// How joints arrive together.
-pub(super) fn read_synchronization(synchronization: &str) -> PyResult<Synchronization> {
-    let words = [("time", Synchronization::Time), ("phase", Synchronization::Phase)];
-    one_of("synchronization", synchronization, &words)
-}
+pub(super) const SYNCHRONIZATIONS: [(&str, Synchronization); 2] =
+    [("time", Synchronization::Time), ("phase", Synchronization::Phase)];
 
-/// Course of the orientation along an arc.
-pub(super) fn read_orientation(orientation: &str) -> PyResult<ArcOrientation> {
-    let words = [
-        ("path", ArcOrientation::Path),
-        ("object", ArcOrientation::Object),
-        ("via", ArcOrientation::Via),
-    ];
-    one_of("orientation", orientation, &words)
-}
+/// Courses of the orientation along an arc.
+pub(super) const ORIENTATIONS: [(&str, ArcOrientation); 3] = [
+    ("path", ArcOrientation::Path),
+    ("object", ArcOrientation::Object),
+    ("via", ArcOrientation::Via),
+];
+
+/// What makes one path better than another.
+pub(super) const ORDERS: [(&str, PlanOrder); 2] =
+    [("bottleneck", PlanOrder::Bottleneck), ("sum", PlanOrder::Sum)];
+
+/// Axes of a frame.
+pub(super) const AXES: [(&str, ToolAxis); 3] =
+    [("x", ToolAxis::X), ("y", ToolAxis::Y), ("z", ToolAxis::Z)];
 
 /// A number of samples or poses: its bounds are checked where it is used, if it has a sign that
 /// counts can have and a size that is one.
@@ -85,8 +74,7 @@ pub(super) fn read_steps(steps: &Bound<'_, PyAny>) -> PyResult<usize> {
     let py = steps.py();
     steps.extract().map_err(|error: PyErr| {
         if error.is_instance_of::<PyOverflowError>(py) {
-            let message = format!("steps must be 2 to {MOST_SAMPLES}, got {steps}");
-            Fault::Motion.error(py, message)
+            Fault::Motion.error(format_args!("steps must be 2 to {MOST_SAMPLES}, got {steps}"))
         } else {
             error
         }

@@ -1,11 +1,13 @@
 //! NumPy arrays in and out: any number array is taken, a C-contiguous float64 one without a copy.
 
 use std::array;
+use std::fmt::Display;
 use std::ops::Range;
 
+use numpy::ndarray::{Dimension, Ix1, Ix2};
 use numpy::{
-    PyArray1, PyArray2, PyArrayDescr, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods,
-    PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods,
+    PyArray, PyArrayDescr, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn,
+    PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
@@ -16,10 +18,12 @@ use pyo3::types::PyTuple;
 use super::borrows::{Access, Borrow, is_any_written, is_free};
 use super::errors::{Fault, shape_of_rows, shape_text};
 
-/// An input array whose last dimensions are known, and the leading ones that came before them.
+/// An argument that is an array whose last dimensions are known, and the leading ones.
 pub(super) struct Rows<'py> {
     array: PyReadonlyArrayDyn<'py, f64>,
     pub(super) lead: Vec<usize>,
+    field: &'static str,
+    fault: Fault,
     _borrow: Borrow,
 }
 
@@ -28,35 +32,42 @@ impl<'py> Rows<'py> {
     pub(super) fn read(
         value: &Bound<'py, PyAny>,
         tail: &[usize],
-        field: &str,
+        field: &'static str,
         fault: Fault,
     ) -> PyResult<Self> {
-        Self::read_wanting(value, tail, field, fault, || shape_of_rows(tail))
+        let wanted = || shape_of_rows(tail);
+        let mut rows = Self::shaped(value, wanted, field, fault, |shape| shape.ends_with(tail))?;
+        rows.lead.truncate(rows.lead.len() - tail.len());
+        Ok(rows)
     }
 
-    /// Read an argument whose leading dimensions are checked later: `wanted` spells its shapes.
-    pub(super) fn read_wanting(
+    /// Read `value`, of a shape that `fits`, as the argument `field`; `wanted` spells such shapes.
+    /// All dimensions are leading ones.
+    pub(super) fn shaped<W: Display>(
         value: &Bound<'py, PyAny>,
-        tail: &[usize],
-        field: &str,
+        wanted: impl FnOnce() -> W,
+        field: &'static str,
         fault: Fault,
-        wanted: impl FnOnce() -> String,
+        fits: impl FnOnce(&[usize]) -> bool,
     ) -> PyResult<Self> {
         let array = readable(value, field, fault)?;
-        let shape = array.shape();
-        let Some(lead) = shape.strip_suffix(tail) else {
-            let (wanted, got) = (wanted(), shape_text(shape));
-            return Err(
-                fault.error(value.py(), format!("{field} must have shape {wanted}, got {got}"))
-            );
-        };
-        let lead = lead.to_vec();
+        let lead = array.shape().to_vec();
+        if !fits(&lead) {
+            let (wanted, got) = (wanted(), shape_text(&lead));
+            return Err(fault.error(format_args!("{field} must have shape {wanted}, got {got}")));
+        }
         let borrow = Borrow::new(addresses(&array), Access::Read);
-        Ok(Self { array, lead, _borrow: borrow })
+        Ok(Self { array, lead, field, fault, _borrow: borrow })
     }
 
-    pub(super) fn py(&self) -> Python<'py> {
-        self.array.py()
+    /// Read `value`, of exactly the shape `shape`, as the argument `field`.
+    pub(super) fn exact(
+        value: &Bound<'py, PyAny>,
+        shape: &[usize],
+        field: &'static str,
+        fault: Fault,
+    ) -> PyResult<Self> {
+        Self::shaped(value, || shape_text(shape), field, fault, |given| given == shape)
     }
 
     /// The numbers in row-major order.
@@ -64,18 +75,14 @@ impl<'py> Rows<'py> {
         Ok(self.array.as_slice()?)
     }
 
-    /// Repeat the rows, as NumPy broadcasts them to the leading dimensions `lead`.
-    pub(super) fn broadcast(&self, lead: &[usize], field: &str, fault: Fault) -> PyResult<Self> {
-        let (py, tail) = (self.array.py(), &self.shape()[self.lead.len()..]);
-        let shape = PyTuple::new(py, [lead, tail].concat())?;
-        let numpy = py.import(intern!(py, "numpy"))?;
-        let all = numpy.call_method1(intern!(py, "broadcast_to"), (self.array.as_any(), shape))?;
-        Self::read(&all, tail, field, fault)
+    /// Rows of `N` numbers.
+    pub(super) fn chunks<const N: usize>(&self) -> PyResult<&[[f64; N]]> {
+        Ok(self.data()?.as_chunks::<N>().0)
     }
 
-    /// Takes the last leading dimension to those that are known.
-    pub(super) fn split_last(&mut self) -> Option<usize> {
-        self.lead.pop()
+    /// The row, if there is one without leading dimensions.
+    pub(super) fn single<const N: usize>(&self) -> PyResult<Option<&[f64; N]>> {
+        Ok(if self.is_single() { self.chunks()?.first() } else { None })
     }
 
     /// The shape of the array.
@@ -99,35 +106,29 @@ impl<'py> Rows<'py> {
     }
 }
 
-/// An argument that is broadcast with others, as NumPy does it.
-pub(super) struct Argument<'a, 'py> {
-    pub(super) field: &'static str,
-    pub(super) fault: Fault,
-    pub(super) rows: &'a mut Rows<'py>,
-}
-
-/// Gives all arguments the same leading dimensions.
-pub(super) fn together<'py>(py: Python<'py>, arguments: &mut [Argument<'_, 'py>]) -> PyResult<()> {
+/// Give all arguments the same leading dimensions, as NumPy broadcasts them.
+pub(super) fn together(arguments: &mut [&mut Rows<'_>]) -> PyResult<()> {
     let mut lead = Vec::new();
-    for (number, argument) in arguments.iter().enumerate() {
-        lead = joined(&lead, &argument.rows.lead).ok_or_else(|| {
-            let others = arguments[..number]
-                .iter()
-                .map(|other| format!("{} of shape {}", other.field, shape_text(other.rows.shape())))
-                .collect::<Vec<_>>()
-                .join(" and ");
-            argument.fault.error(
-                py,
-                format!(
-                    "{} of shape {} cannot be broadcast with {others}: leading dimensions must be equal, or 1, or left out",
-                    argument.field,
-                    shape_text(argument.rows.shape()),
-                ),
-            )
+    for (number, rows) in arguments.iter().enumerate() {
+        let named =
+            |rows: &Rows<'_>| format!("{} of shape {}", rows.field, shape_text(rows.shape()));
+        lead = joined(&lead, &rows.lead).ok_or_else(|| {
+            let others: Vec<String> =
+                arguments[..number].iter().map(|other| named(other)).collect();
+            rows.fault.error(format_args!(
+                "{} cannot be broadcast with {}: leading dimensions must be equal, or 1, or left \
+                 out",
+                named(rows),
+                others.join(" and ")
+            ))
         })?;
     }
-    for Argument { field, fault, rows } in arguments.iter_mut().filter(|it| it.rows.lead != lead) {
-        **rows = rows.broadcast(&lead, field, *fault)?;
+    for rows in arguments.iter_mut().filter(|rows| rows.lead != lead) {
+        let (py, tail) = (rows.array.py(), &rows.shape()[rows.lead.len()..]);
+        let shape = PyTuple::new(py, [&lead, tail].concat())?;
+        let numpy = py.import(intern!(py, "numpy"))?;
+        let all = numpy.call_method1(intern!(py, "broadcast_to"), (rows.array.as_any(), shape))?;
+        **rows = Rows::read(&all, tail, rows.field, rows.fault)?;
     }
     Ok(())
 }
@@ -148,47 +149,39 @@ fn joined(one: &[usize], other: &[usize]) -> Option<Vec<usize>> {
     Some(shape)
 }
 
-/// The short way of reading: a copy of a float64 array of shape (`N`,), any strides. None for
-/// everything else, also for arrays of a class of their own.
+/// An array that can be read the short way: float64, any strides, not of a class of its own.
 ///
 /// The elements are copied under the interpreter's lock, without NumPy's bookkeeping of borrows:
 /// with 50 ns that costs more than the rest of the call. Who else could write holds the lock, or
 /// has a borrow.
 #[inline]
-pub(super) fn copied_vector<const N: usize>(value: &Bound<'_, PyAny>) -> Option<[f64; N]> {
+fn plain<'a, 'py, D: Dimension>(
+    value: &'a Bound<'py, PyAny>,
+) -> Option<&'a Bound<'py, PyArray<f64, D>>> {
     if !PyUntypedArray::is_exact_type_of(value) {
         return None;
     }
-    let array = value.cast::<PyArray1<f64>>().ok()?;
-    if array.shape() != [N] || !array.is_aligned() || is_any_written() {
-        return None;
-    }
+    value.cast().ok().filter(|array: &&Bound<'_, _>| array.is_aligned() && !is_any_written())
+}
+
+/// A copy of a plain array of shape (`N`,).
+#[inline]
+pub(super) fn copied_vector<const N: usize>(value: &Bound<'_, PyAny>) -> Option<[f64; N]> {
+    let array = plain::<Ix1>(value).filter(|array| array.shape() == [N])?;
     Some(array::from_fn(|index| array.get_owned([index]).unwrap_or(f64::NAN)))
 }
 
-/// As [`copied_vector`], of an array of shape (n,).
+/// A copy of a plain array of shape (n,).
 #[inline]
 pub(super) fn copied_numbers(value: &Bound<'_, PyAny>) -> Option<Vec<f64>> {
-    if !PyUntypedArray::is_exact_type_of(value) {
-        return None;
-    }
-    let array = value.cast::<PyArray1<f64>>().ok()?;
-    if !array.is_aligned() || is_any_written() {
-        return None;
-    }
+    let array = plain::<Ix1>(value)?;
     (0..array.len()).map(|index| array.get_owned([index])).collect()
 }
 
-/// As [`copied_vector`], of an array of shape (4, 4), in row-major order.
+/// A copy of a plain array of shape (4, 4), in row-major order.
 #[inline]
 pub(super) fn copied_matrix4(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {
-    if !PyUntypedArray::is_exact_type_of(value) {
-        return None;
-    }
-    let array = value.cast::<PyArray2<f64>>().ok()?;
-    if array.shape() != [4, 4] || !array.is_aligned() || is_any_written() {
-        return None;
-    }
+    let array = plain::<Ix2>(value).filter(|array| array.shape() == [4, 4])?;
     // Every index is inside the shape. Row by row, so that it unrolls.
     let mut numbers = [0.0; 16];
     for (row, to) in numbers.as_chunks_mut::<4>().0.iter_mut().enumerate() {
@@ -201,7 +194,7 @@ pub(super) fn copied_matrix4(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {
 #[inline]
 pub(super) fn vector<const N: usize>(
     value: &Bound<'_, PyAny>,
-    field: &str,
+    field: &'static str,
     fault: Fault,
 ) -> PyResult<[f64; N]> {
     copied_vector(value).map_or_else(|| exactly::<N>(value, &[N], field, fault), Ok)
@@ -209,7 +202,11 @@ pub(super) fn vector<const N: usize>(
 
 /// Exactly 4 rows of 4 numbers in row-major order, as the argument `field`.
 #[inline]
-pub(super) fn matrix4(value: &Bound<'_, PyAny>, field: &str, fault: Fault) -> PyResult<[f64; 16]> {
+pub(super) fn matrix4(
+    value: &Bound<'_, PyAny>,
+    field: &'static str,
+    fault: Fault,
+) -> PyResult<[f64; 16]> {
     copied_matrix4(value).map_or_else(|| exactly::<16>(value, &[4, 4], field, fault), Ok)
 }
 
@@ -219,21 +216,25 @@ pub(super) fn matrix4(value: &Bound<'_, PyAny>, field: &str, fault: Fault) -> Py
 fn exactly<const N: usize>(
     value: &Bound<'_, PyAny>,
     shape: &[usize],
-    field: &str,
+    field: &'static str,
     fault: Fault,
 ) -> PyResult<[f64; N]> {
-    let array = readable(value, field, fault)?;
-    if array.shape() != shape {
-        return Err(fault.error(
-            value.py(),
-            format!(
-                "{field} must have shape {}, got {}",
-                shape_text(shape),
-                shape_text(array.shape())
-            ),
-        ));
+    let rows = Rows::exact(value, shape, field, fault)?;
+    Ok(rows.data()?.try_into().unwrap_or([f64::NAN; N]))
+}
+
+/// Numbers of one dimension, as the argument `field`; `wanted` spells their shape.
+pub(super) fn numbers(
+    value: &Bound<'_, PyAny>,
+    wanted: &str,
+    field: &'static str,
+    fault: Fault,
+) -> PyResult<Vec<f64>> {
+    if let Some(numbers) = copied_numbers(value) {
+        return Ok(numbers);
     }
-    Ok(array.as_slice()?.try_into().map_or([f64::NAN; N], |numbers: &[f64; N]| *numbers))
+    let rows = Rows::shaped(value, || wanted, field, fault, |shape| shape.len() == 1)?;
+    Ok(rows.data()?.to_vec())
 }
 
 /// Refuse a masked array: the memory of masked elements holds numbers that nobody means.
@@ -280,7 +281,7 @@ fn as_array<'py>(
     let py = value.py();
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy.call_method1(intern!(py, "asarray"), (value,)).map_err(|cause| {
-        fault.error(py, format!("{field} must be an array of numbers: {}", cause.value(py)))
+        fault.error(format_args!("{field} must be an array of numbers: {}", cause.value(py)))
     })?;
     Ok(array.cast_into::<PyUntypedArray>()?)
 }

@@ -1,11 +1,12 @@
 //! `irbkin.catalog` and `irbkin.catalog_entry`.
 
-use numpy::{PyArray1, PyArrayMethods};
+use std::ops::RangeInclusive;
+
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyTuple};
 
-use super::errors::to_py;
+use super::outputs::{array, column};
 use super::records::CatalogEntry;
 use crate::catalog::{catalog as every_arm, find};
 use crate::kinematics::thresholds::MOST_REACH;
@@ -23,12 +24,10 @@ use crate::kinematics::thresholds::MOST_REACH;
 ///         left out.
 #[pyfunction]
 pub(super) fn catalog_entry(py: Python<'_>, name: &str) -> PyResult<CatalogEntry> {
-    let arm = find(name).map_err(|error| to_py(py, &error))?;
+    let arm = find(name)?;
     let radians = |angle: f64| arm.angles.to_radians(angle);
-    let limits: Vec<f64> = arm.limits.as_flattened().iter().map(|&limit| radians(limit)).collect();
-    let velocities = arm
-        .max_velocity
-        .map(|all| PyArray1::from_iter(py, all.iter().map(|&velocity| radians(velocity))));
+    let limits = arm.limits.as_flattened().iter().map(|&limit| radians(limit));
+    let velocities = |all: &[f64]| column(py, all.iter().map(|&velocity| radians(velocity)));
     Ok(CatalogEntry {
         name: arm.name.to_owned(),
         maker: arm.maker.to_owned(),
@@ -36,8 +35,8 @@ pub(super) fn catalog_entry(py: Python<'_>, name: &str) -> PyResult<CatalogEntry
         dof: arm.dof(),
         payload: arm.payload,
         reach: arm.reach,
-        limits: PyArray1::from_vec(py, limits).reshape([arm.dof(), 2])?.into_any().unbind(),
-        max_velocity: velocities.map(|velocities| velocities.into_any().unbind()),
+        limits: array(py, limits, &[arm.dof(), 2])?,
+        max_velocity: arm.max_velocity.map(velocities),
         is_coupled: arm.is_coupled(),
         sources: arm.sources.into(),
         provenance: arm.provenance.to_owned(),
@@ -66,66 +65,42 @@ pub(super) fn catalog<'py>(
     reach: Option<&Bound<'py, PyAny>>,
     payload: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyTuple>> {
-    let [reach, payload] =
-        [Range::read("reach", "m", reach)?, Range::read("payload", "kg", payload)?];
-    let fitting = every_arm().filter(|arm| {
-        Range::holds(reach.as_ref(), arm.reach) && Range::holds(payload.as_ref(), arm.payload)
-    });
+    let reach = reach.map(|reach| read_range(reach, "reach", "m")).transpose()?;
+    let payload = payload.map(|payload| read_range(payload, "payload", "kg")).transpose()?;
+    let passes = |filter: &Option<RangeInclusive<f64>>, figure: Option<f64>| {
+        filter.as_ref().is_none_or(|range| figure.is_some_and(|figure| range.contains(&figure)))
+    };
+    let fitting =
+        every_arm().filter(|arm| passes(&reach, arm.reach) && passes(&payload, arm.payload));
     PyTuple::new(py, fitting.map(|arm| arm.name).collect::<Vec<_>>())
 }
 
-/// The figures that pass a filter.
-struct Range {
-    least: f64,
-    most: f64,
-}
-
-impl Range {
-    fn read(field: &str, unit: &str, filter: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Self>> {
-        let Some(filter) = filter else { return Ok(None) };
-        // Python's bytes are pairs of numbers, and its truth values numbers, to those who ask.
-        let no_number = filter.is_instance_of::<PyBytes>() || filter.is_instance_of::<PyBool>();
-        let pair = filter
-            .extract::<f64>()
-            .map(|least| [least, f64::INFINITY])
-            .or_else(|_| filter.extract::<[f64; 2]>());
-        let [least, most] = pair.ok().filter(|_| !no_number).ok_or_else(|| {
-            let got = filter.repr();
-            let got = got.map_or_else(|_| "something else".into(), |repr| repr.to_string());
-            PyValueError::new_err(format!(
-                "{field} must be a number (at least that much) or a pair (least, most) [{unit}], \
-                 got {got}"
-            ))
-        })?;
-        for value in [least, most] {
-            if value.is_nan() || value < 0.0 {
-                return Err(PyValueError::new_err(format!(
-                    "{field} is {value} {unit}, it must be 0 or more"
-                )));
-            }
+/// The figures that pass a filter: a number is the least, a pair the least and the most.
+fn read_range(filter: &Bound<'_, PyAny>, field: &str, unit: &str) -> PyResult<RangeInclusive<f64>> {
+    let refused = |message| PyValueError::new_err(format!("{field} {message}"));
+    // Python's bytes are pairs of numbers, and its truth values numbers, to those who ask.
+    let no_number = filter.is_instance_of::<PyBytes>() || filter.is_instance_of::<PyBool>();
+    let least = filter.extract::<f64>().map(|least| [least, f64::INFINITY]);
+    let pair = least.or_else(|_| filter.extract::<[f64; 2]>()).ok().filter(|_| !no_number);
+    let Some([least, most]) = pair else {
+        let got = filter.repr()?;
+        return Err(refused(format!(
+            "must be a number (at least that much) or a pair (least, most) [{unit}], got {got}"
+        )));
+    };
+    for value in [least, most] {
+        if value.is_nan() || value < 0.0 {
+            return Err(refused(format!("is {value} {unit}, it must be 0 or more")));
         }
         // A payload may be that many kilograms; no arm reaches that many meters.
-        if let Some(value) = [least, most]
-            .into_iter()
-            .find(|value| unit == "m" && value.is_finite() && *value > MOST_REACH)
-        {
-            return Err(PyValueError::new_err(format!(
-                "{field} is {value} {unit}, it must be at most {MOST_REACH} {unit} (is it in \
-                 millimeters?)"
+        if unit == "m" && value.is_finite() && value > MOST_REACH {
+            return Err(refused(format!(
+                "is {value} {unit}, it must be at most {MOST_REACH} {unit} (is it in millimeters?)"
             )));
         }
-        if least > most {
-            return Err(PyValueError::new_err(format!(
-                "{field} is empty: least {least} {unit} > most {most} {unit}"
-            )));
-        }
-        Ok(Some(Self { least, most }))
     }
-
-    /// Whether a figure of an arm goes through a filter that may not be there.
-    fn holds(filter: Option<&Self>, figure: Option<f64>) -> bool {
-        filter.is_none_or(|range| {
-            figure.is_some_and(|figure| (range.least..=range.most).contains(&figure))
-        })
+    if least > most {
+        return Err(refused(format!("is empty: least {least} {unit} > most {most} {unit}")));
     }
+    Ok(least..=most)
 }

@@ -1,14 +1,14 @@
 //! Methods of `irbkin.Robot` about its parameters, which a calibration corrects.
 
-use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 
 use super::arm::{Arm, on};
 use super::arrays::Rows;
-use super::errors::{Fault, shape_text, to_py};
+use super::errors::Fault;
+use super::queries::mapped;
 use super::robot::PyRobot;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{AnyRobot, Corrections, Robot};
+use crate::kinematics::{Corrections, Robot};
 
 #[pymethods]
 impl PyRobot {
@@ -27,9 +27,10 @@ impl PyRobot {
     ///     InvalidModelError: A correction is not finite, the shape is wrong, the corrected table
     ///         is not a table, or the table of a robot with coupled axes 2 and 3 is corrected.
     fn with_corrections(&self, corrections: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let numbers = read(corrections, self.arm().dof())?;
-        let corrected = on!(self.arm(), robot => corrected(robot, numbers.data()?).map(Arm::from));
-        corrected.map(Self::from).map_err(|error| to_py(corrections.py(), &error))
+        Ok(on!(self.arm(), robot => {
+            Arm::from(robot.with_corrections(&read(robot, Some(corrections))?)?)
+        })
+        .into())
     }
 
     /// Return the robot, of a calibrated table, solved from the branches of its nominal robot: each
@@ -49,13 +50,19 @@ impl PyRobot {
     ///     InvalidModelError: The nominal robot has no closed form, coupled axes, or its tool is
     ///         more than 0.05 rad, or 0.05 of its reach, from this robot's.
     fn with_nominal(&self, nominal: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let py = nominal.py();
-        if let Ok(nominal) = nominal.cast::<Self>() {
-            return self.refined(py, nominal.get().arm());
-        }
-        let named =
-            AnyRobot::named(nominal.extract::<&str>()?).map_err(|error| to_py(py, &error))?;
-        self.refined(py, &Arm::from(named))
+        let nominal = match nominal.cast::<Self>() {
+            Ok(nominal) => nominal.get().arm().clone(),
+            Err(_) => Arm::named(nominal.extract()?)?,
+        };
+        let refined = match (self.arm(), &nominal) {
+            (Arm::Six(robot), Arm::Six(nominal)) => robot.with_nominal(nominal)?.into(),
+            (Arm::Seven(robot), Arm::Seven(nominal)) => robot.with_nominal(nominal)?.into(),
+            (robot, nominal) => {
+                let fault = ModelFault::JointCount { found: nominal.dof(), wanted: robot.dof() };
+                return Err(Error::from(fault).into());
+            }
+        };
+        Ok(Arm::into(refined))
     }
 
     /// Jacobian of the tool in the parameters of the robot: how each of them moves it.
@@ -79,15 +86,11 @@ impl PyRobot {
         q: &Bound<'py, PyAny>,
         corrections: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let dof = self.arm().dof();
-        let numbers = corrections.map(|corrections| read(corrections, dof)).transpose()?;
-        let numbers = numbers.as_ref().map(Rows::data).transpose()?;
-        let width = count(dof);
+    ) -> PyResult<Bound<'py, PyAny>> {
         on!(self.arm(), robot => {
-            let corrections = corrections_of(robot, numbers).map_err(|error| to_py(q.py(), &error))?;
-            self.arm().mapped(q, out, &[6, width], |pace, q, rows| {
-                pace.parameter_jacobian(robot, &corrections, q, rows)
+            let (at, width) = (read(robot, corrections)?, count(robot));
+            mapped(self.arm(), q, out, &[6, width], |batch, q, rows| {
+                batch.parameter_jacobian(robot, &at, q, rows)
             })
         })
     }
@@ -105,58 +108,27 @@ impl PyRobot {
         &self,
         q: &Bound<'py, PyAny>,
         corrections: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        let numbers = read(corrections, self.arm().dof())?;
-        let numbers = numbers.data()?;
+    ) -> PyResult<Bound<'py, PyAny>> {
         on!(self.arm(), robot => {
-            let corrections =
-                corrections_of(robot, Some(numbers)).map_err(|error| to_py(q.py(), &error))?;
-            self.arm().mapped(q, None, &[4, 4], |pace, q, poses| {
-                pace.corrected_fk(robot, &corrections, q, poses)
+            let at = read(robot, Some(corrections))?;
+            mapped(self.arm(), q, None, &[4, 4], |batch, q, poses| {
+                batch.corrected_fk(robot, &at, q, poses)
             })
         })
     }
 }
 
-impl PyRobot {
-    fn refined(&self, py: Python<'_>, nominal: &Arm) -> PyResult<Self> {
-        let refined = match (self.arm(), nominal) {
-            (Arm::Six(robot), Arm::Six(nominal)) => robot.with_nominal(nominal).map(Arm::from),
-            (Arm::Seven(robot), Arm::Seven(nominal)) => robot.with_nominal(nominal).map(Arm::from),
-            (robot, nominal) => {
-                Err(ModelFault::JointCount { found: nominal.dof(), wanted: robot.dof() }.into())
-            }
-        };
-        refined.map(Self::from).map_err(|error| to_py(py, &error))
-    }
+/// Number of parameters of a robot.
+fn count<const N: usize>(_: &Robot<N>) -> usize {
+    Corrections::<N>::COUNT
 }
 
-/// Number of parameters of a robot of `dof` joints.
-fn count(dof: usize) -> usize {
-    if dof == 6 { Corrections::<6>::COUNT } else { Corrections::<7>::COUNT }
-}
-
-/// One row of corrections.
-fn read<'py>(corrections: &Bound<'py, PyAny>, dof: usize) -> PyResult<Rows<'py>> {
-    let wanted = format!("({},)", count(dof));
-    let rows = Rows::read_wanting(corrections, &[count(dof)], "corrections", Fault::Model, || {
-        wanted.clone()
-    })?;
-    if rows.is_single() {
-        return Ok(rows);
-    }
-    let got = shape_text(rows.shape());
-    Err(Fault::Model
-        .error(corrections.py(), format!("corrections must have shape {wanted}, got {got}")))
-}
-
-fn corrections_of<const N: usize>(
-    _: &Robot<N>,
-    numbers: Option<&[f64]>,
-) -> Result<Corrections<N>, Error> {
-    numbers.map_or(Ok(Corrections::NONE), Corrections::from_slice)
-}
-
-fn corrected<const N: usize>(robot: &Robot<N>, numbers: &[f64]) -> Result<Robot<N>, Error> {
-    robot.with_corrections(&Corrections::from_slice(numbers)?)
+/// One row of corrections of a robot; none where they are not given.
+fn read<const N: usize>(
+    robot: &Robot<N>,
+    corrections: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Corrections<N>> {
+    let Some(given) = corrections else { return Ok(Corrections::NONE) };
+    let rows = Rows::exact(given, &[count(robot)], "corrections", Fault::Model)?;
+    Ok(Corrections::from_slice(rows.data()?)?)
 }

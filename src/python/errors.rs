@@ -1,15 +1,12 @@
 //! The exceptions of errors of the core and of arguments.
 
-use pyo3::exceptions::PyValueError;
+use std::fmt::Display;
+
+use pyo3::exceptions::{PyBaseException, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::classes::{
-    invalid_joints_error, invalid_model_error, invalid_motion_error, invalid_pose_error,
-    rapid_error, unknown_name_error, unknown_robot_error, unreachable_error,
-};
-use super::records;
-use crate::error::{Error, FrameFault, MotionFault, NoConfiguration, PlanFault, RapidFault};
+use crate::error::{Error, FrameFault, MotionFault, PlanFault};
 
 /// The kind of invalid input, which determines the exception.
 #[derive(Clone, Copy)]
@@ -18,94 +15,91 @@ pub(super) enum Fault {
     Joints,
     Model,
     Motion,
+    Rapid,
 }
 
 impl Fault {
     /// The exception for this input with a message.
-    pub(super) fn error(self, py: Python<'_>, message: String) -> PyErr {
+    #[cold]
+    pub(super) fn error(self, message: impl Display) -> PyErr {
         let class = match self {
-            Self::Pose => invalid_pose_error(py),
-            Self::Joints => invalid_joints_error(py),
-            Self::Model => invalid_model_error(py),
-            Self::Motion => invalid_motion_error(py),
+            Self::Pose => "InvalidPoseError",
+            Self::Joints => "InvalidJointsError",
+            Self::Model => "InvalidModelError",
+            Self::Motion => "InvalidMotionError",
+            Self::Rapid => "RapidError",
         };
         raised(class, message)
     }
 }
 
-pub(super) fn raised(class: PyResult<&Bound<'_, PyAny>>, message: String) -> PyErr {
-    class
-        .and_then(|class| class.call1((message,)))
-        .map_or_else(|failure| failure, PyErr::from_value)
+/// An exception of a class of `irbkin.errors`.
+#[cold]
+pub(super) fn raised(class: &str, message: impl Display) -> PyErr {
+    Python::attach(|py| {
+        let class = py.import("irbkin.errors").and_then(|errors| errors.getattr(class));
+        let error = class.and_then(|class| class.call1((message.to_string(),)));
+        error.map_or_else(|failure| failure, PyErr::from_value)
+    })
 }
 
-/// The Python exception of a core error.
-pub(super) fn to_py(py: Python<'_>, error: &Error) -> PyErr {
-    let class = match error {
-        Error::InvalidPose(_)
-        | Error::Frame(FrameFault::Pose { .. })
-        | Error::InvalidPlan(PlanFault::Pose { .. }) => invalid_pose_error(py),
-        Error::InvalidJoints(_)
-        | Error::InvalidMotion(MotionFault::Row { .. })
-        | Error::InvalidPlan(PlanFault::EndOff { .. } | PlanFault::EndOutside { .. }) => {
-            invalid_joints_error(py)
-        }
-        Error::InvalidModel(_) | Error::WrongLength { .. } => invalid_model_error(py),
-        Error::InvalidMotion(_) | Error::InvalidPlan(_) => invalid_motion_error(py),
-        Error::UnknownRobot(_) => unknown_robot_error(py),
-        Error::Unreachable(_) => unreachable_error(py),
-        Error::NoConfiguration(fault) => return no_configuration(py, fault),
-        Error::Rapid(fault) => return broken_text(py, fault),
-        Error::Frame(_) => rapid_error(py),
-        Error::NoInstructionSet { .. } => return PyValueError::new_err(error.to_string()),
-    };
-    raised(class, error.to_string())
+/// An exception with attributes.
+pub(super) fn with_attributes(
+    error: PyErr,
+    set: impl FnOnce(&Bound<'_, PyBaseException>) -> PyResult<()>,
+) -> PyErr {
+    match Python::attach(|py| set(error.value(py))) {
+        Ok(()) => error,
+        Err(failure) => failure,
+    }
+}
+
+/// The exception of a core error.
+impl From<Error> for PyErr {
+    #[cold]
+    fn from(error: Error) -> Self {
+        let class = match &error {
+            Error::InvalidPose(_)
+            | Error::Frame(FrameFault::Pose { .. })
+            | Error::InvalidPlan(PlanFault::Pose { .. }) => "InvalidPoseError",
+            Error::InvalidJoints(_)
+            | Error::InvalidMotion(MotionFault::Row { .. })
+            | Error::InvalidPlan(PlanFault::EndOff { .. } | PlanFault::EndOutside { .. }) => {
+                "InvalidJointsError"
+            }
+            Error::InvalidModel(_) | Error::WrongLength { .. } => "InvalidModelError",
+            Error::InvalidMotion(_) | Error::InvalidPlan(_) => "InvalidMotionError",
+            Error::UnknownRobot(_) => "UnknownRobotError",
+            Error::Unreachable(_) | Error::NoConfiguration(_) => "UnreachableError",
+            Error::Rapid(_) | Error::Frame(_) => "RapidError",
+            Error::NoInstructionSet { .. } => return PyValueError::new_err(error.to_string()),
+        };
+        let raised = raised(class, &error);
+        with_attributes(raised, |value| match error {
+            // The configurations that exist.
+            Error::NoConfiguration(fault) => {
+                value.setattr("configurations", PyTuple::new(value.py(), fault.existing)?)
+            }
+            Error::Rapid(fault) => {
+                value.setattr("line", fault.line)?;
+                value.setattr("column", fault.column)
+            }
+            _ => Ok(()),
+        })
+    }
 }
 
 /// The error of a solve from a seed [rad]: one outside the limits whose seed is beyond two turns
 /// asks for degrees.
-pub(super) fn of_seed(py: Python<'_>, error: &Error, seed: &[f64]) -> PyErr {
+pub(super) fn of_seed(error: Error, seed: &[f64]) -> PyErr {
     let large = seed.iter().position(|angle| angle.abs() > 2.0 * std::f64::consts::TAU);
-    match (error, large) {
+    match (&error, large) {
         (Error::Unreachable(_), Some(i)) => raised(
-            unreachable_error(py),
+            "UnreachableError",
             format!("{error} (seed: joint {} is {} rad, did you pass degrees?)", i + 1, seed[i]),
         ),
-        _ => to_py(py, error),
+        _ => error.into(),
     }
-}
-
-/// A `RapidError` that has no place in a text.
-pub(super) fn rapid_fault(py: Python<'_>, message: String) -> PyErr {
-    raised(rapid_error(py), message)
-}
-
-/// An `UnknownNameError`, which is a `KeyError`.
-pub(super) fn unknown_name(py: Python<'_>, message: String) -> PyErr {
-    raised(unknown_name_error(py), message)
-}
-
-/// With the line and the column as attributes.
-fn broken_text(py: Python<'_>, fault: &RapidFault) -> PyErr {
-    let error = rapid_fault(py, fault.to_string());
-    let value = error.value(py);
-    let placed =
-        value.setattr("line", fault.line).and_then(|()| value.setattr("column", fault.column));
-    placed.map_or_else(|failure| failure, |()| error)
-}
-
-/// With the configurations that exist as an attribute.
-fn no_configuration(py: Python<'_>, fault: &NoConfiguration) -> PyErr {
-    let error = raised(unreachable_error(py), fault.to_string());
-    let existing = fault
-        .existing
-        .iter()
-        .map(|existing| records::configuration(py, existing))
-        .collect::<PyResult<Vec<_>>>();
-    let told = existing.and_then(|existing| {
-        error.value(py).setattr("configurations", PyTuple::new(py, existing)?)
-    });
-    told.map_or_else(|failure| failure, |()| error)
 }
 
 /// A shape as NumPy prints it: (5, 4, 4), (6,), ().
@@ -121,21 +115,15 @@ pub(super) fn shape_of_rows(tail: &[usize]) -> String {
     if tail.is_empty() { "(...)".to_owned() } else { format!("(..., {})", listed(tail)) }
 }
 
-/// The index of an element by its number in row-major order.
-pub(super) fn index_in(shape: &[usize], mut number: usize) -> Vec<usize> {
-    let mut index: Vec<usize> = shape
-        .iter()
-        .rev()
-        .map(|size| {
-            let at = number % size;
-            number /= size;
-            at
-        })
-        .collect();
-    index.reverse();
-    index
-}
-
 fn listed(sizes: &[usize]) -> String {
     sizes.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// The index of an element by its number in row-major order.
+pub(super) fn index_in(shape: &[usize], mut number: usize) -> Vec<usize> {
+    let mut index = shape.to_vec();
+    for size in index.iter_mut().rev() {
+        (number, *size) = (number / *size, number % *size);
+    }
+    index
 }

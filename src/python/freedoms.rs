@@ -4,18 +4,11 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyString};
 
-use super::arguments::one_of;
+use super::arguments::{AXES, one_of};
 use super::arrays::{Rows, vector};
-use super::classes;
-use super::errors::{Fault, shape_text, to_py};
-use super::found::read_weights;
-use crate::error::Error;
+use super::errors::Fault;
 use crate::kinematics::thresholds::MOST_TOOL_ANGLES;
-use crate::plan::{
-    ExternalAxis, PlanOptions, PlanOrder, ToolAxis, ToolCone, ToolOffset, ToolRotation,
-};
-
-const AXES: [(&str, ToolAxis); 3] = [("x", ToolAxis::X), ("y", ToolAxis::Y), ("z", ToolAxis::Z)];
+use crate::plan::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
 
 /// A tuple of `irbkin.freedom`, as the argument `field`.
 struct Fields<'a, 'py> {
@@ -71,44 +64,9 @@ fn count(value: &Bound<'_, PyAny>) -> Option<usize> {
     Some(usize::try_from(count.clamp(0, MOST_TOOL_ANGLES as i128 + 1)).unwrap_or_default())
 }
 
-const ORDERS: [(&str, PlanOrder); 2] =
-    [("bottleneck", PlanOrder::Bottleneck), ("sum", PlanOrder::Sum)];
-
-/// Arguments that make one path better than another.
-pub(super) struct Costs<'a, 'py> {
-    pub(super) weights: Option<&'a Bound<'py, PyAny>>,
-    pub(super) order: &'a str,
-    pub(super) limit: f64,
-    pub(super) singularity: f64,
-}
-
-/// Read the options that one path and many have in common.
-pub(super) fn read_options(
-    rotation: Option<&Bound<'_, PyAny>>,
-    closed: bool,
-    carrier: Option<&Bound<'_, PyAny>>,
-    tolerance: Option<&Bound<'_, PyAny>>,
-    costs: &Costs<'_, '_>,
-) -> PyResult<PlanOptions> {
-    let (cone, offset) = tolerance.map(read_tolerance).transpose()?.unwrap_or_default();
-    Ok(PlanOptions {
-        rotation: rotation.map(read_rotation).transpose()?,
-        external: carrier.map(read_carrier).transpose()?.unwrap_or_default(),
-        cone,
-        offset,
-        closed,
-        weights: read_weights(costs.weights)?,
-        order: one_of("order", costs.order, &ORDERS)?,
-        limit_cost: costs.limit,
-        singularity_cost: costs.singularity,
-        ..PlanOptions::default()
-    })
-}
-
 /// A rotation from a number of steps or from `irbkin.ToolRotation`.
-fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotation> {
-    let py = rotation.py();
-    let made = if rotation.is_instance(classes::tool_rotation_class(py)?)? {
+pub(super) fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotation> {
+    let made = if rotation.is_instance(&class(rotation.py(), "ToolRotation")?)? {
         let fields = Fields { tuple: rotation, field: "rotation" };
         let (lower, upper) = (fields.number("lower")?, fields.number("upper")?);
         ToolRotation::new(fields.count("steps")?, lower, upper, fields.axis("axis")?)
@@ -116,17 +74,16 @@ fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotation> {
         let wanted = "rotation must be an irbkin.ToolRotation or a number of angles";
         ToolRotation::full(count(rotation).ok_or_else(|| other(wanted, rotation))?)
     };
-    made.map_err(|error| to_py(py, &error))
+    Ok(made?)
 }
 
 /// External axes from `irbkin.Track`, `irbkin.Positioner`, or several of them.
-fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalAxis>> {
-    let py = carrier.py();
+pub(super) fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalAxis>> {
     let wanted = "carrier must be an irbkin.Track, an irbkin.Positioner, or a sequence of them";
-    let (track, positioner) = (classes::track_class(py)?, classes::positioner_class(py)?);
+    let kinds = [class(carrier.py(), "Track")?, class(carrier.py(), "Positioner")?];
     let mut axes = Vec::new();
-    for one in &each(carrier, [track, positioner], wanted)? {
-        let is_track = one.is_instance(track)?;
+    for one in &each(carrier, &kinds, wanted)? {
+        let is_track = one.is_instance(&kinds[0])?;
         let fields = Fields { tuple: one, field: if is_track { "Track" } else { "Positioner" } };
         let (lower, upper) = (fields.number("lower")?, fields.number("upper")?);
         let (direction, steps) = (fields.direction("axis")?, fields.count("steps")?);
@@ -137,31 +94,28 @@ fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalAxis>> {
             ExternalAxis::positioner(point, direction, lower, upper, steps)
         };
         let (max_velocity, weight) = (fields.number("max_velocity")?, fields.number("weight")?);
-        let made = made.and_then(|axis| axis.with_max_velocity(max_velocity)?.with_weight(weight));
-        axes.push(made.map_err(|error| to_py(py, &error))?);
+        axes.push(made?.with_max_velocity(max_velocity)?.with_weight(weight)?);
     }
     Ok(axes)
 }
 
 /// Tolerances from `irbkin.ToolCone`, `irbkin.ToolOffset`, or one of each.
-fn read_tolerance(
+pub(super) fn read_tolerance(
     tolerance: &Bound<'_, PyAny>,
 ) -> PyResult<(Option<ToolCone>, Option<ToolOffset>)> {
-    let py = tolerance.py();
     let wanted = "tolerance must be an irbkin.ToolCone, an irbkin.ToolOffset, or one of each";
-    let classes = [classes::tool_cone_class(py)?, classes::tool_offset_class(py)?];
+    let kinds = [class(tolerance.py(), "ToolCone")?, class(tolerance.py(), "ToolOffset")?];
     let (mut cone, mut offset) = (None, None);
-    for one in &each(tolerance, classes, wanted)? {
-        let raised = |error: Error| to_py(py, &error);
-        let is_second = if one.is_instance(classes[0])? {
+    for one in &each(tolerance, &kinds, wanted)? {
+        let is_second = if one.is_instance(&kinds[0])? {
             let fields = Fields { tuple: one, field: "ToolCone" };
             let made = ToolCone::new(fields.number("angle")?, fields.count("steps")?);
-            cone.replace(made.map_err(raised)?).is_some()
+            cone.replace(made?).is_some()
         } else {
             let fields = Fields { tuple: one, field: "ToolOffset" };
             let (lower, upper) = (fields.number("lower")?, fields.number("upper")?);
             let made = ToolOffset::new(lower, upper, fields.count("steps")?, fields.axis("axis")?);
-            offset.replace(made.map_err(raised)?).is_some()
+            offset.replace(made?).is_some()
         };
         if is_second {
             return Err(other(wanted, tolerance));
@@ -170,14 +124,19 @@ fn read_tolerance(
     Ok((cone, offset))
 }
 
+/// A class of `irbkin.freedom`.
+fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("irbkin.freedom")?.getattr(name)
+}
+
 /// One object of two classes, or each of a sequence of them.
 fn each<'py>(
     given: &Bound<'py, PyAny>,
-    classes: [&Bound<'py, PyAny>; 2],
+    classes: &[Bound<'py, PyAny>; 2],
     wanted: &str,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let fits = |one: &Bound<'py, PyAny>| -> PyResult<bool> {
-        Ok(one.is_instance(classes[0])? || one.is_instance(classes[1])?)
+        Ok(one.is_instance(&classes[0])? || one.is_instance(&classes[1])?)
     };
     if fits(given)? {
         return Ok(vec![given.clone()]);
@@ -199,26 +158,16 @@ fn other(wanted: &str, got: &Bound<'_, PyAny>) -> PyErr {
 /// The joint vector of an end, with the values of external axes behind it.
 pub(super) fn read_end(
     given: Option<&Bound<'_, PyAny>>,
-    field: &str,
+    field: &'static str,
     external: usize,
 ) -> PyResult<(Option<[f64; 6]>, Vec<f64>)> {
     let Some(given) = given else { return Ok((None, Vec::new())) };
     if external == 0 {
         return Ok((Some(vector::<6>(given, field, Fault::Joints)?), Vec::new()));
     }
-    let rows = Rows::read(given, &[], field, Fault::Joints)?;
-    let values = rows.data()?;
-    match values.split_first_chunk::<6>() {
-        Some((q, rest)) if rows.shape().len() == 1 && rest.len() == external => {
-            Ok((Some(*q), rest.to_vec()))
-        }
-        _ => {
-            let (wanted, got) = (6 + external, shape_text(rows.shape()));
-            let message = format!(
-                "{field} must have shape ({wanted},): 6 joint angles and {external} external axes, \
-                 got {got}"
-            );
-            Err(Fault::Joints.error(given.py(), message))
-        }
-    }
+    let count = 6 + external;
+    let wanted = || format!("({count},): 6 joint angles and {external} external axes");
+    let rows = Rows::shaped(given, wanted, field, Fault::Joints, |shape| shape == [count])?;
+    let (q, values) = rows.data()?.split_at(6);
+    Ok((q.try_into().ok(), values.to_vec()))
 }

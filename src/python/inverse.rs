@@ -1,28 +1,25 @@
 //! Methods of `irbkin.Robot` that take poses.
 
+use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyFloat;
+use pyo3::types::{PyFloat, PyTuple};
 
-use super::arguments::{read_singularity_mode, thread_count};
+use super::arguments::thread_count;
 use super::arm::{Arm, on};
-use super::batches;
-use super::configured::{self, Options};
-use super::errors::{of_seed, to_py};
-use super::found::{Found, read_weights};
-use super::locked::{self, locked, read_pair, released};
-use super::nearest::{self, Seeded, read_seeded};
-use super::outputs::answer_row;
-use super::paths;
-use super::poses::{read_ik_pose, read_single_pose};
-use super::records::{FollowResult, IkBatch, IkMargin, PoseCheck};
-use super::redundancy::{needed_q7, no_q7, no_q7_beside_given, one_angle};
+use super::errors::of_seed;
+use super::outputs::{Output, Pair, answer_row, pair};
+use super::records::{IkBatch, IkMargin, PoseCheck};
+use super::redundancy::{
+    locked, needed_q7, no_q7, no_q7_beside_given, one_angle, read_pair, read_poses_with_q7,
+};
 use super::robot::PyRobot;
-use super::solutions::PySolutions;
-use crate::kinematics::FollowOptions;
-use crate::kinematics::thresholds::WRIST_ZONE;
+use super::signals::detached;
+use super::solutions::{Found, PySolutions};
+use super::targets::{Seeded, read_ik_pose, read_seeded, read_single_pose, read_weights};
+use crate::batch::Margins;
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -52,39 +49,34 @@ impl PyRobot {
         q7: Option<&Bound<'py, PyAny>>,
         given: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PySolutions>> {
-        let py = T.py();
         if let Some(given) = given {
             no_q7_beside_given(q7)?;
             return match read_pair(self.arm(), given)? {
                 // An arm of seven joints has joint 7 locked for each pose.
                 (7, q7) => self.ik(T, Some(&q7), None),
-                (joint, angle) => {
-                    PyRobot::from(Arm::from(locked(self, joint, &angle)?)).ik(T, None, None)
-                }
+                (joint, angle) => Self::from(locked(self, joint, &angle)?).ik(T, None, None),
             };
         }
-        match self.arm() {
+        let solutions: PySolutions = match self.arm() {
             Arm::Six(robot) => {
                 no_q7(q7.is_some())?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
-                robot.ik_into(&mut found.solutions, f64::NAN).map_err(|error| to_py(py, &error))?;
-                Bound::new(py, PySolutions::from(found))
+                robot.ik_into(&mut found.solutions, f64::NAN)?;
+                found.into()
             }
             Arm::Seven(robot) => {
                 let angle = match (robot.locked_joint(), q7) {
                     (Some((_, angle)), None) => angle,
-                    (Some(_), Some(_)) => return released(self).ik(T, q7, None),
-                    (None, q7) => one_angle(needed_q7(py, robot, q7)?, "q7")?,
+                    (Some(_), Some(_)) => return Self::from(self.unlocked()).ik(T, q7, None),
+                    (None, q7) => one_angle(needed_q7(robot, q7)?, "q7")?,
                 };
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
-                robot
-                    .check_locked(angle)
-                    .and_then(|()| robot.ik_into(&mut found.solutions, angle))
-                    .map_err(|error| to_py(py, &error))?;
-                let q7 = q7.is_some().then_some(angle);
-                Bound::new(py, PySolutions::from(Found { q7, ..found }))
+                robot.check_locked(angle)?;
+                robot.ik_into(&mut found.solutions, angle)?;
+                Found { q7: q7.is_some().then_some(angle), ..found }.into()
             }
-        }
+        };
+        Bound::new(T.py(), solutions)
     }
 
     /// Every joint vector of many poses.
@@ -120,21 +112,17 @@ impl PyRobot {
         threads: isize,
     ) -> PyResult<IkBatch> {
         let threads = thread_count(threads)?;
-        let Some(given) = given else {
-            return batches::ik(self.arm(), T, ("q7", q7), out, threads);
-        };
+        let Some(given) = given else { return solved(self.arm(), T, ("q7", q7), out, threads) };
         no_q7_beside_given(q7)?;
-        let (joint, angles) = read_pair(self.arm(), given)?;
-        match joint {
-            7 => batches::ik(released(self).arm(), T, ("q7", Some(&angles)), out, threads),
-            1 => {
-                let zero = PyFloat::new(T.py(), 0.0);
-                let arm = Arm::from(locked(self, 1, &zero)?);
-                batches::ik(&arm, T, ("given", Some(&angles)), out, threads)
+        match read_pair(self.arm(), given)? {
+            (7, angles) => solved(&self.unlocked(), T, ("q7", Some(&angles)), out, threads),
+            (1, angles) => {
+                let arm = locked(self, 1, &PyFloat::new(T.py(), 0.0))?;
+                solved(&arm, T, ("given", Some(&angles)), out, threads)
             }
-            joint => {
-                let arm = Arm::from(locked(self, joint, &angles)?);
-                batches::ik(&arm, T, ("given", None), out, threads)
+            (joint, angles) => {
+                let arm = locked(self, joint, &angles)?;
+                solved(&arm, T, ("given", None), out, threads)
             }
         }
     }
@@ -162,7 +150,26 @@ impl PyRobot {
         q7: Option<&Bound<'py, PyAny>>,
         threads: isize,
     ) -> PyResult<IkMargin> {
-        batches::ik_margin(self.arm(), T, q7, thread_count(threads)?)
+        let (py, arm, threads) = (T.py(), self.arm(), thread_count(threads)?);
+        let (poses, angles) = read_poses_with_q7(arm, T, "q7", q7)?;
+        let mut margin = Output::new(py, None, &poses.lead, &[])?;
+        let mut singularities = Output::new(py, None, &poses.lead, &[])?;
+        let mut solutions = Output::new(py, None, &poses.lead, &[])?;
+        let (data, answers) = (
+            poses.data()?,
+            Margins {
+                margin: margin.slice()?,
+                singularities: singularities.slice()?,
+                solutions: solutions.slice()?,
+            },
+        );
+        detached(
+            py,
+            threads,
+            |batch| on!(arm, robot => batch.ik_margin(robot, data, &angles, answers)),
+        )?;
+        let [margin, singularities] = [margin, singularities].map(Output::array);
+        Ok(IkMargin { margin, singularities, solutions: solutions.array() })
     }
 
     /// The solution inside the limits that is nearest to `seed`, turns considered.
@@ -195,144 +202,20 @@ impl PyRobot {
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (T.py(), thread_count(threads)?);
-        on!(self.arm(), robot => {
-            let (pose, seed) = match read_seeded(T, seed)? {
-                Seeded::One(pose, seed) => (pose, seed),
-                Seeded::Many(poses, seeds) => {
-                    return nearest::many(py, robot, &poses, &seeds, weights, out, threads);
-                }
-            };
-            let nearest = robot
-                .nearest_checked(pose, &seed, &read_weights(weights)?)
-                .map_err(|error| of_seed(py, &error, &seed))?;
-            answer_row(T, out, &nearest.q)
+        on!(self.arm(), robot => match read_seeded(T, seed)? {
+            Seeded::One(pose, seed) => {
+                let nearest = robot.nearest_checked(pose, &seed, &read_weights(weights)?);
+                answer_row(T, out, &nearest.map_err(|error| of_seed(error, &seed))?.q)
+            }
+            Seeded::Many(poses, seeds) => {
+                let (weights, shape) = (read_weights(weights)?, poses.shape_with(&[self.arm().dof()]));
+                let inputs = [poses.addresses(), seeds.addresses()];
+                let mut answer = Output::new(py, out, &shape, &inputs)?;
+                let (poses, seeds, q) = (poses.data()?, seeds.data()?, answer.slice()?);
+                detached(py, threads, |batch| batch.ik_nearest(robot, poses, seeds, &weights, q))?;
+                Ok(answer.bound())
+            }
         })
-    }
-
-    /// One continuous joint path along a path of poses: inside the limits, turns considered,
-    /// through singularities without a jump where there is a way.
-    ///
-    /// Args:
-    ///     T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4),
-    ///         translation [m].
-    ///     seed: Joint vectors from which the paths start [rad], shape (..., 6). T and seed are
-    ///         broadcast: one seed for many paths, one path from many seeds.
-    ///     weights: Cost of moving each joint, shape (6,); ones when not given.
-    ///     singularity_mode: What to do at the wrist singularity. "through": meet every pose,
-    ///         however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the zone, and
-    ///         where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
-    ///         straight from where they enter to where they leave, position exact, as SingArea
-    ///         \Wrist. "lock_axis4": axis 4 stays at 0 or +-180 deg all along, position exact,
-    ///         orientation where it can be, as SingArea \LockAxis4.
-    ///     zone: |sin q5| below which `singularity_mode` acts; 0.0175, that is one degree, when not
-    ///         given.
-    ///     out: Where to write: arrays (..., m, 6) and (..., m), float64, of the joints and of the
-    ///         orientation error.
-    ///     threads: Number of threads, for several paths; 0 for one a core.
-    ///
-    /// Returns:
-    ///     FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation
-    ///         error [rad], shape (..., m); the breaks.
-    ///
-    /// Raises:
-    ///     InvalidPoseError: T has a wrong shape or holds an invalid pose; the message has its
-    ///         index.
-    ///     InvalidJointsError: A seed or weight that is not finite, or a zone that is not 0 to 1.
-    ///     InvalidModelError: The arm has seven joints; "wrist" or "lock_axis4" for an arm without
-    ///         a spherical wrist.
-    ///     ValueError: Another `singularity_mode`.
-    #[pyo3(signature = (T, seed, weights=None, *, singularity_mode="through", zone=None, out=None, threads=1))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
-    fn follow<'py>(
-        &self,
-        T: &Bound<'py, PyAny>,
-        seed: &Bound<'py, PyAny>,
-        weights: Option<&Bound<'py, PyAny>>,
-        singularity_mode: &str,
-        zone: Option<f64>,
-        out: Option<&Bound<'py, PyAny>>,
-        threads: isize,
-    ) -> PyResult<FollowResult> {
-        let threads = thread_count(threads)?;
-        let options = |weights| -> PyResult<FollowOptions> {
-            let singularity_mode = read_singularity_mode(singularity_mode)?;
-            Ok(FollowOptions { weights, singularity_mode, zone: zone.unwrap_or(WRIST_ZONE) })
-        };
-        if let Arm::Seven(robot) = self.arm()
-            && let Some(six) = robot.six_turned().map_err(|error| to_py(T.py(), &error))?
-        {
-            let options = options(robot.others(&read_weights(weights)?))?;
-            return locked::follow(robot, &six, T, seed, &options, out, threads);
-        }
-        let robot = self.arm().follower(T.py())?;
-        paths::follow(robot, T, seed, &options(read_weights(weights)?)?, out, threads)
-    }
-
-    /// The solution inside the limits that has a configuration, which chooses the turns of axes 1,
-    /// 4 and 6, too.
-    ///
-    /// An angle within 0.01 deg of the edge of a quarter turn is taken for either side of it. A
-    /// GoFa may have two solutions with one configuration: `every` returns both. Its joints, and a
-    /// YuMi's, may be up to 1.5 deg beyond the limits where none is inside.
-    ///
-    /// Args:
-    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
-    ///     configuration: (cf1, cf4, cf6, cfx): an `irbkin.Configuration`, or whole numbers of
-    ///         shape (..., 4). T, configuration, arm_angle and seed are broadcast. None with
-    ///         `every` and an arm_angle: any configuration, inside the limits or not.
-    ///     arm_angle: Arm angles [rad] of a YuMi, shape (...): eax_a of its robtargets.
-    ///     fallback: With "nearest", the solution nearest to `seed` where none has the
-    ///         configuration: many programs write [0, 0, 0, 0] without having calculated it.
-    ///     seed: Joint vectors [rad], shape (..., n): of the fallback, and those to which the
-    ///         solution of a GoFa or YuMi is the nearest; angles of zero when not given.
-    ///     every: Whether to return every such solution of one pose, the nearest to `seed` first.
-    ///         For an arm angle alone, self-motions are searched that turn the first or the last
-    ///         joint by a degree or more; one joint vector represents those that differ in two
-    ///         axes of one line.
-    ///     out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
-    ///     threads: Number of threads; 0 for one a core.
-    ///
-    /// Returns:
-    ///     Joint vectors [rad], shape (..., n); with `every` shape (k, n). In a batch, a row
-    ///     without such a solution, or whose pose, seed or configuration (that which
-    ///     `configuration` gives an invalid row) is invalid, is NaN.
-    ///
-    /// Raises:
-    ///     UnreachableError: A single pose has no solution inside the limits with that
-    ///         configuration; the message, and its attribute `configurations`, have those that
-    ///         exist.
-    ///     InvalidPoseError, InvalidJointsError: A wrong shape, an invalid pose, a number of the
-    ///         configuration that is not whole or that the arm does not have, a YuMi without
-    ///         arm_angle.
-    ///     InvalidModelError: As `configuration`; arm_angle of another arm than a YuMi.
-    ///     TypeError, ValueError: Another fallback, or one without a seed; a seed alone where the
-    ///         configuration names one solution.
-    #[pyo3(signature = (T, configuration, *, arm_angle=None, fallback=None, seed=None, every=false, out=None, threads=1))]
-    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
-    fn ik_configured<'py>(
-        &self,
-        T: &Bound<'py, PyAny>,
-        configuration: Option<&Bound<'py, PyAny>>,
-        arm_angle: Option<&Bound<'py, PyAny>>,
-        fallback: Option<&str>,
-        seed: Option<&Bound<'py, PyAny>>,
-        every: bool,
-        out: Option<&Bound<'py, PyAny>>,
-        threads: isize,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let (options, threads) = (Options { arm_angle, fallback, seed }, thread_count(threads)?);
-        match (configuration, arm_angle) {
-            (Some(configuration), _) if every => {
-                configured::all(self.arm(), T, configuration, &options)
-            }
-            (Some(configuration), _) => {
-                configured::ik(self.arm(), T, configuration, &options, out, threads)
-            }
-            (None, Some(arm_angle)) if every => configured::at_arm_angle(self.arm(), T, arm_angle),
-            (None, _) => {
-                Err(PyTypeError::new_err("give a configuration, or an arm_angle with every=True"))
-            }
-        }
     }
 
     /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints,
@@ -348,8 +231,49 @@ impl PyRobot {
     ///     InvalidPoseError, InvalidModelError: As `ik`.
     fn check_pose(&self, T: &Bound<'_, PyAny>) -> PyResult<PoseCheck> {
         let pose = read_single_pose(T, "check_pose")?;
-        let explanation = on!(self.arm(), robot => robot.explain(&pose))
-            .map_err(|error| to_py(T.py(), &error))?;
+        let explanation = on!(self.arm(), robot => robot.explain(&pose))?;
         Ok(PoseCheck::from(&explanation))
+    }
+}
+
+/// `irbkin.IkBatch` of poses, shape (..., 4, 4), and of the angles of a joint of seven for each,
+/// with the name of the argument.
+fn solved<'py>(
+    arm: &Arm,
+    poses: &Bound<'py, PyAny>,
+    (field, angles): (&'static str, Option<&Bound<'py, PyAny>>),
+    out: Option<&Bound<'py, PyAny>>,
+    threads: Option<NonZeroUsize>,
+) -> PyResult<IkBatch> {
+    let py = poses.py();
+    let (poses, angles) = read_poses_with_q7(arm, poses, field, angles)?;
+    let (q_out, status_out) = outputs(out)?;
+    let slots = on!(arm, robot => robot.slot_count());
+    let q_shape = poses.shape_with(&[slots, arm.dof()]);
+    let mut q = Output::new(py, q_out.as_ref(), &q_shape, &[poses.addresses()])?;
+    let inputs = [poses.addresses(), q.addresses()];
+    let mut status = Output::new(py, status_out.as_ref(), &poses.shape_with(&[slots]), &inputs)?;
+    let (data, to_q, to_status) = (poses.data()?, q.slice()?, status.slice()?);
+    detached(
+        py,
+        threads,
+        |batch| on!(arm, robot => batch.ik_with(robot, data, &angles, to_q, to_status)),
+    )?;
+    Ok(IkBatch { q: q.array(), status: status.array() })
+}
+
+/// The arrays of an `IkBatch` or of a tuple, or the first of them alone.
+fn outputs<'py>(out: Option<&Bound<'py, PyAny>>) -> PyResult<Pair<'py>> {
+    let Some(out) = out else { return Ok((None, None)) };
+    if let Ok(record) = out.cast::<IkBatch>() {
+        let IkBatch { q, status } = record.get();
+        return Ok((Some(q.bind(out.py()).clone()), Some(status.bind(out.py()).clone())));
+    }
+    match out.cast::<PyTuple>() {
+        Ok(arrays) => pair(out)?.ok_or_else(|| {
+            let message = format!("out must be (q, status), got a tuple of {}", arrays.len());
+            PyTypeError::new_err(message)
+        }),
+        Err(_) => Ok((Some(out.clone()), None)),
     }
 }

@@ -1,24 +1,26 @@
 //! The Python module `irbkin._core`: convert, call, convert.
 
+/// Add classes and functions to a module.
+macro_rules! add {
+    ($module:ident: classes [$($class:ty,)+], functions [$($function:path,)+]) => {
+        $($module.add_class::<$class>()?;)+
+        $($module.add_function(wrap_pyfunction!($function, $module)?)?;)+
+    };
+}
+
 mod arguments;
 mod arm;
 mod arrays;
-mod batches;
 mod borrows;
 mod catalog;
-mod classes;
 mod configured;
 mod corrections;
 mod errors;
-mod found;
+mod follow;
 mod freedoms;
 mod inverse;
-mod locked;
 mod models;
-mod nearest;
 mod outputs;
-mod paths;
-mod plan_batches;
 mod plans;
 mod poses;
 mod queries;
@@ -26,7 +28,6 @@ mod rapid;
 mod record;
 mod records;
 mod redundancy;
-mod restored;
 mod retiming;
 mod robot;
 mod signals;
@@ -34,14 +35,29 @@ mod solution;
 mod solutions;
 mod state;
 mod table;
+mod targets;
 mod tool_paths;
 mod trajectories;
 mod trajectory;
 
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyMapping, PyTuple};
+use pyo3::types::PyTuple;
 
+use self::arm::{Arm, on};
+use self::errors::Fault;
+use self::records::{
+    Break, CatalogEntry, ConfigurationBatch, FollowResult, FreeJoint, IkBatch, IkMargin, Margin,
+    MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd, ToolSpeedLimits,
+    TrajectorySample,
+};
+use self::robot::PyRobot;
+use self::solution::PySolution;
+use self::solutions::PySolutions;
+use self::state::read;
+use self::trajectory::PyTrajectory;
+use crate::kinematics::{Solution, Status};
 use crate::lanes::InstructionSet;
 use crate::report::Configuration;
 
@@ -66,15 +82,50 @@ fn instruction_sets(py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
 ///     ValueError: This CPU does not support it.
 #[pyfunction]
 fn use_instruction_set(name: &str) -> PyResult<()> {
-    let available = || InstructionSet::available().map(InstructionSet::name).collect::<Vec<_>>();
-    let set = InstructionSet::available().find(|set| set.name() == name);
-    let set = set.ok_or_else(|| {
+    let set = InstructionSet::available().find(|set| set.name() == name).ok_or_else(|| {
+        let known: Vec<_> = InstructionSet::available().map(InstructionSet::name).collect();
         PyValueError::new_err(format!(
-            "the instruction set \"{name}\" is not supported by this CPU, which has {available:?}",
-            available = available()
+            "the instruction set \"{name}\" is not supported by this CPU, which has {known:?}"
         ))
     })?;
-    set.force().map_err(|error| PyValueError::new_err(error.to_string()))
+    Ok(set.force()?)
+}
+
+/// Restore a pickled value. Loading runs the checks of the constructors.
+#[pyfunction(name = "_restore")]
+fn restore<'py>(py: Python<'py>, kind: &str, state: &[u8]) -> PyResult<Bound<'py, PyAny>> {
+    match kind {
+        "Robot" => PyRobot::from(read::<Arm>(kind, state, |_| true)?).into_bound_py_any(py),
+        "Solutions" => read(kind, state, is_whole)?.into_bound_py_any(py),
+        "Solution" => {
+            let is_whole =
+                |one: &PySolution| on!(&one.of, it => fits(&it.solution, it.robot.slot_count()));
+            read(kind, state, is_whole)?.into_bound_py_any(py)
+        }
+        "Trajectory" => {
+            let (motion, times) = read(kind, state, |_| true)?;
+            PyTrajectory::new(py, motion, times)?.into_bound_py_any(py)
+        }
+        _ => Err(Fault::Model.error(format_args!("the pickled {kind} is damaged: unknown class"))),
+    }
+}
+
+fn is_whole(solutions: &PySolutions) -> bool {
+    on!(&solutions.found, found => {
+        let slots = found.robot.slot_count();
+        found.solutions.slot_count() == slots
+            && found.solutions.is_consistent()
+            && found.solutions.iter().chain(found.turned.iter().flatten()).all(|one| fits(one, slots))
+    })
+}
+
+/// Whether slot, flags and free joint of a solution exist.
+fn fits<const N: usize>(solution: &Solution<N>, slots: usize) -> bool {
+    let of_others = Status::MERGED | Status::INVALID | Status::UNCERTIFIED;
+    solution.slot.index() < slots
+        && solution.status.contains(Status::FOUND)
+        && !solution.status.intersects(of_others)
+        && solution.free_joint.is_none_or(|free| (1..=N).contains(&free.joint()))
 }
 
 // Single calls read arrays under the interpreter's lock (`arrays::copied_vector`), and `borrows`
@@ -82,60 +133,19 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
 #[pymodule(gil_used = true)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_class::<robot::PyRobot>()?;
-    module.add_class::<solutions::PySolutions>()?;
-    module.add_class::<solution::PySolution>()?;
-    module.add_class::<Configuration>()?;
-    module.add_class::<records::Break>()?;
-    module.add_class::<records::CatalogEntry>()?;
-    module.add_class::<records::ConfigurationBatch>()?;
-    module.add_class::<records::FollowResult>()?;
-    module.add_class::<records::FreeJoint>()?;
-    module.add_class::<records::IkBatch>()?;
-    module.add_class::<records::IkMargin>()?;
-    module.add_class::<records::Margin>()?;
-    module.add_class::<records::MotionPeaks>()?;
-    module.add_class::<records::Plan>()?;
-    module.add_class::<records::PlanBreak>()?;
-    module.add_class::<records::PoseCheck>()?;
-    module.add_class::<records::Singularity>()?;
-    module.add_class::<records::StrandEnd>()?;
-    module.add_class::<records::ToolSpeedLimits>()?;
-    module.add_class::<records::TrajectorySample>()?;
-    module.add_function(wrap_pyfunction!(catalog::catalog, module)?)?;
-    module.add_function(wrap_pyfunction!(catalog::catalog_entry, module)?)?;
-    module.add_function(wrap_pyfunction!(instruction_set, module)?)?;
-    module.add_function(wrap_pyfunction!(instruction_sets, module)?)?;
-    module.add_function(wrap_pyfunction!(use_instruction_set, module)?)?;
-    module.add_function(wrap_pyfunction!(restored::restore, module)?)?;
-    module.add_function(wrap_pyfunction!(poses::pose, module)?)?;
-    module.add_function(wrap_pyfunction!(poses::to_xyz_wxyz, module)?)?;
-    module.add_function(wrap_pyfunction!(poses::to_xyz_euler_zyx, module)?)?;
-    module.add_class::<trajectory::PyTrajectory>()?;
-    module.add_function(wrap_pyfunction!(trajectory::trajectory_of, module)?)?;
-    module.add_function(wrap_pyfunction!(trajectories::joint, module)?)?;
-    module.add_function(wrap_pyfunction!(trajectories::spline, module)?)?;
-    module.add_function(wrap_pyfunction!(retiming::retime, module)?)?;
-    module.add_function(wrap_pyfunction!(retiming::at_tool_speed, module)?)?;
-    module.add_function(wrap_pyfunction!(retiming::tool_speed_limits, module)?)?;
-    module.add_function(wrap_pyfunction!(tool_paths::line, module)?)?;
-    module.add_function(wrap_pyfunction!(tool_paths::arc, module)?)?;
-    module.add_function(wrap_pyfunction!(tool_paths::polyline, module)?)?;
+    add!(module: classes [
+        robot::PyRobot, solutions::PySolutions, solution::PySolution, Configuration,
+        trajectory::PyTrajectory, Break, CatalogEntry, ConfigurationBatch, FollowResult, FreeJoint,
+        IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd,
+        ToolSpeedLimits, TrajectorySample,
+    ], functions [
+        catalog::catalog, catalog::catalog_entry, instruction_set, instruction_sets,
+        use_instruction_set, restore, poses::pose, poses::to_xyz_wxyz,
+        poses::to_xyz_euler_zyx, trajectory::trajectory_of, trajectories::joint,
+        trajectories::spline, retiming::retime, retiming::at_tool_speed,
+        retiming::tool_speed_limits, tool_paths::line, tool_paths::arc, tool_paths::polyline,
+    ]);
     // `spline` is taken by trajectories; `irbkin.paths` gives this one its name.
     module.add("path_spline", wrap_pyfunction!(tool_paths::spline, module)?)?;
-    rapid::add_records(module)?;
-    module.add_class::<rapid::RapidModule>()?;
-    module.add_function(wrap_pyfunction!(rapid::parse, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::parse_module, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::dump, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::calc_joint_t, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::calc_rob_t, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::calc_moves, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::calc_targets, module)?)?;
-    module.add_class::<rapid::PyRoutineMotion>()?;
-    module.add_function(wrap_pyfunction!(rapid::motion, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::check, module)?)?;
-    module.add_function(wrap_pyfunction!(rapid::check_codes, module)?)?;
-    let py = module.py();
-    PyMapping::register::<rapid::RapidModule>(py)
+    rapid::add(module)
 }

@@ -5,7 +5,7 @@ use pyo3::types::{PyBytes, PyString};
 
 use super::arm::{Arm, on};
 use super::arrays::{Rows, vector};
-use super::errors::{Fault, shape_text, to_py};
+use super::errors::Fault;
 use super::robot::PyRobot;
 use crate::error::{Error, ModelFault, UrdfFault};
 use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
@@ -36,8 +36,7 @@ impl PyRobot {
         name: &str,
         snap: f64,
     ) -> PyResult<Self> {
-        let table = Table { convention: Convention::Modified, snap };
-        from_table(rows, limits, name, table).map(Self::from)
+        from_table(rows, limits, name, (Convention::Modified, snap))
     }
 
     /// Robot from a standard Denavit-Hartenberg table: Rz(theta + q) Tz(d) Tx(a) Rx(alpha).
@@ -45,10 +44,9 @@ impl PyRobot {
     /// Args:
     ///     rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, in this order too,
     ///         shape (6, 4) or (7, 4).
-    ///     limits: Lower and upper limit of each joint [rad], shape (n, 2); none when not given.
-    ///     name: A name of your own.
-    ///     snap: An alpha or theta offset within this of a multiple of 90 deg is made exact [rad],
-    ///         at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they are.
+    ///     limits: As of `from_mdh`.
+    ///     name: As of `from_mdh`.
+    ///     snap: As of `from_mdh`.
     ///
     /// Raises:
     ///     InvalidModelError: As `from_mdh`.
@@ -60,8 +58,7 @@ impl PyRobot {
         name: &str,
         snap: f64,
     ) -> PyResult<Self> {
-        let table = Table { convention: Convention::Standard, snap };
-        from_table(rows, limits, name, table).map(Self::from)
+        from_table(rows, limits, name, (Convention::Standard, snap))
     }
 
     /// Robot from Brandstoetter's parameters of an ortho-parallel arm with a spherical wrist, which
@@ -91,7 +88,6 @@ impl PyRobot {
     ))]
     #[expect(clippy::too_many_arguments, reason = "the parameters of the form have these names")]
     fn from_opw(
-        py: Python<'_>,
         a1: f64,
         a2: f64,
         b: f64,
@@ -106,9 +102,17 @@ impl PyRobot {
     ) -> PyResult<Self> {
         let offsets =
             offsets.map_or(Ok([0.0; 6]), |offsets| vector(offsets, "offsets", Fault::Model))?;
-        let signs = signs.map_or(Ok([1.0; 6]), |signs| vector(signs, "signs", Fault::Model))?;
-        let opw = OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets, signs: [1; 6] };
-        from_opw(py, opw, signs, limits, name).map(Self::from)
+        let given = signs.map_or(Ok([1.0; 6]), |signs| vector(signs, "signs", Fault::Model))?;
+        let mut signs = [1; 6];
+        for (joint, value) in given.into_iter().enumerate() {
+            match value {
+                1.0 => {}
+                -1.0 => signs[joint] = -1,
+                _ => return Err(Error::from(ModelFault::Sign { joint: joint + 1, value }).into()),
+            }
+        }
+        let opw = OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets, signs };
+        named_and_limited(&Robot::from_opw(opw)?.into(), limits, name)
     }
 
     /// Robot from a URDF: the revolute and continuous joints between two links, with their limits
@@ -139,8 +143,9 @@ impl PyRobot {
         name: &str,
         snap: f64,
     ) -> PyResult<Self> {
-        let wanted = Wanted { base, tip, name, snap };
-        read_urdf(text_or_path, wanted).map(Self::from)
+        let bytes = bytes_of(text_or_path)?;
+        let arm = text_or_path.py().detach(|| arm_of(&bytes, base, tip, snap))?;
+        Ok(if name.is_empty() { arm } else { named(&arm, name) }.into())
     }
 
     /// Return the robot with other joint limits; limits of a linkage stay.
@@ -152,7 +157,7 @@ impl PyRobot {
     ///     InvalidModelError: A limit is NaN, a lower one is above the upper one, or the shape is
     ///         wrong.
     fn with_limits(&self, limits: &Bound<'_, PyAny>) -> PyResult<Self> {
-        with_limits(self.arm(), limits).map(Self::from)
+        Ok(with_limits(self.arm(), limits)?.into())
     }
 
     /// Return the text of a URDF of the robot, which `from_urdf` reads back.
@@ -166,44 +171,27 @@ impl PyRobot {
     }
 }
 
-/// How a Denavit-Hartenberg table is to be read.
-#[derive(Clone, Copy)]
-struct Table {
-    convention: Convention,
-    /// How far an angle may be from a multiple of 90 deg and still be made one [rad].
-    snap: f64,
-}
-
-/// A robot from a Denavit-Hartenberg table of 6 or 7 rows.
+/// A robot from a Denavit-Hartenberg table of 6 or 7 rows. An angle within `snap` of a multiple of
+/// 90 deg becomes one [rad].
 fn from_table(
     rows: &Bound<'_, PyAny>,
     limits: Option<&Bound<'_, PyAny>>,
     name: &str,
-    table: Table,
-) -> PyResult<Arm> {
-    let py = rows.py();
-    let wanted = "(6, 4) or (7, 4)";
-    let rows = Rows::read_wanting(rows, &[4], "rows", Fault::Model, || wanted.to_owned())?;
-    let numbers = rows.data()?.as_chunks::<4>().0;
-    let arm = match rows.lead[..] {
-        [6] => robot_of_table::<6>(numbers, table).map(Arm::from),
-        [7] => robot_of_table::<7>(numbers, table).map(Arm::from),
-        _ => {
-            return Err(Fault::Model.error(
-                py,
-                format!(
-                    "rows must have shape {wanted}, got {}",
-                    shape_text(&rows.shape_with(&[4]))
-                ),
-            ));
-        }
+    (convention, snap): (Convention, f64),
+) -> PyResult<PyRobot> {
+    let fits = |shape: &[usize]| matches!(shape, [6 | 7, 4]);
+    let rows = Rows::shaped(rows, || "(6, 4) or (7, 4)", "rows", Fault::Model, fits)?;
+    let arm = match rows.chunks::<4>()? {
+        rows @ [_, _, _, _, _, _] => robot_of_table::<6>(rows, convention, snap)?.into(),
+        rows => robot_of_table::<7>(rows, convention, snap)?.into(),
     };
-    named_and_limited(&arm.map_err(|error| to_py(py, &error))?, limits, name)
+    named_and_limited(&arm, limits, name)
 }
 
 fn robot_of_table<const N: usize>(
     numbers: &[[f64; 4]],
-    Table { convention, snap }: Table,
+    convention: Convention,
+    snap: f64,
 ) -> Result<Robot<N>, Error> {
     let found = numbers.len();
     let numbers: &[[f64; 4]; N] =
@@ -216,33 +204,17 @@ fn robot_of_table<const N: usize>(
     }
 }
 
-/// A robot from the parameters of an ortho-parallel arm; `signs` as floats, as they come out of an
-/// array.
-fn from_opw(
-    py: Python<'_>,
-    mut opw: OpwParameters,
-    signs: [f64; 6],
+/// The arm under a name, with limits where they were given.
+fn named_and_limited(
+    arm: &Arm,
     limits: Option<&Bound<'_, PyAny>>,
     name: &str,
-) -> PyResult<Arm> {
-    for (i, value) in signs.into_iter().enumerate() {
-        opw.signs[i] = match value {
-            1.0 => 1,
-            -1.0 => -1,
-            _ => return Err(to_py(py, &ModelFault::Sign { joint: i + 1, value }.into())),
-        };
-    }
-    let robot = Robot::from_opw(opw).map_err(|error| to_py(py, &error))?;
-    named_and_limited(&robot.into(), limits, name)
-}
-
-/// The arm under a name, with limits where they were given.
-fn named_and_limited(arm: &Arm, limits: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult<Arm> {
+) -> PyResult<PyRobot> {
     let arm = named(arm, name);
-    match limits {
-        Some(limits) => with_limits(&arm, limits),
-        None => Ok(arm),
-    }
+    Ok(match limits {
+        Some(limits) => with_limits(&arm, limits)?.into(),
+        None => arm.into(),
+    })
 }
 
 fn named(arm: &Arm, name: &str) -> Arm {
@@ -251,49 +223,24 @@ fn named(arm: &Arm, name: &str) -> Arm {
 
 /// The arm with limits of shape (n, 2).
 fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm> {
-    let tail = [arm.dof(), 2];
-    let wanted = || shape_text(&tail);
-    let rows = Rows::read_wanting(limits, &tail, "limits", Fault::Model, wanted)?;
-    if !rows.is_single() {
-        let (wanted, got) = (wanted(), shape_text(&rows.shape_with(&tail)));
-        let message = format!("limits must have shape {wanted}, got {got}");
-        return Err(Fault::Model.error(limits.py(), message));
-    }
-    let numbers = rows.data()?.as_chunks::<2>().0;
-    on!(arm, robot => limited(robot, numbers).map(Arm::from))
-        .map_err(|error| to_py(limits.py(), &error))
+    let shape = [arm.dof(), 2];
+    let rows = Rows::exact(limits, &shape, "limits", Fault::Model)?;
+    Ok(on!(arm, robot => limited(robot, rows.chunks()?)?))
 }
 
-fn limited<const N: usize>(robot: &Robot<N>, limits: &[[f64; 2]]) -> Result<Robot<N>, Error> {
+fn limited<const N: usize>(robot: &Robot<N>, limits: &[[f64; 2]]) -> Result<Arm, Error>
+where
+    Arm: From<Robot<N>>,
+{
     let found = limits.len();
     let limits = limits.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;
-    Ok(Robot::clone(robot).with_limits(JointLimits::new(limits)?))
+    Ok(Robot::clone(robot).with_limits(JointLimits::new(limits)?).into())
 }
 
-/// Parts of a URDF to read.
-#[derive(Clone, Copy)]
-struct Wanted<'a> {
-    base: Option<&'a str>,
-    tip: Option<&'a str>,
-    /// The robot's name; the URDF's where it is empty.
-    name: &'a str,
-    /// How far an angle may be from a multiple of 90 deg and still be made one [rad].
-    snap: f64,
-}
-
-/// The arm between two links of a URDF, of six or seven joints.
-fn read_urdf(text_or_path: &Bound<'_, PyAny>, wanted: Wanted<'_>) -> PyResult<Arm> {
-    let py = text_or_path.py();
-    let bytes = bytes_of(text_or_path)?;
-    py.detach(|| arm_of(&bytes, wanted)).map_err(|error| to_py(py, &error))
-}
-
-fn arm_of(bytes: &[u8], wanted: Wanted<'_>) -> Result<Arm, Error> {
+fn arm_of(bytes: &[u8], base: Option<&str>, tip: Option<&str>, snap: f64) -> Result<Arm, Error> {
     let text =
         str::from_utf8(bytes).map_err(|error| UrdfFault::NotUtf8 { byte: error.valid_up_to() })?;
-    let read = UrdfArm::read(text, wanted.base, wanted.tip, &[6, 7])?;
-    let arm = Arm::from(read.any_robot(wanted.snap)?);
-    Ok(if wanted.name.is_empty() { arm } else { named(&arm, wanted.name) })
+    UrdfArm::read(text, base, tip, &[6, 7])?.any_robot(snap).map(Arm::from)
 }
 
 /// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a
@@ -304,16 +251,11 @@ fn bytes_of(text_or_path: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
     }
     if let Ok(text) = text_or_path.cast::<PyString>() {
         // A half of a surrogate pair is kept as the bytes that it would be, which are no UTF-8.
-        let bytes = text
-            .call_method1("encode", ("utf-8", "surrogatepass"))?
-            .cast_into::<PyBytes>()?
-            .as_bytes()
-            .to_vec();
-        if String::from_utf8_lossy(&bytes)
-            .trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}')
-            .starts_with('<')
-        {
-            return Ok(bytes);
+        let bytes = text.call_method1("encode", ("utf-8", "surrogatepass"))?;
+        let bytes = bytes.cast::<PyBytes>()?.as_bytes();
+        let is_blank = |c: char| c.is_whitespace() || c == '\u{feff}';
+        if String::from_utf8_lossy(bytes).trim_start_matches(is_blank).starts_with('<') {
+            return Ok(bytes.to_vec());
         }
     }
     let py = text_or_path.py();

@@ -3,13 +3,14 @@
 use std::fmt;
 use std::ops::Range;
 
-use numpy::ndarray::aview2;
+use numpy::ndarray::{Dimension, aview2};
 use numpy::{
-    PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn, PyUntypedArray,
-    PyUntypedArrayMethods,
+    Element, PyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadwriteArrayDyn,
+    PyUntypedArray, PyUntypedArrayMethods, dtype,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use super::arrays::{addresses, refuse_masked};
 use super::borrows::{Access, Borrow, is_free, overlap};
@@ -22,6 +23,26 @@ pub(super) fn matrix<'py, const C: usize>(
     rows: &[[f64; C]],
 ) -> Bound<'py, PyArray2<f64>> {
     PyArray2::from_array(py, &aview2(rows))
+}
+
+/// A new array of one dimension.
+pub(super) fn column<T: Element>(py: Python<'_>, values: impl IntoIterator<Item = T>) -> Py<PyAny> {
+    PyArray1::from_iter(py, values).into_any().unbind()
+}
+
+/// A new array of some shape.
+pub(super) fn array<T: Element>(
+    py: Python<'_>,
+    values: impl IntoIterator<Item = T>,
+    shape: &[usize],
+) -> PyResult<Py<PyAny>> {
+    Ok(PyArray1::from_iter(py, values).reshape(shape)?.into_any().unbind())
+}
+
+/// An array that its users cannot write to.
+pub(super) fn read_only<D: Dimension>(array: Bound<'_, PyArray<f64, D>>) -> Py<PyArray<f64, D>> {
+    array.readwrite().make_nonwriteable();
+    array.unbind()
 }
 
 /// `rows` in `out` where it was given, in a new array where not. `input` is what they were
@@ -57,72 +78,88 @@ fn write_out<'py>(
     shape: &[usize],
     numbers: &[f64],
 ) -> PyResult<Bound<'py, PyAny>> {
-    let array = checked_out::<f64>(out, shape, "float64")?;
+    let array = checked_out::<f64>(out, shape)?;
     let memory =
         input.cast::<PyArrayDyn<f64>>().ok().filter(|input| input.is_c_contiguous()).map(addresses);
     checked_writable(&array, memory.as_slice())?.as_slice_mut()?.copy_from_slice(numbers);
     Ok(array.into_any())
 }
 
-/// The array to write an answer to: `out` where it was given, a new one where not.
-pub(super) fn output<'py>(
-    py: Python<'py>,
-    out: Option<&Bound<'py, PyAny>>,
-    shape: &[usize],
-) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-    let Some(out) = out else {
-        return Ok(PyArrayDyn::zeros(py, shape, false));
-    };
-    checked_out(out, shape, "float64")
-}
-
-/// `out` as an array of the wanted type, shape and layout.
-pub(super) fn checked_out<'py, T: numpy::Element>(
-    out: &Bound<'py, PyAny>,
-    shape: &[usize],
-    dtype: &str,
-) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
-    let array = out.cast::<PyArrayDyn<T>>().map_err(|_| {
-        PyTypeError::new_err(format!(
-            "out must be an array of dtype {dtype}, got {}",
-            describe(out)
-        ))
-    })?;
-    refuse_masked(out, "out")?;
-    if array.shape() != shape || !array.is_c_contiguous() {
-        return Err(PyValueError::new_err(format!(
-            "out must be C-contiguous with shape {}, got {}",
-            shape_text(shape),
-            describe(out)
-        )));
-    }
-    Ok(array.clone())
-}
-
 /// An array that an answer is written to, with the interpreter's lock or without.
-pub(super) struct Writable<'py, T: numpy::Element> {
+pub(super) struct Output<'py, T: Element = f64> {
+    array: Bound<'py, PyArrayDyn<T>>,
     view: PyReadwriteArrayDyn<'py, T>,
     _borrow: Borrow,
 }
 
-impl<T: numpy::Element> Writable<'_, T> {
+impl<'py, T: Element> Output<'py, T> {
+    /// `out` where it was given, a new array where not; refused if it is read-only, overlaps the
+    /// memory of `others`, or another call uses its memory.
+    pub(super) fn new(
+        py: Python<'py>,
+        out: Option<&Bound<'py, PyAny>>,
+        shape: &[usize],
+        others: &[Range<usize>],
+    ) -> PyResult<Self> {
+        let array = match out {
+            Some(out) => checked_out(out, shape)?,
+            None => PyArrayDyn::zeros(py, shape, false),
+        };
+        let view = checked_writable(&array, others)?;
+        let borrow = Borrow::new(addresses(&array), Access::Write);
+        Ok(Self { array, view, _borrow: borrow })
+    }
+
     /// The elements in row-major order.
-    pub(super) fn as_slice_mut(&mut self) -> PyResult<&mut [T]> {
+    pub(super) fn slice(&mut self) -> PyResult<&mut [T]> {
         Ok(self.view.as_slice_mut()?)
+    }
+
+    /// The addresses of its memory.
+    pub(super) fn addresses(&self) -> Range<usize> {
+        addresses(&self.array)
+    }
+
+    /// The array, which is written.
+    pub(super) fn bound(self) -> Bound<'py, PyAny> {
+        self.array.into_any()
+    }
+
+    /// The array, which is written, as the field of a record.
+    pub(super) fn array(self) -> Py<PyAny> {
+        self.bound().unbind()
     }
 }
 
-/// A view to write through; refused for a read-only array, for one that overlaps the memory of
-/// `others` and for memory that another call uses.
-pub(super) fn writable<'py, T: numpy::Element>(
-    array: &Bound<'py, PyArrayDyn<T>>,
-    others: &[Range<usize>],
-) -> PyResult<Writable<'py, T>> {
-    let view = checked_writable(array, others)?;
-    Ok(Writable { view, _borrow: Borrow::new(addresses(array), Access::Write) })
+pub(super) type Pair<'py> = (Option<Bound<'py, PyAny>>, Option<Bound<'py, PyAny>>);
+
+/// The two arrays of `out`, where it is a tuple of two.
+pub(super) fn pair<'py>(out: &Bound<'py, PyAny>) -> PyResult<Option<Pair<'py>>> {
+    match out.cast::<PyTuple>() {
+        Ok(pair) if pair.len() == 2 => Ok(Some((Some(pair.get_item(0)?), Some(pair.get_item(1)?)))),
+        _ => Ok(None),
+    }
 }
 
-fn checked_writable<'py, T: numpy::Element>(
+/// `out` as an array of the wanted type, shape and layout.
+fn checked_out<'py, T: Element>(
+    out: &Bound<'py, PyAny>,
+    shape: &[usize],
+) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+    let array = out.cast::<PyArrayDyn<T>>().map_err(|_| {
+        let (wanted, got) = (dtype::<T>(out.py()), describe(out));
+        PyTypeError::new_err(format!("out must be an array of dtype {wanted}, got {got}"))
+    })?;
+    refuse_masked(out, "out")?;
+    if array.shape() != shape || !array.is_c_contiguous() {
+        let (wanted, got) = (shape_text(shape), describe(out));
+        let message = format!("out must be C-contiguous with shape {wanted}, got {got}");
+        return Err(PyValueError::new_err(message));
+    }
+    Ok(array.clone())
+}
+
+fn checked_writable<'py, T: Element>(
     array: &Bound<'py, PyArrayDyn<T>>,
     others: &[Range<usize>],
 ) -> PyResult<PyReadwriteArrayDyn<'py, T>> {
@@ -139,16 +176,13 @@ fn checked_writable<'py, T: numpy::Element>(
     array.try_readwrite().map_err(|cause| refused(&format_args!(": {cause}")))
 }
 
-fn describe(value: &Bound<'_, PyAny>) -> String {
-    match value.cast::<PyUntypedArray>() {
-        Ok(array) => {
-            let order = if array.is_c_contiguous() { "" } else { ", not C-contiguous" };
-            let shape = shape_text(array.shape());
-            format!("an array of dtype {} and shape {shape}{order}", array.dtype())
-        }
-        Err(_) => value
-            .get_type()
-            .name()
-            .map_or_else(|_| "another object".to_owned(), |name| name.to_string()),
+/// An argument in words.
+pub(super) fn describe(value: &Bound<'_, PyAny>) -> String {
+    if let Ok(array) = value.cast::<PyUntypedArray>() {
+        let order = if array.is_c_contiguous() { "" } else { ", not C-contiguous" };
+        let shape = shape_text(array.shape());
+        return format!("an array of dtype {} and shape {shape}{order}", array.dtype());
     }
+    let class = value.get_type().name();
+    class.map_or_else(|_| "another object".to_owned(), |name| name.to_string())
 }

@@ -2,20 +2,19 @@
 
 use std::cell::RefCell;
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arrays::Rows;
-use super::classes;
-use super::errors::{Fault, raised, shape_text, to_py};
-use super::freedoms::{Costs, read_end, read_options};
-use super::outputs::matrix;
-use super::paths::read_path_poses;
+use super::arguments::{ORDERS, one_of};
+use super::arrays::numbers;
+use super::errors::{Fault, raised, shape_text, with_attributes};
+use super::freedoms::{read_carrier, read_end, read_rotation, read_tolerance};
+use super::outputs::{array, column, matrix};
 use super::records;
 use super::robot::PyRobot;
 use super::signals::detached_while;
+use super::targets::{read_path_poses, read_weights};
 use crate::plan::{Caller, NoPlan, Plan, PlanError, PlanOptions, Watch};
 
 #[pymethods]
@@ -96,20 +95,28 @@ impl PyRobot {
         order: &str,
         limit_cost: f64,
         singularity_cost: f64,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    ) -> PyResult<records::Plan> {
         let py = T.py();
-        let robot = self.arm().six_joints(py, "plan")?;
-        let costs = Costs { weights, order, limit: limit_cost, singularity: singularity_cost };
-        let all = read_options(rotation, closed, carrier, tolerance, &costs)?;
-        let (start, start_external) = read_end(start, "start", all.external.len())?;
-        let (end, end_external) = read_end(end, "end", all.external.len())?;
+        let robot = self.arm().six_joints("plan", "")?;
+        let (cone, offset) = tolerance.map(read_tolerance).transpose()?.unwrap_or_default();
+        let external = carrier.map(read_carrier).transpose()?.unwrap_or_default();
+        let (start, start_external) = read_end(start, "start", external.len())?;
+        let (end, end_external) = read_end(end, "end", external.len())?;
         let options = PlanOptions {
-            times: times.map(|times| read_times(times, "times")).transpose()?,
+            rotation: rotation.map(read_rotation).transpose()?,
+            times: times.map(|times| numbers(times, "(m,)", "times", Fault::Motion)).transpose()?,
             start,
             end,
             start_external,
             end_external,
-            ..all
+            external,
+            cone,
+            offset,
+            closed,
+            weights: read_weights(weights)?,
+            order: one_of("order", order, &ORDERS)?,
+            limit_cost,
+            singularity_cost,
         };
         let path = read_path_poses(T)?;
         let accept = accept.map(|accept| accept.clone().unbind());
@@ -120,61 +127,40 @@ impl PyRobot {
                 let answers = Python::attach(|py| asked(accept.bind(py), q));
                 answers.map_err(|error| failure = Some(error)).ok()
             };
-            let is_asked = accept.is_some();
             let go_on = RefCell::new(go_on);
             let goes_on = || go_on.borrow_mut()();
             let mut caller = Caller { accept: None, watch: Watch(Some(&goes_on)) };
-            if is_asked {
+            if accept.is_some() {
                 caller.accept = Some(&mut ask);
             }
             let planned = robot.planned(&path, &options, &mut caller);
             (planned, failure)
         })?;
-        match failure {
-            Some(failure) => Err(failure),
-            None => answer(py, &planned),
+        if let Some(failure) = failure {
+            return Err(failure);
+        }
+        match planned {
+            Ok(plan) => plan_record(py, &plan),
+            Err(PlanError::Invalid(error)) => Err(error.into()),
+            Err(PlanError::NoPlan(gap)) => Err(path_error(&gap)),
+            Err(PlanError::Stopped) => Err(PyValueError::new_err("the plan was stopped")),
         }
     }
 }
 
-/// A plan, or the exception with the reason.
-pub(super) fn answer<'py>(
-    py: Python<'py>,
-    planned: &Result<Plan, PlanError>,
-) -> PyResult<Bound<'py, PyAny>> {
-    match planned {
-        Ok(plan) => Ok(Bound::new(py, plan_record(py, plan)?)?.into_any()),
-        Err(PlanError::Invalid(error)) => Err(to_py(py, error)),
-        Err(PlanError::NoPlan(gap)) => Err(path_error(py, gap)),
-        Err(PlanError::Stopped) => Err(PyValueError::new_err("the plan was stopped")),
-    }
-}
-
-pub(super) fn read_times(times: &Bound<'_, PyAny>, field: &str) -> PyResult<Vec<f64>> {
-    let rows = Rows::read(times, &[], field, Fault::Motion)?;
-    if rows.shape().len() != 1 {
-        let got = shape_text(rows.shape());
-        return Err(
-            Fault::Motion.error(times.py(), format!("{field} must have shape (m,), got {got}"))
-        );
-    }
-    Ok(rows.data()?.to_vec())
-}
-
 /// Ask the caller's test of joint vectors.
-pub(super) fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<bool>> {
+fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<bool>> {
     let py = accept.py();
-    let answers = accept.call1((matrix(py, q),))?;
-    let answers = py.import("numpy")?.call_method1("asarray", (answers,))?;
-    let found: Vec<usize> = answers.getattr("shape")?.extract()?;
-    if found != [q.len()] || answers.getattr("dtype")?.getattr("kind")?.extract::<String>()? != "b"
-    {
+    let answers =
+        py.import("numpy")?.call_method1("asarray", (accept.call1((matrix(py, q),))?,))?;
+    let (found, dtype): (Vec<usize>, _) =
+        (answers.getattr("shape")?.extract()?, answers.getattr("dtype")?);
+    if found != [q.len()] || dtype.getattr("kind")?.extract::<String>()? != "b" {
         return Err(PyValueError::new_err(format!(
             "accept must return {} truth values, one for each row of q; it returned an array of \
-             shape {} and dtype {}",
+             shape {} and dtype {dtype}",
             q.len(),
             shape_text(&found),
-            answers.getattr("dtype")?
         )));
     }
     answers.call_method0("tolist")?.extract()
@@ -183,41 +169,35 @@ pub(super) fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<b
 /// `irbkin.Plan` of a plan.
 fn plan_record(py: Python<'_>, plan: &Plan) -> PyResult<records::Plan> {
     let rows = plan.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; 6]));
-    let q: Bound<'_, PyArray2<f64>> = PyArray1::from_iter(py, rows).reshape([plan.q.len(), 6])?;
-    let slot =
-        plan.slot.iter().map(|slot| slot.map_or(-1, |slot| i64::try_from(slot).unwrap_or(-1)));
-    let breaks: Vec<_> = plan
-        .breaks
-        .iter()
-        .map(|gap| records::PlanBreak { leave: gap.leave, enter: gap.enter })
-        .collect();
+    let slot = |slot: &Option<usize>| slot.map_or(-1, |slot| i64::try_from(slot).unwrap_or(-1));
+    let breaks = plan.breaks.iter();
+    let breaks = breaks.map(|gap| records::PlanBreak { leave: gap.leave, enter: gap.enter });
     Ok(records::Plan {
-        q: q.into_any().unbind(),
-        tool_angle: PyArray1::from_slice(py, &plan.tool_angle).into_any().unbind(),
-        slot: PyArray1::from_iter(py, slot).into_any().unbind(),
-        external: rows_of(py, &plan.external)?.into_any().unbind(),
-        tolerance: rows_of(py, &plan.tolerance)?.into_any().unbind(),
+        q: array(py, rows, &[plan.q.len(), 6])?,
+        tool_angle: column(py, plan.tool_angle.iter().copied()),
+        slot: column(py, plan.slot.iter().map(slot)),
+        external: rows_of(py, &plan.external)?,
+        tolerance: rows_of(py, &plan.tolerance)?,
         cost: plan.cost,
         bottleneck: plan.bottleneck,
-        breaks: PyTuple::new(py, breaks)?.unbind(),
+        breaks: PyTuple::new(py, breaks.collect::<Vec<_>>())?.unbind(),
         certified: plan.certified,
     })
 }
 
 /// Rows of equal length; NaN for one that is empty where others are not.
-fn rows_of<'py>(py: Python<'py>, rows: &[Vec<f64>]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+fn rows_of(py: Python<'_>, rows: &[Vec<f64>]) -> PyResult<Py<PyAny>> {
     let width = rows.iter().map(Vec::len).max().unwrap_or_default();
     let filled = rows
         .iter()
         .flat_map(|row| (0..width).map(|column| row.get(column).copied().unwrap_or(f64::NAN)));
-    PyArray1::from_iter(py, filled).reshape([rows.len(), width])
+    array(py, filled, &[rows.len(), width])
 }
 
 /// `irbkin.PathError` of a path without a plan.
-fn path_error(py: Python<'_>, gap: &NoPlan) -> PyErr {
-    let error = raised(classes::path_error(py), gap.to_string());
-    let tell = || -> PyResult<()> {
-        let value = error.value(py);
+fn path_error(gap: &NoPlan) -> PyErr {
+    with_attributes(raised("PathError", gap), |value| {
+        let py = value.py();
         value.setattr("index", gap.pose_index)?;
         value.setattr("end_index", gap.end_index)?;
         let ends = gap.ends.iter().map(|end| records::StrandEnd {
@@ -227,9 +207,5 @@ fn path_error(py: Python<'_>, gap: &NoPlan) -> PyErr {
         });
         value.setattr("reasons", PyTuple::new(py, ends.collect::<Vec<_>>())?)?;
         value.setattr("plan", plan_record(py, &gap.plan)?)
-    };
-    match tell() {
-        Ok(()) => error,
-        Err(failure) => failure,
-    }
+    })
 }

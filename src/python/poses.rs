@@ -1,70 +1,19 @@
 //! Poses from and to translations with quaternions or Euler angles.
 
-use numpy::{PyArray1, PyArray2};
+use numpy::PyArray1;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use super::arrays::{Argument, Rows, copied_matrix4, copied_vector, matrix4, together};
-use super::errors::{Fault, index_in, shape_text, to_py};
-use super::outputs::{matrix, output, writable};
+use super::arrays::{Rows, copied_matrix4, copied_vector, together};
+use super::errors::{Fault, index_in};
+use super::outputs::Output;
 use super::signals::detached;
+use super::targets::{pose_array, single_pose};
 use crate::error::Error;
 use crate::kinematics::{
     Pose, pose_from_euler_zyx, pose_from_rotation, pose_from_rows, pose_from_wxyz, pose_from_xyzw,
-    pose_to_euler_zyx, pose_to_rows, pose_to_wxyz,
+    pose_to_euler_zyx, pose_to_wxyz,
 };
-
-/// The argument `field` as a checked pose.
-pub(super) fn read_pose(value: &Bound<'_, PyAny>, field: &str) -> PyResult<Pose> {
-    let rows = matrix4(value, field, Fault::Pose)?;
-    pose_from_rows(&rows).map_err(|error| to_py(value.py(), &error))
-}
-
-/// The argument T of `ik`, without NumPy's bookkeeping where it is plain.
-#[inline]
-pub(super) fn read_ik_pose(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
-    match copied_matrix4(value) {
-        Some(rows) => pose_from_rows(&rows).map_err(|error| to_py(value.py(), &error)),
-        None => read_one_pose(value, " (for many poses take ik_batch)"),
-    }
-}
-
-/// The argument T of a method that takes one pose and has no batch.
-pub(super) fn read_single_pose(value: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
-    read_one_pose(value, &format!(": {method} takes a single pose, call it for each"))
-}
-
-/// The argument T of a call that takes one pose; a message on many ends with `many`.
-fn read_one_pose(value: &Bound<'_, PyAny>, many: &str) -> PyResult<Pose> {
-    read_pose(value, "T").map_err(|error| match shape_of(value).as_deref() {
-        Some(sizes @ [_, .., 4, 4]) => {
-            let got = shape_text(sizes);
-            Fault::Pose.error(value.py(), format!("T must have shape (4, 4), got {got}{many}"))
-        }
-        _ => error,
-    })
-}
-
-/// The pose where there is one alone, checked.
-pub(super) fn single_pose(py: Python<'_>, poses: &Rows<'_>) -> PyResult<Option<Pose>> {
-    match poses.data()?.as_chunks::<16>().0 {
-        [pose] if poses.is_single() => {
-            pose_from_rows(pose).map(Some).map_err(|error| to_py(py, &error))
-        }
-        _ => Ok(None),
-    }
-}
-
-/// The shape that NumPy sees in an argument.
-fn shape_of(value: &Bound<'_, PyAny>) -> Option<Vec<usize>> {
-    let numpy = value.py().import("numpy").ok()?;
-    numpy.call_method1("shape", (value,)).ok()?.extract().ok()
-}
-
-/// A pose as a (4, 4) array.
-pub(super) fn pose_array<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, PyArray2<f64>> {
-    matrix(py, pose_to_rows(pose).as_chunks::<4>().0)
-}
 
 /// Poses from translations and orientations.
 ///
@@ -132,44 +81,32 @@ fn made<'py, const R: usize>(
     make: impl Fn([f64; 3], [f64; R]) -> Result<Pose, Error> + Send + Sync,
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = xyz.py();
-    let single = |make: Result<Pose, Error>| {
-        Ok(pose_array(py, &make.map_err(|error| to_py(py, &error))?).into_any())
-    };
+    let single = |xyz, orientation| Ok(pose_array(py, &make(xyz, orientation)?).into_any());
     // Without NumPy's bookkeeping, where both are plain.
     let plain = orientation.map_or(Some([0.0; R]), copied_vector);
-    if let (Some(xyz), Some(orientation)) = (copied_vector::<3>(xyz), plain) {
-        return single(make(xyz, orientation));
+    if let (Some(xyz), Some(orientation)) = (copied_vector(xyz), plain) {
+        return single(xyz, orientation);
     }
     let mut xyz = Rows::read(xyz, &[3], "xyz", Fault::Pose)?;
     let mut orientations =
         orientation.map(|given| Rows::read(given, tail, field, Fault::Pose)).transpose()?;
     if let Some(orientations) = &mut orientations {
-        together(
-            py,
-            &mut [
-                Argument { field: "xyz", fault: Fault::Pose, rows: &mut xyz },
-                Argument { field, fault: Fault::Pose, rows: orientations },
-            ],
-        )?;
+        together(&mut [&mut xyz, orientations])?;
     }
     let (translations, count) = (xyz.data()?, xyz.lead.iter().product::<usize>());
     let nothing = vec![0.0; if orientations.is_some() { 0 } else { R * count }];
     let turns = orientations.as_ref().map_or(Ok(&nothing[..]), Rows::data)?;
-    if xyz.is_single() {
-        let (first, turn) = (translations.first_chunk::<3>(), turns.first_chunk::<R>());
-        if let (Some(first), Some(turn)) = (first, turn) {
-            return single(make(*first, *turn));
-        }
+    if let (Some(xyz), Some(turn)) = (xyz.single()?, turns.first_chunk()) {
+        return single(*xyz, *turn);
     }
-    let answer = output(py, None, &xyz.shape_with(&[4, 4]))?;
-    let mut view = writable(&answer, &[])?;
-    let poses = view.as_slice_mut()?;
-    match detached(py, None, |pace| pace.make_poses(translations, turns, poses, make))? {
+    let mut answer = Output::new(py, None, &xyz.shape_with(&[4, 4]), &[])?;
+    let poses = answer.slice()?;
+    match detached(py, None, |batch| batch.make_poses(translations, turns, poses, make))? {
         Some((row, error)) => {
             let place = index_in(&xyz.lead, row);
-            Err(Fault::Pose.error(py, format!("row {place:?}: {error}")))
+            Err(Fault::Pose.error(format_args!("row {place:?}: {error}")))
         }
-        None => Ok(answer.into_any()),
+        None => Ok(answer.bound()),
     }
 }
 
@@ -224,16 +161,15 @@ fn taken_apart<'py, const R: usize>(
         Ok((arrays.0.into_any(), arrays.1.into_any()))
     };
     if let Some(rows) = copied_matrix4(poses) {
-        return one(&pose_from_rows(&rows).map_err(|error| to_py(py, &error))?);
+        return one(&pose_from_rows(&rows)?);
     }
     let rows = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
-    if let Some(pose) = single_pose(py, &rows)? {
+    if let Some(pose) = single_pose(&rows)? {
         return one(&pose);
     }
-    let (xyz, orientation) =
-        (output(py, None, &rows.shape_with(&[3]))?, output(py, None, &rows.shape_with(&[R]))?);
-    let (mut xyz_view, mut view) = (writable(&xyz, &[])?, writable(&orientation, &[])?);
-    let (data, to_xyz, to) = (rows.data()?, xyz_view.as_slice_mut()?, view.as_slice_mut()?);
-    detached(py, None, |pace| pace.take_apart(data, to_xyz, to, take))?;
-    Ok((xyz.into_any(), orientation.into_any()))
+    let mut xyz = Output::new(py, None, &rows.shape_with(&[3]), &[])?;
+    let mut orientation = Output::new(py, None, &rows.shape_with(&[R]), &[])?;
+    let (data, to_xyz, to) = (rows.data()?, xyz.slice()?, orientation.slice()?);
+    detached(py, None, |batch| batch.take_apart(data, to_xyz, to, take))?;
+    Ok((xyz.bound(), orientation.bound()))
 }

@@ -1,21 +1,18 @@
 //! Methods of `irbkin.Robot` that take joint vectors.
 
-use std::num::NonZeroUsize;
-
-use numpy::PyArrayDyn;
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyFloat, PyTuple};
+use pyo3::types::PyFloat;
 
-use super::arguments::{read_frame, thread_count};
+use super::arguments::{FRAMES, one_of, thread_count};
 use super::arm::{Arm, on};
-use super::arrays::{Rows, addresses};
-use super::configured;
-use super::outputs::{checked_out, output, writable};
-use super::records::{self, Margin, Singularity};
+use super::arrays::copied_vector;
+use super::outputs::{Output, answer, array};
+use super::records::{self, Array, Margin, Singularity};
 use super::robot::PyRobot;
 use super::signals::detached;
-use crate::kinematics::{self, Status};
+use crate::batch::Batch;
+use crate::error::Error;
+use crate::kinematics::{self, Status, check_joints, pose_to_rows};
 
 #[pymethods]
 impl PyRobot {
@@ -37,7 +34,12 @@ impl PyRobot {
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        self.arm().fk(q, out)
+        on!(self.arm(), robot => {
+            if let Some(joints) = plain_joints(q)? {
+                return answer(q, out, pose_to_rows(&robot.fk(&joints)).as_chunks::<4>().0);
+            }
+            mapped(self.arm(), q, out, &[4, 4], |batch, q, poses| batch.fk(robot, q, poses))
+        })
     }
 
     /// Every frame of the modified Denavit-Hartenberg table after its joint, then the tool.
@@ -57,8 +59,11 @@ impl PyRobot {
         &self,
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.arm().link_frames(q, out)
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let tail = [self.arm().dof() + 1, 4, 4];
+        on!(self.arm(), robot => {
+            mapped(self.arm(), q, out, &tail, |batch, q, frames| batch.link_frames(robot, q, frames))
+        })
     }
 
     /// Geometric Jacobian of the tool.
@@ -81,16 +86,20 @@ impl PyRobot {
         frame: &str,
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let frame = read_frame(frame)?;
-        self.arm().jacobian(q, frame, out)
+        let frame = one_of("frame", frame, &FRAMES)?;
+        let tail = [6, self.arm().dof()];
+        on!(self.arm(), robot => {
+            if let Some(joints) = plain_joints(q)? {
+                return answer(q, out, &robot.jacobian_rows(&joints, frame));
+            }
+            mapped(self.arm(), q, out, &tail, |batch, q, rows| batch.jacobian(robot, q, frame, rows))
+        })
     }
 
     /// How far joint vectors are from the singularities.
     ///
     /// Args:
     ///     q: Joint angles [rad], shape (..., n).
-    ///     out: Where to write the answer of a batch: a Singularity, or a tuple, of arrays (...),
-    ///         five of float64 and one of uint8.
     ///     threads: Number of threads; 0 for one a core.
     ///
     /// Returns:
@@ -100,26 +109,31 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-    ///     TypeError: `out` for a single joint vector, or of another kind.
-    #[pyo3(signature = (q, *, out=None, threads=1))]
-    fn singularity<'py>(
-        &self,
-        q: &Bound<'py, PyAny>,
-        out: Option<&Bound<'py, PyAny>>,
-        threads: isize,
-    ) -> PyResult<Singularity> {
-        let threads = thread_count(threads)?;
+    #[pyo3(signature = (q, *, threads=1))]
+    fn singularity(&self, q: &Bound<'_, PyAny>, threads: isize) -> PyResult<Singularity> {
+        let (py, threads) = (q.py(), thread_count(threads)?);
         let rows = self.arm().joints(q)?;
-        if !rows.is_single() {
-            return singularities(self.arm(), &rows, out, threads);
+        let (data, lead) = (rows.data()?, &rows.lead);
+        if let Some(one) = on!(self.arm(), robot => rows.single()?.map(|q| robot.singularity(q))) {
+            let numbers = numbers(&one).map(|number| PyFloat::new(py, number).into_any().unbind());
+            return Ok(record(numbers, records::kinds(py, one.kinds)?.unbind()));
         }
-        if out.is_some() {
-            return Err(PyTypeError::new_err("out is for many joint vectors, shape (..., n)"));
-        }
-        on!(self.arm(), robot => match rows.data()?.first_chunk() {
-            Some(q) => one_singularity(rows.py(), &robot.singularity(q)),
-            None => Err(PyTypeError::new_err("q is empty")),
-        })
+        let mut found = vec![None; lead.iter().product()];
+        let to = &mut found[..];
+        detached(
+            py,
+            threads,
+            |batch| on!(self.arm(), robot => batch.singularity(robot, data, to)),
+        )?;
+        let number = |field: usize| {
+            let of = |it: &Option<_>| it.as_ref().map_or(f64::NAN, |it| numbers(it)[field]);
+            array(py, found.iter().map(of), lead)
+        };
+        let kinds = |it: &Option<kinematics::Singularity>| {
+            it.map_or(Status::INVALID.bits(), |it| it.kinds.bits())
+        };
+        let columns = [number(0)?, number(1)?, number(2)?, number(3)?, number(4)?];
+        Ok(record(columns, array(py, found.iter().map(kinds), lead)?))
     }
 
     /// How far joint vectors are from limits and singularities, as parts of the farthest that they
@@ -139,60 +153,15 @@ impl PyRobot {
     fn margin(&self, q: &Bound<'_, PyAny>, threads: isize) -> PyResult<Margin> {
         let (py, threads) = (q.py(), thread_count(threads)?);
         let rows = self.arm().joints(q)?;
-        let data = rows.data()?;
-        let [limits, singularities] =
-            [(); 2].map(|()| PyArrayDyn::<f64>::zeros(py, rows.lead.clone(), false));
-        let (mut to_limits, mut to_singularities) =
-            (writable(&limits, &[])?, writable(&singularities, &[])?);
-        let (limits_out, singularities_out) =
-            (to_limits.as_slice_mut()?, to_singularities.as_slice_mut()?);
+        let mut limits = Output::new(py, None, &rows.lead, &[])?;
+        let mut singularities = Output::new(py, None, &rows.lead, &[])?;
+        let (q, to_limits, to) = (rows.data()?, limits.slice()?, singularities.slice()?);
         detached(
             py,
             threads,
-            |batch| on!(self.arm(), robot => batch.margin(robot, data, limits_out, singularities_out)),
+            |batch| on!(self.arm(), robot => batch.margin(robot, q, to_limits, to)),
         )?;
-        Ok(Margin {
-            limits: limits.into_any().unbind(),
-            singularities: singularities.into_any().unbind(),
-        })
-    }
-
-    /// ABB's confdata of joint vectors: quarter turns of axes 1, 4 and 6, and the branch.
-    ///
-    /// Args:
-    ///     q: Joint angles [rad], shape (..., n).
-    ///
-    /// Returns:
-    ///     Configuration(cf1, cf4, cf6, cfx): integers for one joint vector, int32 arrays of shape
-    ///     (...) for many. cf is floor(angle / 90 deg), of a YuMi the nearest whole number. cfx is
-    ///     the slot of a spherical wrist, 0 for an arm with coupled axes 2 and 3, whose controller
-    ///     does not use it; docs/guide/abb.md has the rules of GoFa and YuMi. In a batch, a row
-    ///     that is not finite, or has an angle beyond 1e5 rad, has -2147483648, the least int32, in
-    ///     all four: `ik_configured` gives NaN for it.
-    ///
-    /// Raises:
-    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-    ///     InvalidModelError: The arm has no spherical wrist and is not a GoFa or YuMi of the
-    ///         catalog: its controller counts otherwise.
-    fn configuration<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        configured::configuration(self.arm(), q)
-    }
-
-    /// The arm angle of a YuMi's joint vectors: eax_a of a robtarget.
-    ///
-    /// Args:
-    ///     q: Joint angles [rad], shape (..., 7), in the order of the axes from the base: 1, 2, 7,
-    ///         3, 4, 5, 6.
-    ///
-    /// Returns:
-    ///     Arm angles [rad]: a number for one joint vector, shape (...) for many; NaN where axis 3
-    ///     points from the shoulder to the wrist, and for a row of a batch that is not finite.
-    ///
-    /// Raises:
-    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
-    ///     InvalidModelError: The arm is not a YuMi of the catalog.
-    fn arm_angle<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        configured::arm_angle(self.arm(), q)
+        Ok(Margin { limits: limits.array(), singularities: singularities.array() })
     }
 }
 
@@ -203,61 +172,31 @@ fn numbers(record: &kinematics::Singularity) -> [f64; 5] {
     [wrist, elbow, shoulder, record.min_singular_value, record.manipulability]
 }
 
-/// `irbkin.records.Singularity` of one joint vector.
-fn one_singularity(py: Python<'_>, record: &kinematics::Singularity) -> PyResult<Singularity> {
-    let kinds = records::kinds(py, record.kinds)?.unbind();
-    let [wrist, elbow, shoulder, min_singular_value, manipulability] =
-        numbers(record).map(|number| PyFloat::new(py, number).into_any().unbind());
-    Ok(Singularity { wrist, elbow, shoulder, min_singular_value, manipulability, kinds })
+fn record(columns: [Array; 5], kinds: Array) -> Singularity {
+    let [wrist, elbow, shoulder, min_singular_value, manipulability] = columns;
+    Singularity { wrist, elbow, shoulder, min_singular_value, manipulability, kinds }
 }
 
-/// `irbkin.records.Singularity` of arrays with the leading dimensions of `q`.
-fn singularities<'py>(
+/// An answer of shape (..., `tail`) for joint vectors (..., n), computed without the interpreter's
+/// lock.
+pub(super) fn mapped<'py>(
     arm: &Arm,
-    q: &Rows<'py>,
+    q: &Bound<'py, PyAny>,
     out: Option<&Bound<'py, PyAny>>,
-    threads: Option<NonZeroUsize>,
-) -> PyResult<Singularity> {
-    let (py, data) = (q.py(), q.data()?);
-    let out = out.map(six_arrays).transpose()?;
-    let mut memory = vec![q.addresses()];
-    let (mut columns, mut views) = (Vec::new(), Vec::new());
-    for field in 0..5 {
-        let column = output(py, out.as_ref().map(|out| &out[field]), &q.lead)?;
-        views.push(writable(&column, &memory)?);
-        memory.push(addresses(&column));
-        columns.push(column.into_any().unbind());
-    }
-    let kinds = match &out {
-        Some(out) => checked_out(&out[5], &q.lead, "uint8")?,
-        None => PyArrayDyn::zeros(py, q.lead.clone(), false),
-    };
-    let mut kinds_view = writable(&kinds, &memory)?;
-    let mut found = vec![None; q.lead.iter().product()];
-    let records = &mut found[..];
-    detached(py, threads, |batch| on!(arm, robot => batch.singularity(robot, data, records)))?;
-    for (to, record) in kinds_view.as_slice_mut()?.iter_mut().zip(&found) {
-        *to = record.map_or(Status::INVALID.bits(), |record| record.kinds.bits());
-    }
-    for (field, view) in views.iter_mut().enumerate() {
-        for (to, record) in view.as_slice_mut()?.iter_mut().zip(&found) {
-            *to = record.as_ref().map_or(f64::NAN, |record| numbers(record)[field]);
-        }
-    }
-    let kinds = kinds.into_any().unbind();
-    let columns = <[_; 5]>::try_from(columns);
-    let [wrist, elbow, shoulder, min_singular_value, manipulability] =
-        columns.map_err(|_| PyTypeError::new_err("a singularity has five numbers"))?;
-    Ok(Singularity { wrist, elbow, shoulder, min_singular_value, manipulability, kinds })
+    tail: &[usize],
+    compute: impl FnOnce(&mut Batch<'_>, &[f64], &mut [f64]) -> Result<(), Error> + Send,
+) -> PyResult<Bound<'py, PyAny>> {
+    let rows = arm.joints(q)?;
+    let mut answer = Output::new(q.py(), out, &rows.shape_with(tail), &[rows.addresses()])?;
+    let (data, slice) = (rows.data()?, answer.slice()?);
+    detached(q.py(), None, |batch| compute(batch, data, slice))?;
+    Ok(answer.bound())
 }
 
-/// The arrays of a `Singularity` or of a tuple.
-fn six_arrays<'py>(out: &Bound<'py, PyAny>) -> PyResult<Vec<Bound<'py, PyAny>>> {
-    if out.is_instance_of::<PyTuple>() || out.is_instance_of::<Singularity>() {
-        let arrays = out.try_iter()?.collect::<PyResult<Vec<_>>>()?;
-        if arrays.len() == 6 {
-            return Ok(arrays);
-        }
-    }
-    Err(PyTypeError::new_err("out must be a Singularity, or a tuple of its six arrays"))
+/// A single joint vector that can be read the short way; it must be finite.
+#[inline]
+fn plain_joints<const N: usize>(q: &Bound<'_, PyAny>) -> PyResult<Option<[f64; N]>> {
+    let Some(joints) = copied_vector::<N>(q) else { return Ok(None) };
+    check_joints("q", &joints)?;
+    Ok(Some(joints))
 }

@@ -11,14 +11,15 @@ use pyo3::types::PyTuple;
 /// Elements of an array that a representation shows.
 const MOST_SHOWN: usize = 16;
 
-/// Define a record by its fields.
+/// Define a record of a module by its fields.
 macro_rules! record {
     (
+        $module:literal;
         $(#[$doc:meta])*
         $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)+ }
     ) => {
         $(#[$doc])*
-        #[pyclass(module = "irbkin.records", frozen, get_all, sequence)]
+        #[pyclass(module = $module, frozen, get_all, sequence)]
         pub(crate) struct $name { $($(#[$field_doc])* pub(crate) $field: $type,)+ }
         record_methods!($name { $($field: $type,)+ });
     };

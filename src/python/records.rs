@@ -2,11 +2,11 @@
 
 use pyo3::basic::CompareOp;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyTuple, PyType};
 
-use super::classes::{kind_class, reach_class, status_class};
 use super::record::{self, record, record_methods};
-use crate::kinematics::{SingularityKind, Status};
+use crate::kinematics::{BreakReason, SingularityKind, Status};
 use crate::report::{Configuration, Explanation, Reach};
 
 /// An array, or what a field holds in place of one.
@@ -15,6 +15,7 @@ pub(crate) type Array = Py<PyAny>;
 record_methods!(Configuration { cf1: i32, cf4: i32, cf6: i32, cfx: i32 });
 
 record! {
+    "irbkin.records";
     /// Solutions of many poses.
     IkBatch {
         /// Joint angles [rad], shape (..., slots, n), NaN where a slot is empty.
@@ -25,6 +26,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// The joint that a singular pose leaves undetermined.
     FreeJoint {
         /// Its number, from 1.
@@ -38,6 +40,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// A place where the joints cannot follow a path without a jump.
     Break {
         /// Index of the pose that is not met, or at which the joints arrive by a jump.
@@ -52,6 +55,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// A joint path along a path of poses.
     FollowResult {
         /// Joint angles [rad], shape (..., m, n), NaN where a pose is not met.
@@ -65,6 +69,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// ABB's confdata of many joint vectors: int32 arrays of shape (...).
     ConfigurationBatch {
         /// Quarter turns of axis 1: floor(q1 / 90 deg).
@@ -79,6 +84,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// Distances of joint vectors from the singularities: numbers for one, arrays of shape (...)
     /// for many. NaN where an arm has no such singularity.
     Singularity {
@@ -101,6 +107,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// How far joint vectors are from limits and singularities, each as a part of the farthest that
     /// they can be: 1 in the middle, 0 at one, negative outside limits.
     Margin {
@@ -114,6 +121,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// How much room the solutions of poses leave.
     IkMargin {
         /// The largest margin (the smaller part of `Margin`) of the solutions inside the limits,
@@ -127,6 +135,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// Whether a pose can be reached.
     PoseCheck {
         /// Some joint vector brings the tool there.
@@ -139,6 +148,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// Data of an arm in the catalog.
     CatalogEntry {
         /// The maker's type name.
@@ -170,6 +180,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// The state of the joints at times.
     TrajectorySample {
         /// Joint angles [rad], shape (..., n).
@@ -182,6 +193,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// The largest sizes of each joint's derivatives.
     MotionPeaks {
         /// Velocities [rad/s], shape (n,).
@@ -194,6 +206,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// The constant speed of the tool along a path that the limits of the joints allow.
     ToolSpeedLimits {
         /// The highest at each sample [m/s], shape (m,); infinite where no limit binds.
@@ -210,6 +223,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// A part of a path that the joints cannot follow.
     PlanBreak {
         /// The last pose before it; None where the path begins with it.
@@ -220,6 +234,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// Where and why a branch of a path ends.
     StrandEnd {
         /// Its slot.
@@ -232,6 +247,7 @@ record! {
 }
 
 record! {
+    "irbkin.records";
     /// The best joint path along a path of poses.
     Plan {
         /// Joint angles [rad], shape (m, n); NaN where a plan with breaks has none.
@@ -260,31 +276,40 @@ record! {
     }
 }
 
-/// `irbkin.Configuration` of a configuration.
-pub(super) fn configuration<'py>(
-    py: Python<'py>,
-    configuration: &Configuration,
-) -> PyResult<Bound<'py, PyAny>> {
-    Ok(Bound::new(py, *configuration)?.into_any())
-}
-
 /// `irbkin.SingularityKind` of singularities.
 pub(super) fn kinds(py: Python<'_>, kinds: SingularityKind) -> PyResult<Bound<'_, PyAny>> {
-    kind_class(py)?.call1((kinds.bits(),))
+    static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    CLASS.import(py, "irbkin.records", "SingularityKind")?.call1((kinds.bits(),))
 }
 
 /// `irbkin.Status` of a status.
 pub(super) fn status(py: Python<'_>, status: Status) -> PyResult<Bound<'_, PyAny>> {
-    status_class(py)?.call1((status.bits(),))
+    static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    CLASS.import(py, "irbkin.records", "Status")?.call1((status.bits(),))
 }
 
 /// `irbkin.Reach` without its shortfall.
 pub(super) fn reach(py: Python<'_>, reach: Reach) -> PyResult<Bound<'_, PyAny>> {
-    reach_class(py)?.getattr(match reach {
+    static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    CLASS.import(py, "irbkin.records", "Reach")?.getattr(match reach {
         Reach::Reached => "REACHED",
         Reach::TooFar { .. } => "TOO_FAR",
         Reach::TooNear { .. } => "TOO_NEAR",
         Reach::NoRoots => "NO_ROOTS",
+    })
+}
+
+/// `irbkin.BreakReason` of a break.
+pub(super) fn break_reason<'py>(
+    py: Python<'py>,
+    reason: &BreakReason,
+) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    CLASS.import(py, "irbkin.records", "BreakReason")?.getattr(match reason {
+        BreakReason::Unreachable(_) => "UNREACHABLE",
+        BreakReason::Jump { .. } => "JUMP",
+        BreakReason::Locked => "LOCKED",
+        BreakReason::Stopped { .. } => "STOPPED",
     })
 }
 

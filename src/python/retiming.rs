@@ -1,13 +1,13 @@
 //! The functions of `irbkin.trajectory` that time a path of joints.
 
-use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::arguments::read_steps;
-use super::errors::{Fault, to_py};
-use super::paths::read_path_poses;
+use super::errors::Fault;
+use super::outputs::column;
 use super::records::ToolSpeedLimits;
+use super::targets::read_path_poses;
 use super::trajectories::{read_each, read_rows};
 use super::trajectory::PyTrajectory;
 use crate::error::Error;
@@ -30,8 +30,6 @@ impl Path {
         let none = f64::INFINITY;
         let max_velocity = read_each(Some(max_velocity), "max_velocity", dof, none)?;
         let max_acceleration = read_each(max_acceleration, "max_acceleration", dof, none)?;
-        let [max_velocity, max_acceleration] =
-            [max_velocity, max_acceleration].map(|limits| limits.vector(dof));
         Ok(Self { q, max_velocity, max_acceleration })
     }
 
@@ -47,7 +45,7 @@ impl Path {
             let message = format!(
                 "T must have shape ({wanted}, 4, 4), a pose for each row of q, got {found}"
             );
-            return Err(Fault::Pose.error(tool.py(), message));
+            return Err(Fault::Pose.error(message));
         }
         Ok(tool_lengths(&poses))
     }
@@ -60,8 +58,7 @@ impl Path {
         time: impl FnOnce(&Self) -> Result<Trajectory, Error> + Send,
     ) -> PyResult<PyTrajectory> {
         let steps = steps.map_or(Ok(self.rows().max(2)), read_steps)?;
-        let motion = py.detach(|| time(self)).map_err(|error| to_py(py, &error))?;
-        PyTrajectory::even(py, motion, steps)
+        PyTrajectory::even(py, py.detach(|| time(self))?, steps)
     }
 }
 
@@ -121,10 +118,10 @@ pub(super) fn retime(
 /// `retime` with `max_tool_speed` begins and ends at rest, and is slower where limits demand it.
 ///
 /// Args:
-///     q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
+///     q: As of `retime`.
 ///     T: Poses of the tool at the samples, shape (m, 4, 4).
 ///     speed: Speed of the tool along `T` [m/s].
-///     max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
+///     max_velocity: As of `retime`.
 ///     max_acceleration: Limits [rad/s^2], a number or shape (n,); none where it is not given.
 ///     steps: Number of samples of the answer; as many as `q` has where it is not given.
 ///
@@ -135,8 +132,7 @@ pub(super) fn retime(
 ///     InvalidMotionError: A joint does not allow the speed: the message names it, the sample and
 ///         the speed that it allows; the speed or a limit is not positive, or the tool only turns
 ///         on a part of the path.
-///     InvalidJointsError: A wrong shape, or an angle that is not finite.
-///     InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+///     InvalidJointsError, InvalidPoseError: As `retime`.
 #[pyfunction]
 #[pyo3(signature = (q, T, speed, max_velocity, max_acceleration=None, *, steps=None))]
 #[expect(non_snake_case, reason = "the name that users pass")]
@@ -159,9 +155,9 @@ pub(super) fn at_tool_speed(
 /// joint limits it.
 ///
 /// Args:
-///     q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
+///     q: As of `retime`.
 ///     T: Poses of the tool at the samples, shape (m, 4, 4).
-///     max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
+///     max_velocity: As of `retime`.
 ///     max_acceleration: Limits [rad/s^2], a number or shape (n,); none where it is not given.
 ///
 /// Returns:
@@ -172,8 +168,7 @@ pub(super) fn at_tool_speed(
 /// Raises:
 ///     InvalidMotionError: No rows, a limit that is not positive, or a part of the path on which
 ///         the tool only turns.
-///     InvalidJointsError: A wrong shape, or an angle that is not finite.
-///     InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+///     InvalidJointsError, InvalidPoseError: As `retime`.
 #[pyfunction]
 #[pyo3(signature = (q, T, max_velocity, max_acceleration=None))]
 #[expect(non_snake_case, reason = "the name that users pass")]
@@ -189,12 +184,11 @@ pub(super) fn tool_speed_limits(
     let Path { q, max_velocity, max_acceleration } = &path;
     let limits = py.detach(|| {
         crate::trajectory::tool_speed_limits(q, &lengths, max_velocity, max_acceleration)
-    });
-    let limits = limits.map_err(|error| to_py(py, &error))?;
+    })?;
     let joints = limits.joint.iter().map(|joint| i64::try_from(*joint).unwrap_or_default());
     Ok(ToolSpeedLimits {
-        joint: PyArray1::from_iter(py, joints).into_any().unbind(),
-        speed: PyArray1::from_vec(py, limits.speed).into_any().unbind(),
+        joint: column(py, joints),
+        speed: column(py, limits.speed),
         fastest: limits.fastest,
         fastest_joint: limits.fastest_joint,
         fastest_index: limits.fastest_row,

@@ -6,13 +6,12 @@ use std::sync::{Arc, OnceLock};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use super::arm::{Arm, ByJoints, on};
+use super::arm::{Arm, on};
 use super::arrays::vector;
-use super::errors::{Fault, to_py};
-use super::poses::{pose_array, read_single_pose};
-use super::state::{self, Reduced, reduced};
-use crate::error::Error;
-use crate::kinematics::{AnyRobot, Robot};
+use super::errors::Fault;
+use super::state::{Reduced, hash_of, reduced};
+use super::targets::{pose_array, read_single_pose};
+use crate::kinematics::{Robot, pose_to_rows};
 
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
 ///
@@ -26,7 +25,7 @@ use crate::kinematics::{AnyRobot, Robot};
 /// Raises:
 ///     UnknownRobotError: No arm of that name; the message has up to six close ones, the closest
 ///         first, or why the arm is left out of the catalog.
-#[pyclass(name = "Robot", module = "irbkin", frozen, weakref)]
+#[pyclass(name = "Robot", module = "irbkin", eq, frozen, weakref)]
 pub(super) struct PyRobot {
     arm: Arm,
     /// By joint: the arm with it locked, as it was prepared first.
@@ -39,9 +38,10 @@ impl PyRobot {
     }
 }
 
-/// The robot of a call that may fail.
-fn made(py: Python<'_>, arm: Result<Arm, Error>) -> PyResult<PyRobot> {
-    arm.map(PyRobot::from).map_err(|error| to_py(py, &error))
+impl PartialEq for PyRobot {
+    fn eq(&self, other: &Self) -> bool {
+        self.arm == other.arm
+    }
 }
 
 impl From<Arm> for PyRobot {
@@ -54,9 +54,8 @@ impl From<Arm> for PyRobot {
 #[expect(non_snake_case, reason = "T is the name that users pass")]
 impl PyRobot {
     #[new]
-    fn new(py: Python<'_>, name: &str) -> PyResult<Self> {
-        let robot = AnyRobot::named(name).map_err(|error| to_py(py, &error))?;
-        Ok(Arm::from(robot).into())
+    fn new(name: &str) -> PyResult<Self> {
+        Ok(Arm::named(name)?.into())
     }
 
     /// Catalog name, or the name given by the caller.
@@ -139,7 +138,7 @@ impl PyRobot {
     ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
     fn with_tool(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
         let tool = read_single_pose(T, "with_tool")?;
-        made(T.py(), on!(&self.arm, robot => Robot::clone(robot).with_tool(&tool).map(Arm::from)))
+        Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_tool(&tool)?)).into())
     }
 
     /// Return the robot with another base, in place of the one that it had; poses are then given in
@@ -152,7 +151,7 @@ impl PyRobot {
     ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
     fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
         let base = read_single_pose(T, "with_base")?;
-        made(T.py(), on!(&self.arm, robot => Robot::clone(robot).with_base(&base).map(Arm::from)))
+        Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_base(&base)?)).into())
     }
 
     /// Whether a parallelogram linkage couples axes 2 and 3: q3 is then measured from the base, as
@@ -179,18 +178,10 @@ impl PyRobot {
     /// Raises:
     ///     InvalidModelError: A limit is NaN, the lower one is above the upper one, or axes 2 and 3
     ///         are not coupled.
-    fn with_linkage_limits(
-        &self,
-        py: Python<'_>,
-        limits: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Self> {
+    fn with_linkage_limits(&self, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let limits = limits.map(|limits| vector(limits, "limits", Fault::Model)).transpose()?;
-        made(
-            py,
-            on!(&self.arm, robot => {
-                Robot::clone(robot).with_linkage_limits(limits).map(Arm::from)
-            }),
-        )
+        Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_linkage_limits(limits)?))
+            .into())
     }
 
     /// Return the twin without the coupling of axes 2 and 3: its q3 is this robot's q3 - q2. The
@@ -213,23 +204,21 @@ impl PyRobot {
     /// Raises:
     ///     InvalidModelError: The arm has no spherical wrist, or its axes 2 and 3 turn in opposite
     ///         directions.
-    fn coupled(&self, py: Python<'_>) -> PyResult<Self> {
-        made(py, on!(&self.arm, robot => Robot::clone(robot).coupled().map(Arm::from)))
-    }
-
-    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        other.cast::<Self>().is_ok_and(|other| other.get().arm == self.arm)
+    fn coupled(&self) -> PyResult<Self> {
+        Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).coupled()?)).into())
     }
 
     fn __hash__(&self) -> u64 {
-        on!(&self.arm, robot => state::hash_of_robot(robot))
+        on!(&self.arm, robot => {
+            let rows = robot.mdh().rows.iter().flat_map(|row| row.to_array());
+            let frames = [robot.base(), robot.tool()].into_iter().flat_map(pose_to_rows);
+            let limits = robot.limits().to_array().into_iter().flatten();
+            hash_of(robot.name(), rows.chain(frames).chain(limits))
+        })
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        match &self.arm {
-            Arm::Six(robot) => reduced(py, "Robot", &ByJoints::<_, ()>::Six(&**robot)),
-            Arm::Seven(robot) => reduced(py, "Robot", &ByJoints::<(), _>::Seven(&**robot)),
-        }
+        reduced(py, "Robot", &self.arm)
     }
 
     fn __repr__(&self) -> String {
@@ -239,7 +228,7 @@ impl PyRobot {
                 return format!("{}.locked({{{joint}: {angle:?}}})", arm.__repr__());
             }
             let name = robot.name();
-            if AnyRobot::named(name).is_ok_and(|named| Arm::from(named) == self.arm) {
+            if Arm::named(name).is_ok_and(|named| named == self.arm) {
                 return format!("Robot({name:?})");
             }
             let quoted = if name.is_empty() { String::new() } else { format!(" {name:?}") };

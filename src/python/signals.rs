@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 use pyo3::intern;
 use pyo3::prelude::*;
 
-use super::errors::to_py;
 use crate::batch::Batch;
 use crate::error::Error;
 
@@ -21,8 +20,7 @@ pub(super) fn detached<R: Send>(
     threads: Option<NonZeroUsize>,
     work: impl FnOnce(&mut Batch<'_>) -> Result<R, Error> + Send,
 ) -> PyResult<R> {
-    let answer = detached_while(py, |go_on| work(&mut Batch::until(threads, go_on)))?;
-    answer.map_err(|error| to_py(py, &error))
+    Ok(detached_while(py, |go_on| work(&mut Batch::until(threads, go_on)))??)
 }
 
 /// Works without the interpreter's lock, for as long as what it may ask now and then says so: until

@@ -3,51 +3,30 @@
 use std::sync::Arc;
 
 use numpy::PyArray1;
-use pyo3::basic::CompareOp;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PyTuple};
 
 use super::arm::{ByJoints, on};
-use super::errors::{Fault, to_py};
-use super::found::{Found, is_same};
+use super::errors::Fault;
 use super::records::{self, FreeJoint};
-use super::state::{One, Reduced, hash_of, reduced};
+use super::state::{Reduced, hash_of, reduced};
 use crate::kinematics::{Pose, Robot, Solution, Status};
 
 /// A solution, with the robot and the pose that it is of.
+#[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(bound = "")]
 pub(super) struct Member<const N: usize> {
     pub(super) robot: Arc<Robot<N>>,
     pub(super) pose: Pose,
     pub(super) solution: Solution<N>,
 }
 
-impl<const N: usize> PartialEq for Member<N> {
-    fn eq(&self, other: &Self) -> bool {
-        self.solution == other.solution
-            && self.pose == other.pose
-            && is_same(&self.robot, &other.robot)
-    }
-}
-
 impl<const N: usize> Member<N> {
-    pub(super) fn of(found: &Found<N>, solution: Solution<N>) -> Self {
-        Self { robot: Arc::clone(&found.robot), pose: *found.solutions.pose(), solution }
-    }
-
-    fn with_free_joint(&self, py: Python<'_>, value: f64) -> PyResult<Self> {
-        let moved = self
-            .robot
-            .with_free_joint(&self.pose, &self.solution, value)
-            .map_err(|error| to_py(py, &error))?;
-        let moved = moved.ok_or_else(|| {
-            Fault::Joints.error(py, format!("no joint is free: {}", self.sentence()))
-        })?;
-        Ok(Self { robot: Arc::clone(&self.robot), pose: self.pose, solution: moved })
-    }
-
-    fn stored(&self) -> One<N> {
-        One { robot: Robot::clone(&self.robot), pose: self.pose, solution: self.solution }
+    fn with_free_joint(&self, value: f64) -> PyResult<Self> {
+        let moved = self.robot.with_free_joint(&self.pose, &self.solution, value)?;
+        let fixed = || Fault::Joints.error(format_args!("no joint is free: {}", self.sentence()));
+        Ok(Self { solution: moved.ok_or_else(fixed)?, ..self.clone() })
     }
 
     fn sentence(&self) -> String {
@@ -62,9 +41,11 @@ impl<const N: usize> Member<N> {
 ///
 /// `solution[0]` is the angle of J1, `numpy.asarray(solution)` is `solution.q`. Frozen, hashable,
 /// equal by value to a solution of the same robot and pose, picklable.
-#[pyclass(name = "Solution", module = "irbkin", frozen, weakref, sequence)]
+#[derive(PartialEq, serde::Serialize, serde::Deserialize)]
+#[expect(clippy::unsafe_derive_deserialize, reason = "the unsafe methods are pyo3's")]
+#[pyclass(name = "Solution", module = "irbkin", eq, frozen, weakref, sequence)]
 pub(super) struct PySolution {
-    of: ByJoints<Member<6>, Member<7>>,
+    pub(super) of: ByJoints<Member<6>, Member<7>>,
 }
 
 impl From<Member<6>> for PySolution {
@@ -131,8 +112,8 @@ impl PySolution {
     /// Raises:
     ///     InvalidJointsError: No joint is free, or the value is not finite.
     ///     UnreachableError: The arm does not reach the pose with the free joint at that angle.
-    fn with_free_joint(&self, py: Python<'_>, value: f64) -> PyResult<Self> {
-        on!(&self.of, member => member.with_free_joint(py, value).map(Self::from))
+    fn with_free_joint(&self, value: f64) -> PyResult<Self> {
+        on!(&self.of, member => member.with_free_joint(value).map(Self::from))
     }
 
     /// Flags of the slot, an `irbkin.Status`.
@@ -155,7 +136,7 @@ impl PySolution {
         dtype: Option<&Bound<'py, PyAny>>,
         copy: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        as_array(self.q(py).into_any(), dtype, copy)
+        as_array(&self.q(py), dtype, copy)
     }
 
     fn __len__(&self) -> usize {
@@ -170,29 +151,12 @@ impl PySolution {
         self.angles(py)?.try_iter()
     }
 
-    fn __richcmp__<'py>(
-        &self,
-        other: &Bound<'py, PyAny>,
-        operator: CompareOp,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        compared(
-            other.py(),
-            other.cast::<Self>().ok().map(|other| self.of == other.get().of),
-            operator,
-        )
-    }
-
     fn __hash__(&self) -> u64 {
         on!(&self.of, member => hash_of(&member.solution.slot.to_string(), member.solution.q))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        match &self.of {
-            ByJoints::Six(one) => reduced(py, "Solution", &ByJoints::<_, ()>::Six(one.stored())),
-            ByJoints::Seven(one) => {
-                reduced(py, "Solution", &ByJoints::<(), _>::Seven(one.stored()))
-            }
-        }
+        reduced(py, "Solution", self)
     }
 
     fn __repr__(&self) -> String {
@@ -210,30 +174,14 @@ impl PySolution {
     }
 }
 
-/// Answer a comparison; `is_equal` is None for an object of another class.
-pub(super) fn compared(
-    py: Python<'_>,
-    is_equal: Option<bool>,
-    operator: CompareOp,
-) -> PyResult<Bound<'_, PyAny>> {
-    match (is_equal, operator) {
-        (Some(is_equal), CompareOp::Eq) => Ok(is_equal.into_pyobject(py)?.to_owned().into_any()),
-        (Some(is_equal), CompareOp::Ne) => Ok((!is_equal).into_pyobject(py)?.to_owned().into_any()),
-        _ => Ok(py.NotImplemented().into_bound(py)),
-    }
-}
-
 /// Answer `__array__` of NumPy's array protocol.
 pub(super) fn as_array<'py>(
-    array: Bound<'py, PyAny>,
+    array: &Bound<'py, PyAny>,
     dtype: Option<&Bound<'py, PyAny>>,
     copy: Option<bool>,
 ) -> PyResult<Bound<'py, PyAny>> {
     if copy == Some(false) {
         return Err(PyValueError::new_err("the joint angles cannot be seen without a copy"));
     }
-    match dtype {
-        Some(dtype) => array.call_method1("astype", (dtype,)),
-        None => Ok(array),
-    }
+    dtype.map_or(Ok(array.clone()), |dtype| array.call_method1("astype", (dtype,)))
 }

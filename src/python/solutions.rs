@@ -1,19 +1,146 @@
 //! `irbkin.Solutions`: the answer of a solve.
 
+use std::sync::Arc;
+
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::basic::CompareOp;
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PySlice, PyTuple};
 
 use super::arm::{ByJoints, on};
-use super::found::Found;
 use super::outputs::matrix;
 use super::records;
-use super::solution::{Member, PySolution, as_array, compared};
-use super::state::{Answer, Reduced, hash_of, reduced};
+use super::solution::{Member, PySolution, as_array};
+use super::state::{Reduced, hash_of, reduced};
 use super::table;
-use crate::kinematics::{Cost, Solution, Status, pose_to_rows};
+use super::targets::{read_seed, read_weights};
+use crate::error::Error;
+use crate::kinematics::{Cost, MOST_SLOTS, Robot, Solution, Solutions, Status, pose_to_rows};
+use crate::report::Explanation;
+
+/// More turns than any robot has inside its limits: a list this long means limits in degrees, or
+/// none.
+const MOST_TURNS: f64 = 1e6;
+
+/// The solutions of a pose, or the list of their turns.
+#[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(bound = "")]
+pub(super) struct Found<const N: usize> {
+    pub(super) robot: Arc<Robot<N>>,
+    pub(super) solutions: Solutions<N>,
+    /// The list of turns, where the solutions were turned.
+    pub(super) turned: Option<Vec<Solution<N>>>,
+    /// The angle of joint 7 [rad] that was passed with the pose.
+    pub(super) q7: Option<f64>,
+}
+
+impl<const N: usize> Found<N> {
+    pub(super) fn new(robot: Arc<Robot<N>>, solutions: Solutions<N>) -> Self {
+        Self { robot, solutions, turned: None, q7: None }
+    }
+
+    fn with(&self, solutions: Solutions<N>, turned: Option<Vec<Solution<N>>>) -> Self {
+        Self { robot: Arc::clone(&self.robot), solutions, turned, q7: self.q7 }
+    }
+
+    fn len(&self) -> usize {
+        self.turned.as_ref().map_or_else(|| self.solutions.len(), Vec::len)
+    }
+
+    fn entries(&self) -> Vec<Solution<N>> {
+        self.turned.clone().unwrap_or_else(|| self.solutions.iter().copied().collect())
+    }
+
+    fn member(&self, solution: Solution<N>) -> Member<N> {
+        Member { robot: Arc::clone(&self.robot), pose: *self.solutions.pose(), solution }
+    }
+
+    /// Calls `take` with the joint angles of every solution.
+    #[inline]
+    fn with_rows<R>(&self, take: impl FnOnce(&[[f64; N]]) -> R) -> R {
+        if let Some(turned) = &self.turned {
+            return take(&turned.iter().map(|solution| solution.q).collect::<Vec<_>>());
+        }
+        // Most structures have half of the slots that there may be.
+        if self.solutions.slot_count() <= MOST_SLOTS / 2 {
+            take(self.put_rows(&mut [[0.0; N]; MOST_SLOTS / 2]))
+        } else {
+            take(self.put_rows(&mut [[0.0; N]; MOST_SLOTS]))
+        }
+    }
+
+    #[inline]
+    fn put_rows<'r>(&self, rows: &'r mut [[f64; N]]) -> &'r [[f64; N]] {
+        let mut found = 0;
+        for (row, solution) in rows.iter_mut().zip(&self.solutions) {
+            *row = solution.q;
+            found += 1;
+        }
+        &rows[..found]
+    }
+
+    /// Joint angles of each slot, NaN where it is empty.
+    fn q_by_slot(&self) -> Vec<[f64; N]> {
+        let row = |slot: usize| self.solutions.slot(slot).map_or([f64::NAN; N], |found| found.q);
+        (0..self.solutions.slot_count()).map(row).collect()
+    }
+
+    fn within_limits(&self) -> Self {
+        let inside = self
+            .turned
+            .as_ref()
+            .map(|turned| turned.iter().copied().filter(Solution::is_within_limits).collect());
+        self.with(self.solutions.within_limits(), inside)
+    }
+
+    fn turns(&self) -> Result<Self, String> {
+        if self.turned.is_some() {
+            return Ok(self.clone());
+        }
+        let count = self.solutions.turn_total();
+        if count > MOST_TURNS {
+            return Err(format!(
+                "the limits leave {count:.1e} turns, more than 1e6 (are they in radians?)"
+            ));
+        }
+        Ok(self.with(self.solutions.clone(), Some(self.solutions.turns().collect())))
+    }
+
+    /// The outcome in a sentence.
+    fn explain(&self) -> Explanation {
+        self.robot.explained_answer(&self.solutions, self.q7)
+    }
+
+    /// The cheapest solution inside the limits from `seed`, or the reason. Solutions that
+    /// were turned keep their angles.
+    fn cheapest(
+        &self,
+        seed: &[f64; N],
+        weights: &[f64; N],
+        cost: Cost,
+    ) -> Result<Member<N>, Error> {
+        let total = |solution: &Solution<N>| cost.total(&solution.q, seed, weights);
+        let cheapest = match &self.turned {
+            Some(turned) => turned.iter().copied().min_by(|a, b| total(a).total_cmp(&total(b))),
+            None => self.solutions.cheapest(seed, weights, cost),
+        };
+        cheapest.map(|found| self.member(found)).ok_or_else(|| Error::Unreachable(self.explain()))
+    }
+
+    /// Keep the solutions that `accept` takes; an error of it ends the search.
+    fn filter(&self, mut accept: impl FnMut(Member<N>) -> PyResult<bool>) -> PyResult<Self> {
+        let mut kept = Vec::new();
+        for solution in self.entries() {
+            if accept(self.member(solution))? {
+                kept.push(solution);
+            }
+        }
+        let is_kept = |one: &Solution<N>| kept.iter().any(|kept| kept.slot == one.slot);
+        let solutions = self.solutions.filter(is_kept);
+        Ok(self.with(solutions, self.turned.is_some().then_some(kept)))
+    }
+}
 
 /// All solutions of a pose in the order of their slots, or the reason why there are none.
 ///
@@ -21,9 +148,11 @@ use crate::kinematics::{Cost, Solution, Status, pose_to_rows};
 /// tuple of `Solution`. `numpy.asarray(solutions)` is `solutions.q`. `print(solutions)` shows a
 /// table in degrees. Frozen, hashable, equal by value to the same answer of the same robot and
 /// pose, picklable.
+#[derive(PartialEq, serde::Serialize, serde::Deserialize)]
+#[expect(clippy::unsafe_derive_deserialize, reason = "the unsafe methods are pyo3's")]
 #[pyclass(name = "Solutions", module = "irbkin", frozen, weakref, sequence, freelist = 8)]
 pub(super) struct PySolutions {
-    found: ByJoints<Found<6>, Found<7>>,
+    pub(super) found: ByJoints<Found<6>, Found<7>>,
 }
 
 impl From<Found<6>> for PySolutions {
@@ -135,15 +264,8 @@ impl PySolutions {
     }
 
     /// Return the solution inside the limits that moves the joints the least from `seed`, 2 pi
-    /// equivalents considered: least sum of weights * |difference|.
-    ///
-    /// Args:
-    ///     seed: Joint vector [rad], shape (n,).
-    ///     weights: Cost of moving each joint, shape (n,); ones when not given.
-    ///
-    /// Raises:
-    ///     UnreachableError: None is inside the limits; the message is `explain()`.
-    ///     InvalidJointsError: The seed or the weights are not finite or have a wrong shape.
+    /// equivalents considered: least sum of weights * |difference|. Arguments and errors are those
+    /// of `nearest`.
     #[pyo3(signature = (seed, weights=None))]
     fn least_motion(
         &self,
@@ -160,9 +282,7 @@ impl PySolutions {
     ///         [rad]. An exception of it is passed on.
     fn filter(&self, accept: &Bound<'_, PyAny>) -> PyResult<Self> {
         on!(&self.found, found => {
-            let accepts = |solution: &Solution<_>| {
-                accept.call1((PySolution::from(Member::of(found, *solution)),))?.is_truthy()
-            };
+            let accepts = |one| accept.call1((PySolution::from(one),))?.is_truthy();
             found.filter(accepts).map(Self::from)
         })
     }
@@ -174,7 +294,7 @@ impl PySolutions {
         dtype: Option<&Bound<'py, PyAny>>,
         copy: Option<bool>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        as_array(self.q(py).into_any(), dtype, copy)
+        as_array(&self.q(py), dtype, copy)
     }
 
     fn __len__(&self) -> usize {
@@ -193,22 +313,17 @@ impl PySolutions {
             let none = || PyIndexError::new_err(format!(
                 "solution {at} of {}: {}", entries.len(), found.solutions.explain()
             ));
-            Member::of(found, solution.ok_or_else(none)?).into()
+            found.member(solution.ok_or_else(none)?).into()
         });
-        Ok(Bound::new(index.py(), member)?.into_any())
+        member.into_bound_py_any(index.py())
     }
 
     fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
         self.members(py)?.try_iter()
     }
 
-    fn __richcmp__<'py>(
-        &self,
-        other: &Bound<'py, PyAny>,
-        operator: CompareOp,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let is_equal = other.cast::<Self>().ok().map(|other| self.found == other.get().found);
-        compared(other.py(), is_equal, operator)
+    fn __eq__(&self, other: &Bound<'_, Self>) -> bool {
+        self == other.get()
     }
 
     fn __hash__(&self) -> u64 {
@@ -219,14 +334,7 @@ impl PySolutions {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        match &self.found {
-            ByJoints::Six(found) => {
-                reduced(py, "Solutions", &ByJoints::<_, ()>::Six(Answer::from(found)))
-            }
-            ByJoints::Seven(found) => {
-                reduced(py, "Solutions", &ByJoints::<(), _>::Seven(Answer::from(found)))
-            }
-        }
+        reduced(py, "Solutions", self)
     }
 
     fn __repr__(&self) -> String {
@@ -249,18 +357,14 @@ impl PySolutions {
         cost: Cost,
     ) -> PyResult<PySolution> {
         on!(&self.found, found => {
-            Ok(Member::of(found, found.cheapest(seed, weights, cost)?).into())
-        })
-    }
-
-    fn each(&self) -> Vec<PySolution> {
-        on!(&self.found, found => {
-            let members = found.entries().into_iter().map(|solution| Member::of(found, solution));
-            members.map(PySolution::from).collect()
+            Ok(found.cheapest(&read_seed(seed)?, &read_weights(weights)?, cost)?.into())
         })
     }
 
     fn members<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.each())
+        let members: Vec<PySolution> = on!(&self.found, found => {
+            found.entries().into_iter().map(|one| found.member(one).into()).collect()
+        });
+        PyTuple::new(py, members)
     }
 }

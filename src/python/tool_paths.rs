@@ -1,60 +1,47 @@
 //! `irbkin.paths`: paths of the tool as poses.
 
-use numpy::{PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-use super::arguments::{read_orientation, read_steps};
+use super::arguments::{ORIENTATIONS, one_of, read_steps};
 use super::arrays::{matrix4, vector};
-use super::errors::{Fault, to_py};
-use super::paths::read_path_poses;
+use super::errors::Fault;
+use super::outputs::array;
+use super::targets::read_path_poses;
 use crate::error::Error;
 use crate::kinematics::{Pose, pose_from_rows, pose_to_rows};
 use crate::paths::{Spacing, Zone};
 
-type PoseArray<'py> = Bound<'py, PyArray3<f64>>;
-
 /// Poses as an array of shape (m, 4, 4).
-fn pose_rows(py: Python<'_>, poses: Result<Vec<Pose>, Error>) -> PyResult<PoseArray<'_>> {
-    let poses = poses.map_err(|error| to_py(py, &error))?;
-    let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
-    numpy::PyArray1::from_vec(py, rows).reshape([poses.len(), 4, 4])
+fn pose_rows(py: Python<'_>, poses: Result<Vec<Pose>, Error>) -> PyResult<Py<PyAny>> {
+    let poses = poses?;
+    array(py, poses.iter().flat_map(pose_to_rows), &[poses.len(), 4, 4])
 }
 
 /// One pose of shape (4, 4), named in what is wrong with it.
 fn read_end(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<Pose> {
-    let rows = matrix4(value, field, Fault::Pose)?;
-    let located = |error| Fault::Pose.error(value.py(), format!("{field}: {error}"));
-    pose_from_rows(&rows).map_err(located)
+    let located = |error| Fault::Pose.error(format_args!("{field}: {error}"));
+    pose_from_rows(&matrix4(value, field, Fault::Pose)?).map_err(located)
 }
 
-/// How the poses of a path are spaced, by the arguments that every function takes: `steps` poses;
-/// steps of at most `step` [m] and `turn` [rad]; or those that `speed` [m/s] makes in `dt` [s].
-struct SpacingArguments<'a, 'py> {
-    steps: Option<&'a Bound<'py, PyAny>>,
-    step: Option<f64>,
-    turn: Option<f64>,
-    speed: Option<f64>,
-    dt: Option<f64>,
-}
-
-impl SpacingArguments<'_, '_> {
-    fn read(&self, py: Python<'_>) -> PyResult<Spacing> {
-        let turn = self.turn.unwrap_or(f64::INFINITY);
-        let spacing = match (self.steps, self.step, self.turn, self.speed, self.dt) {
-            (Some(steps), None, None, None, None) => Spacing::count(read_steps(steps)?),
-            (None, Some(step), _, None, None) => Spacing::step(step, turn),
-            (None, None, Some(turn), None, None) => Spacing::step(f64::INFINITY, turn),
-            (None, None, _, Some(speed), Some(dt)) => Spacing::speed(speed, dt, turn),
-            _ => {
-                return Err(PyValueError::new_err(
-                    "give steps, or step [m] and turn [rad], or speed [m/s] with dt [s]",
-                ));
-            }
-        };
-        spacing.map_err(|error| to_py(py, &error))
-    }
+/// How the poses of a path are spaced: `steps` poses; steps of at most `step` [m] and `turn` [rad];
+/// or those that `speed` [m/s] makes in `dt` [s].
+fn read_spacing(
+    steps: Option<&Bound<'_, PyAny>>,
+    [step, turn, speed, dt]: [Option<f64>; 4],
+) -> PyResult<Spacing> {
+    let most = turn.unwrap_or(f64::INFINITY);
+    Ok(match (steps, step, turn, speed, dt) {
+        (Some(steps), None, None, None, None) => Spacing::count(read_steps(steps)?)?,
+        (None, Some(step), _, None, None) => Spacing::step(step, most)?,
+        (None, None, Some(turn), None, None) => Spacing::step(f64::INFINITY, turn)?,
+        (None, None, _, Some(speed), Some(dt)) => Spacing::speed(speed, dt, most)?,
+        _ => {
+            let message = "give steps, or step [m] and turn [rad], or speed [m/s] with dt [s]";
+            return Err(PyValueError::new_err(message));
+        }
+    })
 }
 
 /// Move the tool on a straight line, its orientation turning evenly about one axis (slerp).
@@ -82,20 +69,20 @@ impl SpacingArguments<'_, '_> {
 #[pyo3(signature = (T0, T1, *, steps=None, step=None, turn=None, speed=None,
     dt=None, axis=None))]
 #[expect(non_snake_case, clippy::too_many_arguments, reason = "the keywords of one call")]
-pub(super) fn line<'py>(
-    T0: &Bound<'py, PyAny>,
-    T1: &Bound<'py, PyAny>,
-    steps: Option<&Bound<'py, PyAny>>,
+pub(super) fn line(
+    T0: &Bound<'_, PyAny>,
+    T1: &Bound<'_, PyAny>,
+    steps: Option<&Bound<'_, PyAny>>,
     step: Option<f64>,
     turn: Option<f64>,
     speed: Option<f64>,
     dt: Option<f64>,
-    axis: Option<&Bound<'py, PyAny>>,
-) -> PyResult<PoseArray<'py>> {
+    axis: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Py<PyAny>> {
     let py = T0.py();
     let (start, end) = (read_end(T0, "T0")?, read_end(T1, "T1")?);
     let axis = axis.map(|axis| vector::<3>(axis, "axis", Fault::Motion)).transpose()?;
-    let spacing = SpacingArguments { steps, step, turn, speed, dt }.read(py)?;
+    let spacing = read_spacing(steps, [step, turn, speed, dt])?;
     pose_rows(py, crate::paths::line(&start, &end, spacing, axis))
 }
 
@@ -108,12 +95,11 @@ pub(super) fn line<'py>(
 ///     orientation: "path", the tool turns evenly relative to the path (ABB's \PathFrame);
 ///         "object", evenly relative to the base (\ObjectFrame); "via", evenly to the orientation
 ///         of `T_via` and then of `T1` (\CirPointOri).
-///     steps: Number of poses, both ends included.
-///     step: Instead of `steps`, the largest distance of two poses along the arc [m].
-///     turn: With or instead of `step`, the largest turn between two poses [rad].
-///     speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-///         fast or, for a whole number of steps, a little slower.
-///     dt: With `speed`, the time from one pose to the next [s].
+///     steps: As of `line`.
+///     step: As of `line`, along the path.
+///     turn: As of `line`.
+///     speed: As of `line`.
+///     dt: As of `line`.
 ///
 /// Returns:
 ///     Poses, shape (m, 4, 4).
@@ -125,21 +111,21 @@ pub(super) fn line<'py>(
 #[pyo3(signature = (T0, T_via, T1, *, orientation="path", steps=None, step=None, turn=None,
     speed=None, dt=None))]
 #[expect(non_snake_case, clippy::too_many_arguments, reason = "the keywords of one call")]
-pub(super) fn arc<'py>(
-    T0: &Bound<'py, PyAny>,
-    T_via: &Bound<'py, PyAny>,
-    T1: &Bound<'py, PyAny>,
+pub(super) fn arc(
+    T0: &Bound<'_, PyAny>,
+    T_via: &Bound<'_, PyAny>,
+    T1: &Bound<'_, PyAny>,
     orientation: &str,
-    steps: Option<&Bound<'py, PyAny>>,
+    steps: Option<&Bound<'_, PyAny>>,
     step: Option<f64>,
     turn: Option<f64>,
     speed: Option<f64>,
     dt: Option<f64>,
-) -> PyResult<PoseArray<'py>> {
+) -> PyResult<Py<PyAny>> {
     let py = T0.py();
     let poses = [read_end(T0, "T0")?, read_end(T_via, "T_via")?, read_end(T1, "T1")?];
-    let orientation = read_orientation(orientation)?;
-    let spacing = SpacingArguments { steps, step, turn, speed, dt }.read(py)?;
+    let orientation = one_of("orientation", orientation, &ORIENTATIONS)?;
+    let spacing = read_spacing(steps, [step, turn, speed, dt])?;
     pose_rows(py, crate::paths::arc(&poses[0], &poses[1], &poses[2], orientation, spacing))
 }
 
@@ -152,12 +138,11 @@ pub(super) fn arc<'py>(
 ///     T: Poses, shape (m, 4, 4).
 ///     zones: For each pose a radius [m] or one of ABB's names, "fine", "z0" .. "z200"; or one for
 ///         all. Zones of the first and the last pose do not matter: both are met.
-///     steps: Number of poses of the path.
-///     step: Instead of `steps`, the largest distance of two poses along the lines [m].
-///     turn: With or instead of `step`, the largest turn between two poses along the lines [rad].
-///     speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-///         fast or, for a whole number of steps, a little slower.
-///     dt: With `speed`, the time from one pose to the next [s].
+///     steps: As of `line`.
+///     step: As of `line`, along the path.
+///     turn: As of `line`.
+///     speed: As of `line`.
+///     dt: As of `line`.
 ///
 /// Returns:
 ///     Poses, shape (k, 4, 4). A corner with a zone of radius r, where the direction changes by an
@@ -171,19 +156,19 @@ pub(super) fn arc<'py>(
 #[pyo3(signature = (T, zones, *, steps=None, step=None, turn=None, speed=None,
     dt=None))]
 #[expect(non_snake_case, reason = "the name that users pass")]
-pub(super) fn polyline<'py>(
-    T: &Bound<'py, PyAny>,
-    zones: &Bound<'py, PyAny>,
-    steps: Option<&Bound<'py, PyAny>>,
+pub(super) fn polyline(
+    T: &Bound<'_, PyAny>,
+    zones: &Bound<'_, PyAny>,
+    steps: Option<&Bound<'_, PyAny>>,
     step: Option<f64>,
     turn: Option<f64>,
     speed: Option<f64>,
     dt: Option<f64>,
-) -> PyResult<PoseArray<'py>> {
+) -> PyResult<Py<PyAny>> {
     let py = T.py();
     let poses = read_path_poses(T)?;
     let zones = read_zones(zones, poses.len())?;
-    let spacing = SpacingArguments { steps, step, turn, speed, dt }.read(py)?;
+    let spacing = read_spacing(steps, [step, turn, speed, dt])?;
     pose_rows(py, crate::paths::polyline(&poses, &zones, spacing))
 }
 
@@ -196,12 +181,11 @@ pub(super) fn polyline<'py>(
 /// Args:
 ///     T: Poses, shape (m, 4, 4). One that repeats the one before it, within 1e-9 m and rad, is
 ///         left out.
-///     steps: Number of poses of the path.
-///     step: Instead of `steps`, the largest distance of two poses along the curve [m].
-///     turn: With or instead of `step`, the largest turn between two poses [rad].
-///     speed: Instead of `step`, the speed of the tool [m/s]: poses `dt` apart in time move it so
-///         fast or, for a whole number of steps, a little slower.
-///     dt: With `speed`, the time from one pose to the next [s].
+///     steps: As of `line`.
+///     step: As of `line`, along the path.
+///     turn: As of `line`.
+///     speed: As of `line`.
+///     dt: As of `line`.
 ///
 /// Returns:
 ///     Poses, shape (k, 4, 4), with the poses of `T` among them: from each to the next in equal
@@ -214,17 +198,17 @@ pub(super) fn polyline<'py>(
 #[pyfunction]
 #[pyo3(signature = (T, *, steps=None, step=None, turn=None, speed=None, dt=None))]
 #[expect(non_snake_case, reason = "the name that users pass")]
-pub(super) fn spline<'py>(
-    T: &Bound<'py, PyAny>,
-    steps: Option<&Bound<'py, PyAny>>,
+pub(super) fn spline(
+    T: &Bound<'_, PyAny>,
+    steps: Option<&Bound<'_, PyAny>>,
     step: Option<f64>,
     turn: Option<f64>,
     speed: Option<f64>,
     dt: Option<f64>,
-) -> PyResult<PoseArray<'py>> {
+) -> PyResult<Py<PyAny>> {
     let py = T.py();
     let poses = read_path_poses(T)?;
-    let spacing = SpacingArguments { steps, step, turn, speed, dt }.read(py)?;
+    let spacing = read_spacing(steps, [step, turn, speed, dt])?;
     pose_rows(py, py.detach(|| crate::paths::spline(&poses, spacing)))
 }
 
@@ -236,9 +220,9 @@ fn read_zones(zones: &Bound<'_, PyAny>, count: usize) -> PyResult<Vec<Zone>> {
     let Ok(each) = zones.try_iter() else { return read_zone(zones).map(|zone| vec![zone]) };
     let read = each.map(|zone| read_zone(&zone?)).collect::<PyResult<Vec<_>>>()?;
     if read.len() != count {
-        let message =
-            format!("zones has {} elements, it must have {count}: one a pose", read.len());
-        return Err(Fault::Motion.error(zones.py(), message));
+        let found = read.len();
+        let message = format!("zones has {found} elements, it must have {count}: one a pose");
+        return Err(Fault::Motion.error(message));
     }
     Ok(read)
 }
@@ -251,6 +235,6 @@ fn read_zone(zone: &Bound<'_, PyAny>) -> PyResult<Zone> {
     known.ok_or_else(|| {
         let got = zone.repr().map_or_else(|_| "something else".into(), |repr| repr.to_string());
         let message = format!("zones must be radii [m] or \"fine\", \"z0\" .. \"z200\", got {got}");
-        Fault::Motion.error(zone.py(), message)
+        Fault::Motion.error(message)
     })
 }

@@ -4,60 +4,20 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
-use super::arguments::{read_profile, read_spline, read_steps, read_synchronization};
-use super::arrays::{Rows, copied_numbers};
-use super::errors::{Fault, shape_text, to_py};
+use super::arguments::{PROFILES, SPLINES, SYNCHRONIZATIONS, one_of, read_steps};
+use super::arrays::{Rows, copied_numbers, numbers};
+use super::errors::{Fault, shape_text};
 use super::trajectory::PyTrajectory;
 use crate::trajectory::{AxisLimits, AxisState, joint_within};
-
-/// Numbers of one dimension.
-fn read_vector(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<Vec<f64>> {
-    if let Some(numbers) = copied_numbers(value) {
-        return Ok(numbers);
-    }
-    let rows = Rows::read(value, &[], field, Fault::Joints)?;
-    if rows.lead.len() != 1 {
-        let message = format!("{field} must have shape (n,), got {}", shape_text(&rows.lead));
-        return Err(Fault::Joints.error(value.py(), message));
-    }
-    Ok(rows.data()?.to_vec())
-}
 
 /// Joint vectors, shape (m, n): the numbers, and n.
 pub(super) fn read_rows(
     value: &Bound<'_, PyAny>,
     field: &'static str,
 ) -> PyResult<(Vec<f64>, usize)> {
-    let rows = Rows::read(value, &[], field, Fault::Joints)?;
-    match rows.lead[..] {
-        [_, dof] if dof > 0 => Ok((rows.data()?.to_vec(), dof)),
-        _ => {
-            let message = format!("{field} must have shape (m, n), got {}", shape_text(&rows.lead));
-            Err(Fault::Joints.error(value.py(), message))
-        }
-    }
-}
-
-/// A number for each joint.
-pub(super) enum Each {
-    Same(f64),
-    Own(Vec<f64>),
-}
-
-impl Each {
-    fn of(&self, joint: usize) -> f64 {
-        match self {
-            Self::Same(number) => *number,
-            Self::Own(numbers) => numbers[joint],
-        }
-    }
-
-    pub(super) fn vector(self, dof: usize) -> Vec<f64> {
-        match self {
-            Self::Same(number) => vec![number; dof],
-            Self::Own(numbers) => numbers,
-        }
-    }
+    let fits = |shape: &[usize]| matches!(shape, [_, dof] if *dof > 0);
+    let rows = Rows::shaped(value, || "(m, n)", field, Fault::Joints, fits)?;
+    Ok((rows.data()?.to_vec(), rows.lead[1]))
 }
 
 /// A number for each joint, or one for all; `default` where none is given.
@@ -66,39 +26,48 @@ pub(super) fn read_each(
     field: &'static str,
     dof: usize,
     default: f64,
-) -> PyResult<Each> {
-    let Some(value) = value else { return Ok(Each::Same(default)) };
+) -> PyResult<Vec<f64>> {
+    let Some(value) = value else { return Ok(vec![default; dof]) };
     // The short ways: one number needs no array, and an array of them no record of a borrow.
     if let Ok(one) = value.cast::<PyFloat>() {
-        return Ok(Each::Same(one.value()));
+        return Ok(vec![one.value(); dof]);
     }
     if let Some(numbers) = copied_numbers(value).filter(|numbers| numbers.len() == dof) {
-        return Ok(Each::Own(numbers));
+        return Ok(numbers);
     }
     let rows = Rows::read(value, &[], field, Fault::Motion)?;
     match (&rows.lead[..], rows.data()?) {
-        ([], [one]) => Ok(Each::Same(*one)),
-        ([found], numbers) if *found == dof => Ok(Each::Own(numbers.to_vec())),
-        (sizes, _) => {
-            let (one, got) = (shape_text(&[dof]), shape_text(sizes));
-            let message = format!("{field} must be a number or have shape {one}, got {got}");
-            Err(Fault::Motion.error(value.py(), message))
-        }
+        ([], [one]) => Ok(vec![*one; dof]),
+        ([found], numbers) if *found == dof => Ok(numbers.to_vec()),
+        (sizes, _) => Err(Fault::Motion.error(format_args!(
+            "{field} must be a number or have shape ({dof},), got {}",
+            shape_text(sizes)
+        ))),
     }
 }
 
+/// A limit of each of six joints, if it is given.
+pub(super) fn read_limits(
+    given: Option<&Bound<'_, PyAny>>,
+    field: &'static str,
+) -> PyResult<Option<[f64; 6]>> {
+    Ok(given
+        .map(|_| read_each(given, field, 6, 0.0))
+        .transpose()?
+        .and_then(|all| all.try_into().ok()))
+}
+
 /// Limits of the joints; infinite where none is given.
-fn read_limits(given: [Option<&Bound<'_, PyAny>>; 3], dof: usize) -> PyResult<Vec<AxisLimits>> {
-    let fields = ["max_velocity", "max_acceleration", "max_jerk"];
-    let [velocity, acceleration, jerk] =
-        [0, 1, 2].map(|which| read_each(given[which], fields[which], dof, f64::INFINITY));
-    let (velocity, acceleration, jerk) = (velocity?, acceleration?, jerk?);
-    let limits = (0..dof).map(|joint| AxisLimits {
-        velocity: velocity.of(joint),
-        acceleration: acceleration.of(joint),
-        jerk: jerk.of(joint),
-    });
-    Ok(limits.collect())
+fn read_axis_limits(
+    [velocity, acceleration, jerk]: [Option<&Bound<'_, PyAny>>; 3],
+    dof: usize,
+) -> PyResult<Vec<AxisLimits>> {
+    let velocity = read_each(velocity, "max_velocity", dof, f64::INFINITY)?;
+    let acceleration = read_each(acceleration, "max_acceleration", dof, f64::INFINITY)?;
+    let jerk = read_each(jerk, "max_jerk", dof, f64::INFINITY)?;
+    let all = velocity.into_iter().zip(acceleration).zip(jerk);
+    let limits = |((velocity, acceleration), jerk)| AxisLimits { velocity, acceleration, jerk };
+    Ok(all.map(limits).collect())
 }
 
 /// Move from one joint vector to another.
@@ -151,44 +120,45 @@ pub(super) fn joint(
     synchronization: &str,
 ) -> PyResult<PyTrajectory> {
     let py = q0.py();
-    let profile = read_profile(profile)?;
-    let synchronization = read_synchronization(synchronization)?;
-    let (start, end) = (read_vector(q0, "q0")?, read_vector(q1, "q1")?);
-    let dof = start.len();
-    if end.len() != dof {
-        let message = format!("q1 must have shape ({dof},) as q0 has, got ({},)", end.len());
-        return Err(Fault::Joints.error(py, message));
+    let profile = one_of("profile", profile, &PROFILES)?;
+    let synchronization = one_of("synchronization", synchronization, &SYNCHRONIZATIONS)?;
+    let read = |q, field| numbers(q, "(n,)", field, Fault::Joints);
+    let (start, end) = (read(q0, "q0")?, read(q1, "q1")?);
+    let (dof, found) = (start.len(), end.len());
+    if found != dof {
+        let message = format!("q1 must have shape ({dof},) as q0 has, got ({found},)");
+        return Err(Fault::Joints.error(message));
     }
-    let v0 = read_each(start_velocity, "start_velocity", dof, 0.0)?;
-    let a0 = read_each(start_acceleration, "start_acceleration", dof, 0.0)?;
-    let v1 = read_each(end_velocity, "end_velocity", dof, 0.0)?;
-    let a1 = read_each(end_acceleration, "end_acceleration", dof, 0.0)?;
-    let states = |q: &[f64], v: &Each, a: &Each| -> Vec<AxisState> {
-        let joints = q.iter().enumerate();
-        let state = |(joint, position): (usize, &f64)| AxisState {
-            position: *position,
-            velocity: v.of(joint),
-            acceleration: a.of(joint),
+    let states = |q: &[f64], velocity, acceleration| {
+        let states = q.iter().zip(velocity).zip(acceleration);
+        let state = |((&position, velocity), acceleration): ((&f64, f64), f64)| AxisState {
+            position,
+            velocity,
+            acceleration,
         };
-        joints.map(state).collect()
+        states.map(state).collect::<Vec<_>>()
     };
-    let (from, to) = (states(&start, &v0, &a0), states(&end, &v1, &a1));
+    let velocity = read_each(start_velocity, "start_velocity", dof, 0.0)?;
+    let acceleration = read_each(start_acceleration, "start_acceleration", dof, 0.0)?;
+    let from = states(&start, velocity, acceleration);
+    let velocity = read_each(end_velocity, "end_velocity", dof, 0.0)?;
+    let to = states(&end, velocity, read_each(end_acceleration, "end_acceleration", dof, 0.0)?);
     let given = max_velocity.or(max_acceleration).or(max_jerk).is_some();
-    let limits = read_limits([max_velocity, max_acceleration, max_jerk], dof)?;
+    let limits = read_axis_limits([max_velocity, max_acceleration, max_jerk], dof)?;
     let motion = if given && duration.is_none() {
         let is_at_rest = |state: &AxisState| state.velocity == 0.0 && state.acceleration == 0.0;
         if !from.iter().chain(&to).all(is_at_rest) {
             let message = "limits without a duration are for motions from rest to rest: give \
                            duration for velocities or accelerations at the ends, or use \
                            trajectory.state_to_state";
-            return Err(Fault::Motion.error(py, message.to_owned()));
+            return Err(Fault::Motion.error(message));
         }
         joint_within(profile, &start, &end, &limits, synchronization)
     } else {
         crate::trajectory::joint(profile, &from, &to, duration.unwrap_or(1.0))
             .and_then(|motion| motion.within(&limits).map(|()| motion))
     };
-    PyTrajectory::even(py, motion.map_err(|error| to_py(py, &error))?, steps)
+    PyTrajectory::even(py, motion?, steps)
 }
 
 /// Move through many joint vectors on a smooth curve, at rest at both ends.
@@ -228,14 +198,14 @@ pub(super) fn spline(
     max_jerk: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyTrajectory> {
     let py = q.py();
-    let kind = read_spline(profile)?;
+    let kind = one_of("profile", profile, &SPLINES)?;
     let (points, dof) = read_rows(q, "q")?;
     let given = max_velocity.or(max_acceleration).or(max_jerk).is_some();
-    let limits = read_limits([max_velocity, max_acceleration, max_jerk], dof)?;
+    let limits = read_axis_limits([max_velocity, max_acceleration, max_jerk], dof)?;
     if t.is_some() && duration.is_some() {
         return Err(PyValueError::new_err("give t or duration, not both"));
     }
-    let times = t.map(|t| read_vector(t, "t")).transpose()?;
+    let times = t.map(|t| numbers(t, "(n,)", "t", Fault::Joints)).transpose()?;
     let motion = crate::trajectory::through(
         kind,
         &points,
@@ -244,5 +214,5 @@ pub(super) fn spline(
         duration.or(if given { None } else { Some(1.0) }),
         &limits,
     );
-    PyTrajectory::even(py, motion.map_err(|error| to_py(py, &error))?, steps)
+    PyTrajectory::even(py, motion?, steps)
 }

@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
-use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use super::arguments::read_steps;
 use super::arrays::Rows;
-use super::errors::{Fault, to_py};
+use super::errors::Fault;
+use super::outputs::{column, read_only};
 use super::records::{MotionPeaks, TrajectorySample};
 use super::state::{Reduced, reduced};
-use crate::trajectory::{Peaks, Trajectory, TrajectoryParts};
+use crate::trajectory::{Trajectory, TrajectoryParts};
 
 /// Joint angles, velocities and accelerations over time.
 ///
@@ -19,23 +20,31 @@ use crate::trajectory::{Peaks, Trajectory, TrajectoryParts};
 #[pyclass(name = "Trajectory", module = "irbkin.trajectory", frozen)]
 pub(super) struct PyTrajectory {
     motion: Arc<Trajectory>,
+    /// Times of the samples [s], shape (m,).
+    #[pyo3(get)]
     t: Py<PyArray1<f64>>,
-    states: [Py<PyArray2<f64>>; 3],
+    /// Joint angles of the samples [rad], shape (m, n).
+    #[pyo3(get)]
+    q: Py<PyArrayDyn<f64>>,
+    /// Joint velocities of the samples [rad/s], shape (m, n).
+    #[pyo3(get)]
+    dq: Py<PyArrayDyn<f64>>,
+    /// Joint accelerations of the samples [rad/s^2], shape (m, n).
+    #[pyo3(get)]
+    ddq: Py<PyArrayDyn<f64>>,
 }
 
 impl PyTrajectory {
     pub(super) fn new(py: Python<'_>, motion: Trajectory, times: Vec<f64>) -> PyResult<Self> {
-        let shape = [times.len(), motion.dof()];
-        let states = states(py, &motion, &times, &shape, Flag::ReadOnly)?;
-        let t = PyArray1::from_vec(py, times);
-        t.readwrite().make_nonwriteable();
-        let [q, dq, ddq] = states.map(|array| Ok::<_, PyErr>(array.cast_into()?.unbind()));
-        Ok(Self { motion: Arc::new(motion), t: t.unbind(), states: [q?, dq?, ddq?] })
+        let states = states(py, &motion, &times, &[times.len(), motion.dof()])?;
+        let [q, dq, ddq] = states.map(read_only);
+        let t = read_only(PyArray1::from_vec(py, times));
+        Ok(Self { motion: Arc::new(motion), t, q, dq, ddq })
     }
 
     /// `steps` samples, evenly over the duration.
     pub(super) fn even(py: Python<'_>, motion: Trajectory, steps: usize) -> PyResult<Self> {
-        let times = motion.times(steps).map_err(|error| to_py(py, &error))?;
+        let times = motion.times(steps)?;
         Self::new(py, motion, times)
     }
 
@@ -44,62 +53,22 @@ impl PyTrajectory {
     }
 }
 
-/// Whether the caller may write to an array.
-#[derive(Clone, Copy, PartialEq)]
-enum Flag {
-    ReadOnly,
-    Writable,
-}
-
 /// Joint angles, velocities and accelerations at times, as arrays of a shape.
 fn states<'py>(
     py: Python<'py>,
     motion: &Trajectory,
     times: &[f64],
     shape: &[usize],
-    flag: Flag,
 ) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 3]> {
     let arrays = [(); 3].map(|()| PyArrayDyn::<f64>::zeros(py, shape, false));
-    let mut views = arrays.each_ref().map(PyArrayMethods::readwrite);
-    {
-        let [q, dq, ddq] = &mut views;
-        let (q, dq, ddq) = (q.as_slice_mut()?, dq.as_slice_mut()?, ddq.as_slice_mut()?);
-        py.detach(|| motion.sample(times, q, dq, ddq)).map_err(|error| to_py(py, &error))?;
-    }
-    if flag == Flag::ReadOnly {
-        for view in views {
-            view.make_nonwriteable();
-        }
-    }
+    let [mut q, mut dq, mut ddq] = arrays.each_ref().map(PyArrayMethods::readwrite);
+    let (q, dq, ddq) = (q.as_slice_mut()?, dq.as_slice_mut()?, ddq.as_slice_mut()?);
+    py.detach(|| motion.sample(times, q, dq, ddq))?;
     Ok(arrays)
 }
 
 #[pymethods]
 impl PyTrajectory {
-    /// Times of the samples [s], shape (m,).
-    #[getter]
-    fn t<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.t.bind(py).clone()
-    }
-
-    /// Joint angles of the samples [rad], shape (m, n).
-    #[getter]
-    fn q<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        self.states[0].bind(py).clone()
-    }
-
-    /// Joint velocities of the samples [rad/s], shape (m, n).
-    #[getter]
-    fn dq<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        self.states[1].bind(py).clone()
-    }
-
-    /// Joint accelerations of the samples [rad/s^2], shape (m, n).
-    #[getter]
-    fn ddq<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        self.states[2].bind(py).clone()
-    }
-
     /// Number of joints.
     #[getter]
     fn dof(&self) -> usize {
@@ -131,7 +100,7 @@ impl PyTrajectory {
     fn sample(&self, py: Python<'_>, t: &Bound<'_, PyAny>) -> PyResult<TrajectorySample> {
         let times = Rows::read(t, &[], "t", Fault::Motion)?;
         let shape = times.shape_with(&[self.motion.dof()]);
-        let states = states(py, &self.motion, times.data()?, &shape, Flag::Writable)?;
+        let states = states(py, &self.motion, times.data()?, &shape)?;
         let [q, dq, ddq] = states.map(|array| array.into_any().unbind());
         Ok(TrajectorySample { q, dq, ddq })
     }
@@ -143,13 +112,10 @@ impl PyTrajectory {
     ///     (n,). A jump of the acceleration at a knot does not count as jerk.
     fn peaks(&self, py: Python<'_>) -> MotionPeaks {
         let peaks = self.motion.peaks();
-        let column = |of: fn(&Peaks) -> f64| {
-            PyArray1::from_iter(py, peaks.iter().map(of)).into_any().unbind()
-        };
         MotionPeaks {
-            velocity: column(|peaks| peaks.velocity),
-            acceleration: column(|peaks| peaks.acceleration),
-            jerk: column(|peaks| peaks.jerk),
+            velocity: column(py, peaks.iter().map(|peaks| peaks.velocity)),
+            acceleration: column(py, peaks.iter().map(|peaks| peaks.acceleration)),
+            jerk: column(py, peaks.iter().map(|peaks| peaks.jerk)),
         }
     }
 
@@ -176,7 +142,7 @@ impl PyTrajectory {
     /// Raises:
     ///     InvalidMotionError: The factor is not positive and finite.
     fn stretched(&self, py: Python<'_>, factor: f64) -> PyResult<Self> {
-        let motion = (*self.motion).clone().stretched(factor).map_err(|error| to_py(py, &error))?;
+        let motion = (*self.motion).clone().stretched(factor)?;
         let times = self.times(py)?.into_iter().map(|time| time * factor).collect();
         Self::new(py, motion, times)
     }
@@ -193,7 +159,7 @@ impl PyTrajectory {
     /// Raises:
     ///     InvalidMotionError: Unless 0 <= start < end <= duration.
     fn slice(&self, py: Python<'_>, start: f64, end: f64) -> PyResult<Self> {
-        let motion = self.motion.slice(start, end).map_err(|error| to_py(py, &error))?;
+        let motion = self.motion.slice(start, end)?;
         let inner = self.times(py)?.into_iter().filter(|time| start < *time && *time < end);
         let times = [0.0].into_iter().chain(inner.map(|time| time - start));
         let times = times.chain([motion.duration()]).collect();
@@ -203,8 +169,7 @@ impl PyTrajectory {
     /// This motion, then another one that begins where it ends.
     fn __add__(&self, py: Python<'_>, next: &Bound<'_, Self>) -> PyResult<Self> {
         let next = next.get();
-        let motion = (*self.motion).clone();
-        let motion = motion.then(&next.motion).map_err(|error| to_py(py, &error))?;
+        let motion = (*self.motion).clone().then(&next.motion)?;
         let offset = self.motion.duration();
         let mut times = self.times(py)?;
         times.extend(next.times(py)?.into_iter().skip(1).map(|time| offset + time));
@@ -248,6 +213,5 @@ pub(super) fn trajectory_of(
     terms: Vec<[f64; 7]>,
     times: Vec<f64>,
 ) -> PyResult<PyTrajectory> {
-    let motion = Trajectory::try_from(TrajectoryParts { dof, knots, terms });
-    PyTrajectory::new(py, motion.map_err(|error| to_py(py, &error))?, times)
+    PyTrajectory::new(py, TrajectoryParts { dof, knots, terms }.try_into()?, times)
 }

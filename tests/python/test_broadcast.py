@@ -134,7 +134,6 @@ OUT = {
         lambda a: a,
     ),
     "link_frames": (lambda **out: ROBOT.link_frames(Q, **out), lambda a: a),
-    "singularity": (lambda **out: ROBOT.singularity(Q, **out), tuple),
     "follow": (lambda **out: ROBOT.follow(T, SEED, **out), lambda a: (a[0], a[1])),
 }
 
@@ -160,14 +159,6 @@ def test_out_is_written_and_returned(name):
     [
         (lambda: ROBOT.ik_nearest(T, Q, out=Q), "must not overlap"),
         (lambda: ROBOT.follow(T, SEED, out=np.zeros((3, 4, 6))), "tuple of two arrays"),
-        (lambda: ROBOT.singularity(Q, out=(np.zeros((3, 4)),) * 5), "six arrays"),
-        (lambda: ROBOT.singularity(SEED, out=(np.zeros(()),) * 6), "many joint vectors"),
-        (
-            lambda: ROBOT.singularity(
-                Q, out=(np.zeros((3, 4)),) * 5 + (np.zeros((3, 4), np.uint8),)
-            ),
-            "must not overlap",
-        ),
     ],
 )
 def test_an_out_that_cannot_be_is_refused(call, words):

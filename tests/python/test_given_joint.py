@@ -116,8 +116,8 @@ def test_a_locked_robot_answers_as_the_robot_does(robot):
     q = inside(robot, 5)
     T, given = robot.fk(q), {3: q[0, 2]}
     locked = robot.locked(given)
-    assert (locked.locked_joint, locked.dof, locked.unlocked()) == ((3, q[0, 2]), 7, robot)
-    assert robot.locked_joint is None
+    assert locked.dof == 7
+    assert locked != robot
     np.testing.assert_array_equal(locked.ik(T[0]).q, robot.ik(T[0], given=given).q)
     np.testing.assert_array_equal(locked.ik_batch(T[0]).q, robot.ik_batch(T[0], given=given).q)
     nearest = locked.ik_nearest(T[0], q[0])
@@ -131,7 +131,6 @@ def test_a_locked_robot_answers_as_the_robot_does(robot):
     assert hash(again) == hash(locked)
     tool = irbkin.pose([0.0, 0.0, 0.1])
     assert locked.with_tool(tool) == robot.with_tool(tool).locked(given)
-    assert locked.with_tool(tool).unlocked() == robot.with_tool(tool)
     assert repr(locked) == f"{robot!r}.locked({{3: {float(q[0, 2])!r}}})"
 
 
@@ -232,7 +231,6 @@ def test_another_angle_is_prepared_from_one_or_from_nothing_alike(robot, joint):
         fresh = robot.locked({joint: angle})
         moved = robot.locked({joint: 1.2}).locked({joint: angle})
         assert moved == fresh
-        assert moved.locked_joint == (joint, angle)
         np.testing.assert_array_equal(moved.ik(T).q_by_slot, fresh.ik(T).q_by_slot)
         # Another robot, which has prepared nothing.
         again = pickle.loads(pickle.dumps(robot)).locked({joint: angle})

@@ -49,13 +49,11 @@ def test_a_cost_of_limits_takes_the_turn_in_the_middle():
     assert np.allclose(held.q, q)
 
 
-def test_costs_hold_for_closed_paths_and_in_batches():
+def test_costs_hold_for_closed_paths():
     costs = {"rotation": 12, "order": "sum", "limit_cost": 5.0, "singularity_cost": 5.0}
     closed = ROBOT.plan(SEAM, closed=True, **costs)
     assert np.array_equal(closed.q[0], closed.q[-1])
     assert closed.cost >= ROBOT.plan(SEAM, **costs).cost * (1 - 1e-12)
-    alone = ROBOT.plan(SEAM[:30], **costs)
-    assert ROBOT.plan_batch([SEAM[:30], SEAM[:30]], threads=2, **costs) == (alone, alone)
 
 
 @pytest.mark.parametrize("field", ["limit_cost", "singularity_cost"])

@@ -174,7 +174,7 @@ ARGUMENTS = [
     ("robot.ik(T, q)", TypeError, "q7 is joint 7 of an arm of seven joints: this one has six (for "
      "the solution nearest to a seed take ik_nearest(T, seed))"),
     ("panda.ik(T, list(q))", TypeError, "q7 must be one real number, the angle of joint 7 [rad], "
-     "got an object of type list (for the solution nearest to a seed take ik_nearest(T, seed))"),
+     "got list (for the solution nearest to a seed take ik_nearest(T, seed))"),
     ("panda.ik(T)", TypeError, "an arm of seven joints needs q7, the angle of joint 7 [rad], or "
      "another joint as given={3: 0.2}; or take ik_nearest"),
     ("panda.ik(T, 0.3, given={3: 0.2})", TypeError, "pass one of them"),

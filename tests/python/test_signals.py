@@ -26,8 +26,6 @@ CALLS = {
     "follow through a wrist": "robot.follow(T, q[0], singularity_mode='wrist', zone=0.9)",
     "plan": "robot.plan(T[:100_000], rotation=3)",
     "plan, the sum first": "robot.plan(T[:50_000], rotation=12, order='sum')",
-    "plan_batch": "robot.plan_batch(T.reshape(-1, 50, 4, 4))",
-    "plan_batch on two threads": "robot.plan_batch(T.reshape(-1, 50, 4, 4), threads=2)",
     "pose": "irbkin.pose(T[:, :3, 3], rotation=T[:, :3, :3])",
     "to_xyz_wxyz": "irbkin.to_xyz_wxyz(T)",
 }

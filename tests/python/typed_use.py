@@ -35,8 +35,7 @@ def records(robot: irbkin.Robot, q: Sequence[float], many: npt.NDArray[np.float6
 
 
 def plans(robot: irbkin.Robot, paths: Sequence[npt.NDArray[np.float64]]) -> None:
-    answers = robot.plan_batch(paths, rotation=36, threads=2)
-    planned: list[irbkin.Plan] = [each for each in answers if isinstance(each, irbkin.Plan)]
+    planned: list[irbkin.Plan] = [robot.plan(path, rotation=36) for path in paths]
     targets: list[rapid.RobTarget] = rapid.plan_targets(robot, planned[0])
     text: str = rapid.dump(rapid.plan_module(robot, planned[0], speed=rapid.SpeedData(12.0)))
     room: npt.NDArray[np.float64] = robot.margin(planned[0].q).limits

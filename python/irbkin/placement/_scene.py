@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -152,15 +154,18 @@ class Scene:
         return Scores(bounds.reached, progress, margin, bounds.anywhere)
 
     def plans(self, bases: Floats) -> list[Plan | PathError]:
-        """The plan of the path from each base."""
+        """The plan of the path from each base; threads plan without the interpreter's lock."""
         paths = inverse(bases)[:, None] @ self.targets
-        answers = self.robot.plan_batch(paths, rotation=self.rotation, threads=self.threads)
-        kept: list[Plan | PathError] = []
-        for answer in answers:
-            if not isinstance(answer, (Plan, PathError)):
-                raise answer
-            kept.append(answer)
-        return kept
+        if self.threads == 1:
+            return [self._plan(path) for path in paths]
+        with ThreadPoolExecutor(self.threads or os.cpu_count()) as pool:
+            return list(pool.map(self._plan, paths))
+
+    def _plan(self, path: Floats) -> Plan | PathError:
+        try:
+            return self.robot.plan(path, rotation=self.rotation)
+        except PathError as error:
+            return error
 
     def margin_of(self, plan: Plan) -> float:
         """The smallest margin along a plan."""

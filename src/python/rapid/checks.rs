@@ -6,10 +6,9 @@ use pyo3::types::PyTuple;
 
 use super::module::{RapidModule, close_names};
 use super::program::Finding;
-use super::routine_motion::read_limits;
-use super::six_joints;
-use crate::python::errors::{rapid_fault, to_py};
+use crate::python::errors::Fault;
 use crate::python::robot::PyRobot;
+use crate::python::trajectories::read_limits;
 use crate::rapid::{self, Code, Module, MotionOptions};
 
 /// Check every move of a module, of all routines.
@@ -46,7 +45,9 @@ pub(crate) fn check<'py>(
     turn: Option<f64>,
 ) -> PyResult<Bound<'py, PyTuple>> {
     let py = robot.py();
-    let robot = six_joints(robot, "check")?;
+    let arm = robot.get().arm();
+    arm.check_rule()?;
+    let robot = arm.six_joints("check", "")?;
     let options = MotionOptions {
         max_velocity: read_limits(max_velocity, "max_velocity")?,
         step,
@@ -54,9 +55,7 @@ pub(crate) fn check<'py>(
         ..MotionOptions::default()
     };
     let RapidModule { module, source, context, .. } = module.get();
-    let found = py
-        .detach(|| rapid::check(robot, module, source, &options))
-        .map_err(|error| to_py(py, &error))?;
+    let found = py.detach(|| rapid::check(robot, module, source, &options))?;
     let others = context.iter().map(|other| &other.get().module);
     let modules: Vec<&Module> = core::iter::once(module).chain(others).collect();
     let codes = codes.map(read_codes).transpose()?;
@@ -74,7 +73,7 @@ fn read_codes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Code>> {
         let found = Code::ALL.into_iter().find(|code| code.id() == &*id);
         codes.push(found.ok_or_else(|| {
             let ids = Code::ALL.map(Code::id).join(", ");
-            rapid_fault(given.py(), format!("codes: {id:?} is no code; there are {ids}"))
+            Fault::Rapid.error(format_args!("codes: {id:?} is no code; there are {ids}"))
         })?);
     }
     Ok(codes)

@@ -3,11 +3,11 @@
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedStr;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyBytes, PyDict, PyIterator, PyMappingProxy, PyTuple};
+use pyo3::types::{PyDict, PyIterator, PyMappingProxy, PyTuple};
 
 use super::program::{Declaration, Move, Skipped};
-use super::values::{content, read_content, record};
-use crate::python::errors::{rapid_fault, to_py, unknown_name};
+use super::values::{content, read_content};
+use crate::python::errors::{Fault, raised};
 use crate::rapid::{self, Content, Datum, Module, NewValue};
 use crate::spelling::similar;
 
@@ -17,7 +17,7 @@ use crate::spelling::similar;
 /// iteration, `in`, `get`, `keys`, `values`, `items`. Names are taken as RAPID takes them, in upper
 /// or lower case. Frozen and picklable; two modules are equal where they declare and move the same,
 /// whatever the lines. `parse` and `load` make one.
-#[pyclass(name = "Module", module = "irbkin.rapid", frozen, weakref)]
+#[pyclass(name = "Module", module = "irbkin.rapid", eq, frozen, weakref)]
 pub(crate) struct RapidModule {
     pub(super) module: Module,
     pub(super) source: String,
@@ -25,6 +25,12 @@ pub(crate) struct RapidModule {
     pub(super) context: Vec<Py<Self>>,
     data: PyOnceLock<Py<PyDict>>,
     moves: PyOnceLock<Py<PyTuple>>,
+}
+
+impl PartialEq for RapidModule {
+    fn eq(&self, other: &Self) -> bool {
+        self.module.clone().without_positions() == other.module.clone().without_positions()
+    }
 }
 
 /// A text, and the modules that its names are looked for in.
@@ -35,10 +41,15 @@ impl RapidModule {
         Self { module, source, context, data: PyOnceLock::new(), moves: PyOnceLock::new() }
     }
 
+    /// The data of the module itself.
+    fn own_data(&self) -> impl Iterator<Item = &Datum> {
+        self.module.data().iter().filter(|datum| datum.routine.is_none())
+    }
+
     fn data_dict<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyDict>> {
         let dict = self.data.get_or_try_init(py, || {
             let dict = PyDict::new(py);
-            for datum in self.module.data().iter().filter(|datum| datum.routine.is_none()) {
+            for datum in self.own_data() {
                 dict.set_item(&datum.name, content(py, &datum.content)?)?;
             }
             Ok::<_, PyErr>(dict.unbind())
@@ -112,28 +123,27 @@ impl RapidModule {
     /// Raises:
     ///     RapidError: The module has no such data, or a value is of another type or size.
     fn rewritten(&self, values: &Bound<'_, PyAny>) -> PyResult<String> {
-        let py = values.py();
         let mut new_values = Vec::new();
         for item in values.call_method0("items")?.try_iter()? {
             let (name, value): (String, Bound<'_, PyAny>) = item?.extract()?;
-            let (index, datum) = self.found(py, &name)?;
+            let (index, datum) = self.found(&name)?;
             let given = read_content(&value, &name)?;
             let sizes = match &datum.content {
                 Content::Single(_) => &[][..],
                 Content::Uninitialized { sizes } | Content::Array { sizes, .. } => sizes,
             };
             if given.sizes != sizes {
-                return Err(rapid_fault(
-                    py,
-                    format!("{name} has dimensions {sizes:?}, the new value has {:?}", given.sizes),
-                ));
+                return Err(Fault::Rapid.error(format_args!(
+                    "{name} has dimensions {sizes:?}, the new value has {:?}",
+                    given.sizes
+                )));
             }
             let single = sizes.is_empty();
             new_values.extend(given.values.into_iter().enumerate().map(|(number, value)| {
                 NewValue { datum: index, element: (!single).then_some(number), value }
             }));
         }
-        rapid::rewrite(&self.source, &self.module, &new_values).map_err(|error| to_py(py, &error))
+        Ok(rapid::rewrite(&self.source, &self.module, &new_values)?)
     }
 
     /// Return the names of the module's own data, in the order of the text.
@@ -174,7 +184,7 @@ impl RapidModule {
     }
 
     fn __len__(&self) -> usize {
-        self.module.data().iter().filter(|datum| datum.routine.is_none()).count()
+        self.own_data().count()
     }
 
     fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
@@ -191,23 +201,13 @@ impl RapidModule {
         Ok((py.import("irbkin._core")?.getattr("parse_module")?, (&self.source, context)))
     }
 
-    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        let same = |other: &Self| {
-            self.module.clone().without_positions() == other.module.clone().without_positions()
-        };
-        other.cast::<Self>().is_ok_and(|other| same(other.get()))
-    }
-
     /// The module as RAPID text, as `dump` writes it.
     fn __str__(&self) -> String {
         self.module.to_string()
     }
 
     fn __repr__(&self) -> String {
-        let count = |number: usize, what: &str| {
-            format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-        };
-        let (data, moves) = (self.module.data().len(), count(self.module.moves().len(), "move"));
+        let (data, moves) = (self.module.data().len(), counted(self.module.moves().len(), "move"));
         format!(
             "Module({:?}: {data} data, {moves}, {} skipped)",
             self.module.name().unwrap_or(""),
@@ -225,9 +225,7 @@ impl RapidModule {
 
     /// The error for a name that the module does not have, with names that are spelled alike.
     fn unknown(&self, name: &Bound<'_, PyAny>) -> PyErr {
-        let py = name.py();
-        let known = self.module.data().iter().filter(|datum| datum.routine.is_none());
-        let known: Vec<&str> = known.map(|datum| datum.name.as_str()).collect();
+        let known: Vec<&str> = self.own_data().map(|datum| datum.name.as_str()).collect();
         let wanted = name.extract::<PyBackedStr>();
         let close = wanted.as_ref().map(|wanted| close_names(wanted, &known)).unwrap_or_default();
         let hint = if !close.is_empty() {
@@ -238,14 +236,21 @@ impl RapidModule {
             format!("it has {} others: list(module)", known.len())
         };
         let shown = name.repr().map_or_else(|_| "this".to_owned(), |repr| repr.to_string());
-        unknown_name(py, format!("the module has no data of the name {shown}; {hint}"))
+        let message = format!("the module has no data of the name {shown}; {hint}");
+        raised("UnknownNameError", message)
     }
 
     /// A datum of the module itself, and its index.
-    fn found(&self, py: Python<'_>, name: &str) -> PyResult<(usize, &Datum)> {
+    fn found(&self, name: &str) -> PyResult<(usize, &Datum)> {
         let found = self.module.position(name).zip(self.module.find(name));
-        found.ok_or_else(|| rapid_fault(py, format!("the module has no data named {name:?}")))
+        let none = || Fault::Rapid.error(format_args!("the module has no data named {name:?}"));
+        found.ok_or_else(none)
     }
+}
+
+/// A number of things, in words.
+pub(super) fn counted(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
 /// Names that are spelled like another one, the closest first.
@@ -259,80 +264,4 @@ pub(super) fn close_names<'a>(wanted: &str, known: &[&'a str]) -> Vec<&'a str> {
     let mut close = similar(known.iter().copied(), similarity, LEAST_SIMILARITY);
     close.truncate(MOST_CLOSE);
     close
-}
-
-/// Parse a RAPID module, with or without MODULE around it, or a single record.
-///
-/// Args:
-///     text: RAPID text, or the bytes of a file: UTF-8, UTF-16 with its mark, else Latin-1. Text
-///         that begins with a bracket is one robtarget, jointtarget, tooldata, wobjdata, pose or
-///         loaddata, as `dump` writes them, determined by its shape.
-///     context: Modules in which names that the text does not declare are looked for: their data
-///         that are not LOCAL.
-///
-/// Returns:
-///     Module; or RobTarget, JointTarget, ToolData, WobjData, Pose or LoadData.
-///
-/// Raises:
-///     RapidError: The text is broken; the message and the attributes `line` and `column` have the
-///         place. Unknown statements are no error: they are skipped and listed in `Module.skipped`.
-#[pyfunction]
-#[pyo3(signature = (text, context=None))]
-pub(crate) fn parse<'py>(
-    text: &Bound<'py, PyAny>,
-    context: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let py = text.py();
-    let source = decoded(text)?;
-    if source.trim_start().starts_with('[') {
-        return record(py, &rapid::parse_record(&source).map_err(|error| to_py(py, &error))?);
-    }
-    Ok(Bound::new(py, module_of(py, source, context)?)?.into_any())
-}
-
-/// Parse a RAPID module, as `parse`; a record is refused.
-#[pyfunction]
-#[pyo3(signature = (text, context=None))]
-pub(crate) fn parse_module(
-    text: &Bound<'_, PyAny>,
-    context: Option<&Bound<'_, PyAny>>,
-) -> PyResult<RapidModule> {
-    module_of(text.py(), decoded(text)?, context)
-}
-
-fn module_of(
-    py: Python<'_>,
-    source: String,
-    context: Option<&Bound<'_, PyAny>>,
-) -> PyResult<RapidModule> {
-    if is_path(&source) {
-        let message = format!("{source:?} is a path, parse takes the text of a module: use load");
-        return Err(rapid_fault(py, message));
-    }
-    let mut others = Vec::new();
-    if let Some(context) = context {
-        for other in context.try_iter()? {
-            others.push(other?.cast_into::<RapidModule>()?);
-        }
-    }
-    let context: Vec<&Module> = others.iter().map(|other| &other.get().module).collect();
-    let module =
-        py.detach(|| rapid::parse(&source, &context)).map_err(|error| to_py(py, &error))?;
-    let context = others.into_iter().map(Bound::unbind).collect();
-    Ok(RapidModule::new(module, source, context))
-}
-
-/// Whether a text is the path of a module: one word with its ending, which no RAPID text is.
-fn is_path(text: &str) -> bool {
-    let endings = [".mod", ".modx", ".sys", ".sysx", ".prg"];
-    let (text, marks) = (text.trim().to_ascii_lowercase(), ['\n', ';', '[', '"', '!']);
-    endings.iter().any(|ending| text.ends_with(ending)) && !text.contains(marks)
-}
-
-/// RAPID text from a str, or from the bytes of a file.
-fn decoded(text: &Bound<'_, PyAny>) -> PyResult<String> {
-    match text.cast::<PyBytes>() {
-        Ok(bytes) => Ok(rapid::decode(bytes.as_bytes()).into_owned()),
-        Err(_) => text.extract(),
-    }
 }

@@ -6,24 +6,12 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::values::content;
-use crate::python::record::{self, record_methods};
+use crate::python::record::{self, record, record_methods};
 use crate::python::records::Array;
 use crate::rapid::{self, Datum, Target};
 
-/// Define a record by its fields.
-macro_rules! record {
-    (
-        $(#[$doc:meta])*
-        $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)+ }
-    ) => {
-        $(#[$doc])*
-        #[pyclass(module = "irbkin.rapid", frozen, get_all)]
-        pub(crate) struct $name { $($(#[$field_doc])* pub(super) $field: $type,)+ }
-        record_methods!($name { $($field: $type,)+ });
-    };
-}
-
 record! {
+    "irbkin.rapid";
     /// A data declaration. Values are as declared: assignments of a program are not followed.
     Declaration {
         /// Its name, as it is written.
@@ -46,6 +34,7 @@ record! {
 }
 
 record! {
+    "irbkin.rapid";
     /// An argument as it is written, without its name, and its value by the declarations.
     ///
     /// Data that the module assigns have no value.
@@ -60,6 +49,7 @@ record! {
 }
 
 record! {
+    "irbkin.rapid";
     /// How a move is made: by the instructions before it in its routine, or else by the settings
     /// that a program starts with.
     MotionSettings {
@@ -76,6 +66,7 @@ record! {
 }
 
 record! {
+    "irbkin.rapid";
     /// A move instruction.
     Move {
         /// The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ".
@@ -114,6 +105,7 @@ record! {
 }
 
 record! {
+    "irbkin.rapid";
     /// A move of a motion.
     MotionMove {
         /// The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ".
@@ -138,6 +130,7 @@ record! {
 }
 
 record! {
+    "irbkin.rapid";
     /// Something wrong with a move, in a table, a motion or a check. `str` has the line, too.
     Finding {
         /// A letter for the group and three digits, such as "C201"; docs/guide/check.md has the
@@ -170,6 +163,7 @@ record! {
 }
 
 record! {
+    "irbkin.rapid";
     /// A part of the text that is not read.
     Skipped {
         /// Line of the text, from 1.
@@ -186,6 +180,7 @@ record! {
 }
 
 record! {
+    "irbkin.rapid";
     /// The joint angles of m targets.
     TargetTable {
         /// The instruction of each target, or "robtarget".

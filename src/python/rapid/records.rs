@@ -5,16 +5,14 @@ use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
 use crate::kinematics::pose_from_wxyz;
-use crate::python::errors::to_py;
-use crate::python::poses::{pose_array, read_pose};
+use crate::python::targets::{pose_array, read_pose};
 use crate::rapid::class::{Field, Given, Refused};
 use crate::rapid::{JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, rapid_pose};
 use crate::report::Configuration;
 
 /// The homogeneous matrix of a frame.
 fn matrix(py: Python<'_>, trans_mm: [f64; 3], rot: [f64; 4]) -> PyResult<Bound<'_, PyArray2<f64>>> {
-    let pose = pose_from_wxyz(trans_mm.map(|mm| mm / 1e3), rot);
-    Ok(pose_array(py, &pose.map_err(|error| to_py(py, &error))?))
+    Ok(pose_array(py, &pose_from_wxyz(trans_mm.map(|mm| mm / 1e3), rot)?))
 }
 
 #[pymethods]
@@ -24,7 +22,7 @@ impl RapidPose {
     #[pyo3(signature = (T))]
     #[expect(non_snake_case, reason = "the name of a matrix")]
     fn of(T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        Ok(rapid_pose(&read_pose(T, "T")?))
+        Ok(rapid_pose(&read_pose(T)?))
     }
 
     /// Return the homogeneous matrix, shape (4, 4), translation [m].

@@ -1,24 +1,23 @@
 //! `irbkin.rapid.motion`: a routine as one motion.
 
-use numpy::ndarray::Dimension;
-use numpy::{PyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::module::RapidModule;
+use super::module::{RapidModule, counted};
 use super::program::{Finding, MotionMove};
-use super::six_joints;
 use crate::python::arrays::vector;
-use crate::python::errors::{Fault, to_py};
+use crate::python::errors::Fault;
+use crate::python::outputs::{column, read_only};
 use crate::python::robot::PyRobot;
-use crate::python::trajectories::read_each;
+use crate::python::trajectories::read_limits;
 use crate::python::trajectory::PyTrajectory;
 use crate::rapid::{self, JointTarget, MotionOptions, RoutineMotion};
 
 /// The moves of a routine as one motion: followed, timed and checked.
 ///
 /// `motion` makes one. Frozen and picklable; a motion that is unpickled is made again.
-#[pyclass(name = "RoutineMotion", module = "irbkin.rapid", frozen)]
+#[pyclass(name = "RoutineMotion", module = "irbkin.rapid", eq, frozen)]
 pub(crate) struct PyRoutineMotion {
     /// The routine; None for moves outside routines.
     #[pyo3(get)]
@@ -111,11 +110,10 @@ pub(crate) fn motion(
         turn: turn.unwrap_or(MotionOptions::default().turn),
     };
     let py = robot.py();
-    let arm = six_joints(robot, "motion")?;
-    let own = &module.get().module;
-    let motion = py
-        .detach(|| rapid::motion(arm, own, routine, &options))
-        .map_err(|error| to_py(py, &error))?;
+    let (arm, own) = (robot.get().arm(), &module.get().module);
+    arm.check_rule()?;
+    let arm = arm.six_joints("motion", "")?;
+    let motion = py.detach(|| rapid::motion(arm, own, routine, &options))?;
     let index = |number: usize| i64::try_from(number).unwrap_or(-1);
     let line = |of: &usize| index(motion.moves.get(*of).map_or(0, |step| step.line));
     let trajectory = PyTrajectory::new(py, motion.trajectory.clone(), motion.t.clone())?;
@@ -127,8 +125,8 @@ pub(crate) fn motion(
         routine: motion.routine.clone(),
         duration: motion.trajectory.duration(),
         trajectory: Py::new(py, trajectory)?,
-        t: frozen(PyArray1::from_slice(py, &motion.t)),
-        q: frozen(q),
+        t: read_only(PyArray1::from_slice(py, &motion.t)),
+        q: read_only(q),
         move_index: PyArray1::from_iter(py, motion.move_index.iter().copied().map(index)).unbind(),
         lines: PyArray1::from_iter(py, motion.move_index.iter().map(line)).unbind(),
         moves: PyTuple::new(py, moves)?.unbind(),
@@ -140,17 +138,6 @@ pub(crate) fn motion(
     })
 }
 
-/// A limit of each joint, if it is given.
-pub(super) fn read_limits(
-    given: Option<&Bound<'_, PyAny>>,
-    field: &'static str,
-) -> PyResult<Option<[f64; 6]>> {
-    match given {
-        None => Ok(None),
-        Some(_) => Ok(read_each(given, field, 6, 0.0)?.vector(6).try_into().ok()),
-    }
-}
-
 /// Joint angles [rad], or the joints of a JointTarget.
 fn read_start(given: &Bound<'_, PyAny>) -> PyResult<[f64; 6]> {
     if let Ok(joints) = given.cast::<JointTarget>() {
@@ -159,10 +146,10 @@ fn read_start(given: &Bound<'_, PyAny>) -> PyResult<[f64; 6]> {
     vector::<6>(given, "start", Fault::Joints)
 }
 
-/// An array that is not written to.
-fn frozen<D: Dimension>(array: Bound<'_, PyArray<f64, D>>) -> Py<PyArray<f64, D>> {
-    array.readwrite().make_nonwriteable();
-    array.unbind()
+impl PartialEq for PyRoutineMotion {
+    fn eq(&self, other: &Self) -> bool {
+        self.motion == other.motion
+    }
 }
 
 /// Robot, module and routine of a motion.
@@ -185,33 +172,24 @@ impl PyRoutineMotion {
     /// Raises:
     ///     RapidError: The name is not a RAPID identifier.
     #[pyo3(signature = (name="Motion"))]
-    fn to_module(&self, py: Python<'_>, name: &str) -> PyResult<RapidModule> {
-        let module = self.motion.to_module(name).map_err(|error| to_py(py, &error))?;
-        let source = module.to_string();
+    fn to_module(&self, name: &str) -> PyResult<RapidModule> {
+        let source = self.motion.to_module(name)?.to_string();
         // The module of its own text, as one that is read.
-        let module = rapid::parse(&source, &[]).map_err(|error| to_py(py, &error))?;
-        Ok(RapidModule::new(module, source, Vec::new()))
+        Ok(RapidModule::new(rapid::parse(&source, &[])?, source, Vec::new()))
     }
 
     fn __len__(&self) -> usize {
         self.motion.t.len()
     }
 
-    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        other.cast::<Self>().is_ok_and(|other| self.motion == other.get().motion)
-    }
-
     fn __repr__(&self) -> String {
-        let count = |number: usize, what: &str| {
-            format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-        };
         format!(
             "RoutineMotion({:?}: {}, {}, {:.3} s, {})",
             self.motion.routine.as_deref().unwrap_or(""),
-            count(self.motion.moves.len(), "move"),
-            count(self.motion.t.len(), "sample"),
+            counted(self.motion.moves.len(), "move"),
+            counted(self.motion.t.len(), "sample"),
             self.duration,
-            count(self.motion.findings.len(), "finding"),
+            counted(self.motion.findings.len(), "finding"),
         )
     }
 
@@ -232,7 +210,7 @@ impl PyRoutineMotion {
 impl MotionMove {
     fn of(py: Python<'_>, step: &rapid::MotionMove) -> Self {
         let rapid::MotionMove { kind, module_index, line, start, end, .. } = *step;
-        let q = step.q.map(|q| PyArray1::from_slice(py, &q).into_any().unbind());
+        let q = step.q.map(|q| column(py, q));
         let (length, as_programmed) = (step.length, step.as_programmed);
         Self { kind: kind.name().into(), module_index, line, start, end, length, q, as_programmed }
     }

@@ -3,16 +3,12 @@
 use pyo3::PyClass;
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyBytes, PyFloat, PyList, PyString, PyTuple};
+use pyo3::types::{PyBool, PyBytes, PyFloat, PyList, PyTuple};
 
 use crate::kinematics::check_joints;
 use crate::python::arrays::vector;
-use crate::python::errors::{Fault, rapid_fault, to_py};
-use crate::rapid::{
-    Content, JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, SpeedData, ToolData, Value,
-    WobjData, ZoneData, joint_target,
-};
-use crate::report::Configuration;
+use crate::python::errors::Fault;
+use crate::rapid::{Content, JointTarget, NOT_THERE, Value, joint_target};
 
 /// Most dimensions of an array.
 const MOST_DIMENSIONS: usize = 3;
@@ -72,21 +68,19 @@ fn read_array(given: &Bound<'_, PyAny>, thing: &str, dimensions: usize) -> PyRes
         return Ok(Elements { sizes: Vec::new(), values: vec![read_value(given, thing)?] });
     };
     if dimensions == 0 || list.is_empty() {
-        let message = format!(
-            "{thing}: an array has one to {MOST_DIMENSIONS} dimensions and at least one element \
-             in each"
-        );
-        return Err(rapid_fault(given.py(), message));
+        return Err(Fault::Rapid.error(format_args!(
+            "{thing}: an array has one to {MOST_DIMENSIONS} dimensions and at least one element in \
+             each"
+        )));
     }
     let mut all = Elements { sizes: vec![list.len()], values: Vec::new() };
     for (number, element) in list.iter().enumerate() {
         let Elements { sizes, values } = read_array(&element, thing, dimensions - 1)?;
         if number > 0 && all.sizes[1..] != sizes {
-            let message = format!(
+            return Err(Fault::Rapid.error(format_args!(
                 "{thing}: its lists have different lengths, {:?} and {sizes:?}",
                 &all.sizes[1..]
-            );
-            return Err(rapid_fault(given.py(), message));
+            )));
         }
         all.sizes.truncate(1);
         all.sizes.extend(sizes);
@@ -102,8 +96,7 @@ where
 {
     given.extract().or_else(|_| {
         let (wanted, got) = (T::NAME, given.get_type().name()?);
-        let message = format!("{field} must be a {wanted}, got {got}");
-        Err(rapid_fault(given.py(), message))
+        Err(Fault::Rapid.error(format_args!("{field} must be a {wanted}, got {got}")))
     })
 }
 
@@ -117,50 +110,17 @@ pub(super) fn read_joint_target(given: &Bound<'_, PyAny>, dof: usize) -> PyResul
 
 fn of_vector<const N: usize>(given: &Bound<'_, PyAny>) -> PyResult<JointTarget> {
     let q = vector::<N>(given, "joints", Fault::Joints)?;
-    check_joints("joints", &q).map_err(|error| to_py(given.py(), &error))?;
+    check_joints("joints", &q)?;
     Ok(joint_target(&q, [NOT_THERE; 6]))
 }
 
 /// The value of a Python record; a tuple of 3 numbers is a pos, of 4 an orient, of 6 an extjoint.
 fn read_value(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
-    macro_rules! records {
-        ($($Record:ident as $Name:ident),*) => {$(
-            if let Ok(record) = given.cast::<$Record>() {
-                return Ok(Value::$Name(record.get().clone()));
-            }
-        )*};
+    // A bool is a number for Python, and bytes are numbers.
+    let is_other = given.is_instance_of::<PyBool>() || given.is_instance_of::<PyBytes>();
+    if let (false, Ok(value)) = (is_other, given.extract()) {
+        return Ok(value);
     }
-    records!(
-        RobTarget as RobTarget,
-        JointTarget as JointTarget,
-        ToolData as ToolData,
-        WobjData as WobjData,
-        RapidPose as Pose,
-        LoadData as LoadData,
-        SpeedData as SpeedData,
-        ZoneData as ZoneData,
-        Configuration as ConfData
-    );
-    numbers(given, thing)
-}
-
-/// A number, or a tuple or an array of numbers.
-fn numbers(given: &Bound<'_, PyAny>, thing: &str) -> PyResult<Value> {
-    let refused =
-        || Ok(rapid_fault(given.py(), format!("{thing}: {} is not RAPID data", given.repr()?)));
-    if given.is_instance_of::<PyBool>()
-        || given.is_instance_of::<PyString>()
-        || given.is_instance_of::<PyBytes>()
-    {
-        return refused().and_then(Err);
-    }
-    if let Ok(number) = given.extract::<f64>() {
-        return Ok(Value::Num(number));
-    }
-    match given.extract::<Vec<f64>>().ok().as_deref() {
-        Some(&[x, y, z]) => Ok(Value::Pos([x, y, z])),
-        Some(&[w, x, y, z]) => Ok(Value::Orient([w, x, y, z])),
-        Some(&[a, b, c, d, e, f]) => Ok(Value::ExtJoint([a, b, c, d, e, f])),
-        _ => refused().and_then(Err),
-    }
+    let got = given.repr()?;
+    Err(Fault::Rapid.error(format_args!("{thing}: {got} is not RAPID data")))
 }

@@ -33,6 +33,7 @@ macro_rules! values {
 
         /// A value of any type that is read.
         #[derive(Clone, Debug, PartialEq)]
+        #[cfg_attr(feature = "python", derive(pyo3::FromPyObject))]
         pub enum Value {
             $($(#[doc = $doc])* $Name($Value),)*
         }

@@ -1,0 +1,139 @@
+//! Poses, seeds and weights: what a solve is asked for.
+
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+use super::arrays::{Rows, copied_matrix4, copied_vector, matrix4, together, vector};
+use super::errors::{Fault, index_in, shape_text};
+use super::outputs::matrix;
+use crate::kinematics::{Pose, check_seed, check_weights, pose_from_rows, pose_to_rows};
+
+/// Poses that are read between two looks at the signals.
+const POSES_AT_A_TIME: usize = 1 << 18;
+
+/// The argument T as a checked pose.
+pub(super) fn read_pose(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
+    Ok(pose_from_rows(&matrix4(value, "T", Fault::Pose)?)?)
+}
+
+/// The argument T of `ik`, without NumPy's bookkeeping where it is plain.
+#[inline]
+pub(super) fn read_ik_pose(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
+    match copied_matrix4(value) {
+        Some(rows) => Ok(pose_from_rows(&rows)?),
+        None => read_one_pose(value, " (for many poses take ik_batch)"),
+    }
+}
+
+/// The argument T of a method that takes one pose and has no batch.
+pub(super) fn read_single_pose(value: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
+    read_one_pose(value, &format!(": {method} takes a single pose, call it for each"))
+}
+
+/// The argument T of a call that takes one pose; a message on many ends with `many`.
+fn read_one_pose(value: &Bound<'_, PyAny>, many: &str) -> PyResult<Pose> {
+    read_pose(value).map_err(|error| match shape_of(value).as_deref() {
+        Some(sizes @ [_, .., 4, 4]) => {
+            let got = shape_text(sizes);
+            Fault::Pose.error(format_args!("T must have shape (4, 4), got {got}{many}"))
+        }
+        _ => error,
+    })
+}
+
+/// The pose where there is one alone, checked.
+pub(super) fn single_pose(poses: &Rows<'_>) -> PyResult<Option<Pose>> {
+    Ok(poses.single()?.map(pose_from_rows).transpose()?)
+}
+
+/// The poses of one path `T`, shape (m, 4, 4), checked.
+pub(super) fn read_path_poses(path: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
+    let is_path = |shape: &[usize]| matches!(shape, [_, 4, 4]);
+    let rows = Rows::shaped(path, || "(m, 4, 4)", "T", Fault::Pose, is_path)?;
+    read_path(path.py(), &rows, &rows.lead[..1])
+}
+
+/// Every pose of paths of the shape `shape`, checked.
+pub(super) fn read_path(py: Python<'_>, rows: &Rows<'_>, shape: &[usize]) -> PyResult<Vec<Pose>> {
+    let rows = rows.chunks::<16>()?;
+    let mut poses = Vec::with_capacity(rows.len());
+    for row in rows {
+        if poses.len().is_multiple_of(POSES_AT_A_TIME) {
+            py.check_signals()?;
+        }
+        poses.push(pose_from_rows(row).map_err(|error| {
+            Fault::Pose.error(format_args!("T{:?}: {error}", index_in(shape, poses.len())))
+        })?);
+    }
+    Ok(poses)
+}
+
+/// The shape that NumPy sees in an argument.
+fn shape_of(value: &Bound<'_, PyAny>) -> Option<Vec<usize>> {
+    let numpy = value.py().import("numpy").ok()?;
+    numpy.call_method1("shape", (value,)).ok()?.extract().ok()
+}
+
+/// A pose as a (4, 4) array.
+pub(super) fn pose_array<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, PyArray2<f64>> {
+    matrix(py, pose_to_rows(pose).as_chunks::<4>().0)
+}
+
+/// A seed, checked.
+pub(super) fn read_seed<const N: usize>(seed: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
+    let seed = vector::<N>(seed, "seed", Fault::Joints)?;
+    check_seed("seed", &seed)?;
+    Ok(seed)
+}
+
+/// Weights, checked; ones where none were given.
+pub(super) fn read_weights<const N: usize>(
+    weights: Option<&Bound<'_, PyAny>>,
+) -> PyResult<[f64; N]> {
+    let Some(given) = weights else { return Ok([1.0; N]) };
+    let weights = vector::<N>(given, "weights", Fault::Joints)?;
+    check_weights(&weights)?;
+    Ok(weights)
+}
+
+/// The seed where there is one alone, checked.
+pub(super) fn single_seed<const N: usize>(seeds: &Rows<'_>) -> PyResult<Option<[f64; N]>> {
+    let seed = seeds.single::<N>()?;
+    seed.map(|seed| check_seed("seed", seed)).transpose()?;
+    Ok(seed.copied())
+}
+
+/// A pose with a seed, or many.
+pub(super) enum Seeded<'py, const N: usize> {
+    One(Pose, [f64; N]),
+    /// With the same leading dimensions.
+    Many(Rows<'py>, Rows<'py>),
+}
+
+/// The arguments T and `seed`, which are broadcast. What stands for all rows is checked.
+#[inline]
+pub(super) fn read_seeded<'py, const N: usize>(
+    poses: &Bound<'py, PyAny>,
+    seeds: &Bound<'py, PyAny>,
+) -> PyResult<Seeded<'py, N>> {
+    if let (Some(pose), Some(seed)) = (copied_matrix4(poses), copied_vector(seeds)) {
+        let pose = pose_from_rows(&pose)?;
+        check_seed("seed", &seed)?;
+        return Ok(Seeded::One(pose, seed));
+    }
+    read_arrays(poses, seeds)
+}
+
+#[inline(never)]
+fn read_arrays<'py, const N: usize>(
+    poses: &Bound<'py, PyAny>,
+    seeds: &Bound<'py, PyAny>,
+) -> PyResult<Seeded<'py, N>> {
+    let mut poses = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
+    let mut seeds = Rows::read(seeds, &[N], "seed", Fault::Joints)?;
+    if let (Some(pose), Some(seed)) = (single_pose(&poses)?, single_seed(&seeds)?) {
+        return Ok(Seeded::One(pose, seed));
+    }
+    together(&mut [&mut poses, &mut seeds])?;
+    Ok(Seeded::Many(poses, seeds))
+}
