@@ -1,6 +1,6 @@
 //! All solutions that bring the tool of an IRB 2600 to one pose.
 
-use irbkin::{Error, Robot, pose_from_wxyz, pose_to_wxyz};
+use irbkin::{Error, Robot, pose};
 
 const HOME: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
 
@@ -15,8 +15,8 @@ fn outside(limits: &[[f64; 2]; 6], q: &[f64; 6]) -> String {
 fn main() -> Result<(), Error> {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
     // 850, 320, 640 mm from the base; the tool points forward and down, 60 deg below the horizon.
-    let mut pose = pose_from_wxyz([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
-    let (xyz, wxyz) = pose_to_wxyz(&pose);
+    let mut pose = pose::from_wxyz([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
+    let (xyz, wxyz) = pose::to_wxyz(&pose);
     let solutions = robot.ik(&pose)?;
 
     println!("{}: 6 axes, {}", robot.name(), robot.structure());

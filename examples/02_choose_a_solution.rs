@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use irbkin::{Error, JointLimits, Robot, Solution, Solutions, pose_from_wxyz};
+use irbkin::{Error, JointLimits, Robot, Solution, Solutions, pose};
 
 fn show(what: &str, Solution { q, slot, .. }: Solution<6>) {
     println!(
@@ -21,7 +21,7 @@ fn radians(degrees: [f64; 6]) -> [f64; 6] {
 
 fn main() -> Result<(), Error> {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
-    let pose = pose_from_wxyz([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
+    let pose = pose::from_wxyz([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
     let solutions = robot.ik(&pose)?;
     println!("{}; with 2 pi equivalents: {}\n", solutions.explain(), solutions.turns().count());
 

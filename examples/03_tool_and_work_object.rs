@@ -1,6 +1,6 @@
 //! A target taught in a work object, for a tool, as in a robot program.
 
-use irbkin::{Error, Pose, Robot, pose_from_euler_zyx, pose_from_wxyz, pose_to_wxyz};
+use irbkin::{Error, Pose, Robot, pose};
 
 const HOME: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 30.0, 0.0];
 
@@ -9,7 +9,7 @@ fn show(what: &str, q: &[f64; 6]) {
 }
 
 fn turned(xyz: [f64; 3], zyx_deg: [f64; 3]) -> Result<Pose, Error> {
-    pose_from_euler_zyx(xyz, zyx_deg.map(f64::to_radians))
+    pose::from_euler_zyx(xyz, zyx_deg.map(f64::to_radians))
 }
 
 fn main() -> Result<(), Error> {
@@ -19,7 +19,7 @@ fn main() -> Result<(), Error> {
     let t_flange_tool = turned([0.040, 0.0, 0.180], [0.0, 30.0, 0.0])?;
     // A pallet rotated by 15 deg, and a part on it.
     let t_base_pallet = turned([0.700, -0.500, 0.350], [15.0, 0.0, 0.0])?;
-    let t_pallet_target = pose_from_wxyz([0.200, 0.150, 0.060], [0.0, 0.0, 1.0, 0.0])?;
+    let t_pallet_target = pose::from_wxyz([0.200, 0.150, 0.060], [0.0, 0.0, 1.0, 0.0])?;
 
     // Frames cancel from left to right; poses of a robot with a tool are poses of the tool's center
     // point.
@@ -32,7 +32,7 @@ fn main() -> Result<(), Error> {
     show("with_base", &on_pallet.ik_nearest(&t_pallet_target, &home, &weights)?.q);
 
     // Forward kinematics returns poses in the frame of the pallet, too.
-    let (xyz, _) = pose_to_wxyz(&on_pallet.fk(&q));
+    let (xyz, _) = pose::to_wxyz(&on_pallet.fk(&q));
     println!("tool in the pallet's frame  {} mm", xyz.map(|v| format!("{:.1}", 1e3 * v)).join(" "));
     println!(
         "flange in the base          {:.1} mm above the floor\n",

@@ -2,9 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use irbkin::{
-    DhRow, Error, JointLimits, Mdh, OpwParameters, Pose, Robot, pose_from_rows, pose_from_wxyz,
-};
+use irbkin::{DhRow, Error, JointLimits, Mdh, OpwParameters, Pose, Robot, pose};
 
 /// The name that the Python package gives the error, and its message.
 fn refused<T>(what: &str, result: Result<T, Error>) {
@@ -32,7 +30,7 @@ fn main() -> Result<(), Error> {
         table.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a, d, theta.to_radians()));
     let mdh = Mdh { base: Pose::identity(), rows, flange: Pose::identity() };
     let arm = Robot::from_mdh(mdh.clone())?.with_name("from a table");
-    let pose = pose_from_wxyz([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
+    let pose = pose::from_wxyz([0.850, 0.320, 0.640], [0.258_819_0, 0.0, 0.965_925_8, 0.0])?;
     println!("{}: {}, {}", arm.name(), arm.structure(), arm.ik(&pose)?.explain());
 
     // OPW parameters [m]; this maker counts axes 1, 4 and 6 in the opposite sense.
@@ -65,7 +63,7 @@ fn main() -> Result<(), Error> {
 
     let mut mirrored = [0.0; 16];
     (mirrored[0], mirrored[5], mirrored[10], mirrored[15]) = (1.0, 1.0, -1.0, 1.0);
-    refused("a left-handed pose", pose_from_rows(&mirrored));
+    refused("a left-handed pose", pose::from_rows(&mirrored));
     refused(
         "exchanged limits",
         JointLimits::new([

@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use std::time::Instant;
 
 use irbkin::batch::Batch;
-use irbkin::{Error, Robot, Status, pose_from_rows};
+use irbkin::{Error, Robot, Status, pose};
 
 const POSES: usize = 20_000;
 
@@ -78,7 +78,7 @@ fn main() -> Result<(), Error> {
         seconds(|| drop(black_box(Batch::new(None).ik(&robot, &poses, &mut solved, &mut status))));
     let one_by_one = seconds(|| {
         for rows in poses.as_chunks::<16>().0 {
-            let _ = black_box(pose_from_rows(rows).and_then(|pose| robot.ik(&pose)));
+            let _ = black_box(pose::from_rows(rows).and_then(|pose| robot.ik(&pose)));
         }
     });
     let mut again = vec![0.0; POSES * 16];

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use irbkin::plan::{Plan, PlanError, PlanOptions, ToolRotation};
-use irbkin::{Error, Pose, Robot, pose_from_euler_zyx};
+use irbkin::{Error, Pose, Robot, pose};
 
 const POSES: u32 = 501;
 
@@ -13,7 +13,7 @@ fn seam() -> Result<Vec<Pose>, Error> {
     angles
         .map(|angle| {
             let xyz = [1.0 + 0.01 * angle * angle.cos(), 0.01 * angle * angle.sin(), 0.5];
-            pose_from_euler_zyx(xyz, [angle.rem_euclid(TAU), 150_f64.to_radians(), 0.0])
+            pose::from_euler_zyx(xyz, [angle.rem_euclid(TAU), 150_f64.to_radians(), 0.0])
         })
         .collect()
 }
@@ -30,7 +30,7 @@ fn show(name: &str, plan: &Plan) {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let tool = pose_from_euler_zyx([0.05, 0.0, 0.35], [0.0; 3])?;
+    let tool = pose::from_euler_zyx([0.05, 0.0, 0.35], [0.0; 3])?;
     let robot = Robot::<6>::named("IRB 2600-12/1.65")?.with_tool(&tool)?;
     let mut path = seam()?;
     let fixed = PlanOptions::default();

@@ -19,10 +19,10 @@
 //! The solution nearest to the current joints, as a controller needs it:
 //!
 //! ```
-//! use irbkin::{Robot, pose_from_wxyz};
+//! use irbkin::{Robot, pose};
 //!
 //! let robot: Robot<6> = Robot::named("irb 1200 5/0.9")?;
-//! let pose = pose_from_wxyz([0.45, 0.1, 0.6], [0.5, 0.0, 0.75_f64.sqrt(), 0.0])?;
+//! let pose = pose::from_wxyz([0.45, 0.1, 0.6], [0.5, 0.0, 0.75_f64.sqrt(), 0.0])?;
 //! let here = [0.2, 0.0, 0.3, 0.0, 0.5, 0.0];
 //! let next = robot.ik_nearest(&pose, &here, &[1.0; 6])?;
 //! assert!(next.is_within_limits());
@@ -59,8 +59,8 @@
 //! tool; reading one runs every check of its constructors), for models ([`Definition`], [`OpwParameters`],
 //! [`Mdh`], [`Sdh`], [`DhRow`], [`JointAxis`], [`JointLimits`]), for answers ([`Solutions`],
 //! [`Solution`], [`Slot`], [`Status`], [`SingularityKind`], [`FreeJoint`], [`Configuration`], [`Singularity`],
-//! [`SingularDistances`], [`PoseDifference`]) and for options ([`FollowOptions`],
-//! [`SingularityMode`], [`JacobianFrame`]). In text formats, a joint without a limit is `null`.
+//! [`SingularDistances`], [`PoseDifference`]) and for options ([`follow::FollowOptions`],
+//! [`follow::SingularityMode`], [`JacobianFrame`]). In text formats, a joint without a limit is `null`.
 //!
 //! Unoptimized, a solve is many times slower. To optimize this crate in a debug build of yours, add
 //! to your `Cargo.toml`:
@@ -99,8 +99,8 @@ extern crate std;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod batch;
 #[cfg(any(feature = "std", feature = "libm"))]
-mod catalog;
-mod error;
+pub mod catalog;
+pub mod error;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod kinematics;
 #[cfg(any(feature = "std", feature = "libm"))]
@@ -113,7 +113,7 @@ pub mod plan;
 mod python;
 #[cfg(all(feature = "rapid", any(feature = "std", feature = "libm")))]
 pub mod rapid;
-mod report;
+pub mod report;
 // Shared by unit tests and the tests of the public interface.
 #[cfg(test)]
 #[allow(dead_code, unreachable_pub)]
@@ -137,25 +137,39 @@ pub mod trajectory;
 mod urdf;
 
 #[cfg(any(feature = "std", feature = "libm"))]
-pub use catalog::{AngleUnit, CatalogArm, CatalogGeometry, catalog, find, left_out};
-pub use error::{Error, LeftOut, NoConfiguration, UnknownRobot};
+pub use catalog::catalog;
+pub use error::Error;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
-    AnyRobot, Break, BreakReason, ConfigurationRequest, Corrections, Definition, DhRow,
-    FollowOptions, Followed, Follower, JacobianFrame, JointAxis, JointLimits, Margin, Mdh,
-    OpwParameters, Pose, PoseDifference, Robot, Sdh, SingularDistances, Singularity,
-    SingularityKind, SingularityMode, Slot, Solution, Solutions, Status, pose_from_euler_zyx,
-    pose_from_isometry, pose_from_matrix, pose_from_rotation, pose_from_rows, pose_from_wxyz,
-    pose_from_xyzw, pose_to_euler_zyx, pose_to_isometry, pose_to_matrix, pose_to_rows,
-    pose_to_wxyz, thresholds,
+    AnyRobot, ConfigurationRequest, Corrections, Definition, DhRow, JacobianFrame, JointAxis,
+    JointLimits, Margin, Mdh, OpwParameters, Pose, PoseDifference, Robot, Sdh, SingularDistances,
+    Singularity, SingularityKind, Slot, Solution, Solutions, Status, thresholds,
 };
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use lanes::InstructionSet;
 /// The linear algebra of poses and matrices, in the version that this crate uses.
 pub use nalgebra;
-pub use report::{
-    Approach, Configuration, ConfigurationRule, Explanation, FreeJoint, Reach, UnknownStructure,
-};
+pub use report::{Configuration, Explanation, FreeJoint, Reach};
+
+/// One joint path along a path of poses: [`Robot::follow`].
+#[cfg(any(feature = "std", feature = "libm"))]
+pub mod follow {
+    pub use crate::kinematics::{
+        Break, BreakReason, FollowOptions, Followed, Follower, SingularityMode,
+    };
+}
+
+/// Poses from and to quaternions, Euler angles, matrices and rows.
+#[cfg(any(feature = "std", feature = "libm"))]
+pub mod pose {
+    pub use crate::kinematics::{
+        pose_from_euler_zyx as from_euler_zyx, pose_from_isometry as from_isometry,
+        pose_from_matrix as from_matrix, pose_from_rotation as from_rotation,
+        pose_from_rows as from_rows, pose_from_wxyz as from_wxyz, pose_from_xyzw as from_xyzw,
+        pose_to_euler_zyx as to_euler_zyx, pose_to_isometry as to_isometry,
+        pose_to_matrix as to_matrix, pose_to_rows as to_rows, pose_to_wxyz as to_wxyz,
+    };
+}
 
 /// The Rust blocks of the README, run as documentation tests.
 #[cfg(doctest)]

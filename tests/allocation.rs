@@ -4,7 +4,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use irbkin::{Corrections, Follower, JacobianFrame, Robot};
+use irbkin::{Corrections, JacobianFrame, Robot, follow::Follower};
 
 /// The system's allocator, counting the allocations of the test's own thread.
 struct Counting;
@@ -132,7 +132,7 @@ fn motions_of_axes_allocate_nothing_and_a_line_what_it_returns() {
     });
     assert_eq!(count, 0);
     let poses = [[0.8, -0.2, 0.6], [0.9, 0.0, 0.6], [0.8, 0.2, 0.6]]
-        .map(|xyz| irbkin::pose_from_euler_zyx(xyz, [xyz[1], 3.1, 0.0]).unwrap());
+        .map(|xyz| irbkin::pose::from_euler_zyx(xyz, [xyz[1], 3.1, 0.0]).unwrap());
     let spacing = Spacing::count(1000).unwrap();
     let count = allocations_of(|| {
         assert_eq!(line(&poses[0], &poses[2], spacing, None).unwrap().len(), 1000);

@@ -8,8 +8,9 @@ use crate::common::{Rng, reach_of};
 use irbkin::batch::{Batch, NO_CONFIGURATION};
 use irbkin::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use irbkin::{
-    Configuration, FollowOptions, Follower, JacobianFrame, JointLimits, Pose, Robot, Status,
-    pose_from_euler_zyx, pose_from_rows, pose_from_wxyz, pose_to_rows,
+    Configuration, JacobianFrame, JointLimits, Pose, Robot, Status,
+    follow::{FollowOptions, Follower},
+    pose,
 };
 
 const SIXES: [&str; 4] = ["IRB 2600-12/1.65", "IRB 140-6/0.81", "IRB 2400-10/1.55", "UR5e"];
@@ -48,12 +49,12 @@ fn far_poses(pose: &Pose) -> impl Iterator<Item = (Pose, String)> + '_ {
 fn every_call_refuses_a_position_that_is_too_far_away() {
     let identity = Pose::identity();
     for (pose, words) in far_poses(&identity) {
-        assert_eq!(pose_from_rows(&pose_to_rows(&pose)).unwrap_err().to_string(), words);
+        assert_eq!(pose::from_rows(&pose::to_rows(&pose)).unwrap_err().to_string(), words);
         let xyz: [f64; 3] = pose.translation.vector.into();
         let words = words.replace("pose[", "xyz[").replace(", 3]", "]");
-        let refused = pose_from_wxyz(xyz, [1.0, 0.0, 0.0, 0.0]).unwrap_err();
+        let refused = pose::from_wxyz(xyz, [1.0, 0.0, 0.0, 0.0]).unwrap_err();
         assert_eq!(refused.to_string(), words);
-        assert_eq!(pose_from_euler_zyx(xyz, [0.1; 3]).unwrap_err().to_string(), words);
+        assert_eq!(pose::from_euler_zyx(xyz, [0.1; 3]).unwrap_err().to_string(), words);
     }
     for name in SIXES {
         let (robot, q) = (six(name), [0.1, -0.2, 0.3, 0.4, 0.5, 0.6]);
@@ -99,10 +100,10 @@ fn a_batch_row_that_is_too_far_away_is_invalid_and_the_other_rows_are_solved() {
         let (robot, seed) = (six(name), [0.1, -0.2, 0.3, 0.4, 0.5, 0.6]);
         let good = robot.fk(&seed);
         let (mut alone, mut status) = ([0.0; 48], [0; 8]);
-        Batch::new(None).ik(&robot, &pose_to_rows(&good), &mut alone, &mut status).unwrap();
+        Batch::new(None).ik(&robot, &pose::to_rows(&good), &mut alone, &mut status).unwrap();
         for (row, (pose, _)) in far_poses(&good).enumerate() {
-            let mut poses = near(&pose_to_rows(&good));
-            poses.splice(16..16, pose_to_rows(&pose));
+            let mut poses = near(&pose::to_rows(&good));
+            poses.splice(16..16, pose::to_rows(&pose));
             let (mut q, mut status) = ([0.0; 3 * 48], [0; 24]);
             Batch::new(None).ik(&robot, &poses, &mut q, &mut status).unwrap();
             check(name, &q, &status, &alone, row);
@@ -119,17 +120,17 @@ fn a_batch_row_that_is_too_far_away_is_invalid_and_the_other_rows_are_solved() {
         let good = robot.fk(&seed);
         let (mut alone, mut status) = ([0.0; 56], [0; 8]);
         Batch::new(None)
-            .ik_with(&robot, &pose_to_rows(&good), &[0.7], &mut alone, &mut status)
+            .ik_with(&robot, &pose::to_rows(&good), &[0.7], &mut alone, &mut status)
             .unwrap();
         for (row, (pose, _)) in far_poses(&good).enumerate() {
-            let mut poses = near(&pose_to_rows(&good));
-            poses.splice(16..16, pose_to_rows(&pose));
+            let mut poses = near(&pose::to_rows(&good));
+            poses.splice(16..16, pose::to_rows(&pose));
             let (mut q, mut status) = ([0.0; 3 * 56], [0; 24]);
             Batch::new(None).ik_with(&robot, &poses, &[0.7; 3], &mut q, &mut status).unwrap();
             check(name, &q, &status, &alone, row);
         }
         for q7 in BEYOND.into_iter().flat_map(|size| [size, -size]) {
-            let poses = pose_to_rows(&good).repeat(3);
+            let poses = pose::to_rows(&good).repeat(3);
             let (mut q, mut status) = ([0.0; 3 * 56], [0; 24]);
             Batch::new(None).ik_with(&robot, &poses, &[0.7, q7, 0.7], &mut q, &mut status).unwrap();
             check(name, &q, &status, &alone, 0);
@@ -145,7 +146,7 @@ fn poses_up_to_the_bound_are_reported_as_beyond_reach() {
     for size in [3.0, 1e2, 1e4, 9.99e5, MOST_LENGTH] {
         for _ in 0..50 {
             let xyz = [0; 3].map(|_| if rng.unit() < 0.5 { size } else { -size });
-            let pose = pose_from_euler_zyx(xyz, [0; 3].map(|_| rng.between(-3.0, 3.0))).unwrap();
+            let pose = pose::from_euler_zyx(xyz, [0; 3].map(|_| rng.between(-3.0, 3.0))).unwrap();
             for name in SIXES {
                 let robot = six(name);
                 let solutions = robot.ik(&pose).unwrap();
@@ -197,7 +198,7 @@ fn every_call_refuses_a_seed_that_is_too_large() {
             refused(Follower::new(&robot, &seed, &[1.0; 6]).unwrap_err());
             let mut nearest = [0.0; 12];
             let seeds = [seed, q].concat();
-            let poses = pose_to_rows(&pose).repeat(2);
+            let poses = pose::to_rows(&pose).repeat(2);
             Batch::new(None).ik_nearest(&robot, &poses, &seeds, &[1.0; 6], &mut nearest).unwrap();
             assert!(nearest[..6].iter().all(|angle| angle.is_nan()), "{name}");
             assert!(nearest[6..].iter().all(|angle| angle.is_finite()), "{name}");
@@ -301,7 +302,7 @@ fn forward_kinematics_of_large_angles_equals_that_of_the_angle_modulo_2_pi() {
             assert!((large - small).amax() <= bound + 2.0 * rounding * reach_of(&robot), "{name}");
             let (mut rows, mut one) = ([0.0; 16], [0.0; 16]);
             Batch::new(None).fk(&robot, &q, &mut rows).unwrap();
-            one.copy_from_slice(&pose_to_rows(&robot.fk(&q)));
+            one.copy_from_slice(&pose::to_rows(&robot.fk(&q)));
             let apart = rows.iter().zip(&one).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             assert!(apart <= bound, "{name} at {size:e}: {apart:e}");
         }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use crate::common::{Rng, apart, reach_of};
-use irbkin::{CatalogGeometry, Error, JointLimits, Pose, Robot, catalog, pose_to_wxyz};
+use irbkin::{Error, JointLimits, Pose, Robot, catalog, catalog::CatalogGeometry, pose};
 use nalgebra::Vector3;
 
 /// The source of the figures that an arm is compared with. Only the first kind can detect a wrong
@@ -140,7 +140,7 @@ fn assert_is_met(
     (position, rotation): (f64, f64),
 ) {
     let robot: Robot<6> = Robot::named(name).unwrap();
-    let (xyz, found) = pose_to_wxyz(&robot.fk(&degrees.map(f64::to_radians)));
+    let (xyz, found) = pose::to_wxyz(&robot.fk(&degrees.map(f64::to_radians)));
     for (axis, mm) in xyz_mm.iter().enumerate() {
         assert!((xyz[axis] * 1e3 - mm).abs() < position, "{name}: {xyz:?} m, not {xyz_mm:?} mm");
     }
@@ -174,7 +174,7 @@ fn products_of_rows() -> Vec<Product> {
 fn independent_product_of_the_table() {
     for (name, degrees, xyz_mm, wxyz) in products_of_rows() {
         let robot: Robot<6> = Robot::named(&name).unwrap().uncoupled();
-        let (xyz, found) = pose_to_wxyz(&robot.fk(&degrees.map(f64::to_radians)));
+        let (xyz, found) = pose::to_wxyz(&robot.fk(&degrees.map(f64::to_radians)));
         // Half a unit of the last digit in the file, plus rounding.
         for (axis, mm) in xyz_mm.into_iter().enumerate() {
             assert!(
@@ -302,7 +302,7 @@ fn yumi_meets_the_poses_of_robotstudio() {
         let pose = robot.fk(&degrees.map(f64::to_radians));
         let norm = wxyz.iter().map(|part| part * part).sum::<f64>().sqrt();
         let wanted =
-            irbkin::pose_from_wxyz(millimeters.map(|mm| mm / 1e3), wxyz.map(|part| part / norm))
+            irbkin::pose::from_wxyz(millimeters.map(|mm| mm / 1e3), wxyz.map(|part| part / norm))
                 .unwrap();
         // The joints of the left arm have three decimals.
         let bound = if name.contains("left") { 1e-5 } else { 1e-6 };
@@ -474,10 +474,13 @@ fn names_match_in_any_spelling() {
         assert_eq!(Robot::<6>::named(spelling).unwrap().name(), "IRB 2600-12/1.65");
     }
     for spelling in ["IRB 6700-220/2.65 (MH6, LeanID)", "irb 6700-220/2.65 mh6 leanid"] {
-        assert_eq!(irbkin::find(spelling).unwrap().name, "IRB 6700-220/2.65 (MH6, LeanID)");
+        assert_eq!(
+            irbkin::catalog::find(spelling).unwrap().name,
+            "IRB 6700-220/2.65 (MH6, LeanID)"
+        );
     }
     for spelling in ["IRB 6650S-200/3", "IRB 6650S-200/3.0", "irb6650s-200/3.00"] {
-        assert_eq!(irbkin::find(spelling).unwrap().name, "IRB 6650S-200/3.0");
+        assert_eq!(irbkin::catalog::find(spelling).unwrap().name, "IRB 6650S-200/3.0");
     }
     let seven = Robot::<6>::named("Panda").unwrap_err();
     assert_eq!(seven.to_string(), "the robot has 7 joints, it must have 6");
@@ -485,7 +488,7 @@ fn names_match_in_any_spelling() {
 
 #[test]
 fn an_unknown_name_lists_close_ones_and_is_never_guessed() {
-    let close = |name: &str| match irbkin::find(name) {
+    let close = |name: &str| match irbkin::catalog::find(name) {
         Err(Error::UnknownRobot(unknown)) => unknown.close,
         other => unreachable!("{name}: {other:?}"),
     };

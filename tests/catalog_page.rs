@@ -5,7 +5,10 @@
 use std::fs;
 use std::path::Path;
 
-use irbkin::{CatalogArm, CatalogGeometry, catalog, left_out};
+use irbkin::{
+    catalog,
+    catalog::{CatalogArm, CatalogGeometry, left_out},
+};
 
 /// Name of a table in the page, the columns that describe its geometry.
 const TABLES: [(&str, &[&str]); 5] = [

@@ -6,8 +6,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::common::{Rng, apart, asked_set};
 use irbkin::{
-    CatalogGeometry, Configuration, ConfigurationRequest, Error, FreeJoint, JointLimits,
-    OpwParameters, Robot, Solution, Status, catalog, thresholds::CONFIGURATION_EDGE,
+    Configuration, ConfigurationRequest, Error, FreeJoint, JointLimits, OpwParameters, Robot,
+    Solution, Status, catalog, catalog::CatalogGeometry, thresholds::CONFIGURATION_EDGE,
 };
 
 const SLOTS: usize = 8;
@@ -214,7 +214,7 @@ fn at_a_shoulder_singularity_axis_1_takes_the_named_quarter_turn() {
     let arm = OpwParameters::abb(0.0, -0.07, 0.29, 0.27, 0.302, 0.072);
     let robot = Robot::from_opw(arm).unwrap();
     // The wrist center above axis 1.
-    let pose = irbkin::pose_from_wxyz([0.0, 0.0, 0.7 + 0.072], [1.0, 0.0, 0.0, 0.0]).unwrap();
+    let pose = irbkin::pose::from_wxyz([0.0, 0.0, 0.7 + 0.072], [1.0, 0.0, 0.0, 0.0]).unwrap();
     for cf1 in [-2, -1, 0, 1] {
         let existing = robot.ik(&pose).unwrap();
         assert!(existing.iter().all(|solution| solution.status.contains(Status::SHOULDER)));
@@ -252,7 +252,7 @@ fn the_error_lists_the_configurations_that_exist() {
     let nearest =
         robot.ik_configured_or_nearest(&robot.fk(&q), configuration(3, 0, 0, 0), &q).unwrap();
     assert!(apart(&nearest.q, &q) < 1e-9);
-    let far = irbkin::pose_from_wxyz([9.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).unwrap();
+    let far = irbkin::pose::from_wxyz([9.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).unwrap();
     assert!(matches!(
         robot.ik_configured(&far, configuration(0, 0, 0, 0)),
         Err(Error::Unreachable(_))
@@ -278,7 +278,7 @@ fn the_list_has_each_configuration_once_and_names_a_free_joint() {
     assert!(
         none.more
             && none.free.is_none()
-            && none.existing.len() == irbkin::NoConfiguration::MOST
+            && none.existing.len() == irbkin::error::NoConfiguration::MOST
             && once(&none.existing)
     );
     let by_turns: Vec<_> = wide

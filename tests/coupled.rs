@@ -8,7 +8,7 @@ use crate::common::coupled_arm::{limited, odd, opw, unlimited, with_linkage};
 use crate::common::{Rng, apart, central_difference, difference_bound, reach_of};
 use irbkin::batch::Batch;
 use irbkin::{
-    Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, pose_to_rows,
+    Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, pose,
 };
 use nalgebra::Matrix6;
 
@@ -153,7 +153,7 @@ fn forward_kinematics_and_jacobian_of_rows_equal_single_calls() {
         )
         .unwrap();
     for (row, q) in joints.iter().enumerate() {
-        assert_eq!(poses[row], pose_to_rows(&robot.fk(q)));
+        assert_eq!(poses[row], pose::to_rows(&robot.fk(q)));
         let one = robot.jacobian(q, JacobianFrame::Tool);
         assert_eq!(jacobians[row], std::array::from_fn(|i| std::array::from_fn(|j| one[(i, j)])));
     }

@@ -13,8 +13,9 @@ use crate::common::{Rng, asked_set};
 use nalgebra::Vector3;
 
 use irbkin::{
-    BreakReason, FollowOptions, Followed, JointLimits, OpwParameters, Pose, Robot, SingularityKind,
-    SingularityMode, thresholds,
+    JointLimits, OpwParameters, Pose, Robot, SingularityKind,
+    follow::{BreakReason, FollowOptions, Followed, SingularityMode},
+    thresholds,
 };
 
 const SAMPLES: usize = 201;

@@ -5,10 +5,7 @@
 use std::f64::consts::PI;
 
 use irbkin::batch::Batch;
-use irbkin::{
-    DhRow, Explanation, FollowOptions, Mdh, Pose, Robot, Sdh, Status, pose_from_euler_zyx,
-    pose_from_rows, pose_to_rows,
-};
+use irbkin::{DhRow, Explanation, Mdh, Pose, Robot, Sdh, Status, follow::FollowOptions, pose};
 use serde_json::Value;
 
 use crate::common::{Rng, apart, company};
@@ -126,7 +123,7 @@ fn with_axes_5_and_6_parallel_no_certified_answer_lacks_a_fold() {
 fn every_solution_of_the_cases_is_found() {
     for (name, case, robot) in cases() {
         let rows: Vec<f64> = case["pose"].as_array().unwrap().iter().flat_map(numbers).collect();
-        let pose = pose_from_rows(&rows.try_into().unwrap()).unwrap();
+        let pose = pose::from_rows(&rows.try_into().unwrap()).unwrap();
         let known: Vec<[f64; 6]> =
             case["solutions_deg"].as_array().unwrap().iter().map(radians).collect();
         let solutions = robot.ik(&pose).unwrap();
@@ -169,8 +166,8 @@ fn is_general(robot: &Robot<6>) -> bool {
 fn answers_do_not_depend_on_base_and_tool() {
     let mut rng = Rng::new(1);
     for (name, _, robot) in cases() {
-        let base = pose_from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
-        let tool = pose_from_euler_zyx([0.03, -0.02, 0.2], [0.3, -0.7, 1.1]).unwrap();
+        let base = pose::from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
+        let tool = pose::from_euler_zyx([0.03, -0.02, 0.2], [0.3, -0.7, 1.1]).unwrap();
         let moved = robot.clone().with_base(&base).unwrap().with_tool(&tool).unwrap();
         let mut compared = 0;
         for _ in 0..50 {
@@ -198,7 +195,7 @@ fn a_batch_equals_single_answers_with_their_certainty() {
         // Random poses, and one of multiples of 90 deg.
         let mut joints: Vec<[f64; 6]> = (0..9).map(|_| rng.angles()).collect();
         joints.push([PI, PI / 2.0, PI / 2.0, 0.0, 0.0, PI]);
-        let rows: Vec<f64> = joints.iter().flat_map(|q| pose_to_rows(&robot.fk(q))).collect();
+        let rows: Vec<f64> = joints.iter().flat_map(|q| pose::to_rows(&robot.fk(q))).collect();
         let slots = robot.slot_count();
         let (mut q, mut status) =
             (vec![0.0; 6 * slots * joints.len()], vec![0; slots * joints.len()]);

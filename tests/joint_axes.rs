@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use irbkin::{JointAxis, Mdh, Pose, PoseDifference, Robot, pose_from_euler_zyx};
+use irbkin::{JointAxis, Mdh, Pose, PoseDifference, Robot, pose};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
 use proptest::prelude::*;
 
@@ -52,7 +52,7 @@ fn axes_of<const N: usize>(drawn: &[Drawn; N]) -> [JointAxis; N] {
 
 fn tips() -> impl Strategy<Value = Pose> {
     (prop::array::uniform3(-1.0..1.0), prop::array::uniform3(-PI..PI))
-        .prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
+        .prop_map(|(xyz, zyx)| pose::from_euler_zyx(xyz, zyx).unwrap())
 }
 
 /// Product of exponentials: the tip at zero, rotated about each axis from the last to the first.

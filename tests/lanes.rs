@@ -17,9 +17,7 @@ use std::array;
 use common::skip::skip;
 use common::{Rng, on_each_set, rng};
 use irbkin::batch::Batch;
-use irbkin::{
-    InstructionSet, JacobianFrame, Pose, Robot, Singularity, Status, pose_from_rows, pose_to_rows,
-};
+use irbkin::{InstructionSet, JacobianFrame, Pose, Robot, Singularity, Status, pose};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 use structures::{Structure, Subject};
 use subjects::{PoseRow, Row, joint_rows, rows, subjects};
@@ -96,7 +94,7 @@ fn alone<const N: usize>(subject: &Subject<N>, (row, joints): &Row<N>) -> (Answe
     let slots = subject.robot.slot_count();
     let mut q = vec![[f64::NAN; N]; slots];
     let solve = |pose| (subject.calls.ik)(&subject.robot, &pose, joints);
-    let Ok(solutions) = pose_from_rows(row).and_then(solve) else {
+    let Ok(solutions) = pose::from_rows(row).and_then(solve) else {
         return (q, vec![Status::INVALID.bits(); slots]);
     };
     for solution in &solutions {
@@ -193,7 +191,7 @@ fn batch_equals_single_bit_for_bit<const N: usize>(structure: &Structure<N>) {
 fn forward_in_a_batch_equals_single<const N: usize>(robot: &Robot<N>, what: &str) {
     let joints = joint_rows::<N>(77 * 3 + 5);
     for (q, pose) in joints.iter().zip(fk_of(robot, &joints)) {
-        let wanted = if is_finite(q) { pose_to_rows(&robot.fk(q)) } else { [f64::NAN; 16] };
+        let wanted = if is_finite(q) { pose::to_rows(&robot.fk(q)) } else { [f64::NAN; 16] };
         assert!(same_bits(&pose, &wanted), "{what}, fk of {q:?}:\n{pose:?}\n{wanted:?}");
     }
     for frame in FRAMES {
@@ -498,7 +496,7 @@ fn table_poses<const N: usize>(robot: &Robot<N>, what: &str) {
         wanted = wanted * mdh.flange * robot.tool();
         // Ten products either way, each element of which is a sum of three products.
         let bound = 2.0 * 30.0 * f64::EPSILON * (1.0 + lengths + ends);
-        for (a, b) in row.iter().zip(pose_to_rows(&wanted)) {
+        for (a, b) in row.iter().zip(pose::to_rows(&wanted)) {
             assert!((a - b).abs() <= bound, "{what}, fk of {q:?}: {a} and {b}");
         }
     }

@@ -17,7 +17,7 @@ use std::cell::Cell;
 use std::f64::consts::PI;
 
 use irbkin::{
-    Definition, JacobianFrame, Mdh, Pose, PoseDifference, Reach, Robot, Sdh, Status, pose_to_rows,
+    Definition, JacobianFrame, Mdh, Pose, PoseDifference, Reach, Robot, Sdh, Status, pose,
 };
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
@@ -401,13 +401,13 @@ fn an_invalid_pose_is_refused<const N: usize>(structure: &Structure<N>) {
         prop_assert!(refused.contains("must be finite"), "{refused}");
         let mut mirrored = *pose.rotation.matrix();
         mirrored.column_mut(row as usize).neg_mut();
-        let mut rows = pose_to_rows(&pose);
+        let mut rows = pose::to_rows(&pose);
         for i in 0..3 {
             for j in 0..3 {
                 rows[4 * i + j] = mirrored[(i, j)];
             }
         }
-        let refused = irbkin::pose_from_rows(&rows).unwrap_err().to_string();
+        let refused = irbkin::pose::from_rows(&rows).unwrap_err().to_string();
         prop_assert!(refused.contains("mirrors"), "{refused}");
         Ok(())
     });

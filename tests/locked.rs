@@ -5,13 +5,13 @@ use std::f64::consts::TAU;
 
 use crate::common::Rng;
 use irbkin::batch::Batch;
-use irbkin::{Error, Robot, Status, pose_from_euler_zyx, pose_to_rows};
+use irbkin::{Error, Robot, Status, pose};
 
 const WEIGHTS: [f64; 7] = [1.0; 7];
 
 fn arms() -> [Robot<7>; 2] {
-    let tool = pose_from_euler_zyx([0.02, -0.03, 0.11], [0.2, -0.4, 0.9]).unwrap();
-    let base = pose_from_euler_zyx([0.4, 0.1, -0.2], [-0.7, 0.3, 0.5]).unwrap();
+    let tool = pose::from_euler_zyx([0.02, -0.03, 0.11], [0.2, -0.4, 0.9]).unwrap();
+    let base = pose::from_euler_zyx([0.4, 0.1, -0.2], [-0.7, 0.3, 0.5]).unwrap();
     ["Panda", "IRB 14050"].map(|name| {
         let robot = Robot::<7>::named(name).unwrap();
         robot.with_tool(&tool).unwrap().with_base(&base).unwrap()
@@ -46,7 +46,7 @@ fn the_joints_that_made_a_pose_are_found_with_any_of_them_locked() {
             // A row of a batch has the bits of a single answer.
             let slots = locked.slot_count();
             let (mut rows, mut status) = (vec![0.0; slots * 7], vec![0; slots]);
-            let pose = pose_to_rows(&pose);
+            let pose = pose::to_rows(&pose);
             Batch::new(None).ik_with(&locked, &pose, &[], &mut rows, &mut status).unwrap();
             for (slot, row) in rows.as_chunks::<7>().0.iter().enumerate() {
                 let alone = solutions.slot(slot).map_or([f64::NAN; 7], |found| found.q);
@@ -64,7 +64,7 @@ fn a_joint_at_an_end_takes_an_angle_for_each_pose() {
     for robot in arms() {
         for joint in [1, 7] {
             let q: [_; 5] = std::array::from_fn(|_| inside(&robot, &mut rng));
-            let poses: Vec<f64> = q.iter().flat_map(|q| pose_to_rows(&robot.fk(q))).collect();
+            let poses: Vec<f64> = q.iter().flat_map(|q| pose::to_rows(&robot.fk(q))).collect();
             let mut angles = q.map(|q| q[joint - 1]);
             angles[3] = f64::NAN;
             let locked = robot.locked(joint, 0.0).unwrap();
@@ -79,7 +79,7 @@ fn a_joint_at_an_end_takes_an_angle_for_each_pose() {
         }
         let middle = robot.locked(3, 0.1).unwrap();
         let (mut row, mut status) = ([0.0; 16 * 7], [0; 16]);
-        let pose = pose_to_rows(&robot.fk(&[0.1; 7]));
+        let pose = pose::to_rows(&robot.fk(&[0.1; 7]));
         let refused = Batch::new(None).ik_with(&middle, &pose, &[0.2], &mut row, &mut status);
         assert!(matches!(refused, Err(Error::WrongLength { .. })));
     }
@@ -94,7 +94,7 @@ fn a_lock_is_kept_by_every_change_and_released_whole() {
         assert_eq!(robot.locked(joint, 1.1).unwrap().locked(joint, 0.3).unwrap(), locked);
         assert_eq!(robot.locked(1 + joint % 7, 0.2).unwrap().locked(joint, 0.3).unwrap(), locked);
         assert_eq!(locked.clone().unlocked(), robot);
-        let bare = pose_from_euler_zyx([0.0; 3], [0.0; 3]).unwrap();
+        let bare = pose::from_euler_zyx([0.0; 3], [0.0; 3]).unwrap();
         let moved = locked.clone().with_base(&bare).unwrap();
         assert_eq!(moved, robot.clone().with_base(&bare).unwrap().locked(joint, 0.3).unwrap());
         let seen = robot.base().inverse() * pose;

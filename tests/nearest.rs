@@ -10,7 +10,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::common::{Rng, asked_set, reach_of};
 use irbkin::{
-    CatalogGeometry, Follower, JointLimits, Pose, Robot, Solution, Status, catalog, thresholds,
+    JointLimits, Pose, Robot, Solution, Status, catalog, catalog::CatalogGeometry,
+    follow::Follower, thresholds,
 };
 use sets::{Arm, DISTANCES, KINDS, Kind, random_frame};
 

@@ -4,7 +4,7 @@
 use std::num::NonZeroUsize;
 
 use irbkin::batch::Batch;
-use irbkin::{DhRow, JacobianFrame, Mdh, Pose, Robot, Status, pose_from_euler_zyx, pose_to_rows};
+use irbkin::{DhRow, JacobianFrame, Mdh, Pose, Robot, Status, pose};
 
 use crate::common::rng::drawn;
 use crate::common::{apart, company};
@@ -131,7 +131,7 @@ fn every_solution_closes_and_the_arm_is_among_them_once() {
 #[test]
 fn the_determinant_is_that_of_the_jacobian() {
     for table in &TABLES {
-        let tool = pose_from_euler_zyx([0.1, -0.2, 0.3], [0.5, 0.2, -0.7]).unwrap();
+        let tool = pose::from_euler_zyx([0.1, -0.2, 0.3], [0.5, 0.2, -0.7]).unwrap();
         let robot = robot(table).with_tool(&tool).unwrap();
         for q in drawn(2, 500) {
             let wanted = robot.jacobian(&q, JacobianFrame::Base).determinant();
@@ -143,8 +143,8 @@ fn the_determinant_is_that_of_the_jacobian() {
 
 #[test]
 fn base_tool_and_the_zeros_of_joints_do_not_change_the_solutions() {
-    let base = pose_from_euler_zyx([0.3, 0.1, -0.2], [0.4, -0.3, 1.0]).unwrap();
-    let tool = pose_from_euler_zyx([0.1, -0.2, 0.3], [0.5, 0.2, -0.7]).unwrap();
+    let base = pose::from_euler_zyx([0.3, 0.1, -0.2], [0.4, -0.3, 1.0]).unwrap();
+    let tool = pose::from_euler_zyx([0.1, -0.2, 0.3], [0.5, 0.2, -0.7]).unwrap();
     for table in &TABLES {
         let plain = robot(table);
         let moved = robot(table).with_base(&base).unwrap().with_tool(&tool).unwrap();
@@ -177,7 +177,7 @@ fn a_row_of_a_batch_has_the_bits_of_the_pose_alone() {
     for table in &TABLES {
         let robot = robot(table);
         let joints: Vec<[f64; 6]> = drawn(4, 50).collect();
-        let rows: Vec<f64> = joints.iter().flat_map(|q| pose_to_rows(&robot.fk(q))).collect();
+        let rows: Vec<f64> = joints.iter().flat_map(|q| pose::to_rows(&robot.fk(q))).collect();
         let (mut q, mut status) = (vec![0.0; 50 * 16 * 6], vec![0; 50 * 16]);
         Batch::new(NonZeroUsize::new(2)).ik(&robot, &rows, &mut q, &mut status).unwrap();
         for (row, made) in joints.iter().enumerate() {
@@ -230,7 +230,7 @@ fn the_crx_10ia_has_the_solutions_of_an_article() {
         let [x, y, z, w, p, r] = rows[0][..6].try_into().unwrap();
         let xyz = [x / 1e3, y / 1e3, (z + 245.0) / 1e3];
         let angles = [r, p, w].map(|angle: f64| angle.to_radians());
-        let pose = pose_from_euler_zyx(xyz, angles).unwrap();
+        let pose = pose::from_euler_zyx(xyz, angles).unwrap();
         let solutions = robot.ik(&pose).unwrap();
         counts.push(solutions.len());
         assert_eq!(solutions.len(), rows.len(), "{:?}", &rows[0][..6]);

@@ -6,7 +6,7 @@ use irbkin::rapid::{
     Code, Fallback, JointTarget, LoadData, RapidPose, RobTarget, TableRow, ToolData, WobjData,
     calc_joint_t, calc_joint_t_or, calc_moves, calc_rob_t, calc_targets, error_name, parse,
 };
-use irbkin::{Configuration, Error, Pose, Robot, pose_from_wxyz};
+use irbkin::{Configuration, Error, Pose, Robot, pose};
 
 const EXTAX: [f64; 6] = [12.5, 9e9, 9e9, 9e9, 9e9, 9e9];
 
@@ -38,7 +38,7 @@ fn words(row: &TableRow) -> &str {
 }
 
 fn pose(frame: &RapidPose) -> Pose {
-    pose_from_wxyz(frame.trans_mm.map(|mm| mm / 1e3), frame.rot).unwrap()
+    pose::from_wxyz(frame.trans_mm.map(|mm| mm / 1e3), frame.rot).unwrap()
 }
 
 fn arms() -> [Robot<6>; 3] {

@@ -9,7 +9,7 @@ use irbkin::rapid::{
     Finding, JointTarget, Module, MotionOptions, NOT_THERE, RobTarget, RoutineMotion, ToolData,
     WobjData, calc_rob_t, motion, parse,
 };
-use irbkin::{Pose, PoseDifference, Robot, pose_from_wxyz, pose_to_wxyz};
+use irbkin::{Pose, PoseDifference, Robot, pose};
 
 const TOOL: &str = "[TRUE,[[30,-20,180],[0.8,0,0.6,0]],[1,[0,0,1],[1,0,0,0],0,0,0]]";
 const WOBJ: &str = "[FALSE,TRUE,\"\",[[700,-200,300],[0.8,0,0,0.6]],[[10,20,30],[1,0,0,0]]]";
@@ -59,12 +59,12 @@ fn target(q: &[f64; 6]) -> RobTarget {
 /// The same in meters.
 fn tool_pose(q: &[f64; 6]) -> Pose {
     let target = target(q);
-    pose_from_wxyz(target.trans_mm.map(|mm| mm * 1e-3), target.rot).unwrap()
+    pose::from_wxyz(target.trans_mm.map(|mm| mm * 1e-3), target.rot).unwrap()
 }
 
 /// A target by its pose [m] and the configuration of another one.
 fn with_pose(pose: &Pose, like: &RobTarget) -> RobTarget {
-    let (xyz, rot) = pose_to_wxyz(pose);
+    let (xyz, rot) = pose::to_wxyz(pose);
     RobTarget { trans_mm: xyz.map(|m| m * 1e3), rot, ..*like }
 }
 
@@ -175,7 +175,7 @@ fn a_line_is_straight_in_the_work_object_at_its_speed() {
             let at = tool_pose(q).translation.vector - from.translation.vector;
             assert!((at - way * (at.dot(&way) / way.norm_squared())).norm() < 1e-12);
         }
-        let wanted = pose_from_wxyz(end.trans_mm.map(|mm| mm * 1e-3), end.rot).unwrap();
+        let wanted = pose::from_wxyz(end.trans_mm.map(|mm| mm * 1e-3), end.rot).unwrap();
         assert!(PoseDifference::between(&to, &wanted).largest() < 1e-12);
         // 100 mm/s and 500 deg/s, whichever takes longer.
         let angle = PoseDifference::between(&from, &to).rotation;

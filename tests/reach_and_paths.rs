@@ -12,7 +12,7 @@ use crate::common;
 
 use crate::common::{Rng, asked_set};
 use arm::{Arm, Near, arms, equal_links, irb_2600, lateral, log_uniform, sign, universal, wrapped};
-use irbkin::{FollowOptions, Pose, Robot, Status, thresholds};
+use irbkin::{Pose, Robot, Status, follow::FollowOptions, thresholds};
 use nalgebra::Vector3;
 
 fn poses() -> usize {

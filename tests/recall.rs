@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use irbkin::{JointLimits, Pose, Robot, SingularityKind, Status, pose_to_rows};
+use irbkin::{JointLimits, Pose, Robot, SingularityKind, Status, pose};
 
 use crate::common::tally::Tally;
 use crate::common::{Rng, apart, poses_or};
@@ -105,7 +105,7 @@ fn solved_together<const N: usize>(
     poses: &[Pose],
     joints: &[[f64; N]],
 ) -> Vec<Answers<N>> {
-    let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
+    let rows: Vec<f64> = poses.iter().flat_map(pose::to_rows).collect();
     let slots = subject.robot.slot_count();
     let (mut q, mut status) = (vec![[0.0; N]; slots * poses.len()], vec![0; slots * poses.len()]);
     (subject.calls.ik_rows)(&subject.robot, &rows, joints, q.as_flattened_mut(), &mut status, 1)

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::batch::Batch;
-use irbkin::{Corrections, Follower, Mdh, Robot, SingularityKind, Solution, Status};
+use irbkin::{Corrections, Mdh, Robot, SingularityKind, Solution, Status, follow::Follower};
 
 use crate::common::{Rng, apart, poses_or};
 
@@ -152,7 +152,7 @@ fn the_nearest_solution_is_one_of_all_and_a_batch_is_as_single_poses() {
             assert!(refined.residual(&nearest.q, &pose).largest() < rounding(&arm, &nominal));
             found += usize::from(apart(&nearest.q, &q) < 1e-6);
             let solutions = refined.ik(&pose).unwrap();
-            let rows = irbkin::pose_to_rows(&pose);
+            let rows = irbkin::pose::to_rows(&pose);
             let (mut joints, mut status) = ([0.0; 48], [0; 8]);
             Batch::new(None).ik(&refined, &rows, &mut joints, &mut status).unwrap();
             for slot in 0..8 {

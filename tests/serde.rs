@@ -4,8 +4,10 @@
 use std::fmt::Debug;
 
 use irbkin::{
-    AnyRobot, Configuration, Corrections, FollowOptions, JointLimits, Mdh, OpwParameters, Robot,
-    Sdh, SingularityMode, Solution, Status, catalog, pose_from_euler_zyx,
+    AnyRobot, Configuration, Corrections, JointLimits, Mdh, OpwParameters, Robot, Sdh, Solution,
+    Status, catalog,
+    follow::{FollowOptions, SingularityMode},
+    pose,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -26,8 +28,8 @@ fn models_round_trip() {
 
 fn round_trips_with_settings<const N: usize>(robot: &Robot<N>) {
     round_trips(robot);
-    let base = pose_from_euler_zyx([0.1, -2.0, 0.3], [0.4, 0.5, -0.6]).unwrap();
-    let tool = pose_from_euler_zyx([0.0, 0.02, 0.11], [0.1, 0.0, 3.0]).unwrap();
+    let base = pose::from_euler_zyx([0.1, -2.0, 0.3], [0.4, 0.5, -0.6]).unwrap();
+    let tool = pose::from_euler_zyx([0.0, 0.02, 0.11], [0.1, 0.0, 3.0]).unwrap();
     let mut limits = [[-1.25, 2.5]; N];
     limits[0] = [f64::NEG_INFINITY, f64::INFINITY];
     limits[1] = [f64::NEG_INFINITY, 1.5];

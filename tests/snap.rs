@@ -9,7 +9,7 @@ use std::fmt::Debug;
 
 use crate::common::{Rng, reach_of};
 use irbkin::batch::Batch;
-use irbkin::{DhRow, Error, JointLimits, Mdh, Pose, Robot, Sdh, Solutions, pose_to_rows};
+use irbkin::{DhRow, Error, JointLimits, Mdh, Pose, Robot, Sdh, Solutions, pose};
 
 const XARM7: &str = include_str!("data/few_digits/xarm7.urdf");
 const PUMA560: &str = include_str!("data/few_digits/puma560.urdf");
@@ -241,12 +241,12 @@ fn a_snap_has_bounds() {
 fn a_snapped_arm_solves_batches() {
     let robot = Robot::<6>::from_urdf_snapped(PUMA560, None, None, 1e-8).unwrap();
     let poses: Vec<f64> =
-        poses_of(&robot).iter().flat_map(|q| pose_to_rows(&robot.fk(q))).collect();
+        poses_of(&robot).iter().flat_map(|q| pose::to_rows(&robot.fk(q))).collect();
     let rows = poses.len() / 16;
     let (mut q, mut status) = (vec![0.0; rows * 48], vec![0; rows * 8]);
     Batch::new(None).ik(&robot, &poses, &mut q, &mut status).unwrap();
     for (row, pose) in poses.as_chunks::<16>().0.iter().enumerate() {
-        let pose = irbkin::pose_from_rows(pose).unwrap();
+        let pose = irbkin::pose::from_rows(pose).unwrap();
         let single = robot.ik(&pose).unwrap();
         for slot in 0..8 {
             let found = &q[48 * row + 6 * slot..][..6];

@@ -126,7 +126,7 @@ fn base_and_tip_choose_the_chain() {
     let tool = six(UR5E, None, Some("tool0")).unwrap();
     let inner = six(UR5E, Some("base_link_inertia"), Some("wrist_3_link")).unwrap();
     let q = [0.1, -0.2, 0.3, -0.4, 0.5, -0.6];
-    let half_turn = irbkin::pose_from_euler_zyx([0.0; 3], [PI, 0.0, 0.0]).unwrap();
+    let half_turn = irbkin::pose::from_euler_zyx([0.0; 3], [PI, 0.0, 0.0]).unwrap();
     let off = PoseDifference::between(&tool.fk(&q), &(half_turn * inner.fk(&q)));
     // The tool frame of the description is the last link's.
     assert!(off.largest() <= 1e-14, "{off:?}");

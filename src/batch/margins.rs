@@ -155,7 +155,9 @@ mod tests {
                 assert_eq!(alone.0[0].to_bits(), margin[row].to_bits());
                 assert_eq!(alone.1[0].to_bits(), singularities[row].to_bits());
                 assert_eq!(alone.2[0], solutions[row]);
-                let Ok(pose) = crate::pose_from_rows(pose.first_chunk().unwrap()) else { continue };
+                let Ok(pose) = crate::pose::from_rows(pose.first_chunk().unwrap()) else {
+                    continue;
+                };
                 let found = robot.ik(&pose).unwrap().within_limits();
                 assert_eq!(usize::from(solutions[row]), found.len());
                 let rooms: Vec<_> = found.turns().map(|turn| robot.margin(&turn.q)).collect();

@@ -13,6 +13,7 @@ use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{AnyRobot, DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
 
+pub use crate::error::LeftOut;
 pub use left_out::left_out;
 pub use names::find;
 

@@ -3,10 +3,10 @@
 //!
 //! ```
 //! use irbkin::paths::{Spacing, line};
-//! use irbkin::pose_from_euler_zyx;
+//! use irbkin::pose;
 //!
-//! let start = pose_from_euler_zyx([0.8, -0.2, 0.6], [0.0, 3.1, 0.0])?;
-//! let end = pose_from_euler_zyx([0.8, 0.2, 0.6], [1.0, 3.1, 0.0])?;
+//! let start = pose::from_euler_zyx([0.8, -0.2, 0.6], [0.0, 3.1, 0.0])?;
+//! let end = pose::from_euler_zyx([0.8, 0.2, 0.6], [1.0, 3.1, 0.0])?;
 //! assert_eq!(line(&start, &end, Spacing::count(41)?, None)?.len(), 41);
 //! # Ok::<(), irbkin::Error>(())
 //! ```

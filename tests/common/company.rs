@@ -1,7 +1,7 @@
 //! Rows of a batch, alone and in the company of others.
 
 use irbkin::batch::Batch;
-use irbkin::{Robot, Status, pose_from_rows, pose_to_rows};
+use irbkin::{Robot, Status, pose};
 
 use super::rng::drawn;
 
@@ -12,7 +12,7 @@ fn rows_of_every_kind(robot: &Robot<6>, count: usize) -> Vec<[f64; 16]> {
     for (number, mut q) in drawn(6, count).enumerate() {
         let kind = number % 8;
         q[3] *= f64::from(u8::from(kind != 2));
-        let mut row = pose_to_rows(&robot.fk(&q));
+        let mut row = pose::to_rows(&robot.fk(&q));
         match (kind, rows.last()) {
             (3, _) => row[3] = 30.0,
             (4, _) => row[5] = f64::NAN,
@@ -38,7 +38,7 @@ pub fn check_rows(robot: &Robot<6>) {
         for (row, elements) in rows.iter().enumerate() {
             let (q, status) = (&q[96 * row..][..96], &status[16 * row..][..16]);
             let nearest = &nearest[6 * row..][..6];
-            let Ok(pose) = pose_from_rows(elements) else {
+            let Ok(pose) = pose::from_rows(elements) else {
                 assert!(status.iter().all(|flags| *flags == Status::INVALID.bits()));
                 assert!(q.iter().chain(nearest).all(|angle| angle.is_nan()));
                 continue;

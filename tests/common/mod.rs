@@ -10,7 +10,7 @@ pub mod tally;
 use std::f64::consts::{PI, TAU};
 use std::sync::{Mutex, PoisonError};
 
-use irbkin::{Definition, Error, InstructionSet, JointLimits, Pose, Robot, pose_from_euler_zyx};
+use irbkin::{Definition, Error, InstructionSet, JointLimits, Pose, Robot, pose};
 use proptest::prelude::*;
 use proptest::test_runner::{Config as ProptestConfig, FileFailurePersistence, RngSeed};
 
@@ -129,11 +129,11 @@ pub fn kuka_kr6() -> Result<Robot<6>, Error> {
 /// Poses within so far along each axis [m], in any orientation.
 pub fn poses(far: f64) -> impl Strategy<Value = Pose> {
     (prop::array::uniform3(-far..far), prop::array::uniform3(-PI..PI))
-        .prop_map(|(xyz, zyx)| pose_from_euler_zyx(xyz, zyx).unwrap())
+        .prop_map(|(xyz, zyx)| pose::from_euler_zyx(xyz, zyx).unwrap())
 }
 
 /// A pose within so far along each axis [m], in any orientation.
 pub fn random_pose(rng: &mut Rng, far: f64) -> Pose {
     let xyz = std::array::from_fn(|_| rng.between(-far, far));
-    pose_from_euler_zyx(xyz, rng.angles()).unwrap()
+    pose::from_euler_zyx(xyz, rng.angles()).unwrap()
 }

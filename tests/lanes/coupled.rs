@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
 use irbkin::batch::Batch;
-use irbkin::{JointLimits, Robot, pose_to_rows};
+use irbkin::{JointLimits, Robot, pose};
 
 use crate::common::coupled_arm::{limited, odd, with_linkage};
 use crate::common::{Rng, apart, on_each_set};
@@ -26,7 +26,7 @@ fn batch_equals_single_and_the_scalar_solver() {
             let slow = scalar(&limited()).with_linkage_limits(robot.limits().linkage()).unwrap();
             let joints: Vec<_> = (0..101).map(|_| rng.inside(robot.limits())).collect();
             let poses: Vec<_> = joints.iter().map(|q| robot.fk(q)).collect();
-            let rows: Vec<f64> = poses.iter().flat_map(pose_to_rows).collect();
+            let rows: Vec<f64> = poses.iter().flat_map(pose::to_rows).collect();
             let (mut q, mut status) = (vec![[[0.0; 6]; SLOTS]; 101], vec![[0; SLOTS]; 101]);
             Batch::new(NonZeroUsize::new(1))
                 .ik(

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::num::NonZeroUsize;
 
 use irbkin::batch::Batch;
-use irbkin::{JointLimits, Robot, pose_from_rows};
+use irbkin::{JointLimits, Robot, pose};
 
 use crate::common::coupled_arm::{limited, odd, with_linkage};
 use crate::common::{Rng, on_each_set};
@@ -61,7 +61,7 @@ fn nearest_agrees<const N: usize>(
         };
         let together = solve(1);
         for (row, ((pose, seed), nearest)) in poses.iter().zip(&seeds).zip(&together).enumerate() {
-            let alone = pose_from_rows(pose)
+            let alone = pose::from_rows(pose)
                 .and_then(|pose| robot.ik_nearest(&pose, seed, &weights))
                 .map_or([f64::NAN; N], |solution| solution.q);
             assert!(
@@ -109,7 +109,8 @@ fn the_nearest_of_a_coupled_arm_is_the_nearest_alone() {
     on_each_set(|set| {
         for robot in [limited(), with_linkage(), odd(), narrow(with_linkage())] {
             let joints: Vec<_> = (0..403).map(|_| rng.inside(limited().limits())).collect();
-            let poses: Vec<_> = joints.iter().map(|q| irbkin::pose_to_rows(&robot.fk(q))).collect();
+            let poses: Vec<_> =
+                joints.iter().map(|q| irbkin::pose::to_rows(&robot.fk(q))).collect();
             let [found, _] = nearest_agrees(&robot, &poses, &joints, set.name());
             assert!(found > 50, "{found}");
         }

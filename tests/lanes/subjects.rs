@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use irbkin::{JointLimits, pose_from_euler_zyx, pose_to_rows};
+use irbkin::{JointLimits, pose};
 
 use crate::common::{Rng, random_pose};
 use crate::structures::place::{At, Place};
@@ -18,9 +18,9 @@ pub type Row<const N: usize> = (PoseRow, [f64; N]);
 /// with limits that exclude nothing or much, require a 2 pi equivalent, or are so far from zero
 /// that more than one turn is needed.
 pub fn subjects<const N: usize>(structure: &Structure<N>) -> Vec<Subject<N>> {
-    let tool = pose_from_euler_zyx([0.03, -0.02, 0.2], [0.3, -0.7, 1.1]).unwrap();
-    let base = pose_from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
-    let straight = pose_from_euler_zyx([0.01, -0.02, 0.3], [0.0; 3]).unwrap();
+    let tool = pose::from_euler_zyx([0.03, -0.02, 0.2], [0.3, -0.7, 1.1]).unwrap();
+    let base = pose::from_euler_zyx([0.8, -0.5, 0.3], [-1.9, 0.4, 0.2]).unwrap();
+    let straight = pose::from_euler_zyx([0.01, -0.02, 0.3], [0.0; 3]).unwrap();
     let infinite = f64::INFINITY;
     // Seven of each kind; an arm of six joints takes the first ones.
     let limits = [
@@ -89,7 +89,7 @@ fn row<const N: usize>(subject: &Subject<N>, kind: usize, rng: &mut Rng) -> Row<
     let near = [0.0, 1e-12, 1e-9, 9e-7, 1.1e-6, 1e-4][round % 6];
     let made = |theta| {
         let q = subject.arm.q(theta);
-        (pose_to_rows(&subject.robot.fk(&q)), q)
+        (pose::to_rows(&subject.robot.fk(&q)), q)
     };
     let mut at = |at: At| {
         let place = Place::of(at, near);
@@ -105,7 +105,7 @@ fn row<const N: usize>(subject: &Subject<N>, kind: usize, rng: &mut Rng) -> Row<
         }
         9 => {
             let far = 1.3 * subject.reach();
-            (pose_to_rows(&random_pose(rng, far)), subject.arm.q(theta))
+            (pose::to_rows(&random_pose(rng, far)), subject.arm.q(theta))
         }
         _ => made(theta),
     };

@@ -90,7 +90,7 @@ fn arms_of_more_joints_than_lanes_have_forward_kinematics() {
     let (frames, tool) = robot.link_frames(&q);
     let mut poses = [0.0; 16];
     Batch::new(None).fk(&robot, &q, &mut poses).unwrap();
-    assert_eq!(irbkin::pose_to_rows(&robot.fk(&q)), poses);
+    assert_eq!(irbkin::pose::to_rows(&robot.fk(&q)), poses);
     assert_eq!(robot.fk(&q), tool);
     assert_eq!(
         robot.jacobian(&q, JacobianFrame::Base).column(8).fixed_rows::<3>(3),

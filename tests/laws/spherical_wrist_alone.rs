@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use irbkin::{OpwParameters, Robot, pose_from_euler_zyx};
+use irbkin::{OpwParameters, Robot, pose};
 
 use crate::rng::Rng;
 
@@ -34,7 +34,7 @@ fn a_lateral_offset_as_small_as_rounding_counts_as_zero() {
         ..OpwParameters::abb(0.0, -0.042, 0.3991, 0.448, 0.451, 0.082)
     })
     .unwrap();
-    let over_the_base = pose_from_euler_zyx([0.0, 0.0, 1.2], [0.0; 3]).unwrap();
+    let over_the_base = pose::from_euler_zyx([0.0, 0.0, 1.2], [0.0; 3]).unwrap();
     for robot in [from_table, from_opw] {
         let solutions = robot.ik(&over_the_base).unwrap();
         assert!(!solutions.is_empty());

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use irbkin::{JointLimits, OpwParameters, Pose, Robot, pose_from_wxyz, thresholds};
+use irbkin::{JointLimits, OpwParameters, Pose, Robot, pose, thresholds};
 
 use crate::common::Rng;
 
@@ -71,8 +71,8 @@ impl Arm {
 
     /// The same arm on a base and with a tool.
     pub fn mounted(mut self) -> Self {
-        let base = pose_from_wxyz([0.3, -0.2, 0.5], [0.8, 0.36, -0.48, 0.0]).unwrap();
-        let tool = pose_from_wxyz([0.1, 0.05, 0.4], [0.6, 0.0, 0.8, 0.0]).unwrap();
+        let base = pose::from_wxyz([0.3, -0.2, 0.5], [0.8, 0.36, -0.48, 0.0]).unwrap();
+        let tool = pose::from_wxyz([0.1, 0.05, 0.4], [0.6, 0.0, 0.8, 0.0]).unwrap();
         self.extent += base.translation.vector.norm() + tool.translation.vector.norm();
         self.robot = self.robot.with_base(&base).unwrap().with_tool(&tool).unwrap();
         self.name += ", base and tool";

@@ -6,7 +6,7 @@ mod place;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use irbkin::{Pose, Robot, Solution, Solutions, pose_from_euler_zyx};
+use irbkin::{Pose, Robot, Solution, Solutions, pose};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -30,8 +30,8 @@ pub fn odd() -> ParallelArm {
         d6: 0.11,
         signs: [1.0, -1.0, 1.0, 1.0, -1.0, -1.0],
         offsets: [0.3, -0.2, -FRAC_PI_2, 0.1, -0.4, 0.5],
-        base: pose_from_euler_zyx([0.1, -0.2, 0.05], [0.4, 0.1, -0.3]).unwrap(),
-        flange: pose_from_euler_zyx([0.02, 0.01, 0.03], [-0.7, 0.2, 0.5]).unwrap(),
+        base: pose::from_euler_zyx([0.1, -0.2, 0.05], [0.4, 0.1, -0.3]).unwrap(),
+        flange: pose::from_euler_zyx([0.02, 0.01, 0.03], [-0.7, 0.2, 0.5]).unwrap(),
     }
 }
 
