@@ -57,12 +57,13 @@ impl PyRobot {
                 (joint, angle) => Self::from(locked(self, joint, &angle)?).ik(T, None, None),
             };
         }
-        let solutions: PySolutions = match self.arm() {
+        let py = T.py();
+        match self.arm() {
             Arm::Six(robot) => {
                 no_q7(q7.is_some())?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 robot.ik_into(&mut found.solutions, f64::NAN)?;
-                found.into()
+                Bound::new(py, PySolutions::from(found))
             }
             Arm::Seven(robot) => {
                 let angle = match (robot.locked_joint(), q7) {
@@ -73,10 +74,10 @@ impl PyRobot {
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 robot.check_locked(angle)?;
                 robot.ik_into(&mut found.solutions, angle)?;
-                Found { q7: q7.is_some().then_some(angle), ..found }.into()
+                let q7 = q7.is_some().then_some(angle);
+                Bound::new(py, PySolutions::from(Found { q7, ..found }))
             }
-        };
-        Bound::new(T.py(), solutions)
+        }
     }
 
     /// Every joint vector of many poses.
