@@ -29,20 +29,24 @@ struct Count {
     lacking: usize,
 }
 
-/// A family of tables.
-type Tables = (&'static str, fn(&mut Rng) -> Robot<6>);
+/// A family of tables, and the least share of its random poses that is certified, in percent.
+type Tables = (&'static str, usize, fn(&mut Rng) -> Robot<6>);
 
 /// How a joint vector of a set is made of a random one.
 type Set = (&'static str, fn(&Robot<6>, &mut Rng, [f64; 6]) -> [f64; 6]);
 
-const TABLES: [Tables; 7] = [
-    ("catalog", |rng| named(pick(rng, &["GoFa 5", "GoFa 10", "CRX-10iA", "CRX-10iA/L", "xArm6"]))),
-    ("random", |rng| of_rows(core::array::from_fn(|_| random_row(rng)))),
-    ("spherical wrist, twists off", |rng| off(rng, &SPHERICAL, [1.0, 0.0, 0.0])),
-    ("spherical wrist, all off", |rng| off(rng, &SPHERICAL, [1.0, 1.0, 1.0])),
-    ("three parallel axes off", |rng| off(rng, &["UR3", "UR5e", "UR10e"], [1.0, 1.0, 1.0])),
-    ("offset wrist, twists off", |rng| off(rng, &["GoFa 5", "CRX-10iA/L"], [1.0, 0.0, 0.0])),
-    ("offset wrist, all off", |rng| off(rng, &["GoFa 5", "CRX-10iA/L"], [1.0, 1.0, 1.0])),
+const TABLES: [Tables; 8] = [
+    ("catalog", 99, |rng| {
+        named(pick(rng, &["GoFa 5", "GoFa 10", "CRX-10iA", "CRX-10iA/L", "xArm6"]))
+    }),
+    ("random", 99, |rng| of_rows(core::array::from_fn(|_| random_row(rng)))),
+    // Two polynomials must agree (general.md, eq. 104c).
+    ("spherical wrist, twists off", 85, |rng| off(rng, &SPHERICAL, [1.0, 0.0, 0.0])),
+    ("spherical wrist, lengths off", 99, |rng| off(rng, &SPHERICAL, [0.0, 1.0, 1.0])),
+    ("spherical wrist, all off", 99, |rng| off(rng, &SPHERICAL, [1.0, 1.0, 1.0])),
+    ("three parallel axes off", 99, |rng| off(rng, &["UR3", "UR5e", "UR10e"], [1.0, 1.0, 1.0])),
+    ("offset wrist, twists off", 99, |rng| off(rng, &["GoFa 5", "CRX-10iA/L"], [1.0, 0.0, 0.0])),
+    ("offset wrist, all off", 99, |rng| off(rng, &["GoFa 5", "CRX-10iA/L"], [1.0, 1.0, 1.0])),
 ];
 
 const SPHERICAL: [&str; 3] = ["IRB 2600-12/1.65", "IRB 120-3/0.58", "IRB 6700-150/3.2"];
@@ -108,8 +112,18 @@ fn named(name: &str) -> Robot<6> {
     Robot::<6>::named(name).unwrap().with_limits(JointLimits::UNLIMITED)
 }
 
-/// An arm whose alpha, a and d are off, those times these factors, by 1e-7 to 1e-2.
-fn off(rng: &mut Rng, names: &[&str], [alpha, a, d]: [f64; 3]) -> Robot<6> {
+/// An arm whose alpha, a and d are off, those times these factors, by 1e-7 to 1e-2: one that has no
+/// closed form any more.
+fn off(rng: &mut Rng, names: &[&str], factors: [f64; 3]) -> Robot<6> {
+    loop {
+        let robot = moved(rng, names, factors);
+        if ["general", "offset wrist"].contains(&robot.structure()) {
+            return robot;
+        }
+    }
+}
+
+fn moved(rng: &mut Rng, names: &[&str], [alpha, a, d]: [f64; 3]) -> Robot<6> {
     let mut mdh = named(pick(rng, names)).mdh().clone();
     let size = 10_f64.powf(rng.between(-7.0, -2.0));
     // Some tables have text with few digits.
@@ -133,7 +147,7 @@ fn no_certified_answer_lacks_a_solution() {
     let mut all = [[Count::default(); SETS.len()]; TABLES.len()];
     let mut poses = 0;
     while poses < wanted {
-        for ((_, table), counts) in TABLES.iter().zip(&mut all) {
+        for ((.., table), counts) in TABLES.iter().zip(&mut all) {
             let robot = table(&mut rng);
             for ((set, change), count) in SETS.iter().zip(counts) {
                 for _ in 0..OF_A_TABLE {
@@ -155,7 +169,7 @@ fn no_certified_answer_lacks_a_solution() {
         }
     }
     let mut lacking = 0;
-    for ((name, _), counts) in TABLES.iter().zip(&all) {
+    for ((name, least, _), counts) in TABLES.iter().zip(&all) {
         for ((set, _), count) in SETS.iter().zip(counts) {
             let Count { poses, certified, missed, .. } = *count;
             println!(
@@ -166,10 +180,13 @@ fn no_certified_answer_lacks_a_solution() {
             lacking += count.lacking;
         }
         let random = counts[0];
-        assert!(random.certified * 100 >= random.poses * 95, "{name}");
+        assert!(random.certified * 100 >= random.poses * least, "{name}");
     }
-    let certified: usize = all.iter().map(|counts| counts[0].certified).sum();
-    let random: usize = all.iter().map(|counts| counts[0].poses).sum();
+    // Of every family but the one that needs two polynomials.
+    let random = TABLES.iter().zip(&all).filter(|((_, least, _), _)| *least == 99);
+    let (certified, random) = random.fold((0, 0), |(certified, poses), (_, counts)| {
+        (certified + counts[0].certified, poses + counts[0].poses)
+    });
     println!("{lacking} of {poses} lacking; random poses certified: {certified} of {random}");
     assert_eq!(lacking, 0);
     assert!(certified * 1000 >= random * 995, "{certified} of {random}");

@@ -5,9 +5,9 @@ use core::fmt::Debug;
 use fearless_simd::Simd;
 
 use crate::kinematics::answer::slot::MOST_SLOTS;
-use crate::kinematics::structure::closure::{Candidates, Closure};
+use crate::kinematics::structure::closure::{Candidates, Closure, Six};
 use crate::kinematics::structure::end_frames::Frame;
-use crate::kinematics::structure::trigonometric::{RootBlock, TrigonometricPolynomial};
+use crate::kinematics::structure::trigonometric::{Root, RootBlock, TrigonometricPolynomial};
 
 /// Slots of an arm whose solutions have no names: as many as six joints can have.
 pub(crate) const SLOTS: usize = MOST_SLOTS;
@@ -43,12 +43,19 @@ pub(crate) trait ByRoots: Clone + Debug + PartialEq {
         pass: impl FnMut(&Candidates, &RootBlock),
     );
 
-    /// Bring every candidate at angles to the pose, whether these are roots or only near some.
-    fn every_candidate<S: Simd>(
+    /// Whether there may be a solution in the interval of a cluster of roots, of which all may be
+    /// complex.
+    fn may_be_at(&self, _posed: &Self::Posed, _root: &Root) -> bool {
+        true
+    }
+
+    /// Pass sines and cosines of joint angles from which Newton's method leads to the solutions at
+    /// or next to angles, and the lanes, as bits, that have some.
+    fn starts<S: Simd>(
         &self,
         simd: S,
         posed: &Self::Posed,
         angles: &RootBlock,
-        pass: impl FnMut(&Candidates),
+        pass: impl FnMut(&Six<S>, &Six<S>, u64),
     );
 }

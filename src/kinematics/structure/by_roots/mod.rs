@@ -10,6 +10,7 @@
 //!
 //! Docs: offset_wrist.md, section 6, and general.md, section 7.
 
+mod attempt;
 mod block;
 mod method;
 mod regular;
@@ -18,7 +19,8 @@ mod solved;
 #[cfg(test)]
 pub(crate) mod tests;
 
+pub(crate) use attempt::certifies;
 pub(crate) use block::RootKernel;
 pub(crate) use method::{ByRoots, SLOTS};
 pub(crate) use regular::{NOISE_OF_SIZE, regular_of, size_of};
-pub(crate) use search::{Search, certifies, quasi_random};
+pub(crate) use search::{Search, quasi_random};

@@ -8,6 +8,7 @@ use super::chain::{Closure, Target};
 use super::configuration::{Configuration, ISOLATED};
 use super::newton::Candidates;
 use super::self_motion::SelfMotion;
+use crate::kinematics::pose::angles::wrap;
 use crate::lanes::{Column, LANES};
 
 /// Most solutions of a six-joint chain, apart from self-motions.
@@ -20,6 +21,17 @@ const ROOM: usize = 2 * MOST;
 /// Residual and least singular value up to which a candidate that is not regular may become a
 /// singular solution [1].
 const NEARLY: f64 = 1e-3;
+
+/// Least singular value up to which a solution is followed to others [1]: those that are left of a
+/// self-motion are farther apart if it is larger, and have roots of their own.
+const WEAK: f64 = 1e-3;
+
+/// How near a solution is that was passed on the way [rad].
+const PASSED: f64 = 1e-3;
+
+/// How far from a configuration its joints are that Newton's method leads back, as a part of the
+/// least singular value [rad]: the theorem has 1/6 in all joints together.
+const ATTRACTS: f64 = 0.03;
 
 /// Candidates next to singularities that are examined for a pose, at most.
 const MOST_EXAMINED: usize = 48;
@@ -68,6 +80,15 @@ impl Accepted {
     /// Whether each configuration is a regular solution, and none was left out.
     pub(crate) fn are_regular(&self) -> bool {
         self.is_whole && !self.all.iter().any(Configuration::is_singular)
+    }
+
+    /// Whether Newton's method leads from the angles in a lane [rad] to a configuration that is
+    /// known: by the theorem of Newton and Kantorovich (eq. 98b).
+    pub(crate) fn attracts(&self, theta: &[Column; 6], lane: usize) -> bool {
+        self.all.iter().any(|one| {
+            let near = ATTRACTS * one.least;
+            (0..6).all(|joint| wrap(theta[joint][lane] - one.theta[joint]).abs() <= near)
+        })
     }
 
     /// Take the candidates in these lanes, which have converged.
@@ -145,6 +166,30 @@ impl Accepted {
         let is_cut = self.all.len() > MOST;
         self.all.truncate(MOST);
         is_cut
+    }
+
+    /// Follow what is left of self-motions, on which there are several solutions next to a singularity
+    /// (eq. 104d), and take these.
+    pub(crate) fn follow(&mut self, closure: &Closure, target: &Target) {
+        let mut found = ArrayVec::<Configuration, ROOM>::new();
+        let is_one = |one: &&Configuration| one.moving.is_none() && one.least <= WEAK;
+        let all: ArrayVec<Configuration, ROOM> = self.all.iter().filter(is_one).copied().collect();
+        for one in &all {
+            // Others are on the way from the first.
+            let is_passed = |other: &Configuration| other.distance(&one.theta) < PASSED;
+            if found.iter().any(is_passed) {
+                continue;
+            }
+            if let Some(curve) = SelfMotion::near(closure, target, &one.theta) {
+                curve.solutions(&mut |theta| {
+                    let _ = found.try_push(Configuration { theta, ..*one });
+                });
+            }
+        }
+        for block in found.chunks(LANES) {
+            let candidates = closure.converged(target, &columns(block));
+            self.take(closure, target, &candidates, block.len());
+        }
     }
 
     /// Keep one configuration of each self-motion (eq. 103): where its first joint that moves has

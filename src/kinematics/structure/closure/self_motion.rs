@@ -3,9 +3,10 @@
 //!
 //! Docs: general.md, eq. 103.
 
+use arrayvec::ArrayVec;
 use nalgebra::{SMatrix, SVector};
 
-use super::chain::{Closure, Target};
+use super::chain::{Closure, Target, sines};
 use super::configuration::Configuration;
 use crate::kinematics::pose::angles::wrap;
 
@@ -51,21 +52,40 @@ const AT_PLACE: f64 = 1e-14;
 /// Angle from which on a joint passes half a turn rather than its place [rad].
 const FAR: f64 = 1.0;
 
+/// Rate of the condition that is left at which it is least [1].
+const LEAST_RATE: f64 = 1e-12;
+
 /// Steps of the secant method, at most.
 const MOST_SECANTS: usize = 8;
+
+/// Condition that may be left on the way between the solutions next to a self-motion [1]: at a fold,
+/// [`TRIED`] leaves more.
+const NEARLY: f64 = 1e-4;
 
 /// A joint vector of a self-motion, and by how much each joint moves there, as a unit vector.
 #[derive(Clone, Copy)]
 pub(crate) struct Member {
     pub(crate) theta: [f64; 6],
     direction: SVector<f64, 6>,
+    /// The conditions that are left, and how they change by the way: of a self-motion neither.
+    missing: SVector<f64, 6>,
+    rate: SVector<f64, 6>,
 }
 
-/// A self-motion.
+impl Member {
+    /// Return a member of a self-motion.
+    fn closed(theta: [f64; 6], direction: SVector<f64, 6>) -> Self {
+        Self { theta, direction, missing: SVector::zeros(), rate: SVector::zeros() }
+    }
+}
+
+/// A self-motion, or the curve on which solutions are that are left of one.
 pub(crate) struct SelfMotion<'a> {
     closure: &'a Closure,
     target: &'a Target,
     start: Member,
+    /// Condition that may be left on the way [1].
+    accepts: f64,
     /// Whether two directions are free at once.
     pub(super) is_surface: bool,
 }
@@ -105,9 +125,10 @@ impl Closure {
     /// Whether the chain closes half of a way from a configuration, too.
     fn joins(&self, target: &Target, theta: &[f64; 6], way: [f64; 6]) -> bool {
         let way = SVector::from(way);
-        let from = Member { theta: *theta, direction: way.normalize() };
+        let from = Member::closed(*theta, way.normalize());
         let middle = SVector::from(*theta) + way * 0.5;
-        let half = self.member_ahead(target, &from, 0.5 * way.norm(), middle.into());
+        let ahead = (0.5 * way.norm(), self.accepts());
+        let half = self.member_ahead(target, &from, ahead, middle.into());
         half.is_some_and(|half| (SVector::from(half.theta) - middle).norm() < 0.25 * way.norm())
     }
 
@@ -115,13 +136,13 @@ impl Closure {
         self.residual(target, theta) <= self.accepts()
     }
 
-    /// Return the member that is `s` ahead of another one along its direction (eq. 103), by Newton's
-    /// method from a guess.
+    /// Return the member that is `s` ahead of another one along its direction and leaves no more than
+    /// a condition (eq. 103), by Newton's method from a guess.
     fn member_ahead(
         &self,
         target: &Target,
         from: &Member,
-        s: f64,
+        (s, accepts): (f64, f64),
         guess: [f64; 6],
     ) -> Option<Member> {
         let mut theta = SVector::from(guess);
@@ -135,8 +156,12 @@ impl Closure {
             }
             theta += correction;
             if size < CONVERGED {
-                let member = Member { theta: theta.into(), direction: ahead.normalize() };
-                return self.closes(target, &member.theta).then_some(member);
+                let (sin, cos) = sines(&theta.into());
+                let missing = SVector::from(self.missing(target, &sin, &cos));
+                let direction = ahead.normalize();
+                let rate = -(jacobian * direction);
+                let member = Member { theta: theta.into(), direction, missing, rate };
+                return (missing.amax() <= accepts).then_some(member);
             }
         }
         None
@@ -175,14 +200,30 @@ impl<'a> SelfMotion<'a> {
         target: &'a Target,
         theta: &[f64; 6],
     ) -> Option<Self> {
+        Self::leaving(closure, target, theta, closure.accepts())
+    }
+
+    /// Return the curve through a solution on which others are that are left of a self-motion.
+    pub(super) fn near(closure: &'a Closure, target: &'a Target, theta: &[f64; 6]) -> Option<Self> {
+        Self::leaving(closure, target, theta, NEARLY)
+    }
+
+    /// Return the curve on which no more than a condition is left.
+    fn leaving(
+        closure: &'a Closure,
+        target: &'a Target,
+        theta: &[f64; 6],
+        accepts: f64,
+    ) -> Option<Self> {
         let svd = closure.derivatives(theta).try_svd(false, true, f64::EPSILON, SWEEPS)?;
         let (values, v_t) = (svd.singular_values, svd.v_t?);
         let is_surface = values[4] < FREE;
         for row in if is_surface { [5, 4] } else { [5, 5] } {
-            let from = Member { theta: *theta, direction: v_t.row(row).transpose() };
-            let guess = SVector::from(*theta) + from.direction * TRIED;
-            if let Some(start) = closure.member_ahead(target, &from, TRIED, guess.into()) {
-                return Some(Self { closure, target, start, is_surface });
+            let direction = v_t.row(row).transpose();
+            let from = Member::closed(*theta, direction);
+            let guess = (SVector::from(*theta) + direction * TRIED).into();
+            if let Some(start) = closure.member_ahead(target, &from, (TRIED, accepts), guess) {
+                return Some(Self { closure, target, start, accepts, is_surface });
             }
         }
         None
@@ -190,7 +231,7 @@ impl<'a> SelfMotion<'a> {
 
     /// Follow it in both directions, or once around: `pass` gets the ends of each step.
     pub(crate) fn around(&self, pass: &mut dyn FnMut([&Member; 2])) {
-        let Self { closure, target, start, .. } = self;
+        let Self { closure, target, start, accepts, .. } = self;
         let apart = |other: &Member| {
             (0..6).fold(0.0, |most: f64, i| most.max(wrap(start.theta[i] - other.theta[i]).abs()))
         };
@@ -202,7 +243,7 @@ impl<'a> SelfMotion<'a> {
             for _ in 0..MOST_STEPS {
                 let guess =
                     SVector::from(one.theta) + (one.direction + bend * (0.5 * length)) * length;
-                let next = closure.member_ahead(target, &one, length, guess.into());
+                let next = closure.member_ahead(target, &one, (length, *accepts), guess.into());
                 let is_near = |next: &Member| {
                     (SVector::from(next.theta) - guess).amax() <= PREDICTED * length
                 };
@@ -250,41 +291,85 @@ impl<'a> SelfMotion<'a> {
     }
 
     /// Return the member between two of them, ends included, with a joint at an angle.
-    fn member_between(
-        &self,
-        [start, end]: [&Member; 2],
-        joint: usize,
-        at: f64,
-    ) -> Option<[f64; 6]> {
+    fn member_between(&self, ends: [&Member; 2], joint: usize, at: f64) -> Option<[f64; 6]> {
         let off = |one: &Member| wrap(one.theta[joint] - at);
-        let [here, there] = [off(start), off(end)];
-        let mut member = *start;
-        if here.abs() > AT_PLACE {
-            let is_passed = (here < 0.0) != (there < 0.0) && here.abs() + there.abs() < FAR;
-            if !is_passed {
-                return None;
-            }
-            // The secant method.
-            let along = |one: &Member| {
-                start.direction.dot(&(SVector::from(one.theta) - SVector::from(start.theta)))
-            };
-            member = *end;
-            let (mut before, mut last) = ((0.0, here), (along(end), there));
-            for _ in 0..MOST_SECANTS {
-                if last.1.abs() <= AT_PLACE {
-                    break;
-                }
-                let s = last.0 - last.1 * (last.0 - before.0) / (last.1 - before.1);
-                member = self.closure.member_ahead(self.target, start, s, member.theta)?;
-                (before, last) = (last, (s, off(&member)));
-            }
+        let [here, there] = ends.map(off);
+        // A joint passes half a turn, too.
+        if here.abs() > AT_PLACE && here.abs() + there.abs() >= FAR {
+            return None;
         }
+        let mut member = self.zero_between(ends, off, AT_PLACE)?;
         // Its last rounding goes, too: who asks for zero gets zero.
         let rounding = off(&member);
         if rounding.abs() <= AT_PLACE {
             member.theta[joint] -= rounding;
         }
         self.closure.closes(self.target, &member.theta).then_some(member.theta)
+    }
+
+    /// Return the member between two of them, ends included, at which a quantity is zero, to a
+    /// rounding: by the secant method.
+    fn zero_between(
+        &self,
+        [start, end]: [&Member; 2],
+        off: impl Fn(&Member) -> f64,
+        rounding: f64,
+    ) -> Option<Member> {
+        let [here, there] = [off(start), off(end)];
+        if here.abs() <= rounding {
+            return Some(*start);
+        }
+        if (here < 0.0) == (there < 0.0) {
+            return None;
+        }
+        let along = |one: &Member| {
+            start.direction.dot(&(SVector::from(one.theta) - SVector::from(start.theta)))
+        };
+        let mut member = *end;
+        let (mut before, mut last) = ((0.0, here), (along(end), there));
+        for _ in 0..MOST_SECANTS {
+            if last.1.abs() <= rounding {
+                break;
+            }
+            let s = last.0 - last.1 * (last.0 - before.0) / (last.1 - before.1);
+            let ahead = (s, self.accepts);
+            member = self.closure.member_ahead(self.target, start, ahead, member.theta)?;
+            (before, last) = (last, (s, off(&member)));
+        }
+        Some(member)
+    }
+
+    /// Pass the solutions on the curve: where the condition that is left changes its sign, and where
+    /// it is least, for it may be zero next to there.
+    pub(super) fn solutions(&self, pass: &mut dyn FnMut([f64; 6])) {
+        self.around(&mut |ends| {
+            let middle = self.least_between(ends);
+            let ends = [Some(ends[0]), middle.as_ref(), Some(ends[1])];
+            let ends: ArrayVec<&Member, 3> = ends.into_iter().flatten().collect();
+            for pair in ends.windows(2) {
+                let across = (pair[1].missing - pair[0].missing).normalize();
+                let left = |one: &Member| one.missing.dot(&across);
+                let zero = self.zero_between([pair[0], pair[1]], left, self.closure.rounding);
+                if let Some(zero) = zero {
+                    pass(zero.theta);
+                }
+            }
+            if let Some(middle) = middle {
+                pass(middle.theta);
+            }
+        });
+    }
+
+    /// Return the member between two of them at which the condition that is left is least.
+    fn least_between(&self, ends: [&Member; 2]) -> Option<Member> {
+        let [one, next] = ends;
+        let is_less_between = one.missing.dot(&one.rate) < 0.0
+            && next.missing.dot(&next.rate) > 0.0
+            && one.missing.dot(&next.missing) > 0.0;
+        let along = (next.rate - one.rate).normalize();
+        is_less_between
+            .then(|| self.zero_between(ends, |one| one.rate.dot(&along), LEAST_RATE))
+            .flatten()
     }
 
     /// Return the member with a joint at its angle of `near`; of several the nearest.
@@ -313,7 +398,8 @@ impl<'a> SelfMotion<'a> {
         let between = interpolated([one, next], part);
         (place - between).amax() < ON_CURVE && {
             let s = one.direction.dot(&(between - from));
-            let member = self.closure.member_ahead(self.target, one, s, between.into());
+            let ahead = (s, self.accepts);
+            let member = self.closure.member_ahead(self.target, one, ahead, between.into());
             member.is_some_and(|member| {
                 let member = Configuration { theta: member.theta, least: 0.0, ..*other };
                 self.closure.are_one(self.target, &member, other)

@@ -11,7 +11,7 @@ use super::equated::Equated;
 use super::pose_link::PoseLink;
 use super::split::{Posed, Split};
 use crate::kinematics::structure::by_roots::ByRoots;
-use crate::kinematics::structure::closure::{Candidates, Closure, Target};
+use crate::kinematics::structure::closure::{Candidates, Closure, Six, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{RootBlock, TrigonometricPolynomial};
 use crate::lanes::{LANES, Vector, same, sin_cos_of};
@@ -98,26 +98,26 @@ impl ByRoots for AtSplit {
     }
 
     /// From one null vector, and from the pencil of two (eq. 90).
-    fn every_candidate<S: Simd>(
+    fn starts<S: Simd>(
         &self,
         simd: S,
-        AtTarget { target, posed: Posed { link, equations, .. } }: &AtTarget,
+        AtTarget { posed: Posed { link, equations, .. }, .. }: &AtTarget,
         angles: &RootBlock,
-        mut pass: impl FnMut(&Candidates),
+        mut pass: impl FnMut(&Six<S>, &Six<S>, u64),
     ) {
         simd.vectorize(
             #[inline(always)]
             || {
                 let (sin, cos) = sin_cos_of(Vector::load_array_ref(simd, &angles.angles));
                 let t5 = Angle { sin, cos };
-                let (target, link) = (target.in_lanes(sin), link.in_lanes(sin));
+                let link = link.in_lanes(sin);
                 let rest = Rest::at(&Equated::One(equations), &sin, &cos, false);
                 let null = rest.null_vectors();
                 let [one, other] = pencil(&null);
                 for powers in [null[0], one, other] {
                     let [t4, t3] = eliminated(&powers);
                     let [sin, cos] = completed(self.split(), &link, &[t3, t4, t5]);
-                    pass(&self.closure.converge(&target, &sin, &cos));
+                    pass(&sin, &cos, u64::MAX);
                 }
             },
         );

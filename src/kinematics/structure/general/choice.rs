@@ -10,16 +10,14 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use super::at_roots::AtSplit;
+use super::geometry::Roots;
 use super::split::{SPLITS, Split};
 use crate::kinematics::structure::by_roots::{
     ByRoots as _, NOISE_OF_SIZE, certifies, quasi_random, regular_of, size_of,
 };
 use crate::kinematics::structure::closure::{Accepted, Closure};
 use crate::kinematics::structure::end_frames::Frame;
-
-/// [`NOISE_OF_SIZE`] of an arm with three axes that meet in one point or are parallel [1]: a branch
-/// has a factor of its own then, which vanishes at a wrist singularity, but not its rounding.
-const NOISE_OF_PAIRS: f64 = 64.0 * NOISE_OF_SIZE;
+use crate::kinematics::thresholds::FORM_TOLERANCE;
 
 /// Splits that an arm keeps: one that is tried first, and others where its count is not certain.
 pub(super) const KEPT: usize = 4;
@@ -66,25 +64,24 @@ fn drawn(offsets: &[f64; 6]) -> Vec<[f64; 6]> {
     all
 }
 
-/// The splits of an arm, the best first, and whether most poses are regular in it; the searched
-/// joints of the kept ones differ.
+/// The splits of an arm, the best first, and how their roots are; the searched joints of the kept
+/// ones differ.
 pub(super) fn chosen(
     links: &[Frame; 5],
     closure: &Closure,
     offsets: &[f64; 6],
-) -> (Arc<Vec<Split>>, bool) {
+) -> (Arc<Vec<Split>>, Roots) {
     let poses: Vec<(Frame, [f64; 6])> =
         drawn(offsets).into_iter().map(|theta| (closure.last_frame(&theta), theta)).collect();
     let (first, rest) = poses.split_at(FIRST);
     // Of a split whose roots have two solutions each, a count would prove nothing.
     let all = (0..SPLITS).map(|number| Split::new(links, number)).filter(Split::is_single);
     let mut all = Arc::new(all.collect::<Vec<_>>());
-    // Of three axes that meet, as of a spherical wrist whose twists are off, roots are pairs.
-    let noise = if all.len() < SPLITS { NOISE_OF_PAIRS } else { NOISE_OF_SIZE };
+    let has_pairs = all.len() < SPLITS && !has_three_parallel(links);
     let sizes: Vec<_> =
         (0..all.len()).map(|number| size_of(&AtSplit::new(closure, &all, number))).collect();
     for (split, size) in Arc::make_mut(&mut all).iter_mut().zip(sizes) {
-        split.least_noise = noise * size;
+        split.least_noise = NOISE_OF_SIZE * size;
     }
     let total = |number: usize, poses: &[_]| {
         let method = AtSplit::new(closure, &all, number);
@@ -114,8 +111,18 @@ pub(super) fn chosen(
         }
     }
     let kept = Arc::new(kept);
-    let is_mostly_regular = is_mostly_regular(&AtSplit::new(closure, &kept, 0), RANDOM);
-    (kept, is_mostly_regular)
+    let roots = match is_mostly_regular(&AtSplit::new(closure, &kept, 0), RANDOM) {
+        _ if has_pairs => Roots::Pairs,
+        true => Roots::Regular,
+        false => Roots::Irregular,
+    };
+    (kept, roots)
+}
+
+/// Whether three axes behind one another are parallel.
+fn has_three_parallel(links: &[Frame; 5]) -> bool {
+    let is_parallel = |link: &Frame| 1.0 - link.rotation[2][2].abs() <= FORM_TOLERANCE;
+    links.windows(2).any(|pair| pair.iter().all(is_parallel))
 }
 
 /// The splits of another arm for this one, if each proves a count and most poses are regular in the

@@ -14,6 +14,16 @@ pub(crate) struct General {
     pub(super) joint_map: JointMap<6>,
     /// The splits, the best first. They are the same for an arm with any base, tool and limits.
     pub(super) splits: Arc<Vec<Split>>,
-    /// Whether most poses are regular in the first split: not where roots are pairs.
-    pub(super) is_mostly_regular: bool,
+    pub(super) roots: Roots,
+}
+
+/// The roots of an arm's splits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Roots {
+    /// Most poses are regular in the first split.
+    Regular,
+    Irregular,
+    /// Three axes meet in one point: roots come in pairs, whose noise one polynomial alone does
+    /// not show (eq. 104c).
+    Pairs,
 }

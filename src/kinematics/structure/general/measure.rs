@@ -1,7 +1,7 @@
 //! The constants of a general arm, from its table.
 
 use super::choice::{chosen, taken};
-use super::geometry::General;
+use super::geometry::{General, Roots};
 use crate::kinematics::chain::corrections::about_y;
 use crate::kinematics::chain::dh::{DhRow, Mdh, screw_x};
 use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
@@ -43,8 +43,8 @@ impl General {
         });
         closure.check_freedom(&tilted.map(|TiltedRow { row, .. }| row))?;
         let taken = other.and_then(|other| taken(&other.splits, &links, &closure));
-        let (splits, is_mostly_regular) = match taken {
-            Some(splits) => (splits, true),
+        let (splits, roots) = match taken {
+            Some(splits) => (splits, Roots::Regular),
             None => chosen(&links, &closure, &offsets),
         };
         let joint_map = JointMap {
@@ -54,6 +54,6 @@ impl General {
             t_base_shoulder: mdh.base * screw_x(first.alpha, first.a) * translation_z(first.d),
             t_wrist_flange: translation_z(last.d) * mdh.flange,
         };
-        Ok(Self { closure, joint_map, splits, is_mostly_regular })
+        Ok(Self { closure, joint_map, splits, roots })
     }
 }

@@ -1,7 +1,7 @@
 //! Every solution of a pose: by the best split, and by others where its count is not certain.
 
 use super::at_roots::AtSplit;
-use super::geometry::General;
+use super::geometry::{General, Roots};
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::TakeStep;
@@ -25,7 +25,8 @@ impl General {
         accepted: &mut Accepted,
     ) -> bool {
         let near = self.joint_map.theta(&free.q);
-        self.search(Search::new(&self.closure, last, near, accepted))
+        let wanted = if self.roots == Roots::Pairs { 2 } else { 1 };
+        self.search(Search::new(&self.closure, last, near, accepted, wanted))
     }
 
     /// Go on with a search by the splits of this arm.

@@ -11,9 +11,9 @@ use super::hand::{Hand, Moving};
 use super::resultant::polynomial;
 use super::step::Stepped;
 use crate::kinematics::structure::by_roots::ByRoots;
-use crate::kinematics::structure::closure::{Candidates, Closure, Target};
+use crate::kinematics::structure::closure::{Candidates, Closure, Six, Target};
 use crate::kinematics::structure::end_frames::Frame;
-use crate::kinematics::structure::trigonometric::{RootBlock, TrigonometricPolynomial};
+use crate::kinematics::structure::trigonometric::{Root, RootBlock, TrigonometricPolynomial};
 use crate::lanes::{Column, LANES, Number as _, Vector, sin_cos_of};
 
 /// How far the upper arm may be from its length for the condition of axis 5 to decide there, relative
@@ -82,14 +82,18 @@ impl ByRoots for Constants {
         }
     }
 
+    fn may_be_at(&self, posed: &Frame, root: &Root) -> bool {
+        self.may_reach_at(posed, root.angle(), root.radius())
+    }
+
     /// Every branch, and where the links hardly span the distance of the wrist point that which
     /// meets the condition of axis 5 instead (eq. 134).
-    fn every_candidate<S: Simd>(
+    fn starts<S: Simd>(
         &self,
         simd: S,
         posed: &Frame,
         angles: &RootBlock,
-        mut pass: impl FnMut(&Candidates),
+        mut pass: impl FnMut(&Six<S>, &Six<S>, u64),
     ) {
         simd.vectorize(
             #[inline(always)]
@@ -97,10 +101,11 @@ impl ByRoots for Constants {
                 let angles = Vector::load_array_ref(simd, &angles.angles);
                 let at_roots = AtRoots::new(self, &posed.in_lanes(angles), angles);
                 for branch in at_roots.branches.iter().chain(&at_roots.by_axis_5()) {
-                    // Without a branch there is no number, and no candidate.
-                    let is_one = branch.off.simd_lt(f64::INFINITY);
-                    if is_one.any_true() {
-                        pass(&at_roots.converge(branch));
+                    // Without a branch there is no number.
+                    let lanes = branch.off.simd_lt(f64::INFINITY).to_bitmask();
+                    if lanes != 0 {
+                        let [sin, cos] = at_roots.joints(branch);
+                        pass(&sin, &cos, lanes);
                     }
                 }
             },
@@ -170,14 +175,20 @@ impl<'a, S: Simd> AtRoots<'a, S> {
         branches
     }
 
+    /// Sines and cosines of the joint angles of a branch of each root.
+    #[inline(always)]
+    fn joints(&self, branch: &Branch<Vector<S>>) -> [Six<S>; 2] {
+        let Constants { lengths, twists, .. } = self.constants;
+        branch.joints(lengths, &self.last, self.sin_cos_6, twists)
+    }
+
     /// Bring a branch of each root to its pose.
     fn converge(&self, branch: &Branch<Vector<S>>) -> Candidates {
         branch.off.token().vectorize(
             #[inline(always)]
             || {
-                let Constants { lengths, twists, closure } = self.constants;
-                let [sin, cos] = branch.joints(lengths, &self.last, self.sin_cos_6, twists);
-                closure.converge(&self.target, &sin, &cos)
+                let [sin, cos] = self.joints(branch);
+                self.constants.closure.converge(&self.target, &sin, &cos)
             },
         )
     }

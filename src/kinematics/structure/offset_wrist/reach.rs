@@ -6,9 +6,10 @@ use core::f64::consts::TAU;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::geometry::OffsetWrist;
+use super::geometry::Constants;
 use super::hand::Hand;
 use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::thresholds::REACH_TOLERANCE;
 use crate::lanes::sin_cos;
 use crate::report::Reach;
 
@@ -18,12 +19,20 @@ const ANGLES: usize = 24;
 /// Steps by which the least distance is then narrowed: each takes a third of the interval.
 const NARROWINGS: usize = 40;
 
-impl OffsetWrist {
+impl Constants {
+    /// Whether the links may reach the wrist point at angles of joint 6 [rad]: it moves along its
+    /// circle. Without a lateral offset, the distance missing is one of the wrist point (eq. 135a).
+    pub(super) fn may_reach_at(&self, last: &Frame, angle: f64, radius: f64) -> bool {
+        let (sin, cos) = sin_cos::<false>(angle);
+        let shortfall = self.missed_by(&Hand::of(&self.lengths, last), [sin, cos]).shortfall();
+        self.lengths.b != 0.0 || shortfall <= self.lengths.circle * radius + REACH_TOLERANCE
+    }
+
     /// How far the circle of the wrist point is from where upper arm and forearm bring it (eq.
     /// 135).
     #[cold]
     pub(super) fn missed(&self, last: &Frame) -> Reach {
-        let hand = Hand::of(&self.constants.lengths, last);
+        let hand = Hand::of(&self.lengths, last);
         let at = |angle: f64| {
             let (sin, cos) = sin_cos::<false>(angle);
             self.missed_by(&hand, [sin, cos])
@@ -50,7 +59,7 @@ impl OffsetWrist {
 
     /// How far the wrist point is from there, for an angle of joint 6.
     fn missed_by(&self, hand: &Hand, sin_cos_6: [f64; 2]) -> Reach {
-        let lengths = &self.constants.lengths;
+        let lengths = &self.lengths;
         let ([x, y, z], _) = hand.at(sin_cos_6);
         let r = x.hypot(y);
         if r < lengths.b.abs() {

@@ -23,7 +23,7 @@ impl OffsetWrist {
         let is_certified = self.solutions(last, free, &mut accepted);
         let mut branches = self.general.slots(&mut accepted, is_certified);
         if accepted.as_slice().is_empty() {
-            branches.reach = self.missed(last);
+            branches.reach = self.constants.missed(last);
         }
         branches
     }
@@ -36,7 +36,7 @@ impl OffsetWrist {
         accepted: &mut Accepted,
     ) -> bool {
         let near = self.joint_map().theta(&free.q);
-        let mut search = Search::new(&self.constants.closure, last, near, accepted);
+        let mut search = Search::new(&self.constants.closure, last, near, accepted, 1);
         search.attempt(&self.constants);
         // The polynomials of the splits are others than the resultant.
         self.general.search(search)

@@ -3,19 +3,18 @@
 use super::part::Part;
 use super::roots::Roots;
 
-/// Width of a part of an arc that is not halved [1]: 5e-8 rad.
-const LEAST_WIDTH: f64 = 1.0 / (1 << 22) as f64;
-
-/// The width for a polynomial that is abandoned if it has a cluster: 4e-4 rad.
-const WIDE: f64 = 1.0 / 512.0;
+/// Width of a part of an arc that is not halved [1]: at first, and if the polynomial is abandoned
+/// then, 4e-4 rad; at last 3e-6 rad.
+pub(crate) const WIDE: f64 = 1.0 / 512.0;
+pub(crate) const NARROW: f64 = 1.0 / (1 << 16) as f64;
 
 /// Parts that wait for their division in a polynomial that is not abandoned, at most.
 const MOST_PARTS: usize = 24;
 
 /// The treatment of clusters.
 pub(super) enum Clusters<'a> {
-    /// Keep them: they are of one polynomial.
-    Kept(&'a mut Roots),
+    /// Keep them, in parts of a width [1] or more: they are of one polynomial.
+    Kept(&'a mut Roots, f64),
     /// Abandon each of several polynomials at its first one.
     Abandoned(&'a mut [Progress]),
 }
@@ -41,7 +40,7 @@ impl Clusters<'_> {
 
     /// Whether a part is too narrow to be halved.
     pub(super) fn is_narrow(&self, part: &Part) -> bool {
-        let least = if matches!(self, Self::Kept(_)) { LEAST_WIDTH } else { WIDE };
+        let least = if let Self::Kept(_, width) = self { *width } else { WIDE };
         part.high - part.low < 1.5 * least
     }
 
@@ -57,7 +56,7 @@ impl Clusters<'_> {
     /// Take a cluster.
     pub(super) fn take(&mut self, part: &Part) {
         match self {
-            Self::Kept(roots) => roots.push(part.cluster()),
+            Self::Kept(roots, _) => roots.push(part.cluster()),
             Self::Abandoned(all) => all[part.of] = Progress::ABANDONED,
         }
     }

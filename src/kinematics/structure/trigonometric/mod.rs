@@ -18,6 +18,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use clusters::{NARROW, WIDE};
 pub(crate) use polynomial::TrigonometricPolynomial;
 pub(crate) use roots::{Root, Roots};
 pub(crate) use search::{RootBlock, SimpleRoots};

@@ -2,8 +2,8 @@
 
 use arrayvec::ArrayVec;
 
-/// Most intervals that are kept: twice as many as there can be roots.
-const MOST_ROOTS: usize = 32;
+/// How far ends of two arcs that are the same may differ by rounding [rad].
+const SEAM: f64 = 1e-14;
 
 /// A root, or a cluster of roots that noise or a small distance does not separate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,13 +37,16 @@ impl Root {
 /// All real roots of a polynomial, by increasing angle, in a range of a full turn.
 #[derive(Clone, Debug)]
 pub(crate) struct Roots {
-    pub(super) all: ArrayVec<Root, MOST_ROOTS>,
+    pub(super) all: ArrayVec<Root, { Roots::ROOM }>,
     /// Whether nothing was left out: false for a polynomial that is noise, or with more intervals
     /// than there is room for.
     pub(crate) is_complete: bool,
 }
 
 impl Roots {
+    /// Most intervals that are kept: twice as many as there can be roots.
+    pub(crate) const ROOM: usize = 32;
+
     pub(super) fn push(&mut self, root: Root) {
         if self.all.is_full() {
             self.join();
@@ -55,13 +58,18 @@ impl Roots {
         &self.all
     }
 
+    /// Remove clusters in which nothing can be.
+    pub(crate) fn exclude(&mut self, is_empty: impl Fn(&Root) -> bool) {
+        self.all.retain(|root| root.is_simple || !is_empty(root));
+    }
+
     /// Sort by angle, and join clusters that touch one another.
     pub(super) fn join(&mut self) {
         self.all.sort_unstable_by(|a, b| a.low.total_cmp(&b.low));
         let mut kept = 0;
         for index in 1..self.all.len() {
             let (root, last) = (self.all[index], &mut self.all[kept]);
-            if !last.is_simple && !root.is_simple && root.low <= last.high {
+            if !last.is_simple && !root.is_simple && root.low <= last.high + SEAM {
                 last.high = last.high.max(root.high);
             } else {
                 kept += 1;

@@ -21,14 +21,15 @@ const MOST_MULTIPLICITY: usize = 8;
 const TAYLOR: usize = 14;
 
 impl TrigonometricPolynomial {
-    /// Return every real root, in a range of a full turn: complete up to the noise (eq. 96).
-    pub(crate) fn roots<S: Simd>(&self, simd: S) -> Roots {
+    /// Return every real root, in a range of a full turn: complete up to the noise (eq. 96). Parts
+    /// of arcs of a width [1] are clusters if they may have more than one.
+    pub(crate) fn roots<S: Simd>(&self, simd: S, width: f64) -> Roots {
         let mut roots = Roots { all: ArrayVec::new(), is_complete: !self.is_noise() };
         if !roots.is_complete {
             return roots;
         }
         let mut brackets = Brackets::new();
-        Search::new(&mut brackets, Clusters::Kept(&mut roots)).isolate(simd, slice::from_ref(self));
+        Search::new(&mut brackets, Clusters::Kept(&mut roots, width)).isolate(simd, slice::from_ref(self));
         roots.is_complete &= brackets.is_complete;
         let count = usize::from(brackets.count);
         for (first, block) in (0..count).step_by(LANES).zip(&brackets.blocks) {

@@ -54,7 +54,7 @@ impl VectorKernel for RootsOf<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Roots {
-        self.0.roots(simd)
+        self.0.roots(simd, NARROW)
     }
 }
 
