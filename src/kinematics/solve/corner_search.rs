@@ -107,7 +107,7 @@ impl<const N: usize> NearestSearch<'_, N> {
         turning: f64,
     ) -> Result<(), Error> {
         let coarse = TAU / f64::from(COARSE_STEPS);
-        let members = self.members(from, free, turning)?;
+        let (members, _) = self.members(from, free, turning)?;
         let elbow = |member: &Solution<N>| Some(self.robot.singular_distances(&member.q)?.elbow);
         let Some((member, elbow)) = members
             .iter()
@@ -128,7 +128,9 @@ impl<const N: usize> NearestSearch<'_, N> {
         let mut before = self.sample(from, free, turning + off(-last))?;
         let mut here = self.sample(from, free, turning + off(1 - last))?;
         for number in 2 - last..=last {
-            let next = self.sample(from, free, turning + off(number))?;
+            let mut next = self.sample(from, free, turning + off(number))?;
+            // Next to there a step halves the way, and the elbow moves as in a coarse one.
+            next.place = here.place + coarse;
             self.look_into_valleys(from, free, [&before, &here, &next], &mut valleys)?;
             (before, here) = (here, next);
         }
@@ -183,15 +185,17 @@ impl<const N: usize> NearestSearch<'_, N> {
             .find(|steps| f64::from(*steps) * step >= (high - low) * arc.half)
             .unwrap_or(STEPS);
         let mut valleys = VALLEYS;
-        let mut before = Sample::nothing(arc.at(low));
         let mut here = self.sample(from, free, arc.at(low))?;
+        let mut before = Sample::nothing(here.angle);
         for number in 1..=steps {
             let part = low + (high - low) * f64::from(number) / f64::from(steps);
-            let next = self.sample(from, free, arc.at(part))?;
+            let mut next = self.sample(from, free, arc.at(part))?;
+            next.place = here.place + (high - low) * arc.half / f64::from(steps);
             self.look_into_valleys(from, free, [&before, &here, &next], &mut valleys)?;
             (before, here) = (here, next);
         }
-        let beyond = Sample::nothing(here.angle);
+        let mut beyond = Sample::nothing(here.angle);
+        beyond.place = here.place;
         self.look_into_valleys(from, free, [&before, &here, &beyond], &mut valleys)
     }
 }

@@ -151,6 +151,13 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     fn run(&mut self) -> Result<(), Error> {
         let known = self.known;
         known.iter().for_each(|solution| self.take(solution, solution));
+        if known.iter().all(|solution| self.is_singular_once(solution)) {
+            known.iter().for_each(|solution| self.look_at_wrist(solution));
+            self.start_from_seed(known);
+            if self.best.is_some() {
+                return Ok(());
+            }
+        }
         if self.robot.slot_names().is_some() {
             for q in self.choices() {
                 self.look_around(&self.robot.solve(*known.pose(), &FreeChoice::seed(q))?)?;
@@ -171,6 +178,16 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             }
         }
         Ok(())
+    }
+
+    /// Whether all that a solution stands for is itself or along its wrist: only where two
+    /// singularities meet, or a joint without a partner is free, there is more.
+    fn is_singular_once(&self, solution: &Solution<N>) -> bool {
+        let kinds = solution.singularities();
+        let is_along_wrist = solution.free_joint.is_none_or(|free| free.partner().is_some());
+        let is_one =
+            SingularityKind::WRIST.contains(kinds) || SingularityKind::ELBOW.contains(kinds);
+        is_along_wrist && is_one && self.robot.singular_wrist().is_some()
     }
 
     /// Search next to solutions and to the seed, and along the solutions' undetermined joints.
@@ -226,7 +243,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     }
 
     /// Keep a solution if it is wanted and the nearest so far.
-    fn take(&mut self, solution: &Solution<N>, from: &Solution<N>) {
+    pub(super) fn take(&mut self, solution: &Solution<N>, from: &Solution<N>) {
         let Wanted { limits, seed, weights, accepts } = self.wanted;
         let Some(q) = limits.wrapped_near(&solution.q, seed) else { return };
         let cost = Cost::Distance.total(&q, seed, weights);

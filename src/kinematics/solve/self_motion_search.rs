@@ -28,6 +28,10 @@ const PLANE_STEPS: u32 = 72;
 /// Least number of steps in which a part of a turn is searched.
 pub(super) const LEAST_STEPS: u32 = 8;
 
+/// How much faster than the free joint the joints together move, at most, where no wrist is singular
+/// [1].
+const MOST_SPEED: f64 = 10.0;
+
 /// Valleys between steps that are looked into.
 pub(super) const VALLEYS: u32 = 16;
 
@@ -38,11 +42,18 @@ type OfSlots = [f64; MOST_SLOTS];
 #[derive(Clone, Copy)]
 pub(super) struct Sample {
     pub(super) angle: f64,
+    /// Its place on the way, along which the joints move steadily [rad].
+    pub(super) place: f64,
     /// How far the farthest joint is outside its limits or, inside them, less than zero and the
     /// less the nearer to the seed.
     pub(super) heights: OfSlots,
     /// Size of sin q5 of an arm whose wrist may be singular as well.
     wrists: OfSlots,
+}
+
+/// Return the least of the heights.
+fn least(heights: &OfSlots) -> f64 {
+    heights.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 /// Whether the middle one of three values is the least.
@@ -54,11 +65,11 @@ impl Sample {
     /// One at which nothing is met.
     pub(super) fn nothing(angle: f64) -> Self {
         let nothing = [f64::INFINITY; MOST_SLOTS];
-        Self { angle, heights: nothing, wrists: nothing }
+        Self { angle, place: angle, heights: nothing, wrists: nothing }
     }
 
     pub(super) fn least_height(&self) -> f64 {
-        self.heights.into_iter().fold(f64::INFINITY, f64::min)
+        least(&self.heights)
     }
 }
 
@@ -79,7 +90,7 @@ impl<const N: usize> NearestSearch<'_, N> {
         let joint = free.joint() - 1;
         for angle in [from.q[joint], self.wanted.seed[joint]] {
             for rotated in [angle, angle + PI] {
-                for member in &self.members(from, free, rotated)? {
+                for member in &self.members(from, free, rotated)?.0 {
                     self.move_onto_pose(&member.q, LIMIT_SLACK, member);
                 }
             }
@@ -121,18 +132,29 @@ impl<const N: usize> NearestSearch<'_, N> {
         left: &mut u32,
     ) -> Result<(), Error> {
         let between = [samples[0].angle, samples[2].angle];
+        let width = samples[2].place - samples[0].place;
         for slot in 0..self.known.slot_count() {
-            if is_valley(samples.map(|sample| sample.heights[slot])) && *left > 0 {
+            let heights = samples.map(|sample| sample.heights[slot]);
+            if is_valley(heights) && self.may_be_nearer(heights[1], width) && *left > 0 {
                 *left -= 1;
-                let height = |search: &Self, members: &_| search.height(members, slot);
-                self.look_into_valley(from, free, between, height)?;
+                self.look_into_valley(from, free, between, |heights| heights[slot])?;
             }
         }
         // If another joint is singular as well, rounding moves a branch from slot to slot.
-        if is_valley(samples.map(Sample::least_height)) {
-            self.look_into_valley(from, free, between, Self::least_height)?;
+        let heights = samples.map(Sample::least_height);
+        if is_valley(heights) && self.may_be_nearer(heights[1], width) {
+            self.look_into_valley(from, free, between, least)?;
         }
         Ok(())
+    }
+
+    /// Whether a valley of this height and width may have a member that is nearer than what was
+    /// found.
+    fn may_be_nearer(&self, height: f64, width: f64) -> bool {
+        let Some(best) = self.best.filter(|_| height < 0.0) else { return true };
+        let cost = -1.0 / height - 1.0;
+        let heaviest = self.wanted.weights.iter().copied().fold(0.0, f64::max);
+        cost.sqrt() - best.cost.sqrt() < MOST_SPEED * heaviest.sqrt() * width.abs()
     }
 
     /// Whether the free joint can move with the tool on the pose: near the singularity it cannot.
@@ -143,8 +165,7 @@ impl<const N: usize> NearestSearch<'_, N> {
     ) -> Result<bool, Error> {
         let own = from.q[free.joint() - 1];
         for part in [0.05, -0.05, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4] {
-            let solutions = self.members(from, free, own + part)?;
-            if (0..self.known.slot_count()).any(|slot| self.height(&solutions, slot).is_finite()) {
+            if least(&self.members(from, free, own + part)?.1).is_finite() {
                 return Ok(true);
             }
         }
@@ -197,24 +218,29 @@ impl<const N: usize> NearestSearch<'_, N> {
         Ok(())
     }
 
-    /// The solutions with the free joint at `angle`, of which the nearest is taken.
+    /// The solutions with the free joint at `angle`, of which the nearest is taken, and the heights
+    /// of those that meet the pose.
     pub(super) fn members(
         &mut self,
         from: &Solution<N>,
         free: FreeJoint,
         angle: f64,
-    ) -> Result<Solutions<N>, Error> {
+    ) -> Result<(Solutions<N>, OfSlots), Error> {
         let mut q = self.others;
         if let (Some(last), Some(given)) = (q.get_mut(6), from.q.get(6)) {
             *last = *given;
         }
         let seeded = Solution { q, ..*from };
-        let solutions =
-            self.robot.solve_with_free_joint(self.known.pose(), &seeded, free, angle)?;
+        let pose = self.known.pose();
+        let solutions = self.robot.solve_with_free_joint(pose, &seeded, free, angle)?;
+        let mut heights = [f64::INFINITY; MOST_SLOTS];
         for solution in &solutions {
-            self.take_if_met(solution, from);
+            if self.robot.residual(&solution.q, pose).largest() <= self.allowed {
+                heights[solution.slot.index()] = self.height_of(&solution.q);
+                self.take(solution, from);
+            }
         }
-        Ok(solutions)
+        Ok((solutions, heights))
     }
 
     pub(super) fn sample(
@@ -223,18 +249,9 @@ impl<const N: usize> NearestSearch<'_, N> {
         free: FreeJoint,
         angle: f64,
     ) -> Result<Sample, Error> {
-        let solutions = self.members(from, free, angle)?;
-        let heights = core::array::from_fn(|slot| self.height(&solutions, slot));
+        let (solutions, heights) = self.members(from, free, angle)?;
         let wrists = core::array::from_fn(|slot| self.wrist(&solutions, slot));
-        Ok(Sample { angle, heights, wrists })
-    }
-
-    fn height(&self, solutions: &Solutions<N>, slot: usize) -> f64 {
-        let met = |solution: &&Solution<N>| {
-            self.robot.residual(&solution.q, self.known.pose()).largest() <= self.allowed
-        };
-        let found = solutions.slot(slot).filter(met);
-        found.map_or(f64::INFINITY, |solution| self.height_of(&solution.q))
+        Ok(Sample { angle, place: angle, heights, wrists })
     }
 
     /// How far the farthest joint is outside its limits or, inside them, less than zero and the
@@ -255,12 +272,6 @@ impl<const N: usize> NearestSearch<'_, N> {
         solution.map_or(f64::INFINITY, |found| wrist.sin_5(&found.q).abs())
     }
 
-    /// The least height of all slots.
-    fn least_height(&self, solutions: &Solutions<N>) -> f64 {
-        let heights = (0..self.known.slot_count()).map(|slot| self.height(solutions, slot));
-        heights.fold(f64::INFINITY, f64::min)
-    }
-
     /// Search between two angles where the members exceed the limits least, or are nearest to the
     /// seed.
     fn look_into_valley(
@@ -268,12 +279,9 @@ impl<const N: usize> NearestSearch<'_, N> {
         from: &Solution<N>,
         free: FreeJoint,
         [low, high]: [f64; 2],
-        height: impl Fn(&Self, &Solutions<N>) -> f64,
+        height: impl Fn(&OfSlots) -> f64,
     ) -> Result<(), Error> {
-        let at = |angle| {
-            let solutions = self.members(from, free, angle)?;
-            Ok(height(self, &solutions))
-        };
+        let at = |angle| Ok(height(&self.members(from, free, angle)?.1));
         golden_section(at, low, high).map(|_| ())
     }
 
@@ -287,11 +295,11 @@ impl<const N: usize> NearestSearch<'_, N> {
         [low, high]: [f64; 2],
     ) -> Result<(), Error> {
         let wrist = |angle| {
-            let solutions = self.members(from, free, angle)?;
+            let (solutions, _) = self.members(from, free, angle)?;
             Ok(self.wrist(&solutions, slot))
         };
         let (angle, _) = golden_section(wrist, low, high)?;
-        let solutions = self.members(from, free, angle)?;
+        let (solutions, _) = self.members(from, free, angle)?;
         for twin in [slot, slot ^ 1] {
             if let Some(solution) = solutions.slot(twin) {
                 self.look_at_wrist(solution);
