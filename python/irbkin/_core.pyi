@@ -2542,6 +2542,24 @@ class Trajectory:
             MotionPeaks(velocity, acceleration, jerk) [rad/s, rad/s^2, rad/s^3], arrays of shape
             (n,). A jump of the acceleration at a knot does not count as jerk.
         """
+    def range(self) -> _Floats:
+        """Return the least and the greatest angle of each joint, exact between samples too.
+
+        Returns:
+            Angles [rad], shape (n, 2), as `robot.limits` has them.
+        """
+
+    def check_limits(self, limits: npt.ArrayLike) -> None:
+        """Refuse the motion if a joint leaves limits by more than 1e-9 rad, between samples too.
+
+        Args:
+            limits: Lower and upper limits of the joint angles [rad], shape (n, 2).
+
+        Raises:
+            InvalidMotionError: The joint that leaves them farthest, with the time, its angle and
+                the limit; or a wrong shape.
+        """
+
     def resampled(self, steps: int) -> Trajectory:
         """Return the motion with other samples.
 
@@ -2595,6 +2613,7 @@ def joint(
     max_acceleration: npt.ArrayLike | None = None,
     max_jerk: npt.ArrayLike | None = None,
     synchronization: Literal["time", "phase"] = "time",
+    limits: npt.ArrayLike | None = None,
 ) -> Trajectory:
     """Move from one joint vector to another.
 
@@ -2615,6 +2634,8 @@ def joint(
         max_jerk: Limits [rad/s^3], a number or shape (n,).
         synchronization: With limits alone: "time", each joint has a profile of its own, slowed down
             to the slowest; or "phase", a straight line in joint space.
+        limits: Lower and upper limits of the joint angles [rad], shape (n, 2), `robot.limits` for
+            instance: the motion must stay inside, between waypoints too.
 
     Returns:
         The trajectory, which meets both ends. With a duration and limits it is checked against
@@ -2622,8 +2643,8 @@ def joint(
 
     Raises:
         InvalidMotionError: A limit or the duration is not positive, the duration is too short for
-            a limit, a joint moves and no limit binds it, or the profile cannot have what is given
-            for an end.
+            a limit, a joint moves and no limit binds it or leaves `limits`, or the profile cannot
+            have what is given for an end.
         InvalidJointsError: A wrong shape.
     """
 
@@ -2637,6 +2658,7 @@ def spline(
     max_velocity: npt.ArrayLike | None = None,
     max_acceleration: npt.ArrayLike | None = None,
     max_jerk: npt.ArrayLike | None = None,
+    limits: npt.ArrayLike | None = None,
 ) -> Trajectory:
     """Move through many joint vectors on a smooth curve, at rest at both ends.
 
@@ -2652,13 +2674,16 @@ def spline(
             is as fast as they allow.
         max_acceleration: Limits [rad/s^2], in the same way.
         max_jerk: Limits [rad/s^3], in the same way.
+        limits: Lower and upper limits of the joint angles [rad], shape (n, 2), `robot.limits` for
+            instance: the motion must stay inside, between waypoints too.
 
     Returns:
         The trajectory, which passes every waypoint.
 
     Raises:
         InvalidMotionError: Fewer than two waypoints, waypoints that repeat the one before without
-            `t`, times that do not increase, a limit that is exceeded or not positive.
+            `t`, times that do not increase, a limit that is exceeded or not positive, or a joint
+            that leaves `limits`: the message has the joint, the time, its angle and the limit.
         InvalidJointsError: A wrong shape.
     """
 
@@ -2669,12 +2694,16 @@ def retime(
     *,
     T: npt.ArrayLike | None = None,
     max_tool_speed: float | None = None,
+    start_velocity: npt.ArrayLike | None = None,
+    end_velocity: npt.ArrayLike | None = None,
+    limits: npt.ArrayLike | None = None,
     steps: int | None = None,
 ) -> Trajectory:
-    """Move along a path in the shortest time within limits, from rest to rest.
+    """Move along a path in the shortest time within limits.
 
-    The path is a cubic spline through the samples. No joint exceeds a limit anywhere, between the
-    samples too. Catalogs have no accelerations: they are the caller's.
+    The path is a cubic spline through the samples. No joint exceeds a velocity or an acceleration
+    anywhere; with `limits` its angle is checked between the samples too. Catalogs have no
+    accelerations: they are the caller's.
 
     Args:
         q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
@@ -2683,6 +2712,11 @@ def retime(
         T: With `max_tool_speed`, the poses of the tool at the samples, shape (m, 4, 4).
         max_tool_speed: Speed along `T` [m/s] that is not exceeded: the tool has it where the limits
             allow.
+        start_velocity: Velocities of the joints at the start [rad/s], shape (n,), in the direction
+            of the path: `dq` of a motion along it. Rest if not given.
+        end_velocity: Velocities of the joints at the end, in the same way.
+        limits: Lower and upper limits of the joint angles [rad], shape (n, 2), `robot.limits` for
+            instance: the motion must stay inside, between waypoints too.
         steps: Number of samples of the answer; as many as `q` has where it is not given.
 
     Returns:
@@ -2690,8 +2724,10 @@ def retime(
 
     Raises:
         InvalidMotionError: No rows, a limit that is not positive, a path that no limit binds, a
-            duration that is not between 1e-9 and 1e9 s or, with `max_tool_speed`, a part of the
-            path on which the tool only turns.
+            duration that is not between 1e-9 and 1e9 s, a velocity at an end that is not along the
+            path or too fast for it, a joint that leaves `limits` (the message has the joint, the
+            time, its angle and the limit) or, with `max_tool_speed`, a part of the path on which
+            the tool only turns.
         InvalidJointsError: A wrong shape, or an angle that is not finite.
         InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
     """
@@ -2703,6 +2739,7 @@ def at_tool_speed(
     max_velocity: npt.ArrayLike,
     max_acceleration: npt.ArrayLike | None = None,
     *,
+    limits: npt.ArrayLike | None = None,
     steps: int | None = None,
 ) -> Trajectory:
     """Move along a path at a constant speed of the tool, which moves at both ends.
@@ -2716,6 +2753,7 @@ def at_tool_speed(
         speed: Speed of the tool along `T` [m/s].
         max_velocity: As of `retime`.
         max_acceleration: Limits [rad/s^2], a number or shape (n,); none where it is not given.
+        limits: As of `retime`.
         steps: Number of samples of the answer; as many as `q` has where it is not given.
 
     Returns:
@@ -2723,8 +2761,8 @@ def at_tool_speed(
 
     Raises:
         InvalidMotionError: A joint does not allow the speed: the message names it, the sample and
-            the speed that it allows; the speed or a limit is not positive, or the tool only turns
-            on a part of the path.
+            the speed that it allows; the speed or a limit is not positive, a joint leaves
+            `limits`, or the tool only turns on a part of the path.
         InvalidJointsError, InvalidPoseError: As `retime`.
     """
 

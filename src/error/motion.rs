@@ -43,10 +43,35 @@ pub enum MotionFault {
     NoDuration { joint: usize },
     /// `what`: "velocity", "acceleration" or "jerk".
     #[error(
-        "joint {joint} reaches a {what} of {value:.6}, its limit is {limit:.6}: give a longer \
-         duration, or limits without a duration"
+        "joint {joint} reaches a {what} of {value:?}, its limit is {limit:?} (excess {:.2e}): give a \
+         longer duration, or limits without a duration",
+        .value - .limit
     )]
     AboveLimit { joint: usize, what: &'static str, value: f64, limit: f64 },
+    /// `value` and `limit`: angles; `time`: since the start of the motion.
+    #[error(
+        "joint {joint} is at {value:.9} rad at {time:.6} s, its limit is {limit:.9} rad (excess \
+         {:.2e} rad): keep the ends and the waypoints farther from the limit, or give more waypoints \
+         where the curve swings out between them",
+        (.value - .limit).abs()
+    )]
+    Outside { joint: usize, time: f64, value: f64, limit: f64 },
+    #[error("limits of joint {joint} are {lower:?} and {upper:?}, lower must not exceed upper")]
+    EmptyLimit { joint: usize, lower: f64, upper: f64 },
+    /// `along`: its velocity at the same pace along the path.
+    #[error(
+        "{field}: joint {joint} has {value:?} rad/s, in the direction of the path it would have \
+         {along:?} rad/s: the path cannot be left, give a multiple of its direction"
+    )]
+    OffPath { field: &'static str, joint: usize, value: f64, along: f64 },
+    /// `part`: how much of the velocity the limits allow.
+    #[error(
+        "{field} is too fast for the path and its limits, {part:.6} of it is possible: lower it, \
+         raise a limit, or give a longer path"
+    )]
+    EndTooFast { field: &'static str, part: f64 },
+    #[error("the motion was stopped")]
+    Stopped,
     #[error(
         "a {profile} profile takes no {field}: use \"quintic\" for velocities and accelerations at \
          the ends, \"cubic\" for velocities"
@@ -86,7 +111,7 @@ pub enum MotionFault {
     ToolStill { row: usize, way: f64, bound: f64 },
     /// The row is the last one before the place.
     #[error(
-        "joint {joint} allows {most:.6} m/s at row {row} of q, {asked:.6} m/s is asked: give a \
+        "joint {joint} allows {most:?} m/s at row {row} of q, {asked:?} m/s is asked: give a \
          lower speed, or retime with max_tool_speed, which is slower there"
     )]
     ToolSpeed { joint: usize, row: usize, most: f64, asked: f64 },

@@ -242,6 +242,10 @@ pub(crate) const MOST_DURATION: f64 = 1e9;
 /// How far joints may be apart where one trajectory continues another [rad].
 pub(crate) const JOINED_POSITION: f64 = 1e-9;
 
+/// How far a velocity may be off the direction of the path that it is along, as a part of its size
+/// [1]: far above the rounding of a derivative, far below a direction that is meant.
+pub(crate) const PATH_DIRECTION: f64 = 1e-6;
+
 /// How far rounding may exceed a limit of a motion, as a part of the limit [1].
 pub(crate) const LIMIT_ROUNDING: f64 = 1e-9;
 

@@ -7,11 +7,12 @@ use super::arguments::read_steps;
 use super::errors::Fault;
 use super::outputs::column;
 use super::records::ToolSpeedLimits;
+use super::signals::detached_while;
 use super::targets::read_path_poses;
-use super::trajectories::{read_each, read_rows};
+use super::trajectories::{inside, read_angle_limits, read_each, read_rows};
 use super::trajectory::PyTrajectory;
 use crate::error::Error;
-use crate::trajectory::{Trajectory, tool_lengths};
+use crate::trajectory::{Retiming, Trajectory, tool_lengths};
 
 /// A path of joints with their limits.
 struct Path {
@@ -54,18 +55,22 @@ impl Path {
     fn timed(
         &self,
         py: Python<'_>,
+        limits: Option<&Bound<'_, PyAny>>,
         steps: Option<&Bound<'_, PyAny>>,
-        time: impl FnOnce(&Self) -> Result<Trajectory, Error> + Send,
+        time: impl FnOnce(&Self, &mut dyn FnMut() -> bool) -> Result<Trajectory, Error> + Send,
     ) -> PyResult<PyTrajectory> {
         let steps = steps.map_or(Ok(self.rows().max(2)), read_steps)?;
-        PyTrajectory::even(py, py.detach(|| time(self))?, steps)
+        let limits = read_angle_limits(limits, self.max_velocity.len())?;
+        let motion = detached_while(py, |go_on| inside(time(self, go_on)?, limits.as_deref()))?;
+        PyTrajectory::even(py, motion?, steps)
     }
 }
 
-/// Move along a path in the shortest time within limits, from rest to rest.
+/// Move along a path in the shortest time within limits.
 ///
-/// The path is a cubic spline through the samples. No joint exceeds a limit anywhere, between the
-/// samples too. Catalogs have no accelerations: they are the caller's.
+/// The path is a cubic spline through the samples. No joint exceeds a velocity or an acceleration
+/// anywhere; with `limits` its angle is checked between the samples too. Catalogs have no
+/// accelerations: they are the caller's.
 ///
 /// Args:
 ///     q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
@@ -74,6 +79,11 @@ impl Path {
 ///     T: With `max_tool_speed`, the poses of the tool at the samples, shape (m, 4, 4).
 ///     max_tool_speed: Speed along `T` [m/s] that is not exceeded: the tool has it where the limits
 ///         allow.
+///     start_velocity: Velocities of the joints at the start [rad/s], shape (n,), in the direction
+///         of the path: `dq` of a motion along it. Rest if not given.
+///     end_velocity: Velocities of the joints at the end, in the same way.
+///     limits: Lower and upper limits of the joint angles [rad], shape (n, 2), `robot.limits` for
+///         instance: the motion must stay inside, between waypoints too.
 ///     steps: Number of samples of the answer; as many as `q` has where it is not given.
 ///
 /// Returns:
@@ -81,35 +91,43 @@ impl Path {
 ///
 /// Raises:
 ///     InvalidMotionError: No rows, a limit that is not positive, a path that no limit binds, a
-///         duration that is not between 1e-9 and 1e9 s or, with `max_tool_speed`, a part of the
-///         path on which the tool only turns.
+///         duration that is not between 1e-9 and 1e9 s, a velocity at an end that is not along the
+///         path or too fast for it, a joint that leaves `limits` (the message has the joint, the
+///         time, its angle and the limit) or, with `max_tool_speed`, a part of the path on which
+///         the tool only turns.
 ///     InvalidJointsError: A wrong shape, or an angle that is not finite.
 ///     InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
 #[pyfunction]
-#[pyo3(signature = (q, max_velocity, max_acceleration, *, T=None, max_tool_speed=None, steps=None))]
+#[pyo3(signature = (q, max_velocity, max_acceleration, *, T=None, max_tool_speed=None,
+    start_velocity=None, end_velocity=None, limits=None, steps=None))]
 #[expect(non_snake_case, reason = "the name that users pass")]
+#[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 pub(super) fn retime(
     q: &Bound<'_, PyAny>,
     max_velocity: &Bound<'_, PyAny>,
     max_acceleration: &Bound<'_, PyAny>,
     T: Option<&Bound<'_, PyAny>>,
     max_tool_speed: Option<f64>,
+    start_velocity: Option<&Bound<'_, PyAny>>,
+    end_velocity: Option<&Bound<'_, PyAny>>,
+    limits: Option<&Bound<'_, PyAny>>,
     steps: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyTrajectory> {
-    let py = q.py();
     let path = Path::read(q, max_velocity, Some(max_acceleration))?;
-    match (T, max_tool_speed) {
-        (None, None) => path.timed(py, steps, |Path { q, max_velocity, max_acceleration }| {
-            crate::trajectory::retime(q, max_velocity, max_acceleration)
-        }),
-        (Some(tool), Some(speed)) => {
-            let lengths = path.read_lengths(tool)?;
-            path.timed(py, steps, |Path { q, max_velocity, max_acceleration }| {
-                crate::trajectory::retime_tool(q, &lengths, speed, max_velocity, max_acceleration)
-            })
-        }
-        _ => Err(PyValueError::new_err("give T and max_tool_speed together, or neither")),
-    }
+    let dof = path.max_velocity.len();
+    let start = read_each(start_velocity, "start_velocity", dof, 0.0)?;
+    let end = read_each(end_velocity, "end_velocity", dof, 0.0)?;
+    let lengths = T.map(|tool| path.read_lengths(tool)).transpose()?;
+    let tool = match (lengths.as_deref(), max_tool_speed) {
+        (None, None) => None,
+        (Some(lengths), Some(speed)) => Some((lengths, speed)),
+        _ => return Err(PyValueError::new_err("give T and max_tool_speed together, or neither")),
+    };
+    path.timed(q.py(), limits, steps, |Path { q, max_velocity, max_acceleration }, go_on| {
+        let (start_velocity, end_velocity) = (Some(&start[..]), Some(&end[..]));
+        Retiming { max_velocity, max_acceleration, start_velocity, end_velocity, tool }
+            .along_while(q, go_on)
+    })
 }
 
 /// Move along a path at a constant speed of the tool, which moves at both ends.
@@ -123,6 +141,7 @@ pub(super) fn retime(
 ///     speed: Speed of the tool along `T` [m/s].
 ///     max_velocity: As of `retime`.
 ///     max_acceleration: Limits [rad/s^2], a number or shape (n,); none where it is not given.
+///     limits: As of `retime`.
 ///     steps: Number of samples of the answer; as many as `q` has where it is not given.
 ///
 /// Returns:
@@ -130,11 +149,11 @@ pub(super) fn retime(
 ///
 /// Raises:
 ///     InvalidMotionError: A joint does not allow the speed: the message names it, the sample and
-///         the speed that it allows; the speed or a limit is not positive, or the tool only turns
-///         on a part of the path.
+///         the speed that it allows; the speed or a limit is not positive, a joint leaves
+///         `limits`, or the tool only turns on a part of the path.
 ///     InvalidJointsError, InvalidPoseError: As `retime`.
 #[pyfunction]
-#[pyo3(signature = (q, T, speed, max_velocity, max_acceleration=None, *, steps=None))]
+#[pyo3(signature = (q, T, speed, max_velocity, max_acceleration=None, *, limits=None, steps=None))]
 #[expect(non_snake_case, reason = "the name that users pass")]
 pub(super) fn at_tool_speed(
     q: &Bound<'_, PyAny>,
@@ -142,11 +161,12 @@ pub(super) fn at_tool_speed(
     speed: f64,
     max_velocity: &Bound<'_, PyAny>,
     max_acceleration: Option<&Bound<'_, PyAny>>,
+    limits: Option<&Bound<'_, PyAny>>,
     steps: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyTrajectory> {
     let path = Path::read(q, max_velocity, max_acceleration)?;
     let lengths = path.read_lengths(T)?;
-    path.timed(q.py(), steps, |Path { q, max_velocity, max_acceleration }| {
+    path.timed(q.py(), limits, steps, |Path { q, max_velocity, max_acceleration }, _| {
         crate::trajectory::at_tool_speed(q, &lengths, speed, max_velocity, max_acceleration)
     })
 }

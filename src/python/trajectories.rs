@@ -8,7 +8,8 @@ use super::arguments::{PROFILES, SPLINES, SYNCHRONIZATIONS, one_of, read_steps};
 use super::arrays::{Rows, copied_numbers, numbers};
 use super::errors::{Fault, shape_text};
 use super::trajectory::PyTrajectory;
-use crate::trajectory::{AxisLimits, AxisState, joint_within};
+use crate::error::Error;
+use crate::trajectory::{AxisLimits, AxisState, Trajectory, joint_within};
 
 /// Joint vectors, shape (m, n): the numbers, and n.
 pub(super) fn read_rows(
@@ -57,6 +58,27 @@ pub(super) fn read_limits(
         .and_then(|all| all.try_into().ok()))
 }
 
+/// Lower and upper limits of joint angles, shape (n, 2), if they are given.
+pub(super) fn read_angle_limits(
+    value: Option<&Bound<'_, PyAny>>,
+    dof: usize,
+) -> PyResult<Option<Vec<[f64; 2]>>> {
+    let Some(value) = value else { return Ok(None) };
+    let rows = Rows::shaped(
+        value,
+        || shape_text(&[dof, 2]),
+        "limits",
+        Fault::Motion,
+        |shape| shape == [dof, 2],
+    )?;
+    Ok(Some(rows.data()?.as_chunks().0.to_vec()))
+}
+
+/// A motion that stays inside limits of joint angles, if they are given.
+pub(super) fn inside(motion: Trajectory, limits: Option<&[[f64; 2]]>) -> Result<Trajectory, Error> {
+    limits.map_or(Ok(()), |limits| motion.inside(limits)).map(|()| motion)
+}
+
 /// Limits of the joints; infinite where none is given.
 fn read_axis_limits(
     [velocity, acceleration, jerk]: [Option<&Bound<'_, PyAny>>; 3],
@@ -89,6 +111,8 @@ fn read_axis_limits(
 ///     max_jerk: Limits [rad/s^3], a number or shape (n,).
 ///     synchronization: With limits alone: "time", each joint has a profile of its own, slowed down
 ///         to the slowest; or "phase", a straight line in joint space.
+///     limits: Lower and upper limits of the joint angles [rad], shape (n, 2), `robot.limits` for
+///         instance: the motion must stay inside, between waypoints too.
 ///
 /// Returns:
 ///     The trajectory, which meets both ends. With a duration and limits it is checked against
@@ -96,13 +120,13 @@ fn read_axis_limits(
 ///
 /// Raises:
 ///     InvalidMotionError: A limit or the duration is not positive, the duration is too short for
-///         a limit, a joint moves and no limit binds it, or the profile cannot have what is given
-///         for an end.
+///         a limit, a joint moves and no limit binds it or leaves `limits`, or the profile cannot
+///         have what is given for an end.
 ///     InvalidJointsError: A wrong shape.
 #[pyfunction]
 #[pyo3(signature = (q0, q1, *, steps=50, duration=None, profile="quintic", start_velocity=None,
     end_velocity=None, start_acceleration=None, end_acceleration=None, max_velocity=None,
-    max_acceleration=None, max_jerk=None, synchronization="time"))]
+    max_acceleration=None, max_jerk=None, synchronization="time", limits=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 pub(super) fn joint(
     q0: &Bound<'_, PyAny>,
@@ -118,6 +142,7 @@ pub(super) fn joint(
     max_acceleration: Option<&Bound<'_, PyAny>>,
     max_jerk: Option<&Bound<'_, PyAny>>,
     synchronization: &str,
+    limits: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyTrajectory> {
     let py = q0.py();
     let profile = one_of("profile", profile, &PROFILES)?;
@@ -144,9 +169,12 @@ pub(super) fn joint(
     let velocity = read_each(end_velocity, "end_velocity", dof, 0.0)?;
     let to = states(&end, velocity, read_each(end_acceleration, "end_acceleration", dof, 0.0)?);
     let given = max_velocity.or(max_acceleration).or(max_jerk).is_some();
+    let angles = read_angle_limits(limits, dof)?;
     let limits = read_axis_limits([max_velocity, max_acceleration, max_jerk], dof)?;
     let motion = if given && duration.is_none() {
-        let is_at_rest = |state: &AxisState| state.velocity == 0.0 && state.acceleration == 0.0;
+        let is_at_rest = |state: &AxisState| {
+            [state.velocity, state.acceleration].into_iter().all(AxisState::is_rest)
+        };
         if !from.iter().chain(&to).all(is_at_rest) {
             let message = "limits without a duration are for motions from rest to rest: give \
                            duration for velocities or accelerations at the ends, or use \
@@ -158,7 +186,7 @@ pub(super) fn joint(
         crate::trajectory::joint(profile, &from, &to, duration.unwrap_or(1.0))
             .and_then(|motion| motion.within(&limits).map(|()| motion))
     };
-    PyTrajectory::even(py, motion?, steps)
+    PyTrajectory::even(py, inside(motion?, angles.as_deref())?, steps)
 }
 
 /// Move through many joint vectors on a smooth curve, at rest at both ends.
@@ -175,17 +203,20 @@ pub(super) fn joint(
 ///         is as fast as they allow.
 ///     max_acceleration: Limits [rad/s^2], in the same way.
 ///     max_jerk: Limits [rad/s^3], in the same way.
+///     limits: Lower and upper limits of the joint angles [rad], shape (n, 2), `robot.limits` for
+///         instance: the motion must stay inside, between waypoints too.
 ///
 /// Returns:
 ///     The trajectory, which passes every waypoint.
 ///
 /// Raises:
 ///     InvalidMotionError: Fewer than two waypoints, waypoints that repeat the one before without
-///         `t`, times that do not increase, a limit that is exceeded or not positive.
+///         `t`, times that do not increase, a limit that is exceeded or not positive, or a joint
+///         that leaves `limits`: the message has the joint, the time, its angle and the limit.
 ///     InvalidJointsError: A wrong shape.
 #[pyfunction]
 #[pyo3(signature = (q, *, t=None, steps=100, duration=None, profile="quintic", max_velocity=None,
-    max_acceleration=None, max_jerk=None))]
+    max_acceleration=None, max_jerk=None, limits=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 pub(super) fn spline(
     q: &Bound<'_, PyAny>,
@@ -196,23 +227,22 @@ pub(super) fn spline(
     max_velocity: Option<&Bound<'_, PyAny>>,
     max_acceleration: Option<&Bound<'_, PyAny>>,
     max_jerk: Option<&Bound<'_, PyAny>>,
+    limits: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PyTrajectory> {
     let py = q.py();
     let kind = one_of("profile", profile, &SPLINES)?;
     let (points, dof) = read_rows(q, "q")?;
     let given = max_velocity.or(max_acceleration).or(max_jerk).is_some();
+    let angles = read_angle_limits(limits, dof)?;
     let limits = read_axis_limits([max_velocity, max_acceleration, max_jerk], dof)?;
     if t.is_some() && duration.is_some() {
         return Err(PyValueError::new_err("give t or duration, not both"));
     }
     let times = t.map(|t| numbers(t, "(n,)", "t", Fault::Joints)).transpose()?;
-    let motion = crate::trajectory::through(
-        kind,
-        &points,
-        dof,
-        times.as_deref(),
-        duration.or(if given { None } else { Some(1.0) }),
-        &limits,
-    );
+    let duration = duration.or(if given { None } else { Some(1.0) });
+    let motion = py.detach(|| {
+        crate::trajectory::through(kind, &points, dof, times.as_deref(), duration, &limits)
+            .and_then(|motion| inside(motion, angles.as_deref()))
+    });
     PyTrajectory::even(py, motion?, steps)
 }

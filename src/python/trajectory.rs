@@ -8,9 +8,10 @@ use pyo3::prelude::*;
 use super::arguments::read_steps;
 use super::arrays::Rows;
 use super::errors::Fault;
-use super::outputs::{column, read_only};
+use super::outputs::{array, column, read_only};
 use super::records::{MotionPeaks, TrajectorySample};
 use super::state::{Reduced, reduced};
+use super::trajectories::read_angle_limits;
 use crate::trajectory::{Trajectory, TrajectoryParts};
 
 /// Joint angles, velocities and accelerations over time.
@@ -117,6 +118,28 @@ impl PyTrajectory {
             acceleration: column(py, peaks.iter().map(|peaks| peaks.acceleration)),
             jerk: column(py, peaks.iter().map(|peaks| peaks.jerk)),
         }
+    }
+
+    /// Return the least and the greatest angle of each joint, exact between samples too.
+    ///
+    /// Returns:
+    ///     Angles [rad], shape (n, 2), as `robot.limits` has them.
+    fn range(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let range = self.motion.range();
+        array(py, range.as_flattened().iter().copied(), &[range.len(), 2])
+    }
+
+    /// Refuse the motion if a joint leaves limits by more than 1e-9 rad, between samples too.
+    ///
+    /// Args:
+    ///     limits: Lower and upper limits of the joint angles [rad], shape (n, 2).
+    ///
+    /// Raises:
+    ///     InvalidMotionError: The joint that leaves them farthest, with the time, its angle and
+    ///         the limit; or a wrong shape.
+    fn check_limits(&self, limits: &Bound<'_, PyAny>) -> PyResult<()> {
+        let limits = read_angle_limits(Some(limits), self.motion.dof())?.unwrap_or_default();
+        Ok(self.motion.inside(&limits)?)
     }
 
     /// Return the motion with other samples.

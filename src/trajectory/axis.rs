@@ -4,6 +4,7 @@
 use nalgebra::ComplexField as _;
 
 use super::polynomial::{TERMS, derivatives};
+use crate::kinematics::thresholds::JOINED_POSITION;
 use crate::spline::{hermite, quintic_between};
 
 /// Most pieces of one motion: the seven phases of a jerk-limited one.
@@ -26,6 +27,12 @@ impl AxisState {
     #[must_use]
     pub const fn at_rest(position: f64) -> Self {
         Self { position, velocity: 0.0, acceleration: 0.0 }
+    }
+
+    /// Whether a velocity or an acceleration is none: less than 1e-9 rad/s or rad/s^2, the rounding
+    /// of a motion that ends at rest.
+    pub(crate) fn is_rest(rate: f64) -> bool {
+        rate.abs() <= JOINED_POSITION
     }
 }
 

@@ -33,11 +33,13 @@ impl Profile {
     fn check_ends(self, states: &[AxisState]) -> Result<(), Error> {
         let fault =
             |field: &'static str| MotionFault::Profile { profile: self.name(), field }.into();
-        if self != Self::Quintic && states.iter().any(|state| state.acceleration != 0.0) {
+        if self != Self::Quintic
+            && !states.iter().all(|state| AxisState::is_rest(state.acceleration))
+        {
             return Err(fault("acceleration at an end"));
         }
         let has_velocity = matches!(self, Self::Quintic | Self::Cubic);
-        if !has_velocity && states.iter().any(|state| state.velocity != 0.0) {
+        if !has_velocity && !states.iter().all(|state| AxisState::is_rest(state.velocity)) {
             return Err(fault("velocity at an end"));
         }
         Ok(())

@@ -18,6 +18,8 @@
 
 mod axis;
 mod check;
+mod extremes;
+mod grid;
 mod joint;
 mod piece;
 mod piecewise;
@@ -28,13 +30,14 @@ mod tool_speed;
 mod waypoints;
 
 pub use axis::{AxisLimits, AxisMotion, AxisState, Profile};
+pub use extremes::Peaks;
 pub use joint::{Synchronization, joint, joint_within};
+pub use piecewise::Trajectory;
 #[cfg(feature = "python")]
 pub(crate) use piecewise::TrajectoryParts;
-pub use piecewise::{Peaks, Trajectory};
+pub use retime::{Retiming, retime, retime_tool};
 #[cfg(feature = "rapid")]
 pub(crate) use retime::{evenly, within_times};
-pub use retime::{retime, retime_tool};
 pub use tool_speed::{ToolSpeedLimits, at_tool_speed, tool_lengths, tool_speed_limits};
 pub use waypoints::{SplineKind, spline, through};
 

@@ -52,6 +52,7 @@ impl Piece<'_> {
 /// The limits of acceleration as conditions on the paces x before and y after a piece:
 /// `-limit <= by_before * x + by_after * y <= limit` for each Bernstein coefficient of each joint
 /// (eq. 15). Rest at both ends is always inside.
+#[derive(Default)]
 pub(super) struct Strips {
     /// Conditions with a part of x, solved for it: |x - slope * y| <= half.
     lines: Vec<Line>,
@@ -78,20 +79,20 @@ impl Line {
 }
 
 impl Strips {
-    pub(super) fn of(piece: &Piece<'_>, max_acceleration: &[f64]) -> Self {
+    /// Makes them those of a piece.
+    pub(super) fn set(&mut self, piece: &Piece<'_>, max_acceleration: &[f64]) {
         let h = piece.length;
-        let mut strips =
-            Self { lines: Vec::with_capacity(3 * piece.terms.len()), most_after: f64::INFINITY };
+        self.lines.clear();
+        self.most_after = f64::INFINITY;
         for ([_, c1, c2, c3, ..], limit) in piece.terms.iter().zip(max_acceleration) {
             // dq/ds and d2q/ds2 at both ends, and the middle Bernstein coefficient of the former.
             let (first, middle, last) = (*c1, c1 + c2 * h, c1 + h * (2.0 * c2 + h * 3.0 * c3));
             let (bend, bend_after) = (2.0 * c2, 2.0 * c2 + 6.0 * c3 * h);
             let rate = 0.5 / h;
-            strips.add(bend - first * rate, first * rate, *limit);
-            strips.add(0.5 * bend_after - middle * rate, 0.5 * bend + middle * rate, *limit);
-            strips.add(-last * rate, bend_after + last * rate, *limit);
+            self.add(bend - first * rate, first * rate, *limit);
+            self.add(0.5 * bend_after - middle * rate, 0.5 * bend + middle * rate, *limit);
+            self.add(-last * rate, bend_after + last * rate, *limit);
         }
-        strips
     }
 
     fn add(&mut self, by_before: f64, by_after: f64, limit: f64) {

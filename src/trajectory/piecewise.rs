@@ -3,9 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::axis::{AxisLimits, AxisMotion};
-use super::check::check_axes;
-use super::polynomial::{TERMS, derivative, derivatives, largest_size, shifted, size_bound};
+use super::axis::AxisMotion;
+use super::polynomial::{TERMS, derivatives, shifted};
 use super::sampling::Samples;
 use crate::error::{Error, MotionFault};
 use crate::kinematics::thresholds::{JOINED_POSITION, LIMIT_ROUNDING, MOST_SAMPLES};
@@ -22,11 +21,11 @@ use crate::lanes::run;
     serde(try_from = "TrajectoryParts", into = "TrajectoryParts")
 )]
 pub struct Trajectory {
-    dof: usize,
+    pub(super) dof: usize,
     /// Where each piece begins [s], and the end: one more than there are pieces.
-    knots: Vec<f64>,
+    pub(super) knots: Vec<f64>,
     /// By piece, by joint: the coefficients in the time since the piece began.
-    terms: Vec<[f64; TERMS]>,
+    pub(super) terms: Vec<[f64; TERMS]>,
 }
 
 /// A trajectory as it is stored: reading checks it.
@@ -68,18 +67,6 @@ impl TryFrom<TrajectoryParts> for Trajectory {
         }
         Self::new(dof, knots, terms).checked()
     }
-}
-
-/// The largest velocity, acceleration and jerk of a joint.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Peaks {
-    /// Velocity [rad/s].
-    pub velocity: f64,
-    /// Acceleration [rad/s^2].
-    pub acceleration: f64,
-    /// Jerk [rad/s^3] inside the pieces: a jump of the acceleration at a knot does not count.
-    pub jerk: f64,
 }
 
 impl Trajectory {
@@ -168,7 +155,7 @@ impl Trajectory {
         &self.knots
     }
 
-    fn pieces(&self) -> usize {
+    pub(super) fn pieces(&self) -> usize {
         self.knots.len() - 1
     }
 
@@ -205,36 +192,6 @@ impl Trajectory {
         Ok(())
     }
 
-    /// Refuses a motion that exceeds a limit of a joint by more than rounding.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidMotion`] with the joint, its largest velocity, acceleration or jerk and the
-    /// limit; [`Error::WrongLength`] for another number of limits than of joints.
-    pub fn within(&self, limits: &[AxisLimits]) -> Result<(), Error> {
-        check_axes(limits, self.dof)?;
-        let is_open = |limits: &AxisLimits| {
-            limits.velocity.min(limits.acceleration).min(limits.jerk).is_infinite()
-        };
-        if limits.iter().all(is_open) {
-            return Ok(());
-        }
-        for (index, (peaks, limits)) in self.peaks().iter().zip(limits).enumerate() {
-            for (what, value, limit) in [
-                ("velocity", peaks.velocity, limits.velocity),
-                ("acceleration", peaks.acceleration, limits.acceleration),
-                ("jerk", peaks.jerk, limits.jerk),
-            ] {
-                if value > limit * (1.0 + LIMIT_ROUNDING) {
-                    return Err(
-                        MotionFault::AboveLimit { joint: index + 1, what, value, limit }.into()
-                    );
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// The joint angles at the start and at the end [rad].
     #[must_use]
     pub fn ends(&self) -> [Vec<f64>; 2] {
@@ -244,31 +201,6 @@ impl Trajectory {
             terms.iter().map(|terms| derivatives(terms, since)[0]).collect()
         };
         [at(0, 0.0), at(last, self.knots[last + 1] - self.knots[last])]
-    }
-
-    /// The largest velocity, acceleration and jerk of each joint: exact, not of samples.
-    #[must_use]
-    pub fn peaks(&self) -> Vec<Peaks> {
-        let mut peaks = vec![Peaks::default(); self.dof];
-        for piece in 0..self.pieces() {
-            let length = self.knots[piece + 1] - self.knots[piece];
-            for (joint, peaks) in peaks.iter_mut().enumerate() {
-                let velocity = derivative(&self.terms[piece * self.dof + joint]);
-                let acceleration = derivative(&velocity);
-                let jerk = derivative(&acceleration);
-                for (peak, polynomial) in [
-                    (&mut peaks.velocity, velocity),
-                    (&mut peaks.acceleration, acceleration),
-                    (&mut peaks.jerk, jerk),
-                ] {
-                    // Most of many pieces cannot be the one with the peak.
-                    if size_bound(&polynomial, length) > *peak {
-                        *peak = peak.max(largest_size(&polynomial, length));
-                    }
-                }
-            }
-        }
-        peaks
     }
 
     /// Change the pace: multiply every time by `factor`.
@@ -325,8 +257,10 @@ impl Trajectory {
     ///
     /// [`Error::InvalidMotion`] unless 0 <= `start` < `end` <= duration.
     pub fn slice(&self, start: f64, end: f64) -> Result<Self, Error> {
-        if !(0.0 <= start && start < end && end <= self.duration()) {
-            let bound = self.duration();
+        let bound = self.duration();
+        // A sum of times may be behind the end by rounding.
+        let end = if end <= bound * (1.0 + LIMIT_ROUNDING) { end.min(bound) } else { end };
+        if !(0.0 <= start && start < end && end <= bound) {
             return Err(MotionFault::Slice { start, end, bound }.into());
         }
         let first = self.piece_at(start);

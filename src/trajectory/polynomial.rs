@@ -10,6 +10,14 @@ pub(crate) const TERMS: usize = 7;
 /// Halvings that bring a bracket of a root to the last digit.
 const HALVINGS: usize = 64;
 
+/// In how many ways so many terms are chosen of the degree [1]: a coefficient over it is a
+/// difference of Bernstein coefficients.
+const CHOICES: [f64; TERMS] = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0];
+
+/// Rounding of a Bernstein coefficient, as a part of the sum of the terms' sizes [1]: it has fewer
+/// than 40 operations.
+const HULL_ROUNDING: f64 = 1e-14;
+
 /// Value, first, second and third derivative at `t`.
 #[inline]
 pub(crate) fn derivatives(coefficients: &[f64], t: f64) -> [f64; 4] {
@@ -60,11 +68,41 @@ pub(crate) fn largest_size(coefficients: &[f64; TERMS], end: f64) -> f64 {
         .max(derivatives(coefficients, end)[0].abs())
 }
 
-/// A number that [`largest_size`] does not exceed: the sum of the sizes of the terms, and more than
-/// their rounding.
+/// A number that [`largest_size`] does not exceed: the largest size of [`hull`].
 pub(crate) fn size_bound(coefficients: &[f64; TERMS], end: f64) -> f64 {
-    let sum = coefficients.iter().rev().fold(0.0, |sum, term| sum * end + term.abs());
-    sum * (1.0 + 1e-12)
+    let [least, most] = hull(coefficients, end);
+    most.max(-least)
+}
+
+/// Two numbers between which the polynomial is from 0 to `end`: the least and the greatest of its
+/// Bernstein coefficients, and more than their rounding.
+pub(crate) fn hull(coefficients: &[f64; TERMS], end: f64) -> [f64; 2] {
+    let (mut power, mut sum, mut bernstein) = (1.0, 0.0, *coefficients);
+    for (term, choices) in bernstein.iter_mut().zip(CHOICES) {
+        *term *= power;
+        sum += term.abs();
+        *term /= choices;
+        power *= end;
+    }
+    for order in 1..TERMS {
+        for index in (order..TERMS).rev() {
+            bernstein[index] += bernstein[index - 1];
+        }
+    }
+    let [least, most] = bernstein
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], b| [low.min(*b), high.max(*b)]);
+    [least - HULL_ROUNDING * sum, most + HULL_ROUNDING * sum]
+}
+
+/// The least and the greatest value from 0 to `end`, and where they are.
+pub(crate) fn extremes(coefficients: &[f64; TERMS], end: f64) -> [[f64; 2]; 2] {
+    let mut inner = [0.0; TERMS + 1];
+    let count = critical_points(coefficients, end, &mut inner);
+    let at = |t: f64| [t, derivatives(coefficients, t)[0]];
+    inner[..count].iter().copied().chain([end]).map(at).fold([at(0.0); 2], |[low, high], here| {
+        [if here[1] < low[1] { here } else { low }, if here[1] > high[1] { here } else { high }]
+    })
 }
 
 /// The zeros of the derivative in 0 ..= `end`, in order; returns how many there are.
@@ -131,6 +169,14 @@ mod tests {
         for polynomial in [[1.0, -2.0, 3.0, -4.0, 5.0, -6.0, 7.0], cubic, [0.1; TERMS]] {
             for end in [0.0, 1e-3, 0.9, 4.0] {
                 assert!(largest_size(&polynomial, end) <= size_bound(&polynomial, end));
+                let ([low, high], [[_, least], [at, most]]) =
+                    (hull(&polynomial, end), extremes(&polynomial, end));
+                assert!(low <= least && most <= high);
+                assert_eq!(derivatives(&polynomial, at)[0], most);
+                for step in 0..=100 {
+                    let value = derivatives(&polynomial, end * f64::from(step) / 100.0)[0];
+                    assert!(least - 1e-14 <= value && value <= most + 1e-14);
+                }
             }
         }
         assert_eq!(largest_size(&[-3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], 5.0), 3.0);

@@ -1,13 +1,4 @@
-//! The fastest pace along a path of joints within limits of velocity and acceleration.
-//!
-//! A path q(s) is a cubic spline. Its pace is x = (ds/dt)^2, linear in s on each piece of a grid,
-//! so d2s/dt2 is constant there and q is a polynomial in time. The acceleration of a joint on a
-//! piece is then a polynomial of degree two in s whose Bernstein coefficients are linear in the
-//! paces at both ends: where these keep to the limit, all of the piece does (eq. 13 to 16).
-//! From the end backwards the largest pace is found from which the rest of the path can be done;
-//! from the start forwards the largest pace is taken that stays below it (Pham and Pham, "A new
-//! approach to time-optimal path parameterization based on reachability analysis", 2018; there the
-//! limits hold at the points of the grid alone).
+//! The fastest trajectory along samples of a path: its arguments and its spline.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
@@ -15,27 +6,140 @@ use nalgebra::ComplexField as _;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::check::{check_duration, check_path_limits, check_rows};
-use super::piece::{Piece, Strips};
+use super::check::{check_duration, check_finite, check_path_limits, check_rows};
+use super::grid::{GoOn, Grid, PaceLimits};
 use super::piecewise::Trajectory;
-use super::polynomial::{TERMS, shifted};
+use super::polynomial::TERMS;
 use super::tool_speed::{ToolPath, check_speed};
 use crate::error::{Error, MotionFault};
+use crate::kinematics::thresholds::PATH_DIRECTION;
 use crate::spline::{Ends, cubic};
-
-/// Pieces of the grid, at least: a path of few waypoints is cut finer.
-const LEAST_PIECES: usize = 1000;
 
 /// Pieces of the grid between two rests of a program, at least.
 #[cfg(feature = "rapid")]
 const PROGRAMMED_PIECES: usize = 48;
 
-/// Angle by which the path's direction in joint space may turn on a piece of the grid [rad]: the
-/// motion of a path through random waypoints takes 1 % longer than the shortest.
-const PIECE_TURN: f64 = 0.04;
+/// What the pace along a path must keep.
+///
+/// ```
+/// use irbkin::trajectory::{Retiming, retime};
+///
+/// let whole = retime(&[0.0, 1.0, 2.0], &[1.0], &[2.0])?;
+/// // From the middle on, at the speed that it has there.
+/// let rest = Retiming { start_velocity: Some(&[1.0]), ..Retiming::within(&[1.0], &[2.0]) };
+/// let rest = rest.along(&[1.0, 2.0])?;
+/// assert!((2.0 * rest.duration() - whole.duration()).abs() < 1e-3);
+/// # Ok::<(), irbkin::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Retiming<'a> {
+    /// Limits [rad/s], infinity for none.
+    pub max_velocity: &'a [f64],
+    /// Limits [rad/s^2], infinity for none.
+    pub max_acceleration: &'a [f64],
+    /// Velocities of the joints at the start [rad/s], in the direction of the path; rest if `None`.
+    pub start_velocity: Option<&'a [f64]>,
+    /// Velocities of the joints at the end, in the same way.
+    pub end_velocity: Option<&'a [f64]>,
+    /// The length of the tool's path up to each sample [m], and a speed that it does not exceed
+    /// [m/s].
+    pub tool: Option<(&'a [f64], f64)>,
+}
 
-/// Most pieces between two samples: memory is linear in the samples.
-const MOST_PARTS: f64 = 100.0;
+impl<'a> Retiming<'a> {
+    /// From rest to rest within limits of the joints.
+    #[must_use]
+    pub fn within(max_velocity: &'a [f64], max_acceleration: &'a [f64]) -> Self {
+        Self {
+            max_velocity,
+            max_acceleration,
+            start_velocity: None,
+            end_velocity: None,
+            tool: None,
+        }
+    }
+
+    /// The fastest trajectory along samples of a path, rows of as many numbers as there are limits.
+    ///
+    /// # Errors
+    ///
+    /// As [`retime`] and [`retime_tool`]; [`Error::InvalidMotion`] too for a velocity at an end that
+    /// is not in the direction of the path, or that the limits do not allow.
+    pub fn along(&self, q: &[f64]) -> Result<Trajectory, Error> {
+        self.along_while(q, &mut || true)
+    }
+
+    /// As [`Self::along`], for as long as `go_on` says so.
+    pub(crate) fn along_while(&self, q: &[f64], go_on: &mut GoOn<'_>) -> Result<Trajectory, Error> {
+        let Self { max_velocity, max_acceleration, .. } = *self;
+        let dof = check_path_limits(max_velocity, max_acceleration)?;
+        let (knots, spline, most) = match self.tool {
+            None => {
+                let (knots, points) = polygon(q, dof)?;
+                let is_still = knots.len() == 1;
+                let spline =
+                    if is_still { vec![] } else { cubic(&knots, &points, dof, Ends::NotAKnot) };
+                (knots, spline, f64::INFINITY)
+            }
+            Some((lengths, speed)) => {
+                check_speed("max_tool_speed", speed)?;
+                let path = ToolPath::new(q, lengths, max_velocity, max_acceleration)?;
+                (path.knots, path.terms, speed * speed)
+            }
+        };
+        let ends = self.paces_of_ends(&knots, &spline)?;
+        if spline.is_empty() {
+            return Ok(Trajectory::still(&q[..dof]));
+        }
+        let grid = Grid::fine(&knots, &spline, dof, go_on)?;
+        drop(spline);
+        let timed =
+            grid.paced(&PaceLimits { max_velocity, max_acceleration, ends }, |_| most, go_on)?;
+        check_duration(timed.duration()).and_then(|()| timed.checked())
+    }
+
+    /// The squares of ds/dt at both ends: the velocities there are q' ds/dt.
+    fn paces_of_ends(&self, knots: &[f64], spline: &[[f64; TERMS]]) -> Result<[f64; 2], Error> {
+        let dof = self.max_velocity.len();
+        let mut paces = [0.0; 2];
+        for (pace, (field, velocity, is_end)) in paces.iter_mut().zip([
+            ("start_velocity", self.start_velocity, false),
+            ("end_velocity", self.end_velocity, true),
+        ]) {
+            let Some(velocity) = velocity else { continue };
+            if velocity.len() != dof {
+                return Err(Error::WrongLength { field, found: velocity.len(), wanted: dof });
+            }
+            check_finite(field, velocity)?;
+            let first = if is_end { spline.len().saturating_sub(dof) } else { 0 };
+            let since = if is_end && knots.len() > 1 {
+                knots[knots.len() - 1] - knots[knots.len() - 2]
+            } else {
+                0.0
+            };
+            let slope = |joint: usize| {
+                let [_, c1, c2, c3, ..] = spline.get(first + joint).copied().unwrap_or_default();
+                c1 + since * (2.0 * c2 + since * 3.0 * c3)
+            };
+            let (mut along, mut square, mut size) = (0.0, 0.0, 0.0);
+            for (joint, velocity) in velocity.iter().enumerate() {
+                along += slope(joint) * velocity;
+                square += slope(joint) * slope(joint);
+                size += velocity * velocity;
+            }
+            let rate = if square > 0.0 { (along / square).max(0.0) } else { 0.0 };
+            for (index, value) in velocity.iter().copied().enumerate() {
+                let along = rate * slope(index);
+                if (value - along).abs() > PATH_DIRECTION * size.sqrt() {
+                    let joint = index + 1;
+                    return Err(MotionFault::OffPath { field, joint, value, along }.into());
+                }
+            }
+            *pace = rate * rate;
+        }
+        Ok(paces)
+    }
+}
 
 /// The fastest trajectory along samples of a path, from rest to rest.
 ///
@@ -53,13 +157,7 @@ pub fn retime(
     max_velocity: &[f64],
     max_acceleration: &[f64],
 ) -> Result<Trajectory, Error> {
-    let dof = check_path_limits(max_velocity, max_acceleration)?;
-    let (lengths, points) = polygon(q, dof)?;
-    if lengths.len() == 1 {
-        return Ok(Trajectory::still(&points));
-    }
-    let spline = cubic(&lengths, &points, dof, Ends::NotAKnot);
-    Grid::fine(&lengths, &spline, dof).retimed(max_velocity, max_acceleration, f64::INFINITY)
+    Retiming::within(max_velocity, max_acceleration).along(q)
 }
 
 /// The fastest trajectory along samples of a path, from rest to rest, at which the tool is nowhere
@@ -80,14 +178,8 @@ pub fn retime_tool(
     max_velocity: &[f64],
     max_acceleration: &[f64],
 ) -> Result<Trajectory, Error> {
-    check_speed("max_tool_speed", max_tool_speed)?;
-    let path = ToolPath::new(q, lengths, max_velocity, max_acceleration)?;
-    let dof = max_velocity.len();
-    if path.terms.is_empty() {
-        return Ok(Trajectory::still(&q[..dof]));
-    }
-    let most = max_tool_speed * max_tool_speed;
-    Grid::fine(&path.knots, &path.terms, dof).retimed(max_velocity, max_acceleration, most)
+    let tool = Some((lengths, max_tool_speed));
+    Retiming { tool, ..Retiming::within(max_velocity, max_acceleration) }.along(q)
 }
 
 /// Joints that go evenly from row to row [rad]. The times of the rows [s] begin at zero and do not
@@ -140,9 +232,9 @@ pub(crate) fn within_times<const N: usize>(
     }
     let parts = PROGRAMMED_PIECES.div_ceil(lengths.len() - 1);
     let spline = cubic(&lengths, &points, N, Ends::NotAKnot);
-    let grid = Grid::of(&lengths, &spline, N, |_, _| parts);
-    let timed =
-        grid.paced(max_velocity, max_acceleration, |piece| caps[piece / parts])?.checked()?;
+    let grid = Grid::of(&lengths, &spline, N, |_| parts, &mut || true)?;
+    let pace = PaceLimits { max_velocity, max_acceleration, ends: [0.0; 2] };
+    let timed = grid.paced(&pace, |piece| caps[piece / parts], &mut || true)?.checked()?;
     let times = knots.iter().map(|knot| timed.knots()[knot * parts]).collect();
     Ok((timed, times))
 }
@@ -167,143 +259,4 @@ fn polygon(q: &[f64], dof: usize) -> Result<(Vec<f64>, Vec<f64>), Error> {
         }
     }
     Ok((lengths, points))
-}
-
-/// The spline, cut into pieces that are short enough.
-struct Grid {
-    dof: usize,
-    lengths: Vec<f64>,
-    /// By piece and joint.
-    terms: Vec<[f64; TERMS]>,
-}
-
-impl Grid {
-    /// Pieces on which the direction of the path turns little, [`LEAST_PIECES`] or more.
-    fn fine(knots: &[f64], spline: &[[f64; TERMS]], dof: usize) -> Self {
-        let least = (LEAST_PIECES / (knots.len() - 1)).max(1);
-        Self::of(knots, spline, dof, |terms, length| least.max(parts_of_turn(terms, length)))
-    }
-
-    /// Each piece of a spline, cut into as many parts as `parts` says of its terms and length.
-    fn of(
-        knots: &[f64],
-        spline: &[[f64; TERMS]],
-        dof: usize,
-        parts: impl Fn(&[[f64; TERMS]], f64) -> usize,
-    ) -> Self {
-        let mut grid = Self { dof, lengths: Vec::new(), terms: Vec::new() };
-        for (piece, ends) in knots.windows(2).enumerate() {
-            let terms = &spline[piece * dof..][..dof];
-            let parts = parts(terms, ends[1] - ends[0]);
-            let mut begin = 0.0;
-            for part in 1..=parts {
-                #[expect(clippy::cast_precision_loss, reason = "counts of parts are small")]
-                let end = (ends[1] - ends[0]) * (part as f64 / parts as f64);
-                grid.lengths.push(end - begin);
-                grid.terms.extend(terms.iter().map(|terms| shifted(terms, begin)));
-                begin = end;
-            }
-        }
-        grid
-    }
-
-    /// The path at the largest paces within limits, of which none is above `most`.
-    fn retimed(
-        &self,
-        max_velocity: &[f64],
-        max_acceleration: &[f64],
-        most: f64,
-    ) -> Result<Trajectory, Error> {
-        let timed = self.paced(max_velocity, max_acceleration, |_| most)?;
-        check_duration(timed.duration()).and_then(|()| timed.checked())
-    }
-
-    /// The path at the largest paces within limits, of which none exceeds the cap of its piece.
-    fn paced(
-        &self,
-        max_velocity: &[f64],
-        max_acceleration: &[f64],
-        cap: impl Fn(usize) -> f64,
-    ) -> Result<Trajectory, Error> {
-        let pieces: Vec<Piece<'_>> =
-            (0..self.lengths.len()).map(|index| self.piece(index)).collect();
-        Ok(self.timed(&paces(&pieces, max_velocity, max_acceleration, cap)?))
-    }
-
-    fn piece(&self, index: usize) -> Piece<'_> {
-        Piece { length: self.lengths[index], terms: &self.terms[index * self.dof..][..self.dof] }
-    }
-
-    /// The path at these paces: s = sqrt(x) t + (dx/ds) t^2 / 4 on each piece, put into its cubic.
-    fn timed(&self, paces: &[f64]) -> Trajectory {
-        let mut knots = Vec::with_capacity(paces.len());
-        knots.push(0.0);
-        let mut terms = Vec::with_capacity(self.terms.len());
-        for (index, length) in self.lengths.iter().enumerate() {
-            let (before, after) = (paces[index].sqrt(), paces[index + 1].sqrt());
-            let (a, b) = (before, (paces[index + 1] - paces[index]) / (4.0 * length));
-            knots.push(knots[index] + 2.0 * length / (before + after));
-            terms.extend(self.piece(index).terms.iter().map(|[c0, c1, c2, c3, ..]| {
-                [
-                    *c0,
-                    c1 * a,
-                    c1 * b + c2 * a * a,
-                    2.0 * c2 * a * b + c3 * a * a * a,
-                    c2 * b * b + 3.0 * c3 * a * a * b,
-                    3.0 * c3 * a * b * b,
-                    c3 * b * b * b,
-                ]
-            }));
-        }
-        Trajectory::new(self.dof, knots, terms)
-    }
-}
-
-/// The number of parts of a cubic piece that turn by [`PIECE_TURN`] at most, from 0 to
-/// [`MOST_PARTS`].
-///
-/// A path turns by less than the integral of the size of q'' by the size of q'. Both are taken as the
-/// means of their ends.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to MOST_PARTS")]
-fn parts_of_turn(terms: &[[f64; TERMS]], length: f64) -> usize {
-    let ends = [0.0, length].map(|s| {
-        let (mut slope, mut bend) = (0.0, 0.0);
-        for [_, c1, c2, c3, ..] in terms {
-            slope += (c1 + s * (2.0 * c2 + s * 3.0 * c3)).powi(2);
-            bend += (2.0 * c2 + 6.0 * c3 * s).powi(2);
-        }
-        [slope.sqrt(), bend.sqrt()]
-    });
-    let [[slope, bend], [slope_after, bend_after]] = ends;
-    let turn = length * (bend + bend_after) / (slope + slope_after);
-    (turn / PIECE_TURN).ceil().min(MOST_PARTS) as usize
-}
-
-/// The largest paces at the points of the grid, from rest to rest; no piece exceeds its cap.
-fn paces(
-    pieces: &[Piece<'_>],
-    max_velocity: &[f64],
-    max_acceleration: &[f64],
-    cap: impl Fn(usize) -> f64,
-) -> Result<Vec<f64>, Error> {
-    let last = pieces.len();
-    let mut bounds = vec![f64::INFINITY; last + 1];
-    for (index, piece) in pieces.iter().enumerate() {
-        let bound = piece.pace_bound(max_velocity).min(cap(index));
-        bounds[index] = bounds[index].min(bound);
-        bounds[index + 1] = bounds[index + 1].min(bound);
-    }
-    (bounds[0], bounds[last]) = (0.0, 0.0);
-    let strips: Vec<Strips> =
-        pieces.iter().map(|piece| Strips::of(piece, max_acceleration)).collect();
-    for index in (1..last).rev() {
-        bounds[index] = strips[index].most_before(bounds[index], bounds[index + 1]);
-    }
-    for index in 1..last {
-        bounds[index] = strips[index - 1].most_after(bounds[index - 1], bounds[index]);
-        if !bounds[index].is_finite() {
-            return Err(MotionFault::NoDuration { joint: pieces[index].first_moving() }.into());
-        }
-    }
-    Ok(bounds)
 }

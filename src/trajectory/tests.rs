@@ -234,3 +234,98 @@ fn parts_and_sums_are_the_whole() {
     assert!(whole.slice(1.0, 1.0).is_err() && whole.slice(-0.1, 1.0).is_err());
     assert!(whole.clone().then(&whole).is_err());
 }
+
+/// A path cut at a sample, with the velocity there at both ends, is as fast as in one; and what is
+/// faster, or in another direction, is refused.
+#[test]
+fn a_path_is_retimed_in_parts_that_go_on_where_the_last_one_ends() {
+    let mut rng = Rng::new(7);
+    let (velocity, acceleration) = ([2.0, 1.5, 3.0], [9.0, 8.0, 7.0]);
+    for case in 0..50 {
+        let [from, to]: [Vec<f64>; 2] =
+            [(); 2].map(|()| (0..3).map(|_| rng.between(-2.0, 2.0)).collect());
+        // A line: its parts are the same splines as the whole.
+        let row = |step: u32| {
+            let part = f64::from(step) / 40.0;
+            from.iter().zip(&to).map(move |(from, to)| from + part * (to - from))
+        };
+        let rows: Vec<f64> = (0..=40).flat_map(row).collect();
+        let whole = retime(&rows, &velocity, &acceleration).unwrap();
+        let range = whole.range();
+        for (joint, [least, most]) in range.iter().enumerate() {
+            let ends = [from[joint], to[joint]];
+            assert!((least - ends[0].min(ends[1])).abs() < 1e-12, "{least} {ends:?}");
+            assert!((most - ends[0].max(ends[1])).abs() < 1e-12, "{most} {ends:?}");
+        }
+        assert!(whole.inside(&range).is_ok());
+        let cut = 3 * (1 + case % 38);
+        let [mut q, mut dq, mut ddq] = [[0.0; 3]; 3];
+        let [mut low, mut high] = [0.0, whole.duration()];
+        for _ in 0..64 {
+            let middle = 0.5 * (low + high);
+            whole.sample(&[middle], &mut q, &mut dq, &mut ddq).unwrap();
+            let is_before = (q[0] - from[0]).abs() < (rows[cut] - from[0]).abs();
+            [low, high] = if is_before { [middle, high] } else { [low, middle] };
+        }
+        let rest = Retiming::within(&velocity, &acceleration);
+        let first = Retiming { end_velocity: Some(&dq), ..rest }.along(&rows[..cut + 3]).unwrap();
+        let second = Retiming { start_velocity: Some(&dq), ..rest }.along(&rows[cut..]).unwrap();
+        let joined = first.then(&second).unwrap();
+        assert!((joined.duration() / whole.duration() - 1.0).abs() < 2e-3);
+        for (peaks, [v, a]) in joined.peaks().iter().zip([[2.0, 9.0], [1.5, 8.0], [3.0, 7.0]]) {
+            assert!(peaks.velocity <= v * (1.0 + 1e-9) && peaks.acceleration <= a * (1.0 + 1e-9));
+        }
+        let aside = [dq[0], dq[1] + 1e-3, dq[2]];
+        for wrong in [dq.map(|rate| -rate), aside, dq.map(|rate| 20.0 * rate)] {
+            let ends = [
+                Retiming { start_velocity: Some(&wrong), ..rest },
+                Retiming { end_velocity: Some(&wrong), ..rest },
+            ];
+            assert!(ends.iter().all(|ends| ends.along(&rows).is_err()), "{wrong:?}");
+        }
+    }
+}
+
+#[test]
+fn a_curve_that_leaves_limits_between_waypoints_is_refused_with_the_farthest_place() {
+    let limits = [[-1.0, 1.0], [-0.5, 1.0]];
+    let rows = [0.0, 0.0, 1.0, -0.5, 1.0, 0.0];
+    let motion = spline(SplineKind::Quintic, &rows, 2, &[0.0, 1.0, 3.0]).unwrap();
+    let Err(crate::Error::InvalidMotion(fault)) = motion.inside(&limits) else {
+        panic!("{:?}", motion.range());
+    };
+    let crate::error::MotionFault::Outside { joint, time, value, limit } = fault else {
+        panic!("{fault}");
+    };
+    let [mut q, mut dq, mut ddq] = [[0.0; 2]; 3];
+    motion.sample(&[time], &mut q, &mut dq, &mut ddq).unwrap();
+    assert!((q[joint - 1] - value).abs() < 1e-12 && dq[joint - 1].abs() < 1e-6);
+    let excess = (value - limit).abs();
+    for (range, limits) in motion.range().iter().zip(&limits) {
+        assert!(limits[0] - range[0] <= excess && range[1] - limits[1] <= excess);
+    }
+    // Rounding is no excess, and 2e-9 rad are one.
+    let mut near = motion.range();
+    near[0][0] += 9e-10;
+    assert!(motion.inside(&near).is_ok());
+    near[0][0] += 2e-9;
+    assert!(motion.inside(&near).is_err());
+    assert!(motion.inside(&[[0.0, -1.0], [0.0, 1.0]]).is_err() && motion.inside(&[]).is_err());
+}
+
+/// Of 20,000 rough rows the pieces, and with them the memory, are a few a row.
+#[test]
+fn a_long_rough_path_has_few_pieces_and_keeps_its_limits() {
+    let mut rng = Rng::new(8);
+    let mut q = 0.0;
+    let mut walk = || {
+        q += rng.between(-0.1, 0.1);
+        q
+    };
+    let rows: Vec<f64> = (0..40_000).map(|_| walk()).collect();
+    let timed = retime(&rows, &[2.0, 3.0], &[9.0, 8.0]).unwrap();
+    assert!(timed.knots().len() <= 5 * 20_000, "{}", timed.knots().len());
+    for (peaks, [v, a]) in timed.peaks().iter().zip([[2.0, 9.0], [3.0, 8.0]]) {
+        assert!(peaks.velocity <= v * (1.0 + 1e-9) && peaks.acceleration <= a * (1.0 + 1e-9));
+    }
+}

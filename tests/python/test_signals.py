@@ -26,6 +26,8 @@ CALLS = {
     "follow through a wrist": "robot.follow(T, q[0], singularity_mode='wrist', zone=0.9)",
     "plan": "robot.plan(T[:100_000], rotation=3)",
     "plan, the sum first": "robot.plan(T[:50_000], rotation=12, order='sum')",
+    "retime": "irbkin.trajectory.retime(walk, 3.0, 10.0)",
+    "spline": "irbkin.trajectory.spline(walk, max_velocity=3.0)",
     "pose": "irbkin.pose(T[:, :3, 3], rotation=T[:, :3, :3])",
     "to_xyz_wxyz": "irbkin.to_xyz_wxyz(T)",
 }
@@ -43,6 +45,7 @@ n = {count}
 one = np.array([0.3, -0.2, 0.4, 0.5, 0.6, 0.7])
 q = np.repeat(one[None], n, axis=0)
 T = np.repeat(robot.fk(one)[None], n, axis=0)
+walk = np.cumsum(np.random.default_rng(1).uniform(-0.1, 0.1, (n // 5, 6)), axis=0)
 sent = []
 
 def interrupt():

@@ -2,6 +2,9 @@
 
 import copy
 import pickle
+import re
+import subprocess
+import sys
 
 import irbkin
 import numpy as np
@@ -274,3 +277,127 @@ def test_a_damaged_pickle_is_refused():
             restore(kind, state[:size])
     with pytest.raises(IrbkinError, match="the pickled Trajectory is damaged"):
         restore(kind, b"\x00" + state[1:])
+
+
+# Two joints that swing out between waypoints that are inside, by every function.
+LIMITS = np.array([[-1.0, 1.0], [-0.5, 1.0]])
+INSIDE = np.array([[0, -0.5], [1, -0.5], [1, 0.2], [1, 0.9]])
+TOOL = np.repeat(np.eye(4)[None], 4, axis=0)
+TOOL[:, 0, 3] = np.arange(4)
+MAKERS = {
+    "joint": lambda limits: trajectory.joint(
+        [0, 0], [0, 0.1], start_velocity=[0, -3], limits=limits
+    ),
+    "spline": lambda limits: trajectory.spline(INSIDE, limits=limits),
+    "spline within limits": lambda limits: trajectory.spline(
+        INSIDE, max_velocity=2.0, profile="cubic", limits=limits
+    ),
+    "retime": lambda limits: trajectory.retime(INSIDE, 2.0, 8.0, limits=limits),
+    "retime with a tool": lambda limits: trajectory.retime(
+        INSIDE, 2.0, 8.0, T=TOOL, max_tool_speed=0.1, limits=limits
+    ),
+    "at_tool_speed": lambda limits: trajectory.at_tool_speed(INSIDE, TOOL, 0.1, 2.0, limits=limits),
+}
+
+
+@pytest.mark.parametrize("name", MAKERS)
+def test_a_joint_that_leaves_its_limits_between_waypoints_is_named(name):
+    make = MAKERS[name]
+    move = make(None)
+    least, most = move.range().T
+    dense = move.sample(np.linspace(0, move.duration, 5001)).q
+    np.testing.assert_allclose(dense.min(axis=0), least, rtol=0, atol=1e-5)
+    np.testing.assert_allclose(dense.max(axis=0), most, rtol=0, atol=1e-5)
+    # The range is inside itself, and limits that are open are no limits.
+    assert make(move.range()) == make([[-np.inf, np.inf]] * 2) == move
+    with pytest.raises(InvalidMotionError) as refused:
+        make(LIMITS)
+    words = r"joint (\d) is at (\S+) rad at (\S+) s, its limit is (\S+) rad \(excess (\S+) rad\)"
+    joint, value, time, limit, excess = map(float, re.match(words, str(refused.value)).groups())
+    beyond = np.maximum(LIMITS[:, 0] - least, most - LIMITS[:, 1])
+    assert joint == 1 + np.argmax(beyond)
+    assert excess == pytest.approx(beyond.max(), rel=1e-2)
+    assert abs(value - limit) == pytest.approx(beyond.max(), abs=1e-8)
+    assert move.sample(time).q[int(joint) - 1] == pytest.approx(value, abs=1e-5)
+    with pytest.raises(InvalidMotionError, match="its limit is"):
+        move.check_limits(LIMITS)
+    with pytest.raises(InvalidMotionError, match=r"limits must have shape \(2, 2\), got \(2,\)"):
+        make([0, 1])
+    with pytest.raises(InvalidMotionError, match=r"limits of joint 2 are 1\.0 and -1\.0, lower"):
+        make([[0, 1], [1, -1]])
+    with pytest.raises(InvalidMotionError, match=r"limits of joint 1 are NaN and 1\.0"):
+        make([[np.nan, 1], [1, 1]])
+
+
+def test_a_path_is_retimed_from_and_to_its_own_velocities():
+    rng = np.random.default_rng(1)
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    for _ in range(10):
+        row = np.outer(np.linspace(0, 1, 41), rng.uniform(-2, 2, 6))
+        whole = trajectory.retime(row, robot.max_velocity, 8.0)
+        index = rng.integers(1, 40)
+        low, high = 0.0, whole.duration
+        for _ in range(60):
+            cut = 0.5 * (low + high)
+            is_before = abs(whole.sample(cut).q[0]) < abs(row[index, 0])
+            low, high = (cut, high) if is_before else (low, cut)
+        dq = whole.sample(cut).dq
+        first = trajectory.retime(row[: index + 1], robot.max_velocity, 8.0, end_velocity=dq)
+        # What a motion ends with is where the next one begins.
+        rest = trajectory.retime(
+            row[index:], robot.max_velocity, 8.0, start_velocity=first.dq[-1], limits=None
+        )
+        joined = first + rest
+        np.testing.assert_allclose(joined.duration, whole.duration, rtol=2e-3)
+        assert (joined.peaks().velocity <= robot.max_velocity * (1 + 1e-9)).all()
+        assert (joined.peaks().acceleration <= 8.0 * (1 + 1e-9)).all()
+
+
+@pytest.mark.parametrize(
+    ("velocity", "words"),
+    [
+        ([1, -2.1], r"joint 1 has 1\.0 rad/s, in the direction of the path it would have 1\.04"),
+        ([-1, 2], "joint 1 has -1.0 rad/s, in the direction of the path it would have 0.0"),
+        ([2, -4], "is too fast for the path and its limits, 0.75[0-9]* of it is possible"),
+        ([np.nan, 0], r"\[0\] is NaN: every element must be finite"),
+        ([1, 2, 3], r" must be a number or have shape \(2,\), got \(3,\)"),
+    ],
+)
+@pytest.mark.parametrize("end", ["start_velocity", "end_velocity"])
+def test_a_velocity_that_the_path_cannot_have_is_refused(end, velocity, words):
+    path = np.outer(np.linspace(0, 1, 20), [1, -2])
+    with pytest.raises(InvalidMotionError, match=end + ".*" + words):
+        trajectory.retime(path, 3.0, 100.0, **{end: velocity})
+
+
+def test_rest_and_times_of_a_trajectory_are_taken_back():
+    move = trajectory.joint(START, END, profile="s_curve", max_velocity=2, max_jerk=900)
+    end = move.sample(move.duration)
+    back = trajectory.joint(
+        end.q,
+        START,
+        start_velocity=end.dq,
+        start_acceleration=end.ddq,
+        profile="s_curve",
+        max_velocity=2,
+        max_jerk=900,
+    )
+    assert (move + back).slice(move.duration, move.duration + back.duration).duration > 0
+    assert move.slice(0, move.duration * (1 + 1e-15)).duration == move.duration
+
+
+def test_the_memory_of_a_long_rough_path_is_two_kilobytes_a_sample():
+    program = """
+import resource
+import numpy as np
+from irbkin import trajectory
+
+walk = np.cumsum(np.random.default_rng(1).uniform(-0.1, 0.1, (60_000, 6)), axis=0)
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+trajectory.retime(walk, 3.0, 10.0)
+print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * 1024 / len(walk))
+"""
+    run = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert float(run.stdout) < 2048
