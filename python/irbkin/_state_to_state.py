@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-import math
-import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from irbkin._arrays import finite, limit_of_each
-from irbkin._core import Trajectory, _trajectory_of
+from irbkin._arrays import as_array, finite, limit_of_each
+from irbkin._jerk_limited import ROUNDING, Problem
+from irbkin._phases import trajectory_of
 from irbkin.errors import InvalidJointsError, InvalidMotionError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from irbkin._arrays import Floats
+    from irbkin._core import Trajectory
 
-# Coefficients of a piece, from the constant upwards: the extension's polynomials.
-TERMS = 7
+# Longest motion [s], 30 years, as of every trajectory.
+LONGEST = 1e9
 
 
 def state_to_state(
@@ -32,13 +32,15 @@ def state_to_state(
     end_velocity: npt.ArrayLike | None = None,
     start_acceleration: npt.ArrayLike | None = None,
     end_acceleration: npt.ArrayLike | None = None,
+    limits: npt.ArrayLike | None = None,
     steps: int = 50,
 ) -> Trajectory:
     """Move from any state to any other in the shortest time that limits of velocity, acceleration
     and jerk allow. It needs ruckig: `pip install 'irbkin[time]'`.
 
-    All joints arrive together. The pieces are ruckig's own phases of constant jerk, not samples of
-    them. From rest to rest, `joint` with `profile="s_curve"` needs no extra.
+    All joints arrive together. A joint that starts above a limit, or that cannot but exceed it,
+    brakes first. A state that is at the goal, within 1e-9 rad and 1e-9 of the limits, stays there.
+    From rest to rest, `joint` with `profile="s_curve"` needs no extra.
 
     Args:
         q0: Joint angles at the start [rad], shape (n,).
@@ -50,17 +52,20 @@ def state_to_state(
         end_velocity: Velocities at the end, in the same way.
         start_acceleration: Accelerations at the start [rad/s^2], shape (n,); zero if not given.
         end_acceleration: Accelerations at the end, in the same way.
+        limits: Lower and upper limits of the joint angles [rad], shape (n, 2), `robot.limits` for
+            instance: the motion must stay inside.
         steps: Number of samples, both ends included.
 
     Returns:
-        The trajectory.
+        The trajectory, whose limits and ends are checked. Where ruckig finds none, the joints stop
+        and start again, which takes longer.
 
     Raises:
         ImportError: ruckig is not installed.
         InvalidJointsError: `q0` or `q1` has a wrong shape or is not finite.
         InvalidMotionError: Another argument has a wrong shape or is not finite, a limit is not
-            positive, or a state is outside the limits, or cannot stay inside; the message is
-            ruckig's.
+            positive, the end exceeds a limit or is reached only by exceeding it, a joint leaves
+            `limits`, or the motion takes longer than 1e9 s.
     """
     try:
         import ruckig  # type: ignore[import-not-found]
@@ -79,77 +84,50 @@ def state_to_state(
     def limit(value: npt.ArrayLike, name: str) -> Floats:
         return finite(limit_of_each(value, name, dof), name, (dof,), InvalidMotionError)
 
-    problem = ruckig.InputParameter(dof)
-    problem.current_position, problem.target_position = start, end
-    problem.current_velocity = rate(start_velocity, "start_velocity")
-    problem.target_velocity = rate(end_velocity, "end_velocity")
-    problem.current_acceleration = rate(start_acceleration, "start_acceleration")
-    problem.target_acceleration = rate(end_acceleration, "end_acceleration")
-    problem.max_velocity = limit(max_velocity, "max_velocity")
-    problem.max_acceleration = limit(max_acceleration, "max_acceleration")
-    problem.max_jerk = limit(max_jerk, "max_jerk")
-    solved = ruckig.Trajectory(dof)
-    try:
-        problem.validate(True, True)
-        result = ruckig.Ruckig(dof).calculate(problem, solved)
-    except ruckig.RuckigError as fault:
-        raise InvalidMotionError(f"ruckig: {_in_our_words(str(fault))}") from None
-    if result not in (ruckig.Result.Working, ruckig.Result.Finished):
-        raise InvalidMotionError(f"ruckig finds no motion: {result}")
-    phases = [_phases(profile) for profile in solved.profiles[0]]
-    knots, terms = _pieces(phases, solved.duration, end)
-    times = [0.0, solved.duration]
-    pieces = terms.reshape(-1, TERMS).tolist()
-    return _trajectory_of(dof, knots.tolist(), pieces, times).resampled(steps)
+    problem = Problem(
+        np.stack(
+            [
+                start,
+                rate(start_velocity, "start_velocity"),
+                rate(start_acceleration, "start_acceleration"),
+            ]
+        ),
+        np.stack(
+            [end, rate(end_velocity, "end_velocity"), rate(end_acceleration, "end_acceleration")]
+        ),
+        limit(max_velocity, "max_velocity"),
+        limit(max_acceleration, "max_acceleration"),
+        limit(max_jerk, "max_jerk"),
+    )
+    _check_end(problem)
+    motion = _still(problem) if problem.is_there() else problem.fastest(ruckig)
+    if motion.duration > LONGEST:
+        raise InvalidMotionError(
+            f"the motion takes {motion.duration:g} s, it must take at most {LONGEST:g} s: are the "
+            "limits in rad and s?"
+        )
+    if limits is not None:
+        motion.check_limits(as_array(limits, "limits", (dof, 2), InvalidMotionError))
+    return motion.resampled(steps)
 
 
-def _in_our_words(message: str) -> str:
-    """The message of ruckig without its mark, joints counted from 1."""
-    plain = message.replace("[ruckig]", "").strip()
-    return re.sub(r"DoF (\d+)", lambda found: f"joint {int(found[1]) + 1}", plain)
+def _check_end(problem: Problem) -> None:
+    """Refuse an end above a limit, or one that is reached from above it only."""
+    before = problem.before_end()
+    for name, values, limit, limits in (
+        ("end_velocity", problem.end[1], "max_velocity", problem.velocity),
+        ("end_acceleration", problem.end[2], "max_acceleration", problem.acceleration),
+        ("velocity before end_acceleration", before, "max_velocity", problem.velocity),
+    ):
+        for index in np.flatnonzero(np.abs(values) > limits * (1 + ROUNDING)):
+            excess = abs(values[index]) - limits[index]
+            raise InvalidMotionError(
+                f"{name}[{index}] is {values[index]:g}, {limit}[{index}] is {limits[index]:g} "
+                f"(excess {excess:.2g}): lower the one or raise the other"
+            )
 
 
-def _phases(profile: Any) -> tuple[Floats, Floats]:
-    """When the phases of a joint begin, shape (k,), and their position, velocity, acceleration and
-    jerk there, shape (k, 4): two that brake, seven that move, and rest or what is left of it.
-    """
-    brake = profile.brake
-    lengths = np.r_[brake.t, profile.t]
-    begins = np.r_[0.0, np.cumsum(lengths)]
-    moving = np.column_stack([profile.p, profile.v, profile.a, [*profile.j, 0.0]])
-    braking = np.column_stack([brake.p, brake.v, brake.a, brake.j])
-    states = np.vstack([braking, moving])
-    # A phase of no length has nothing to say; the last one has no end.
-    lasts = np.r_[lengths > 0.0, True]
-    return begins[lasts], states[lasts]
-
-
-def _pieces(
-    phases: list[tuple[Floats, Floats]], duration: float, end: Floats
-) -> tuple[Floats, Floats]:
-    """The knots of all joints, shape (k + 1,), and the coefficients between them, (k, n, 7)."""
-    begins = np.unique(np.concatenate([own for own, _ in phases]))
-    begins = np.r_[0.0, begins[(begins > 0.0) & (begins < duration)]]
-    terms = np.zeros((len(begins), len(phases), TERMS))
-    for joint, (own, states) in enumerate(phases):
-        phase = np.searchsorted(own, begins, side="right") - 1
-        since, (p, v, a, j) = begins - own[phase], states[phase].T
-        terms[:, joint, 0] = p + since * (v + since * (a / 2 + since * j / 6))
-        terms[:, joint, 1] = v + since * (a + since * j / 2)
-        terms[:, joint, 2] = (a + since * j) / 2
-        terms[:, joint, 3] = j / 6
-    if duration > 0.0:
-        # ruckig ends within 1e-8: the rest is spread over the motion by a quintic from 0 to 1,
-        # which changes no velocity or acceleration at the ends.
-        missing = end - _value(terms[-1], duration - begins[-1])
-        quintic = np.polynomial.Polynomial([0, 0, 0, 10, -15, 6], [0, duration], [0, 1])
-        for degree in range(6):
-            around = quintic.deriv(degree)(begins) / math.factorial(degree)
-            terms[:, :, degree] += np.outer(around, missing)
-    return np.r_[begins, duration], terms
-
-
-def _value(terms: Floats, since: float) -> Floats:
-    """The positions of polynomials, shape (n, 7), at a time since their beginning."""
-    value: Floats = terms @ since ** np.arange(TERMS)
-    return value
+def _still(problem: Problem) -> Trajectory:
+    """The end, over no time."""
+    phases = [(np.zeros(1), np.array([[*state, 0.0]])) for state in problem.end.T]
+    return trajectory_of(phases, 0.0, problem.end[0])
