@@ -1,11 +1,12 @@
-//! Arguments that are one of a few words, or a count.
+//! Arguments that are one of a few words, a count, or limits of joints.
 
 use std::num::NonZeroUsize;
 
 use pyo3::exceptions::{PyOverflowError, PyValueError};
 use pyo3::prelude::*;
 
-use super::errors::Fault;
+use super::arrays::Rows;
+use super::errors::{Fault, shape_text};
 use crate::kinematics::thresholds::MOST_SAMPLES;
 use crate::kinematics::{JacobianFrame, SingularityMode};
 use crate::paths::ArcOrientation;
@@ -90,4 +91,20 @@ pub(super) fn thread_count(threads: isize) -> PyResult<Option<NonZeroUsize>> {
             "threads must be 0 (one per core) or more, got {threads}"
         ))),
     }
+}
+
+/// Lower and upper limits of joint angles, shape (n, 2), if they are given.
+pub(super) fn read_angle_limits(
+    value: Option<&Bound<'_, PyAny>>,
+    dof: usize,
+) -> PyResult<Option<Vec<[f64; 2]>>> {
+    let Some(value) = value else { return Ok(None) };
+    let rows = Rows::shaped(
+        value,
+        || shape_text(&[dof, 2]),
+        "limits",
+        Fault::Motion,
+        |shape| shape == [dof, 2],
+    )?;
+    Ok(Some(rows.data()?.as_chunks().0.to_vec()))
 }

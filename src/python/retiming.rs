@@ -3,13 +3,13 @@
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use super::arguments::read_steps;
+use super::arguments::{read_angle_limits, read_steps};
 use super::errors::Fault;
 use super::outputs::column;
 use super::records::ToolSpeedLimits;
 use super::signals::detached_while;
 use super::targets::read_path_poses;
-use super::trajectories::{inside, read_angle_limits, read_each, read_rows};
+use super::trajectories::{inside, read_each, read_rows};
 use super::trajectory::PyTrajectory;
 use crate::error::Error;
 use crate::trajectory::{Retiming, Trajectory, tool_lengths};

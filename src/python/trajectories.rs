@@ -4,7 +4,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
-use super::arguments::{PROFILES, SPLINES, SYNCHRONIZATIONS, one_of, read_steps};
+use super::arguments::{
+    PROFILES, SPLINES, SYNCHRONIZATIONS, one_of, read_angle_limits, read_steps,
+};
 use super::arrays::{Rows, copied_numbers, numbers};
 use super::errors::{Fault, shape_text};
 use super::trajectory::PyTrajectory;
@@ -56,22 +58,6 @@ pub(super) fn read_limits(
         .map(|_| read_each(given, field, 6, 0.0))
         .transpose()?
         .and_then(|all| all.try_into().ok()))
-}
-
-/// Lower and upper limits of joint angles, shape (n, 2), if they are given.
-pub(super) fn read_angle_limits(
-    value: Option<&Bound<'_, PyAny>>,
-    dof: usize,
-) -> PyResult<Option<Vec<[f64; 2]>>> {
-    let Some(value) = value else { return Ok(None) };
-    let rows = Rows::shaped(
-        value,
-        || shape_text(&[dof, 2]),
-        "limits",
-        Fault::Motion,
-        |shape| shape == [dof, 2],
-    )?;
-    Ok(Some(rows.data()?.as_chunks().0.to_vec()))
 }
 
 /// A motion that stays inside limits of joint angles, if they are given.

@@ -5,13 +5,12 @@ use std::sync::Arc;
 use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-use super::arguments::read_steps;
+use super::arguments::{read_angle_limits, read_steps};
 use super::arrays::Rows;
 use super::errors::Fault;
 use super::outputs::{array, column, read_only};
 use super::records::{MotionPeaks, TrajectorySample};
 use super::state::{Reduced, reduced};
-use super::trajectories::read_angle_limits;
 use crate::trajectory::{Trajectory, TrajectoryParts};
 
 /// Joint angles, velocities and accelerations over time.

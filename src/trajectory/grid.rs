@@ -67,21 +67,22 @@ impl Grid {
         dof: usize,
         go_on: &mut GoOn<'_>,
     ) -> Result<Self, Error> {
-        let turns = |piece: usize| {
-            let turn = turn(&spline[piece * dof..][..dof], knots[piece + 1] - knots[piece]);
-            (turn / PIECE_TURN).min(MOST_PARTS)
-        };
-        let pieces = knots.len() - 1;
+        let turns = knots
+            .windows(2)
+            .zip(spline.chunks_exact(dof))
+            .map(|(ends, terms)| (turn(terms, ends[1] - ends[0]) / PIECE_TURN).min(MOST_PARTS));
+        let turns: Vec<f64> = turns.collect();
+        let pieces = turns.len();
         let least = (LEAST_PIECES / pieces).max(1);
         #[expect(clippy::cast_precision_loss, reason = "counts of samples are small")]
         let most = (LONG_PARTS * pieces as f64).max(MOST_PIECES);
-        let coarser = ((0..pieces).map(turns).sum::<f64>() / most).max(1.0);
+        let coarser = (turns.iter().sum::<f64>() / most).max(1.0);
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "to MOST_PARTS"
         )]
-        let parts = |piece: usize| least.max((turns(piece) / coarser).ceil() as usize);
+        let parts = |piece: usize| least.max((turns[piece] / coarser).ceil() as usize);
         Self::of(knots, spline, dof, parts, go_on)
     }
 
