@@ -135,6 +135,77 @@ fn base_and_tip_choose_the_chain() {
     );
 }
 
+/// An arm of six axes with an origin at joint 2, of a version, and more elements.
+fn versioned(version: &str, origin: &str, more: &str) -> String {
+    let origins = ["xyz='0 0 0.4'", origin, "xyz='0 0 0.7'", "xyz='0.3 0 0.115'", "xyz='0.45 0 0'"];
+    let axes = ["0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0"];
+    let mut text = format!("<robot name='a' {version}><link name='l0'/>");
+    for (i, axis) in axes.into_iter().enumerate() {
+        let (child, origin) = (i + 1, origins.get(i).unwrap_or(&"xyz='0.085 0 0'"));
+        write!(
+            text,
+            "<link name='l{child}'/><joint name='j{child}' type='revolute'><parent link='l{i}'/>\
+             <child link='l{child}'/><origin {origin}/><axis xyz='{axis}'/>\
+             <limit lower='-3' upper='3' acceleration='2'/></joint>"
+        )
+        .unwrap();
+    }
+    format!("{text}{more}</robot>")
+}
+
+#[test]
+fn a_quaternion_of_an_origin_turns_it_from_version_1_1_on() {
+    let turned = "xyz='0.1 0 0.1' quat_xyzw='0 0 0.70710678118654757 0.70710678118654757'";
+    let rpy = six(&versioned("", "xyz='0.1 0 0.1' rpy='0 0 1.5707963267948966'", ""), None, None);
+    let rpy = rpy.unwrap();
+    let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
+    for version in ["version='1.1'", "version='1.2'"] {
+        let read = six(&versioned(version, turned, ""), None, None).unwrap();
+        assert!(PoseDifference::between(&read.fk(&q), &rpy.fk(&q)).largest() < 1e-15);
+    }
+    for version in ["", "version='1.0'"] {
+        assert_eq!(
+            words(&versioned(version, turned, "")),
+            "URDF: joint \"j2\" has the attribute quat_xyzw, which URDF has from version 1.1 on, \
+             and the robot is of version 1.0: write <robot version=\"1.1\">"
+        );
+    }
+    let of_1_2 = |origin: &str| words(&versioned("version='1.2'", origin, ""));
+    for (origin, wanted) in [
+        ("rpy='0 0 1' quat_xyzw='0 0 0 1'", "origin has rpy and quat_xyzw, it must have one"),
+        ("quat_xyzw='0 0 1 1'", "origin quat_xyzw has norm 1.414214, it must be 1 to 0.002"),
+        ("quat_xyzw='0 0 1'", "origin quat_xyzw is \"0 0 1\", it must be four numbers"),
+        ("rpy_deg='0 0 90'", "<origin> has the attribute \"rpy_deg\", which URDF does not have"),
+    ] {
+        assert!(of_1_2(origin).contains(wanted), "{}", of_1_2(origin));
+    }
+    let newer = words(&versioned("version='1.3'", "", ""));
+    assert_eq!(newer, "URDF: the robot has the version \"1.3\", it must be 1.0 to 1.2");
+}
+
+#[test]
+fn a_message_names_the_links_to_pass() {
+    let behind = |link: &str, kind: &str| {
+        format!(
+            "<link name='f{link}{kind}'/><joint name='{link}{kind}' type='{kind}'><parent \
+             link='{link}'/><child link='f{link}{kind}'/><limit lower='0' upper='1'/></joint>"
+        )
+    };
+    let fingers = behind("l6", "prismatic") + &behind("l5", "prismatic");
+    assert!(words(&versioned("", "", &fingers)).ends_with("; pass tip=\"l6\" (6 joints)"));
+    let tip = six(&versioned("", "", &fingers), None, Some("fl6prismatic"));
+    assert!(refused(tip).ends_with("; pass tip=\"l6\" (6 joints)"));
+    let lift = "<link name='w'/><joint name='lift' type='prismatic'><parent link='w'/><child \
+                link='l0'/></joint>";
+    let lifted = words(&versioned("", "", lift));
+    assert!(lifted.ends_with("; pass base=\"l0\" and tip=\"l6\" (6 joints)"), "{lifted}");
+    let eight = behind("l6", "revolute") + &behind("fl6revolute", "revolute");
+    let longer = words(&versioned("", "", &eight));
+    let wanted = "; pass tip=\"l6\" (6 joints) or base=\"l2\" and tip=\"ffl6revoluterevolute\" \
+                  (6 joints)";
+    assert!(longer.ends_with(wanted), "{longer}");
+}
+
 #[test]
 fn a_tip_is_never_guessed() {
     assert_eq!(

@@ -755,8 +755,8 @@ class Robot:
         limits and velocities.
 
         Args:
-            text_or_path: The text, str that begins with "<" or bytes, or the path of a file. Xacro
-                must be expanded first.
+            text_or_path: The text, str that begins with "<" or bytes, or the path of a file, of
+                URDF 1.0 to 1.2. Xacro must be expanded first.
             base: Link in whose frame poses are given; the one without a parent when not given.
             tip: Link that poses are of; when not given, the only one at the end of a chain of six
                 or seven joints.
@@ -768,7 +768,8 @@ class Robot:
         Raises:
             InvalidModelError: The text is not a URDF, several links could be meant, there are not
                 six or seven joints, a joint between base and tip is not revolute, continuous or
-                fixed, or six joints are not independent; the message names what is wrong.
+                fixed, an attribute is none of the version's, or six joints are not independent; the
+                message names what is wrong, and the base and tip that could be passed.
             OSError: The file cannot be read.
         """
     def to_urdf(self) -> str:
@@ -913,7 +914,8 @@ class Robot:
             or inf gives NaN.
 
         Raises:
-            InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+            InvalidJointsError: A wrong shape, or a single joint vector that is not finite or more
+                than two turns outside the limits, as one in degrees is.
         """
     def link_frames(self, q: npt.ArrayLike, out: _Floats | None = None) -> _Floats:
         """Every frame of the modified Denavit-Hartenberg table after its joint, then the tool.
@@ -1112,7 +1114,8 @@ class Robot:
             UnreachableError: A single pose has no solution inside the limits; the message says what
                 is missing.
             InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
-                is not finite; a single pose or seed for a whole batch that is invalid.
+                is not finite; a seed more than two turns outside the limits; a single pose or seed
+                for a whole batch that is invalid.
         """
     def margin(self, q: npt.ArrayLike, *, threads: int = 1) -> Margin:
         """How far joint vectors are from limits and singularities, as parts of the farthest that

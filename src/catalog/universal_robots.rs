@@ -3,8 +3,10 @@
 //! Standard Denavit-Hartenberg parameters as published by Universal Robots (article "DH parameters
 //! for calculations of kinematics and dynamics"), validated against ur-analytic-ik 0.1.0. Base and
 //! flange are frames 0 and 6 of that table. A machine's own calibration moves its tool by 1 to 2 mm
-//! from them. Payload and reach are general knowledge of the data sheets. Planners usually limit
-//! joint 3 to +-180 deg; the machine does not.
+//! from them. Payload and reach are general knowledge of the data sheets. Joint speeds are
+//! those of the user manuals, as Universal Robots' ROS description repeats them; it has UR20's for
+//! the UR30, and no source with a second one has those of the UR8 Long, UR15 and UR18. Planners
+//! usually limit joint 3 to +-180 deg; the machine does not.
 
 use super::{AngleUnit, CatalogArm, CatalogGeometry};
 
@@ -26,7 +28,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[180.0, 180.0, 180.0, 360.0, 360.0, 360.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; joint 6 of the machine turns without end",
     },
@@ -45,7 +47,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[180.0, 180.0, 180.0, 360.0, 360.0, 360.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; joint 6 of the machine turns without end",
     },
@@ -64,7 +66,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[180.0, 180.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
@@ -83,7 +85,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[180.0, 180.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
@@ -102,7 +104,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[180.0, 180.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; the UR5e under a new name",
     },
@@ -140,7 +142,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[120.0, 120.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
@@ -159,7 +161,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[120.0, 120.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
@@ -178,7 +180,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[120.0, 120.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; the UR10e under a new name",
     },
@@ -216,7 +218,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[120.0, 120.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
@@ -254,7 +256,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[120.0, 120.0, 150.0, 210.0, 210.0, 210.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },
@@ -273,7 +275,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         },
         angles: AngleUnit::Degrees,
         limits: LIMITS,
-        max_velocity: None,
+        max_velocity: Some(&[120.0, 120.0, 150.0, 210.0, 210.0, 210.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
     },

@@ -28,7 +28,8 @@ pub enum PoseFault {
     /// `deviation`: the largest element of `R^T R - I`.
     #[error(
         "pose rotation is off orthonormal by {deviation:.3e}, more than the {bound:.0e} that is \
-         repaired (is it scaled, or written with too few digits?)"
+         repaired (is it scaled, or written with too few digits? the nearest rotation is U V of its \
+         singular value decomposition, or that of scipy's Rotation.from_matrix)"
     )]
     NotOrthonormal { deviation: f64, bound: f64 },
     #[error(
@@ -62,6 +63,13 @@ pub enum JointFault {
          whole turns)"
     )]
     TooLarge { field: &'static str, joint: usize, value: f64, bound: f64 },
+    /// More than two turns outside the limits.
+    #[error(
+        "{field}: joint {joint} is {value:.2} rad, far outside its limits {:.2} to {:.2} rad (did \
+         you pass degrees? otherwise remove whole turns)",
+        .bounds[0], .bounds[1]
+    )]
+    FarOutside { field: &'static str, joint: usize, value: f64, bounds: [f64; 2] },
     /// `off`: the larger of meters and radians.
     #[error(
         "solution does not reach this pose: residual {off:.1e} (m or rad), it must be at most \

@@ -67,6 +67,9 @@ pub struct LeftOut {
 impl fmt::Display for UnknownRobot {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "unknown robot \"{}\"; ", self.name)?;
+        if let Some((_, "urdf" | "xacro" | "xml")) = self.name.rsplit_once('.') {
+            return f.write_str("a file of a robot is read by from_urdf");
+        }
         match (&self.left_out, &self.close[..]) {
             (Some(LeftOut { name, reason }), _) => {
                 write!(f, "left out of the catalog: {name}: {reason}")

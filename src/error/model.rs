@@ -66,14 +66,19 @@ pub enum ModelFault {
     UnknownStructure(UnknownStructure),
     #[error(
         "this robot has no ABB configuration: its structure is \"{structure}\", not a six-axis arm \
-         with a spherical wrist{} (the slot of a solution names its branch)",
+         with a spherical wrist{} (the slot of a solution names its branch){}",
         if matches!(*.structure, "offset wrist" | "general") {
             ", nor a GoFa or YuMi of the catalog"
         } else {
             ""
-        }
+        },
+        ByRounding(.snap)
     )]
-    NoConfiguration { structure: &'static str },
+    NoConfiguration {
+        structure: &'static str,
+        /// The `snap` [rad] that would give the arm a closed form.
+        snap: Option<f64>,
+    },
     #[error(
         "this robot has no arm angle: it is not a YuMi of the catalog (give the angle of a joint)"
     )]
@@ -167,5 +172,16 @@ impl fmt::Display for Digits {
             Some(snap) => Snap(snap).fmt(f),
             None => f.write_str(" (are the angles written with all their digits?)"),
         }
+    }
+}
+
+/// The `snap` that would help an arm of rounded angles.
+struct ByRounding<'a>(&'a Option<f64>);
+
+impl fmt::Display for ByRounding<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |snap| {
+            write!(f, "; its angles are rounded, snap={snap:e} gives it a closed form")
+        })
     }
 }

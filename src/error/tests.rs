@@ -116,7 +116,7 @@ fn messages_of_models() {
             "upper limit of joint 5 is -inf, it must be finite (inf is allowed: no limit)",
         ),
         (
-            ModelFault::NoConfiguration { structure: "general" }.into(),
+            ModelFault::NoConfiguration { structure: "general", snap: None }.into(),
             "this robot has no ABB configuration: its structure is \"general\", not a six-axis arm \
              with a spherical wrist, nor a GoFa or YuMi of the catalog (the slot of a solution \
              names its branch)",

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -26,6 +27,24 @@ pub enum UrdfFault {
     Attributes { line: usize, element: String, bound: usize },
     #[error("the first element is <{found}>, it must be <robot>: convert the file to URDF")]
     NotRobot { found: String },
+    /// `newest`: the minor number of the newest version that is read.
+    #[error("the robot has the version {version:?}, it must be 1.0 to 1.{newest}")]
+    Version { version: String, newest: u32 },
+    /// `since`, `version`: the minor numbers of the version that has the attribute, and the robot's.
+    #[error(
+        "joint {joint:?} has the attribute {attribute}, which URDF has from version 1.{since} on, \
+         and the robot is of version 1.{version}: write <robot version=\"1.{since}\">"
+    )]
+    TooNew { joint: String, attribute: &'static str, since: u32, version: u32 },
+    #[error(
+        "joint {joint:?} <{element}> has the attribute {attribute:?}, which URDF does not have; it \
+         has {known}: remove or rename it"
+    )]
+    Attribute { joint: String, element: &'static str, attribute: String, known: Names },
+    #[error("joint {joint:?} origin has rpy and quat_xyzw, it must have one of them")]
+    TwoRotations { joint: String },
+    #[error("joint {joint:?} origin quat_xyzw has norm {norm:.6}, it must be 1 to {bound}")]
+    QuaternionNorm { joint: String, norm: f64, bound: f64 },
     #[error(
         "line {line} is xacro, <{element}>: it must be expanded first (xacro arm.urdf.xacro > \
          arm.urdf)"
@@ -67,6 +86,9 @@ pub enum UrdfFault {
         Listed(.wanted, " or ")
     )]
     NoTip { base: String, wanted: Vec<usize>, ends: Names },
+    /// `chains`: the bases and tips of chains that could be taken.
+    #[error("{fault}; pass {}", Listed(.chains, " or "))]
+    Proposing { fault: Box<Self>, chains: Vec<String> },
     #[error(
         "joint {joint:?} is {kind:?}, between base and tip it must be revolute, continuous or \
          fixed (choose base and tip beside it)"
@@ -82,10 +104,10 @@ pub enum UrdfFault {
     JointCount { base: String, tip: String, found: usize, wanted: Vec<usize> },
     #[error("joint {joint:?} is revolute and has no <limit>; a joint without limits is continuous")]
     NoLimit { joint: String },
-    /// `field`: element and attribute. `wanted`: one or three numbers.
+    /// `field`: element and attribute. `wanted`: one, three or four numbers.
     #[error(
         "joint {joint:?} {field} is {text:?}, it must be {}{}",
-        if *.wanted == 1 { "a number" } else { "three numbers" },
+        match *.wanted { 1 => "a number", 3 => "three numbers", _ => "four numbers" },
         if .text.contains('$') { " (is it xacro that was not expanded?)" } else { "" }
     )]
     NotNumbers { joint: String, field: &'static str, text: String, wanted: usize },

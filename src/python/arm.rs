@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use super::arrays::Rows;
 use super::errors::Fault;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{AnyRobot, Robot, check_joints};
+use crate::kinematics::{AnyRobot, JointLimits, Robot, check_joints, check_near};
 
 /// A value of a robot of six joints, or of one of seven.
 #[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -91,12 +91,18 @@ impl Arm {
         Ok(on!(self, robot => robot.configuration_rule().map(drop))?)
     }
 
-    /// Joint vectors as an argument; a single one must be finite.
+    /// Joint vectors as an argument; a single one must be finite and near the limits.
     pub(super) fn joints<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
         let rows = Rows::read(q, &[self.dof()], "q", Fault::Joints)?;
         if rows.is_single() {
-            check_joints("q", rows.data()?)?;
+            on!(self, robot => check_single(&rows, robot.limits())?);
         }
         Ok(rows)
     }
+}
+
+fn check_single<const N: usize>(rows: &Rows<'_>, limits: &JointLimits<N>) -> PyResult<()> {
+    let Some(q) = rows.single::<N>()? else { return Ok(()) };
+    check_joints("q", q)?;
+    Ok(check_near("q", q, limits, &[1.0; N])?)
 }

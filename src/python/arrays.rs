@@ -54,7 +54,16 @@ impl<'py> Rows<'py> {
         let lead = array.shape().to_vec();
         if !fits(&lead) {
             let (wanted, got) = (wanted(), shape_text(&lead));
-            return Err(fault.error(format_args!("{field} must have shape {wanted}, got {got}")));
+            // Of a position, a vector with a quaternion or Euler angles, three rows of a matrix.
+            let is_pose = field == "T" && matches!(lead[..], [3 | 6 | 7] | [3, 4]);
+            let hint = if is_pose {
+                " (irbkin.pose makes a matrix of position and orientation)"
+            } else {
+                ""
+            };
+            return Err(
+                fault.error(format_args!("{field} must have shape {wanted}, got {got}{hint}"))
+            );
         }
         let borrow = Borrow::new(addresses(&array), Access::Read);
         Ok(Self { array, lead, field, fault, _borrow: borrow })

@@ -20,6 +20,7 @@ use super::signals::detached;
 use super::solutions::{Found, PySolutions};
 use super::targets::{Seeded, read_ik_pose, read_seeded, read_single_pose, read_weights};
 use crate::batch::Margins;
+use crate::kinematics::check_near;
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -192,7 +193,8 @@ impl PyRobot {
     ///     UnreachableError: A single pose has no solution inside the limits; the message says what
     ///         is missing.
     ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
-    ///         is not finite; a single pose or seed for a whole batch that is invalid.
+    ///         is not finite; a seed more than two turns outside the limits; a single pose or seed
+    ///         for a whole batch that is invalid.
     #[pyo3(signature = (T, seed, weights=None, *, out=None, threads=1))]
     fn ik_nearest<'py>(
         &self,
@@ -205,7 +207,9 @@ impl PyRobot {
         let (py, threads) = (T.py(), thread_count(threads)?);
         on!(self.arm(), robot => match read_seeded(T, seed)? {
             Seeded::One(pose, seed) => {
-                let nearest = robot.nearest_checked(pose, &seed, &read_weights(weights)?);
+                let weights = read_weights(weights)?;
+                check_near("seed", &seed, robot.limits(), &weights)?;
+                let nearest = robot.nearest_checked(pose, &seed, &weights);
                 answer_row(T, out, &nearest.map_err(|error| of_seed(error, &seed))?.q)
             }
             Seeded::Many(poses, seeds) => {

@@ -119,8 +119,8 @@ impl PyRobot {
     /// and velocities.
     ///
     /// Args:
-    ///     text_or_path: The text, str that begins with "<" or bytes, or the path of a file. Xacro
-    ///         must be expanded first.
+    ///     text_or_path: The text, str that begins with "<" or bytes, or the path of a file, of
+    ///         URDF 1.0 to 1.2. Xacro must be expanded first.
     ///     base: Link in whose frame poses are given; the one without a parent when not given.
     ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six
     ///         or seven joints.
@@ -132,7 +132,8 @@ impl PyRobot {
     /// Raises:
     ///     InvalidModelError: The text is not a URDF, several links could be meant, there are not
     ///         six or seven joints, a joint between base and tip is not revolute, continuous or
-    ///         fixed, or six joints are not independent; the message names what is wrong.
+    ///         fixed, an attribute is none of the version's, or six joints are not independent; the
+    ///         message names what is wrong, and the base and tip that could be passed.
     ///     OSError: The file cannot be read.
     #[staticmethod]
     #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, snap=0.0))]

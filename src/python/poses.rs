@@ -3,6 +3,7 @@
 use numpy::PyArray1;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::{PyFloat, PyInt};
 
 use super::arrays::{Rows, copied_matrix4, copied_vector, together};
 use super::errors::{Fault, index_in};
@@ -45,6 +46,9 @@ pub(super) fn pose<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let orientations =
         [("wxyz", wxyz), ("xyzw", xyzw), ("euler_zyx", euler_zyx), ("rotation", rotation)];
+    if xyz.is_instance_of::<PyFloat>() || xyz.is_instance_of::<PyInt>() {
+        return Err(PyTypeError::new_err("xyz is one argument of three numbers: pose([x, y, z])"));
+    }
     let mut given = orientations.into_iter().filter_map(|(name, value)| Some((name, value?)));
     let first = given.next();
     if let (Some((first, _)), Some((second, _))) = (first, given.next()) {

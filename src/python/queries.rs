@@ -12,7 +12,7 @@ use super::robot::PyRobot;
 use super::signals::detached;
 use crate::batch::Batch;
 use crate::error::Error;
-use crate::kinematics::{self, Status, check_joints, pose_to_rows};
+use crate::kinematics::{self, JointLimits, Status, check_joints, check_near, pose_to_rows};
 
 #[pymethods]
 impl PyRobot {
@@ -27,7 +27,8 @@ impl PyRobot {
     ///     or inf gives NaN.
     ///
     /// Raises:
-    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
+    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite or more
+    ///         than two turns outside the limits, as one in degrees is.
     #[pyo3(signature = (q, out=None))]
     fn fk<'py>(
         &self,
@@ -35,7 +36,7 @@ impl PyRobot {
         out: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         on!(self.arm(), robot => {
-            if let Some(joints) = plain_joints(q)? {
+            if let Some(joints) = plain_joints(q, robot.limits())? {
                 return answer(q, out, pose_to_rows(&robot.fk(&joints)).as_chunks::<4>().0);
             }
             mapped(self.arm(), q, out, &[4, 4], |batch, q, poses| batch.fk(robot, q, poses))
@@ -89,7 +90,7 @@ impl PyRobot {
         let frame = one_of("frame", frame, &FRAMES)?;
         let tail = [6, self.arm().dof()];
         on!(self.arm(), robot => {
-            if let Some(joints) = plain_joints(q)? {
+            if let Some(joints) = plain_joints(q, robot.limits())? {
                 return answer(q, out, &robot.jacobian_rows(&joints, frame));
             }
             mapped(self.arm(), q, out, &tail, |batch, q, rows| batch.jacobian(robot, q, frame, rows))
@@ -193,10 +194,15 @@ pub(super) fn mapped<'py>(
     Ok(answer.bound())
 }
 
-/// A single joint vector that can be read the short way; it must be finite.
+/// A single joint vector that can be read the short way; it must be finite and
+/// near the limits.
 #[inline]
-fn plain_joints<const N: usize>(q: &Bound<'_, PyAny>) -> PyResult<Option<[f64; N]>> {
+fn plain_joints<const N: usize>(
+    q: &Bound<'_, PyAny>,
+    limits: &JointLimits<N>,
+) -> PyResult<Option<[f64; N]>> {
     let Some(joints) = copied_vector::<N>(q) else { return Ok(None) };
     check_joints("q", &joints)?;
+    check_near("q", &joints, limits, &[1.0; N])?;
     Ok(Some(joints))
 }

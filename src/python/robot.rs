@@ -233,7 +233,12 @@ impl PyRobot {
             }
             let quoted = if name.is_empty() { String::new() } else { format!(" {name:?}") };
             let coupled = if robot.is_coupled() { ", coupled" } else { "" };
-            format!("<Robot{quoted}: {} joints, {}{coupled}>", self.arm.dof(), robot.structure())
+            let snap = robot.missing_form().and_then(|missing| missing.snap());
+            let snap = snap.map_or_else(String::new, |snap| {
+                format!(" (by rounded angles: snap={snap:e} gives it a closed form)")
+            });
+            let (dof, structure) = (self.arm.dof(), robot.structure());
+            format!("<Robot{quoted}: {dof} joints, {structure}{snap}{coupled}>")
         })
     }
 

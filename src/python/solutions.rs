@@ -16,7 +16,9 @@ use super::state::{Reduced, hash_of, reduced};
 use super::table;
 use super::targets::{read_seed, read_weights};
 use crate::error::Error;
-use crate::kinematics::{Cost, MOST_SLOTS, Robot, Solution, Solutions, Status, pose_to_rows};
+use crate::kinematics::{
+    Cost, MOST_SLOTS, Robot, Solution, Solutions, Status, check_near, pose_to_rows,
+};
 use crate::report::Explanation;
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or
@@ -357,7 +359,9 @@ impl PySolutions {
         cost: Cost,
     ) -> PyResult<PySolution> {
         on!(&self.found, found => {
-            Ok(found.cheapest(&read_seed(seed)?, &read_weights(weights)?, cost)?.into())
+            let (seed, weights) = (read_seed(seed)?, read_weights(weights)?);
+            check_near("seed", &seed, &found.solutions.limits, &weights)?;
+            Ok(found.cheapest(&seed, &weights, cost)?.into())
         })
     }
 

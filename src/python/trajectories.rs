@@ -1,6 +1,6 @@
 //! The functions of `irbkin.trajectory`: motions of joints over time.
 
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
@@ -31,6 +31,12 @@ pub(super) fn read_each(
     default: f64,
 ) -> PyResult<Vec<f64>> {
     let Some(value) = value else { return Ok(vec![default; dof]) };
+    if value.is_none() {
+        return Err(PyTypeError::new_err(format!(
+            "{field} is None: the speeds of this arm are unknown, give yours for each of the {dof} \
+             joints [rad/s]"
+        )));
+    }
     // The short ways: one number needs no array, and an array of them no record of a borrow.
     if let Ok(one) = value.cast::<PyFloat>() {
         return Ok(vec![one.value(); dof]);

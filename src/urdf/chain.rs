@@ -1,6 +1,7 @@
 //! The joints between two links.
 
 use alloc::borrow::ToOwned;
+use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec;
@@ -12,8 +13,15 @@ use crate::error::{Names, UrdfFault};
 #[cfg(feature = "std")]
 use crate::spelling::similar;
 
-/// Number of links up to which a message for an unknown one lists all names.
+/// Number of links up to which a message for an unknown one lists all names, and of chains that a
+/// message proposes.
 const FEW: usize = 12;
+
+/// Number of joints of the longest arm: part of a longer chain is one, part of such an arm is not.
+const MOST_JOINTS: usize = 7;
+
+/// Number of ends of chains up to which a message looks for chains that could be taken.
+const MOST_ENDS: usize = 64;
 
 /// The joints from base to tip, all of them revolute or fixed; the number of revolute ones is in
 /// `wanted`.
@@ -43,13 +51,86 @@ pub(super) fn chain_between<'t, 'a>(
         link = joint.parent;
     }
     chain.reverse();
-    let way = chain.iter().try_fold(Way::default(), |way, joint| way.through(joint))?;
-    let found = way.turning;
-    if wanted.contains(&found) {
-        return Ok(chain);
+    let fault = match chain.iter().try_fold(Way::default(), |way, joint| way.through(joint)) {
+        Ok(way) if wanted.contains(&way.turning) => return Ok(chain),
+        Ok(Way { turning: found, .. }) => {
+            let [base, tip] = [base, tip].map(|link| tree.links[link].to_owned());
+            UrdfFault::JointCount { base, tip, found, wanted: wanted.to_vec() }
+        }
+        Err(fault) => fault,
+    };
+    Err(proposing(fault, tree, base, &[tip], wanted))
+}
+
+/// A fault of the chains to `ends`, with the bases and tips of chains on them that could be taken.
+fn proposing(
+    fault: UrdfFault,
+    tree: &Tree<'_>,
+    base: usize,
+    ends: &[usize],
+    wanted: &[usize],
+) -> UrdfFault {
+    let mut chains = Vec::new();
+    for &end in ends.iter().take(MOST_ENDS) {
+        for chain in chains_above(tree, base, end, wanted) {
+            if !chains.contains(&chain) {
+                chains.push(chain);
+            }
+        }
     }
-    let [base, tip] = [base, tip].map(|link| tree.links[link].to_owned());
-    Err(UrdfFault::JointCount { base, tip, found, wanted: wanted.to_vec() })
+    if chains.is_empty() {
+        return fault;
+    }
+    let chains = chains.into_iter().map(|(from, to, joints)| {
+        let [from_name, to_name] = [from, to].map(|link| tree.links[link]);
+        let base = if from == base { String::new() } else { format!("base={from_name:?} and ") };
+        format!("{base}tip={to_name:?} ({joints} joints)")
+    });
+    UrdfFault::Proposing { fault: Box::new(fault), chains: chains.take(FEW).collect() }
+}
+
+/// The chains of a wanted number of revolute joints between a base and an end below it, as first
+/// link, last link and number: between two joints that must not be in a chain, all; of more joints
+/// than an arm has, the first and the last ones.
+fn chains_above(
+    tree: &Tree<'_>,
+    base: usize,
+    end: usize,
+    wanted: &[usize],
+) -> Vec<(usize, usize, usize)> {
+    let mut joints = Vec::new();
+    let mut link = end;
+    while link != base {
+        let Some(above) = tree.above[link] else { break };
+        joints.push(&tree.joints[above]);
+        link = tree.joints[above].parent;
+    }
+    let most = wanted.iter().copied().max().unwrap_or_default();
+    let mut chains = Vec::new();
+    let (mut way, mut first) = (Way::default(), link);
+    // The links on both sides of each revolute joint since `first`.
+    let mut turning: Vec<[usize; 2]> = Vec::new();
+    for joint in joints.into_iter().rev().map(Some).chain([None]) {
+        if let Some((joint, Ok(next))) = joint.map(|joint| (joint, way.through(joint))) {
+            way = next;
+            if joint.turns() {
+                turning.push([joint.parent, joint.child]);
+            }
+            continue;
+        }
+        match turning.len() {
+            count if wanted.contains(&count) => chains.push((first, turning[count - 1][1], count)),
+            count if count > most && count > MOST_JOINTS => {
+                chains.push((first, turning[most - 1][1], most));
+                chains.push((turning[count - most][0], turning[count - 1][1], most));
+            }
+            _ => {}
+        }
+        first = joint.map_or(first, |joint| joint.child);
+        way = Way::default();
+        turning.clear();
+    }
+    chains
 }
 
 fn named(tree: &Tree<'_>, field: &'static str, name: &str) -> Result<usize, UrdfFault> {
@@ -140,7 +221,8 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, Urd
     }
     let can_be =
         |link: &&usize| ways[**link].barred_by.is_none() && wanted.contains(&ways[**link].turning);
-    let (base, wanted_counts) = (tree.links[base].to_owned(), wanted.to_vec());
+    let (base_link, wanted_counts) = (base, wanted.to_vec());
+    let base = tree.links[base].to_owned();
     match (ends.iter().find(can_be), ends.iter().filter(can_be).count()) {
         (Some(&tip), 1) => Ok(tip),
         (Some(_), _) => {
@@ -148,8 +230,9 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, Urd
             Err(UrdfFault::SeveralTips { base, wanted: wanted_counts, tips })
         }
         (None, _) => {
-            let ends = ends.iter().map(|&link| remark(tree, link, ways[link])).collect();
-            Err(UrdfFault::NoTip { base, wanted: wanted_counts, ends })
+            let remarks = ends.iter().map(|&link| remark(tree, link, ways[link])).collect();
+            let fault = UrdfFault::NoTip { base, wanted: wanted_counts, ends: remarks };
+            Err(proposing(fault, tree, base_link, &ends, wanted))
         }
     }
 }

@@ -2,12 +2,13 @@
 
 use alloc::borrow::ToOwned;
 
-use nalgebra::Vector3;
+use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
+use super::attributes::{Version, check_attributes};
 use crate::error::UrdfFault;
-use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH};
-use crate::kinematics::{JointAxis, Pose, constant_pose, snapped, unit};
+use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, QUATERNION_NORM_BOUND};
+use crate::kinematics::{JointAxis, Pose, constant_pose, pose_to_euler_zyx, snapped, unit};
 
 /// Most characters of an attribute that a message repeats.
 const REPEATED: usize = 60;
@@ -162,14 +163,35 @@ impl<'a> Joint<'a> {
     }
 
     /// The numbers of the joint.
-    pub(super) fn placed(&self) -> Result<Placed, UrdfFault> {
+    pub(super) fn placed(&self, version: Version) -> Result<Placed, UrdfFault> {
+        check_attributes(self.node, self.name, version)?;
         let (mut xyz, mut rpy) = ([0.0; 3], [0.0; 3]);
         if let Some(origin) = self.element("origin")? {
             xyz = self.three(origin, "xyz", "origin xyz", MOST_LENGTH)?.unwrap_or(xyz);
-            rpy = self.three(origin, "rpy", "origin rpy", MOST_ANGLE)?.unwrap_or(rpy);
+            rpy = self.rpy(origin)?.unwrap_or(rpy);
         }
         let linkage = if self.is_linkage() { Some(self.linkage()?) } else { None };
         Ok(Placed { xyz, rpy, motion: self.motion()?, linkage })
+    }
+
+    /// The rotation of an origin as roll, pitch and yaw [rad].
+    fn rpy(&self, origin: Node<'_, '_>) -> Result<Option<[f64; 3]>, UrdfFault> {
+        let rpy = self.three(origin, "rpy", "origin rpy", MOST_ANGLE)?;
+        let Some(text) = origin.attribute("quat_xyzw") else { return Ok(rpy) };
+        if rpy.is_some() {
+            return Err(UrdfFault::TwoRotations { joint: self.name.to_owned() });
+        }
+        let [x, y, z, w] = self.numbers("origin quat_xyzw", text, f64::MAX)?;
+        let quaternion = Quaternion::new(w, x, y, z);
+        let norm = quaternion.norm();
+        if (norm - 1.0).abs() > QUATERNION_NORM_BOUND {
+            let (joint, bound) = (self.name.to_owned(), QUATERNION_NORM_BOUND);
+            return Err(UrdfFault::QuaternionNorm { joint, norm, bound });
+        }
+        let rotation = UnitQuaternion::from_quaternion(quaternion).to_rotation_matrix();
+        let turned = Pose::from_parts(Translation3::identity(), rotation);
+        let (_, [yaw, pitch, roll]) = pose_to_euler_zyx(&turned);
+        Ok(Some([roll, pitch, yaw]))
     }
 
     fn linkage(&self) -> Result<Linkage, UrdfFault> {

@@ -3,6 +3,7 @@
 //!
 //! Reference: ROS wiki, urdf/XML/robot, link and joint.
 
+mod attributes;
 mod chain;
 mod joint;
 mod shape;
@@ -100,7 +101,8 @@ impl UrdfArm {
         let (document, skipped) = parsed(text)?;
         let tree = Tree::new(&document, skipped)?;
         let chain = chain_between(&tree, base, tip, wanted)?;
-        let joints = chain.into_iter().map(Joint::placed).collect::<Result<_, _>>()?;
+        let placed = |joint: &Joint<'_>| joint.placed(tree.version);
+        let joints = chain.into_iter().map(placed).collect::<Result<_, _>>()?;
         Ok(Self { name: tree.name.to_string(), joints })
     }
 

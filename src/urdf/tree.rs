@@ -9,6 +9,7 @@ use alloc::vec::Vec;
 
 use roxmltree::{Document, Node};
 
+use super::attributes::{Version, version_of};
 use super::joint::Joint;
 use super::shape::check_shape;
 use crate::error::{Names, UrdfFault};
@@ -16,6 +17,7 @@ use crate::error::{Names, UrdfFault};
 /// Links and joints by index, each link with the joint above it and those below.
 pub(super) struct Tree<'a> {
     pub(super) name: &'a str,
+    pub(super) version: Version,
     /// Lines before the text that was parsed.
     skipped: usize,
     pub(super) links: Vec<&'a str>,
@@ -67,6 +69,7 @@ impl<'a> Tree<'a> {
         let mut tree = Self {
             skipped,
             name: robot.attribute("name").unwrap_or_default(),
+            version: 0,
             links: Vec::new(),
             joints: Vec::new(),
             above: Vec::new(),
@@ -77,8 +80,14 @@ impl<'a> Tree<'a> {
         if robot.tag_name().name() != "robot" {
             return Err(UrdfFault::NotRobot { found: robot.tag_name().name().to_owned() });
         }
+        tree.version = version_of(robot)?;
         for node in elements("link") {
             tree.add_link(node)?;
+        }
+        let is_xacro = |uri: &str| uri.contains("xacro");
+        if tree.links.is_empty() && robot.namespaces().any(|space| is_xacro(space.uri())) {
+            let (line, element) = (tree.line(robot), "robot xmlns:xacro".to_owned());
+            return Err(UrdfFault::Xacro { line, element });
         }
         let mut names = BTreeSet::new();
         for node in elements("joint") {

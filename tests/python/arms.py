@@ -126,6 +126,13 @@ UR_FIGURES = {
     "UR20": (0.2363, -0.8620, -0.7287, 0.2010, 0.1593, 0.1543),
     "UR30": (0.2363, -0.6370, -0.5037, 0.2010, 0.1593, 0.1543),
 }
+# Joint speeds of their user manuals [deg/s].
+UR_SPEEDS = {
+    **dict.fromkeys(("UR3", "UR3e"), (180, 180, 180, 360, 360, 360)),
+    **dict.fromkeys(("UR5", "UR5e", "UR7e"), (180,) * 6),
+    **dict.fromkeys(("UR10", "UR10e", "UR12e", "UR16e"), (120, 120, 180, 180, 180, 180)),
+    **dict.fromkeys(("UR20", "UR30"), (120, 120, 150, 210, 210, 210)),
+}
 UR_TWISTS_DEG = (90, 0, 0, 90, -90, 0)
 
 
@@ -150,7 +157,7 @@ def ur_arm(name):
         (90, 0, d5, 0),
         (-90, 0, d6, 0),
     )
-    return Arm(name, rows, ((-360, 360),) * 6, None)
+    return Arm(name, rows, ((-360, 360),) * 6, UR_SPEEDS.get(name))
 
 
 UR = {name: ur_arm(name) for name in UR_FIGURES}

@@ -199,6 +199,26 @@ def test_a_robust_loss_is_not_led_astray_by_outliers(loss):
         assert 0.3 < with_outliers.standard_error / without.standard_error < 3
 
 
+@pytest.mark.parametrize("robot", ROBOTS.values(), ids=ROBOTS)
+@pytest.mark.parametrize("loss", ["huber", "cauchy"])
+def test_one_gross_outlier_does_not_refuse_a_robust_loss(robot, loss):
+    truth, q = perturbed(robot, 5e-4, 21), drawn(robot, 60, 22)
+    measured = noisy(truth.fk(q), 5e-5, 2e-4, 23)
+    measured[7, 0, 3] += 1.0
+    away = robot.with_base(irbkin.pose([0.5, 0.3, 0], euler_zyx=[1, 0, 0]))
+    for nominal in (robot, away):
+        found = irbkin.calibrate(nominal, q, measured, loss=loss, folds=0)
+        assert np.median(found.position_error) < 5e-4
+        assert found.position_error.argmax() == 7
+
+
+def test_only_chosen_parameters_are_fitted():
+    truth, q = perturbed(IRB2600, 5e-4, 24), drawn(IRB2600, 60, 25)
+    found = irbkin.calibrate(IRB2600, q, truth.fk(q), fit=("theta 3", "d 1", "tool z"), folds=0)
+    assert found.identifiable == ("d 1", "theta 3", "tool z")
+    assert {parameter.name for parameter in found.left_out} == set()
+
+
 def test_the_record_shows_and_stores_what_was_fitted():
     truth = perturbed(IRB2600, 1e-3, 23)
     q = drawn(IRB2600, 30, 24)

@@ -584,3 +584,83 @@ def test_a_plan_with_a_track_has_its_place(tmp_path):
     again = rows(run(*words, "--csv", "--start", *start))
     np.testing.assert_allclose(again["track_mm"][0], place[0], atol=1e-6)
     assert "6 angles" in refused(*words, "--start", "1", "2")
+
+
+URDF = """<robot name="a">%s<joint name="g" type="prismatic"><parent link="l6"/><child link="l7"/>
+</joint></robot>"""
+
+
+def with_a_finger(turn):
+    """A URDF with a prismatic joint behind the sixth, a right angle of which is `turn`."""
+    links = "".join(f'<link name="l{number}"/>' for number in range(8))
+    places = ["0 0 0.4", "0.1 0 0.1", "0 0 0.7", "0.3 0 0.115", "0.45 0 0", "0.085 0 0"]
+    axes = ["0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0"]
+    joints = "".join(
+        f'<joint name="j{i}" type="revolute"><parent link="l{i - 1}"/><child link="l{i}"/>'
+        f'<origin xyz="{place}" rpy="{turn if i == 2 else 0} 0 0"/><axis xyz="{axis}"/>'
+        f'<limit lower="-3" upper="3"/></joint>'
+        for i, (place, axis) in enumerate(zip(places, axes, strict=True), 1)
+    )
+    return URDF % (links + joints)
+
+
+def test_a_urdf_takes_its_links_and_a_snap(tmp_path):
+    file = tmp_path / "arm.urdf"
+    file.write_text(with_a_finger(0))
+    zeros = ["0"] * 6
+    assert '; give --tip "l6" (6 joints)' in refused("fk", file, *zeros)
+    found = rows(run("fk", file, *zeros, "--tip", "l6", "--csv"))
+    assert found["x_mm"][0] == pytest.approx(935)
+    assert "5 revolute joints" in refused("fk", file, *zeros, "--tip", "l6", "--base-link", "l1")
+    assert "go with a .urdf file" in refused("fk", NAME, *zeros, "--tip", "l6")
+    file.write_text(with_a_finger(4e-6))
+    note = run("fk", file, *zeros, "--tip", "l6").stderr.decode()
+    assert "--snap 1e-5 gives it a closed form" in note
+    assert not run("fk", file, *zeros, "--tip", "l6", "--snap", "1e-5").stderr
+
+
+def test_lengths_in_meters_are_asked_for(tmp_path):
+    words = ["ik", NAME, "--wxyz", "0.2588190", "0", "0.9659258", "0", "--xyz"]
+    assert "are these meters?" in refused(*words, "0.85", "0.32", "0.64")
+    assert run(*words, "0", "0", "0").returncode == 0
+    file = tmp_path / "poses.csv"
+    for heading in ("", "x,y,z,qw,qx,qy,qz\n"):
+        file.write_text(f"{heading}0.85,0.32,0.64,0.2588190,0,0.9659258,0\n")
+        assert "are these meters?" in refused("ik", NAME, file)
+    for unit, factor in (("m", 1), ("mm", 1e3)):
+        x, y, z = (factor * it for it in (0.85, 0.32, 0.64))
+        head = ",".join(f"{axis}_{unit}" for axis in "xyz")
+        file.write_text(f"{head},qw,qx,qy,qz\n{x},{y},{z},0.2588190,0,0.9659258,0\n")
+        assert run("ik", NAME, file).returncode == 0
+    assert "are these meters?" in refused(*words, "850", "320", "640", "--tool", "0", "0", "0.18")
+
+
+def test_an_ending_without_a_format_is_refused(tmp_path):
+    for verb in (["ik", NAME, *XYZ], ["catalog"], ["fk", NAME, *["0"] * 6]):
+        message = refused(*verb, "-o", tmp_path / "x.xlsx")
+        assert "ends in .xlsx, it must end in .csv, .json, .npy, .txt" in message
+    assert not list(tmp_path.iterdir())
+    assert run("ik", NAME, *XYZ, "-o", tmp_path / "x.txt").returncode == 0
+
+
+def test_a_plan_is_written_as_rapid(tmp_path):
+    seam, module = tmp_path / "seam.csv", tmp_path / "weld.mod"
+    seam.write_text("1100,-100,600,0,155,0\n1100,100,600,0,155,0\n")
+    assert run("plan", NAME, seam, "--through", "lines", "-o", module).returncode == 0
+    moves = irbkin.rapid.load(module).moves
+    assert [move.kind for move in moves[:2]] == ["MoveJ", "MoveL"]
+    assert run("check", "--robot", NAME, module).returncode == 0
+
+
+def test_the_reason_is_in_the_json():
+    done = run("ik", NAME, "--xyz", "9850", "0", "0", "--json")
+    assert done.returncode == 1
+    assert "beyond reach" in json.loads(done.stdout)["reason"]
+
+
+def test_help_and_version_are_taken_as_other_commands_take_them():
+    assert run("help", "ik").stdout == run("ik", "--help").stdout
+    assert run("ik", "--version").stdout == run("--version").stdout
+    xyzw = ["0", "0.9659258", "0", "0.2588190"]
+    assert run("ik", NAME, *XYZ[:4], "--xyzw", *xyzw).stdout == run("ik", NAME, *XYZ).stdout
+    assert "give one of them" in refused("ik", NAME, *XYZ, "--xyzw", *xyzw)

@@ -206,10 +206,21 @@ ARGUMENTS = [
     ("Robot('zzzz')", UnknownRobotError, "no name of the catalog is close to it: catalog() lists "
      "all, from_urdf and from_mdh take other arms"),
     ("Robot('IRB 910SC')", UnknownRobotError, "; left out of the catalog: IRB 910SC-3, "),
+    ("Robot('arm.urdf')", UnknownRobotError, "a file of a robot is read by from_urdf"),
+    ("irbkin.pose(0.8, 0, 0.6)", TypeError, "xyz is one argument of three numbers"),
+    ("robot.ik([0.8, 0, 0.6, 0, 0, 0, 1])", InvalidPoseError, "got (7,) (irbkin.pose makes"),
+    ("irbkin.trajectory.retime([q, -q], Robot('UR15').max_velocity, 8)", TypeError, "max_velocity "
+     "is None: the speeds of this arm are unknown, give yours for each of the 6 joints [rad/s]"),
+    ("Robot.from_mdh(rows.round(4)).configuration(q)", InvalidModelError, "; its angles are "
+     "rounded, snap=1e-5 gives it a closed form"),
     ("Robot('franka')", UnknownRobotError, '"Panda"'),
     ("robot.ik_nearest(put(T, (0, 3), 3000), q)", UnreachableError, " mm beyond reach (is the pose "
      "in millimeters? meters are wanted)"),
-    ("tight.ik_nearest(T, np.degrees(q))", UnreachableError, "(seed: joint 1 is 17.18"),
+    ("tight.ik_nearest(T, np.degrees(q))", InvalidJointsError, "seed: joint 1 is 17.19 rad, far "
+     "outside its limits -0.10 to 0.10 rad (did you pass degrees? otherwise remove whole turns)"),
+    ("robot.fk(np.degrees(q))", InvalidJointsError, "q: joint 1 is 17.19 rad, far outside"),
+    ("robot.follow(many, np.degrees(q))", InvalidJointsError, "did you pass degrees?"),
+    ("robot.ik(T).nearest(np.degrees(q))", InvalidJointsError, "did you pass degrees?"),
     ("robot.ik_configured(T, [2, 0, 0, 0])", UnreachableError, "no solution inside the limits has "
      "the configuration [2, 0, 0, 0]; there are ["),
     ("rapid.parse('hello world')", irbkin.RapidError, "line 1, column 12: expected a semicolon, "
@@ -335,3 +346,13 @@ def test_nothing_is_printed(capfd):
         with pytest.raises(IrbkinError):
             eval(call, dict(NAMES))
     assert capfd.readouterr() == ("", "")
+
+
+def test_joints_may_be_two_turns_outside_the_limits():
+    """No farther, and as far as they like where a joint has no limits."""
+    upper = ROBOT.limits[:, 1]
+    for joint in range(6):
+        ROBOT.fk(put(Q, joint, upper[joint] + 4 * np.pi))
+        with pytest.raises(InvalidJointsError, match=f"joint {joint + 1} is .* far outside"):
+            ROBOT.fk(put(Q, joint, upper[joint] + 4 * np.pi + 1e-3))
+    ROBOT.with_limits(put([[-1.0, 2.0]] * 6, 0, [-np.inf, np.inf])).fk(put(Q, 0, 300.0))

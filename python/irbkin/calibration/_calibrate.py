@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from irbkin._core import Robot
     from irbkin.calibration._measurements import Measurements
 
-FITS: tuple[Literal["base", "table", "tool"], ...] = ("base", "table", "tool")
+FITS = ("base", "table", "tool")
 LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
 # Angle and part of the spread of positions that a robot may be off before its base and tool are
@@ -35,6 +35,9 @@ LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 FAR_ANGLE, FAR_PART = 0.2, 0.1
 # Distance that it may be off in any case [m]: short moves have small errors.
 FAR_LENGTH = 0.02
+# Rounds of an alignment that outliers must not lead astray, the part of the median error from
+# which on a measurement is one [1], and the least number of measurements.
+ALIGNMENTS, TYPICAL, LEAST_ALIGNED = 10, 3.0, 4
 # Joint vectors all over the joint space, by which parameters are told from one another [1].
 EVERYWHERE = 100
 
@@ -44,7 +47,7 @@ def calibrate(
     q: npt.ArrayLike,
     measured: npt.ArrayLike,
     *,
-    fit: Collection[Literal["base", "table", "tool"]] = FITS,
+    fit: Collection[str] = FITS,
     position_std: float = 1e-4,
     rotation_std: float = 5e-4,
     loss: Literal["linear", "soft_l1", "huber", "cauchy", "arctan"] = "linear",
@@ -62,7 +65,8 @@ def calibrate(
         robot: The nominal robot, with its nominal base and tool.
         q: Joint angles at each measurement [rad], shape (m, n).
         measured: Poses of the tool, shape (m, 4, 4), or its positions, shape (m, 3), [m].
-        fit: What is fitted: some of "base", "table" and "tool".
+        fit: What is fitted: some of "base", "table" and "tool", and of single parameters, by their
+            names in `parameters`: "theta 3", "d 1", "tool z".
         position_std: Standard deviation of a measured coordinate [m].
         rotation_std: The same of an angle [rad]. Only their ratio matters: 0.1 mm and 0.5 mrad are
             targets 0.2 m apart.
@@ -91,8 +95,9 @@ def calibrate(
             "irbkin.calibrate needs scipy: pip install 'irbkin[calibrate]'", name="scipy"
         ) from missing
     check_robot(robot)
-    wanted = _options(fit, position_std, rotation_std, loss, folds)
-    if "table" in wanted and robot.is_coupled:
+    wanted = _options(robot, fit, position_std, rotation_std, loss, folds)
+    has_table = bool(wanted & {"table", *_parameters.of_table(robot.dof)})
+    if has_table and robot.is_coupled:
         # Refused with the words of the core.
         robot.with_corrections(_only(len(_parameters.FRAME), robot.dof))
     measurements = _measurements.read(robot, q, measured)
@@ -104,23 +109,33 @@ def calibrate(
 
     problem = _aligned(problem, wanted)
     none = np.zeros(len(_parameters.names(robot.dof)))
-    ends = tiers[0] and _identify.chosen(problem.jacobian(none), tiers[:1], _identify.DETERMINED)
+    ends = _parameters.ends(tiers[0], robot.dof)
+    ends = ends and _identify.chosen(problem.jacobian(none), [ends], _identify.DETERMINED)
     start = _fit.fit(problem, ends, none) if ends else none
     _check_near(problem, start)
     jacobian = problem.jacobian(start)
     kept = _identify.chosen(jacobian, tiers, _identify.DETERMINED)
     if not kept:
         raise CalibrationError("measured determines no parameter: move the joints farther")
-    corrections = _fit.fit(problem, kept, start) if "table" in wanted else start
+    corrections = _fit.fit(problem, kept, start) if has_table else start
     return _calibration(problem, tiers, kept, start, corrections, folds)
 
 
 def _options(
-    fit: Collection[str], position_std: float, rotation_std: float, loss: str, folds: int
+    robot: Robot,
+    fit: Collection[str],
+    position_std: float,
+    rotation_std: float,
+    loss: str,
+    folds: int,
 ) -> frozenset[str]:
     wanted = frozenset([fit] if isinstance(fit, str) else fit)
-    if not wanted or not wanted <= set(FITS):
-        raise ValueError(f"fit must be some of {', '.join(FITS)}, got {tuple(sorted(wanted))}")
+    names = _parameters.names(robot.dof)
+    if not wanted or not wanted <= {*FITS, *names}:
+        raise ValueError(
+            f"fit must be some of {', '.join(FITS)}, got {tuple(sorted(wanted))} (or of the names "
+            f"of parameters, such as {names[6]} and {names[-1]})"
+        )
     for name, value in (("position_std", position_std), ("rotation_std", rotation_std)):
         if not 0.0 < value < np.inf:
             raise ValueError(f"{name} is {value}, it must be positive and finite")
@@ -165,22 +180,57 @@ def _residuals(robot: Robot, measurements: Measurements) -> tuple[Residuals, Flo
 
 
 def _aligned(problem: _fit.Problem, wanted: frozenset[str]) -> _fit.Problem:
-    """The problem with base and tool aligned, if the robot as it is is far off."""
-    off = _residuals(problem.robot, problem.measurements)[0]
-    is_near = off.position_rms <= _bound(problem) and not off.rotation_rms > FAR_ANGLE
-    if is_near or not wanted & {"base", "tool"}:
+    """The problem with base and tool aligned, if the robot as it is is far off: for a robust loss
+    again without the measurements that are far off then.
+    """
+    ends = wanted & {"base", "tool"}
+    if not ends or _is_near(problem, problem.robot):
         return problem
-    return replace(problem, robot=_start.aligned(problem.robot, problem.measurements, wanted))
+    measurements, robot = problem.measurements, problem.robot
+    part = np.ones(len(measurements), dtype=bool)
+    for _ in range(1 if problem.loss == "linear" else ALIGNMENTS):
+        robot = _start.aligned(problem.robot, measurements.part(part), ends)
+        kept = _is_typical(robot, measurements)
+        if (kept == part).all() or kept.sum() < LEAST_ALIGNED:
+            break
+        part = kept
+    return replace(problem, robot=robot)
+
+
+def _is_typical(robot: Robot, measurements: Measurements) -> npt.NDArray[np.bool_]:
+    """Which measurements are off by no more than most are."""
+    _, *errors = _residuals(robot, measurements)
+    kept = np.ones(len(measurements), dtype=bool)
+    for error in errors:
+        if len(error):
+            kept &= error <= TYPICAL * np.median(error)
+    return kept
+
+
+def _off(problem: _fit.Problem, robot: Robot) -> tuple[float, float]:
+    """How far a robot is off the measurements [m], [rad]: their root mean square and, for a robust
+    loss, their median, which outliers do not move.
+    """
+    residuals, distance, angle = _residuals(robot, problem.measurements)
+    if problem.loss == "linear":
+        return residuals.position_rms, residuals.rotation_rms
+    return float(np.median(distance)), float(np.median(angle)) if len(angle) else float("nan")
+
+
+def _is_near(problem: _fit.Problem, robot: Robot) -> bool:
+    distance, angle = _off(problem, robot)
+    return distance <= _bound(problem) and not angle > FAR_ANGLE
 
 
 def _check_near(problem: _fit.Problem, corrections: Floats) -> None:
     robot = problem.robot.with_corrections(corrections)
-    off, bound = _residuals(robot, problem.measurements)[0], _bound(problem)
-    if off.position_rms <= bound and not off.rotation_rms > FAR_ANGLE:
+    if _is_near(problem, robot):
         return
-    angle = "" if np.isnan(off.rotation_rms) else f" and {off.rotation_rms:.2g} rad"
+    (distance, turn), bound = _off(problem, robot), _bound(problem)
+    angle = "" if np.isnan(turn) else f" and {turn:.2g} rad"
+    how = "rms" if problem.loss == "linear" else "median"
     raise CalibrationError(
-        f"the nominal arm is {off.position_rms:.3g} m{angle} off measured (rms), with the base and "
+        f"the nominal arm is {distance:.3g} m{angle} off measured ({how}), with the base and "
         f"tool that fit best: at most {bound:.3g} m and {FAR_ANGLE} rad can be calibrated (is q in "
         "radians, in the order of measured? are these poses of the tool in the base?)"
     )

@@ -62,17 +62,15 @@ def read(robot: Robot, q: npt.ArrayLike, measured: npt.ArrayLike) -> Measurement
         CalibrationError: Their units do not fit the robot, or all joint vectors are one.
     """
     joints = as_array(q, "q", (None, robot.dof), InvalidJointsError)
-    _check_finite(joints, "q", InvalidJointsError)
+    check_finite(joints, "q", InvalidJointsError)
     count = len(joints)
     found = np.asarray(measured)
     if found.shape == (count, 4, 4):
-        poses = as_array(measured, "measured", (count, 4, 4), InvalidPoseError)
-        _check_finite(poses, "measured", InvalidPoseError)
-        poses = np.array([_pose(matrix, index) for index, matrix in enumerate(poses)])
+        poses = read_poses(measured, "measured")
         measurements = Measurements(joints, poses[:, :3, 3], poses[:, :3, :3])
     elif found.shape == (count, 3):
         points = as_array(measured, "measured", (count, 3), InvalidPoseError)
-        _check_finite(points, "measured", InvalidPoseError)
+        check_finite(points, "measured", InvalidPoseError)
         measurements = Measurements(joints, points, None)
     else:
         raise InvalidPoseError(
@@ -83,7 +81,18 @@ def read(robot: Robot, q: npt.ArrayLike, measured: npt.ArrayLike) -> Measurement
     return measurements
 
 
-def _check_finite(
+def read_poses(value: npt.ArrayLike, name: str) -> Floats:
+    """Measured poses, shape (m, 4, 4), their rotations made exact.
+
+    Raises:
+        InvalidPoseError: A wrong shape, or a matrix that is no pose.
+    """
+    poses = as_array(value, name, (None, 4, 4), InvalidPoseError)
+    check_finite(poses, name, InvalidPoseError)
+    return np.array([_pose(matrix, f"{name}[{index}]") for index, matrix in enumerate(poses)])
+
+
+def check_finite(
     array: Floats, name: str, error: type[InvalidJointsError] | type[InvalidPoseError]
 ) -> None:
     for index in np.argwhere(~np.isfinite(array)):
@@ -91,17 +100,15 @@ def _check_finite(
         raise error(f"{name}[{at}] is {array[tuple(index)]}: every element must be finite")
 
 
-def _pose(matrix: Floats, index: int) -> Floats:
+def _pose(matrix: Floats, place: str) -> Floats:
     """A measured pose, its rotation made exact."""
     last = np.abs(matrix[3] - [0.0, 0.0, 0.0, 1.0]).max()
     if last > 1e-9:
-        raise InvalidPoseError(
-            f"measured[{index}]: the last row must be 0 0 0 1, it is off by {last:.1e}"
-        )
+        raise InvalidPoseError(f"{place}: the last row must be 0 0 0 1, it is off by {last:.1e}")
     try:
         return pose(matrix[:3, 3], rotation=matrix[:3, :3])
     except InvalidPoseError as fault:
-        raise InvalidPoseError(f"measured[{index}]: {fault}") from None
+        raise InvalidPoseError(f"{place}: {fault}") from None
 
 
 def spread(points: Floats) -> float:

@@ -38,12 +38,31 @@ def nominal(robot: Robot) -> Floats:
     return values
 
 
+def of_table(dof: int) -> list[str]:
+    """The names of the parameters of the table."""
+    return names(dof)[len(FRAME) : -len(FRAME)]
+
+
+def ends(indices: list[int], dof: int) -> list[int]:
+    """The parameters of base and tool among some."""
+    table = range(len(FRAME), len(FRAME) + len(ROW) * dof)
+    return [index for index in indices if index not in table]
+
+
 def tiers(robot: Robot, fit: frozenset[str]) -> list[list[int]]:
     """Indices of the parameters to choose from, those first that are to be preferred.
 
-    Base and tool come before the table: a joint offset that does what a turn of the tool does is
-    left out, and not the turn.
+    Parameters that are named come first, then base and tool, then the table: a joint offset that
+    does what a turn of the tool does is left out, and not the turn.
     """
+    all_names = names(robot.dof)
+    named = [index for index, name in enumerate(all_names) if name in fit]
+    groups = [[it for it in tier if it not in named] for tier in _groups(robot, fit)]
+    return [named + groups[0], *groups[1:]]
+
+
+def _groups(robot: Robot, fit: frozenset[str]) -> list[list[int]]:
+    """As `tiers`, of base, table and tool."""
     dof = robot.dof
     frame, width = len(FRAME), len(ROW)
     ends = list(range(frame)) if "base" in fit else []

@@ -45,7 +45,7 @@ def _frame(rotation: Floats, position: Floats) -> Floats:
     return frame
 
 
-def _nearest_rotation(matrix: Floats) -> Floats:
+def nearest_rotation(matrix: Floats) -> Floats:
     """The rotation nearest to a matrix."""
     left, _, right = np.linalg.svd(matrix)
     sign = np.diag([1.0, 1.0, np.linalg.det(left @ right)])
@@ -59,10 +59,15 @@ def _turns(
     """Rotations of base and tool (eq. 11): of both, the null vector of Z^T M_i - F_i X = 0."""
     if not fits_tool:
         known = flange @ tool[:3, :3]
-        return _nearest_rotation(np.einsum("mij,mkj->ik", measured, known)), tool[:3, :3]
+        return nearest_rotation(np.einsum("mij,mkj->ik", measured, known)), tool[:3, :3]
     if not fits_base:
         known = base[:3, :3] @ flange
-        return base[:3, :3], _nearest_rotation(np.einsum("mji,mjk->ik", known, measured))
+        return base[:3, :3], nearest_rotation(np.einsum("mji,mjk->ik", known, measured))
+    return turns(flange, measured)
+
+
+def turns(flange: Floats, measured: Floats) -> tuple[Floats, Floats]:
+    """Z and X of M_i = Z F_i X, all of them rotations: the null vector of Z^T M_i - F_i X."""
     eye = np.eye(3)
     rows = [
         np.hstack([np.kron(eye, m.T), -np.kron(f, eye)])
@@ -71,7 +76,7 @@ def _turns(
     null = np.linalg.svd(np.vstack(rows), full_matrices=True)[2][-1]
     inverse, turn = null[:9].reshape(3, 3), null[9:].reshape(3, 3)
     sign = np.sign(np.linalg.det(turn)) or 1.0
-    return _nearest_rotation(sign * inverse).T, _nearest_rotation(sign * turn)
+    return nearest_rotation(sign * inverse).T, nearest_rotation(sign * turn)
 
 
 def _shifts(
@@ -114,7 +119,7 @@ def _from_positions(
         if fits_base:
             points = flange[:, :3, :3] @ tool[:3, 3] + flange[:, :3, 3]
             off = points - points.mean(axis=0)
-            turn_base = _nearest_rotation((measured - measured.mean(axis=0)).T @ off)
+            turn_base = nearest_rotation((measured - measured.mean(axis=0)).T @ off)
         base, tool = _shifts(
             flange, measured, turn_base, turn_tool, base, tool, fits_base, fits_tool
         )

@@ -52,12 +52,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(given: list[str]) -> int:
+    if len(given) > 1 and given[0] == "help":
+        given = [given[1], "--help"]
     if not given or given[0] in ("-h", "--help", "help"):
         width = max(len(verb) for verb in VERBS)
         lines = (f"  {verb:{width}}   {words}" for verb, words in VERBS.items())
         print(OVERVIEW.format(verbs="\n".join(lines)), end="")
         return FINE
-    if given[0] == "--version":
+    if given[0] == "--version" or given[1:] == ["--version"]:
         from irbkin import __version__
 
         print(f"irbkin {__version__}")

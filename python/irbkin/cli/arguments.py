@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
-from irbkin.cli.errors import CommandError
-from irbkin.cli.numbers import MOST_TOOL, check_euler, check_joints, number
+from irbkin.cli.errors import CommandError, complain
+from irbkin.cli.numbers import MOST_TOOL, check_euler, check_joints, check_millimeters, number
 
 if TYPE_CHECKING:
     from irbkin import Robot
     from irbkin._arrays import Floats
 
+TABLES = (".csv", ".json", ".npy", ".txt")
 NUMBER = re.compile(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
 
@@ -31,10 +33,15 @@ class Parser:
             allow_abbrev=False,
         )
         self.add = self.parser.add_argument
+        self.endings: tuple[str, ...] | None = None
 
     def parsed(self, given: Sequence[str]) -> argparse.Namespace:
         """The arguments; a negative number is not an option, with an exponent either."""
-        return self.parser.parse_args([f" {it}" if NUMBER.fullmatch(it) else it for it in given])
+        words = [f" {it}" if NUMBER.fullmatch(it) else it for it in given]
+        arguments = self.parser.parse_args(words)
+        if self.endings is not None and not (arguments.json or arguments.csv):
+            _check_ending(arguments.output, self.endings)
+        return arguments
 
     def add_robot(self) -> None:
         """The arm, and what it carries."""
@@ -42,7 +49,15 @@ class Parser:
         self.add_frames()
 
     def add_frames(self) -> None:
-        """The tool and the base."""
+        """The frames of a .urdf file, the tool and the base."""
+        self.add("--tip", metavar="LINK", help="of a .urdf file: the link that poses are of")
+        self.add("--base-link", metavar="LINK", help="and the one that they are seen from")
+        self.add(
+            "--snap",
+            type=number,
+            metavar="RAD",
+            help="and how far angles are rounded to right angles [rad]: 1e-5 takes 1.5708 for one",
+        )
         for name, frame in (("tool", "TCP in the flange"), ("base", "base in the world")):
             self.add(
                 f"--{name}",
@@ -61,8 +76,9 @@ class Parser:
             help=f"{what}: a CSV or .npy file, - for stdin",
         )
 
-    def add_formats(self, array: str) -> None:
-        """How rows are written."""
+    def add_formats(self, array: str, *others: str) -> None:
+        """How rows are written: by the ending of the output, which may be one of `others`."""
+        self.endings = (*TABLES, *others)
         formats = self.parser.add_mutually_exclusive_group()
         formats.add_argument("--json", action="store_true", help="write JSON")
         formats.add_argument("--csv", action="store_true", help="write CSV")
@@ -71,7 +87,7 @@ class Parser:
             "--output",
             metavar="FILE",
             help=f"write to a file, its format by its ending: .csv, .json, .npy ({array}), "
-            "else a table",
+            ".txt or none for a table",
         )
 
 
@@ -90,12 +106,29 @@ class _OneLine(argparse.ArgumentParser):
         raise CommandError(f"{message} ({self.prog} --help)")
 
 
+def _check_ending(output: str | None, endings: Sequence[str]) -> None:
+    ending = os.path.splitext(output or "")[1].lower()
+    if ending and ending not in endings:
+        raise CommandError(
+            f"--output: {output} ends in {ending}, it must end in {', '.join(endings)} or in "
+            "nothing, for a table"
+        )
+
+
 def read_robot(arguments: argparse.Namespace) -> Robot:
     """The arm of the arguments, with its tool and base."""
     from irbkin import Robot
 
     name: str = arguments.robot.strip()
-    robot = Robot.from_urdf(name) if name.lower().endswith(".urdf") else Robot(name)
+    tip, base, snap = arguments.tip, arguments.base_link, arguments.snap
+    if name.lower().endswith(".urdf"):
+        robot = Robot.from_urdf(name, base, tip, snap=snap or 0.0)
+        if helpful := re.search(r"snap=(\S+) gives it a closed form", repr(robot)):
+            complain(f"{name}: its angles are rounded, --snap {helpful[1]} gives it a closed form")
+    elif (tip, base, snap) == (None, None, None):
+        robot = Robot(name)
+    else:
+        raise CommandError(f"--tip, --base-link and --snap go with a .urdf file, not with {name!r}")
     if arguments.base is not None:
         robot = robot.with_base(frame(arguments.base, "--base"))
     if arguments.tool is None:
@@ -105,6 +138,7 @@ def read_robot(arguments: argparse.Namespace) -> Robot:
         raise CommandError(
             f"--tool is {length:g} mm from the flange, it must be at most {MOST_TOOL:g} mm"
         )
+    check_millimeters(arguments.tool[:3], "--tool", 1.0)
     return robot.with_tool(frame(arguments.tool, "--tool"))
 
 

@@ -28,6 +28,14 @@ OWN_WORDS = {
     "catalog() lists all, from_urdf and from_mdh take other arms": (
         "irbkin catalog lists all; another arm is given by a .urdf file"
     ),
+    " (did you pass degrees? otherwise remove whole turns)": " (remove whole turns)",
+    "base must name the one to begin at": "--base-link must name the one to begin at",
+    "tip must name the one to take": "--tip must name the one to take",
+    'pass base="': 'give --base-link "',
+    'pass tip="': 'give --tip "',
+    ' and tip="': ' --tip "',
+    ' or base="': ' or --base-link "',
+    ' or tip="': ' or --tip "',
     "T has no solution to draw": "the pose has no solution to draw",
     "is step in m, or speed in m/s and dt in s?": "take a larger --step",
 }

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 
 from irbkin.cli.arguments import Parser, frame, joints, read_q7, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.numbers import angle, confdata, joint_and_angle, number
+from irbkin.cli.numbers import angle, check_millimeters, confdata, joint_and_angle, number
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from irbkin import Robot
     from irbkin._arrays import Floats
+    from irbkin.cli.output import Rows
 
 HELP = """Without --seed and --confdata all solutions are shown, each in its slot: confdata, angles,
 the least distance from a limit (negative outside) and its joint, and the distances from the wrist,
@@ -36,6 +37,7 @@ def add_arguments(parser: Parser) -> None:
     add = parser.add
     add("--xyz", nargs=3, type=number, metavar=("X", "Y", "Z"), help="position of the tool [mm]")
     add("--wxyz", nargs=4, type=number, metavar=tuple("WXYZ"), help="its quaternion, w first")
+    add("--xyzw", nargs=4, type=number, metavar=tuple("XYZW"), help="or w last")
     add("--euler", nargs=3, type=number, metavar=("RZ", "RY", "RX"), help="or ZYX angles [deg]")
     add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
     add(
@@ -82,8 +84,12 @@ def _poses(arguments: argparse.Namespace, robot: Robot) -> tuple[Iterator[Floats
         from irbkin.cli.reading import read_poses
 
         return read_poses(arguments.file), robot.name
-    if arguments.wxyz is not None and arguments.euler is not None:
-        raise CommandError("--wxyz and --euler: give one of them")
+    if sum(it is not None for it in (arguments.wxyz, arguments.xyzw, arguments.euler)) > 1:
+        raise CommandError("--wxyz, --xyzw and --euler: give one of them")
+    if arguments.xyzw is not None:
+        *vector, w = arguments.xyzw
+        arguments.wxyz = [w, *vector]
+    check_millimeters(arguments.xyz, "--xyz")
     turn = arguments.wxyz or arguments.euler or []
     one = frame([*arguments.xyz, *turn], "--wxyz" if arguments.wxyz else "--euler")[None]
     x, y, z = arguments.xyz
@@ -111,20 +117,29 @@ class Missed:
         self.rows += len(poses)
         self.count += len(wrong)
 
-    def code(self) -> int:
-        """The exit code, with a word on stderr."""
-        if self.first is None:
-            return FINE
+    def note(self, rows: Rows) -> None:
+        """Add the reason to the rows of a format that has room for it."""
+        if self.first is not None:
+            rows.note("reason", self.words(), "")
+
+    def words(self) -> str:
+        """What is missing, and why."""
+        assert self.first is not None
         row, pose = self.first
         why = self.reason(pose)
         if self.rows == 1:
             nothing = "no solution inside the limits"
-            complain(why if why.startswith(nothing) else f"{nothing}: {why}")
-        else:
-            complain(
-                f"{self.count} of {self.rows} poses have no solution inside the limits; "
-                f"the first is pose {row}: {why}"
-            )
+            return why if why.startswith(nothing) else f"{nothing}: {why}"
+        return (
+            f"{self.count} of {self.rows} poses have no solution inside the limits; "
+            f"the first is pose {row}: {why}"
+        )
+
+    def code(self) -> int:
+        """The exit code, with a word on stderr."""
+        if self.first is None:
+            return FINE
+        complain(self.words())
         return FOUND
 
 
@@ -185,6 +200,7 @@ def _write_all(
             of = "" if is_one else f"of {uncertain} of {missed.rows} poses "
             words = f"{of}there may be more solutions: their number is not certified"
             rows.note("uncertified", uncertain, words)
+        missed.note(rows)
     return missed.code()
 
 
@@ -229,6 +245,7 @@ def _write_one(
             rows.write([np.arange(len(q)) + missed.rows, *postures.values(q)], q)
             missed.add(poses, np.isfinite(q).all(axis=1))
             progress.add(len(poses))
+        missed.note(rows)
     return missed.code()
 
 

@@ -49,7 +49,7 @@ def add_arguments(parser: Parser) -> None:
         default=1,
         help="number of threads; 0 for one a core",
     )
-    parser.add_formats("x, y, z [m], share, solutions, margin, shape (m, 6)")
+    parser.add_formats("x, y, z [m], share, solutions, margin, shape (m, 6)", ".npz")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -14,6 +14,8 @@ MOST_TURN = 360.0
 """The largest Euler angle that the library takes [deg]."""
 MOST_TOOL = 50e3
 """The farthest tool center point that the library takes [mm from the flange]."""
+LEAST_LENGTH = 5.0
+"""Coordinates that are all below it may be in meters [mm]."""
 _TOO_LARGE = f"is too large: its size must be at most {MOST_ANGLE:.0f} deg (remove whole turns)"
 
 
@@ -58,6 +60,16 @@ def check_euler(angles: Sequence[float], name: str) -> None:
             raise CommandError(
                 f"{name}: {axis} is {value:g} deg, its size must be at most {MOST_TURN:g} deg"
             )
+
+
+def check_millimeters(lengths: Sequence[float], name: str, least: float = LEAST_LENGTH) -> None:
+    """Refuse lengths [mm] that are in meters: not all zero, and all of them below `least`."""
+    if 0.0 < max(abs(length) for length in lengths) < least:
+        raise CommandError(
+            f"{name}: {' '.join(f'{length:g}' for length in lengths)} mm is below {least:g} mm "
+            "(are these meters? millimeters are wanted; in a file, name the columns x_m, y_m, z_m "
+            "or x_mm, y_mm, z_mm)"
+        )
 
 
 def whole(text: str) -> int:

@@ -113,9 +113,10 @@ class Table(Rows):
             self.put(self._line(map(_cell, row, forms)))
 
     def end(self) -> None:
-        """The notes."""
-        if self.notes:
-            self.put("\n" + "".join(f"{words}\n" for _, _, words in self.notes))
+        """The notes that have words."""
+        notes = [f"{words}\n" for _, _, words in self.notes if words]
+        if notes:
+            self.put("\n" + "".join(notes))
 
 
 def _lists(columns: Sequence[Values]) -> list[Sequence[Any]]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from irbkin.cli.arguments import Parser, joints, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.numbers import count, number
+from irbkin.cli.numbers import check_millimeters, count, number
 from irbkin.cli.tool_paths import add_path, fastest, read_path
 
 if TYPE_CHECKING:
@@ -21,7 +21,8 @@ each branch ends."""
 EXAMPLES = """  irbkin plan "IRB 2600-12/1.65" poses.csv
   irbkin plan "IRB 2600-12/1.65" corners.csv --through lines --rotation 36 --csv
   irbkin plan "IRB 2600-12/1.65" seam.csv --through lines --track 0 1 0 -3000 3000
-  irbkin plan "IRB 2600-12/1.65" contour.npy --closed -o q.npy"""
+  irbkin plan "IRB 2600-12/1.65" contour.npy --closed -o q.npy
+  irbkin plan "IRB 2600-12/1.65" poses.csv -o weld.mod"""
 MOST_ROTATION = 3600
 MOST_TRACK = 1e6
 """How far the ends of a track may be from its zero [mm]."""
@@ -50,13 +51,18 @@ def add_arguments(parser: Parser) -> None:
     )
     add("--end", nargs="+", type=number, metavar="Q", help="joints at the last pose [deg], track")
     add("--closed", action="store_true", help="the joints end where they start")
-    parser.add_formats("joint angles in radians, shape (m, 6), and the track in meters, (m, 7)")
+    parser.add_formats(
+        "joint angles in radians, shape (m, 6), and the track in meters, (m, 7); .mod: RAPID",
+        ".mod",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run the verb."""
     import numpy as np
 
+    from irbkin import rapid
+    from irbkin.cli.files import replaced
     from irbkin.cli.output import Column, table
     from irbkin.cli.postures import Postures
     from irbkin.errors import PathError
@@ -75,6 +81,11 @@ def run(arguments: argparse.Namespace) -> int:
     except PathError as error:
         complain(error)
         return FOUND
+    if (arguments.output or "").lower().endswith(".mod"):
+        module = rapid.plan_module(robot, plan, carrier=_track(arguments.track))
+        with replaced(arguments.output) as file:
+            file.write(str(module).encode())
+        return FINE
     postures = Postures(robot)
     columns = (
         Column("pose", "", "6d"),
@@ -109,6 +120,7 @@ def _track(numbers: list[float] | None) -> Track | None:
     *direction, lower, upper = numbers
     if not any(direction):
         raise CommandError("--track: its direction X Y Z is 0 0 0, it must have a length")
+    check_millimeters([lower, upper], "--track: its ends")
     if not -MOST_TRACK <= lower < upper <= MOST_TRACK:
         raise CommandError(
             f"--track: its ends {lower:g} and {upper:g} mm must be FROM < TO, between "

@@ -41,7 +41,9 @@ def add_arguments(parser: Parser) -> None:
         help="of each joint [deg/s], by default the catalog's",
     )
     add("--samples", action="store_true", help="the samples of the motion, not its moves")
-    parser.add_formats("samples: time [s] and joint angles [rad], shape (m, 7); .mod: MoveAbsJ")
+    parser.add_formats(
+        "samples: time [s] and joint angles [rad], shape (m, 7); .mod: MoveAbsJ", ".mod"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -13,6 +13,7 @@ import numpy as np
 
 from irbkin.cli.errors import CommandError
 from irbkin.cli.files import shown
+from irbkin.cli.numbers import check_millimeters
 
 if TYPE_CHECKING:
     from irbkin._arrays import Floats
@@ -59,6 +60,7 @@ class Text:
         self.columns: list[int] | None = None
         self.count = 0
         self.scales = np.ones(0)
+        self.assumed: list[int] = []
         self.number = 0
 
     def rows(self) -> Iterator[Floats]:
@@ -72,9 +74,18 @@ class Text:
                 if self._begin(kept[0], begin + lines.index(kept[0]) + 1):
                     kept = kept[1:]
             if kept:
-                yield self._numbers(kept, lines, begin)
+                rows = self._numbers(kept, lines, begin)
+                if self.assumed:
+                    self._check_millimeters(rows[:, self.assumed])
+                yield rows
         # The file belongs to the caller.
         self.lines.detach()
+
+    def _check_millimeters(self, lengths: Floats) -> None:
+        """Refuse the first rows whose lengths [m] have no unit, if all of them are tiny."""
+        largest = lengths[np.abs(lengths).max(axis=1).argmax()] * 1e3
+        check_millimeters(largest.tolist(), f"{self.name}: the largest of the rows")
+        self.assumed = []
 
     def _split(self, line: str) -> list[str]:
         fields = line.rstrip("\r\n").split(self.separator)
@@ -94,6 +105,7 @@ class Text:
         for choice in self.layout.choices:
             if len(choice) == len(fields):
                 self.scales = np.array([SCALES[it.unit] for it in choice])
+                self.assumed = [place for place, it in enumerate(choice) if it.unit == "mm"]
                 self.count = len(fields)
                 return False
         raise CommandError(
@@ -111,6 +123,11 @@ class Text:
             if all(it.name in found for it in choice):
                 self.columns = [found[it.name][0] for it in choice]
                 self.scales = np.array([SCALES[found[it.name][1] or it.unit] for it in choice])
+                self.assumed = [
+                    place
+                    for place, it in enumerate(choice)
+                    if it.unit == "mm" and not found[it.name][1]
+                ]
                 self.count = len(fields)
                 return
         missing = next(it.name for it in self.layout.choices[0] if it.name not in found)

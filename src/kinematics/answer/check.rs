@@ -1,7 +1,8 @@
 //! Checks of the joint vectors, weights and joint angles that a caller passes.
 
 use crate::error::{Error, JointFault};
-use crate::kinematics::thresholds::MOST_ANGLE;
+use crate::kinematics::chain::limits::JointLimits;
+use crate::kinematics::thresholds::{FARTHEST_OUTSIDE, MOST_ANGLE};
 
 /// Check that every angle of a joint vector is finite.
 #[cfg(feature = "python")]
@@ -15,6 +16,35 @@ pub(crate) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> 
 /// Check a joint vector that a search starts from: finite, each angle at most [`MOST_ANGLE`].
 pub(crate) fn check_seed(field: &'static str, q: &[f64]) -> Result<(), Error> {
     q.iter().enumerate().try_for_each(|(i, angle)| check_angle(field, i + 1, *angle))
+}
+
+/// Check a seed as [`check_seed`] and [`check_near`] do.
+pub(crate) fn check_seed_near<const N: usize>(
+    seed: &[f64; N],
+    limits: &JointLimits<N>,
+    weights: &[f64; N],
+) -> Result<(), Error> {
+    check_seed("seed", seed)?;
+    check_near("seed", seed, limits, weights)
+}
+
+/// Check that a joint vector is not far outside its limits, as one in degrees is. A joint without a
+/// weight may be anywhere.
+pub(crate) fn check_near<const N: usize>(
+    field: &'static str,
+    q: &[f64; N],
+    limits: &JointLimits<N>,
+    weights: &[f64; N],
+) -> Result<(), Error> {
+    for (joint, [lower, upper]) in limits.to_array().into_iter().enumerate() {
+        let (value, bounds) = (q[joint], [lower, upper]);
+        let is_far = value < lower - FARTHEST_OUTSIDE || value > upper + FARTHEST_OUTSIDE;
+        // Larger angles are no degrees: other checks reject them, where they matter.
+        if is_far && weights[joint] > 0.0 && value.abs() <= MOST_ANGLE {
+            return Err(JointFault::FarOutside { field, joint: joint + 1, value, bounds }.into());
+        }
+    }
+    Ok(())
 }
 
 /// Check the angle of a joint (from 1) that is copied into the answer: beyond [`MOST_ANGLE`], turns

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::check::{check_seed, check_weights};
+use super::check::{check_seed_near, check_weights};
 use super::solutions::{Place, Solution, Solutions};
 use super::status::Status;
 use crate::error::Error;
@@ -110,7 +110,7 @@ impl<const N: usize> Solutions<N> {
         weights: &[f64; N],
         cost: Cost,
     ) -> Result<Solution<N>, Error> {
-        check_seed("seed", seed)?;
+        check_seed_near(seed, &self.limits, weights)?;
         check_weights(weights)?;
         self.cheapest(seed, weights, cost).ok_or_else(|| Error::Unreachable(self.explain()))
     }

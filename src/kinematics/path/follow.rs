@@ -9,7 +9,7 @@ use nalgebra::ComplexField as _;
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3};
 
 use crate::error::Error;
-use crate::kinematics::answer::check::{check_seed, check_weights};
+use crate::kinematics::answer::check::{check_seed_near, check_weights};
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::SingularityKind;
@@ -108,7 +108,7 @@ impl<'a> Follower<'a> {
     ///
     /// [`Error::InvalidJoints`] when the seed or a weight is not finite or a weight is negative.
     pub fn new(robot: &'a Robot<6>, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Self, Error> {
-        check_seed("seed", seed)?;
+        check_seed_near(seed, robot.limits(), weights)?;
         check_weights(weights)?;
         Ok(Self { robot, weights: *weights, last: None, q: *seed, velocity: [0.0; 6] })
     }

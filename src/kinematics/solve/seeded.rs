@@ -3,14 +3,16 @@
 use core::any::Any;
 
 use crate::error::Error;
-use crate::kinematics::answer::check::{check_seed, check_weights};
+use crate::kinematics::answer::check::{check_seed_near, check_weights};
 use crate::kinematics::answer::select::Cost;
-use crate::kinematics::answer::solutions::Solution;
-#[cfg(feature = "python")]
-use crate::kinematics::answer::solutions::Solutions;
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::solutions::{Solution, Solutions};
+use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::{Pose, checked_pose, pose_from_rows};
-use crate::kinematics::robot::{Lock, Robot};
+use crate::kinematics::robot::{Definition, Lock, Robot};
+use crate::kinematics::solve::correction::DETERMINED;
 use crate::kinematics::solve::nearest::Wanted;
+use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::inverse::of_count;
 use crate::kinematics::structure::lanes::Choice;
 use crate::kinematics::structure::locked::others;
@@ -32,7 +34,7 @@ impl<const N: usize> Robot<N> {
         seed: &[f64; N],
         weights: &[f64; N],
     ) -> Result<Solution<N>, Error> {
-        check_seed("seed", seed)?;
+        check_seed_near(seed, self.limits(), weights)?;
         check_weights(weights)?;
         self.nearest_checked(checked_pose(pose)?, seed, weights)
     }
@@ -66,7 +68,39 @@ impl<const N: usize> Robot<N> {
                 self.nearest_at_singularity(&solutions, &wanted)?
             }
         };
+        let nearest = match self.definition() {
+            Definition::Refined { .. } => self.nearest_of_seed(&solutions, nearest, seed, weights),
+            _ => nearest,
+        };
         nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
+    }
+
+    /// The nearer of a solution and the one on the branch of the seed, which need not be a branch of
+    /// the nominal arm: by Newton's method, as [`Robot::follow`] does.
+    fn nearest_of_seed(
+        &self,
+        solutions: &Solutions<N>,
+        nearest: Option<Solution<N>>,
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> Option<Solution<N>> {
+        /// Most that a joint moves on a regular branch, for each m or rad of the tool [1].
+        const REGULAR: f64 = 10.0;
+        let (pose, limits) = (&solutions.pose, &solutions.limits);
+        let near = REGULAR * self.residual(seed, pose).largest();
+        let is_near = |q: &[f64; N]| (0..N).all(|joint| (q[joint] - seed[joint]).abs() <= near);
+        if nearest.is_some_and(|nearest| is_near(&nearest.q)) {
+            return nearest;
+        }
+        let (q, off) = self.corrected(pose, *seed, limits, &[], DETERMINED);
+        let cost = |q: &[f64; N]| Cost::Distance.total(q, seed, weights);
+        let is_nearer = nearest.is_none_or(|nearest| cost(&q) < cost(&nearest.q));
+        if off > meets(pose) || !limits.contains(&q) || !is_nearer {
+            return nearest;
+        }
+        let slot = self.slot_of(&q).or(nearest.map(|nearest| nearest.slot));
+        let status = Status::FOUND | Status::WITHIN_LIMITS;
+        Some(Solution { q, slot: slot.unwrap_or(Slot::new(0)), status, free_joint: None })
     }
 
     /// [`Self::nearest_checked`] of the other six joints, for an arm with a locked joint.
@@ -134,7 +168,8 @@ impl<const N: usize> Robot<N> {
         seed: &[f64; N],
         weights: &[f64; N],
     ) -> [f64; N] {
-        let checked = check_seed("seed", seed).and_then(|()| pose_from_rows(pose));
+        let checked =
+            check_seed_near(seed, self.limits(), weights).and_then(|()| pose_from_rows(pose));
         let nearest = checked.and_then(|pose| self.nearest_checked(pose, seed, weights));
         nearest.map_or([f64::NAN; N], |nearest| nearest.q)
     }

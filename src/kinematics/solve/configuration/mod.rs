@@ -140,7 +140,7 @@ impl<const N: usize> Robot<N> {
             None
         };
         let structure = self.structure();
-        found.unwrap_or(Err(ModelFault::NoConfiguration { structure }.into()))
+        found.unwrap_or(Err(ModelFault::NoConfiguration { structure, snap: None }.into()))
     }
 
     /// The arm angle of joint angles, of an arm that has one.

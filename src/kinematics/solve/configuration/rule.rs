@@ -94,10 +94,11 @@ impl<const N: usize> Robot<N> {
         if let Some(rule) = self.own_rule() {
             return Ok(rule);
         }
-        match self.spherical_wrist() {
-            Some(_) => Ok(ConfigurationRule::SphericalWrist),
-            None => Err(ModelFault::NoConfiguration { structure: self.structure() }.into()),
+        if self.spherical_wrist().is_some() {
+            return Ok(ConfigurationRule::SphericalWrist);
         }
+        let snap = self.missing_form().and_then(|missing| missing.snap());
+        Err(ModelFault::NoConfiguration { structure: self.structure(), snap }.into())
     }
 
     /// ABB's confdata of a joint vector [rad]. On the edge of a quarter turn, the one that begins

@@ -6,7 +6,7 @@ use super::having::{BEYOND, EDGE_ROUNDING};
 use super::request::ConfigurationRequest;
 use super::rule::Quarters;
 use crate::error::{Error, ModelFault, NoConfiguration};
-use crate::kinematics::answer::check::check_seed;
+use crate::kinematics::answer::check::check_seed_near;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::pose::{Pose, checked_pose};
@@ -30,7 +30,7 @@ impl Robot<6> {
         wanted: Configuration,
         seed: &[f64; 6],
     ) -> Result<Solution<6>, Error> {
-        check_seed("seed", seed)?;
+        check_seed_near(seed, self.limits(), &[1.0; 6])?;
         let request = ConfigurationRequest::from(wanted).or_nearest(*seed);
         self.configured_checked(checked_pose(pose)?, &request)
     }

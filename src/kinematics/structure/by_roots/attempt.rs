@@ -10,7 +10,7 @@ use fearless_simd::prelude::*;
 
 use super::method::ByRoots;
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::structure::closure::{Accepted, Closure, Six, Target};
+use crate::kinematics::structure::closure::{Accepted, Closure, Configuration, Six, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{NARROW, Root, RootBlock, Roots, WIDE};
 use crate::lanes::{Column, LANES, Vector, VectorKernel, atan2_of, run_vectors};
@@ -214,7 +214,7 @@ fn found_at(method: &impl ByRoots, root: &Root, accepted: &Accepted) -> usize {
     let (joint, sign) = method.searched();
     let all = accepted.as_slice().iter();
     all.filter(|one| wrap(sign * one.theta[joint] - root.angle()).abs() <= root.radius() + AT_ROOT)
-        .map(|one| one.weight())
+        .map(Configuration::weight)
         .sum()
 }
 

@@ -29,7 +29,8 @@ impl TrigonometricPolynomial {
             return roots;
         }
         let mut brackets = Brackets::new();
-        Search::new(&mut brackets, Clusters::Kept(&mut roots, width)).isolate(simd, slice::from_ref(self));
+        Search::new(&mut brackets, Clusters::Kept(&mut roots, width))
+            .isolate(simd, slice::from_ref(self));
         roots.is_complete &= brackets.is_complete;
         let count = usize::from(brackets.count);
         for (first, block) in (0..count).step_by(LANES).zip(&brackets.blocks) {

@@ -1,0 +1,222 @@
+"""Where a camera, or another sensor, is: A X = X B and A X = Y B."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+from irbkin.calibration._measurements import read_poses
+from irbkin.calibration._start import nearest_rotation, turns
+from irbkin.calibration._touch import check_meters
+from irbkin.errors import CalibrationError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy.typing as npt
+
+    from irbkin._arrays import Floats
+
+LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
+# Least singular value of the relative rotations, for each pose [1]: about the angle in rad by which
+# the hand turns about its second axis.
+LEAST_TURN = 0.05
+# Part of the scatter from which on a robust loss counts residuals less [1].
+OUTLIER = 3.0
+FROM_MEDIAN = 1.4826
+ROUNDS = 3
+
+
+class HandEye(NamedTuple):
+    """The transforms of a hand-eye calibration, and how good they are."""
+
+    x: Floats
+    """X, shape (4, 4)."""
+    y: Floats | None
+    """Y, shape (4, 4); None for A X = X B."""
+    position_error: Floats
+    """Distance of A X from Y B, or X B, for each pair [m], shape (m,)."""
+    rotation_error: Floats
+    """Angle between their rotations [rad], shape (m,)."""
+
+
+def hand_eye(
+    a: npt.ArrayLike,
+    b: npt.ArrayLike,
+    *,
+    position_std: float = 1e-4,
+    rotation_std: float = 5e-4,
+    loss: Literal["linear", "soft_l1", "huber", "cauchy", "arctan"] = "linear",
+) -> HandEye:
+    """Return X of A X = X B: A are moves of the hand, B the moves that its camera sees. It needs
+    scipy: `pip install 'irbkin[calibrate]'`.
+
+    With a camera on the hand, F_i = `robot.fk(q)` and C_i the pose of a fixed target in the
+    camera, moves are A = F_j^-1 F_i and B = C_j C_i^-1, and X is the camera in the hand.
+    `robot_world` takes F_i and C_i^-1 themselves.
+
+    Args:
+        a: Moves, shape (m, 4, 4), m >= 2.
+        b: Moves, shape (m, 4, 4).
+        position_std: Standard deviation of a coordinate [m].
+        rotation_std: The same of an angle [rad]. Only their ratio matters.
+        loss: As of `irbkin.calibrate`: any but "linear" gives outliers less weight.
+
+    Raises:
+        ImportError: scipy is not installed.
+        InvalidPoseError: A wrong shape, or a matrix that is not a pose.
+        CalibrationError: Too few moves, or all rotations about parallel axes.
+        ValueError: Another `loss` or standard deviation.
+    """
+    hands, eyes = _pairs(a, b, 2)
+    _options(position_std, rotation_std, loss)
+    _check_turns(hands[:, :3, :3], "a")
+    _check_turns(eyes[:, :3, :3], "b")
+    start = np.eye(4)
+    start[:3, :3] = nearest_rotation(_vectors(hands[:, :3, :3]).T @ _vectors(eyes[:, :3, :3]))
+    matrix = (hands[:, :3, :3] - np.eye(3)).reshape(-1, 3)
+    wanted = eyes[:, :3, 3] @ start[:3, :3].T - hands[:, :3, 3]
+    start[:3, 3] = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0]
+    (x,) = _refined(
+        lambda frames: (hands @ frames[0], frames[0] @ eyes),
+        [start],
+        (position_std, rotation_std, loss),
+    )
+    return HandEye(x, None, *_errors(hands @ x, x @ eyes))
+
+
+def robot_world(
+    a: npt.ArrayLike,
+    b: npt.ArrayLike,
+    *,
+    position_std: float = 1e-4,
+    rotation_std: float = 5e-4,
+    loss: Literal["linear", "soft_l1", "huber", "cauchy", "arctan"] = "linear",
+) -> HandEye:
+    """Return X and Y of A X = Y B: A are poses of the hand, B of what it carries in another frame.
+    It needs scipy: `pip install 'irbkin[calibrate]'`.
+
+    With A = `robot.fk(q)`: for a camera on the hand, B is the camera in a fixed target, X the
+    camera in the hand and Y the target in the base. For a fixed camera, B is a target on the hand
+    in the camera, X the target in the hand and Y the camera in the base.
+
+    Args:
+        a: Poses, shape (m, 4, 4), m >= 3.
+        b: Poses, shape (m, 4, 4).
+        position_std: As of `hand_eye`.
+        rotation_std: As of `hand_eye`.
+        loss: As of `hand_eye`.
+
+    Raises:
+        ImportError: scipy is not installed.
+        InvalidPoseError: A wrong shape, or a matrix that is not a pose.
+        CalibrationError: Too few poses, or all turned about one axis.
+        ValueError: Another `loss` or standard deviation.
+    """
+    hands, seen = _pairs(a, b, 3)
+    _options(position_std, rotation_std, loss)
+    for poses, name in ((hands, "a"), (seen, "b")):
+        _check_turns(poses[0, :3, :3].T @ poses[1:, :3, :3], name)
+    x, y = np.eye(4), np.eye(4)
+    # A = Y B X^-1.
+    y[:3, :3], inverse = turns(seen[:, :3, :3], hands[:, :3, :3])
+    x[:3, :3] = inverse.T
+    eyes = np.broadcast_to(np.eye(3), (len(hands), 3, 3))
+    matrix = np.concatenate([hands[:, :3, :3], -eyes], axis=2).reshape(-1, 6)
+    wanted = seen[:, :3, 3] @ y[:3, :3].T - hands[:, :3, 3]
+    found = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0]
+    x[:3, 3], y[:3, 3] = found[:3], found[3:]
+    x, y = _refined(
+        lambda frames: (hands @ frames[0], frames[1] @ seen),
+        [x, y],
+        (position_std, rotation_std, loss),
+    )
+    return HandEye(x, y, *_errors(hands @ x, y @ seen))
+
+
+def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floats]:
+    try:
+        import scipy.optimize  # type: ignore[import-untyped]  # noqa: F401
+    except ImportError as missing:
+        raise ImportError(
+            "hand-eye calibration needs scipy: pip install 'irbkin[calibrate]'", name="scipy"
+        ) from missing
+    first, second = read_poses(a, "a"), read_poses(b, "b")
+    check_meters(first[:, :3, 3], "a")
+    check_meters(second[:, :3, 3], "b")
+    if len(first) != len(second):
+        raise CalibrationError(f"a has {len(first)} poses and b {len(second)}: give pairs")
+    if len(first) < least:
+        raise CalibrationError(f"a has {len(first)} poses, at least {least} are needed")
+    return first, second
+
+
+def _options(position_std: float, rotation_std: float, loss: str) -> None:
+    for name, value in (("position_std", position_std), ("rotation_std", rotation_std)):
+        if not 0.0 < value < np.inf:
+            raise ValueError(f"{name} is {value}, it must be positive and finite")
+    if loss not in LOSSES:
+        raise ValueError(f'loss must be one of {", ".join(LOSSES)}, got "{loss}"')
+
+
+def _vectors(rotations: Floats) -> Floats:
+    """Rotation vectors, shape (m, 3) [rad]."""
+    from scipy.spatial.transform import Rotation  # type: ignore[import-untyped]
+
+    return np.asarray(Rotation.from_matrix(rotations).as_rotvec(), dtype=np.float64)
+
+
+def _check_turns(rotations: Floats, name: str) -> None:
+    """Refuse rotations about one axis: they leave a turn and a shift along it undetermined."""
+    second = np.linalg.svd(_vectors(rotations), compute_uv=False)[1] / np.sqrt(len(rotations))
+    if second < LEAST_TURN:
+        raise CalibrationError(
+            f"the poses of {name} turn by {second:.2g} rad about a second axis, at least "
+            f"{LEAST_TURN:g} rad is needed: turn the hand about two axes that are not parallel"
+        )
+
+
+def _errors(left: Floats, right: Floats) -> tuple[Floats, Floats]:
+    turned = left[:, :3, :3] @ np.swapaxes(right[:, :3, :3], 1, 2)
+    return (
+        np.linalg.norm(left[:, :3, 3] - right[:, :3, 3], axis=1),
+        np.linalg.norm(_vectors(turned), axis=1),
+    )
+
+
+def _refined(
+    sides: Callable[[list[Floats]], tuple[Floats, Floats]],
+    start: list[Floats],
+    options: tuple[float, float, str],
+) -> list[Floats]:
+    """The frames near `start` for which both sides differ least."""
+    from scipy.optimize import least_squares
+    from scipy.spatial.transform import Rotation
+
+    position_std, rotation_std, loss = options
+
+    def frames(values: Floats) -> list[Floats]:
+        moved = []
+        for frame, part in zip(start, values.reshape(-1, 6), strict=True):
+            turned = frame.copy()
+            turned[:3, :3] = Rotation.from_rotvec(part[:3]).as_matrix() @ frame[:3, :3]
+            turned[:3, 3] += part[3:]
+            moved.append(turned)
+        return moved
+
+    def residuals(values: Floats) -> Floats:
+        left, right = sides(frames(values))
+        turned = left[:, :3, :3] @ np.swapaxes(right[:, :3, :3], 1, 2)
+        parts = (left[:, :3, 3] - right[:, :3, 3]) / position_std, _vectors(turned) / rotation_std
+        return np.concatenate(parts, axis=1).ravel()
+
+    values = np.zeros(6 * len(start))
+    for _ in range(1 if loss == "linear" else ROUNDS):
+        # The scatter without outliers measures how far is far.
+        scatter = FROM_MEDIAN * float(np.median(np.abs(residuals(values))))
+        far = max(OUTLIER * scatter, np.finfo(float).eps)
+        values = least_squares(
+            residuals, values, x_scale="jac", loss=loss, f_scale=far, xtol=1e-14, ftol=1e-14
+        ).x
+    return frames(values)

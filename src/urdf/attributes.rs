@@ -1,0 +1,81 @@
+//! The version of a URDF, and the attributes that it has: one that is skipped would be an arm of
+//! another shape.
+//!
+//! Reference: `urdfdom`'s versions 1.0 to 1.2.
+
+use alloc::borrow::ToOwned;
+use alloc::string::ToString;
+
+use roxmltree::Node;
+
+use crate::error::UrdfFault;
+
+/// The minor number of a version 1.x.
+pub(super) type Version = u32;
+
+/// The newest version that is read, as its minor number [1].
+pub(super) const NEWEST: Version = 2;
+
+/// The attributes of the elements that make an arm, each with the version from which it has
+/// effect. Accelerations and jerks are accepted in each version: irbkin does not use them.
+const ATTRIBUTES: &[(&str, &[(&str, Version)])] = &[
+    ("origin", &[("xyz", 0), ("rpy", 0), ("quat_xyzw", 1)]),
+    ("axis", &[("xyz", 0)]),
+    (
+        "limit",
+        &[
+            ("lower", 0),
+            ("upper", 0),
+            ("velocity", 0),
+            ("effort", 0),
+            ("acceleration", 0),
+            ("deceleration", 0),
+            ("jerk", 0),
+        ],
+    ),
+    ("mimic", &[("joint", 0), ("multiplier", 0), ("offset", 0)]),
+];
+
+/// The version of a robot; 1.0 by default.
+pub(super) fn version_of(robot: Node<'_, '_>) -> Result<Version, UrdfFault> {
+    let Some(text) = robot.attribute("version") else { return Ok(0) };
+    let minor = match text.trim().split_once('.') {
+        Some(("1", minor)) => minor.parse().ok(),
+        None if text.trim() == "1" => Some(0),
+        _ => None,
+    };
+    minor
+        .filter(|minor| *minor <= NEWEST)
+        .ok_or_else(|| UrdfFault::Version { version: text.to_owned(), newest: NEWEST })
+}
+
+/// Reject an attribute that the version of the robot does not have. Attributes with a namespace
+/// belong to other programs.
+pub(super) fn check_attributes(
+    joint: Node<'_, '_>,
+    name: &str,
+    version: Version,
+) -> Result<(), UrdfFault> {
+    for element in joint.children() {
+        let of_element = |(name, _): &&(&str, _)| element.has_tag_name(*name);
+        let Some((element_name, known)) = ATTRIBUTES.iter().find(of_element) else { continue };
+        for attribute in element.attributes().filter(|it| it.namespace().is_none()) {
+            let (joint, attribute) = (name.to_owned(), attribute.name());
+            match known.iter().find(|(known, _)| *known == attribute) {
+                Some((attribute, since)) if version < *since => {
+                    return Err(UrdfFault::TooNew { joint, attribute, since: *since, version });
+                }
+                Some(_) => {}
+                None => {
+                    return Err(UrdfFault::Attribute {
+                        joint,
+                        element: element_name,
+                        attribute: attribute.to_owned(),
+                        known: known.iter().map(|(known, _)| known.to_string()).collect(),
+                    });
+                }
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,63 @@
+"""A X = X B and A X = Y B: exact poses, noise, outliers, and what does not determine X."""
+
+import irbkin
+import numpy as np
+import pytest
+from irbkin.calibration import hand_eye, robot_world
+from irbkin.errors import CalibrationError, InvalidPoseError
+
+ROBOT = irbkin.Robot("IRB 2600-12/1.65")
+RNG = np.random.default_rng(4)
+X = irbkin.pose([0.05, 0.02, 0.1], euler_zyx=[0.3, 0.2, 1.5])
+Y = irbkin.pose([1.0, 0.3, 0.2], euler_zyx=[1.0, 0.2, 3.0])
+A = ROBOT.fk(RNG.uniform(*ROBOT.limits.clip(-2, 2).T, (20, 6)))
+B = np.linalg.inv(Y) @ A @ X
+# The camera in the hand sees a fixed target.
+SEEN = np.linalg.inv(B)
+MOVES = np.linalg.inv(A[1:]) @ A[:-1], SEEN[1:] @ np.linalg.inv(SEEN[:-1])
+
+
+def test_exact_poses_give_exact_transforms():
+    found = robot_world(A, B)
+    np.testing.assert_allclose(found.x, X, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(found.y, Y, rtol=0, atol=1e-13)
+    assert max(found.position_error.max(), found.rotation_error.max()) < 1e-13
+    moved = hand_eye(*MOVES)
+    np.testing.assert_allclose(moved.x, X, rtol=0, atol=1e-13)
+    assert moved.y is None
+
+
+def test_noise_is_averaged():
+    noisy = B.copy()
+    noisy[:, :3, 3] += RNG.normal(0, 1e-4, (20, 3))
+    found = robot_world(A, noisy)
+    assert np.abs(found.x - X).max() < 4e-4
+    assert found.position_error.max() < 1e-3
+
+
+@pytest.mark.parametrize("loss", ["huber", "cauchy"])
+def test_a_robust_loss_bears_an_outlier(loss):
+    wrong = B.copy()
+    wrong[3, 0, 3] += 0.5
+    assert np.abs(robot_world(A, wrong).x - X).max() > 1e-2
+    found = robot_world(A, wrong, loss=loss)
+    assert np.abs(found.x - X).max() < 1e-3
+    assert found.position_error.argmax() == 3
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "words"),
+    [
+        (lambda: robot_world(A[:2], B[:2]), CalibrationError, "a has 2 poses, at least 3"),
+        (lambda: hand_eye(A[:1], B[:1]), CalibrationError, "a has 1 poses, at least 2"),
+        (lambda: hand_eye(A[:3], B[:4]), CalibrationError, "a has 3 poses and b 4"),
+        (lambda: robot_world(A[[0] * 4], B[[0] * 4]), CalibrationError, "about a second axis"),
+        (lambda: robot_world(A[0], B[0]), InvalidPoseError, "shape"),
+        (lambda: robot_world(2 * A, B), InvalidPoseError, "row"),
+        (lambda: hand_eye(*MOVES, loss="none"), ValueError, "loss must be one of"),
+        (lambda: hand_eye(*MOVES, position_std=0), ValueError, "position_std is 0"),
+    ],
+)
+def test_what_determines_no_transform_is_refused(call, error, words):
+    with pytest.raises(error, match=words):
+        call()
