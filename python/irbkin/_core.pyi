@@ -915,7 +915,7 @@ class Robot:
 
         Raises:
             InvalidJointsError: A wrong shape, or a single joint vector that is not finite or more
-                than two turns outside the limits, as one in degrees is.
+                than four turns outside the limits, as one in degrees is.
         """
     def link_frames(self, q: npt.ArrayLike, out: _Floats | None = None) -> _Floats:
         """Every frame of the modified Denavit-Hartenberg table after its joint, then the tool.
@@ -1114,7 +1114,7 @@ class Robot:
             UnreachableError: A single pose has no solution inside the limits; the message says what
                 is missing.
             InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
-                is not finite; a seed more than two turns outside the limits; a single pose or seed
+                is not finite; a seed more than four turns outside the limits; a single pose or seed
                 for a whole batch that is invalid.
         """
     def margin(self, q: npt.ArrayLike, *, threads: int = 1) -> Margin:

@@ -63,7 +63,7 @@ pub enum JointFault {
          whole turns)"
     )]
     TooLarge { field: &'static str, joint: usize, value: f64, bound: f64 },
-    /// More than two turns outside the limits.
+    /// More than four turns outside the limits.
     #[error(
         "{field}: joint {joint} is {value:.2} rad, far outside its limits {:.2} to {:.2} rad (did \
          you pass degrees? otherwise remove whole turns)",

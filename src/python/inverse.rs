@@ -193,7 +193,7 @@ impl PyRobot {
     ///     UnreachableError: A single pose has no solution inside the limits; the message says what
     ///         is missing.
     ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
-    ///         is not finite; a seed more than two turns outside the limits; a single pose or seed
+    ///         is not finite; a seed more than four turns outside the limits; a single pose or seed
     ///         for a whole batch that is invalid.
     #[pyo3(signature = (T, seed, weights=None, *, out=None, threads=1))]
     fn ik_nearest<'py>(

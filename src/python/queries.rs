@@ -28,7 +28,7 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite or more
-    ///         than two turns outside the limits, as one in degrees is.
+    ///         than four turns outside the limits, as one in degrees is.
     #[pyo3(signature = (q, out=None))]
     fn fk<'py>(
         &self,

@@ -216,9 +216,9 @@ ARGUMENTS = [
     ("Robot('franka')", UnknownRobotError, '"Panda"'),
     ("robot.ik_nearest(put(T, (0, 3), 3000), q)", UnreachableError, " mm beyond reach (is the pose "
      "in millimeters? meters are wanted)"),
-    ("tight.ik_nearest(T, np.degrees(q))", InvalidJointsError, "seed: joint 1 is 17.19 rad, far "
+    ("tight.ik_nearest(T, np.degrees(q))", InvalidJointsError, "seed: joint 4 is 28.65 rad, far "
      "outside its limits -0.10 to 0.10 rad (did you pass degrees? otherwise remove whole turns)"),
-    ("robot.fk(np.degrees(q))", InvalidJointsError, "q: joint 1 is 17.19 rad, far outside"),
+    ("robot.fk(np.degrees(q))", InvalidJointsError, "q: joint 5 is -34.38 rad, far outside"),
     ("robot.follow(many, np.degrees(q))", InvalidJointsError, "did you pass degrees?"),
     ("robot.ik(T).nearest(np.degrees(q))", InvalidJointsError, "did you pass degrees?"),
     ("robot.ik_configured(T, [2, 0, 0, 0])", UnreachableError, "no solution inside the limits has "
@@ -348,11 +348,11 @@ def test_nothing_is_printed(capfd):
     assert capfd.readouterr() == ("", "")
 
 
-def test_joints_may_be_two_turns_outside_the_limits():
+def test_joints_may_be_four_turns_outside_the_limits():
     """No farther, and as far as they like where a joint has no limits."""
     upper = ROBOT.limits[:, 1]
     for joint in range(6):
-        ROBOT.fk(put(Q, joint, upper[joint] + 4 * np.pi))
+        ROBOT.fk(put(Q, joint, upper[joint] + 8 * np.pi))
         with pytest.raises(InvalidJointsError, match=f"joint {joint + 1} is .* far outside"):
-            ROBOT.fk(put(Q, joint, upper[joint] + 4 * np.pi + 1e-3))
+            ROBOT.fk(put(Q, joint, upper[joint] + 8 * np.pi + 1e-3))
     ROBOT.with_limits(put([[-1.0, 2.0]] * 6, 0, [-np.inf, np.inf])).fk(put(Q, 0, 300.0))
