@@ -28,10 +28,8 @@ const AT_ROOT: f64 = 1e-5;
 /// How much a polynomial shows of the solutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shown {
-    /// There may be more anywhere.
+    /// There may be more.
     Some,
-    /// One at each simple root; in clusters there may be more.
-    Examined,
     /// As many as there are roots, some of them singular.
     Counted,
     /// Every one: as many regular solutions as there are roots, and no other (eq. 104).
@@ -237,7 +235,7 @@ fn shown_by(method: &impl ByRoots, roots: &Roots, accepted: &Accepted) -> Shown 
     for root in roots.as_slice() {
         let most = most_at(method, root);
         if found_at(method, root, accepted) < most {
-            shown = shown.min(if root.is_simple { Shown::Some } else { Shown::Examined });
+            shown = Shown::Some;
         }
         total += most.min(Accepted::ROOM);
     }

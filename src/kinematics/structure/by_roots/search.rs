@@ -23,8 +23,6 @@ pub(crate) struct Search<'a> {
     near: [f64; 6],
     accepted: &'a mut Accepted,
     shown: Shown,
-    /// Whether two polynomials show the same solutions, as far as they show any.
-    agree: bool,
     /// How many polynomials must show that the solutions are all.
     wanted: usize,
 }
@@ -40,24 +38,19 @@ impl<'a> Search<'a> {
         let target = closure.target(*last);
         // Nothing is beyond the sum of the lengths.
         let shown = if target.is_beyond() { Shown::All } else { Shown::Some };
-        Self { closure, last, target, near, accepted, shown, agree: false, wanted }
+        Self { closure, last, target, near, accepted, shown, wanted }
     }
 
     /// Take what is at the roots of a polynomial, unless earlier ones have shown enough.
     pub(crate) fn attempt(&mut self, method: &impl ByRoots) {
-        let may_show_more = self.shown < Shown::Counted && !self.agree;
         let may_show_all = self.shown < Shown::All && self.accepted.are_regular();
-        if !(may_show_more || may_show_all) {
+        if self.shown >= Shown::Counted && !may_show_all {
             return;
         }
-        let known = self.accepted.as_slice().len();
         let mut shown = attempt(method, self.last, &self.target, self.accepted);
         if shown == Shown::All && self.wanted > 1 {
             (shown, self.wanted) = (Shown::Counted, self.wanted - 1);
         }
-        // Two polynomials that show the same solutions miss none but by chance.
-        let agrees = shown == Shown::Examined && self.accepted.as_slice().len() == known;
-        self.agree |= self.shown == Shown::Examined && agrees;
         self.shown = self.shown.max(shown);
     }
 
@@ -67,7 +60,7 @@ impl<'a> Search<'a> {
         if self.shown < Shown::All {
             self.accepted.follow(self.closure, &self.target);
         }
-        if self.shown < Shown::Counted && !self.agree {
+        if self.shown < Shown::Counted {
             self.represent();
             self.start_anywhere();
             self.accepted.take_closest(self.closure, &self.target);

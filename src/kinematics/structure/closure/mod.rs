@@ -15,6 +15,7 @@ mod newton;
 mod order;
 mod placed;
 mod reflections;
+mod remains;
 mod self_motion;
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,6 @@
 //!
 //! Docs: general.md, eq. 103.
 
-use arrayvec::ArrayVec;
 use nalgebra::{SMatrix, SVector};
 
 use super::chain::{Closure, Target, sines};
@@ -52,9 +51,6 @@ const AT_PLACE: f64 = 1e-14;
 /// Angle from which on a joint passes half a turn rather than its place [rad].
 const FAR: f64 = 1.0;
 
-/// Rate of the condition that is left at which it is least [1].
-const LEAST_RATE: f64 = 1e-12;
-
 /// Steps of the secant method, at most.
 const MOST_SECANTS: usize = 8;
 
@@ -68,8 +64,8 @@ pub(crate) struct Member {
     pub(crate) theta: [f64; 6],
     direction: SVector<f64, 6>,
     /// The conditions that are left, and how they change by the way: of a self-motion neither.
-    missing: SVector<f64, 6>,
-    rate: SVector<f64, 6>,
+    pub(super) missing: SVector<f64, 6>,
+    pub(super) rate: SVector<f64, 6>,
 }
 
 impl Member {
@@ -81,7 +77,7 @@ impl Member {
 
 /// A self-motion, or the curve on which solutions are that are left of one.
 pub(crate) struct SelfMotion<'a> {
-    closure: &'a Closure,
+    pub(super) closure: &'a Closure,
     target: &'a Target,
     start: Member,
     /// Condition that may be left on the way [1].
@@ -309,7 +305,7 @@ impl<'a> SelfMotion<'a> {
 
     /// Return the member between two of them, ends included, at which a quantity is zero, to a
     /// rounding: by the secant method.
-    fn zero_between(
+    pub(super) fn zero_between(
         &self,
         [start, end]: [&Member; 2],
         off: impl Fn(&Member) -> f64,
@@ -337,39 +333,6 @@ impl<'a> SelfMotion<'a> {
             (before, last) = (last, (s, off(&member)));
         }
         Some(member)
-    }
-
-    /// Pass the solutions on the curve: where the condition that is left changes its sign, and where
-    /// it is least, for it may be zero next to there.
-    pub(super) fn solutions(&self, pass: &mut dyn FnMut([f64; 6])) {
-        self.around(&mut |ends| {
-            let middle = self.least_between(ends);
-            let ends = [Some(ends[0]), middle.as_ref(), Some(ends[1])];
-            let ends: ArrayVec<&Member, 3> = ends.into_iter().flatten().collect();
-            for pair in ends.windows(2) {
-                let across = (pair[1].missing - pair[0].missing).normalize();
-                let left = |one: &Member| one.missing.dot(&across);
-                let zero = self.zero_between([pair[0], pair[1]], left, self.closure.rounding);
-                if let Some(zero) = zero {
-                    pass(zero.theta);
-                }
-            }
-            if let Some(middle) = middle {
-                pass(middle.theta);
-            }
-        });
-    }
-
-    /// Return the member between two of them at which the condition that is left is least.
-    fn least_between(&self, ends: [&Member; 2]) -> Option<Member> {
-        let [one, next] = ends;
-        let is_less_between = one.missing.dot(&one.rate) < 0.0
-            && next.missing.dot(&next.rate) > 0.0
-            && one.missing.dot(&next.missing) > 0.0;
-        let along = (next.rate - one.rate).normalize();
-        is_less_between
-            .then(|| self.zero_between(ends, |one| one.rate.dot(&along), LEAST_RATE))
-            .flatten()
     }
 
     /// Return the member with a joint at its angle of `near`; of several the nearest.

@@ -112,11 +112,20 @@ pub(super) fn chosen(
     }
     let kept = Arc::new(kept);
     let roots = match is_mostly_regular(&AtSplit::new(closure, &kept, 0), RANDOM) {
-        _ if has_pairs => Roots::Pairs,
+        _ if has_pairs => Roots::Pairs(certifying(&kept, closure, first).clamp(1, 2)),
         true => Roots::Regular,
         false => Roots::Irregular,
     };
     (kept, roots)
+}
+
+/// Return how many splits certify one of some poses, at least.
+fn certifying(splits: &Arc<Vec<Split>>, closure: &Closure, poses: &[(Frame, [f64; 6])]) -> usize {
+    let certifies_one = |number: &usize| {
+        let method = AtSplit::new(closure, splits, *number);
+        poses.iter().any(|(last, _)| certifies(&method, last, &mut Accepted::regular_only()))
+    };
+    (0..splits.len()).filter(certifies_one).count()
 }
 
 /// Whether three axes behind one another are parallel.

@@ -24,6 +24,6 @@ pub(super) enum Roots {
     Regular,
     Irregular,
     /// Three axes meet in one point: roots come in pairs, whose noise one polynomial alone does
-    /// not show (eq. 104c).
-    Pairs,
+    /// not show. So many must certify (eq. 104c).
+    Pairs(usize),
 }

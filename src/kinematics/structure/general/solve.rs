@@ -25,7 +25,7 @@ impl General {
         accepted: &mut Accepted,
     ) -> bool {
         let near = self.joint_map.theta(&free.q);
-        let wanted = if self.roots == Roots::Pairs { self.splits.len().min(2) } else { 1 };
+        let wanted = if let Roots::Pairs(wanted) = self.roots { wanted } else { 1 };
         self.search(Search::new(&self.closure, last, near, accepted, wanted))
     }
 
