@@ -245,3 +245,16 @@ fn the_crx_10ia_has_the_solutions_of_an_article() {
     }
     assert_eq!(counts, [8, 12, 16]);
 }
+
+/// Axis 5 is parallel to axes 2 and 3 at two angles of joint 6. Where one is out of reach, its roots
+/// are complex (docs/theory/offset_wrist.md, eq. 135a).
+#[test]
+fn an_answer_with_axis_4_at_zero_is_certified() {
+    let robot: Robot<6> = Robot::named("GoFa 5").unwrap();
+    let poses = drawn(41, 200).map(|mut q: [f64; 6]| {
+        q[3] = 0.0;
+        robot.fk(&q)
+    });
+    let count = poses.filter(|pose| robot.ik(pose).unwrap().is_certified()).count();
+    assert!(count >= 195, "{count}");
+}

@@ -9,6 +9,7 @@ import numpy as np
 
 from irbkin._arguments import check_robot
 from irbkin.calibration import _fit, _identify, _measurements, _parameters, _start
+from irbkin.calibration._loss import check_weights
 from irbkin.calibration._records import (
     CalibratedParameter,
     Calibration,
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from irbkin.calibration._measurements import Measurements
 
 FITS = ("base", "table", "tool")
-LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 
 # Angle and part of the spread of positions that a robot may be off before its base and tool are
 # aligned first, and after that at most: a calibration corrects an arm, it does not find one.
@@ -136,11 +136,7 @@ def _options(
             f"fit must be some of {', '.join(FITS)}, got {tuple(sorted(wanted))} (or of the names "
             f"of parameters, such as {names[6]} and {names[-1]})"
         )
-    for name, value in (("position_std", position_std), ("rotation_std", rotation_std)):
-        if not 0.0 < value < np.inf:
-            raise ValueError(f"{name} is {value}, it must be positive and finite")
-    if loss not in LOSSES:
-        raise ValueError(f'loss must be one of {", ".join(LOSSES)}, got "{loss}"')
+    check_weights(position_std, rotation_std, loss)
     if folds < 0 or folds == 1:
         raise ValueError(f"folds is {folds}, it must be 0 for none, or 2 at least")
     return wanted

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin.calibration._loss import outlying
 from irbkin.errors import CalibrationError
 
 if TYPE_CHECKING:
@@ -21,8 +22,6 @@ MOST_STEPS = 200
 # Relative change of parameters at which they have (the next step would be its square), and of the
 # sum of squares (rounding).
 CONVERGED, SETTLED = 1e-10, 1e-15
-# Median absolute deviation of a normal distribution to its standard deviation.
-FROM_MEDIAN = 1.4826
 
 
 @dataclass(frozen=True)
@@ -34,7 +33,6 @@ class Problem:
     position_std: float
     rotation_std: float
     loss: str = "linear"
-    outlier: float = 3.0
 
     def errors(self, corrections: Floats) -> tuple[Floats, Floats]:
         """Vectors from the measured position to the arm's [m], and rotation vectors from the
@@ -110,8 +108,7 @@ def fit(problem: Problem, kept: Sequence[int], start: Floats) -> Floats:
 
 def _outlying(problem: Problem, corrections: Floats) -> float:
     """Residual from which on a measurement counts less."""
-    scatter = FROM_MEDIAN * float(np.median(np.abs(problem.residuals(corrections))))
-    return max(problem.outlier * scatter, np.finfo(float).tiny)
+    return outlying(problem.residuals(corrections))
 
 
 def _solve(problem: Problem, kept: Sequence[int], start: Floats, far: float) -> Floats:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
+from irbkin.calibration._loss import check_weights, outlying
 from irbkin.calibration._measurements import read_poses
 from irbkin.calibration._start import nearest_rotation, turns
 from irbkin.calibration._touch import check_meters
@@ -18,13 +19,10 @@ if TYPE_CHECKING:
 
     from irbkin._arrays import Floats
 
-LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 # Least singular value of the relative rotations, for each pose [1]: about the angle in rad by which
 # the hand turns about its second axis.
 LEAST_TURN = 0.05
-# Part of the scatter from which on a robust loss counts residuals less [1].
-OUTLIER = 3.0
-FROM_MEDIAN = 1.4826
+# Fits with a robust loss, each with the scatter of the one before.
 ROUNDS = 3
 
 
@@ -70,7 +68,7 @@ def hand_eye(
         ValueError: Another `loss` or standard deviation.
     """
     hands, eyes = _pairs(a, b, 2)
-    _options(position_std, rotation_std, loss)
+    check_weights(position_std, rotation_std, loss)
     _check_turns(hands[:, :3, :3], "a")
     _check_turns(eyes[:, :3, :3], "b")
     start = np.eye(4)
@@ -115,7 +113,7 @@ def robot_world(
         ValueError: Another `loss` or standard deviation.
     """
     hands, seen = _pairs(a, b, 3)
-    _options(position_std, rotation_std, loss)
+    check_weights(position_std, rotation_std, loss)
     for poses, name in ((hands, "a"), (seen, "b")):
         _check_turns(poses[0, :3, :3].T @ poses[1:, :3, :3], name)
     x, y = np.eye(4), np.eye(4)
@@ -152,14 +150,6 @@ def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floa
     return first, second
 
 
-def _options(position_std: float, rotation_std: float, loss: str) -> None:
-    for name, value in (("position_std", position_std), ("rotation_std", rotation_std)):
-        if not 0.0 < value < np.inf:
-            raise ValueError(f"{name} is {value}, it must be positive and finite")
-    if loss not in LOSSES:
-        raise ValueError(f'loss must be one of {", ".join(LOSSES)}, got "{loss}"')
-
-
 def _vectors(rotations: Floats) -> Floats:
     """Rotation vectors, shape (m, 3) [rad]."""
     from scipy.spatial.transform import Rotation  # type: ignore[import-untyped]
@@ -177,12 +167,15 @@ def _check_turns(rotations: Floats, name: str) -> None:
         )
 
 
-def _errors(left: Floats, right: Floats) -> tuple[Floats, Floats]:
+def _differences(left: Floats, right: Floats) -> tuple[Floats, Floats]:
+    """Vectors [m] and rotation vectors [rad] from the right poses to the left ones."""
     turned = left[:, :3, :3] @ np.swapaxes(right[:, :3, :3], 1, 2)
-    return (
-        np.linalg.norm(left[:, :3, 3] - right[:, :3, 3], axis=1),
-        np.linalg.norm(_vectors(turned), axis=1),
-    )
+    return left[:, :3, 3] - right[:, :3, 3], _vectors(turned)
+
+
+def _errors(left: Floats, right: Floats) -> tuple[Floats, Floats]:
+    shift, turn = _differences(left, right)
+    return np.linalg.norm(shift, axis=1), np.linalg.norm(turn, axis=1)
 
 
 def _refined(
@@ -206,16 +199,12 @@ def _refined(
         return moved
 
     def residuals(values: Floats) -> Floats:
-        left, right = sides(frames(values))
-        turned = left[:, :3, :3] @ np.swapaxes(right[:, :3, :3], 1, 2)
-        parts = (left[:, :3, 3] - right[:, :3, 3]) / position_std, _vectors(turned) / rotation_std
-        return np.concatenate(parts, axis=1).ravel()
+        shift, turn = _differences(*sides(frames(values)))
+        return np.concatenate([shift / position_std, turn / rotation_std], axis=1).ravel()
 
     values = np.zeros(6 * len(start))
     for _ in range(1 if loss == "linear" else ROUNDS):
-        # The scatter without outliers measures how far is far.
-        scatter = FROM_MEDIAN * float(np.median(np.abs(residuals(values))))
-        far = max(OUTLIER * scatter, np.finfo(float).eps)
+        far = outlying(residuals(values))
         values = least_squares(
             residuals, values, x_scale="jac", loss=loss, f_scale=far, xtol=1e-14, ftol=1e-14
         ).x

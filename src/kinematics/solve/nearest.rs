@@ -28,9 +28,7 @@ use crate::report::FreeJoint;
 /// [`NearestSearch::choices`], at most four each.
 const ARMS: usize = 24;
 
-/// sin q5
-///
-/// up to which an undetermined plane of the arm may leave the wrist of three parallel axes
+/// sin q5 up to which an undetermined plane of the arm may leave the wrist of three parallel axes
 /// undetermined [1]: the plane's uncertainty is at most 1e-7.
 const UNCERTAIN_PLANE_SIN: f64 = 1e-6;
 

@@ -43,8 +43,12 @@ impl<'a> Search<'a> {
 
     /// Take what is at the roots of a polynomial, unless earlier ones have shown enough.
     pub(crate) fn attempt(&mut self, method: &impl ByRoots) {
-        let may_show_all = self.shown < Shown::All && self.accepted.are_regular();
-        if self.shown >= Shown::Counted && !may_show_all {
+        let is_done = match self.shown {
+            Shown::Some => false,
+            Shown::Counted => !self.accepted.are_regular(),
+            Shown::All => true,
+        };
+        if is_done {
             return;
         }
         let mut shown = attempt(method, self.last, &self.target, self.accepted);

@@ -30,7 +30,7 @@ pub(crate) struct Configuration {
 impl Configuration {
     /// Return the largest difference of a joint [rad].
     pub(crate) fn distance(&self, other: &[f64; 6]) -> f64 {
-        (0..6).fold(0.0, |most, i| wrap(self.theta[i] - other[i]).abs().max(most))
+        apart(&self.theta, other)
     }
 
     /// Whether the theorem of Newton and Kantorovich says nothing about it.
@@ -42,6 +42,11 @@ impl Configuration {
     pub(crate) fn weight(&self) -> usize {
         if self.moving.is_some() || self.least <= ISOLATED { 2 } else { 1 }
     }
+}
+
+/// Return the largest difference of a joint [rad].
+pub(super) fn apart(one: &[f64; 6], other: &[f64; 6]) -> f64 {
+    (0..6).fold(0.0, |most, i| wrap(one[i] - other[i]).abs().max(most))
 }
 
 impl Closure {

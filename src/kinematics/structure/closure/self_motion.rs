@@ -6,7 +6,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::chain::{Closure, Target, sines};
-use super::configuration::Configuration;
+use super::configuration::{Configuration, apart};
 use crate::kinematics::pose::angles::wrap;
 
 /// How near two configurations may be to be examined for being the same [rad].
@@ -228,9 +228,6 @@ impl<'a> SelfMotion<'a> {
     /// Follow it in both directions, or once around: `pass` gets the ends of each step.
     pub(crate) fn around(&self, pass: &mut dyn FnMut([&Member; 2])) {
         let Self { closure, target, start, accepts, .. } = self;
-        let apart = |other: &Member| {
-            (0..6).fold(0.0, |most: f64, i| most.max(wrap(start.theta[i] - other.theta[i]).abs()))
-        };
         for sign in [1.0, -1.0] {
             let mut one = Member { direction: start.direction * sign, ..*start };
             // The change of the direction along the way.
@@ -257,7 +254,7 @@ impl<'a> SelfMotion<'a> {
                     return;
                 }
                 walked += length;
-                is_back = walked > 3.5 * STEP && apart(&next) < 0.6 * STEP;
+                is_back = walked > 3.5 * STEP && apart(&start.theta, &next.theta) < 0.6 * STEP;
                 bend = (next.direction - one.direction) / length;
                 (one, length) = (next, (2.0 * length).min(STEP));
             }
@@ -274,8 +271,7 @@ impl<'a> SelfMotion<'a> {
                 let far = wrap(ends[1].theta[joint] - self.start.theta[joint]).abs();
                 most[joint] = most[joint].max(far);
                 if let Some(theta) = self.member_between(ends, joint, near[joint]) {
-                    let far =
-                        (0..6).fold(0.0, |most: f64, i| most.max(wrap(theta[i] - near[i]).abs()));
+                    let far = apart(&theta, near);
                     if passed[joint].is_none_or(|(least, _)| far < least) {
                         passed[joint] = Some((far, theta));
                     }
@@ -340,7 +336,7 @@ impl<'a> SelfMotion<'a> {
         let mut nearest: Option<(f64, [f64; 6])> = None;
         self.around(&mut |ends| {
             if let Some(theta) = self.member_between(ends, joint, near[joint]) {
-                let far = (0..6).fold(0.0, |most: f64, i| most.max(wrap(theta[i] - near[i]).abs()));
+                let far = apart(&theta, near);
                 if nearest.is_none_or(|(least, _)| far < least) {
                     nearest = Some((far, theta));
                 }

@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use super::at_roots::AtSplit;
-use super::geometry::Roots;
+use super::geometry::RootKind;
 use super::split::{SPLITS, Split};
 use crate::kinematics::structure::by_roots::{
     ByRoots as _, NOISE_OF_SIZE, certifies, quasi_random, regular_of, size_of,
@@ -70,7 +70,7 @@ pub(super) fn chosen(
     links: &[Frame; 5],
     closure: &Closure,
     offsets: &[f64; 6],
-) -> (Arc<Vec<Split>>, Roots) {
+) -> (Arc<Vec<Split>>, RootKind) {
     let poses: Vec<(Frame, [f64; 6])> =
         drawn(offsets).into_iter().map(|theta| (closure.last_frame(&theta), theta)).collect();
     let (first, rest) = poses.split_at(FIRST);
@@ -112,9 +112,9 @@ pub(super) fn chosen(
     }
     let kept = Arc::new(kept);
     let roots = match is_mostly_regular(&AtSplit::new(closure, &kept, 0), RANDOM) {
-        _ if has_pairs => Roots::Pairs(certifying(&kept, closure, first).clamp(1, 2)),
-        true => Roots::Regular,
-        false => Roots::Irregular,
+        _ if has_pairs => RootKind::Pairs(certifying(&kept, closure, first).clamp(1, 2)),
+        true => RootKind::Regular,
+        false => RootKind::Irregular,
     };
     (kept, roots)
 }

@@ -14,12 +14,12 @@ pub(crate) struct General {
     pub(super) joint_map: JointMap<6>,
     /// The splits, the best first. They are the same for an arm with any base, tool and limits.
     pub(super) splits: Arc<Vec<Split>>,
-    pub(super) roots: Roots,
+    pub(super) roots: RootKind,
 }
 
 /// The roots of an arm's splits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Roots {
+pub(super) enum RootKind {
     /// Most poses are regular in the first split.
     Regular,
     Irregular,

@@ -1,7 +1,7 @@
 //! The constants of a general arm, from its table.
 
 use super::choice::{chosen, taken};
-use super::geometry::{General, Roots};
+use super::geometry::{General, RootKind};
 use crate::kinematics::chain::corrections::about_y;
 use crate::kinematics::chain::dh::{DhRow, Mdh, screw_x};
 use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
@@ -44,7 +44,7 @@ impl General {
         closure.check_freedom(&tilted.map(|TiltedRow { row, .. }| row))?;
         let taken = other.and_then(|other| taken(&other.splits, &links, &closure));
         let (splits, roots) = match taken {
-            Some(splits) => (splits, Roots::Regular),
+            Some(splits) => (splits, RootKind::Regular),
             None => chosen(&links, &closure, &offsets),
         };
         let joint_map = JointMap {

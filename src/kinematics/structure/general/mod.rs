@@ -22,7 +22,7 @@ mod tests;
 pub(crate) use geometry::General;
 
 use at_roots::AtSplit;
-use geometry::Roots;
+use geometry::RootKind;
 use measure::PATTERN;
 
 use super::branches::Branches;
@@ -69,7 +69,7 @@ impl Structure<6, SLOTS> for General {
     }
 
     fn kernel(&self) -> Option<RootKernel<AtSplit>> {
-        (self.roots == Roots::Regular).then(|| RootKernel(self.split(0)))
+        (self.roots == RootKind::Regular).then(|| RootKernel(self.split(0)))
     }
 
     fn solve(&self, t_first_last: &Pose, _: f64, free: &FreeChoice<6>) -> Branches<6, SLOTS> {

@@ -1,7 +1,7 @@
 //! Every solution of a pose: by the best split, and by others where its count is not certain.
 
 use super::at_roots::AtSplit;
-use super::geometry::{General, Roots};
+use super::geometry::{General, RootKind};
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::TakeStep;
@@ -25,7 +25,7 @@ impl General {
         accepted: &mut Accepted,
     ) -> bool {
         let near = self.joint_map.theta(&free.q);
-        let wanted = if let Roots::Pairs(wanted) = self.roots { wanted } else { 1 };
+        let wanted = if let RootKind::Pairs(wanted) = self.roots { wanted } else { 1 };
         self.search(Search::new(&self.closure, last, near, accepted, wanted))
     }
 

@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use super::{General, Roots, STRUCTURED, arms, poses_or};
+use super::{General, RootKind, STRUCTURED, arms, poses_or};
 use crate::kinematics::structure::by_roots::regular_of;
 use crate::kinematics::structure::by_roots::tests::{is_as_in_whole_search, same_in_company};
 use crate::kinematics::structure::closure::Accepted;
@@ -31,7 +31,7 @@ fn a_pose_has_the_bits_in_company_that_it_has_alone() {
             let arm = General::of(&mdh).unwrap();
             let frames = frames(&arm, &mixed(&mut Rng::new(7), 20));
             let count = same_in_company(&arm.split(0), &frames, &name);
-            let is_expected = 8 * count > frames.len() || !(arm.roots == Roots::Regular);
+            let is_expected = 8 * count > frames.len() || arm.roots != RootKind::Regular;
             assert!(is_expected, "{name}: {count} of {}", frames.len());
         }
     });
@@ -55,7 +55,7 @@ fn a_regular_pose_has_the_solutions_of_the_whole_search() {
             count += usize::from(is_certified.is_some());
             uncertified += usize::from(is_certified == Some(false));
         }
-        let is_expected = 8 * count > frames.len() || !(arm.roots == Roots::Regular);
+        let is_expected = 8 * count > frames.len() || arm.roots != RootKind::Regular;
         assert!(is_expected, "{name}: {count} of {}", frames.len());
         // Seen once: of the UR5e that is 1e-3 off, with two solutions whose least singular values
         // are 1.3e-5 and 1.4e-5, the whole search finds the same eight and is not certain of them.
@@ -73,7 +73,7 @@ fn nearly_all_random_poses_are_regular_unless_roots_are_pairs() {
         std::println!("{name}: {count} of {} are regular", all.len());
         // Next to a closed form, and where two solutions share each root.
         let has_pairs = name == "CRX-10iA/L" || name.ends_with("1e-6");
-        assert!(has_pairs || (arm.roots == Roots::Regular), "{name}");
+        assert!(has_pairs || arm.roots == RootKind::Regular, "{name}");
         assert!(has_pairs || 10 * count > 8 * all.len(), "{name}: {count} of {}", all.len());
     }
 }
