@@ -1,18 +1,19 @@
 //! The self-motion of a chain without a closed form: its member nearest to a seed.
 
-use crate::error::Error;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::solve::correction::DETERMINED;
-use crate::kinematics::solve::golden_section::golden_section;
+use crate::kinematics::solve::minimum::minimum;
 use crate::kinematics::solve::nearest::NearestSearch;
-use crate::kinematics::solve::self_motion_search::VALLEYS;
 use crate::report::FreeJoint;
 
 /// How far below a member its valley may be, as a multiple of how far the way rises beside it [1]:
 /// once where it bends sharply, less where it is smooth.
 const MOST_DEPTH: f64 = 2.0;
+
+/// Valleys of a self-motion that are looked into.
+const VALLEYS: u32 = 16;
 
 /// The last two members that were passed, with their heights.
 struct Passed<const N: usize> {
@@ -24,19 +25,15 @@ struct Passed<const N: usize> {
 
 impl<const N: usize> NearestSearch<'_, N> {
     /// Walk along the self-motion of a chain.
-    pub(super) fn look_along_chain(&mut self, from: &Solution<N>) -> Result<(), Error> {
+    pub(super) fn look_along_chain(&mut self, from: &Solution<N>) {
         if self.is_done() || !matches!(from.free_joint, Some(FreeJoint::Chain { .. })) {
-            return Ok(());
+            return;
         }
         let mut passed = Passed { before: None, here: None, valleys: VALLEYS };
-        let mut outcome = Ok(());
-        let Some(inverse) = self.robot.inverse() else { return outcome };
+        let Some(inverse) = self.robot.inverse() else { return };
         inverse.walk(self.known.pose(), &from.q, &mut |start, end| {
-            if outcome.is_ok() {
-                outcome = self.pass(&mut passed, start, end, from);
-            }
+            self.pass(&mut passed, start, end, from);
         });
-        outcome
     }
 
     /// Take the next member, and look into the valley that it ends.
@@ -46,15 +43,15 @@ impl<const N: usize> NearestSearch<'_, N> {
         start: &[f64; N],
         end: &[f64; N],
         from: &Solution<N>,
-    ) -> Result<(), Error> {
+    ) {
         let is_start = |(here, _): ([f64; N], f64)| {
             here.iter().zip(start).all(|(angle, start)| angle.total_cmp(start).is_eq())
         };
         if !passed.here.is_some_and(is_start) {
-            (passed.before, passed.here) = (None, Some((*start, self.height_of(start))));
+            let height = self.take_if_met(&Solution { q: *start, ..*from }, from);
+            (passed.before, passed.here) = (None, Some((*start, height)));
         }
-        let next = (*end, self.height_of(end));
-        self.take_if_met(&Solution { q: *end, ..*from }, from);
+        let next = (*end, self.take_if_met(&Solution { q: *end, ..*from }, from));
         if let (Some(before), Some(here)) = (passed.before, passed.here)
             && here.1 < before.1
             && here.1 <= next.1
@@ -69,12 +66,10 @@ impl<const N: usize> NearestSearch<'_, N> {
                 });
                 let (pose, free) = (self.known.pose(), &JointLimits::UNLIMITED);
                 let (q, _) = self.robot.corrected(pose, between, free, &[], DETERMINED);
-                self.take_if_met(&Solution { q, ..*from }, from);
-                Ok(self.height_of(&q))
+                self.take_if_met(&Solution { q, ..*from }, from)
             };
-            golden_section(at, -1.0, 1.0)?;
+            minimum(at, [-1.0, 0.0, 1.0], here.1);
         }
         (passed.before, passed.here) = (passed.here, Some(next));
-        Ok(())
     }
 }

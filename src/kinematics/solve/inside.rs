@@ -38,12 +38,12 @@ impl<const N: usize> Robot<N> {
                 accepts: &accepts,
             };
             let mut search = NearestSearch::new(self, solutions, &wanted, allowed);
-            search.look_along_chain(&outside)?;
+            search.look_along_chain(&outside);
             if self.is_closed_form() {
-                // A twin meets the pose to rounding; between the twins the residual may be larger.
-                search.look_at_twins(&outside)?;
+                search.takes_any = true;
+                search.look_along(&outside);
                 if search.best.is_none() {
-                    search.look_along(&outside)?;
+                    search.look_at_twins(&outside)?;
                 }
             }
             if let Some(inside) = search.best.map(|best| best.solution) {

@@ -4,11 +4,10 @@
 mod approach;
 mod chain_search;
 pub(crate) mod configuration;
-mod corner_search;
 mod correction;
-mod golden_section;
 mod inside;
 pub(crate) mod inverse;
+mod minimum;
 pub(crate) mod nearest;
 mod pair;
 pub(crate) mod redundancy;

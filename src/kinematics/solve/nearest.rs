@@ -13,7 +13,7 @@ use nalgebra::ComplexField as _;
 
 use crate::error::Error;
 use crate::kinematics::answer::select::Cost;
-use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::slot::{MOST_SLOTS, Slot};
 use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::answer::status::{SingularityKind, Status};
 use crate::kinematics::chain::limits::JointLimits;
@@ -28,9 +28,9 @@ use crate::report::FreeJoint;
 /// [`NearestSearch::choices`], at most four each.
 const ARMS: usize = 24;
 
-/// sin q5 up to which an undetermined plane of the arm may leave the wrist of three parallel axes
-/// undetermined [1]: the plane's uncertainty is at most 1e-7.
-const UNCERTAIN_PLANE_SIN: f64 = 1e-6;
+/// sin q5 up to which another singularity may leave the wrist undetermined [1]: the uncertainty of
+/// the arm's plane or of its forearm is at most 4e-7.
+pub(super) const UNCERTAIN_SIN_5: f64 = 1e-6;
 
 /// The requirements on a solution.
 pub(in crate::kinematics) struct Wanted<'a, const N: usize> {
@@ -116,12 +116,13 @@ pub(super) struct NearestSearch<'a, const N: usize> {
     /// How far a solution may be off the pose [rad, m].
     pub(super) allowed: f64,
     pub(super) best: Option<Candidate<N>>,
-    /// The values of other undetermined joints along a self-motion.
-    pub(super) others: [f64; N],
+    /// Whether any member of a self-motion will do that is as near to the seed as its free joint or
+    /// half a turn from there.
+    pub(super) takes_any: bool,
     /// The arms whose wrists were searched, with the side of axis 5.
     pub(super) arms: [Option<([f64; 3], bool)>; ARMS],
-    /// The undetermined joints whose self-motions were searched, one bit each, for either shoulder.
-    self_motions: [u8; 2],
+    /// The undetermined joints whose self-motions were searched, one bit each, by slot.
+    pub(super) self_motions: [u8; MOST_SLOTS],
 }
 
 impl<'a, const N: usize> NearestSearch<'a, N> {
@@ -140,9 +141,9 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             wanted,
             allowed: if off > allowed && off <= SOLUTION_OFF { 1.1 * off } else { allowed },
             best: None,
-            others: *wanted.seed,
+            takes_any: false,
             arms: [None; ARMS],
-            self_motions: [0; 2],
+            self_motions: [0; MOST_SLOTS],
         }
     }
 
@@ -150,54 +151,64 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         let known = self.known;
         known.iter().for_each(|solution| self.take(solution, solution));
         if known.iter().all(|solution| self.is_singular_once(solution)) {
-            known.iter().for_each(|solution| self.look_at_wrist(solution));
-            self.start_from_seed(known);
+            for solution in known {
+                match solution.free_joint {
+                    Some(free) if free.partner().is_some() => self.look_at_wrist(solution),
+                    Some(free) => self.look_along_self_motion(solution, free),
+                    None => {}
+                }
+            }
+            self.take_seed();
             if self.best.is_some() {
                 return Ok(());
             }
         }
         if self.robot.slot_names().is_some() {
             for q in self.choices() {
-                self.look_around(&self.robot.solve(*known.pose(), &FreeChoice::seed(q))?)?;
+                self.look_around(&self.robot.solve(*known.pose(), &FreeChoice::seed(q))?);
             }
         } else {
             // Slots are ordinals: no branches have merged, and self-motions are walked along.
-            self.look_around(known)?;
+            self.look_around(known);
         }
         for solution in known {
-            self.look_along(solution)?;
-            self.look_along_chain(solution)?;
+            self.look_along(solution);
+            self.look_along_chain(solution);
         }
         if self.best.is_none() && self.must_meet() {
             for solution in known {
                 self.start_from_limits(solution);
                 self.bend_elbow(solution);
-                self.turn_other_joints(solution)?;
+                self.turn_other_joints(solution);
             }
         }
         Ok(())
     }
 
-    /// Whether all that a solution stands for is itself or along its wrist: only where two
-    /// singularities meet, or a joint without a partner is free, there is more.
+    /// Whether all that a solution stands for is itself or along its one self-motion, at whose
+    /// corners another singularity may be met: where two meet otherwise there is more.
     fn is_singular_once(&self, solution: &Solution<N>) -> bool {
-        let kinds = solution.singularities();
-        let is_along_wrist = solution.free_joint.is_none_or(|free| free.partner().is_some());
-        let is_one =
-            SingularityKind::WRIST.contains(kinds) || SingularityKind::ELBOW.contains(kinds);
-        is_along_wrist && is_one && self.robot.singular_wrist().is_some()
+        let at_corner = match solution.free_joint {
+            Some(FreeJoint::Parallel) => SingularityKind::ELBOW,
+            Some(FreeJoint::Base | FreeJoint::Upper | FreeJoint::UpperCoupled) => {
+                SingularityKind::WRIST
+            }
+            _ => SingularityKind::empty(),
+        };
+        let met = solution.singularities() & !at_corner;
+        let kinds = [SingularityKind::WRIST, SingularityKind::ELBOW, SingularityKind::SHOULDER];
+        self.robot.slot_names().is_some() && kinds.into_iter().any(|kind| kind.contains(met))
     }
 
     /// Search next to solutions and to the seed, and along the solutions' undetermined joints.
-    fn look_around(&mut self, solutions: &Solutions<N>) -> Result<(), Error> {
+    fn look_around(&mut self, solutions: &Solutions<N>) {
         for solution in solutions {
             self.move_onto_pose(&solution.q, 0.0, solution);
         }
         self.start_from_seed(solutions);
         for solution in solutions {
-            self.look_along(solution)?;
+            self.look_along(solution);
         }
-        Ok(())
     }
 
     /// The seed for undetermined joints, and half a turn from it: of two merged branches the nearer
@@ -242,24 +253,40 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
 
     /// Keep a solution if it is wanted and the nearest so far.
     pub(super) fn take(&mut self, solution: &Solution<N>, from: &Solution<N>) {
-        let Wanted { limits, seed, weights, accepts } = self.wanted;
-        let Some(q) = limits.wrapped_near(&solution.q, seed) else { return };
-        let cost = Cost::Distance.total(&q, seed, weights);
-        if self.best.is_some_and(|best| best.cost <= cost) {
-            return;
-        }
-        let status = solution.status | Status::WITHIN_LIMITS;
-        let solution = Solution { q, status, ..*solution };
-        if accepts(&solution) {
-            self.best = Some(Candidate { cost, solution, from: from.slot });
-        }
+        self.take_if(solution, from, |_| true);
     }
 
     /// Keep a solution if it reaches the pose.
-    pub(super) fn take_if_met(&mut self, solution: &Solution<N>, from: &Solution<N>) {
-        if self.robot.residual(&solution.q, self.known.pose()).largest() <= self.allowed {
-            self.take(solution, from);
+    pub(super) fn take_if_met(&mut self, solution: &Solution<N>, from: &Solution<N>) -> f64 {
+        self.take_if(solution, from, |search| {
+            search.robot.residual(&solution.q, search.known.pose()).largest() <= search.allowed
+        })
+    }
+
+    /// Keep a solution if it is wanted, the nearest so far and `is_one`. Return how far its farthest
+    /// joint is outside its limits or, inside them, less than zero and the less the nearer to the
+    /// seed.
+    fn take_if(
+        &mut self,
+        solution: &Solution<N>,
+        from: &Solution<N>,
+        is_one: impl Fn(&Self) -> bool,
+    ) -> f64 {
+        let Wanted { limits, seed, weights, accepts } = self.wanted;
+        let Some(q) = limits.wrapped_near(&solution.q, seed) else {
+            return limits.worst_overrun(&solution.q);
+        };
+        let cost = Cost::Distance.total(&q, seed, weights);
+        if self.best.is_none_or(|best| cost < best.cost) && is_one(self) {
+            let kinds = self.robot.inverse().map(|inverse| inverse.singular(&q).1);
+            let kinds = kinds.map_or(Status::empty(), Status::from);
+            let status = solution.status | kinds | Status::WITHIN_LIMITS;
+            let solution = Solution { q, status, ..*solution };
+            if accepts(&solution) {
+                self.best = Some(Candidate { cost, solution, from: from.slot });
+            }
         }
+        -1.0 / (1.0 + cost)
     }
 
     /// Keep the joints nearest to `q` that reach the pose, on the branch of `from`; `q` may be
@@ -282,7 +309,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     }
 
     /// The branch of `from` with other joint angles.
-    fn at(&self, q: [f64; N], from: &Solution<N>) -> Solution<N> {
+    pub(super) fn at(&self, q: [f64; N], from: &Solution<N>) -> Solution<N> {
         let wrist = self.robot.singular_wrist();
         let slot = wrist.map_or(from.slot, |wrist| from.slot.flipped_to(wrist.sin_5(&q) < 0.0));
         Solution { q, slot, ..*from }
@@ -290,14 +317,11 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
 
     /// Search the solutions related to one: along its undetermined joint, along the wrist, and its
     /// twin.
-    pub(super) fn look_along(&mut self, solution: &Solution<N>) -> Result<(), Error> {
+    pub(super) fn look_along(&mut self, solution: &Solution<N>) {
         if self.is_done() {
-            return Ok(());
+            return;
         }
         self.look_at_wrist(solution);
-        if self.has_uncertain_plane(solution) && self.is_first_of(solution, 0) {
-            self.search_uncertain_plane(solution)?;
-        }
         for free in self.self_motions_of(solution).into_iter().flatten() {
             let limits = &self.wanted.limits;
             // A joint that is fixed along a self-motion may be outside the limits for all members;
@@ -305,14 +329,10 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
             let stuck =
                 |joint: &usize| limits.overrun(joint - 1, solution.q[joint - 1]) > SOLUTION_OFF;
             let stuck = free.still().iter().any(stuck);
-            if !stuck
-                && limits.linkage_overrun(&solution.q) <= SOLUTION_OFF
-                && self.is_first_of(solution, free.joint())
-            {
-                self.look_along_self_motion(solution, free)?;
+            if !stuck && limits.linkage_overrun(&solution.q) <= SOLUTION_OFF {
+                self.look_along_self_motion(solution, free);
             }
         }
-        Ok(())
     }
 
     /// The joints that may be undetermined at a solution and move more than a partner: the one that
@@ -342,7 +362,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     fn has_uncertain_plane(&self, solution: &Solution<N>) -> bool {
         self.robot.singular_wrist().is_none()
             && (self.must_meet() || solution.singularities().contains(SingularityKind::WRIST))
-            && self.robot.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= UNCERTAIN_PLANE_SIN)
+            && self.robot.sin_5(&solution.q).is_some_and(|sin_5| sin_5.abs() <= UNCERTAIN_SIN_5)
     }
 
     /// The free joint of an arm that is folded onto axis 2.
@@ -350,12 +370,12 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         if self.robot.is_coupled() { FreeJoint::UpperCoupled } else { FreeJoint::Upper }
     }
 
-    /// Whether no solution of the same shoulder was searched along this joint before.
-    fn is_first_of(&mut self, solution: &Solution<N>, joint: usize) -> bool {
-        let shoulder = solution.slot.index() / (self.known.slot_count() / 2);
-        let (self_motions, bit) = (&mut self.self_motions[shoulder], 1 << joint);
-        let first = *self_motions & bit == 0;
-        *self_motions |= bit;
+    /// Whether no solution on the same branches, whose slots differ in a bit, was searched along
+    /// this joint before.
+    pub(super) fn is_first_of(&mut self, solution: &Solution<N>, joint: usize, bit: usize) -> bool {
+        let (searched, joint) = (&mut self.self_motions[solution.slot.index() & !bit], 1 << joint);
+        let first = *searched & joint == 0;
+        *searched |= joint;
         first
     }
 

@@ -25,8 +25,13 @@ impl Pair {
     /// The pair of a solution whose free joint has a partner.
     pub(super) fn of<const N: usize>(free: FreeJoint, q: &[f64; N]) -> Option<Self> {
         let (partner, sign) = free.partner()?;
-        let (first, partner) = (free.joint() - 1, partner - 1);
-        Some(Self { first, partner, sign, fixed: q[first] + sign * q[partner] })
+        Some(Self::at((free.joint() - 1, partner - 1, sign), q))
+    }
+
+    /// The pair of joints, from 0, whose sum by a sign is fixed.
+    pub(super) fn at<const N: usize>(of: (usize, usize, f64), q: &[f64; N]) -> Self {
+        let (first, partner, sign) = of;
+        Self { first, partner, sign, fixed: q[first] + sign * q[partner] }
     }
 
     /// The angle of the partner for an angle of the first joint.

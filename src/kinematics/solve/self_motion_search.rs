@@ -1,310 +1,304 @@
-//! The self-motion along a free joint that moves more than a partner: axis 1 if the wrist center is
-//! on it, axis 2 if the arm is folded onto it, axis 6 of three parallel axes.
+//! The self-motion along a free joint that moves more than a partner: a bounded walk from corner to
+//! corner, with the members in closed form.
+//!
+//! Between two corners the branches neither meet nor end. A step is short where the joints move
+//! fast, so that none of it is passed over (docs/theory/singularities.md, section 6).
 
 use core::f64::consts::{PI, TAU};
 
 #[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
+use nalgebra::{ComplexField as _, RealField as _};
 
-use crate::error::Error;
-use crate::kinematics::answer::select::Cost;
-use crate::kinematics::answer::slot::MOST_SLOTS;
-use crate::kinematics::answer::solutions::{Solution, Solutions};
-use crate::kinematics::solve::golden_section::golden_section;
-use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
+use crate::kinematics::answer::slot::Slot;
+use crate::kinematics::answer::solutions::Solution;
+use crate::kinematics::answer::status::Status;
+use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::solve::minimum::minimum;
+use crate::kinematics::solve::nearest::{NearestSearch, UNCERTAIN_SIN_5, Wanted};
+use crate::kinematics::solve::pair::Pair;
+use crate::kinematics::structure::family::Family;
 use crate::kinematics::thresholds::LIMIT_SLACK;
 use crate::report::FreeJoint;
 
-/// Steps of a turn in which a family is searched for a place inside the limits.
-pub(super) const STEPS: u32 = 360;
+/// How far the joints move in a step, and at most [rad].
+const STEP: f64 = 0.12;
+const LONGEST_STEP: f64 = 0.3;
 
-/// Steps of a turn in which it is searched for one that is nearer than what was found.
-pub(super) const COARSE_STEPS: u32 = 72;
+/// Steps of an arc, at most; and the first.
+const MOST_STEPS: u32 = 320;
+const FIRST_STEPS: f64 = 6.0;
 
-/// Steps per turn of joint 6 at which a plane of the arm is tried that rounding leaves
-/// undetermined.
-const PLANE_STEPS: u32 = 72;
+/// How far beside a solution it is tried whether the pose is met [rad], and in how many parts of an
+/// arc where the solution does not name the self-motion.
+const BESIDE: f64 = 0.05;
+const ARC_PARTS: u32 = 16;
 
-/// Least number of steps in which a part of a turn is searched.
-pub(super) const LEAST_STEPS: u32 = 8;
+/// Least step [1]: the root of the rounding of an angle.
+const LEAST_STEP: f64 = 1e-8;
 
-/// How much faster than the free joint the joints together move, at most, where no wrist is singular
-/// [1].
-const MOST_SPEED: f64 = 10.0;
+/// How much farther the joints may move between three members than from one to the next [1].
+const MOST_DETOUR: f64 = 2.0;
 
-/// Valleys between steps that are looked into.
-pub(super) const VALLEYS: u32 = 16;
-
-/// One number per slot.
-type OfSlots = [f64; MOST_SLOTS];
-
-/// The self-motion at one angle of the free joint.
+/// A part of a turn of the free joint between two corners. Its angles are taken at a cosine: next
+/// to an edge of reach the joints, which move with the root of the free joint, move with that
+/// steadily.
 #[derive(Clone, Copy)]
-pub(super) struct Sample {
-    pub(super) angle: f64,
-    /// Its place on the way, along which the joints move steadily [rad].
-    pub(super) place: f64,
+struct Arc {
+    middle: f64,
+    half: f64,
+}
+
+impl Arc {
+    fn at(&self, part: f64) -> f64 {
+        self.middle - self.half * part.cos()
+    }
+
+    /// Return the parts, from 0 at the lower corner to pi at the upper one, inside a window; `None`
+    /// where the arc is outside.
+    fn inside(&self, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
+        let apart = ((low + high) * 0.5 - self.middle).abs();
+        let part = |angle: f64| ((self.middle - angle) / self.half).clamp(-1.0, 1.0).acos();
+        (apart < self.half + 0.5 * (high - low)).then(|| [part(low), part(high)])
+    }
+}
+
+/// The self-motion of a solution.
+#[derive(Clone, Copy)]
+struct Along<'a, const N: usize> {
+    family: &'a dyn Family<N>,
+    from: &'a Solution<N>,
+    free: FreeJoint,
+}
+
+/// Two members on different branches, at one part of an arc.
+#[derive(Clone, Copy)]
+struct Sample<const N: usize> {
+    part: f64,
+    q: [Option<[f64; N]>; 2],
     /// How far the farthest joint is outside its limits or, inside them, less than zero and the
     /// less the nearer to the seed.
-    pub(super) heights: OfSlots,
-    /// Size of sin q5 of an arm whose wrist may be singular as well.
-    wrists: OfSlots,
+    heights: [f64; 2],
 }
 
-/// Return the least of the heights.
-fn least(heights: &OfSlots) -> f64 {
-    heights.iter().copied().fold(f64::INFINITY, f64::min)
-}
-
-/// Whether the middle one of three values is the least.
-fn is_valley(of: [f64; 3]) -> bool {
-    of[1].is_finite() && of[1] < of[0] && of[1] <= of[2]
-}
-
-impl Sample {
-    /// One at which nothing is met.
-    pub(super) fn nothing(angle: f64) -> Self {
-        let nothing = [f64::INFINITY; MOST_SLOTS];
-        Self { angle, place: angle, heights: nothing, wrists: nothing }
+impl<const N: usize> Sample<N> {
+    /// Return how far the joints move to another sample [rad]; infinity where a branch ends between
+    /// them.
+    fn to(&self, other: &Self) -> f64 {
+        let moved = |(from, to): (&Option<[f64; N]>, &Option<[f64; N]>)| match (from, to) {
+            (Some(from), Some(to)) => {
+                from.iter().zip(to).map(|(from, to)| wrap(to - from).powi(2)).sum::<f64>().sqrt()
+            }
+            (None, None) => 0.0,
+            _ => f64::INFINITY,
+        };
+        self.q.iter().zip(&other.q).map(moved).fold(0.0, f64::max)
     }
-
-    pub(super) fn least_height(&self) -> f64 {
-        least(&self.heights)
-    }
-}
-
-/// A part of a turn of the free joint.
-struct Window {
-    low: f64,
-    step: f64,
-    steps: u32,
 }
 
 impl<const N: usize> NearestSearch<'_, N> {
-    /// Search the self-motion of a solution, on all its branches.
-    pub(super) fn look_along_self_motion(
-        &mut self,
-        from: &Solution<N>,
-        free: FreeJoint,
-    ) -> Result<(), Error> {
-        let joint = free.joint() - 1;
-        for angle in [from.q[joint], self.wanted.seed[joint]] {
-            for rotated in [angle, angle + PI] {
-                for member in &self.members(from, free, rotated)?.0 {
-                    self.move_onto_pose(&member.q, LIMIT_SLACK, member);
-                }
+    /// Search the self-motion of a solution, on both its branches.
+    pub(super) fn look_along_self_motion(&mut self, from: &Solution<N>, free: FreeJoint) {
+        let Some(inverse) = self.robot.inverse() else { return };
+        let q_and_rest = [&from.q, self.wanted.seed];
+        inverse.with_family(self.known.pose(), q_and_rest, free, &mut |family| {
+            if self.is_first_of(from, free.joint(), family.bit()) {
+                self.look_along_family(Along { family, from, free });
             }
-        }
-        let inverse = self.robot.known_inverse()?;
-        if let Some(corners) = inverse.corners(&from.q, free) {
-            return self.look_between_corners(from, free, corners);
-        }
-        if !self.is_undetermined(from, free)? {
-            return Ok(());
-        }
-        let Window { low, step, steps } = self.window(from, free);
-        let mut before = self.sample(from, free, low - step)?;
-        let mut here = self.sample(from, free, low)?;
-        let mut valleys = VALLEYS;
-        for number in 1..=steps + 1 {
-            let next = self.sample(from, free, low + f64::from(number) * step)?;
-            let samples = [&before, &here, &next];
-            for slot in (0..self.known.slot_count()).step_by(2) {
-                // sin q5 changes no faster than the free joint does.
-                if is_valley(samples.map(|sample| sample.wrists[slot])) && here.wrists[slot] <= step
-                {
-                    self.look_at_wrist_between(from, free, slot, [before.angle, next.angle])?;
-                }
-            }
-            self.look_into_valleys(from, free, samples, &mut valleys)?;
-            (before, here) = (here, next);
-        }
-        Ok(())
+        });
     }
 
-    /// Looks where between three angles the joints of a slot are the least outside the limits, or
-    /// the nearest to the seed.
-    pub(super) fn look_into_valleys(
-        &mut self,
-        from: &Solution<N>,
-        free: FreeJoint,
-        samples: [&Sample; 3],
-        left: &mut u32,
-    ) -> Result<(), Error> {
-        let between = [samples[0].angle, samples[2].angle];
-        let width = samples[2].place - samples[0].place;
-        for slot in 0..self.known.slot_count() {
-            let heights = samples.map(|sample| sample.heights[slot]);
-            if is_valley(heights) && self.may_be_nearer(heights[1], width) && *left > 0 {
-                *left -= 1;
-                self.look_into_valley(from, free, between, |heights| heights[slot])?;
+    fn look_along_family(&mut self, along: Along<'_, N>) {
+        if self.is_too_far(along) {
+            return;
+        }
+        let joint = along.free.joint() - 1;
+        let seed = self.wanted.seed[joint];
+        for angle in [along.from.q[joint], seed] {
+            for turned in [angle, angle + PI] {
+                self.sample(along, turned);
+                for member in along.family.at(turned).into_iter().flatten() {
+                    let member = along.member(member);
+                    if self.best.is_none() {
+                        self.move_onto_pose(&member.q, LIMIT_SLACK, &member);
+                    }
+                }
             }
         }
-        // If another joint is singular as well, rounding moves a branch from slot to slot.
-        let heights = samples.map(Sample::least_height);
-        if is_valley(heights) && self.may_be_nearer(heights[1], width) {
-            self.look_into_valley(from, free, between, least)?;
+        if self.takes_any && self.best.is_some() {
+            return;
         }
-        Ok(())
+        let mut corners = along.family.corners().map(|corner| seed + wrap(corner - seed));
+        corners.sort_unstable_by(f64::total_cmp);
+        let [first, ..] = corners;
+        for (number, corner) in corners.into_iter().enumerate() {
+            if number == 0 || corner > corners[number - 1] {
+                self.look_at_corner(along, corner);
+            }
+        }
+        let arcs: [Arc; 6] = core::array::from_fn(|number| {
+            let high = corners.get(number + 1).copied().unwrap_or(first + TAU);
+            Arc { middle: 0.5 * (corners[number] + high), half: 0.5 * (high - corners[number]) }
+        });
+        if self.is_family(along, &arcs) {
+            for arc in arcs.into_iter().filter(|arc| arc.half > 0.0) {
+                self.look_along_arc(along, arc);
+            }
+        }
+    }
+
+    /// Whether the joints that stand still cost more than what was found.
+    fn is_too_far(&self, along: Along<'_, N>) -> bool {
+        let Wanted { seed, weights, .. } = self.wanted;
+        let apart = |joint: usize| weights[joint] * wrap(along.from.q[joint] - seed[joint]).powi(2);
+        let still: f64 = along.free.still().iter().map(|joint| apart(joint - 1)).sum();
+        self.best.is_some_and(|best| still > best.cost)
+    }
+
+    /// Whether the pose is met elsewhere than at the solution: next to a singularity it is not, or
+    /// on a part of an arc only that an uncertain plane of the arm leaves undetermined.
+    fn is_family(&self, along: Along<'_, N>, arcs: &[Arc; 6]) -> bool {
+        let parts = if along.from.free_joint == Some(along.free) { 2 } else { ARC_PARTS };
+        let own = along.from.q[along.free.joint() - 1];
+        let of_arcs = arcs.iter().flat_map(|arc| {
+            (1..parts).map(|number| arc.at(PI * f64::from(number) / f64::from(parts)))
+        });
+        [own + BESIDE, own - BESIDE].into_iter().chain(of_arcs).any(|at| self.is_met(along, at))
+    }
+
+    /// Whether a member with the free joint at an angle meets the pose.
+    fn is_met(&self, along: Along<'_, N>, angle: f64) -> bool {
+        let (robot, pose) = (self.robot, self.known.pose());
+        let mut members = along.family.at(angle).into_iter().flatten();
+        members.any(|(q, _)| robot.residual(&q, pose).largest() <= self.allowed)
+    }
+
+    /// Search the pair of joints that may be undetermined at a corner, too.
+    fn look_at_corner(&mut self, along: Along<'_, N>, corner: f64) {
+        let Wanted { limits, seed, weights, .. } = self.wanted;
+        for (q, is_second) in along.family.at(corner).into_iter().flatten() {
+            let pair = Pair::at(along.family.pair(&q), &q);
+            if let Some(angle) = pair.nearest(limits, seed, weights) {
+                let member = along.member((pair.put(&q, angle), is_second));
+                self.take_if_met(&member, along.from);
+            }
+            if self.robot.sin_5(&q).is_some_and(|sin_5| sin_5.abs() <= UNCERTAIN_SIN_5) {
+                self.look_at_wrist(&along.member((q, is_second)));
+            }
+        }
+    }
+
+    /// Search the part of an arc that may cost less than what was found.
+    fn look_along_arc(&mut self, along: Along<'_, N>, arc: Arc) {
+        let joint = along.free.joint() - 1;
+        let (seed, half) = (self.wanted.seed[joint], self.farthest(joint));
+        if along.family.at(arc.middle).iter().all(Option::is_none) {
+            return;
+        }
+        if half >= PI {
+            return self.look_along_parts(along, arc, [0.0, PI]);
+        }
+        // An arc across half a turn from the seed has parts on either side.
+        for turns in [0.0, TAU] {
+            if let Some(parts) = arc.inside([seed - half + turns, seed + half + turns]) {
+                self.look_along_parts(along, arc, parts);
+            }
+        }
+    }
+
+    /// Walk from one part of an arc to another, and look into the valleys.
+    fn look_along_parts(&mut self, along: Along<'_, N>, arc: Arc, [low, high]: [f64; 2]) {
+        let mut here = self.sample_at(along, arc, low);
+        let mut before = None;
+        let mut step = (high - low) / FIRST_STEPS;
+        for _ in 0..MOST_STEPS {
+            let next = self.sample_at(along, arc, (here.part + step).min(high));
+            let moved = here.to(&next);
+            if moved > LONGEST_STEP && step > LEAST_STEP {
+                step *= 0.25;
+                continue;
+            }
+            self.look_into_valleys(along, arc, [before, Some(here), Some(next)]);
+            (before, here) = (Some(here), next);
+            if here.part >= high {
+                break;
+            }
+            step *= (STEP / moved).clamp(0.25, 3.0);
+        }
+        self.look_into_valleys(along, arc, [before, Some(here), None]);
+    }
+
+    /// Search between three samples where the joints of a branch are the least outside the limits,
+    /// or the nearest to the seed.
+    fn look_into_valleys(&mut self, along: Along<'_, N>, arc: Arc, of: [Option<Sample<N>>; 3]) {
+        let [before, Some(here), next] = of else { return };
+        let width = [before, next].into_iter().flatten().map(|other| here.to(&other)).sum::<f64>();
+        let [low, high] = [before, next].map(|end| end.unwrap_or(here).part);
+        for side in 0..2 {
+            let height =
+                |sample: Option<Sample<N>>| sample.map_or(f64::INFINITY, |s| s.heights[side]);
+            let is_valley =
+                here.heights[side] < height(before) && here.heights[side] <= height(next);
+            if is_valley && self.may_be_nearer(here.heights[side], width) {
+                let at = |part| self.sample_at(along, arc, part).heights[side];
+                minimum(at, [low, here.part, high], here.heights[side]);
+            }
+        }
     }
 
     /// Whether a valley of this height and width may have a member that is nearer than what was
     /// found.
     fn may_be_nearer(&self, height: f64, width: f64) -> bool {
-        let Some(best) = self.best.filter(|_| height < 0.0) else { return true };
-        let cost = -1.0 / height - 1.0;
-        let heaviest = self.wanted.weights.iter().copied().fold(0.0, f64::max);
-        cost.sqrt() - best.cost.sqrt() < MOST_SPEED * heaviest.sqrt() * width.abs()
-    }
-
-    /// Whether the free joint can move with the tool on the pose: near the singularity it cannot.
-    pub(super) fn is_undetermined(
-        &mut self,
-        from: &Solution<N>,
-        free: FreeJoint,
-    ) -> Result<bool, Error> {
-        let own = from.q[free.joint() - 1];
-        for part in [0.05, -0.05, 0.8, -0.8, 1.6, -1.6, 2.4, -2.4] {
-            if least(&self.members(from, free, own + part)?.1).is_finite() {
-                return Ok(true);
-            }
+        let reach = MOST_DETOUR * width;
+        if height >= 0.0 {
+            return height <= reach;
         }
-        Ok(false)
+        let Some(best) = self.best else { return true };
+        let heaviest = self.wanted.weights.iter().copied().fold(0.0, f64::max);
+        let cost = -1.0 / height - 1.0;
+        cost.sqrt() - best.cost.sqrt() < heaviest.sqrt() * reach
     }
 
     /// How far from the seed a joint, from 0, may be without costing more than what was found by
     /// itself [rad].
-    pub(super) fn farthest(&self, joint: usize) -> f64 {
+    fn farthest(&self, joint: usize) -> f64 {
         self.best.map_or(f64::INFINITY, |best| {
             (best.cost / self.wanted.weights[joint]).sqrt().max(f64::MIN_POSITIVE)
         })
     }
 
-    /// The angles of the free joint that may cost less than what was found.
-    fn window(&self, from: &Solution<N>, free: FreeJoint) -> Window {
-        let joint = free.joint() - 1;
-        let seed = self.wanted.seed[joint];
-        let half = self.farthest(joint);
-        let coarse = TAU / f64::from(COARSE_STEPS);
-        if half < PI - coarse {
-            let steps = (LEAST_STEPS..COARSE_STEPS)
-                .find(|steps| f64::from(*steps) * coarse >= 2.0 * half)
-                .unwrap_or(COARSE_STEPS);
-            return Window { low: seed - half, step: 2.0 * half / f64::from(steps), steps };
-        }
-        let steps = if self.best.is_some() { COARSE_STEPS } else { STEPS };
-        // From the angle of the solution on, which may be at the edge of reach.
-        Window { low: from.q[joint], step: TAU / f64::from(steps), steps }
+    fn sample_at(&mut self, along: Along<'_, N>, arc: Arc, part: f64) -> Sample<N> {
+        Sample { part, ..self.sample(along, arc.at(part)) }
     }
 
-    /// Try joint 6 of three parallel axes at several angles, if rounding of the shoulder leaves the
-    /// plane of the arm undetermined, and with it a nearly singular wrist.
-    pub(super) fn search_uncertain_plane(&mut self, from: &Solution<N>) -> Result<(), Error> {
-        let free = FreeJoint::Parallel;
-        let [low, high] = self.wanted.limits.to_array()[5];
-        let own = from.q[5];
-        let known =
-            [self.wanted.seed[5], low, high].map(|at| if at.is_finite() { at } else { own });
-        let steps = if self.best.is_none() { PLANE_STEPS } else { 0 };
-        let others = (0..steps).map(|step| own + f64::from(step) * TAU / f64::from(PLANE_STEPS));
-        for angle in known.into_iter().chain(others) {
-            let seeded = Solution { q: self.others, ..*from };
-            let solutions =
-                self.robot.solve_with_free_joint(self.known.pose(), &seeded, free, angle)?;
-            for solution in &solutions {
-                self.move_onto_pose(&solution.q, LIMIT_SLACK, solution);
-            }
+    /// Take the members with the free joint at an angle.
+    fn sample(&mut self, along: Along<'_, N>, angle: f64) -> Sample<N> {
+        let mut sample = Sample { part: 0.0, q: [None; 2], heights: [f64::INFINITY; 2] };
+        for member in along.family.at(angle).into_iter().flatten() {
+            let side = usize::from(member.1);
+            sample.q[side] = Some(member.0);
+            sample.heights[side] = self.take_if_met(&along.member(member), along.from);
         }
-        Ok(())
+        sample
     }
+}
 
-    /// The solutions with the free joint at `angle`, of which the nearest is taken, and the heights
-    /// of those that meet the pose.
-    pub(super) fn members(
-        &mut self,
-        from: &Solution<N>,
-        free: FreeJoint,
-        angle: f64,
-    ) -> Result<(Solutions<N>, OfSlots), Error> {
-        let mut q = self.others;
-        if let (Some(last), Some(given)) = (q.get_mut(6), from.q.get(6)) {
-            *last = *given;
+impl<const N: usize> Along<'_, N> {
+    /// Return a member, on the second branch or not, as a solution.
+    fn member(&self, (mut q, is_second): ([f64; N], bool)) -> Solution<N> {
+        let Self { family, from, free } = *self;
+        // A locked joint keeps its angle.
+        if let (Some(last), Some(locked)) = (q.get_mut(6), from.q.get(6)) {
+            *last = *locked;
         }
-        let seeded = Solution { q, ..*from };
-        let pose = self.known.pose();
-        let solutions = self.robot.solve_with_free_joint(pose, &seeded, free, angle)?;
-        let mut heights = [f64::INFINITY; MOST_SLOTS];
-        for solution in &solutions {
-            if self.robot.residual(&solution.q, pose).largest() <= self.allowed {
-                heights[solution.slot.index()] = self.height_of(&solution.q);
-                self.take(solution, from);
-            }
-        }
-        Ok((solutions, heights))
-    }
-
-    pub(super) fn sample(
-        &mut self,
-        from: &Solution<N>,
-        free: FreeJoint,
-        angle: f64,
-    ) -> Result<Sample, Error> {
-        let (solutions, heights) = self.members(from, free, angle)?;
-        let wrists = core::array::from_fn(|slot| self.wrist(&solutions, slot));
-        Ok(Sample { angle, place: angle, heights, wrists })
-    }
-
-    /// How far the farthest joint is outside its limits or, inside them, less than zero and the
-    /// less the nearer to the seed.
-    pub(super) fn height_of(&self, q: &[f64; N]) -> f64 {
-        let Wanted { limits, seed, weights, .. } = self.wanted;
-        match limits.wrapped_near(q, seed) {
-            Some(q) => -1.0 / (1.0 + Cost::Distance.total(&q, seed, weights)),
-            None => limits.worst_overrun(q),
-        }
-    }
-
-    fn wrist(&self, solutions: &Solutions<N>, slot: usize) -> f64 {
-        let Some(wrist) = self.robot.singular_wrist() else {
-            return f64::INFINITY;
+        let bit = if is_second { family.bit() } else { 0 };
+        let slot = Slot::new(from.slot.index() & !family.bit() | bit);
+        let own = match free {
+            FreeJoint::Base => Status::SHOULDER,
+            FreeJoint::Upper | FreeJoint::UpperCoupled => Status::ELBOW,
+            _ => Status::WRIST,
         };
-        let solution = solutions.slot(slot).or_else(|| solutions.slot(slot ^ 1));
-        solution.map_or(f64::INFINITY, |found| wrist.sin_5(&found.q).abs())
-    }
-
-    /// Search between two angles where the members exceed the limits least, or are nearest to the
-    /// seed.
-    fn look_into_valley(
-        &mut self,
-        from: &Solution<N>,
-        free: FreeJoint,
-        [low, high]: [f64; 2],
-        height: impl Fn(&OfSlots) -> f64,
-    ) -> Result<(), Error> {
-        let at = |angle| Ok(height(&self.members(from, free, angle)?.1));
-        golden_section(at, low, high).map(|_| ())
-    }
-
-    /// Search between two angles where the wrist of a slot is singular as well: there axes 4 and 6
-    /// may share their sum in any way.
-    fn look_at_wrist_between(
-        &mut self,
-        from: &Solution<N>,
-        free: FreeJoint,
-        slot: usize,
-        [low, high]: [f64; 2],
-    ) -> Result<(), Error> {
-        let wrist = |angle| {
-            let (solutions, _) = self.members(from, free, angle)?;
-            Ok(self.wrist(&solutions, slot))
-        };
-        let (angle, _) = golden_section(wrist, low, high)?;
-        let (solutions, _) = self.members(from, free, angle)?;
-        for twin in [slot, slot ^ 1] {
-            if let Some(solution) = solutions.slot(twin) {
-                self.look_at_wrist(solution);
-            }
-        }
-        Ok(())
+        // Other singularities come and go along it.
+        let all = Status::SHOULDER | Status::ELBOW | Status::WRIST;
+        Solution { q, slot, free_joint: Some(free), status: from.status & !(all & !own) }
     }
 }

@@ -6,7 +6,7 @@ use core::f64::consts::{PI, TAU};
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use crate::error::Error;
+use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::angles::wrap;
@@ -42,6 +42,23 @@ impl<const N: usize> NearestSearch<'_, N> {
         }
     }
 
+    /// Take the seed if it reaches the pose, as a solution of the branch that is next to it.
+    pub(super) fn take_seed(&mut self) {
+        let seed = *self.wanted.seed;
+        if let Some(next) = self.next_to_seed(self.known) {
+            self.take_if_met(&self.at(seed, &next), &next);
+        }
+    }
+
+    /// Return the solution that is next to the seed.
+    fn next_to_seed(&self, solutions: &Solutions<N>) -> Option<Solution<N>> {
+        let seed = self.wanted.seed;
+        let apart = |solution: &&Solution<N>| {
+            (0..N).map(|joint| wrap(solution.q[joint] - seed[joint]).powi(2)).sum::<f64>()
+        };
+        solutions.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).copied()
+    }
+
     /// Search the joints near the seed that reach the pose.
     pub(super) fn start_from_seed(&mut self, solutions: &Solutions<N>) {
         let seed = *self.wanted.seed;
@@ -51,23 +68,20 @@ impl<const N: usize> NearestSearch<'_, N> {
         {
             return;
         }
-        let apart = |solution: &&Solution<N>| {
-            (0..N).map(|joint| wrap(solution.q[joint] - seed[joint]).powi(2)).sum::<f64>()
-        };
-        if let Some(next) = solutions.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))) {
-            self.move_onto_pose(&seed, LIMIT_SLACK, next);
+        if let Some(next) = self.next_to_seed(solutions) {
+            self.move_onto_pose(&seed, LIMIT_SLACK, &next);
         }
     }
 
     /// Search along the self-motion of a solution with axis 1 at several angles, if the wrist
     /// center is on that axis as well.
-    pub(super) fn turn_other_joints(&mut self, solution: &Solution<N>) -> Result<(), Error> {
+    pub(super) fn turn_other_joints(&mut self, solution: &Solution<N>) {
         if N != 6
             || !solution
                 .singularities()
                 .contains(SingularityKind::SHOULDER | SingularityKind::ELBOW)
         {
-            return Ok(());
+            return;
         }
         let [low, high] = self.wanted.limits.to_array()[0];
         let (low, high) = (low.max(-PI), high.min(PI).max(low));
@@ -75,16 +89,15 @@ impl<const N: usize> NearestSearch<'_, N> {
             if self.best.is_some() {
                 break;
             }
-            self.others[0] = low + (high - low) * f64::from(step) / f64::from(OTHER_STEPS);
-            self.look_along_self_motion(solution, self.upper())?;
+            let mut turned = *solution;
+            turned.q[0] = low + (high - low) * f64::from(step) / f64::from(OTHER_STEPS);
+            self.self_motions = [0; MOST_SLOTS];
+            self.look_along_self_motion(&turned, self.upper());
             for part in 0..UPPER_STEPS {
-                let mut start = solution.q;
-                start[0] = self.others[0];
+                let mut start = turned.q;
                 start[1] += f64::from(part) * TAU / f64::from(UPPER_STEPS);
                 self.start_with_straight_wrist(&start, solution);
             }
         }
-        self.others = *self.wanted.seed;
-        Ok(())
     }
 }

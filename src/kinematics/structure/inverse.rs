@@ -5,6 +5,7 @@ use core::any::Any;
 use core::fmt::Debug;
 
 use super::TakeStep;
+use super::family::Family;
 use super::free_choice::FreeChoice;
 use super::lanes::{Choice, PoseRow};
 use super::singular_wrist::SingularWrist;
@@ -84,14 +85,19 @@ pub(crate) trait Inverse<const N: usize>: Any + Debug + Send + Sync {
     #[cfg(test)]
     fn without_lanes(&self) -> Arc<dyn Inverse<N>>;
 
-    // --- Until the walker of self-motions needs the chain alone: from here on. ---
+    // --- For the search of self-motions. ---
 
     fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
         None
     }
 
-    fn corners(&self, _q: &[f64; N], _free: FreeJoint) -> Option<[f64; 6]> {
-        None
+    fn with_family(
+        &self,
+        _pose: &Pose,
+        _q_and_rest: [&[f64; N]; 2],
+        _free: FreeJoint,
+        _search: &mut dyn FnMut(&dyn Family<N>),
+    ) {
     }
 
     fn member(&self, _pose: &Pose, _q: &[f64; N], _joint: usize, _value: f64) -> Option<[f64; N]> {

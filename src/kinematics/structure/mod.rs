@@ -11,6 +11,7 @@ pub(crate) mod branches;
 pub(crate) mod by_roots;
 pub(crate) mod closure;
 pub(crate) mod end_frames;
+pub(crate) mod family;
 pub(crate) mod free_choice;
 pub(crate) mod general;
 pub(crate) mod inverse;
@@ -34,6 +35,7 @@ pub(crate) mod zyz;
 use core::fmt::Debug;
 
 use branches::Branches;
+use family::Family;
 use free_choice::FreeChoice;
 use joint_map::JointMap;
 use lanes::LaneKernel;
@@ -104,18 +106,23 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     /// if slots are ordinals.
     fn slot(&self, q: &[f64; N]) -> Option<Slot>;
 
-    // --- Until the walker of self-motions needs the chain alone: from here on. ---
+    // --- For the search of self-motions. ---
 
     /// sin q5, signed, for a structure whose wrist is singular where it is zero.
     fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
         None
     }
 
-    /// The angles of the free joint, along the self-motion of `q`, between which the arm only bends
-    /// or only straightens: where it is the most bent and the least of all, and four where it may
-    /// come to an edge of reach. `None` where the elbow does not move.
-    fn corners(&self, _q: &[f64; N], _free: FreeJoint) -> Option<[f64; 6]> {
-        None
+    /// Search the self-motion of `q`, which reaches `t_first_last`, along a free joint without a
+    /// partner, if it is known in closed form; a joint that is undetermined on the way takes its
+    /// angle from `rest`.
+    fn with_family(
+        &self,
+        _t_first_last: &Pose,
+        [_q, _rest]: [&[f64; N]; 2],
+        _free: FreeJoint,
+        _search: &mut dyn FnMut(&dyn Family<N>),
+    ) {
     }
 
     /// The member of the self-motion of `q`, which reaches `t_first_last`, with a joint, from 0, at

@@ -4,6 +4,7 @@
 use alloc::sync::Arc;
 
 use super::end_frames::{EndFrames, Frame, Seen};
+use super::family::Family;
 use super::free_choice::FreeChoice;
 use super::inverse::{Inverse, RowSolve, Rows};
 use super::lanes::{Blocks, Choice, Columns, LaneKernel, PoseRow, RegularPose, Wanted};
@@ -158,14 +159,21 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Inverse<N> for Solver<T
         Arc::new(Self { lanes: None, ..self.clone() })
     }
 
-    // --- Until the walker of self-motions needs the chain alone: from here on. ---
+    // --- For the search of self-motions. ---
 
     fn sin_5(&self, q: &[f64; N]) -> Option<f64> {
         self.structure.sin_5(q)
     }
 
-    fn corners(&self, q: &[f64; N], free: FreeJoint) -> Option<[f64; 6]> {
-        self.structure.corners(q, free)
+    fn with_family(
+        &self,
+        pose: &Pose,
+        q_and_rest: [&[f64; N]; 2],
+        free: FreeJoint,
+        search: &mut dyn FnMut(&dyn Family<N>),
+    ) {
+        let t_first_last = self.end_frames.wrist_pose(pose);
+        self.structure.with_family(&t_first_last, q_and_rest, free, search);
     }
 
     fn member(&self, pose: &Pose, q: &[f64; N], joint: usize, value: f64) -> Option<[f64; N]> {

@@ -22,6 +22,7 @@ use geometry::PATTERN;
 
 use super::Structure;
 use super::branches::Branches;
+use super::family::{Family, Following, about_y, turned_back, y_to_z};
 use super::free_choice::FreeChoice;
 use super::singular_wrist::SingularWrist;
 use crate::kinematics::answer::singularity::SingularDistances;
@@ -32,7 +33,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
-use crate::report::{Pattern, UnknownStructure};
+use crate::report::{FreeJoint, Pattern, UnknownStructure};
 
 impl Structure<6, 8> for SphericalWrist {
     const PATTERN: &'static Pattern = &PATTERN;
@@ -102,6 +103,27 @@ impl Structure<6, 8> for SphericalWrist {
         let behind_axis_1 = x < -self.planar.shoulder_merge();
         let behind_lower_arm = elbow < 0.0 && !self.planar.is_straight(self.theta(q)[2]);
         Some(Slot::of_bits([behind_axis_1, behind_lower_arm, wrist < 0.0]))
+    }
+
+    fn with_family(
+        &self,
+        t_shoulder_wrist: &Pose,
+        [q, rest]: [&[f64; 6]; 2],
+        free: FreeJoint,
+        search: &mut dyn FnMut(&dyn Family<6>),
+    ) {
+        let (theta, rotation) = (self.theta(q), *t_shoulder_wrist.rotation.matrix());
+        let [theta_1, theta_2, theta_3, ..] = theta;
+        let (free, left, right) = match free {
+            FreeJoint::Base => (0, about_y(-theta_2 - theta_3), rotation),
+            FreeJoint::Upper | FreeJoint::UpperCoupled => {
+                let seen = turned_back(theta_1, &rotation);
+                (1, about_y(-theta_3) * y_to_z().transpose(), y_to_z() * seen)
+            }
+            _ => return,
+        };
+        let (map, rest) = (&self.joint_map, self.theta(rest)[3]);
+        search(&Following { map, theta, free, first: 3, left, right, rest, bit: 1 });
     }
 
     fn sin_5(&self, q: &[f64; 6]) -> Option<f64> {

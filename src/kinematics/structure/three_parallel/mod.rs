@@ -5,6 +5,7 @@
 //! in the code.
 
 mod branch;
+mod family;
 mod geometry;
 mod lanes;
 mod reaching;
@@ -17,10 +18,12 @@ pub(crate) use geometry::ThreeParallel;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use branch::Constants;
+use family::FourParallel;
 use geometry::PATTERN;
 
 use super::Structure;
 use super::branches::Branches;
+use super::family::Family;
 use super::free_choice::FreeChoice;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
@@ -111,7 +114,16 @@ impl Structure<6, 8> for ThreeParallel {
         Some(self.joint_map.theta(q)[4].sin())
     }
 
-    fn corners(&self, q: &[f64; 6], free: FreeJoint) -> Option<[f64; 6]> {
-        if free == FreeJoint::Parallel { self.corners_of_six(q) } else { None }
+    fn with_family(
+        &self,
+        t_shoulder_wrist: &Pose,
+        [q, rest]: [&[f64; 6]; 2],
+        free: FreeJoint,
+        search: &mut dyn FnMut(&dyn Family<6>),
+    ) {
+        if free == FreeJoint::Parallel {
+            let rest = FreeChoice::seed(*rest);
+            search(&FourParallel::of(self, t_shoulder_wrist, *q, &rest));
+        }
     }
 }

@@ -1,13 +1,11 @@
 //! An arm that brings its wrist to where the pose requires it, and the uncertainty that rounding
 //! leaves to it.
 
-use core::f64::consts::PI;
-
 use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::ThreeParallel;
+use super::geometry::ThreeParallel;
 use super::wrist::{PlaneUncertainty, Turn, Wrist, seen_from_plane, sin_5};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::free_choice::SeedPolicy;
@@ -158,7 +156,7 @@ impl ThreeParallel {
     }
 
     /// The elbows for the end of the planar arm (eq. 37, 38), or how far it is out of reach.
-    fn at(
+    pub(super) fn at(
         &self,
         shoulder: Shoulder,
         turn: Turn,
@@ -227,7 +225,7 @@ impl ThreeParallel {
     /// At sin theta_5 = 0 the end of the planar arm moves on a circle about the wrist (eq. 39).
     fn circle(&self, shoulder: &Shoulder, wrist: &Wrist, target: &Target<'_>) -> Option<Circle> {
         let from_axis_2 = [shoulder.x - self.planar.a1, target.wz];
-        Circle::about(self, from_axis_2, [wrist.sin_phi, wrist.cos_phi])
+        Circle::about(self, from_axis_2, [wrist.sin_phi, wrist.cos_phi], 0.0)
     }
 }
 
@@ -264,42 +262,26 @@ pub(super) struct Circle {
 }
 
 impl Circle {
-    /// About a wrist at (x, z) from axis 2, with the direction of axis 5; none where no place on it
-    /// is nearer to axis 2 than another.
+    /// About a wrist at (x, z) from axis 2, with the direction of axis 5, and the edges of reach
+    /// `beyond` the arm's [m]; none where no place on it is nearer to axis 2 than another.
     pub(super) fn about(
         arm: &ThreeParallel,
         [x, z]: [f64; 2],
         [sin_phi, cos_phi]: [f64; 2],
+        beyond: f64,
     ) -> Option<Self> {
         let PlanarArm { c2, k, .. } = arm.planar;
         let (size, both) = (x.hypot(z), 2.0 * arm.d5 * x.hypot(z));
         let cosine = |r: f64| ((size * size + arm.d5 * arm.d5 - r * r) / both).clamp(-1.0, 1.0);
         (both > 0.0).then(|| Self {
             from_line: wrap(sin_phi.atan2(cos_phi) - x.atan2(z)),
-            least: cosine(c2 - k).acos(),
-            most: cosine(c2 + k).acos(),
+            least: cosine((c2 - k).abs() - beyond).acos(),
+            most: cosine(c2 + k + beyond).acos(),
         })
     }
 
     /// How far axis 5 is from the edges of reach [rad].
     pub(super) fn edges(&self) -> [f64; 2] {
         [self.least, self.most].map(|edge| edge.copysign(self.from_line) - self.from_line)
-    }
-}
-
-impl ThreeParallel {
-    /// [`Structure::corners`](super::Structure::corners) of joint 6.
-    pub(super) fn corners_of_six(&self, q: &[f64; 6]) -> Option<[f64; 6]> {
-        let [_, theta_2, theta_3, theta_4, theta_5, _] = self.joint_map.theta(q);
-        let PlanarArm { c2, k, .. } = self.planar;
-        let (theta_23, phi) = (theta_2 + theta_3, theta_2 + theta_3 + theta_4);
-        let wrist = [
-            c2 * theta_2.sin() + k * theta_23.sin() + self.d5 * phi.sin(),
-            c2 * theta_2.cos() + k * theta_23.cos() + self.d5 * phi.cos(),
-        ];
-        let Circle { from_line, least, most } = Circle::about(self, wrist, [phi.sin(), phi.cos()])?;
-        // phi + theta_6 is fixed at theta_5 = 0, phi - theta_6 at 180 deg.
-        let sign = -self.joint_map.signs[5] * theta_5.cos().signum();
-        Some([0.0, PI, least, -least, most, -most].map(|at| q[5] + sign * (at - from_line)))
     }
 }

@@ -189,7 +189,7 @@ impl ThreeParallel {
         }
     }
 
-    fn joints(&self, shoulder: &Shoulder, elbow: &Elbow, wrist: &Wrist) -> [f64; 6] {
+    pub(super) fn joints(&self, shoulder: &Shoulder, elbow: &Elbow, wrist: &Wrist) -> [f64; 6] {
         let theta_1 = shoulder.sin_1.atan2(shoulder.cos_1);
         // phi - theta_23 (eq. 40)
         let sin_4 = wrist.sin_phi * elbow.cos_23 - wrist.cos_phi * elbow.sin_23;

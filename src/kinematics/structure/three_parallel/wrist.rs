@@ -11,7 +11,7 @@ use nalgebra::Matrix3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::ThreeParallel;
+use super::geometry::ThreeParallel;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
 use crate::kinematics::structure::planar_arm::{Shoulder, Target};
