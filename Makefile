@@ -169,6 +169,9 @@ evidence-certificates: | toolchains ## POSES (10,000,000) poses drawn to be hard
 evidence-offset-wrists: | toolchains ## JOINT_VECTORS (1000) of each set, arms with an offset wrist
 	JOINT_VECTORS=$(or $(JOINT_VECTORS),1000) cargo test --release --lib offset_wrist::tests::each_arm -- --nocapture
 
+evidence-tails: | toolchains ## POSES (2000) poses at each singularity: p50 to the most, with a peer
+	@POSES=$(or $(POSES),2000) cargo run --quiet --release --manifest-path benches/tails/Cargo.toml --target-dir target/tails
+
 evidence-hardsets: | toolchains ## Poses and paths at and near every singularity
 	$(ON_EACH_SET) IRBKIN_POSES=2000 cargo test --quiet --release --test suite -- hard_sets:: follow:: --nocapture --test-threads=1; done
 	$(ON_EACH_SET) IRBKIN_POSES=200 cargo test --quiet --release --test suite -- reach_and_paths:: --nocapture --test-threads=1; done
