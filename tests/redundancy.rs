@@ -266,6 +266,27 @@ fn at_pairs_of_singularities_nearest_is_never_farther_than_the_known_joints() {
     }
 }
 
+/// Joint 2 where axis 3 is in line with axis 1: their cosine is that of q2 - phase.
+fn in_line(robot: &Robot<7>) -> f64 {
+    let cosine = |q2: f64| {
+        let (frames, _) = robot.link_frames(&[0.0, q2, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        frames[0].rotation.matrix().column(2).dot(&frames[2].rotation.matrix().column(2))
+    };
+    cosine(FRAC_PI_2).atan2(cosine(0.0))
+}
+
+/// A circle of solutions has one angle of joint 7 there, which no sample meets; next to it the
+/// circle is a part of the curve, as narrow as that.
+#[test]
+fn with_axes_1_and_3_in_line_nearest_is_never_farther_than_the_known_joints() {
+    let off = [0.0, 1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3];
+    sweep(&arms(), &off, 9, |arm, off, rng| {
+        let mut q = arm.anywhere(rng);
+        q[1] = in_line(&arm.robot) + rng.between(-off, off);
+        q
+    });
+}
+
 /// Joints [deg] of a YuMi that bring axes 1, 3 and 5 into one line or nearly so: with any joint 7
 /// the other six move by themselves, and what reaches the pose is a surface.
 const ON_A_SURFACE: [[f64; 7]; 9] = [

@@ -1,30 +1,15 @@
 //! Joints that a pose leaves undetermined besides joint 7: at a singularity, whole self-motions
 //! reach it.
 
-use core::f64::consts::TAU;
-
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{SMatrix, SVector};
 
 use super::Search;
-use super::samples::{Sample, Samples};
+use super::samples::Sample;
 use crate::error::Error;
 use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::solve::self_motion_curve::Joints;
-
-/// The joints, from 0, for which a solve uses the given angle if the pose leaves them undetermined.
-const UNDETERMINED: [usize; 3] = [0, 4, 5];
-
-/// Angles of a joint that are tried per turn; the valley is narrowed between the neighbors of the
-/// best one.
-const PLACES: u32 = 32;
-
-/// Probes: each leaves 62 % of the interval, all of them 1e-9 rad.
-const NARROWINGS: u32 = 42;
-
-/// Fraction that divides an interval in the golden section.
-const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 /// Steps to the nearest joint vector that leaves the tool in place: each of the seven joints may
 /// reach a limit.
@@ -56,6 +41,12 @@ pub(super) struct Scaled {
     pub(super) rows: SMatrix<f64, 6, 7>,
 }
 
+/// Weights of which none is zero.
+pub(super) fn measured(weights: &[f64; 7]) -> [f64; 7] {
+    let most = weights.iter().copied().fold(0.0, f64::max);
+    weights.map(|weight| weight.max(LEAST_WEIGHT * most))
+}
+
 impl Search<'_> {
     /// Search the nearest of the joint vectors among which the undetermined joints choose, starting
     /// from a sample's.
@@ -64,22 +55,15 @@ impl Search<'_> {
             self.choose_member(sample);
             return Ok(());
         }
-        let mut best = *sample;
-        for joint in UNDETERMINED {
-            if let Some(found) = self.choose(&best.q, joint)?
-                && found.is_better_than(Some(&best))
-            {
-                best = found;
-            }
-        }
-        self.slide(best)
+        self.turn_in_line(&sample.q)?;
+        self.slide(*sample)
     }
 
     /// Move to the point nearest to the seed that leaves the tool in place, and continue from
     /// there. Several undetermined joints at once, joint 7 among them, turn about one line, so the
     /// pose determines only the sum of their angles: the first step is the last. A joint that
     /// reaches a limit is locked there.
-    fn slide(&mut self, from: Sample) -> Result<(), Error> {
+    pub(super) fn slide(&mut self, from: Sample) -> Result<(), Error> {
         let (mut best, mut weights) = (from, self.weights);
         for _ in 0..SLIDES {
             let Some(way) = self.still_tool(&best.q, &weights) else { return Ok(()) };
@@ -116,8 +100,7 @@ impl Search<'_> {
 
     /// The motions of the joints at `q` in the metric of `weights`.
     pub(super) fn scaled(&self, q: &[f64; 7], weights: &[f64; 7]) -> Option<Scaled> {
-        let most = weights.iter().copied().fold(0.0, f64::max);
-        let roots = Joints::from(weights.map(|weight| weight.max(LEAST_WEIGHT * most).sqrt()));
+        let roots = Joints::from(measured(weights).map(f64::sqrt));
         let way = (Joints::from(self.seed) - Joints::from(*q)).component_mul(&roots);
         let mut jacobian = self.robot.jacobian(q, JacobianFrame::Base);
         for mut row in jacobian.row_iter_mut() {
@@ -143,51 +126,5 @@ impl Search<'_> {
             }
         }
         first
-    }
-
-    /// The best solution over every angle of one joint; `None` if the pose determines it.
-    fn choose(&mut self, rest: &[f64; 7], joint: usize) -> Result<Option<Sample>, Error> {
-        let step = TAU / f64::from(PLACES);
-        let (here, next) = (self.with(rest, joint, 0.0)?, self.with(rest, joint, step)?);
-        if here.slots.iter().flatten().map(|sample| sample.q).eq(next
-            .slots
-            .iter()
-            .flatten()
-            .map(|sample| sample.q))
-        {
-            return Ok(None);
-        }
-        let (mut middle, mut best) = (0.0, here.best());
-        for place in 1..PLACES {
-            let turn = f64::from(place) * step;
-            let found = self.with(rest, joint, turn)?.best();
-            if found
-                .is_some_and(|found| !best.is_some_and(|best| best.is_better_than(Some(&found))))
-            {
-                (middle, best) = (turn, found);
-            }
-        }
-        let (mut low, mut high) = (middle - step, middle + step);
-        for _ in 0..NARROWINGS {
-            let probe = if high - middle > middle - low {
-                middle + GOLDEN * (high - middle)
-            } else {
-                middle - GOLDEN * (middle - low)
-            };
-            let found = self.with(rest, joint, probe)?.best();
-            if found.is_some_and(|found| found.is_better_than(best.as_ref())) {
-                *(if probe > middle { &mut low } else { &mut high }) = middle;
-                (middle, best) = (probe, found);
-            } else {
-                *(if probe > middle { &mut high } else { &mut low }) = probe;
-            }
-        }
-        Ok(best)
-    }
-
-    fn with(&mut self, rest: &[f64; 7], joint: usize, turn: f64) -> Result<Samples, Error> {
-        let mut rest = *rest;
-        rest[joint] += turn;
-        self.samples(&rest)
     }
 }

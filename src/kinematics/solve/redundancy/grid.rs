@@ -56,12 +56,14 @@ impl Search<'_> {
         let Some(marks) = self.marks() else { return Ok(()) };
         self.bisections = BISECTIONS;
         let mut left = self.samples_at(marks.angles[0])?;
+        self.at_edge(&left)?;
         let mut seen = [Samples::NONE, left];
         for (low, high) in marks.pairs() {
             if high <= low {
                 continue;
             }
             let right = self.samples_at(high)?;
+            self.at_edge(&right)?;
             let is_unreachable = self.are_named && self.samples_at(0.5 * (low + high))?.are_none();
             if is_unreachable {
                 // The edges may touch: the only reachable angle is then the mark itself.

@@ -4,12 +4,13 @@
 //! docs/theory/spherical_shoulder.md, section 5, has the method and its guarantees. [`grid`]
 //! samples joint 7 between the edges of reach, [`descent`] descends the valleys of the cost that it
 //! finds, [`crossing`] continues on the other branch where the curve nearly crosses itself, and
-//! [`free_joints`] and [`members`] choose the joints that a pose leaves undetermined.
+//! [`in_line`], [`free_joints`] and [`members`] choose the joints that a pose leaves undetermined.
 
 mod crossing;
 mod descent;
 mod free_joints;
 mod grid;
+mod in_line;
 mod members;
 mod samples;
 
@@ -31,7 +32,7 @@ use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::solve::self_motion_curve::{Joints, SelfMotion};
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::solver::Solver;
-use crate::kinematics::structure::spherical_shoulder::{EDGES, SphericalShoulder};
+use crate::kinematics::structure::spherical_shoulder::{EDGES, SINGULAR_ANGLES, SphericalShoulder};
 use crate::kinematics::thresholds::{
     JOINT_7_FINER_SPACING, JOINT_7_SPACING, POSITION_ROUNDING, ROTATION_ROUNDING,
 };
@@ -117,6 +118,14 @@ impl Robot<7> {
         self.shoulder_solver().map_or([None; EDGES], edges)
     }
 
+    /// The angles of joint 7 at which axes 1 and 3 may be in line [rad].
+    fn singular_angles_of_joint_7(&self, pose: &Pose) -> [Option<f64>; SINGULAR_ANGLES] {
+        let angles = |solver: &Solver<SphericalShoulder, 7, 8>| {
+            solver.structure.singular_angles_of_joint_7(&solver.end_frames.wrist_pose(pose))
+        };
+        self.shoulder_solver().map_or([None; SINGULAR_ANGLES], angles)
+    }
+
     fn shoulder_solver(&self) -> Option<&Solver<SphericalShoulder, 7, 8>> {
         let inverse: &dyn Any = self.inverse()?;
         inverse.downcast_ref()
@@ -198,6 +207,7 @@ impl Search<'_> {
             chosen.for_each(|sample| self.choose_member(sample));
         }
         self.between_edges(JOINT_7_SPACING)?;
+        self.at_singular_angles()?;
         if self.best.is_none() && self.missed.shortfall == 0.0 && self.uncertain > 0 {
             self.between_edges(JOINT_7_FINER_SPACING)?;
         }

@@ -1,5 +1,5 @@
-//! Joint 7: the angles at which an elbow or a wrist is at the edge of its reach
-//! (docs/theory/spherical_shoulder.md, section 5).
+//! Joint 7: the angles at which an elbow or a wrist is at the edge of its reach, and those at which
+//! axes 1 and 3 may be in line (docs/theory/spherical_shoulder.md, section 5).
 
 use core::f64::consts::{FRAC_PI_4, PI};
 
@@ -10,14 +10,25 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::SphericalShoulder;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::thresholds::TOUCHING;
+use crate::kinematics::thresholds::{FORM_TOLERANCE, TOUCHING};
 
 /// Largest number of edges: four of the elbow, four zeros and three stationary points for each sign
 /// of the wrist.
-pub(crate) const EDGES: usize = 4 + 2 * (4 + 3);
+pub(crate) const EDGES: usize = 4 + 2 * MOST_ANGLES;
 
-/// A length, or the square of one, that changes with joint 7: `mean + cos cos(theta_7) + sin
-/// sin(theta_7)` (eq. 69, 70).
+/// Largest number of angles at which axes 1 and 3 may be in line, with the upper arm either way.
+pub(crate) const SINGULAR_ANGLES: usize = 2 * MOST_ANGLES;
+
+/// Distance of two axes [m], and sine of their angle [1], up to which the curve of self-motion is
+/// found from where they would be in line. Farther off, samples of joint 7 are bisected where the
+/// joints turn.
+pub(crate) const NEARLY_IN_LINE: f64 = 3e-3;
+
+/// Largest number of angles at which a quartic is zero or stationary.
+const MOST_ANGLES: usize = 4 + 3;
+
+/// A length, a cosine, or the square of a length that changes with joint 7: `mean + cos
+/// cos(theta_7) + sin sin(theta_7)` (eq. 69, 70).
 #[derive(Clone, Copy)]
 struct Wave {
     mean: f64,
@@ -26,6 +37,12 @@ struct Wave {
 }
 
 impl Wave {
+    const ZERO: Self = Self::constant(0.0);
+
+    const fn constant(mean: f64) -> Self {
+        Self { mean, cos: 0.0, sin: 0.0 }
+    }
+
     /// `direction . Rz(theta_7) point + constant`
     fn of(direction: &Vector3<f64>, point: &Vector3<f64>, constant: f64) -> Self {
         Self {
@@ -35,8 +52,8 @@ impl Wave {
         }
     }
 
-    fn at(&self, theta: f64) -> f64 {
-        let (sin, cos) = theta.sin_cos();
+    /// The value at an angle of this sine and cosine.
+    fn at(&self, (sin, cos): (f64, f64)) -> f64 {
         self.mean + self.cos * cos + self.sin * sin
     }
 
@@ -96,20 +113,75 @@ impl SphericalShoulder {
             edges.copy_from_slice(&reach2.angles_at(reach * reach));
         }
         // The wrists merge (eq. 73).
-        let cosine = reach2.plus(-1.0, &Wave { mean: upper2 + forearm2, cos: 0.0, sin: 0.0 });
-        let zero = Wave { mean: 0.0, cos: 0.0, sin: 0.0 };
-        let cosine = zero.plus(0.5 / (links.upper * links.forearm), &cosine);
-        let tilt = Wave { mean: links.a4, cos: 0.0, sin: 0.0 }
-            .plus(links.a4 * links.upper / links.forearm, &cosine);
-        for (edges, side) in of_wrist.chunks_mut(7).zip([1.0, -1.0]) {
-            let [first, second] = [
-                zero.plus(links.forearm / links.upper, &tilt.plus(side, &along_6)),
-                zero.plus(links.c5, &cosine),
-            ];
-            edges.copy_from_slice(&circle(&first, &second, links.c5));
+        let cosine = reach2.plus(-1.0, &Wave::constant(upper2 + forearm2));
+        let cosine = Wave::ZERO.plus(0.5 / (links.upper * links.forearm), &cosine);
+        let tilt = Wave::constant(links.a4).plus(links.a4 * links.upper / links.forearm, &cosine);
+        let radius = Wave::constant(links.c5);
+        for (edges, side) in of_wrist.chunks_mut(MOST_ANGLES).zip([1.0, -1.0]) {
+            let first = Wave::ZERO.plus(links.forearm / links.upper, &tilt.plus(side, &along_6));
+            let second = Wave::ZERO.plus(links.c5, &cosine);
+            edges.copy_from_slice(&angles_of(&[
+                (1.0, first, first),
+                (1.0, second, second),
+                (-1.0, radius, radius),
+            ]));
         }
+        edges.map(|theta| self.joint_7(theta))
+    }
+
+    /// The angles of joint 7 [rad], in (-pi, pi], at which axis 3 may be in line with axis 1 (eq.
+    /// 73c), for the frame of joint 7 before its rotation.
+    pub(crate) fn singular_angles_of_joint_7(
+        &self,
+        t_shoulder_seven: &Pose,
+    ) -> [Option<f64>; SINGULAR_ANGLES] {
+        let links = &self.links;
+        let (reach2, along_6) = self.waves(t_shoulder_seven);
+        // n, Z, yw and K of eq. 73a to 73c: lean, height, across and half.
+        let axis_1 = t_shoulder_seven.rotation.inverse_transform_vector(&Vector3::z());
+        let t_hand_seven = self.t_seven_hand.inverse();
+        let (turn, shift) = (t_hand_seven.rotation.matrix(), t_hand_seven.translation.vector);
+        let lean = Wave::of(&turn.row(1).transpose(), &axis_1, 0.0);
+        let height = t_shoulder_seven.translation.vector.z;
+        let height = Wave::of(&-turn.tr_mul(&shift), &axis_1, height);
+        let across = Wave::ZERO.plus(-1.0, &along_6);
+        let squares = links.forearm * links.forearm - links.upper * links.upper;
+        let half = Wave::ZERO.plus(0.5, &reach2.plus(-1.0, &Wave::constant(squares)));
+        let [sine, cosine] = links.psi.map(|part| links.product() * part);
+        let nearly = NEARLY_IN_LINE * links.upper * (links.upper + links.forearm);
+        let mut singular = [None; SINGULAR_ANGLES];
+        for (singular, up) in singular.chunks_mut(MOST_ANGLES).zip([1.0, -1.0]) {
+            let [lean, height] = [&lean, &height].map(|wave| Wave::ZERO.plus(up, wave));
+            let straight = Wave::ZERO.plus(links.c5, &across).plus(-cosine, &lean);
+            let half = half.plus(-links.c3, &height);
+            if links.a3.abs().max(links.a4.abs()) <= FORM_TOLERANCE {
+                singular[..2].copy_from_slice(&straight.angles_at(0.0));
+            } else {
+                let along = Wave::ZERO.plus(sine, &height).plus(links.a4, &reach2);
+                let aside = Wave::constant(sine).plus(links.a4, &height);
+                singular.copy_from_slice(&angles_of(&[
+                    (1.0, half, straight),
+                    (links.a3, lean, along),
+                    (-links.a3, across, aside),
+                ]));
+            }
+            // The forearm must reach, too (eq. 73a).
+            let reaches = |theta: &f64| {
+                let [half, reach2, height] =
+                    [half, reach2, height].map(|wave| wave.at(theta.sin_cos()));
+                let wide = (reach2 - height * height).max(0.0).sqrt();
+                (half.abs() - (links.a3 * wide).abs()).abs() <= nearly
+            };
+            for angle in singular {
+                *angle = self.joint_7(angle.filter(reaches));
+            }
+        }
+        singular
+    }
+
+    fn joint_7(&self, theta: Option<f64>) -> Option<f64> {
         let (sign, offset) = (self.joint_map.signs[6], self.joint_map.offsets[6]);
-        edges.map(|theta| theta.map(|theta| wrap(sign * (theta + offset))))
+        theta.map(|theta| wrap(sign * (theta + offset)))
     }
 
     /// The square of the distance of the shoulder from the intersection of axes 5 and 6 (eq. 69)
@@ -129,32 +201,37 @@ impl SphericalShoulder {
     }
 }
 
-/// The angles at which `first^2 + second^2 = radius^2`, and those at which the two sides just
-/// touch.
-fn circle(first: &Wave, second: &Wave, radius: f64) -> [Option<f64>; 7] {
-    let off = |theta: f64| first.at(theta).powi(2) + second.at(theta).powi(2) - radius * radius;
-    // Angles are measured from opposite to where the sides differ most: the tangent of half the
-    // angle stays small.
-    let far = (0..8)
-        .map(|eighth| f64::from(eighth) * FRAC_PI_4)
-        .max_by(|a, b| off(*a).abs().total_cmp(&off(*b).abs()))
-        .unwrap_or(0.0);
-    let start = far + PI;
-    let [a, b] = [first.from(start).parabola(), second.from(start).parabola()];
-    let square = |[low, middle, high]: [f64; 3]| {
-        [
-            low * low,
-            2.0 * low * middle,
-            2.0 * low * high + middle * middle,
-            2.0 * middle * high,
-            high * high,
-        ]
+/// A factor and two waves, which are multiplied.
+type Product = (f64, Wave, Wave);
+
+/// The angles at which a sum of products is zero, and those at which it just touches zero.
+fn angles_of(sum: &[Product]) -> [Option<f64>; MOST_ANGLES] {
+    let parts = |theta: f64| {
+        let at = theta.sin_cos();
+        sum.iter().map(move |(factor, a, b)| factor * a.at(at) * b.at(at))
     };
-    let (a, b, c) = (square(a), square(b), square([radius, 0.0, radius]));
-    let places = places(&core::array::from_fn(|power| a[power] + b[power] - c[power]));
+    let off = |theta: f64| parts(theta).sum::<f64>();
+    // Angles are measured from opposite to where the sum is largest: the tangent of half the angle
+    // stays small.
+    let eighths = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0].map(|eighth| {
+        let theta = eighth * FRAC_PI_4;
+        (off(theta).abs(), theta)
+    });
+    let (_, far) = eighths.into_iter().fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
+    let start = far + PI;
+    let mut quartic = [0.0; 5];
+    for (factor, a, b) in sum {
+        let [a, b] = [a, b].map(|wave| wave.from(start).parabola());
+        for (power, coefficient) in quartic.iter_mut().enumerate() {
+            let lowest = power.saturating_sub(2);
+            *coefficient +=
+                (lowest..=power.min(2)).map(|i| factor * a[i] * b[power - i]).sum::<f64>();
+        }
+    }
+    let places = places(&quartic);
     let angle = |t: f64| start + 2.0 * t.atan();
-    let size = off(far).abs() + radius * radius;
-    let mut found = [None; 7];
+    let size = parts(far).map(f64::abs).sum::<f64>();
+    let mut found = [None; MOST_ANGLES];
     let (zeros, touching) = found.split_at_mut(4);
     zeros.copy_from_slice(&places.zeros.map(|t| t.map(angle)));
     touching.copy_from_slice(

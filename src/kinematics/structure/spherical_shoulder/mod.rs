@@ -13,7 +13,7 @@ mod solve;
 mod wrist;
 
 pub(crate) use geometry::SphericalShoulder;
-pub(crate) use joint_7::EDGES;
+pub(crate) use joint_7::{EDGES, NEARLY_IN_LINE, SINGULAR_ANGLES};
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};

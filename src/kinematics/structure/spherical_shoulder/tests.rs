@@ -9,6 +9,7 @@ use super::*;
 use crate::kinematics::answer::status::Status;
 use crate::kinematics::chain::Chain;
 use crate::kinematics::pose::PoseDifference;
+use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
 use crate::kinematics::structure::known::solver_of;
@@ -165,6 +166,28 @@ fn a_free_joint_takes_the_given_angle() {
     }
     assert!(moved > 10 * poses(), "{moved}");
 }
+
+#[test]
+fn axes_1_and_3_are_in_line_at_one_of_the_singular_angles_of_joint_7() {
+    let mut rng = Rng::new(34);
+    let mut asked = 0;
+    for arm in arms() {
+        for _ in 0..10 * poses() {
+            let Some(theta) = arm.arm.at(&Place::of(At::Shoulder, 0.0), &mut rng) else { break };
+            let q = arm.arm.q(theta);
+            let t_shoulder_seven = arm.solver.end_frames.wrist_pose(&arm.chain.fk(&q));
+            let angles = arm.solver.structure.singular_angles_of_joint_7(&t_shoulder_seven);
+            let off = angles.into_iter().flatten().map(|angle| wrap(angle - q[6]).abs());
+            let off = off.fold(f64::INFINITY, f64::min);
+            assert!(off < IN_LINE, "{}: {off:e} {q:?}", arm.name);
+            asked += 1;
+        }
+    }
+    assert_eq!(asked, 40 * poses());
+}
+
+/// Precision of an angle at which a quartic may have a double zero [rad].
+const IN_LINE: f64 = 1e-7;
 
 fn self_motion_closes(
     arm: &Solved,
