@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use super::at_roots::AtSplit;
-use super::geometry::RootKind;
+use super::geometry::{General, RootKind};
 use super::split::{SPLITS, Split};
 use crate::kinematics::structure::by_roots::{
     ByRoots as _, NOISE_OF_SIZE, certifies, quasi_random, regular_of, size_of,
@@ -112,20 +112,26 @@ pub(super) fn chosen(
     }
     let kept = Arc::new(kept);
     let roots = match is_mostly_regular(&AtSplit::new(closure, &kept, 0), RANDOM) {
-        _ if has_pairs => RootKind::Pairs(certifying(&kept, closure, first).clamp(1, 2)),
+        _ if has_pairs => {
+            let first: Vec<_> = first.iter().map(|(last, _)| *last).collect();
+            RootKind::Pairs(certifying(&kept, closure, &first).take(2).count().max(1))
+        }
         true => RootKind::Regular,
         false => RootKind::Irregular,
     };
     (kept, roots)
 }
 
-/// Return how many splits certify one of some poses, at least.
-fn certifying(splits: &Arc<Vec<Split>>, closure: &Closure, poses: &[(Frame, [f64; 6])]) -> usize {
-    let certifies_one = |number: &usize| {
+/// The splits that certify one of some poses, at least, by number.
+fn certifying<'a>(
+    splits: &'a Arc<Vec<Split>>,
+    closure: &'a Closure,
+    poses: &'a [Frame],
+) -> impl Iterator<Item = usize> + 'a {
+    (0..splits.len()).filter(move |number| {
         let method = AtSplit::new(closure, splits, *number);
-        poses.iter().any(|(last, _)| certifies(&method, last, &mut Accepted::regular_only()))
-    };
-    (0..splits.len()).filter(certifies_one).count()
+        poses.iter().any(|last| certifies(&method, last, &mut Accepted::regular_only()))
+    })
 }
 
 /// Whether three axes behind one another are parallel.
@@ -134,24 +140,33 @@ fn has_three_parallel(links: &[Frame; 5]) -> bool {
     links.windows(2).any(|pair| pair.iter().all(is_parallel))
 }
 
-/// The splits of another arm for this one, if each proves a count and most poses are regular in the
-/// first.
+/// The splits of another arm for this one, if each proves a count and they serve it as they serve
+/// the other: as many certify a random pose, or most poses are regular in the first.
 pub(super) fn taken(
-    others: &[Split],
+    other: &General,
     links: &[Frame; 5],
     closure: &Closure,
-) -> Option<Arc<Vec<Split>>> {
-    let splits: Vec<_> = others.iter().map(|split| split.of(links)).collect();
+) -> Option<(Arc<Vec<Split>>, RootKind)> {
+    let splits: Vec<_> = other.splits.iter().map(|split| split.of(links)).collect();
     let splits = splits.iter().all(Split::is_single).then(|| Arc::new(splits))?;
-    is_mostly_regular(&AtSplit::new(closure, &splits, 0), OF_ANOTHER).then_some(splits)
+    let (serves, roots) = if let RootKind::Pairs(wanted) = other.roots {
+        let poses = random_poses(closure, OF_ANOTHER);
+        let found = certifying(&splits, closure, &poses).take(wanted).count();
+        (found == wanted, other.roots)
+    } else {
+        (is_mostly_regular(&AtSplit::new(closure, &splits, 0), OF_ANOTHER), RootKind::Regular)
+    };
+    serves.then_some((splits, roots))
+}
+
+fn random_poses(closure: &Closure, count: usize) -> Vec<Frame> {
+    (0..count).map(|index| closure.last_frame(&quasi_random(index))).collect()
 }
 
 /// Whether most of so many random poses are regular in the first split. Of an arm next
 /// to one with a spherical wrist they are not: their roots are pairs.
 fn is_mostly_regular(method: &AtSplit, poses: usize) -> bool {
-    let closure = method.closure();
-    let all: Vec<Frame> = (0..poses).map(|i| closure.last_frame(&quasi_random(i))).collect();
-    2 * regular_of(method, &all) > poses
+    2 * regular_of(method, &random_poses(method.closure(), poses)) > poses
 }
 
 fn sort(scores: &mut [(usize, usize)]) {

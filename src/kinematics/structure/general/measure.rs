@@ -1,7 +1,7 @@
 //! The constants of a general arm, from its table.
 
 use super::choice::{chosen, taken};
-use super::geometry::{General, RootKind};
+use super::geometry::General;
 use crate::kinematics::chain::corrections::about_y;
 use crate::kinematics::chain::dh::{DhRow, Mdh, screw_x};
 use crate::kinematics::chain::skew::{TiltedRow, tilted_rows};
@@ -42,11 +42,8 @@ impl General {
             Frame::of(&link).in_units(1.0 / closure.reach)
         });
         closure.check_freedom(&tilted.map(|TiltedRow { row, .. }| row))?;
-        let taken = other.and_then(|other| taken(&other.splits, &links, &closure));
-        let (splits, roots) = match taken {
-            Some(splits) => (splits, RootKind::Regular),
-            None => chosen(&links, &closure, &offsets),
-        };
+        let taken = other.and_then(|other| taken(other, &links, &closure));
+        let (splits, roots) = taken.unwrap_or_else(|| chosen(&links, &closure, &offsets));
         let joint_map = JointMap {
             signs: [1.0; 6],
             offsets,

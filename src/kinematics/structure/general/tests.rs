@@ -2,6 +2,7 @@
 
 mod attempts;
 mod company;
+mod like;
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::string::{String, ToString};
