@@ -129,6 +129,10 @@ impl SphericalShoulder {
             + wrists.error;
         let shoulder = shoulder(elbow, wrist, target, error);
         flags.set(Status::SHOULDER, shoulder.merged);
+        // Of a surface of solutions, no joint alone leads to all.
+        if usize::from(shoulder.free) + wrists.freedom > 1 {
+            branches.is_certified = false;
+        }
         let [theta_1, theta_2, theta_3] = shoulder.theta;
         let joints = |theta_1, theta_2, theta_3| {
             let hand = [elbow.sin_4.atan2(elbow.cos_4), wrist.fifth.theta, wrist.sixth.theta];

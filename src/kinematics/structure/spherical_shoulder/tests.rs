@@ -189,6 +189,27 @@ fn axes_1_and_3_are_in_line_at_one_of_the_singular_angles_of_joint_7() {
 /// Precision of an angle at which a quartic may have a double zero [rad].
 const IN_LINE: f64 = 1e-7;
 
+#[test]
+fn an_answer_that_represents_a_surface_is_not_certified() {
+    let mut rng = Rng::new(35);
+    for arm in &arms()[..2] {
+        for (straight, is_surface) in [(&[1][..], false), (&[3], false), (&[1, 3], true)] {
+            for _ in 0..poses() {
+                // Axes 1, 3 and 5 are in one line if joints 2 and 4 are straight.
+                let mut theta: [f64; 7] = rng.angles();
+                for joint in straight {
+                    theta[*joint] = 0.0;
+                }
+                let q = arm.arm.q(theta);
+                let rest = FreeChoice::rest([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, q[6]]);
+                let branches = arm.solve(&arm.chain.fk(&q), &rest);
+                assert!(branches.q.iter().any(Option::is_some));
+                assert_eq!(branches.is_certified, !is_surface, "{}: {q:?}", arm.name);
+            }
+        }
+    }
+}
+
 fn self_motion_closes(
     arm: &Solved,
     pose: &Pose,

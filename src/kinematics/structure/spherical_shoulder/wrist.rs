@@ -24,8 +24,9 @@ pub(super) struct Wrist {
 pub(super) struct Wrists {
     pub(super) first: Wrist,
     pub(super) second: Option<Wrist>,
-    /// The joint that the pose leaves undetermined.
+    /// The joint that the pose leaves undetermined, and how many it does.
     pub(super) free: Option<FreeJoint>,
+    pub(super) freedom: usize,
     /// How far rounding may rotate the upper arm [rad].
     pub(super) error: f64,
 }
@@ -58,7 +59,8 @@ impl Links {
                 on_6(elbow, target, aside, rounding)
             };
             let free = Some(if on_axis_5 { FreeJoint::Forearm } else { FreeJoint::Hand });
-            return Ok(Wrists { first, second: None, free, error });
+            let freedom = usize::from(on_axis_5) + usize::from(on_axis_6);
+            return Ok(Wrists { first, second: None, free, freedom, error });
         }
         let both = |aside: f64| Wrist {
             fifth: fifth(elbow, target, aside),
@@ -68,6 +70,7 @@ impl Links {
             first: both(aside),
             second: (aside > 0.0).then(|| both(-aside)),
             free: None,
+            freedom: 0,
             error,
         })
     }
