@@ -343,5 +343,6 @@ pub(crate) const REFINED_TRACK: f64 = 5e-3;
 /// Distance of the offsets of a tool down to which a plan refines them [m].
 pub(crate) const REFINED_OFFSET: f64 = 5e-4;
 
-/// How far rounding may raise the bottleneck of a step, relative to it [1].
-pub(crate) const BOTTLENECK_ROUNDING: f64 = 1e-12;
+/// How far rounding may raise the cost of a step, relative to it [1]: that of joint angles, 1e-15
+/// rad, in steps of a millionth of a radian.
+pub(crate) const BOTTLENECK_ROUNDING: f64 = 1e-9;

@@ -97,6 +97,8 @@ pub enum StrandReason {
     },
     /// It ends at a singularity or at the edge of reach: other branches reach that pose.
     Ended,
+    /// The bound on the work was reached before the motion to that pose was known to be continuous.
+    Unknown,
     /// The caller's own test rejected it.
     Rejected,
     /// It does not lead to the joint angles that were asked for at the end.
@@ -189,6 +191,9 @@ impl fmt::Display for StrandReason {
                 }
             }
             Self::Ended => f.write_str("the branch has ended, other branches reach this pose"),
+            Self::Unknown => f.write_str(
+                "the search was given up before the motion to this pose was known to be continuous",
+            ),
             Self::Rejected => f.write_str("rejected by accept"),
             Self::NotAtEnd => f.write_str("does not lead to the joint angles at the end"),
         }

@@ -1,22 +1,22 @@
 //! The best joint path through the layers: how wide its windows need to be, and the turns of which
 //! joints need to be counted; the best closed one (docs/guide/plan.md, sections 3, 6).
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
 use super::answer::PlanError;
-use super::graph::{Node, Window};
+use super::graph::Node;
 use super::joints::TurnStates;
-use super::ladder::{Ladder, Most};
+use super::ladder::Ladder;
 use super::lanes::Pass;
 use super::options::PlanOrder;
 use super::search::{Bound, Passed, Search, SlotReach};
+use super::windows::Windows;
 use crate::kinematics::thresholds::BOTTLENECK_ROUNDING;
 use crate::lanes::nearest_whole;
 
-/// How much wider the next window may be than one that was too narrow.
-const WIDER: usize = 4;
+/// Difference in the room to joint limits that is none, as a part of half a range [1].
+const SAME_ROOM: f64 = 1e-6;
 
 /// A joint path through layers, by its nodes.
 #[derive(Clone, Debug)]
@@ -90,12 +90,49 @@ impl Ladder<'_> {
     ) -> Result<Option<JointPath>, PlanError> {
         loop {
             let Some(bounds) = self.bounds(from, states) else { return Ok(None) };
-            let Some(found) = self.found(from, states, bounds)? else { return Ok(None) };
-            match self.with_turns(found, from, states) {
-                Ok(path) => return Ok(Some(path)),
+            let mut ties = self.found(from, states, bounds)?.into_iter();
+            let Some(best) = ties.next() else { return Ok(None) };
+            match self.with_turns(best, from, states) {
+                Ok(path) => {
+                    let others = ties.filter_map(|tie| self.with_turns(tie, from, states).ok());
+                    return Ok(Some(self.with_most_room(path, others)));
+                }
                 Err(joint) => states.add(joint, self.joints)?,
             }
         }
+    }
+
+    /// Of joint paths that cost the same, the one that leaves the most room to joint limits; if they
+    /// leave the same, the one nearest to the middle of the ranges.
+    fn with_most_room(
+        &self,
+        path: JointPath,
+        others: impl Iterator<Item = JointPath>,
+    ) -> JointPath {
+        let limited = || (0..6).filter(|joint| !self.joints.is_unlimited(*joint));
+        let rooms = |path: &JointPath| {
+            let (mut room, mut off) = (1.0_f64, 0.0);
+            for q in &path.q {
+                for joint in limited() {
+                    let [lower, upper] = self.joints.limits(joint);
+                    let (middle, half) = (0.5 * (lower + upper), 0.5 * (upper - lower));
+                    let own = (q[joint] - middle).abs();
+                    room = room.min(1.0 - own / half);
+                    off += own;
+                }
+            }
+            (room, off)
+        };
+        let mut best = (rooms(&path), path);
+        for path in others {
+            let (room, off) = rooms(&path);
+            let (most, least) = best.0;
+            let is_nearer = off < least * (1.0 - BOTTLENECK_ROUNDING);
+            if room > most + SAME_ROOM || (room > most - SAME_ROOM && is_nearer) {
+                best = ((room, off), path);
+            }
+        }
+        best.1
     }
 
     /// The best closed joint path through all layers, if there is one.
@@ -113,6 +150,7 @@ impl Ladder<'_> {
             loop {
                 for bound in open.drain(..) {
                     let found = self.found(0, states, [bound; 2])?;
+                    let found = found.into_iter().next();
                     regions.extend(found.map(|found| Region { bound, found }));
                 }
                 let cost = |region: &Region| {
@@ -159,24 +197,8 @@ impl Ladder<'_> {
         from: usize,
         states: &TurnStates,
         [first, last]: [Bound; 2],
-    ) -> Result<Option<Found>, PlanError> {
-        // Beyond, every edge is too fast.
-        let widest = if self.speed.is_finite() {
-            self.windows(Most::Bottleneck(self.speed))
-        } else {
-            vec![self.grid.full_window(); self.layers.len()]
-        };
-        let needed_for = |most: f64| {
-            let needed = self.windows(match self.order {
-                PlanOrder::Bottleneck => Most::Bottleneck(most),
-                PlanOrder::Sum => Most::Sum(most),
-            });
-            combined(&needed, &widest, usize::min)
-        };
-        let mut windows = match self.expected {
-            Some(expected) => needed_for(expected),
-            None => combined(&widest, &widest, |size, _| size.min(1)),
-        };
+    ) -> Result<Vec<Found>, PlanError> {
+        let mut windows = Windows::new(*self);
         let pass = match self.order {
             PlanOrder::Bottleneck => Pass::Bottleneck,
             PlanOrder::Sum => Pass::Squares,
@@ -185,32 +207,29 @@ impl Ladder<'_> {
         let (least, slots) = loop {
             let search = Search { ladder: *self, states, windows: &windows, first, last };
             let passed = search.pass(pass, from, to, self.speed).ok_or(PlanError::Stopped)?;
-            let cheapest = search.cheapest(&passed);
+            let cheapest = search.cheapest(&passed).first().map(|end| end.cost);
             let reached = passed.reached;
             // Where branches end shows when the search went farthest.
             let farthest = ends.clone().unwrap_or_else(|| passed.slots.clone());
-            if let Some((_, _, cost)) = cheapest.filter(|_| reached == to) {
-                let needed = needed_for(cost);
-                let wider = combined(&windows, &needed, usize::max);
-                if wider == windows {
+            if let Some(cost) = cheapest.filter(|_| reached == to) {
+                if windows.hold_all(cost, from + 1..=to) {
                     if self.order == PlanOrder::Sum {
-                        return Ok(self.traced(&search, &passed, from, farthest, None));
+                        return Ok(self.traced(&search, &passed, from, &farthest, None));
                     }
-                    windows = needed;
+                    windows.hold_only(cost);
                     break (cost, farthest);
                 }
-                windows = wider;
-            } else if windows != widest {
-                let wider = combined(&windows, &windows, |size, _| WIDER * size.max(1));
-                windows = combined(&wider, &widest, usize::min);
+                windows.hold(cost);
+            } else if windows.widen(from + 1..=to.min(reached + 1)) {
+                continue;
             } else if self.whole {
-                return Ok(None);
+                return Ok(Vec::new());
             } else {
                 // Paths that miss the given end go as far as the layer before it.
                 let before = if reached == to { to.checked_sub(1) } else { Some(reached) };
                 let is_none = |before: usize| before < from || (reached == to && to == from);
                 let Some(before) = before.filter(|before| !is_none(*before)) else {
-                    return Ok(None);
+                    return Ok(Vec::new());
                 };
                 (to, ends) = (before, Some(farthest));
             }
@@ -218,22 +237,29 @@ impl Ladder<'_> {
         let search = Search { ladder: *self, states, windows: &windows, first, last };
         let cap = least * (1.0 + BOTTLENECK_ROUNDING);
         let passed = search.pass(Pass::Squares, from, to, cap).ok_or(PlanError::Stopped)?;
-        Ok(self.traced(&search, &passed, from, slots, Some(least)))
+        Ok(self.traced(&search, &passed, from, &slots, Some(least)))
     }
 
-    /// The joint path to the cheapest node that was reached.
+    /// The joint paths to the cheapest nodes that were reached, of each branch that costs the same.
     fn traced(
         &self,
         search: &Search<'_>,
         passed: &Passed,
         from: usize,
-        slots: Vec<SlotReach>,
+        slots: &[SlotReach],
         bottleneck: Option<f64>,
-    ) -> Option<Found> {
-        let (number, end, squares) = search.cheapest(passed)?;
-        let (nodes, begin) = search.path_to(passed, from, (number, end));
-        let bottleneck = bottleneck.unwrap_or_else(|| self.bottleneck_along(&nodes, from));
-        Some(Found { nodes, states: [begin, end], bottleneck, squares, slots })
+    ) -> Vec<Found> {
+        let ends = search.cheapest(passed);
+        let least = ends.first().map_or(0.0, |end| end.cost);
+        let ties =
+            ends.into_iter().take_while(|end| end.cost <= least * (1.0 + BOTTLENECK_ROUNDING));
+        ties.map(|end| {
+            let (nodes, begin) = search.path_to(passed, from, (end.number, end.state));
+            let bottleneck = bottleneck.unwrap_or_else(|| self.bottleneck_along(&nodes, from));
+            let (states, slots) = ([begin, end.state], slots.to_vec());
+            Found { nodes, states, bottleneck, squares: end.cost, slots }
+        })
+        .collect()
     }
 
     /// The turn of a joint at the beginning of a joint path, so that it stays inside its limits and
@@ -307,14 +333,4 @@ impl Ladder<'_> {
         }
         Ok(JointPath { from, nodes, q: rows, bottleneck, squares, slots })
     }
-}
-
-/// Windows with sizes that two have together.
-fn combined(one: &[Window], other: &[Window], size: impl Fn(usize, usize) -> usize) -> Vec<Window> {
-    let sides =
-        |own: [usize; 2], other: [usize; 2]| [0, 1].map(|side| size(own[side], other[side]));
-    let window = |(own, other): (&Window, &Window)| {
-        core::array::from_fn(|axis| sides(own[axis], other[axis]))
-    };
-    one.iter().zip(other).map(window).collect()
 }

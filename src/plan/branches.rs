@@ -13,6 +13,10 @@ use crate::kinematics::thresholds::{CONTINUOUS_STEP, CROSSING_JUMP, CROSSING_STE
 use crate::kinematics::{MOST_SLOTS, Solution, Solutions, largest, nearest_turn};
 use crate::lanes::{Column, Kernel, LANES, nearest_whole, run};
 
+/// How many times farther than the nearest joint angles others have to be, so that these are on the
+/// same branch without a doubt [1].
+const RIVAL: f64 = 4.0;
+
 /// The joint angles of each slot at one pose.
 type Slots = [Option<[f64; 6]>; MOST_SLOTS];
 
@@ -66,7 +70,7 @@ impl Arm<'_> {
             let beside = beside.map(|beside| slots(grid, layer, beside));
             let follow = |slot: usize, q: &[f64; 6]| {
                 let nodes = [Node { slot, cell }; 2];
-                let step = Step::new(grid, [before?, layer], nodes, [*q; 2]);
+                let step = Step::new(grid, [before?, layer], nodes, [self.joints.amid(q); 2]);
                 step.end(self, EXAMINED_STEP, false)
             };
             let slots_before = before.map(|before| slots(grid, before, cell));
@@ -77,8 +81,8 @@ impl Arm<'_> {
         }
     }
 
-    /// Joint angles in slots: of the nearest joint angles before, or of those that lead to them, then
-    /// of the nearest beside; the others in free slots.
+    /// Joint angles in slots: of the joint angles before that are near without a doubt, of those that
+    /// lead to them, of the nearest, then of the nearest beside; the others in free slots.
     fn joined(
         &self,
         mut own: Slots,
@@ -88,7 +92,7 @@ impl Arm<'_> {
     ) -> Slots {
         let mut joined = Slots::default();
         if let Some(before) = before {
-            self.take_nearest(&mut own, before, &mut joined);
+            self.take_nearest(&mut own, before, &mut joined, true);
             for (slot, q) in before.iter().enumerate() {
                 let Some(q) = q.filter(|_| joined[slot].is_none()) else { continue };
                 if own.iter().all(Option::is_none) {
@@ -100,9 +104,10 @@ impl Arm<'_> {
                 };
                 joined[slot] = own.iter_mut().find(|own| is_there(own)).and_then(Option::take);
             }
+            self.take_nearest(&mut own, before, &mut joined, false);
         }
         if let Some(beside) = beside {
-            self.take_nearest(&mut own, beside, &mut joined);
+            self.take_nearest(&mut own, beside, &mut joined, false);
         }
         for q in own.into_iter().flatten() {
             let is_free = |slot: &usize| joined[*slot].is_none();
@@ -118,14 +123,32 @@ impl Arm<'_> {
     }
 
     /// Take joint angles into the free slots of others, the nearest first.
-    fn take_nearest(&self, own: &mut Slots, others: &Slots, joined: &mut Slots) {
-        while let Some((from, to)) = self.nearest_pair(own, others, joined) {
+    /// If they are to be sure, only where a step is small, and smaller than any other from or to it.
+    fn take_nearest(&self, own: &mut Slots, others: &Slots, joined: &mut Slots, sure: bool) {
+        let all = *own;
+        while let Some((step, from, to)) = self.nearest_pair(own, others, joined) {
+            let rival = |one: &[f64; 6], other: &Option<[f64; 6]>| {
+                other.is_some_and(|other| largest(&self.joints.steps(one, &other)) < RIVAL * step)
+            };
+            let rivals = |one: Option<[f64; 6]>, others: &Slots| {
+                one.map_or(0, |one| others.iter().filter(|other| rival(&one, other)).count())
+            };
+            let doubtful = rivals(others[to], &all) + rivals(own[from], others) > 2;
+            if sure && (step > EXAMINED_STEP || doubtful) {
+                return;
+            }
             joined[to] = own[from].take();
         }
     }
 
-    /// The nearest pair of joint angles and of others in free slots, within one step.
-    fn nearest_pair(&self, own: &Slots, others: &Slots, taken: &Slots) -> Option<(usize, usize)> {
+    /// The nearest pair of joint angles and of others in free slots, within one step, and how far
+    /// apart it is [rad].
+    fn nearest_pair(
+        &self,
+        own: &Slots,
+        others: &Slots,
+        taken: &Slots,
+    ) -> Option<(f64, usize, usize)> {
         let mut nearest = (CROSSING_STEP, None);
         for (to, other) in others.iter().enumerate().filter(|(to, _)| taken[*to].is_none()) {
             let Some(other) = other else { continue };
@@ -133,7 +156,7 @@ impl Arm<'_> {
                 let Some(q) = q else { continue };
                 let step = largest(&self.joints.steps(other, q));
                 if step < nearest.0 {
-                    nearest = (step, Some((from, to)));
+                    nearest = (step, Some((step, from, to)));
                 }
             }
         }

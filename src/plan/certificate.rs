@@ -14,6 +14,13 @@ use crate::kinematics::{Pose, Slot, Solution, Status, largest, nearest_turn, pos
 /// How often a step is halved in search of a continuous motion: down to a millionth of it.
 pub(super) const HALVINGS: u32 = 20;
 
+/// Solves along a step, at most [1]: a motion that takes more is a jump.
+const MOST_SOLVES: usize = 4096;
+
+/// How often the distance to a singular pose is halved: to 1e-8 of a step, where a pose still
+/// determines joint angles to 1e-7 rad.
+const APPROACHES: u32 = 26;
+
 /// How much of a step its halves may have [1].
 const HALF: f64 = 0.75;
 
@@ -43,6 +50,8 @@ pub(super) enum Between {
     Elsewhere,
     /// A jump, or a part that no joint vector inside the limits reaches.
     Jump,
+    /// Not known: the work was used up.
+    Unknown,
 }
 
 /// Two nodes of neighboring layers, with joint angles whose difference is the step.
@@ -115,11 +124,42 @@ impl<'a> Step<'a> {
         })
     }
 
+    /// The joint angles that a branch tends to on the way to the end of the step at part `to`, 0 or
+    /// 1, from joint angles at part `from`. Where the arm is singular there, the pose leaves some
+    /// free: halved again and again, the distance to it leaves less and less so. Along a path on
+    /// which every pose is singular, they are those nearest to the joint angles that are given.
+    pub(super) fn limit(
+        &self,
+        arm: &Arm<'_>,
+        q: [f64; 6],
+        [from, to]: [f64; 2],
+    ) -> Option<Solution<6>> {
+        let near = |part: f64, q: &[f64; 6]| {
+            let pose = arm.work.solves().then(|| self.pose(arm, part))?;
+            arm.robot.ik_nearest(&pose, q, &[1.0; 6]).ok()
+        };
+        let end = near(to, &q)?;
+        if end.singularities().is_empty() {
+            return Some(end);
+        }
+        let (mut at, mut q) = (from, q);
+        for approach in 0..APPROACHES {
+            at = 0.5 * (at + to);
+            match near(at, &q).filter(|next| next.singularities().is_empty()) {
+                Some(next) => q = next.q,
+                None if approach == 0 => return Some(end),
+                None => break,
+            }
+        }
+        near(to, &q)
+    }
+
     /// Follow the branch from the first node to the second, in steps that are halved until they are
     /// small; a jump does not shrink.
     pub(super) fn followed(&self, arm: &Arm<'_>) -> Between {
         let bound = (self.size() / 4.0).clamp(CONTINUOUS_STEP, EXAMINED_STEP);
         match self.end(arm, bound, arm.has_names()) {
+            None if arm.work.is_done() => Between::Unknown,
             None => Between::Jump,
             Some(q) if largest(&steps(&q, &self.q[1])) <= ARRIVED => Between::Continuous,
             Some(_) => Between::Elsewhere,
@@ -138,10 +178,23 @@ impl<'a> Step<'a> {
         };
         let widest = if arm.has_names() { 1.0 } else { WIDEST_OF_ORDINALS };
         let (mut done, mut width, mut depth) = (0.0, widest, 0);
-        while done < 1.0 {
+        for _ in 0..MOST_SOLVES {
+            if done >= 1.0 {
+                return Some(q);
+            }
+            if !arm.work.solves() {
+                return None;
+            }
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
-            let nearest = arm.robot.ik_nearest(&self.pose(arm, end), &q, &[1.0; 6]);
-            let next = nearest.ok().and_then(|Solution { q: next, slot: at, .. }| {
+            let nearest = if end < 1.0 {
+                arm.robot.ik_nearest(&self.pose(arm, end), &q, &[1.0; 6]).ok()
+            } else {
+                self.limit(arm, q, [done, 1.0])
+            };
+            if nearest.is_none() {
+                arm.work.fails();
+            }
+            let next = nearest.and_then(|Solution { q: next, slot: at, .. }| {
                 let moved = largest(&steps(&q, &next));
                 let ahead = if at_folds {
                     arm.distance_of_branches(&self.pose(arm, end), &next)
@@ -163,7 +216,7 @@ impl<'a> Step<'a> {
                 None => (width, depth) = (width / 2.0, depth + 1),
             }
         }
-        Some(q)
+        None
     }
 }
 
@@ -189,9 +242,9 @@ impl Arm<'_> {
         two[1]
     }
 
-    /// The steps along nodes of `layers` that are not continuous, by the number of
-    /// the node that they lead to. Not all, if the caller stops it.
-    pub(super) fn discontinuities(
+    /// The steps along nodes of `layers` that had to be followed, by the number of the node that they
+    /// lead to; the others are continuous. Not all, if the caller stops it.
+    pub(super) fn followed(
         &self,
         grid: &Grid,
         layers: &[Layer],
@@ -200,7 +253,7 @@ impl Arm<'_> {
         /// Steps that are examined together, of named slots and of ordinals, which are followed.
         const PARTS: [usize; 2] = [512, 16];
         let has_names = self.has_names();
-        let count = PARTS[usize::from(!has_names)];
+        let count = PARTS[usize::from(!has_names)].min(nodes.len());
         let mut found = Vec::new();
         let mut solved = vec![0.0; count * grid.slots * 6];
         let mut status = vec![0; count * grid.slots];
@@ -226,9 +279,8 @@ impl Arm<'_> {
                 if has_names && step.is_halved_by(self, grid, q, status) {
                     continue;
                 }
-                match step.followed(self) {
-                    Between::Continuous => {}
-                    between => found.push((*at, between)),
+                if !layers[*at].proven.contains(&step.q) {
+                    found.push((*at, step.followed(self)));
                 }
             }
         }

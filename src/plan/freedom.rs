@@ -67,6 +67,10 @@ impl FreeAxis {
         matches!(self.motion, Motion::Rotation(_))
     }
 
+    pub(super) fn is_tilt(&self) -> bool {
+        matches!(self.motion, Motion::Tilt(_))
+    }
+
     /// The difference of two values [m, rad]: of a full turn, the shorter way round.
     pub(super) fn difference(&self, from: f64, to: f64) -> f64 {
         if self.is_cyclic { nearest_turn(to - from, 0.0) } else { to - from }
@@ -206,13 +210,27 @@ impl Freedom {
         }) && self.tilt(values) <= self.cone + LIMIT_TOLERANCE
     }
 
+    /// The nearest values inside their ranges.
+    pub(super) fn clamped(&self, values: &Values) -> Values {
+        let mut clamped = *values;
+        let shorter = (self.cone / self.tilt(values)).min(1.0);
+        for (axis, value) in self.axes.iter().zip(&mut clamped) {
+            if axis.is_tilt() {
+                *value *= shorter;
+            } else if !axis.is_cyclic {
+                *value = value.clamp(axis.range[0], axis.range[1]);
+            }
+        }
+        clamped
+    }
+
     /// How far the tool is tilted [rad].
     pub(super) fn tilt(&self, values: &Values) -> f64 {
         if self.cone == 0.0 {
             return 0.0;
         }
         let axes = self.axes.iter().zip(values);
-        let tilts = axes.filter(|(axis, _)| matches!(axis.motion, Motion::Tilt(_)));
+        let tilts = axes.filter(|(axis, _)| axis.is_tilt());
         tilts.map(|(_, value)| value * value).sum::<f64>().sqrt()
     }
 

@@ -252,7 +252,10 @@ pub(super) struct Layer {
     pub(super) crossings: Vec<Edge>,
     /// Edges from the layer before that are not continuous.
     pub(super) refused: Vec<Edge>,
-    /// Edges from the layer before with a larger bottleneck are not continuous.
+    /// Steps from the layer before, by their joint angles, that were shown to be continuous.
+    pub(super) proven: Vec<[[f64; 6]; 2]>,
+    /// Edges from the layer before with a larger bottleneck are not continuous; negative where the
+    /// work was used up before that was known.
     pub(super) cap: f64,
     /// Whether every edge from the layer before was examined.
     pub(super) is_examined: bool,
@@ -273,6 +276,7 @@ impl Layer {
             turn: None,
             crossings: Vec::new(),
             refused: Vec::new(),
+            proven: Vec::new(),
             cap: f64::INFINITY,
             is_examined: false,
         }

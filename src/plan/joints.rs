@@ -161,6 +161,16 @@ impl PlannedJoints {
         if self.is_unlimited(joint) { self.middle[joint] - whole(FREE_TURNS / 2) } else { 0 }
     }
 
+    /// Joint angles at the turns nearest to the middle of their limits: with room to both sides.
+    pub(super) fn amid(&self, q: &[f64; 6]) -> [f64; 6] {
+        core::array::from_fn(|joint| {
+            if !self.wraps[joint] || self.is_unlimited(joint) {
+                return q[joint];
+            }
+            nearest_turn(q[joint], 0.5 * (self.low[joint] + self.high[joint]))
+        })
+    }
+
     /// Whether a joint vector is inside the limits.
     pub(super) fn contain(&self, q: &[f64; 6]) -> bool {
         (0..6).all(|joint| q[joint] >= self.low[joint] && q[joint] <= self.high[joint])

@@ -84,7 +84,8 @@ impl Most {
 
 /// How far the tool may come, times a factor, if each joint and each external axis moves as far as
 /// it may.
-struct Farthest {
+#[derive(Clone)]
+pub(super) struct Farthest {
     most: Most,
     /// How far it may turn [rad].
     turn: f64,
@@ -129,16 +130,7 @@ impl Ladder<'_> {
         each.fold(0.0, f64::max)
     }
 
-    /// Windows outside of which every edge costs more than `most` (eq. 7).
-    pub(super) fn windows(&self, most: Most) -> Vec<Window> {
-        let farthest = self.farthest(most);
-        // The first layer has none before it.
-        let before = self.layers.iter().take(1).chain(self.layers);
-        let each = self.layers.iter().zip(before);
-        each.map(|(layer, before)| self.window(before, layer, &farthest)).collect()
-    }
-
-    fn farthest(&self, most: Most) -> Farthest {
+    pub(super) fn farthest(&self, most: Most) -> Farthest {
         let axes = || self.freedom.axes.iter();
         let of_axis = |axis: &FreeAxis| most.of_axis(axis.velocity, axis.weight);
         let each = self.joints.velocity.iter().zip(&self.joints.weights);
@@ -161,13 +153,12 @@ impl Ladder<'_> {
         }
     }
 
-    fn window(&self, before: &Layer, layer: &Layer, farthest: &Farthest) -> Window {
+    /// The window into a layer outside of which every edge costs more (eq. 7).
+    pub(super) fn window(&self, layer: usize, farthest: &Farthest) -> Window {
+        let (before, layer) = (&self.layers[layer - 1], &self.layers[layer]);
         let (most, cone) = (farthest.most, self.freedom.cone);
         let factor = most.factor(layer.time - before.time);
         let mut window = self.grid.full_window();
-        if self.grid.cells == 1 {
-            return window;
-        }
         let turned = layer.turn.map_or(0.0, |turn| turn.angle) + factor * farthest.turn;
         // The values of a joint vector that is given are next to its cell's.
         let has_own = before.own.or(layer.own).is_some();

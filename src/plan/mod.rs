@@ -34,13 +34,17 @@ mod nodes;
 mod best;
 mod lanes;
 mod search;
+mod windows;
+mod work;
 
-// The plan: proven between the poses, refined, or explained.
+// The plan: proven between the poses, refined and smoothed, or explained.
+mod banded;
 mod certificate;
 mod planner;
 mod reasons;
 mod refine;
 mod robot;
+mod smooth;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
 pub use axes::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};

@@ -5,10 +5,12 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::certificate::Step;
 use super::freedom::Freedom;
 use super::graph::{Grid, Layer, Node, Waypoint, turns};
 use super::joints::{NodeCost, PlannedJoints};
 use super::options::Watch;
+use super::work::Work;
 use crate::error::Error;
 use crate::kinematics::thresholds::CROSSING_STEP;
 use crate::kinematics::{Robot, Rows, Status, largest, pose_to_rows};
@@ -38,6 +40,7 @@ pub(super) struct Arm<'a> {
     pub(super) freedom: &'a Freedom,
     pub(super) node_cost: Option<NodeCost<'a>>,
     pub(super) watch: Watch<'a>,
+    pub(super) work: &'a Work,
 }
 
 impl Arm<'_> {
@@ -193,8 +196,8 @@ impl Arm<'_> {
         }
     }
 
-    /// Put the joint angles at a node that are nearest to the same node of a neighboring layer;
-    /// whether there are such.
+    /// Put the joint angles at a node that its branch tends to from the same node of a neighboring
+    /// layer; whether there are such.
     fn join(
         &self,
         grid: &Grid,
@@ -203,12 +206,16 @@ impl Arm<'_> {
         neighbor: Option<usize>,
         node: Node,
     ) -> bool {
-        let seed = neighbor.and_then(|neighbor| layers.get(neighbor));
-        let seed = seed.and_then(|layer| layer.joints(grid, node));
-        let Some(seed) = seed else { return false };
-        let at = &layers[layer];
-        let pose = self.freedom.tool(&at.pose, &at.values(grid, node.cell));
-        let Ok(nearest) = self.robot.ik_nearest(&pose, &seed, &[1.0; 6]) else { return false };
+        let beside = neighbor.and_then(|neighbor| layers.get(neighbor));
+        let seed = beside.and_then(|layer| layer.joints(grid, node));
+        let Some((beside, seed)) = beside.zip(seed) else { return false };
+        let (way, along) = if neighbor < Some(layer) {
+            ([beside, &layers[layer]], [0.0, 1.0])
+        } else {
+            ([&layers[layer], beside], [1.0, 0.0])
+        };
+        let nearest = Step::new(grid, way, [node; 2], [seed; 2]).limit(self, seed, along);
+        let Some(nearest) = nearest else { return false };
         if largest(&self.joints.steps(&seed, &nearest.q)) > CROSSING_STEP {
             return false;
         }

@@ -75,8 +75,15 @@ impl<'a> Planner<'a> {
         if count > 1 || planner.ends.first.is_none() {
             planner.ends.last = closing.as_ref().map(|given| planner.fix(count - 1, given));
         }
-        planner.solve(0..count);
+        planner.solve_all();
         Ok(planner)
+    }
+
+    /// Solve all layers, with the work that a search through them may take.
+    pub(super) fn solve_all(&mut self) {
+        self.arm.work.refill(&self.grid, self.layers.len());
+        self.solve(0..self.layers.len());
+        self.arm.work.refill(&self.grid, self.layers.len());
     }
 
     /// Solve a range of layers, and find the edges between branches at them.
@@ -140,8 +147,16 @@ impl<'a> Planner<'a> {
             let path =
                 if self.closed && from == 0 { self.closed_path()? } else { self.best_path(from)? };
             let Some(path) = path else { return Ok(None) };
+            self.arm.work.searches(&self.grid, path.nodes.len());
             let (layers, along) = (&self.layers[from..], (&path.nodes[..], &path.q[..]));
-            let open = self.arm.discontinuities(&self.grid, layers, along);
+            let mut open = self.arm.followed(&self.grid, layers, along);
+            let layers = &mut self.layers[from..];
+            open.retain(|(step, between)| {
+                if *between == Between::Continuous {
+                    layers[*step].proven.push([path.q[step - 1], path.q[*step]]);
+                }
+                *between != Between::Continuous
+            });
             if !self.arm.watch.goes_on() {
                 return Err(PlanError::Stopped);
             }
@@ -189,6 +204,10 @@ impl<'a> Planner<'a> {
         let nodes = [path.nodes[step - 1], path.nodes[step]];
         let q = [path.q[step - 1], path.q[step]];
         let depth = self.layers[layer].depth;
+        if self.arm.work.is_done() {
+            self.layers[layer].cap = -1.0;
+            return Ok(());
+        }
         if between == Between::Elsewhere && depth < HALVINGS {
             return self.split(layer, nodes, q);
         }
@@ -229,6 +248,7 @@ impl<'a> Planner<'a> {
         (after.depth, after.cap) = (middle.depth, middle.cap);
         after.is_examined = false;
         after.refused.clear();
+        after.proven.clear();
         self.layers.insert(layer, middle);
         self.solve(layer..layer + 1);
         Ok(())

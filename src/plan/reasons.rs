@@ -49,6 +49,9 @@ impl Planner<'_> {
     fn reason(&self, slot: usize, reach: &SlotReach) -> Result<StrandReason, Error> {
         let layer = reach.layer + 1;
         let (before, after) = (&self.layers[layer - 1], &self.layers[layer]);
+        if after.cap < 0.0 {
+            return Ok(StrandReason::Unknown);
+        }
         if after.of_slot(&self.grid, slot).is_empty() {
             if after.rejected.iter().any(|number| self.grid.node(*number).slot == slot) {
                 return Ok(StrandReason::Rejected);

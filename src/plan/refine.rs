@@ -12,6 +12,7 @@ use super::graph::{Grid, Layer, Node, Own, Values, Waypoint, turns};
 use super::nodes::Arm;
 use super::options::{Caller, PlanOptions, PlanOrder};
 use super::planner::Planner;
+use super::smooth::Smoothing;
 use crate::error::Error;
 use crate::kinematics::thresholds::{BOTTLENECK_ROUNDING, MOST_FREE_AXES};
 use crate::paths::Turn;
@@ -31,6 +32,13 @@ const GAIN: f64 = 0.02;
 
 /// Most searches of grids that are as fine as the one before.
 const AGAIN: usize = 8;
+
+/// How much of the cost that comes first smoothing may take [1].
+const OF_SMOOTHING: f64 = 0.1;
+
+/// Times in which joints reach their velocity limits [s], for how much acceleration counts: first
+/// that of an arm, then one with which the smooth path is nearer to the one that was searched.
+const RISES: [f64; 2] = [0.1, 0.025];
 
 /// Poses of the first, coarsest path, about.
 const FEWEST: usize = 16;
@@ -76,6 +84,7 @@ pub(super) fn coarse_to_fine<'a>(
         let Some(finer) = finer else { return Ok(None) };
         path = planner.polished(finer, caller)?;
     }
+    path = planner.smoothed(path, caller)?;
     Ok(Some((planner, path)))
 }
 
@@ -213,6 +222,46 @@ impl Planner<'_> {
         Ok(path)
     }
 
+    /// A joint path with everything that is free smoothed, proven again; the one that is given where
+    /// that is refused or its first cost would rise by more than [`OF_SMOOTHING`].
+    pub(super) fn smoothed(
+        &mut self,
+        path: JointPath,
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<JointPath, PlanError> {
+        let freedom = self.arm.freedom;
+        // A single layer has no motion, and joints that do not move need none.
+        let moves = self.layers.len() > 1 && path.bottleneck > 0.0;
+        if freedom.axes.is_empty() || !moves {
+            return Ok(path);
+        }
+        let along = self.layers.iter().zip(&path.nodes);
+        let mut values: Vec<Values> = Vec::with_capacity(self.layers.len());
+        for own in along.map(|(layer, node)| layer.values(&self.grid, node.cell)) {
+            values.push(values.last().map_or(own, |before| freedom.between(before, &own, 1.0)));
+        }
+        let most = (1.0 + OF_SMOOTHING) * path.cost(self.order).0;
+        let slower = (1.0 + OF_SMOOTHING) * path.bottleneck;
+        for rise in RISES {
+            let smoothing = Smoothing::new(self.arm, &self.layers, &path, self.order, self.closed);
+            let smooth = smoothing.smoothed(rise, values.clone(), path.q.clone());
+            let Some(smooth) = smooth else { return Ok(path) };
+            let (grid, layers) = (self.grid, core::mem::take(&mut self.layers));
+            let along = layers.iter().zip(&path.nodes).zip(smooth);
+            let middles = along.map(|((layer, node), values)| Middle {
+                values,
+                ..Middle::of(&grid, layer, *node)
+            });
+            self.band(middles, &Values::default());
+            let smooth = self.path_within(slower, caller)?;
+            if let Some(smooth) = smooth.filter(|smooth| smooth.cost(self.order).0 <= most) {
+                return Ok(smooth);
+            }
+            (self.grid, self.layers) = (grid, layers);
+        }
+        Ok(path)
+    }
+
     /// Make layers with bands of the values of the axes that have a step.
     fn band(&mut self, middles: impl Iterator<Item = Middle>, steps: &Values) {
         let counts = steps.map(|step| if step > 0.0 { WIDTH } else { 1 });
@@ -235,7 +284,7 @@ impl Planner<'_> {
             }
             self.layers.push(layer);
         }
-        self.solve(0..self.layers.len());
+        self.solve_all();
     }
 
     /// Make layers for more poses of a path, in bands around a joint path through some of them.

@@ -8,6 +8,7 @@ use super::graph::{Edge, Node, Window};
 use super::joints::{TurnStates, whole};
 use super::ladder::Ladder;
 use super::lanes::{Pass, Relaxation, Source, Target, Work};
+use super::windows::Windows;
 use crate::lanes::{LANES, run};
 
 /// Difference of two angles of a joint that may lead to another turn [rad]: a little less than half
@@ -38,7 +39,7 @@ impl Bound {
 pub(super) struct Search<'a> {
     pub(super) ladder: Ladder<'a>,
     pub(super) states: &'a TurnStates,
-    pub(super) windows: &'a [Window],
+    pub(super) windows: &'a Windows<'a>,
     pub(super) first: Bound,
     pub(super) last: Bound,
 }
@@ -61,11 +62,20 @@ pub(super) struct SlotReach {
     pub(super) nodes: Vec<usize>,
 }
 
+/// Where a joint path may end: a node with its turns, and the cost so far.
+#[derive(Clone, Copy)]
+pub(super) struct End {
+    pub(super) number: usize,
+    pub(super) state: usize,
+    pub(super) cost: f64,
+}
+
 /// A step to a layer, and how it is taken.
 struct Step<'a> {
     layer: usize,
     pass: Pass,
     cap: f64,
+    window: Window,
     /// The cost of each node of the layer, for each combination of turns; empty if none.
     node_costs: &'a [f64],
 }
@@ -109,7 +119,8 @@ impl Search<'_> {
             };
             // Edges to another turn are infinitely fast in lanes, and are left out there.
             let cap = cap.min(layers[layer].cap).min(f64::MAX);
-            let step = Step { layer, pass, cap, node_costs: &node_costs };
+            let window = self.windows.at(layer);
+            let step = Step { layer, pass, cap, window, node_costs: &node_costs };
             let mut costs = Costs { before: &before, after: &mut after, by };
             self.step(&step, &mut costs, &live, &mut work);
             self.relax_singly(&step, &mut costs);
@@ -182,20 +193,23 @@ impl Search<'_> {
         slots.iter().any(|slot| slot.layer == layer)
     }
 
-    /// The cheapest node of the layer that was reached, with its turns and its cost; of the last
-    /// layer, among those where the joint path may end.
-    pub(super) fn cheapest(&self, passed: &Passed) -> Option<(usize, usize, f64)> {
+    /// The cheapest node of each slot in the layer that was reached, the cheapest of all first; in
+    /// the last layer, of those where the joint path may end.
+    pub(super) fn cheapest(&self, passed: &Passed) -> Vec<End> {
+        let grid = self.ladder.grid;
         let is_last = passed.reached + 1 == self.ladder.layers.len();
         let bound = if is_last { self.last } else { Bound::NONE };
-        let mut best: Option<(usize, usize, f64)> = None;
+        let mut ends = vec![End { number: 0, state: 0, cost: f64::INFINITY }; grid.width];
         for (at, cost) in passed.costs.iter().enumerate() {
-            let (state, number) = (at / self.ladder.grid.len(), at % self.ladder.grid.len());
-            let is_better = *cost < best.map_or(f64::INFINITY, |(_, _, least)| least);
-            if is_better && bound.admits(number, state) {
-                best = Some((number, state, *cost));
+            let (state, number) = (at / grid.len(), at % grid.len());
+            let end = &mut ends[number % grid.width];
+            if *cost < end.cost && bound.admits(number, state) {
+                *end = End { number, state, cost: *cost };
             }
         }
-        best
+        ends.retain(|end| end.cost < f64::INFINITY);
+        ends.sort_by(|one, other| one.cost.total_cmp(&other.cost));
+        ends
     }
 
     /// The joint path to a node, from layer `from` on: its nodes, and its state at the beginning.
@@ -241,7 +255,7 @@ impl Search<'_> {
             }
             let (cell, lanes) = (block / blocks, block % blocks);
             let begin = work.sources.len();
-            for from in grid.around(cell, &self.windows[step.layer]) {
+            for from in grid.around(cell, &step.window) {
                 let block = from * blocks + lanes;
                 if live[block].contains(&true) {
                     let moved = self.ladder.moved(step.layer, [from, cell]);
@@ -311,7 +325,7 @@ impl Search<'_> {
     fn enter(&self, step: &Step<'_>, number: usize, costs: &mut Costs<'_>) {
         let Ladder { grid, layers, .. } = self.ladder;
         let node = grid.node(number);
-        for cell in grid.around(node.cell, &self.windows[step.layer]) {
+        for cell in grid.around(node.cell, &step.window) {
             let edge = [grid.number(Node { cell, ..node }), number];
             if !layers[step.layer].refused.contains(&edge) {
                 self.relax(step, edge, costs);
@@ -337,7 +351,7 @@ impl Search<'_> {
                 counted().any(|joint| (q[joint] - before[joint]).abs() > OTHER_TURN)
             })
         };
-        if grid.around(node.cell, &self.windows[step.layer]).any(is_far) {
+        if grid.around(node.cell, &step.window).any(is_far) {
             self.enter(step, number, costs);
         }
     }

@@ -15,6 +15,7 @@ use super::nodes::Arm;
 use super::options::Watch;
 use super::planner::Planner;
 use super::robot::{freedoms, waypoints};
+use super::work::Work;
 use super::{ExternalAxis, PlanError, PlanOptions, PlanOrder, ToolAxis, ToolRotation};
 use crate::kinematics::{JointLimits, Pose, Robot, largest, pose_from_euler_zyx, steps};
 use crate::paths::Turn;
@@ -269,7 +270,14 @@ fn no_wider_window_and_no_more_turns_find_a_better_path() {
         let [freedom, _] = freedoms(&options);
         let node_cost = NodeCost::new(&robot, limit_cost, singularity_cost);
         let watch = Watch::default();
-        let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom, node_cost, watch };
+        let arm = Arm {
+            robot: &robot,
+            joints: &joints,
+            freedom: &freedom,
+            node_cost,
+            watch,
+            work: &Work::default(),
+        };
         let planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
         let ladder = planner.ladder();
         // All pairs, layer by layer.
@@ -301,6 +309,17 @@ fn no_wider_window_and_no_more_turns_find_a_better_path() {
     assert!(whole >= 30, "{whole} whole paths");
 }
 
+/// The steps of a joint path that are not continuous.
+fn discontinuities(
+    arm: &Arm<'_>,
+    planner: &Planner<'_>,
+    best: &JointPath,
+) -> Vec<(usize, Between)> {
+    let mut steps = arm.followed(&planner.grid, &planner.layers, (&best.nodes, &best.q));
+    steps.retain(|(_, between)| *between != Between::Continuous);
+    steps
+}
+
 #[test]
 fn a_step_through_a_flip_is_no_continuous_one() {
     // At q5 = 0 the tool is met with q4 = 0 and with q4 = 180 deg: a flip between them is a jump.
@@ -309,7 +328,14 @@ fn a_step_through_a_flip_is_no_continuous_one() {
     let options = PlanOptions::default();
     let [freedom, _] = freedoms(&options);
     let (node_cost, watch) = (None, Watch::default());
-    let arm = Arm { robot: &robot, joints: &joints, freedom: &freedom, node_cost, watch };
+    let arm = Arm {
+        robot: &robot,
+        joints: &joints,
+        freedom: &freedom,
+        node_cost,
+        watch,
+        work: &Work::default(),
+    };
     let path: Vec<Pose> = [0.01, -0.01].map(|q5| robot.fk(&[0.2, 0.1, 0.3, 0.0, q5, 0.4])).to_vec();
     let mut planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
     // Of the branches only the two that differ by the wrist: others have no singularity there.
@@ -319,12 +345,13 @@ fn a_step_through_a_flip_is_no_continuous_one() {
     }
     let best = planner.ladder().best_path(0, &mut TurnStates::default()).unwrap().unwrap();
     assert!(best.bottleneck < 0.1, "the path through the singularity: {}", best.bottleneck);
-    assert!(arm.discontinuities(&planner.grid, &planner.layers, (&best.nodes, &best.q)).is_empty());
+    let open = discontinuities(&arm, &planner, &best);
+    assert!(open.is_empty());
     // Without the crossing, a flip is all that is left, and it is seen.
     planner.layers[1].crossings.clear();
     let best = planner.ladder().best_path(0, &mut TurnStates::default()).unwrap().unwrap();
     assert!(best.q[0].iter().zip(&best.q[1]).any(|(a, b)| (a - b).abs() > 3.0));
-    let open = arm.discontinuities(&planner.grid, &planner.layers, (&best.nodes, &best.q));
+    let open = discontinuities(&arm, &planner, &best);
     assert!(matches!(open[..], [(1, Between::Jump | Between::Elsewhere)]), "{open:?}");
 }
 

@@ -1,0 +1,128 @@
+"""Laws of plans: smooth, bounded in time, through singular poses, without arbitrary ties."""
+
+from __future__ import annotations
+
+import time
+
+import irbkin
+import numpy as np
+import pytest
+
+ROBOT = irbkin.Robot("IRB 2600-12/1.65").with_tool(irbkin.pose([0.05, 0, 0.35]))
+
+
+def weld(count: int) -> np.ndarray:
+    """A circle, the torch 30 degrees off the vertical and turning with it."""
+    return np.array(
+        [
+            irbkin.pose(
+                [1.0 + 0.15 * np.cos(angle), 0.15 * np.sin(angle), 0.5],
+                euler_zyx=[angle, np.pi - np.radians(30), 0],
+            )
+            for angle in np.linspace(0, 2 * np.pi, count)
+        ]
+    )
+
+
+def tilting(count: int) -> np.ndarray:
+    """A seam along which the torch tilts."""
+    return np.array(
+        [
+            irbkin.pose(
+                [1.0, -0.5 + part, 0.5 + 0.1 * np.sin(6 * part)],
+                euler_zyx=[0.8 * np.sin(9 * part), np.pi - 0.5 - 0.4 * np.sin(7 * part), 0],
+            )
+            for part in np.linspace(0, 1, count)
+        ]
+    )
+
+
+def duration(plan: irbkin.Plan) -> float:
+    return irbkin.trajectory.retime(plan.q, ROBOT.max_velocity, 8.0).duration
+
+
+@pytest.mark.parametrize("path", [weld, tilting])
+@pytest.mark.parametrize("order", ["bottleneck", "sum"])
+@pytest.mark.parametrize("free", ["rotation", "tolerance"])
+def test_what_is_free_never_slows_the_timed_motion_down(path, order, free):
+    options = {"rotation": 36} if free == "rotation" else {"tolerance": irbkin.ToolCone(0.2)}
+    times = []
+    # A cone on 101 poses may be refused by the certificate: that plan stays on its grid.
+    for count in (101, 401, 1601)[free == "tolerance" :]:
+        T = path(count)
+        plan = ROBOT.plan(T, order=order, **options)
+        assert plan.certified
+        times.append(duration(plan))
+        assert times[-1] <= 1.02 * duration(ROBOT.plan(T, order=order))
+    assert max(times) <= 1.1 * min(times)
+
+
+def seconds_of(call) -> float:
+    begin = time.perf_counter()
+    with pytest.raises(irbkin.PathError):
+        call()
+    return time.perf_counter() - begin
+
+
+def test_the_work_on_a_path_is_bounded():
+    robot = irbkin.Robot("GoFa 5")
+    first, last = np.radians([[176, 175, -73, 162, 25, 57], [177, 177, -63, 161, 36, 58]])
+    line = irbkin.paths.line(robot.fk(first), robot.fk(last), steps=3)
+    two = irbkin.ToolRotation(steps=2, lower=-np.radians(23), upper=np.radians(23))
+    assert seconds_of(lambda: robot.plan(line, rotation=two)) < 10
+    with pytest.raises(irbkin.PathError, match="given up"):
+        robot.plan(line, rotation=two)
+
+
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "UR5e", "GoFa 5"])
+def test_a_thousand_poses_without_a_path_take_seconds(name):
+    robot = irbkin.Robot(name)
+    T = robot.fk(np.random.default_rng(3).uniform(-2, 2, (1000, 6)))
+    assert seconds_of(lambda: robot.plan(T, rotation=5)) < 10
+
+
+def test_failing_takes_time_in_proportion_to_the_poses():
+    ends = [irbkin.pose([x, 0, 0.7], euler_zyx=[0, 2.8, 0]) for x in (0.9, 2.5)]
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+
+    def least(count):
+        T = irbkin.paths.line(*ends, steps=count)
+        return min(seconds_of(lambda: robot.plan(T)) for _ in range(3))
+
+    # Eight times as many poses: 64 times the time if it grew with the square.
+    assert least(16_000) < 24 * least(2_000)
+
+
+@pytest.mark.parametrize("name", ["UR5e", "UR3", "IRB 2600-12/1.65"])
+def test_a_line_into_and_out_of_a_wrist_singularity_has_a_plan(name):
+    robot, rng = irbkin.Robot(name), np.random.default_rng(5)
+    lower, upper = 0.9 * np.clip(robot.limits, -np.pi, np.pi).T
+    found = tried = 0
+    for _ in range(60):
+        last = rng.uniform(lower, upper)
+        last[4] = 0.0
+        first = last + rng.uniform(-0.1, 0.1, 6)
+        T = irbkin.paths.line(robot.fk(first), robot.fk(last), steps=9)
+        fine = irbkin.paths.line(T[0], T[-1], steps=4001)[:-1]
+        follows = robot.follow(fine, first)
+        if follows.breaks or np.abs(np.diff(follows.q, axis=0)).max() > 0.02:
+            continue
+        for path, options in [(T, {}), (T[::-1], {}), (T, {"start": first})]:
+            tried += 1
+            try:
+                plan = robot.plan(path, **options)
+            except irbkin.PathError:
+                continue
+            found += 1
+            assert plan.certified
+            np.testing.assert_allclose(robot.fk(plan.q), path, atol=1e-9)
+    assert tried > 60
+    assert found >= 0.97 * tried
+
+
+@pytest.mark.parametrize("count", [5, 101, 1000])
+def test_of_equal_branches_the_one_amid_its_limits_is_taken(count):
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    ends = [irbkin.pose([0.9, y, 0.7], euler_zyx=[0, 2.8, 0]) for y in (-0.3, 0.3)]
+    plan = robot.plan(irbkin.paths.line(*ends, steps=count))
+    assert np.abs(plan.q[:, 3]).max() < np.radians(20)
