@@ -1,4 +1,4 @@
-//! Least squares of unknowns that are coupled to near ones only: a banded Cholesky factorization
+//! Linear equations of unknowns that are coupled to near ones only: a banded Cholesky factorization
 //! (Golub, Van Loan, Matrix Computations, section 4.3.5).
 
 use alloc::vec;
@@ -25,20 +25,9 @@ impl Banded {
         row * (self.width + 1) + self.width + column - row
     }
 
-    /// Add the square of a sum of unknowns, `weight * (c . x)^2 / 2`, given by its coefficients `c`
-    /// of the unknowns from `first` on.
-    pub(super) fn add(&mut self, first: usize, coefficients: &[f64], weight: f64) {
-        for (row, own) in coefficients.iter().enumerate() {
-            for (column, other) in coefficients[..=row].iter().enumerate() {
-                let at = self.at(first + row, first + column);
-                self.rows[at] += weight * own * other;
-            }
-        }
-    }
-
-    /// Add to the diagonal.
-    pub(super) fn damp(&mut self, row: usize, amount: f64) {
-        let at = self.at(row, row);
+    /// Add to an element on or below the diagonal.
+    pub(super) fn add(&mut self, [row, column]: [usize; 2], amount: f64) {
+        let at = self.at(row, column);
         self.rows[at] += amount;
     }
 

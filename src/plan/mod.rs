@@ -44,6 +44,7 @@ mod planner;
 mod reasons;
 mod refine;
 mod robot;
+mod roughness;
 mod smooth;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};

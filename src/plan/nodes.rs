@@ -17,10 +17,10 @@ use crate::kinematics::{Robot, Rows, Status, largest, pose_to_rows};
 use crate::lanes::LANES;
 
 /// Poses that are solved at a time.
-const PART: usize = 512;
+pub(super) const PART: usize = 512;
 
 /// Status bits of a pose whose joint angles depend on the neighboring layers.
-const SINGULAR: Status =
+pub(super) const SINGULAR: Status =
     Status::WRIST.union(Status::SHOULDER).union(Status::ELBOW).union(Status::MERGED);
 
 /// Nodes whose joint angles depend on the neighboring layers, with their layers.

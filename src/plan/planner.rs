@@ -125,7 +125,7 @@ impl<'a> Planner<'a> {
     }
 
     /// [`Ladder::best_path`], with the turns counted that mattered before.
-    fn best_path(&mut self, from: usize) -> Result<Option<JointPath>, PlanError> {
+    pub(super) fn best_path(&mut self, from: usize) -> Result<Option<JointPath>, PlanError> {
         let mut states = core::mem::take(&mut self.states);
         let path = self.ladder().best_path(from, &mut states)?;
         self.states = states;

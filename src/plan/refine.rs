@@ -12,7 +12,7 @@ use super::graph::{Grid, Layer, Node, Own, Values, Waypoint, turns};
 use super::nodes::Arm;
 use super::options::{Caller, PlanOptions, PlanOrder};
 use super::planner::Planner;
-use super::smooth::Smoothing;
+use super::roughness::{Curve, Roughness};
 use crate::error::Error;
 use crate::kinematics::thresholds::{BOTTLENECK_ROUNDING, MOST_FREE_AXES};
 use crate::paths::Turn;
@@ -33,12 +33,10 @@ const GAIN: f64 = 0.02;
 /// Most searches of grids that are as fine as the one before.
 const AGAIN: usize = 8;
 
-/// How much of the cost that comes first smoothing may take [1].
-const OF_SMOOTHING: f64 = 0.1;
-
-/// Times in which joints reach their velocity limits [s], for how much acceleration counts: first
-/// that of an arm, then one with which the smooth path is nearer to the one that was searched.
-const RISES: [f64; 2] = [0.1, 0.025];
+/// Times in which joints reach their velocity limits [s], for how much acceleration counts, and parts
+/// of the bottleneck that velocities aim at [1]: first those of an arm, then those with which the
+/// bottleneck is less.
+const RISES: [[f64; 2]; 3] = [[0.1, 0.95], [0.1, 0.9], [0.025, 0.9]];
 
 /// Poses of the first, coarsest path, about.
 const FEWEST: usize = 16;
@@ -73,7 +71,17 @@ pub(super) fn coarse_to_fine<'a>(
     let mut path = planner.refined(path, caller)?;
     while stride > 1 {
         stride = (stride / FINER_STRIDE).max(1);
-        if planner.follow(&path, &every(points, stride)).is_err() {
+        if stride == 1
+            && options.order == PlanOrder::Bottleneck
+            && let Some(smooth) = planner.smoothed_along(&path, points, caller)?
+        {
+            return Ok(Some((planner, smooth)));
+        }
+        let mut steps = planner.steps_of_angle();
+        if !arm.freedom.axes[0].is_rotation() {
+            steps[0] = planner.finest(0);
+        }
+        if planner.follow(&path, &every(points, stride), &steps).is_err() {
             return Ok(None);
         }
         let within = match planner.middle_bottleneck(&path) {
@@ -222,30 +230,64 @@ impl Planner<'_> {
         Ok(path)
     }
 
-    /// A joint path with everything that is free smoothed, proven again; the one that is given where
-    /// that is refused or its first cost would rise by more than [`OF_SMOOTHING`].
+    /// A joint path with everything that is free smoothed and proven again, at least as good; the one
+    /// that is given where that is refused.
     pub(super) fn smoothed(
         &mut self,
         path: JointPath,
         caller: &mut Caller<'_, '_>,
     ) -> Result<JointPath, PlanError> {
+        let smooth = self.smoothed_within(&path, path.cost(self.order).0, caller)?;
+        Ok(smooth.unwrap_or(path))
+    }
+
+    /// A joint path through more poses, smoothed from ramps between the poses of one through some;
+    /// `None` where that is refused or its bottleneck larger.
+    fn smoothed_along(
+        &mut self,
+        path: &JointPath,
+        points: &[Waypoint],
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<Option<JointPath>, PlanError> {
+        let (grid, layers, expected) = (self.grid, self.layers.clone(), self.expected);
+        self.follow(path, points, &Values::default())?;
+        let ramps = self.best_path(0)?;
+        let smooth = match ramps {
+            Some(ramps) => self.smoothed_within(&ramps, ramps.bottleneck, caller)?,
+            None => None,
+        };
+        if smooth.is_none() {
+            (self.grid, self.layers, self.expected) = (grid, layers, expected);
+        }
+        Ok(smooth)
+    }
+
+    /// A joint path with everything that is free smoothed and proven again; `None` where that is
+    /// refused or the cost that comes first would be more than `most`.
+    fn smoothed_within(
+        &mut self,
+        path: &JointPath,
+        most: f64,
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<Option<JointPath>, PlanError> {
         let freedom = self.arm.freedom;
         // A single layer has no motion, and joints that do not move need none.
         let moves = self.layers.len() > 1 && path.bottleneck > 0.0;
         if freedom.axes.is_empty() || !moves {
-            return Ok(path);
+            return Ok(None);
         }
         let along = self.layers.iter().zip(&path.nodes);
         let mut values: Vec<Values> = Vec::with_capacity(self.layers.len());
         for own in along.map(|(layer, node)| layer.values(&self.grid, node.cell)) {
             values.push(values.last().map_or(own, |before| freedom.between(before, &own, 1.0)));
         }
-        let most = (1.0 + OF_SMOOTHING) * path.cost(self.order).0;
-        let slower = (1.0 + OF_SMOOTHING) * path.bottleneck;
-        for rise in RISES {
-            let smoothing = Smoothing::new(self.arm, &self.layers, &path, self.order, self.closed);
-            let smooth = smoothing.smoothed(rise, values.clone(), path.q.clone());
-            let Some(smooth) = smooth else { return Ok(path) };
+        for [rise, aim] in RISES {
+            let bottleneck = if self.order == PlanOrder::Sum { path.bottleneck } else { most };
+            let pace = [rise, aim];
+            let mut cost = Roughness::new(self.arm, &self.layers, self.order, bottleneck, pace);
+            cost.is_closed = self.closed;
+            let smooth = cost.smoothed(Curve { values: values.clone(), q: path.q.clone() });
+            let Some(smooth) = smooth else { return Ok(None) };
             let (grid, layers) = (self.grid, core::mem::take(&mut self.layers));
             let along = layers.iter().zip(&path.nodes).zip(smooth);
             let middles = along.map(|((layer, node), values)| Middle {
@@ -253,13 +295,14 @@ impl Planner<'_> {
                 ..Middle::of(&grid, layer, *node)
             });
             self.band(middles, &Values::default());
-            let smooth = self.path_within(slower, caller)?;
+            let smooth = self.path_within(most, caller)?;
+            let most = most * (1.0 + BOTTLENECK_ROUNDING);
             if let Some(smooth) = smooth.filter(|smooth| smooth.cost(self.order).0 <= most) {
-                return Ok(smooth);
+                return Ok(Some(smooth));
             }
             (self.grid, self.layers) = (grid, layers);
         }
-        Ok(path)
+        Ok(None)
     }
 
     /// Make layers with bands of the values of the axes that have a step.
@@ -288,7 +331,12 @@ impl Planner<'_> {
     }
 
     /// Make layers for more poses of a path, in bands around a joint path through some of them.
-    fn follow(&mut self, path: &JointPath, points: &[Waypoint]) -> Result<(), Error> {
+    fn follow(
+        &mut self,
+        path: &JointPath,
+        points: &[Waypoint],
+        steps: &Values,
+    ) -> Result<(), Error> {
         let turns = turns(points)?;
         let along = self.layers.iter().zip(&path.nodes).filter(|(layer, _)| layer.index.is_some());
         let known: Vec<Middle> =
@@ -305,11 +353,7 @@ impl Planner<'_> {
                 known[at].toward(&known[(at + 1).min(known.len() - 1)], point, turn, freedom)
             })
             .collect();
-        let mut steps = self.steps_of_angle();
-        if !freedom.axes[0].is_rotation() {
-            steps[0] = self.finest(0);
-        }
-        self.band(middles.into_iter(), &steps);
+        self.band(middles.into_iter(), steps);
         Ok(())
     }
 
