@@ -227,6 +227,8 @@ pub enum PlanFault {
     Open { position: f64, rotation: f64, bound: f64 },
     #[error("closed: a closed path ends at its start: give start only, or leave closed out")]
     ClosedEnd,
+    #[error("times give the pace of the path: leave them out, or max_acceleration")]
+    TimedTwice,
     #[error(
         "the joint limits allow {found:.0} combinations of turns, {most} are searched: narrow them \
          with with_limits"

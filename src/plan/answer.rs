@@ -19,13 +19,13 @@ pub struct Plan {
     /// The values of the external axes at each pose [m, rad]; none where a plan with breaks has no
     /// joint angles.
     pub external: Vec<Vec<f64>>,
-    /// The part of the tolerances that is used at each pose: the tilts about the two axes that the tool does
-    /// not point in [rad], if there is a cone, then the offset [m], if there is one.
+    /// The part of the tolerances that is used at each pose: the tilts about the two axes that the
+    /// tool does not point in [rad], if there is a cone, then the offset [m], if there is one.
     pub tolerance: Vec<Vec<f64>>,
     /// The slot of the branch at each pose.
     pub slot: Vec<Option<usize>>,
-    /// Weighted sum of the squares of all joint steps, with what being near limits and singularities
-    /// costs [rad^2].
+    /// Weighted sum of the squares of all joint steps, with what being near limits and
+    /// singularities costs [rad^2].
     pub cost: f64,
     /// The largest velocity of a joint, as a part of its limit. Without times, the time [s] that
     /// the path takes at least, if its poses are equally far apart in time.
@@ -85,8 +85,8 @@ pub enum StrandReason {
         /// Its velocity as a part of the limit.
         ratio: f64,
     },
-    /// The joint would turn while the tool does not move, or the path leads out of reach between two
-    /// poses.
+    /// The joint would turn while the tool does not move, or the path leads out of reach between
+    /// two poses.
     Jump {
         /// The joint, from 1.
         joint: usize,

@@ -156,8 +156,8 @@ pub struct ToolCone {
 }
 
 impl ToolCone {
-    /// Directions within `angle` [rad] of the direction at a pose, on a grid of `steps` tilts across: an odd
-    /// number, so that the pose itself is one of them.
+    /// Directions within `angle` [rad] of the direction at a pose, on a grid of `steps` tilts
+    /// across: an odd number, so that the pose itself is one of them.
     ///
     /// # Errors
     ///

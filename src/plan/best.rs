@@ -102,8 +102,8 @@ impl Ladder<'_> {
         }
     }
 
-    /// Of joint paths that cost the same, the one that leaves the most room to joint limits; if they
-    /// leave the same, the one nearest to the middle of the ranges.
+    /// Of joint paths that cost the same, the one that leaves the most room to joint limits; if
+    /// they leave the same, the one nearest to the middle of the ranges.
     fn with_most_room(
         &self,
         path: JointPath,
@@ -198,7 +198,7 @@ impl Ladder<'_> {
         states: &TurnStates,
         [first, last]: [Bound; 2],
     ) -> Result<Vec<Found>, PlanError> {
-        let mut windows = Windows::new(*self);
+        let mut windows = Windows::new(self);
         let pass = match self.order {
             PlanOrder::Bottleneck => Pass::Bottleneck,
             PlanOrder::Sum => Pass::Squares,
@@ -220,11 +220,10 @@ impl Ladder<'_> {
                     break (cost, farthest);
                 }
                 windows.hold(cost);
-            } else if windows.widen(from + 1..=to.min(reached + 1)) {
-                continue;
-            } else if self.whole {
-                return Ok(Vec::new());
-            } else {
+            } else if !windows.widen(from + 1..=to.min(reached + 1)) {
+                if self.whole {
+                    return Ok(Vec::new());
+                }
                 // Paths that miss the given end go as far as the layer before it.
                 let before = if reached == to { to.checked_sub(1) } else { Some(reached) };
                 let is_none = |before: usize| before < from || (reached == to && to == from);

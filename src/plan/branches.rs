@@ -1,7 +1,8 @@
-//! Branches from one layer to the next: the edges between two of them, and the order of the slots
-//! of arms whose slots are ordinals (docs/guide/plan.md, sections 1, 2).
+//! Branches from one layer to the next: the edges between two of them, the order of the slots of
+//! arms whose slots are ordinals, the limits at singular poses (docs/guide/plan.md, sections 1, 2).
 
 use alloc::vec;
+use alloc::vec::Vec;
 use core::f64::consts::TAU;
 use core::ops::Range;
 
@@ -81,8 +82,8 @@ impl Arm<'_> {
         }
     }
 
-    /// Joint angles in slots: of the joint angles before that are near without a doubt, of those that
-    /// lead to them, of the nearest, then of the nearest beside; the others in free slots.
+    /// Joint angles in slots: of the joint angles before that are near without a doubt, of those
+    /// that lead to them, of the nearest, then of the nearest beside; the others in free slots.
     fn joined(
         &self,
         mut own: Slots,
@@ -122,8 +123,8 @@ impl Arm<'_> {
         joined
     }
 
-    /// Take joint angles into the free slots of others, the nearest first.
-    /// If they are to be sure, only where a step is small, and smaller than any other from or to it.
+    /// Take joint angles into the free slots of others, the nearest first. If they are to be sure,
+    /// only where a step is small, and smaller than any other from or to it.
     fn take_nearest(&self, own: &mut Slots, others: &Slots, joined: &mut Slots, sure: bool) {
         let all = *own;
         while let Some((step, from, to)) = self.nearest_pair(own, others, joined) {
@@ -161,6 +162,57 @@ impl Arm<'_> {
             }
         }
         nearest.1
+    }
+
+    /// At singular poses, choose the joint angles on each branch that continue the layer before, or
+    /// the layer after where there are none.
+    pub(super) fn join_singular(
+        &self,
+        grid: &Grid,
+        layers: &mut [Layer],
+        singular: &[(usize, Node)],
+    ) {
+        let mut open = Vec::new();
+        for (layer, node) in singular {
+            for slot in 0..grid.slots {
+                let node = Node { slot, ..*node };
+                let before = layer.checked_sub(1);
+                if !self.join(grid, layers, *layer, before, node) {
+                    open.push((*layer, node));
+                }
+            }
+        }
+        for (layer, node) in open.into_iter().rev() {
+            self.join(grid, layers, layer, Some(layer + 1), node);
+        }
+    }
+
+    /// Put the joint angles at a node that its branch tends to from the same node of a neighboring
+    /// layer; whether there are such.
+    fn join(
+        &self,
+        grid: &Grid,
+        layers: &mut [Layer],
+        layer: usize,
+        neighbor: Option<usize>,
+        node: Node,
+    ) -> bool {
+        let beside = neighbor.and_then(|neighbor| layers.get(neighbor));
+        let seed = beside.and_then(|layer| layer.joints(grid, node));
+        let Some((beside, seed)) = beside.zip(seed) else { return false };
+        let (way, along) = if neighbor < Some(layer) {
+            ([beside, &layers[layer]], [0.0, 1.0])
+        } else {
+            ([&layers[layer], beside], [1.0, 0.0])
+        };
+        let nearest = Step::new(grid, way, [node; 2], [seed; 2]).limit(self, seed, along);
+        let Some(nearest) = nearest else { return false };
+        if largest(&self.joints.steps(&seed, &nearest.q)) > CROSSING_STEP {
+            return false;
+        }
+        let q = core::array::from_fn(|joint| self.joints.first_turn(joint, nearest.q[joint]));
+        layers[layer].put(grid, node, Some(q));
+        true
     }
 
     /// The ordinal of joint angles among the solutions of their pose.

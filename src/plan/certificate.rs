@@ -242,8 +242,8 @@ impl Arm<'_> {
         two[1]
     }
 
-    /// The steps along nodes of `layers` that had to be followed, by the number of the node that they
-    /// lead to; the others are continuous. Not all, if the caller stops it.
+    /// The steps along nodes of `layers` that had to be followed, by the number of the node that
+    /// they lead to; the others are continuous. Not all, if the caller stops it.
     pub(super) fn followed(
         &self,
         grid: &Grid,

@@ -24,8 +24,8 @@ fn long_seam(count: usize) -> Vec<Pose> {
     line(&at(-1.8), &at(1.8), Spacing::count(count).unwrap(), None).unwrap()
 }
 
-/// Every pose of a plan is met by the base and the object where its external axes are, with the tool
-/// where its angle and its tolerances say, all inside their ranges.
+/// Every pose of a plan is met by the base and the object where its external axes are, with the
+/// tool where its angle and its tolerances say, all inside their ranges.
 fn assert_meets(robot: &Robot<6>, path: &[Pose], options: &PlanOptions, plan: &Plan) {
     let z = Vector3::z_axis();
     for (index, pose) in path.iter().enumerate() {

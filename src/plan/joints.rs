@@ -117,7 +117,8 @@ impl PlannedJoints {
             && (angle - low < EITHER_END || high - angle < EITHER_END)
     }
 
-    /// Joint angles; one that may be at either end of its limits is at the end nearer to a neighbor.
+    /// Joint angles; one that may be at either end of its limits is at the end nearer to a
+    /// neighbor.
     pub(super) fn beside(&self, q: &[f64; 6], neighbor: &[f64; 6]) -> [f64; 6] {
         core::array::from_fn(|joint| {
             let step = q[joint] - neighbor[joint];

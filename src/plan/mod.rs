@@ -46,6 +46,7 @@ mod refine;
 mod robot;
 mod roughness;
 mod smooth;
+mod timed;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
 pub use axes::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};

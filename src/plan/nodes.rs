@@ -5,15 +5,13 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::certificate::Step;
 use super::freedom::Freedom;
 use super::graph::{Grid, Layer, Node, Waypoint, turns};
 use super::joints::{NodeCost, PlannedJoints};
 use super::options::Watch;
 use super::work::Work;
 use crate::error::Error;
-use crate::kinematics::thresholds::CROSSING_STEP;
-use crate::kinematics::{Robot, Rows, Status, largest, pose_to_rows};
+use crate::kinematics::{Robot, Rows, Status, pose_to_rows};
 use crate::lanes::LANES;
 
 /// Poses that are solved at a time.
@@ -41,6 +39,8 @@ pub(super) struct Arm<'a> {
     pub(super) node_cost: Option<NodeCost<'a>>,
     pub(super) watch: Watch<'a>,
     pub(super) work: &'a Work,
+    /// The only branch at the first pose; all if `None`.
+    pub(super) first_slot: Option<usize>,
 }
 
 impl Arm<'_> {
@@ -176,51 +176,5 @@ impl Arm<'_> {
                 dependent.singular.push((*layer, *node));
             }
         }
-    }
-
-    /// At singular poses, choose the joint angles on each branch that continue the layer before, or
-    /// the layer after where there are none.
-    fn join_singular(&self, grid: &Grid, layers: &mut [Layer], singular: &[(usize, Node)]) {
-        let mut open = Vec::new();
-        for (layer, node) in singular {
-            for slot in 0..grid.slots {
-                let node = Node { slot, ..*node };
-                let before = layer.checked_sub(1);
-                if !self.join(grid, layers, *layer, before, node) {
-                    open.push((*layer, node));
-                }
-            }
-        }
-        for (layer, node) in open.into_iter().rev() {
-            self.join(grid, layers, layer, Some(layer + 1), node);
-        }
-    }
-
-    /// Put the joint angles at a node that its branch tends to from the same node of a neighboring
-    /// layer; whether there are such.
-    fn join(
-        &self,
-        grid: &Grid,
-        layers: &mut [Layer],
-        layer: usize,
-        neighbor: Option<usize>,
-        node: Node,
-    ) -> bool {
-        let beside = neighbor.and_then(|neighbor| layers.get(neighbor));
-        let seed = beside.and_then(|layer| layer.joints(grid, node));
-        let Some((beside, seed)) = beside.zip(seed) else { return false };
-        let (way, along) = if neighbor < Some(layer) {
-            ([beside, &layers[layer]], [0.0, 1.0])
-        } else {
-            ([&layers[layer], beside], [1.0, 0.0])
-        };
-        let nearest = Step::new(grid, way, [node; 2], [seed; 2]).limit(self, seed, along);
-        let Some(nearest) = nearest else { return false };
-        if largest(&self.joints.steps(&seed, &nearest.q)) > CROSSING_STEP {
-            return false;
-        }
-        let q = core::array::from_fn(|joint| self.joints.first_turn(joint, nearest.q[joint]));
-        layers[layer].put(grid, node, Some(q));
-        true
     }
 }

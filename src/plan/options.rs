@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::axes::{ExternalAxis, ToolCone, ToolOffset, ToolRotation};
-use crate::error::{Error, PlanFault};
+use crate::error::{Error, MotionFault, PlanFault};
 use crate::kinematics::check_weights;
 use crate::kinematics::thresholds::MOST_EXTERNAL;
 
@@ -61,6 +61,11 @@ pub struct PlanOptions {
     /// The cost of being at one of the singularities of wrist, elbow and shoulder [rad^2/s^2];
     /// nothing of an arm whose structure does not have these.
     pub singularity_cost: f64,
+    /// Limits of the accelerations of the joints [rad/s^2], then of the external axes: then the
+    /// plan is the one whose motion takes the shortest time with
+    /// [`retime`](crate::trajectory::retime). `None`: the plan is judged at an even pace, or at its
+    /// times.
+    pub max_acceleration: Option<Vec<f64>>,
 }
 
 impl Default for PlanOptions {
@@ -80,6 +85,7 @@ impl Default for PlanOptions {
             order: PlanOrder::Bottleneck,
             limit_cost: 0.0,
             singularity_cost: 0.0,
+            max_acceleration: None,
         }
     }
 }
@@ -103,6 +109,19 @@ impl PlanOptions {
         }
         if self.closed && self.end.is_some() {
             return Err(PlanFault::ClosedEnd.into());
+        }
+        if let Some(limits) = &self.max_acceleration {
+            let (field, wanted) = ("max_acceleration", 6 + self.external.len());
+            if limits.len() != wanted {
+                return Err(Error::WrongLength { field, found: limits.len(), wanted });
+            }
+            if let Some(index) = limits.iter().position(|limit| limit.is_nan() || *limit <= 0.0) {
+                let (index, value) = (Some(index), limits[index]);
+                return Err(MotionFault::NotPositive { field, index, value }.into());
+            }
+            if self.times.is_some() {
+                return Err(PlanFault::TimedTwice.into());
+            }
         }
         let Some(times) = &self.times else { return Ok(()) };
         if times.len() != count {

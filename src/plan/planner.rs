@@ -89,6 +89,11 @@ impl<'a> Planner<'a> {
     /// Solve a range of layers, and find the edges between branches at them.
     pub(super) fn solve(&mut self, range: core::ops::Range<usize>) {
         self.arm.solve(&self.grid, &mut self.layers, range.clone());
+        if let Some(only) = self.arm.first_slot.filter(|_| range.start == 0) {
+            for number in (0..self.grid.len()).filter(|n| self.grid.node(*n).slot != only) {
+                self.layers[0].put(&self.grid, self.grid.node(number), None);
+            }
+        }
         let last = self.layers.len() - 1;
         if self.closed && range.contains(&last) {
             self.layers[last].q = self.layers[0].q.clone();

@@ -12,7 +12,6 @@ use super::graph::{Grid, Layer, Node, Own, Values, Waypoint, turns};
 use super::nodes::Arm;
 use super::options::{Caller, PlanOptions, PlanOrder};
 use super::planner::Planner;
-use super::roughness::{Curve, Roughness};
 use crate::error::Error;
 use crate::kinematics::thresholds::{BOTTLENECK_ROUNDING, MOST_FREE_AXES};
 use crate::paths::Turn;
@@ -33,11 +32,6 @@ const GAIN: f64 = 0.02;
 /// Most searches of grids that are as fine as the one before.
 const AGAIN: usize = 8;
 
-/// Times in which joints reach their velocity limits [s], for how much acceleration counts, and parts
-/// of the bottleneck that velocities aim at [1]: first those of an arm, then those with which the
-/// bottleneck is less.
-const RISES: [[f64; 2]; 3] = [[0.1, 0.95], [0.1, 0.9], [0.025, 0.9]];
-
 /// Poses of the first, coarsest path, about.
 const FEWEST: usize = 16;
 
@@ -55,12 +49,12 @@ pub(super) fn coarse_to_fine<'a>(
     options: &PlanOptions,
     caller: &mut Caller<'_, '_>,
 ) -> Result<Option<(Planner<'a>, JointPath)>, PlanError> {
-    let mut stride = 1;
-    while points.len() / (stride * FINER_STRIDE) >= FEWEST {
-        stride *= FINER_STRIDE;
-    }
-    if arm.freedom.axes.is_empty() || stride == 1 {
+    if arm.freedom.axes.is_empty() || !is_long(points) {
         return Ok(None);
+    }
+    let mut stride = 1;
+    while is_long(&points[..points.len() / stride]) {
+        stride *= FINER_STRIDE;
     }
     let ends = Given::both(&arm, points, options)?;
     // Neighbors may be half a turn apart now: the whole grid is searched instead.
@@ -96,6 +90,11 @@ pub(super) fn coarse_to_fine<'a>(
     Ok(Some((planner, path)))
 }
 
+/// Whether a path is first planned along some of its poses.
+pub(super) fn is_long(points: &[Waypoint]) -> bool {
+    points.len() / FINER_STRIDE >= FEWEST
+}
+
 /// Every so many poses of a path, and the last one.
 fn every(points: &[Waypoint], stride: usize) -> Vec<Waypoint> {
     let last = points.len() - 1;
@@ -104,11 +103,11 @@ fn every(points: &[Waypoint], stride: usize) -> Vec<Waypoint> {
 }
 
 /// A layer that is to be made, with the middle of its bands.
-struct Middle {
+pub(super) struct Middle {
     pose: crate::kinematics::Pose,
     time: f64,
     index: Option<usize>,
-    values: Values,
+    pub(super) values: Values,
     /// The slot and the joint angles of a joint vector that is given.
     given: Option<(usize, [f64; 6])>,
     depth: u32,
@@ -117,7 +116,7 @@ struct Middle {
 
 impl Middle {
     /// Where a joint path goes through a layer.
-    fn of(grid: &Grid, layer: &Layer, node: Node) -> Self {
+    pub(super) fn of(grid: &Grid, layer: &Layer, node: Node) -> Self {
         Self {
             pose: layer.pose,
             time: layer.time,
@@ -153,7 +152,7 @@ impl Planner<'_> {
 
     /// The best joint path through all layers; where the bottleneck comes first, `None` if that is
     /// larger than one that is known.
-    fn path_within(
+    pub(super) fn path_within(
         &mut self,
         bottleneck: f64,
         caller: &mut Caller<'_, '_>,
@@ -230,83 +229,8 @@ impl Planner<'_> {
         Ok(path)
     }
 
-    /// A joint path with everything that is free smoothed and proven again, at least as good; the one
-    /// that is given where that is refused.
-    pub(super) fn smoothed(
-        &mut self,
-        path: JointPath,
-        caller: &mut Caller<'_, '_>,
-    ) -> Result<JointPath, PlanError> {
-        let smooth = self.smoothed_within(&path, path.cost(self.order).0, caller)?;
-        Ok(smooth.unwrap_or(path))
-    }
-
-    /// A joint path through more poses, smoothed from ramps between the poses of one through some;
-    /// `None` where that is refused or its bottleneck larger.
-    fn smoothed_along(
-        &mut self,
-        path: &JointPath,
-        points: &[Waypoint],
-        caller: &mut Caller<'_, '_>,
-    ) -> Result<Option<JointPath>, PlanError> {
-        let (grid, layers, expected) = (self.grid, self.layers.clone(), self.expected);
-        self.follow(path, points, &Values::default())?;
-        let ramps = self.best_path(0)?;
-        let smooth = match ramps {
-            Some(ramps) => self.smoothed_within(&ramps, ramps.bottleneck, caller)?,
-            None => None,
-        };
-        if smooth.is_none() {
-            (self.grid, self.layers, self.expected) = (grid, layers, expected);
-        }
-        Ok(smooth)
-    }
-
-    /// A joint path with everything that is free smoothed and proven again; `None` where that is
-    /// refused or the cost that comes first would be more than `most`.
-    fn smoothed_within(
-        &mut self,
-        path: &JointPath,
-        most: f64,
-        caller: &mut Caller<'_, '_>,
-    ) -> Result<Option<JointPath>, PlanError> {
-        let freedom = self.arm.freedom;
-        // A single layer has no motion, and joints that do not move need none.
-        let moves = self.layers.len() > 1 && path.bottleneck > 0.0;
-        if freedom.axes.is_empty() || !moves {
-            return Ok(None);
-        }
-        let along = self.layers.iter().zip(&path.nodes);
-        let mut values: Vec<Values> = Vec::with_capacity(self.layers.len());
-        for own in along.map(|(layer, node)| layer.values(&self.grid, node.cell)) {
-            values.push(values.last().map_or(own, |before| freedom.between(before, &own, 1.0)));
-        }
-        for [rise, aim] in RISES {
-            let bottleneck = if self.order == PlanOrder::Sum { path.bottleneck } else { most };
-            let pace = [rise, aim];
-            let mut cost = Roughness::new(self.arm, &self.layers, self.order, bottleneck, pace);
-            cost.is_closed = self.closed;
-            let smooth = cost.smoothed(Curve { values: values.clone(), q: path.q.clone() });
-            let Some(smooth) = smooth else { return Ok(None) };
-            let (grid, layers) = (self.grid, core::mem::take(&mut self.layers));
-            let along = layers.iter().zip(&path.nodes).zip(smooth);
-            let middles = along.map(|((layer, node), values)| Middle {
-                values,
-                ..Middle::of(&grid, layer, *node)
-            });
-            self.band(middles, &Values::default());
-            let smooth = self.path_within(most, caller)?;
-            let most = most * (1.0 + BOTTLENECK_ROUNDING);
-            if let Some(smooth) = smooth.filter(|smooth| smooth.cost(self.order).0 <= most) {
-                return Ok(Some(smooth));
-            }
-            (self.grid, self.layers) = (grid, layers);
-        }
-        Ok(None)
-    }
-
     /// Make layers with bands of the values of the axes that have a step.
-    fn band(&mut self, middles: impl Iterator<Item = Middle>, steps: &Values) {
+    pub(super) fn band(&mut self, middles: impl Iterator<Item = Middle>, steps: &Values) {
         let counts = steps.map(|step| if step > 0.0 { WIDTH } else { 1 });
         self.grid = Grid::new(self.grid.slots, counts, *steps, [false; MOST_FREE_AXES]);
         let grid = self.grid;
@@ -331,7 +255,7 @@ impl Planner<'_> {
     }
 
     /// Make layers for more poses of a path, in bands around a joint path through some of them.
-    fn follow(
+    pub(super) fn follow(
         &mut self,
         path: &JointPath,
         points: &[Waypoint],

@@ -14,6 +14,7 @@ use super::nodes::Arm;
 use super::options::{Accept, Caller, PlanOptions, Watch};
 use super::planner::Planner;
 use super::refine::coarse_to_fine;
+use super::timed::fastest;
 use super::work::Work;
 use crate::error::{Error, ModelFault, PlanFault};
 use crate::kinematics::thresholds::{COARSEST_TOOL_STEP, PLAN_END_OFF};
@@ -29,8 +30,9 @@ impl Robot<6> {
     /// singularities; another [`PlanOrder`] puts the sum first. Both are exact over the grid of
     /// what is free, which is then refined around the best values. A path of 64 poses or more with
     /// free axes is planned along some of its poses first, then in bands around that plan. At last,
-    /// what is free is smoothed, which raises the cost that comes first by at most a tenth. Every
-    /// step is shown to be continuous between its two poses.
+    /// what is free is smoothed, which raises the bottleneck by at most 3 %, never above the one
+    /// with nothing free, and never the sum if it comes first. Every step is shown to be continuous
+    /// between its two poses.
     ///
     /// # Errors
     ///
@@ -78,9 +80,16 @@ impl Robot<6> {
         let node_cost = NodeCost::new(self, options.limit_cost, options.singularity_cost);
         let watch = caller.watch;
         let work = Work::default();
-        let arm =
-            Arm { robot: self, joints: &joints, freedom: &fine, node_cost, watch, work: &work };
+        let (robot, joints, work) = (self, &joints, &work);
+        let (freedom, first_slot) = (&fine, None);
+        let arm = Arm { robot, joints, freedom, node_cost, watch, work, first_slot };
         let points = waypoints(&path, options);
+        if let Some(limits) = &options.max_acceleration
+            && let Some((planner, path)) =
+                fastest(arm, &coarse, &points, (options, limits), caller)?
+        {
+            return Ok(planner.plan_of(&[path])?);
+        }
         let refined = coarse_to_fine(Arm { freedom: &coarse, ..arm }, &points, options, caller)?;
         if let Some((planner, path)) = refined {
             return Ok(planner.plan_of(&[path])?);
@@ -110,6 +119,9 @@ impl Robot<6> {
     }
 }
 
+/// Poses of which the last gap is searched first, and how many times more each next time.
+const FEW: usize = 16;
+
 /// The last pose from which no branch reaches the end: where the path ends, gone backward.
 fn reached_from_the_end(
     arm: Arm<'_>,
@@ -133,11 +145,19 @@ fn reached_from_the_end(
         ..options.clone()
     };
     let points = waypoints(&backward, &options);
-    let ends = Given::both(&arm, &points, &options)?;
-    let mut planner = Planner::new(arm, &points, &options, &ends)?;
-    let count = planner.layers.len();
-    let reached = planner.proven_path(0, caller)?.map_or(0, |path| path.reached() + 1);
-    Ok(path.len() - 1 - planner.index_of(reached.min(count - 1)))
+    let mut count = if options.closed { path.len() } else { FEW.min(path.len()) };
+    loop {
+        let is_whole = count == path.len();
+        let open = PlanOptions { end: options.end.filter(|_| is_whole), ..options.clone() };
+        let ends = Given::both(&arm, &points[..count], &open)?;
+        let mut planner = Planner::new(arm, &points[..count], &open, &ends)?;
+        let reached = planner.proven_path(0, caller)?.map_or(0, |path| path.reached() + 1);
+        let layers = planner.layers.len();
+        if is_whole || reached < layers {
+            return Ok(path.len() - 1 - planner.index_of(reached.min(layers - 1)));
+        }
+        count = path.len().min(FEW * count);
+    }
 }
 
 /// Everything that is free; with coarse tool angles, too.

@@ -4,6 +4,9 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::banded::Banded;
 use super::graph::{Layer, Values};
 use super::nodes::Arm;
@@ -55,8 +58,8 @@ pub(super) struct Roughness<'a> {
     parts: Vec<f64>,
     /// Factor of each coordinate: its velocity, over the whole time, becomes one at its limit.
     scale: [f64; COORDINATES],
-    /// How much the acceleration of each coordinate counts, a part of the whole time.
-    rise: [f64; COORDINATES],
+    /// How much acceleration counts, a part of the whole time.
+    rise: f64,
     /// The velocity that is aimed at.
     aim: f64,
     /// Cost of a node that [`NodeCost`](super::joints::NodeCost) gives as 1.
@@ -64,8 +67,8 @@ pub(super) struct Roughness<'a> {
 }
 
 impl<'a> Roughness<'a> {
-    /// Of curves through all layers at an even pace, for a bottleneck, the part of it that velocities
-    /// aim at, and the time in which joints reach their velocity limits [s].
+    /// Of curves through all layers at an even pace, for a bottleneck, the part of it that
+    /// velocities aim at, and the time in which joints reach their velocity limits [s].
     pub(super) fn new(
         arm: Arm<'a>,
         layers: &'a [Layer],
@@ -85,27 +88,13 @@ impl<'a> Roughness<'a> {
             }
             PlanOrder::Sum => {
                 let each = arm.joints.weights.into_iter().chain(external.iter().map(|a| a.weight));
-                (f64::INFINITY, total * total, filled(each.map(f64::sqrt)))
+                (f64::INFINITY, total * total, filled(each.map(|weight| weight.max(0.0).sqrt())))
             }
         };
-        let rise = [rise / (bottleneck * total); COORDINATES];
-        Self { arm, layers, is_closed: false, parts, scale, rise, aim, of_nodes }
-    }
-
-    /// Of curves through all layers at times [s], for velocities and accelerations of joints, then of
-    /// external axes.
-    pub(super) fn timed(
-        arm: Arm<'a>,
-        layers: &'a [Layer],
-        times: &[f64],
-        [velocity, acceleration]: [&[f64]; 2],
-        aim: f64,
-    ) -> Self {
-        let total = times[times.len() - 1] - times[0];
-        let parts = times.windows(2).map(|two| (two[1] - two[0]) / total).collect();
-        let scale = filled(velocity.iter().map(|velocity| 1.0 / (velocity * total)));
-        let rises = velocity.iter().zip(acceleration).map(|(velocity, own)| velocity / own / total);
-        let (rise, of_nodes) = (filled(rises), 1.0);
+        // The sum alone leaves no staircase, but kinks at the ends of windows.
+        let has_windows = arm.freedom.axes.iter().any(|axis| !axis.is_cyclic);
+        let is_smooth = order == PlanOrder::Sum && !has_windows;
+        let rise = if is_smooth { 0.0 } else { rise / (bottleneck * total) };
         Self { arm, layers, is_closed: false, parts, scale, rise, aim, of_nodes }
     }
 
@@ -141,7 +130,7 @@ impl<'a> Roughness<'a> {
             if layer > 0 {
                 let [one, other] = [self.parts[layer - 1], *part];
                 let mean = 0.5 * (one + other);
-                let rise = self.rise[number] / mean;
+                let rise = self.rise / mean;
                 let parts = [rise / one, -rise / one - rise / other, rise / other];
                 let value = (value - before) * rise;
                 visit(Term { layer: layer - 1, parts, value, weight: mean });
@@ -254,7 +243,9 @@ impl<'a> Roughness<'a> {
         let most = |axis: usize| MOST_STEP * self.width(axis);
         let each = step.iter().enumerate().map(|(at, step)| step.abs() / most(at % axes));
         let longest = each.fold(1.0, f64::max);
-        step.iter_mut().for_each(|step| *step /= longest);
+        for step in &mut step {
+            *step /= longest;
+        }
         Some(step)
     }
 

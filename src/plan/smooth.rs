@@ -4,10 +4,22 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::graph::Values;
-use super::nodes::{PART, SINGULAR};
+use super::answer::PlanError;
+use super::best::JointPath;
+use super::freedom::Freedom;
+use super::graph::{Grid, Layer, Values, Waypoint};
+use super::joints::TurnStates;
+use super::ladder::{Ends, Ladder};
+use super::nodes::{Arm, PART, SINGULAR};
+use super::options::{Caller, PlanOrder};
+use super::planner::Planner;
+use super::refine::Middle;
 use super::roughness::{COORDINATES, Curve, Derivatives, Roughness};
+use crate::kinematics::thresholds::BOTTLENECK_ROUNDING;
 use crate::kinematics::{largest, nearest_turn, pose_to_rows, steps};
+
+/// How much smoothing may raise a bottleneck, up to the one with nothing free [1].
+const OF_SMOOTHING: f64 = 0.03;
 
 /// Weights of the wall of velocities [1], one after the other: first the shape, then the wall.
 const WALLS: [f64; 4] = [1e2, 1e3, 1e4, 3e4];
@@ -19,13 +31,144 @@ const ROUNDS: usize = 8;
 const STEPS: usize = 6;
 
 /// Decrease of the cost below which a search for its minimum is done, relative to it [1].
-const GAIN: f64 = 1e-3;
+const GAIN: f64 = 1e-5;
 
 /// How often a step is halved until the cost decreases.
 const HALVINGS: usize = 6;
 
 /// Part of a window by which free axes move for derivatives [1].
 const DIFFERENCE: f64 = 1e-6;
+
+/// Times in which joints reach their velocity limits [s], for how much acceleration counts, and
+/// parts of the bottleneck that velocities aim at [1]: first those of an arm, then those with which
+/// the bottleneck is less.
+const PACES: [[f64; 2]; 3] = [[0.1, 0.95], [0.1, 0.9], [0.025, 0.9]];
+
+impl Planner<'_> {
+    /// A joint path with everything that is free smoothed and proven again, at least as good; where
+    /// that is refused, a little worse, but not worse than with nothing free; else the one given.
+    pub(super) fn smoothed(
+        &mut self,
+        path: JointPath,
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<JointPath, PlanError> {
+        let most = path.cost(self.order).0;
+        if self.arm.freedom.axes.is_empty() {
+            return Ok(path);
+        }
+        if self.order == PlanOrder::Sum {
+            return Ok(self.smoothed_within(&path, most, &PACES, caller)?.unwrap_or(path));
+        }
+        if let Some(smooth) = self.smoothed_within(&path, most, &PACES[..2], caller)? {
+            return Ok(smooth);
+        }
+        let raised = self.fixed_bottleneck()?.min((1.0 + OF_SMOOTHING) * most);
+        Ok(self.smoothed_within(&path, raised.max(most), &PACES, caller)?.unwrap_or(path))
+    }
+
+    /// The bottleneck with nothing free, or less; infinite if there is no joint path.
+    fn fixed_bottleneck(&self) -> Result<f64, PlanError> {
+        let freedom = Freedom::new(&[], None, None, None);
+        let arm = Arm { freedom: &freedom, ..self.arm };
+        let (grid, count) = (arm.grid(), self.layers.len());
+        let fixed = |layer: &Layer| {
+            let mut fixed = Layer::new(layer.pose, layer.time, layer.index, &grid);
+            fixed.turn = layer.turn;
+            fixed
+        };
+        let mut layers: Vec<_> = self.layers.iter().map(fixed).collect();
+        arm.solve(&grid, &mut layers, 0..count);
+        arm.find_crossings(&grid, &mut layers, 1..count);
+        let ladder = Ladder {
+            grid,
+            freedom: &freedom,
+            layers: &layers,
+            expected: None,
+            ends: Ends::default(),
+            whole: true,
+            node_cost: None,
+            ..self.ladder()
+        };
+        let path = ladder.best_path(0, &mut TurnStates::default())?;
+        Ok(path.map_or(f64::INFINITY, |path| path.bottleneck))
+    }
+
+    /// A joint path through more poses, smoothed from ramps between the poses of one through some;
+    /// `None` where that is refused or its bottleneck larger.
+    pub(super) fn smoothed_along(
+        &mut self,
+        path: &JointPath,
+        points: &[Waypoint],
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<Option<JointPath>, PlanError> {
+        let (grid, layers, expected) = (self.grid, self.layers.clone(), self.expected);
+        self.follow(path, points, &Values::default())?;
+        let ramps = self.best_path(0)?;
+        let smooth = match ramps {
+            Some(ramps) => self.smoothed_within(&ramps, ramps.bottleneck, &PACES[..2], caller)?,
+            None => None,
+        };
+        if smooth.is_none() {
+            (self.grid, self.layers, self.expected) = (grid, layers, expected);
+        }
+        Ok(smooth)
+    }
+
+    /// A joint path with everything that is free smoothed and proven again; `None` where that is
+    /// refused or the cost that comes first would be more than `most`.
+    fn smoothed_within(
+        &mut self,
+        path: &JointPath,
+        most: f64,
+        paces: &[[f64; 2]],
+        caller: &mut Caller<'_, '_>,
+    ) -> Result<Option<JointPath>, PlanError> {
+        // A single layer has no motion, and joints that do not move need none.
+        let moves = self.layers.len() > 1 && path.bottleneck > 0.0;
+        if !moves {
+            return Ok(None);
+        }
+        let curve = self.curve(path);
+        for pace in paces {
+            let bottleneck = if self.order == PlanOrder::Sum { path.bottleneck } else { most };
+            let mut cost = Roughness::new(self.arm, &self.layers, self.order, bottleneck, *pace);
+            cost.is_closed = self.closed;
+            let Some(smooth) = cost.smoothed(curve.clone()) else { return Ok(None) };
+            let (grid, layers) = self.exchange(path, smooth);
+            let smooth = self.path_within(most, caller)?;
+            let most = most * (1.0 + BOTTLENECK_ROUNDING);
+            if let Some(smooth) = smooth.filter(|smooth| smooth.cost(self.order).0 <= most) {
+                return Ok(Some(smooth));
+            }
+            (self.grid, self.layers) = (grid, layers);
+        }
+        Ok(None)
+    }
+
+    /// A joint path through all layers by what is free, cyclic axes without jumps.
+    fn curve(&self, path: &JointPath) -> Curve {
+        let mut values: Vec<Values> = Vec::with_capacity(self.layers.len());
+        for (layer, node) in self.layers.iter().zip(&path.nodes) {
+            let own = layer.values(&self.grid, node.cell);
+            let from = values.last().copied();
+            values.push(from.map_or(own, |from| self.arm.freedom.between(&from, &own, 1.0)));
+        }
+        Curve { values, q: path.q.clone() }
+    }
+
+    /// Put layers with a single cell in the place of those of a joint path; returns these.
+    fn exchange(&mut self, path: &JointPath, values: Vec<Values>) -> (Grid, Vec<Layer>) {
+        let (grid, layers) = (self.grid, core::mem::take(&mut self.layers));
+        let along = layers.iter().zip(&path.nodes).zip(values);
+        let middles = along.map(|((layer, node), values)| {
+            let mut middle = Middle::of(&grid, layer, *node);
+            middle.values = values;
+            middle
+        });
+        self.band(middles, &Values::default());
+        (grid, layers)
+    }
+}
 
 impl Roughness<'_> {
     /// The values of everything that is free, smoothed; `None` if nothing is gained.
@@ -40,7 +183,9 @@ impl Roughness<'_> {
             let wall = WALLS[round.min(WALLS.len() - 1)];
             let before = self.cost(&curve, wall);
             let even = self.minimum(&curve, wall);
-            let Some((next, after)) = self.solved_toward(&curve, &even, wall, before) else { break };
+            let Some((next, after)) = self.solved_toward(&curve, &even, wall, before) else {
+                break;
+            };
             curve = next;
             has_moved = true;
             if round >= WALLS.len() && after > (1.0 - GAIN) * before {
@@ -90,7 +235,8 @@ impl Roughness<'_> {
         next
     }
 
-    /// The curve toward another, by as much as decreases the cost, every pose solved; with the cost.
+    /// The curve toward another, by as much as decreases the cost, every pose solved; with the
+    /// cost.
     fn solved_toward(
         &self,
         curve: &Curve,
@@ -129,22 +275,17 @@ impl Roughness<'_> {
         self.layers[layer].own.is_some() || (self.is_closed && is_end)
     }
 
-    /// The joint angles of each layer with values of the free axes, on the branch of the joint angles
-    /// that they are near to; `None` where they are beyond limits, reach or a singularity.
-    fn solved(
-        &self,
-        values: impl Fn(usize) -> Values,
-        near: &[[f64; 6]],
-    ) -> Vec<Option<[f64; 6]>> {
+    /// The joint angles of each layer with values of the free axes, on the branch of the joint
+    /// angles that they are near to; `None` where they are beyond limits, reach or a singularity.
+    fn solved(&self, values: impl Fn(usize) -> Values, near: &[[f64; 6]]) -> Vec<Option<[f64; 6]>> {
         let (arm, slots) = (self.arm, self.arm.robot.slot_count());
         let mut solved = Vec::with_capacity(near.len());
         let mut q = vec![0.0; PART * slots * 6];
         let mut status = vec![0; PART * slots];
         for near in near.chunks(PART) {
             let first = solved.len();
-            let pose = |at: usize| {
-                arm.freedom.tool(&self.layers[first + at].pose, &values(first + at))
-            };
+            let pose =
+                |at: usize| arm.freedom.tool(&self.layers[first + at].pose, &values(first + at));
             let poses: Vec<_> = (0..near.len()).map(|at| pose_to_rows(&pose(at))).collect();
             arm.solve_part(&poses, &mut q, &mut status);
             let rows = q.as_chunks::<6>().0.chunks(slots).zip(status.chunks(slots));
@@ -161,8 +302,8 @@ impl Roughness<'_> {
         solved
     }
 
-    /// Of the joint angles of the slots of a pose, those nearest to others, turns included; `None` if
-    /// they are outside the limits.
+    /// Of the joint angles of the slots of a pose, those nearest to others, turns included; `None`
+    /// if they are outside the limits.
     fn nearest(&self, slots: &[[f64; 6]], near: &[f64; 6]) -> Option<[f64; 6]> {
         let mut nearest = (f64::INFINITY, [0.0; 6]);
         for slot in slots.iter().filter(|slot| !slot[0].is_nan()) {

@@ -277,6 +277,7 @@ fn no_wider_window_and_no_more_turns_find_a_better_path() {
             node_cost,
             watch,
             work: &Work::default(),
+            first_slot: None,
         };
         let planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
         let ladder = planner.ladder();
@@ -335,6 +336,7 @@ fn a_step_through_a_flip_is_no_continuous_one() {
         node_cost,
         watch,
         work: &Work::default(),
+        first_slot: None,
     };
     let path: Vec<Pose> = [0.01, -0.01].map(|q5| robot.fk(&[0.2, 0.1, 0.3, 0.0, q5, 0.4])).to_vec();
     let mut planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();

@@ -27,11 +27,12 @@ pub(super) struct Windows<'a> {
 
 impl<'a> Windows<'a> {
     /// For the cost that is expected; of neighboring values if none is.
-    pub(super) fn new(ladder: Ladder<'a>) -> Self {
+    pub(super) fn new(ladder: &Ladder<'a>) -> Self {
         let widest =
             ladder.speed.is_finite().then(|| ladder.farthest(Most::Bottleneck(ladder.speed)));
         let least = usize::from(ladder.expected.is_none());
-        let mut windows = Self { ladder, widest, holds: 0.0, needed: None, times: 1, least };
+        let mut windows =
+            Self { ladder: *ladder, widest, holds: 0.0, needed: None, times: 1, least };
         if let Some(expected) = ladder.expected {
             windows.hold(expected);
         }

@@ -162,6 +162,18 @@ def test_progress_is_shown_on_a_terminal_after_a_while(monkeypatch, capsys):
     assert capsys.readouterr().err == ""
 
 
+def test_a_long_call_shows_its_seconds_on_a_terminal(monkeypatch, capsys):
+    monkeypatch.setattr(progress, "AFTER", 0.0)
+    monkeypatch.setattr(progress, "EVERY", 0.01)
+    for is_terminal in (True, False):
+        monkeypatch.setattr(sys.stderr, "isatty", lambda shown=is_terminal: shown)
+        with progress.waiting("plan of 2 poses"):
+            time.sleep(0.1)
+        shown = capsys.readouterr().err
+        assert ("plan of 2 poses, 0 s" in shown) == is_terminal
+        assert shown.endswith("\r\x1b[K") == is_terminal
+
+
 def test_an_error_of_our_own_is_one_line(capsys, monkeypatch):
     def fail():
         raise ZeroDivisionError("of\ntwo lines")

@@ -53,7 +53,8 @@ def test_costs_hold_for_closed_paths():
     costs = {"rotation": 12, "order": "sum", "limit_cost": 5.0, "singularity_cost": 5.0}
     closed = ROBOT.plan(SEAM, closed=True, **costs)
     assert np.array_equal(closed.q[0], closed.q[-1])
-    assert closed.cost >= ROBOT.plan(SEAM, **costs).cost * (1 - 1e-12)
+    # The tool angles of both are smoothed until a round gains less than 1e-5.
+    assert closed.cost >= ROBOT.plan(SEAM, **costs).cost * (1 - 1e-5)
 
 
 @pytest.mark.parametrize("field", ["limit_cost", "singularity_cost"])

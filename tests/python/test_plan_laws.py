@@ -47,14 +47,51 @@ def duration(plan: irbkin.Plan) -> float:
 def test_what_is_free_never_slows_the_timed_motion_down(path, order, free):
     options = {"rotation": 36} if free == "rotation" else {"tolerance": irbkin.ToolCone(0.2)}
     times = []
-    # A cone on 101 poses may be refused by the certificate: that plan stays on its grid.
-    for count in (101, 401, 1601)[free == "tolerance" :]:
+    for count in (101, 401, 1601):
         T = path(count)
         plan = ROBOT.plan(T, order=order, **options)
         assert plan.certified
         times.append(duration(plan))
         assert times[-1] <= 1.02 * duration(ROBOT.plan(T, order=order))
     assert max(times) <= 1.1 * min(times)
+
+
+@pytest.mark.parametrize("path", [weld, tilting])
+@pytest.mark.parametrize("options", [{}, {"rotation": 36}, {"tolerance": irbkin.ToolCone(0.2)}])
+def test_the_plan_for_time_is_the_fastest_of_all(path, options):
+    T = path(201)
+    plan = ROBOT.plan(T, objective="time", max_acceleration=8.0, **options)
+    assert plan.certified
+    for order in ("bottleneck", "sum"):
+        assert duration(plan) <= duration(ROBOT.plan(T, order=order, **options)) + 1e-9
+    each = ROBOT.plan(T, objective="time", max_acceleration=np.full(6, 8.0), **options)
+    np.testing.assert_array_equal(each.q, plan.q)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"objective": "time"}, "needs max_acceleration"),
+        ({"max_acceleration": 8.0}, "pass that, or time the plan"),
+        ({"objective": "fast", "max_acceleration": 8.0}, 'must be "time" or None, got "fast"'),
+        ({"objective": "time", "max_acceleration": 0.0}, r"max_acceleration\[0\]"),
+        ({"objective": "time", "max_acceleration": np.ones(5)}, r"shape \(6,\), got \(5,\)"),
+        ({"objective": "time", "max_acceleration": 1.0, "times": np.arange(9.0)}, "leave them out"),
+    ],
+)
+def test_an_objective_that_does_not_fit_is_refused(options, words):
+    with pytest.raises(ValueError, match=words):
+        ROBOT.plan(weld(9), **options)
+
+
+def test_a_tolerance_never_raises_the_bottleneck():
+    for path in (weld, tilting):
+        for count in (9, 40, 101):
+            T = path(count)
+            fixed = ROBOT.plan(T).bottleneck
+            for angle in (0.01, 0.1):
+                tolerant = ROBOT.plan(T, tolerance=irbkin.ToolCone(angle))
+                assert tolerant.bottleneck <= fixed * (1 + 1e-9)
 
 
 def seconds_of(call) -> float:

@@ -65,19 +65,21 @@ def run(arguments: argparse.Namespace) -> int:
     from irbkin.cli.files import replaced
     from irbkin.cli.output import Column, table
     from irbkin.cli.postures import Postures
+    from irbkin.cli.progress import waiting
     from irbkin.errors import PathError
 
     robot = read_robot(arguments)
     poses = read_path(arguments, robot)
     try:
-        plan = robot.plan(
-            poses,
-            rotation=arguments.rotation,
-            start=_end(arguments, "start", robot),
-            end=_end(arguments, "end", robot),
-            closed=arguments.closed,
-            carrier=_track(arguments.track),
-        )
+        with waiting(f"plan of {len(poses):,} poses"):
+            plan = robot.plan(
+                poses,
+                rotation=arguments.rotation,
+                start=_end(arguments, "start", robot),
+                end=_end(arguments, "end", robot),
+                closed=arguments.closed,
+                carrier=_track(arguments.track),
+            )
     except PathError as error:
         complain(error)
         return FOUND

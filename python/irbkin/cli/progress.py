@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
+import threading
 import time
+from collections.abc import Iterator
 
 AFTER = 1.0
 """How long work must take before it is shown [s]."""
@@ -40,3 +43,26 @@ class Progress:
             part = min(self._done / self.total, 1.0)
             line = f"[{'#' * round(WIDTH * part):{WIDTH}}] {part:4.0%}  {line}"
         print(f"\r\x1b[K{line}", end="", file=sys.stderr, flush=True)
+
+
+@contextlib.contextmanager
+def waiting(what: str) -> Iterator[None]:
+    """Show how long one call takes, where stderr is a terminal; leave an empty line."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    is_done, began = threading.Event(), time.monotonic()
+
+    def show() -> None:
+        while not is_done.wait(EVERY):
+            if (seconds := time.monotonic() - began) >= AFTER:
+                print(f"\r\x1b[K{what}, {seconds:.0f} s", end="", file=sys.stderr, flush=True)
+
+    thread = threading.Thread(target=show, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        is_done.set()
+        thread.join()
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
