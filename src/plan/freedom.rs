@@ -119,6 +119,15 @@ impl Freedom {
         Self { axes, external: external.len(), cone }
     }
 
+    /// The tool as the path gives it, or as near to that as it may be.
+    pub(super) fn with_fixed_tool(mut self) -> Self {
+        for axis in &mut self.axes[self.external..] {
+            let fixed = 0.0_f64.clamp(axis.range[0], axis.range[1]);
+            (axis.range, axis.steps, axis.is_cyclic) = ([fixed; 2], 1, false);
+        }
+        self
+    }
+
     /// The whole grid, for a number of slots.
     pub(super) fn grid(&self, slots: usize) -> Grid {
         let (mut counts, mut cyclic) = ([1; MOST_FREE_AXES], [false; MOST_FREE_AXES]);

@@ -77,6 +77,7 @@ impl Robot<6> {
             _ => joints,
         };
         let [fine, coarse] = freedoms(options);
+        let fixed = coarse.clone().with_fixed_tool();
         let node_cost = NodeCost::new(self, options.limit_cost, options.singularity_cost);
         let watch = caller.watch;
         let work = Work::default();
@@ -86,7 +87,7 @@ impl Robot<6> {
         let points = waypoints(&path, options);
         if let Some(limits) = &options.max_acceleration
             && let Some((planner, path)) =
-                fastest(arm, &coarse, &points, (options, limits), caller)?
+                fastest(arm, [&coarse, &fixed], &points, (options, limits), caller)?
         {
             return Ok(planner.plan_of(&[path])?);
         }

@@ -14,17 +14,24 @@ use super::planner::Planner;
 use super::refine::{coarse_to_fine, is_long};
 use crate::trajectory::{Retiming, Trajectory};
 
-/// Of the best joint paths in either order from each branch of the first pose, the one with the
-/// shortest timed motion; `None` if there is none through all poses.
+/// Of the best joint paths in either order, from each branch of the first pose and with a fixed
+/// tool, the one with the shortest timed motion; `None` if there is none through all poses.
 pub(super) fn fastest<'a>(
     arm: Arm<'a>,
-    coarse: &'a Freedom,
+    [coarse, fixed]: [&'a Freedom; 2],
     points: &[Waypoint],
     (options, max_acceleration): (&PlanOptions, &[f64]),
     caller: &mut Caller<'_, '_>,
 ) -> Result<Option<(Planner<'a>, JointPath)>, PlanError> {
-    let mut best = None;
+    let mut best: Option<(Planner<'a>, JointPath)> = None;
     let mut shortest = f64::INFINITY;
+    let mut take = |planner: Planner<'a>, path: JointPath| {
+        let duration = planner.retimed(&path, max_acceleration)?.duration();
+        if duration < shortest {
+            (shortest, best) = (duration, Some((planner, path)));
+        }
+        Ok::<(), PlanError>(())
+    };
     // First any branch: where no path leads through all poses, none is looked for on each.
     let slots = (0..arm.robot.slot_count()).map(Some);
     for first_slot in core::iter::once(None).chain(slots) {
@@ -39,9 +46,18 @@ pub(super) fn fastest<'a>(
                 // Nor is there one in the other order.
                 break;
             };
-            let duration = planner.retimed(&path, max_acceleration)?.duration();
-            if duration < shortest {
-                (shortest, best) = (duration, Some((planner, path)));
+            take(planner, path)?;
+        }
+    }
+    // External axes of a fixed tool are a plan of their own.
+    if arm.freedom.external == 0 && !arm.freedom.axes.is_empty() {
+        let arm = Arm { freedom: fixed, ..arm };
+        let ends = Given::both(&arm, points, options)?;
+        for order in [PlanOrder::Bottleneck, PlanOrder::Sum] {
+            let options = PlanOptions { order, ..options.clone() };
+            let mut planner = Planner::new(arm, points, &options, &ends)?;
+            if let Some(path) = planner.whole_path(caller)? {
+                take(planner, path)?;
             }
         }
     }

@@ -163,3 +163,31 @@ def test_of_equal_branches_the_one_amid_its_limits_is_taken(count):
     ends = [irbkin.pose([0.9, y, 0.7], euler_zyx=[0, 2.8, 0]) for y in (-0.3, 0.3)]
     plan = robot.plan(irbkin.paths.line(*ends, steps=count))
     assert np.abs(plan.q[:, 3]).max() < np.radians(20)
+
+
+@pytest.mark.parametrize("name", ["UR5e", "IRB 2600-12/1.65"])
+@pytest.mark.parametrize(
+    "free",
+    [
+        {"rotation": irbkin.ToolRotation(steps=9, lower=-0.3, upper=0.3)},
+        {"tolerance": irbkin.ToolCone(0.2)},
+    ],
+)
+def test_the_shortest_motion_is_never_longer_than_that_of_a_fixed_tool(name, free):
+    rng, robot, found = np.random.default_rng(5), irbkin.Robot(name), 0
+    limits = {"max_acceleration": 8.0}
+    for _ in range(12):
+        q = rng.uniform(-1.5, 1.5, 6)
+        T = irbkin.paths.line(robot.fk(q), robot.fk(q + rng.uniform(-0.5, 0.5, 6)), steps=33)
+        try:
+            fixed = robot.plan(T)
+        except irbkin.PathError:
+            continue
+        best = robot.plan(T, objective="time", **limits, **free)
+        times = [
+            irbkin.trajectory.retime(plan.q, robot.max_velocity, 8.0).duration
+            for plan in (best, fixed)
+        ]
+        assert times[0] <= times[1] * (1 + 1e-9)
+        found += 1
+    assert found > 5
