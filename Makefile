@@ -111,6 +111,7 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
 	$(STEP) "the bench of a check runs" env MOVES=1000 $(BIN)/python benches/rapid_check.py >/dev/null
 	$(STEP) "the bench of the command runs" env CALLS=1 $(BIN)/python benches/command.py >/dev/null
+	$(STEP) "the tails compile" cargo check --quiet --manifest-path benches/tails/Cargo.toml --target-dir target/tails
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .

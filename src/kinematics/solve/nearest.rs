@@ -178,7 +178,6 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         if self.best.is_none() && self.must_meet() {
             for solution in known {
                 self.start_from_limits(solution);
-                self.bend_elbow(solution);
                 self.turn_other_joints(solution);
             }
         }
@@ -310,8 +309,8 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
 
     /// The branch of `from` with other joint angles.
     pub(super) fn at(&self, q: [f64; N], from: &Solution<N>) -> Solution<N> {
-        let wrist = self.robot.singular_wrist();
-        let slot = wrist.map_or(from.slot, |wrist| from.slot.flipped_to(wrist.sin_5(&q) < 0.0));
+        let sin_5 = self.robot.singular_wrist().and_then(|_| self.robot.sin_5(&q));
+        let slot = sin_5.map_or(from.slot, |sin_5| from.slot.flipped_to(sin_5 < 0.0));
         Solution { q, slot, ..*from }
     }
 

@@ -5,9 +5,8 @@ use core::f64::consts::{PI, TAU};
 
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::SingularityKind;
-use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::solve::correction::{DAMPED, DETERMINED};
+use crate::kinematics::solve::correction::DAMPED;
 use crate::kinematics::solve::nearest::{NearestSearch, Wanted};
 use crate::kinematics::solve::pair::Pair;
 use crate::kinematics::thresholds::{LIMIT_SLACK, PATH_WRIST_SIN};
@@ -74,26 +73,6 @@ impl<const N: usize> NearestSearch<'_, N> {
         }
     }
 
-    /// Search with an elbow that is nearly straight, on either side: the forearm turns with it, and
-    /// so does an undetermined wrist.
-    pub(super) fn bend_elbow(&mut self, from: &Solution<N>) {
-        let Some(inverse) = self.robot.inverse() else { return };
-        let Some(wrist) = inverse.singular_wrist() else { return };
-        if !inverse.singular(&from.q).1.contains(SingularityKind::ELBOW) {
-            return;
-        }
-        let pose = self.known.pose();
-        let t_shoulder_wrist = inverse.last_frame(pose);
-        for behind in [false, true] {
-            let bent = wrist.with_bent_elbow(&from.q, behind);
-            let (bent, _) = self.robot.corrected(pose, bent, &JointLimits::UNLIMITED, &[2], DAMPED);
-            for flipped in [false, true] {
-                let met = wrist.with_wrist_of(&t_shoulder_wrist, &bent, flipped);
-                self.move_keeping(&met, &[2], DETERMINED, from);
-            }
-        }
-    }
-
     /// The pair of joints that a solution leaves undetermined, or that may be so near another
     /// singularity.
     fn pair(&self, solution: &Solution<N>) -> Option<Pair> {
@@ -107,7 +86,7 @@ impl<const N: usize> NearestSearch<'_, N> {
         // merged.
         let may_be_undetermined =
             self.must_meet() || solution.singularities().contains(SingularityKind::WRIST);
-        (may_be_undetermined && wrist.sin_5(q).abs() <= PATH_WRIST_SIN)
+        (may_be_undetermined && self.robot.sin_5(q)?.abs() <= PATH_WRIST_SIN)
             .then(|| Pair::of(wrist.wrist_pair(q), &solution.q))?
     }
 

@@ -109,11 +109,6 @@ pub(crate) trait Inverse<const N: usize>: Any + Debug + Send + Sync {
     fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
         None
     }
-
-    /// The last frame of the structure in its first frame, for a pose of the tool (eq. 1).
-    fn last_frame(&self, pose: &Pose) -> Pose {
-        *pose
-    }
 }
 
 /// Rows to be solved: poses, the angle of the locked joint in each (empty for six joints), and room

@@ -187,10 +187,6 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Inverse<N> for Solver<T
     fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
         self.structure.singular_wrist()
     }
-
-    fn last_frame(&self, pose: &Pose) -> Pose {
-        self.end_frames.wrist_pose(pose)
-    }
 }
 
 /// One pose in lanes.

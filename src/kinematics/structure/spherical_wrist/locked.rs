@@ -51,15 +51,6 @@ impl SphericalWrist {
             })
     }
 
-    /// The wrist angles that give the flange the rotation `m` in the forearm frame (eq. 15 to 17),
-    /// or the flipped ones.
-    pub(crate) fn with_wrist(&self, m: &Matrix3<f64>, q: &[f64; 6], flipped: bool) -> [f64; 6] {
-        let theta_4 = m[(1, 2)].atan2(m[(0, 2)]) + if flipped { PI } else { 0.0 };
-        let mut q = *q;
-        q[3] += self.joint_map.signs[3] * (theta_4 - self.theta(&q)[3]);
-        self.with_axis_4_locked(m, &q)
-    }
-
     /// The wrist angles with which the tool comes nearest to the rotation `m` of the flange in the
     /// forearm frame, with theta_4 locked: the approach axis in the plane that theta_5 moves it in,
     /// then the best rotation about it (eq. 23). They are exact if the plane contains that axis.
@@ -126,24 +117,11 @@ impl SphericalWrist {
 }
 
 impl SingularWrist<6> for SphericalWrist {
-    fn sin_5(&self, q: &[f64; 6]) -> f64 {
-        self.theta(q)[4].sin()
-    }
-
     fn wrist_pair(&self, q: &[f64; 6]) -> FreeJoint {
         self.free_wrist(self.theta(q)[4])
     }
 
     fn with_straight_wrist(&self, q: &[f64; 6], side: f64) -> [f64; 6] {
         self.with_straight_wrist(q, side)
-    }
-
-    fn with_bent_elbow(&self, q: &[f64; 6], behind: bool) -> [f64; 6] {
-        self.with_bent_elbow(q, behind)
-    }
-
-    fn with_wrist_of(&self, t_shoulder_wrist: &Pose, q: &[f64; 6], flipped: bool) -> [f64; 6] {
-        let m = self.rotation_in_forearm(t_shoulder_wrist.rotation.matrix(), q);
-        self.with_wrist(&m, q, flipped)
     }
 }
