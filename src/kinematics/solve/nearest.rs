@@ -116,8 +116,7 @@ pub(super) struct NearestSearch<'a, const N: usize> {
     /// How far a solution may be off the pose [rad, m].
     pub(super) allowed: f64,
     pub(super) best: Option<Candidate<N>>,
-    /// Whether any member of a self-motion will do that is as near to the seed as its free joint or
-    /// half a turn from there.
+    /// Whether any member of a self-motion will do, of several that are tried the nearest.
     pub(super) takes_any: bool,
     /// The arms whose wrists were searched, with the side of axis 5.
     pub(super) arms: [Option<([f64; 3], bool)>; ARMS],

@@ -33,6 +33,9 @@ const FIRST_STEPS: f64 = 6.0;
 const BESIDE: f64 = 0.05;
 const ARC_PARTS: u32 = 16;
 
+/// Parts of an arc at whose ends any member is looked for.
+const ANY_PARTS: u32 = 8;
+
 /// Least step [1]: the root of the rounding of an angle.
 const LEAST_STEP: f64 = 1e-8;
 
@@ -124,26 +127,36 @@ impl<const N: usize> NearestSearch<'_, N> {
                 }
             }
         }
-        if self.takes_any && self.best.is_some() {
-            return;
-        }
         let mut corners = along.family.corners().map(|corner| seed + wrap(corner - seed));
         corners.sort_unstable_by(f64::total_cmp);
         let [first, ..] = corners;
+        let arcs: [Arc; 6] = core::array::from_fn(|number| {
+            let high = corners.get(number + 1).copied().unwrap_or(first + TAU);
+            Arc { middle: 0.5 * (corners[number] + high), half: 0.5 * (high - corners[number]) }
+        });
+        if self.takes_any && self.has_any(along, &arcs) {
+            return;
+        }
         for (number, corner) in corners.into_iter().enumerate() {
             if number == 0 || corner > corners[number - 1] {
                 self.look_at_corner(along, corner);
             }
         }
-        let arcs: [Arc; 6] = core::array::from_fn(|number| {
-            let high = corners.get(number + 1).copied().unwrap_or(first + TAU);
-            Arc { middle: 0.5 * (corners[number] + high), half: 0.5 * (high - corners[number]) }
-        });
         if self.is_family(along, &arcs) {
             for arc in arcs.into_iter().filter(|arc| arc.half > 0.0) {
                 self.look_along_arc(along, arc);
             }
         }
+    }
+
+    /// Whether a member is inside the limits that the coarse parts of arcs show.
+    fn has_any(&mut self, along: Along<'_, N>, arcs: &[Arc; 6]) -> bool {
+        for arc in arcs.iter().filter(|arc| arc.half > 0.0) {
+            for number in 1..ANY_PARTS {
+                self.sample(along, arc.at(PI * f64::from(number) / f64::from(ANY_PARTS)));
+            }
+        }
+        self.best.is_some()
     }
 
     /// Whether the joints that stand still cost more than what was found.
