@@ -118,10 +118,10 @@ impl<const N: usize> NearestSearch<'_, N> {
         let seed = self.wanted.seed[joint];
         for angle in [along.from.q[joint], seed] {
             for turned in [angle, angle + PI] {
-                self.sample(along, turned);
-                for member in along.family.at(turned).into_iter().flatten() {
-                    let member = along.member(member);
-                    if self.best.is_none() {
+                let sample = self.sample(along, turned);
+                for (side, q) in sample.q.into_iter().enumerate() {
+                    if let (Some(q), None) = (q, self.best) {
+                        let member = along.member((q, side == 1));
                         self.move_onto_pose(&member.q, LIMIT_SLACK, &member);
                     }
                 }
