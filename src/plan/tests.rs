@@ -252,6 +252,17 @@ pub(super) fn random_path(robot: &Robot<6>, rng: &mut Rng, count: usize, size: f
     path
 }
 
+/// An arm whose nodes cost nothing.
+fn arm<'a>(
+    robot: &'a Robot<6>,
+    joints: &'a PlannedJoints,
+    freedom: &'a Freedom,
+    work: &'a Work,
+) -> Arm<'a> {
+    let (node_cost, watch, first_slot) = (None, Watch::default(), None);
+    Arm { robot, joints, freedom, node_cost, watch, work, first_slot }
+}
+
 #[test]
 fn no_wider_window_and_no_more_turns_find_a_better_path() {
     let (mut rng, mut whole) = (Rng::new(11), 0);
@@ -269,16 +280,8 @@ fn no_wider_window_and_no_more_turns_find_a_better_path() {
             PlanOptions { rotation, order, limit_cost, singularity_cost, ..PlanOptions::default() };
         let [freedom, _] = freedoms(&options);
         let node_cost = NodeCost::new(&robot, limit_cost, singularity_cost);
-        let watch = Watch::default();
-        let arm = Arm {
-            robot: &robot,
-            joints: &joints,
-            freedom: &freedom,
-            node_cost,
-            watch,
-            work: &Work::default(),
-            first_slot: None,
-        };
+        let work = Work::default();
+        let arm = Arm { node_cost, ..arm(&robot, &joints, &freedom, &work) };
         let planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
         let ladder = planner.ladder();
         // All pairs, layer by layer.
@@ -328,16 +331,8 @@ fn a_step_through_a_flip_is_no_continuous_one() {
     let joints = PlannedJoints::of(&robot, [1.0; 6]);
     let options = PlanOptions::default();
     let [freedom, _] = freedoms(&options);
-    let (node_cost, watch) = (None, Watch::default());
-    let arm = Arm {
-        robot: &robot,
-        joints: &joints,
-        freedom: &freedom,
-        node_cost,
-        watch,
-        work: &Work::default(),
-        first_slot: None,
-    };
+    let work = Work::default();
+    let arm = arm(&robot, &joints, &freedom, &work);
     let path: Vec<Pose> = [0.01, -0.01].map(|q5| robot.fk(&[0.2, 0.1, 0.3, 0.0, q5, 0.4])).to_vec();
     let mut planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
     // Of the branches only the two that differ by the wrist: others have no singularity there.

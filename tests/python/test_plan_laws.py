@@ -75,6 +75,7 @@ def test_the_plan_for_time_is_the_fastest_of_all(path, options):
         ({"max_acceleration": 8.0}, "pass that, or time the plan"),
         ({"objective": "fast", "max_acceleration": 8.0}, 'must be "time" or None, got "fast"'),
         ({"objective": "time", "max_acceleration": 0.0}, r"max_acceleration\[0\]"),
+        ({"objective": "time", "max_acceleration": np.nan}, r"max_acceleration\[0\] is NaN"),
         ({"objective": "time", "max_acceleration": np.ones(5)}, r"shape \(6,\), got \(5,\)"),
         ({"objective": "time", "max_acceleration": 1.0, "times": np.arange(9.0)}, "leave them out"),
     ],
