@@ -156,7 +156,7 @@ impl Planner<'_> {
         Curve { values, q: path.q.clone() }
     }
 
-    /// Put layers with a single cell in the place of those of a joint path; returns these.
+    /// Exchange the layers of a joint path for ones with a single cell; return its own.
     fn exchange(&mut self, path: &JointPath, values: Vec<Values>) -> (Grid, Vec<Layer>) {
         let (grid, layers) = (self.grid, core::mem::take(&mut self.layers));
         let along = layers.iter().zip(&path.nodes).zip(values);

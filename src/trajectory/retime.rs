@@ -19,7 +19,7 @@ use crate::spline::{Ends, cubic};
 #[cfg(feature = "rapid")]
 const PROGRAMMED_PIECES: usize = 48;
 
-/// What the pace along a path must keep.
+/// The bounds that the pace along a path keeps.
 ///
 /// ```
 /// use irbkin::trajectory::{Retiming, retime};

@@ -96,7 +96,7 @@ fn draw(robot: &Robot<6>, set: &str, random: &mut Random) -> Option<[f64; 6]> {
     robot.limits().contains(&q).then_some(q)
 }
 
-/// The same arm in rs-opw-kinematics; its poses agree.
+/// Build the arm in rs-opw-kinematics, whose poses must agree.
 fn opw(robot: &Robot<6>, parameters: &OpwParameters) -> OPWKinematics {
     let OpwParameters { a1, a2, b, c1, c2, c3, c4, .. } = *parameters;
     let limits = robot.limits().to_array();

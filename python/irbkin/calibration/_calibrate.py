@@ -65,11 +65,11 @@ def calibrate(
         robot: The nominal robot, with its nominal base and tool.
         q: Joint angles at each measurement [rad], shape (m, n).
         measured: Poses of the tool, shape (m, 4, 4), or its positions, shape (m, 3), [m].
-        fit: What is fitted: some of "base", "table" and "tool", and of single parameters, by their
+        fit: Parts to fit: some of "base", "table" and "tool", and of single parameters, by their
             names in `parameters`: "theta 3", "d 1", "tool z".
         position_std: Standard deviation of a measured coordinate [m].
-        rotation_std: The same of an angle [rad]. Only their ratio matters: 0.1 mm and 0.5 mrad are
-            targets 0.2 m apart.
+        rotation_std: Standard deviation of an angle [rad]. Only their ratio matters: 0.1 mm and
+            0.5 mrad are targets 0.2 m apart.
         loss: "linear" for least squares; any other of scipy's, such as "huber" or "cauchy", gives
             measurements less weight that are more than three times the scatter off.
         folds: Number of parts for cross-validation, each left out once; 0 for none.

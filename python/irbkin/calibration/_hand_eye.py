@@ -58,7 +58,7 @@ def hand_eye(
         a: Moves, shape (m, 4, 4), m >= 2.
         b: Moves, shape (m, 4, 4).
         position_std: Standard deviation of a coordinate [m].
-        rotation_std: The same of an angle [rad]. Only their ratio matters.
+        rotation_std: Standard deviation of an angle [rad]. Only their ratio matters.
         loss: As of `irbkin.calibrate`: any but "linear" gives outliers less weight.
 
     Raises:

@@ -91,7 +91,7 @@ def work_object(points: npt.ArrayLike, nominal: npt.ArrayLike | None = None) -> 
 
     Args:
         points: Measured points in the base [m], shape (3, 3), or (m, 3), m >= 3, with `nominal`.
-        nominal: The same points in the work object [m], shape (m, 3).
+        nominal: These points in the work object [m], shape (m, 3).
 
     Raises:
         InvalidPoseError: A wrong shape, or a coordinate that is not finite.
