@@ -36,6 +36,7 @@ mod recall;
 mod redundancy;
 mod refined;
 mod serde;
+mod seven_paths;
 #[cfg(feature = "urdf")]
 mod snap;
 mod structures;

@@ -8,7 +8,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write as _;
 
-use crate::common::Rng;
+use crate::common::{self, Rng};
 use irbkin::{DhRow, JointLimits, Mdh, Pose, Robot, thresholds};
 use nalgebra::Isometry3;
 
@@ -105,26 +105,10 @@ fn stretched(robot: &Robot<7>) -> f64 {
     (side - 0.5 * (front + back)).atan2(0.5 * (front - back))
 }
 
-fn iiwa_rows() -> [[f64; 4]; 7] {
-    [
-        [0.0, 0.0, 0.36, 0.0],
-        [-90.0, 0.0, 0.0, 0.0],
-        [90.0, 0.0, 0.42, 0.0],
-        [90.0, 0.0, 0.0, 0.0],
-        [-90.0, 0.0, 0.4, 0.0],
-        [-90.0, 0.0, 0.0, 0.0],
-        [90.0, 0.0, 0.126, 0.0],
-    ]
-}
-
 fn arms() -> Vec<Arm> {
-    let limits = [170.0, 120.0, 170.0, 120.0, 170.0, 120.0, 175.0_f64]
-        .map(|limit| [-limit.to_radians(), limit.to_radians()]);
-    let free = Arm::of("iiwa without limits", iiwa_rows(), 0.0);
-    let limited = free.robot.clone().with_limits(JointLimits::new(limits).unwrap());
     vec![
-        Arm::new("iiwa", limited),
-        free,
+        Arm::new("iiwa", common::iiwa()),
+        Arm::of("iiwa without limits", common::IIWA_ROWS, 0.0),
         Arm::new("Panda", Robot::named("Panda").unwrap()),
         Arm::new("FR3", Robot::named("FR3").unwrap()),
         Arm::of(

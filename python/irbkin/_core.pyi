@@ -1165,6 +1165,7 @@ class Robot:
         accept: Callable[[_Floats], npt.ArrayLike] | None = None,
         carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
         tolerance: ToolCone | ToolOffset | Sequence[ToolCone | ToolOffset] | None = None,
+        redundancy: int | None = None,
         order: Literal["bottleneck", "sum"] = "bottleneck",
         limit_cost: float = 0.0,
         singularity_cost: float = 0.0,
@@ -1185,6 +1186,10 @@ class Robot:
         with nothing free, and never the sum if it comes first. Every step of the answer is shown
         to be continuous between its two poses.
 
+        Of seven joints, joint 7 is one more external axis, or joint 1 if that makes the better plan.
+        Where neither leads through, since the other six are singular on the way, the plan is a path of
+        `follow`. Costs of limits and singularities are of the other six.
+
         Args:
             T: Poses of the tool, shape (m, 4, 4), translation [m].
             rotation: The angles by which the tool may be turned about its own axis: an
@@ -1192,19 +1197,22 @@ class Robot:
                 fix the orientation.
             times: Time of each pose [s], shape (m,), increasing. Then no joint may exceed its
                 `max_velocity`, if that is known.
-            start: Joint vector at the first pose [rad], shape (6,), with the values of the external
-                axes behind it, if there are any, shape (6 + k,); any when not given.
+            start: Joint vector at the first pose [rad], shape (n,), with the values of the external
+                axes behind it, if there are any, shape (n + k,); any when not given.
             end: The same at the last pose.
             closed: Whether the joints must end where they start, turns included. The last pose
                 repeats the first.
-            weights: Cost of moving each joint, shape (6,); ones when not given.
+            weights: Cost of moving each joint, shape (n,); ones when not given.
             accept: Your own test, of collisions for instance: called with joint vectors of shape
-                (k, 6), it returns k truth values. It is asked only for joint vectors near the best
+                (k, n), it returns k truth values. It is asked only for joint vectors near the best
                 path, and once for those that differ by full turns.
             carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
                 them. Their steps count for bottleneck and cost as steps of joints do.
             tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
                 `irbkin.ToolOffset`, or one of each.
+            redundancy: Number of angles of joint 7 or 1 that are searched first, of an arm of seven
+                joints none of which is locked; 36 when not given. The joint is one of at most three
+                external axes.
             order: What of two paths makes the better one: "bottleneck", then the sum; or "sum"
                 alone.
             limit_cost: What a joint at its limit costs [rad^2/s^2], added to the sum: as much as
@@ -1216,10 +1224,10 @@ class Robot:
                 the one whose motion `irbkin.trajectory.retime` makes the shortest, everything that
                 is free smoothed for that. None: the pace is even, or given by `times`.
             max_acceleration: Limits of that motion [rad/s^2]: a number, or one for each joint and
-                external axis, shape (6 + k,).
+                external axis, shape (n + k,).
 
         Returns:
-            Plan: joints [rad], shape (m, 6); tool angles; slots; external axes, shape (m, k);
+            Plan: joints [rad], shape (m, n); tool angles; slots; external axes, shape (m, k);
                 tolerances; cost; bottleneck; no breaks.
 
         Raises:
@@ -1234,7 +1242,7 @@ class Robot:
                 rotation, carrier or tolerance that is empty, an open path with `closed`, a cost
                 that is negative or not finite.
             ValueError: Another `order`.
-            InvalidModelError: The arm has seven joints.
+            TypeError: redundancy of an arm of six joints.
             Exception: Whatever `accept` raises.
         """
     def follow(
@@ -1250,14 +1258,15 @@ class Robot:
         threads: int = 1,
     ) -> FollowResult:
         r"""One continuous joint path along a path of poses: inside the limits, turns considered,
-        through singularities without a jump where there is a way.
+        through singularities without a jump where there is a way. Of seven joints each step is the
+        smallest along the self-motion of its pose.
 
         Args:
             T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4),
                 translation [m].
-            seed: Joint vectors from which the paths start [rad], shape (..., 6). T and seed are
+            seed: Joint vectors from which the paths start [rad], shape (..., n). T and seed are
                 broadcast: one seed for many paths, one path from many seeds.
-            weights: Cost of moving each joint, shape (6,); ones when not given.
+            weights: Cost of moving each joint, shape (n,); ones when not given.
             singularity_mode: What to do at the wrist singularity. "through": meet every pose,
                 however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the zone, and
                 where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
@@ -1266,20 +1275,20 @@ class Robot:
                 orientation where it can be, as SingArea \LockAxis4.
             zone: |sin q5| below which `singularity_mode` acts; 0.0175, that is one degree, when not
                 given.
-            out: Where to write: arrays (..., m, 6) and (..., m), float64, of the joints and of the
+            out: Where to write: arrays (..., m, n) and (..., m), float64, of the joints and of the
                 orientation error.
             threads: Number of threads, for several paths; 0 for one a core.
 
         Returns:
-            FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation
+            FollowResult: joints [rad], shape (..., m, n), NaN where a pose is not met; orientation
                 error [rad], shape (..., m); the breaks.
 
         Raises:
             InvalidPoseError: T has a wrong shape or holds an invalid pose; the message has its
                 index.
             InvalidJointsError: A seed or weight that is not finite, or a zone that is not 0 to 1.
-            InvalidModelError: The arm has seven joints; "wrist" or "lock_axis4" for an arm without
-                a spherical wrist.
+            InvalidModelError: "wrist" or "lock_axis4" for an arm without a spherical wrist, or
+                another mode than "through" for seven joints.
             ValueError: Another `singularity_mode`.
         """
     @overload

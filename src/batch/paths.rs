@@ -4,25 +4,25 @@ use alloc::vec::Vec;
 
 use super::pace::Batch;
 use crate::error::Error;
-use crate::kinematics::{FollowOptions, Followed, Pose, Robot};
+use crate::kinematics::{Followed, Pose};
 
 impl Batch<'_> {
-    /// [`Robot::follow`] of paths of `length` poses each, one behind the other, from a seed each.
-    pub(crate) fn follow(
+    /// `follow` of paths of `length` poses each, one behind the other, from a seed each.
+    pub(crate) fn follow<const N: usize>(
         &mut self,
-        robot: &Robot<6>,
         poses: &[Pose],
         length: usize,
-        seeds: &[[f64; 6]],
-        options: &FollowOptions,
-    ) -> Result<Vec<Followed>, Error> {
+        seeds: &[[f64; N]],
+        follow: impl Fn(&[Pose], &[f64; N], &mut dyn FnMut() -> bool) -> Result<Followed<N>, Error>
+        + Sync,
+    ) -> Result<Vec<Followed<N>>, Error> {
         let mut answers: Vec<_> = seeds.iter().map(|_| None).collect();
         // One path is one part.
         let rows = if seeds.len() > 1 { poses.len() } else { 0 };
         let parts = seeds.iter().zip(&mut answers).enumerate();
         self.run(rows, parts, |(number, (seed, answer)), go_on| {
             let path = &poses[number * length..(number + 1) * length];
-            *answer = Some(robot.follow_while(path, seed, options, go_on));
+            *answer = Some(follow(path, seed, go_on));
         });
         answers.into_iter().flatten().collect()
     }

@@ -10,9 +10,9 @@ use crate::report::Explanation;
 
 /// A joint path along a path of poses.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
+pub struct Plan<const N: usize = 6> {
     /// Joint angles at each pose [rad]; `None` where a plan with breaks has none.
-    pub q: Vec<Option<[f64; 6]>>,
+    pub q: Vec<Option<[f64; N]>>,
     /// The angle that the tool is turned by at each pose [rad], without jumps of a full turn; 0
     /// without a free rotation.
     pub tool_angle: Vec<f64>,
@@ -107,7 +107,7 @@ pub enum StrandReason {
 
 /// There is no plan without breaks.
 #[derive(Clone, Debug, PartialEq)]
-pub struct NoPlan {
+pub struct NoPlan<const N: usize = 6> {
     /// The first pose that no branch reaches from the start.
     pub pose_index: usize,
     /// The last pose from which no branch reaches the end.
@@ -115,28 +115,28 @@ pub struct NoPlan {
     /// Where and why each branch ends.
     pub ends: Vec<StrandEnd>,
     /// The plan with the fewest breaks, the best one between any two of them.
-    pub plan: Plan,
+    pub plan: Plan<N>,
 }
 
 /// Why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum PlanError {
+pub enum PlanError<const N: usize = 6> {
     /// The path or the options are invalid.
     Invalid(Error),
     /// The path cannot be followed without a break.
-    NoPlan(Box<NoPlan>),
+    NoPlan(Box<NoPlan<N>>),
     /// The caller's own test did not answer.
     Stopped,
 }
 
-impl From<Error> for PlanError {
+impl<const N: usize> From<Error> for PlanError<N> {
     fn from(error: Error) -> Self {
         Self::Invalid(error)
     }
 }
 
-impl fmt::Display for PlanError {
+impl<const N: usize> fmt::Display for PlanError<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Invalid(error) => error.fmt(f),
@@ -146,9 +146,9 @@ impl fmt::Display for PlanError {
     }
 }
 
-impl core::error::Error for PlanError {}
+impl<const N: usize> core::error::Error for PlanError<N> {}
 
-impl fmt::Display for NoPlan {
+impl<const N: usize> fmt::Display for NoPlan<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "no branch reaches pose {} from the start", self.pose_index)?;
         for (number, end) in self.ends.iter().enumerate() {

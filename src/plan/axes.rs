@@ -239,6 +239,10 @@ pub(super) enum Carried {
     Robot(Unit<Vector3<f64>>),
     /// The work object, about a line through a point.
     Object(Unit<Vector3<f64>>, Vector3<f64>),
+    /// The other joints of seven, by the first one, about a line through a point in the world.
+    Arm(Unit<Vector3<f64>>, Vector3<f64>),
+    /// The tool, by the last joint of seven, about a line through a point in the tool's frame.
+    Tool(Unit<Vector3<f64>>, Vector3<f64>),
 }
 
 /// An axis outside of the arm, with the values that a plan may give it.
@@ -285,6 +289,12 @@ impl ExternalAxis {
         }
         let about = |direction| Carried::Object(direction, Vector3::from(point));
         Self::new("positioner", about, direction, [lower, upper], steps)
+    }
+
+    /// A joint of seven that is planned as an external axis.
+    pub(super) fn joint(carried: Carried, range: [f64; 2], steps: usize) -> Result<Self, Error> {
+        let steps = checked_steps("redundancy", range, steps, MOST_AXIS_STEPS)?;
+        Ok(Self { carried, range, steps, max_velocity: 1.0, weight: 1.0 })
     }
 
     fn new(
@@ -366,10 +376,18 @@ impl Carried {
                 let position = pose.translation.vector - direction.into_inner() * value;
                 Pose::from_parts(Translation3::from(position), pose.rotation)
             }
-            Self::Object(direction, point) => {
-                let turn = Rotation3::from_axis_angle(&direction, value);
+            Self::Object(direction, point) | Self::Arm(direction, point) => {
+                let is_arm = matches!(self, Self::Arm(..));
+                let turn =
+                    Rotation3::from_axis_angle(&direction, if is_arm { -value } else { value });
                 let position = point + turn * (pose.translation.vector - point);
                 Pose::from_parts(Translation3::from(position), turn * pose.rotation)
+            }
+            Self::Tool(direction, point) => {
+                let back = Rotation3::from_axis_angle(&direction, -value);
+                let shift = pose.rotation * (point - back * point);
+                let position = pose.translation.vector + shift;
+                Pose::from_parts(Translation3::from(position), pose.rotation * back)
             }
         }
     }

@@ -228,7 +228,7 @@ pub(super) fn nearest_solution(
     q: &[f64; 6],
 ) -> Option<(Solution<6>, f64)> {
     let off = |other: &[f64; 6]| {
-        largest(&core::array::from_fn(|joint| nearest_turn(q[joint] - other[joint], 0.0)))
+        largest::<6>(&core::array::from_fn(|joint| nearest_turn(q[joint] - other[joint], 0.0)))
     };
     let each = solutions.iter().map(|solution| (*solution, off(&solution.q)));
     each.min_by(|a, b| a.1.total_cmp(&b.1))

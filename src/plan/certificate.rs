@@ -22,7 +22,7 @@ const MOST_SOLVES: usize = 4096;
 const APPROACHES: u32 = 26;
 
 /// How much of a step its halves may have [1].
-const HALF: f64 = 0.75;
+pub(super) const HALF: f64 = 0.75;
 
 /// Part of a step that is followed at once, at most, of an arm whose slots are ordinals [1]: its
 /// branches may end at a fold, and others begin next to it.

@@ -162,21 +162,26 @@ impl Freedom {
 
     /// A pose of the path seen from the robot, its external axes at their values.
     fn carried(&self, pose: &Pose, values: &Values) -> Pose {
+        // The object first, from the axis that holds it on; then the robot, and its first joint.
+        let pose = self.seen(pose, values, |carried| matches!(carried, Carried::Object(..)));
+        let pose = self.seen(&pose, values, |carried| matches!(carried, Carried::Robot(_)));
+        self.seen(&pose, values, |carried| matches!(carried, Carried::Arm(..)))
+    }
+
+    /// A pose seen from behind some of the external axes.
+    fn seen(&self, pose: &Pose, values: &Values, is_one: impl Fn(&Carried) -> bool) -> Pose {
         let mut pose = *pose;
-        // The object first, from the axis that holds it on; then the robot.
-        for carries_object in [true, false] {
-            for (axis, value) in self.axes[..self.external].iter().zip(values).rev() {
-                if let Motion::Carrier(carried) = axis.motion
-                    && matches!(carried, Carried::Object(..)) == carries_object
-                {
-                    pose = carried.seen(&pose, *value);
-                }
+        for (axis, value) in self.axes[..self.external].iter().zip(values).rev() {
+            if let Motion::Carrier(carried) = axis.motion
+                && is_one(&carried)
+            {
+                pose = carried.seen(&pose, *value);
             }
         }
         pose
     }
 
-    /// The pose of the tool with everything that is free (eq. 1).
+    /// The pose that the six joints give the tool with everything that is free (eq. 1).
     pub(super) fn tool(&self, pose: &Pose, values: &Values) -> Pose {
         let mut tool = self.carried(pose, values);
         let mut tilt = Vector3::zeros();
@@ -197,7 +202,7 @@ impl Freedom {
         if let Some(rotation) = self.rotation() {
             tool.rotation = turned(&tool.rotation, self.pointing(), values[rotation]);
         }
-        tool
+        self.seen(&tool, values, |carried| matches!(carried, Carried::Tool(..)))
     }
 
     /// The cost of moving the axes in a time [s] (eq. 4).
@@ -247,6 +252,8 @@ impl Freedom {
     /// external axes at `values`, comes nearest to a pose of the tool.
     pub(super) fn nearest(&self, pose: &Pose, tool: &Pose, mut values: Values) -> Values {
         let carried = self.carried(pose, &values);
+        let back = core::array::from_fn(|axis| -values[axis]);
+        let tool = self.seen(tool, &back, |carried| matches!(carried, Carried::Tool(..)));
         let relative = carried.rotation.inverse() * tool.rotation;
         let [first, second] = self.pointing().others();
         let matrix = relative.matrix();

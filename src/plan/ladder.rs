@@ -137,18 +137,26 @@ impl Ladder<'_> {
         let joints = most.of_axes(each.map(|(velocity, weight)| most.of_axis(*velocity, *weight)));
         let positioners: Vec<_> = axes()
             .filter_map(|axis| match axis.motion {
-                Motion::Carrier(Carried::Object(_, point)) => Some((point, of_axis(axis))),
+                Motion::Carrier(Carried::Object(_, point) | Carried::Arm(_, point)) => {
+                    Some((point, of_axis(axis)))
+                }
                 _ => None,
             })
             .collect();
-        let tracks: f64 = axes()
-            .filter(|axis| matches!(axis.motion, Motion::Carrier(Carried::Robot(_))))
-            .map(of_axis)
-            .sum();
+        // How far an axis shifts the tool and turns it, that is not a positioner's.
+        let moves = |axis: &FreeAxis| match axis.motion {
+            Motion::Carrier(Carried::Robot(_)) => [of_axis(axis), 0.0],
+            Motion::Carrier(Carried::Tool(_, point)) => {
+                [point.norm(), 1.0].map(|own| own * of_axis(axis))
+            }
+            _ => [0.0; 2],
+        };
+        let [shift, turn] =
+            axes().map(moves).fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
         Farthest {
             most,
-            turn: joints + positioners.iter().map(|(_, turn)| turn).sum::<f64>(),
-            shift: joints * self.joints.reach + tracks,
+            turn: joints + turn + positioners.iter().map(|(_, turn)| turn).sum::<f64>(),
+            shift: joints * self.joints.reach + shift,
             positioners,
         }
     }

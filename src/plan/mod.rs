@@ -40,19 +40,21 @@ mod work;
 // The plan: proven between the poses, refined and smoothed, or explained.
 mod banded;
 mod certificate;
+mod followed;
 mod planner;
 mod reasons;
 mod refine;
 mod robot;
 mod roughness;
+mod seven;
 mod smooth;
 mod timed;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
 pub use axes::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
-pub use options::{Accept, PlanOptions, PlanOrder};
 #[cfg(feature = "python")]
-pub(crate) use options::{Caller, Watch};
+pub(crate) use options::Watch;
+pub use options::{Accept, PlanOptions, PlanOrder};
 
 #[cfg(test)]
 mod exhaustive;

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 use super::axes::{ExternalAxis, ToolCone, ToolOffset, ToolRotation};
+use super::graph::Values;
 use crate::error::{Error, MotionFault, PlanFault};
 use crate::kinematics::check_weights;
 use crate::kinematics::thresholds::MOST_EXTERNAL;
@@ -27,9 +28,12 @@ impl PlanOrder {
     }
 }
 
-/// The options of a plan.
+/// The options of a plan of six joints, or of seven.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlanOptions {
+pub struct PlanOptions<const N: usize = 6> {
+    /// Number of angles of joint 7 that are searched first, of a robot of seven joints of which
+    /// none is locked: as an external axis, it is refined and smoothed then.
+    pub redundancy: usize,
     /// The free rotation of the tool; `None` if each pose fixes the orientation.
     pub rotation: Option<ToolRotation>,
     /// Axes that carry the robot or the work object; of positioners, each carries those after it.
@@ -42,9 +46,9 @@ pub struct PlanOptions {
     /// equally far apart in time, and nothing is too fast.
     pub times: Option<Vec<f64>>,
     /// The joint angles at the first pose [rad].
-    pub start: Option<[f64; 6]>,
+    pub start: Option<[f64; N]>,
     /// The joint angles at the last pose [rad].
-    pub end: Option<[f64; 6]>,
+    pub end: Option<[f64; N]>,
     /// The values of the external axes at the first pose, if `start` is given [m, rad].
     pub start_external: Vec<f64>,
     /// The values of the external axes at the last pose, if `end` is given [m, rad].
@@ -52,7 +56,7 @@ pub struct PlanOptions {
     /// Whether the joints end where they start, turns included.
     pub closed: bool,
     /// Cost of moving each joint.
-    pub weights: [f64; 6],
+    pub weights: [f64; N],
     /// Whether the bottleneck or the sum comes first.
     pub order: PlanOrder,
     /// Cost of a joint at its limit [rad^2/s^2]: as much as one of weight 1 that moves with the
@@ -68,9 +72,10 @@ pub struct PlanOptions {
     pub max_acceleration: Option<Vec<f64>>,
 }
 
-impl Default for PlanOptions {
+impl<const N: usize> Default for PlanOptions<N> {
     fn default() -> Self {
         Self {
+            redundancy: 36,
             rotation: None,
             external: Vec::new(),
             cone: None,
@@ -81,7 +86,7 @@ impl Default for PlanOptions {
             start_external: Vec::new(),
             end_external: Vec::new(),
             closed: false,
-            weights: [1.0; 6],
+            weights: [1.0; N],
             order: PlanOrder::Bottleneck,
             limit_cost: 0.0,
             singularity_cost: 0.0,
@@ -136,7 +141,9 @@ impl PlanOptions {
         }
         Ok(())
     }
+}
 
+impl<const N: usize> PlanOptions<N> {
     /// The time of each of `count` poses [s].
     pub(super) fn times_of(&self, count: usize) -> Vec<f64> {
         #[expect(clippy::cast_precision_loss, reason = "counts of poses are small")]
@@ -153,12 +160,15 @@ const WATCHED: usize = 64;
 
 /// A caller's own test of joint vectors, asked for many at a time: whether each is accepted, or
 /// nothing to stop.
-pub type Accept<'a> = dyn FnMut(&[[f64; 6]]) -> Option<Vec<bool>> + 'a;
+pub type Accept<'a, const N: usize = 6> = dyn FnMut(&[[f64; N]]) -> Option<Vec<bool>> + 'a;
+
+/// The test of a caller, asked for the values of the free axes too.
+pub(super) type Ask<'a> = dyn FnMut(&[[f64; 6]], &[Values]) -> Option<Vec<bool>> + 'a;
 
 /// A caller: its test of joint vectors, if it has one, and whether to go on.
-pub(crate) struct Caller<'a, 'b> {
-    pub(crate) accept: Option<&'a mut Accept<'b>>,
-    pub(crate) watch: Watch<'a>,
+pub(super) struct Caller<'a, 'b> {
+    pub(super) accept: Option<&'a mut Ask<'b>>,
+    pub(super) watch: Watch<'a>,
 }
 
 /// Whether to go on; without a caller to ask, always.

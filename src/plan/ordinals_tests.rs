@@ -57,7 +57,7 @@ fn a_path_that_can_be_followed_has_a_plan_that_goes_on_without_jumps() {
                         let own = robot.ik(pose).unwrap();
                         let slot = own.slot(plan.slot[index].unwrap()).unwrap();
                         let off = |joint: usize| nearest_turn(slot.q[joint] - q[joint], 0.0);
-                        assert!(largest(&core::array::from_fn(off)) < 1e-6, "{name}, {case}");
+                        assert!(largest::<6>(&core::array::from_fn(off)) < 1e-6, "{name}, {case}");
                     }
                     for (two, poses) in q.windows(2).zip(path.windows(2)) {
                         // Coarse parts may step over a gap between two folds.

@@ -10,7 +10,7 @@ use super::graph::{Grid, Layer, Node, Waypoint};
 use super::joints::TurnStates;
 use super::ladder::{Ends, Ladder};
 use super::nodes::Arm;
-use super::options::{Accept, Caller, PlanOptions, PlanOrder};
+use super::options::{Ask, Caller, PlanOptions, PlanOrder};
 use crate::error::{Error, PlanFault};
 use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_PLAN_NODES};
 use crate::kinematics::{largest, steps};
@@ -333,12 +333,16 @@ impl<'a> Planner<'a> {
         &mut self,
         keys: &[(usize, usize)],
         q: &[[f64; 6]],
-        accept: &mut Accept<'_>,
+        accept: &mut Ask<'_>,
     ) -> Result<Vec<(usize, usize)>, PlanError> {
         if keys.is_empty() {
             return Ok(Vec::new());
         }
-        let verdicts = accept(q).filter(|verdicts| verdicts.len() == q.len());
+        let values = |(layer, number): &(usize, usize)| {
+            self.layers[*layer].values(&self.grid, self.grid.node(*number).cell)
+        };
+        let values: Vec<_> = keys.iter().map(values).collect();
+        let verdicts = accept(q, &values).filter(|verdicts| verdicts.len() == q.len());
         let verdicts = verdicts.ok_or(PlanError::Stopped)?;
         let mut rejected = Vec::new();
         for ((layer, number), is_accepted) in keys.iter().zip(verdicts) {

@@ -8,7 +8,7 @@ use super::answer::{NoPlan, Plan, PlanBreak, PlanError};
 use super::best::JointPath;
 use super::ends::Given;
 use super::freedom::Freedom;
-use super::graph::Waypoint;
+use super::graph::{Values, Waypoint};
 use super::joints::{NodeCost, PlannedJoints};
 use super::nodes::Arm;
 use super::options::{Accept, Caller, PlanOptions, Watch};
@@ -40,7 +40,7 @@ impl Robot<6> {
     /// and the plan with the fewest breaks; [`PlanError::Invalid`] for poses that are no rigid
     /// transforms, or half a turn apart, options that do not fit, and an arm of unknown structure.
     pub fn plan(&self, path: &[Pose], options: &PlanOptions) -> Result<Plan, PlanError> {
-        self.planned(path, options, &mut Caller { accept: None, watch: Watch::default() })
+        self.planned(path, options, None, Watch::default())
     }
 
     /// [`Self::plan`] through joint vectors that `accept` accepts: it is asked for many at a time,
@@ -55,12 +55,26 @@ impl Robot<6> {
         options: &PlanOptions,
         accept: &mut Accept<'_>,
     ) -> Result<Plan, PlanError> {
-        let caller = &mut Caller { accept: Some(accept), watch: Watch::default() };
-        self.planned(path, options, caller)
+        self.planned(path, options, Some(accept), Watch::default())
     }
 
     /// [`Self::plan`], for a caller that may be asked.
     pub(crate) fn planned(
+        &self,
+        path: &[Pose],
+        options: &PlanOptions,
+        accept: Option<&mut Accept<'_>>,
+        watch: Watch<'_>,
+    ) -> Result<Plan, PlanError> {
+        let Some(accept) = accept else {
+            return self.planned_for(path, options, &mut Caller { accept: None, watch });
+        };
+        let ask = &mut |q: &[[f64; 6]], _: &[Values]| accept(q);
+        self.planned_for(path, options, &mut Caller { accept: Some(ask), watch })
+    }
+
+    /// [`Self::planned`], for a caller that is asked for free axes, too.
+    pub(super) fn planned_for(
         &self,
         path: &[Pose],
         options: &PlanOptions,

@@ -63,16 +63,15 @@ impl Arm {
         }
     }
 
-    /// The robot of a call along a path, which is for six joints; the message for seven ends with a
-    /// remedy.
-    pub(super) fn six_joints(&self, call: &str, or: &str) -> PyResult<&Arc<Robot<6>>> {
+    /// The robot of a call that is for six joints.
+    pub(super) fn six_joints(&self, call: &str) -> PyResult<&Arc<Robot<6>>> {
         match self {
             Self::Six(robot) => Ok(robot),
             Self::Seven(robot) => Err(match robot.unknown_structure() {
                 Some(reason) => Error::from(ModelFault::UnknownStructure(reason)).into(),
                 None => Fault::Model.error(format_args!(
-                    "{call} is for arms of six joints: along a path of a seven-axis arm, pass the \
-                     joints of the pose before to ik_nearest as the seed{or}"
+                    "{call} is for arms of six joints: lock one of the seven, as \
+                     locked({{3: 0.2}}).six_joints"
                 )),
             }),
         }

@@ -15,21 +15,23 @@ use super::records::{Break, FollowResult, break_reason};
 use super::robot::PyRobot;
 use super::signals::detached;
 use super::targets::{read_path, read_weights, single_seed};
+use crate::error::Error;
 use crate::kinematics::thresholds::WRIST_ZONE;
-use crate::kinematics::{FollowOptions, Followed, Robot, check_seed};
+use crate::kinematics::{FollowOptions, Followed, Pose, SingularityMode, check_seed};
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
 impl PyRobot {
     /// One continuous joint path along a path of poses: inside the limits, turns considered,
-    /// through singularities without a jump where there is a way.
+    /// through singularities without a jump where there is a way. Of seven joints each step is the
+    /// smallest along the self-motion of its pose.
     ///
     /// Args:
     ///     T: Poses of the tool, shape (m, 4, 4), or several paths, shape (..., m, 4, 4),
     ///         translation [m].
-    ///     seed: Joint vectors from which the paths start [rad], shape (..., 6). T and seed are
+    ///     seed: Joint vectors from which the paths start [rad], shape (..., n). T and seed are
     ///         broadcast: one seed for many paths, one path from many seeds.
-    ///     weights: Cost of moving each joint, shape (6,); ones when not given.
+    ///     weights: Cost of moving each joint, shape (n,); ones when not given.
     ///     singularity_mode: What to do at the wrist singularity. "through": meet every pose,
     ///         however fast axes 4 and 6 turn. "error": stop where joint 5 comes into the zone, and
     ///         where a joint must jump, as SingArea \Off. "wrist": inside the zone axes 4, 5, 6 go
@@ -38,20 +40,20 @@ impl PyRobot {
     ///         orientation where it can be, as SingArea \LockAxis4.
     ///     zone: |sin q5| below which `singularity_mode` acts; 0.0175, that is one degree, when not
     ///         given.
-    ///     out: Where to write: arrays (..., m, 6) and (..., m), float64, of the joints and of the
+    ///     out: Where to write: arrays (..., m, n) and (..., m), float64, of the joints and of the
     ///         orientation error.
     ///     threads: Number of threads, for several paths; 0 for one a core.
     ///
     /// Returns:
-    ///     FollowResult: joints [rad], shape (..., m, 6), NaN where a pose is not met; orientation
+    ///     FollowResult: joints [rad], shape (..., m, n), NaN where a pose is not met; orientation
     ///         error [rad], shape (..., m); the breaks.
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape or holds an invalid pose; the message has its
     ///         index.
     ///     InvalidJointsError: A seed or weight that is not finite, or a zone that is not 0 to 1.
-    ///     InvalidModelError: The arm has seven joints; "wrist" or "lock_axis4" for an arm without
-    ///         a spherical wrist.
+    ///     InvalidModelError: "wrist" or "lock_axis4" for an arm without a spherical wrist, or
+    ///         another mode than "through" for seven joints.
     ///     ValueError: Another `singularity_mode`.
     #[pyo3(signature = (T, seed, weights=None, *, singularity_mode="through", zone=None, out=None, threads=1))]
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
@@ -65,19 +67,44 @@ impl PyRobot {
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
     ) -> PyResult<FollowResult> {
-        let singularity_mode = one_of("singularity_mode", singularity_mode, &SINGULARITY_MODES)?;
-        let options =
-            |weights| FollowOptions { weights, singularity_mode, zone: zone.unwrap_or(WRIST_ZONE) };
+        let mode = one_of("singularity_mode", singularity_mode, &SINGULARITY_MODES)?;
+        let zone = zone.unwrap_or(WRIST_ZONE);
+        let options = |weights| FollowOptions { weights, singularity_mode: mode, zone };
         let paths = Paths { T, seed, out, threads: thread_count(threads)? };
-        if let Arm::Seven(robot) = self.arm()
-            && let Some(six) = robot.six_turned()?
-        {
-            let options = options(robot.others(&read_weights(weights)?));
-            return paths.follow(&six, &options, |q| robot.others(q), |q| robot.with_others(q));
+        match self.arm() {
+            Arm::Six(robot) => {
+                let options = options(read_weights(weights)?);
+                paths.follow(|path, seed, go_on| robot.follow_while(path, seed, &options, go_on))
+            }
+            Arm::Seven(robot) => {
+                let weights = read_weights(weights)?;
+                let Some(six) = robot.six_turned()? else {
+                    check_through(mode, singularity_mode)?;
+                    return paths.follow(|path, seed, go_on| {
+                        robot.follow_while(path, seed, &weights, go_on)
+                    });
+                };
+                let options = options(robot.others(&weights));
+                paths.follow(|path, seed: &[f64; 7], go_on| {
+                    let six = six.follow_while(path, &robot.others(seed), &options, go_on)?;
+                    let q = six.q.iter().map(|q| q.map(|q| robot.with_others(&q))).collect();
+                    let Followed { orientation_error, breaks, .. } = six;
+                    Ok(Followed { q, orientation_error, breaks })
+                })
+            }
         }
-        let robot = self.arm().six_joints("follow", ", or take locked({3: 0.2}).follow")?;
-        paths.follow(robot, &options(read_weights(weights)?), |q: &[f64; 6]| *q, |q| *q)
     }
+}
+
+/// Check that seven joints are asked for no mode of a wrist's.
+fn check_through(mode: SingularityMode, name: &str) -> PyResult<()> {
+    if mode == SingularityMode::Through {
+        return Ok(());
+    }
+    Err(Fault::Model.error(format_args!(
+        "singularity_mode {name:?} is for arms of six joints: seven pass a wrist singularity with \
+         \"through\"; lock one of them, as locked({{3: 0.2}}), for another mode"
+    )))
 }
 
 /// Paths of poses, shape (..., m, 4, 4), each followed from its seed.
@@ -90,13 +117,12 @@ struct Paths<'a, 'py> {
 }
 
 impl Paths<'_, '_> {
-    /// Follow with six joints, which `others` takes from a seed of `N` and `all` puts into one.
+    /// Follow each path from its seed by a function.
     fn follow<const N: usize>(
         &self,
-        robot: &Robot<6>,
-        options: &FollowOptions,
-        others: impl Fn(&[f64; N]) -> [f64; 6],
-        all: impl Fn(&[f64; 6]) -> [f64; N],
+        follow: impl Fn(&[Pose], &[f64; N], &mut dyn FnMut() -> bool) -> Result<Followed<N>, Error>
+        + Sync
+        + Send,
     ) -> PyResult<FollowResult> {
         let py = self.T.py();
         let has_length = |shape: &[usize]| matches!(shape, [.., _, 4, 4]);
@@ -117,14 +143,13 @@ impl Paths<'_, '_> {
         memory.push(q.addresses());
         let mut errors = Output::new(py, errors_out.as_ref(), &shape, &memory)?;
         let poses = read_path(py, &rows, &shape)?;
-        let starts: Vec<_> = checked_seeds::<N>(&seeds)?.iter().map(others).collect();
+        let starts = checked_seeds::<N>(&seeds)?;
         let length = shape.last().copied().unwrap_or_default();
-        let followed = detached(py, self.threads, |batch| {
-            batch.follow(robot, &poses, length, &starts, options)
-        })?;
+        let followed =
+            detached(py, self.threads, |batch| batch.follow(&poses, length, starts, follow))?;
         let found = followed.iter().flat_map(|path| &path.q);
         for (to, found) in q.slice()?.as_chunks_mut::<N>().0.iter_mut().zip(found) {
-            *to = found.as_ref().map_or([f64::NAN; N], &all);
+            *to = found.unwrap_or([f64::NAN; N]);
         }
         let found = followed.iter().flat_map(|path| &path.orientation_error);
         for (to, error) in errors.slice()?.iter_mut().zip(found) {
@@ -147,10 +172,10 @@ fn checked_seeds<'a, const N: usize>(seeds: &'a Rows<'_>) -> PyResult<&'a [[f64;
 }
 
 /// The breaks of paths with the leading dimensions `lead`.
-fn breaks<'py>(
+fn breaks<'py, const N: usize>(
     py: Python<'py>,
     lead: &[usize],
-    followed: &[Followed],
+    followed: &[Followed<N>],
 ) -> PyResult<Bound<'py, PyTuple>> {
     let mut breaks = Vec::new();
     for (path, followed) in followed.iter().enumerate() {

@@ -77,6 +77,11 @@ pub(super) fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotatio
     Ok(made?)
 }
 
+/// The number of angles of joint 7.
+pub(super) fn read_redundancy(given: &Bound<'_, PyAny>) -> PyResult<usize> {
+    count(given).ok_or_else(|| other("redundancy must be a number of angles", given))
+}
+
 /// External axes from `irbkin.Track`, `irbkin.Positioner`, or several of them.
 pub(super) fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalAxis>> {
     let wanted = "carrier must be an irbkin.Track, an irbkin.Positioner, or a sequence of them";
@@ -156,18 +161,18 @@ fn other(wanted: &str, got: &Bound<'_, PyAny>) -> PyErr {
 }
 
 /// The joint vector of an end, with the values of external axes behind it.
-pub(super) fn read_end(
+pub(super) fn read_end<const N: usize>(
     given: Option<&Bound<'_, PyAny>>,
     field: &'static str,
     external: usize,
-) -> PyResult<(Option<[f64; 6]>, Vec<f64>)> {
+) -> PyResult<(Option<[f64; N]>, Vec<f64>)> {
     let Some(given) = given else { return Ok((None, Vec::new())) };
     if external == 0 {
-        return Ok((Some(vector::<6>(given, field, Fault::Joints)?), Vec::new()));
+        return Ok((Some(vector::<N>(given, field, Fault::Joints)?), Vec::new()));
     }
-    let count = 6 + external;
-    let wanted = || format!("({count},): 6 joint angles and {external} external axes");
+    let count = N + external;
+    let wanted = || format!("({count},): {N} joint angles and {external} external axes");
     let rows = Rows::shaped(given, wanted, field, Fault::Joints, |shape| shape == [count])?;
-    let (q, values) = rows.data()?.split_at(6);
+    let (q, values) = rows.data()?.split_at(N);
     Ok((q.try_into().ok(), values.to_vec()))
 }

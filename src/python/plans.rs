@@ -2,21 +2,23 @@
 
 use std::cell::RefCell;
 
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::arguments::{ORDERS, one_of};
+use super::arm::Arm;
 use super::arrays::numbers;
 use super::errors::{Fault, raised, shape_text, with_attributes};
-use super::freedoms::{read_carrier, read_end, read_rotation, read_tolerance};
+use super::freedoms::{read_carrier, read_end, read_redundancy, read_rotation, read_tolerance};
 use super::outputs::{array, column, matrix};
 use super::records;
 use super::robot::PyRobot;
 use super::signals::detached_while;
 use super::targets::{read_path_poses, read_weights};
 use super::trajectories::read_each;
-use crate::plan::{Caller, NoPlan, Plan, PlanError, PlanOptions, Watch};
+use crate::kinematics::Pose;
+use crate::plan::{Accept, NoPlan, Plan, PlanError, PlanOptions, Watch};
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -35,6 +37,10 @@ impl PyRobot {
     /// with nothing free, and never the sum if it comes first. Every step of the answer is shown
     /// to be continuous between its two poses.
     ///
+    /// Of seven joints, joint 7 is one more external axis, or joint 1 if that makes the better plan.
+    /// Where neither leads through, since the other six are singular on the way, the plan is a path of
+    /// `follow`. Costs of limits and singularities are of the other six.
+    ///
     /// Args:
     ///     T: Poses of the tool, shape (m, 4, 4), translation [m].
     ///     rotation: The angles by which the tool may be turned about its own axis: an
@@ -42,19 +48,22 @@ impl PyRobot {
     ///         fix the orientation.
     ///     times: Time of each pose [s], shape (m,), increasing. Then no joint may exceed its
     ///         `max_velocity`, if that is known.
-    ///     start: Joint vector at the first pose [rad], shape (6,), with the values of the external
-    ///         axes behind it, if there are any, shape (6 + k,); any when not given.
+    ///     start: Joint vector at the first pose [rad], shape (n,), with the values of the external
+    ///         axes behind it, if there are any, shape (n + k,); any when not given.
     ///     end: The same at the last pose.
     ///     closed: Whether the joints must end where they start, turns included. The last pose
     ///         repeats the first.
-    ///     weights: Cost of moving each joint, shape (6,); ones when not given.
+    ///     weights: Cost of moving each joint, shape (n,); ones when not given.
     ///     accept: Your own test, of collisions for instance: called with joint vectors of shape
-    ///         (k, 6), it returns k truth values. It is asked only for joint vectors near the best
+    ///         (k, n), it returns k truth values. It is asked only for joint vectors near the best
     ///         path, and once for those that differ by full turns.
     ///     carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
     ///         them. Their steps count for bottleneck and cost as steps of joints do.
     ///     tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
     ///         `irbkin.ToolOffset`, or one of each.
+    ///     redundancy: Number of angles of joint 7 or 1 that are searched first, of an arm of seven
+    ///         joints none of which is locked; 36 when not given. The joint is one of at most three
+    ///         external axes.
     ///     order: What of two paths makes the better one: "bottleneck", then the sum; or "sum"
     ///         alone.
     ///     limit_cost: What a joint at its limit costs [rad^2/s^2], added to the sum: as much as
@@ -66,10 +75,10 @@ impl PyRobot {
     ///         the one whose motion `irbkin.trajectory.retime` makes the shortest, everything that
     ///         is free smoothed for that. None: the pace is even, or given by `times`.
     ///     max_acceleration: Limits of that motion [rad/s^2]: a number, or one for each joint and
-    ///         external axis, shape (6 + k,).
+    ///         external axis, shape (n + k,).
     ///
     /// Returns:
-    ///     Plan: joints [rad], shape (m, 6); tool angles; slots; external axes, shape (m, k);
+    ///     Plan: joints [rad], shape (m, n); tool angles; slots; external axes, shape (m, k);
     ///         tolerances; cost; bottleneck; no breaks.
     ///
     /// Raises:
@@ -84,9 +93,9 @@ impl PyRobot {
     ///         rotation, carrier or tolerance that is empty, an open path with `closed`, a cost
     ///         that is negative or not finite.
     ///     ValueError: Another `order`.
-    ///     InvalidModelError: The arm has seven joints.
+    ///     TypeError: redundancy of an arm of six joints.
     ///     Exception: Whatever `accept` raises.
-    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, carrier=None, tolerance=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0, objective=None, max_acceleration=None))]
+    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, carrier=None, tolerance=None, redundancy=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0, objective=None, max_acceleration=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn plan<'py>(
         &self,
@@ -100,52 +109,123 @@ impl PyRobot {
         accept: Option<&Bound<'py, PyAny>>,
         carrier: Option<&Bound<'py, PyAny>>,
         tolerance: Option<&Bound<'py, PyAny>>,
+        redundancy: Option<&Bound<'py, PyAny>>,
         order: &str,
         limit_cost: f64,
         singularity_cost: f64,
         objective: Option<&str>,
         max_acceleration: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<records::Plan> {
-        let py = T.py();
-        let robot = self.arm().six_joints("plan", "")?;
-        let (cone, offset) = tolerance.map(read_tolerance).transpose()?.unwrap_or_default();
-        let external = carrier.map(read_carrier).transpose()?.unwrap_or_default();
-        let (start, start_external) = read_end(start, "start", external.len())?;
-        let (end, end_external) = read_end(end, "end", external.len())?;
-        let max_acceleration = read_objective(objective, max_acceleration, 6 + external.len())?;
-        let options = PlanOptions {
-            rotation: rotation.map(read_rotation).transpose()?,
-            times: times.map(|times| numbers(times, "(m,)", "times", Fault::Motion)).transpose()?,
+        let asked = Asked {
+            T,
+            rotation,
+            times,
+            start,
+            end,
+            closed,
+            weights,
+            accept,
+            carrier,
+            tolerance,
+            redundancy,
+            order,
+            limit_cost,
+            singularity_cost,
+            objective,
+            max_acceleration,
+        };
+        match self.arm() {
+            Arm::Six(_) if redundancy.is_some() => Err(PyTypeError::new_err(
+                "redundancy is for arms of seven joints: the pose alone determines the six of this \
+                 one",
+            )),
+            Arm::Six(robot) => asked
+                .plan(|path, options, accept, watch| robot.planned(path, options, accept, watch)),
+            Arm::Seven(robot) => asked
+                .plan(|path, options, accept, watch| robot.planned(path, options, accept, watch)),
+        }
+    }
+}
+
+/// The arguments of a plan.
+#[expect(non_snake_case, reason = "T is the name that users pass")]
+struct Asked<'a, 'py> {
+    T: &'a Bound<'py, PyAny>,
+    rotation: Option<&'a Bound<'py, PyAny>>,
+    times: Option<&'a Bound<'py, PyAny>>,
+    start: Option<&'a Bound<'py, PyAny>>,
+    end: Option<&'a Bound<'py, PyAny>>,
+    closed: bool,
+    weights: Option<&'a Bound<'py, PyAny>>,
+    accept: Option<&'a Bound<'py, PyAny>>,
+    carrier: Option<&'a Bound<'py, PyAny>>,
+    tolerance: Option<&'a Bound<'py, PyAny>>,
+    redundancy: Option<&'a Bound<'py, PyAny>>,
+    order: &'a str,
+    limit_cost: f64,
+    singularity_cost: f64,
+    objective: Option<&'a str>,
+    max_acceleration: Option<&'a Bound<'py, PyAny>>,
+}
+
+impl Asked<'_, '_> {
+    fn options<const N: usize>(&self) -> PyResult<PlanOptions<N>> {
+        let (cone, offset) = self.tolerance.map(read_tolerance).transpose()?.unwrap_or_default();
+        let external = self.carrier.map(read_carrier).transpose()?.unwrap_or_default();
+        let (start, start_external) = read_end(self.start, "start", external.len())?;
+        let (end, end_external) = read_end(self.end, "end", external.len())?;
+        let read_times = |times| numbers(times, "(m,)", "times", Fault::Motion);
+        let default = PlanOptions::<N>::default();
+        Ok(PlanOptions {
+            redundancy: self.redundancy.map_or(Ok(default.redundancy), read_redundancy)?,
+            rotation: self.rotation.map(read_rotation).transpose()?,
+            times: self.times.map(read_times).transpose()?,
             start,
             end,
             start_external,
             end_external,
-            external,
             cone,
             offset,
-            closed,
-            weights: read_weights(weights)?,
-            order: one_of("order", order, &ORDERS)?,
-            limit_cost,
-            singularity_cost,
-            max_acceleration,
-        };
-        let path = read_path_poses(T)?;
-        let accept = accept.map(|accept| accept.clone().unbind());
+            closed: self.closed,
+            weights: read_weights(self.weights)?,
+            order: one_of("order", self.order, &ORDERS)?,
+            limit_cost: self.limit_cost,
+            singularity_cost: self.singularity_cost,
+            max_acceleration: read_objective(
+                self.objective,
+                self.max_acceleration,
+                N + external.len(),
+            )?,
+            external,
+        })
+    }
+
+    /// Plan without the interpreter's lock.
+    fn plan<const N: usize>(
+        &self,
+        planned: impl FnOnce(
+            &[Pose],
+            &PlanOptions<N>,
+            Option<&mut Accept<'_, N>>,
+            Watch<'_>,
+        ) -> Result<Plan<N>, PlanError<N>>
+        + Send,
+    ) -> PyResult<records::Plan> {
+        let py = self.T.py();
+        let options = self.options::<N>()?;
+        let path = read_path_poses(self.T)?;
+        let accept = self.accept.map(|accept| accept.clone().unbind());
         let (planned, failure) = detached_while(py, |go_on| {
             let mut failure = None;
-            let mut ask = |q: &[[f64; 6]]| {
+            let mut ask = |q: &[[f64; N]]| {
                 let accept = accept.as_ref()?;
                 let answers = Python::attach(|py| asked(accept.bind(py), q));
                 answers.map_err(|error| failure = Some(error)).ok()
             };
             let go_on = RefCell::new(go_on);
             let goes_on = || go_on.borrow_mut()();
-            let mut caller = Caller { accept: None, watch: Watch(Some(&goes_on)) };
-            if accept.is_some() {
-                caller.accept = Some(&mut ask);
-            }
-            let planned = robot.planned(&path, &options, &mut caller);
+            let ask = accept.is_some().then_some(&mut ask as &mut Accept<'_, N>);
+            let planned = planned(&path, &options, ask, Watch(Some(&goes_on)));
             (planned, failure)
         })?;
         if let Some(failure) = failure {
@@ -185,7 +265,7 @@ fn read_objective(
 }
 
 /// Ask the caller's test of joint vectors.
-fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<bool>> {
+fn asked<const N: usize>(accept: &Bound<'_, PyAny>, q: &[[f64; N]]) -> PyResult<Vec<bool>> {
     let py = accept.py();
     let answers =
         py.import("numpy")?.call_method1("asarray", (accept.call1((matrix(py, q),))?,))?;
@@ -203,13 +283,13 @@ fn asked(accept: &Bound<'_, PyAny>, q: &[[f64; 6]]) -> PyResult<Vec<bool>> {
 }
 
 /// `irbkin.Plan` of a plan.
-fn plan_record(py: Python<'_>, plan: &Plan) -> PyResult<records::Plan> {
-    let rows = plan.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; 6]));
+fn plan_record<const N: usize>(py: Python<'_>, plan: &Plan<N>) -> PyResult<records::Plan> {
+    let rows = plan.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; N]));
     let slot = |slot: &Option<usize>| slot.map_or(-1, |slot| i64::try_from(slot).unwrap_or(-1));
     let breaks = plan.breaks.iter();
     let breaks = breaks.map(|gap| records::PlanBreak { leave: gap.leave, enter: gap.enter });
     Ok(records::Plan {
-        q: array(py, rows, &[plan.q.len(), 6])?,
+        q: array(py, rows, &[plan.q.len(), N])?,
         tool_angle: column(py, plan.tool_angle.iter().copied()),
         slot: column(py, plan.slot.iter().map(slot)),
         external: rows_of(py, &plan.external)?,
@@ -231,7 +311,7 @@ fn rows_of(py: Python<'_>, rows: &[Vec<f64>]) -> PyResult<Py<PyAny>> {
 }
 
 /// `irbkin.PathError` of a path without a plan.
-fn path_error(gap: &NoPlan) -> PyErr {
+fn path_error<const N: usize>(gap: &NoPlan<N>) -> PyErr {
     with_attributes(raised("PathError", gap), |value| {
         let py = value.py();
         value.setattr("index", gap.pose_index)?;

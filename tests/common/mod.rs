@@ -10,13 +10,34 @@ pub mod tally;
 use std::f64::consts::{PI, TAU};
 use std::sync::{Mutex, PoisonError};
 
-use irbkin::{Definition, Error, InstructionSet, JointLimits, Pose, Robot, pose};
+use irbkin::{Definition, DhRow, Error, InstructionSet, JointLimits, Mdh, Pose, Robot, pose};
 use proptest::prelude::*;
 use proptest::test_runner::{Config as ProptestConfig, FileFailurePersistence, RngSeed};
 
 pub use rng::Rng;
 
 use crate::structures::spherical_wrist::KUKA_KR6;
+
+/// The table of a KUKA LBR iiwa 7 R800: alpha [deg], a, d [m], theta.
+pub const IIWA_ROWS: [[f64; 4]; 7] = [
+    [0.0, 0.0, 0.36, 0.0],
+    [-90.0, 0.0, 0.0, 0.0],
+    [90.0, 0.0, 0.42, 0.0],
+    [90.0, 0.0, 0.0, 0.0],
+    [-90.0, 0.0, 0.4, 0.0],
+    [-90.0, 0.0, 0.0, 0.0],
+    [90.0, 0.0, 0.126, 0.0],
+];
+
+/// A KUKA LBR iiwa 7 R800 with its limits.
+pub fn iiwa() -> Robot<7> {
+    let rows = IIWA_ROWS.map(|[alpha, a, d, theta]| DhRow::new(alpha.to_radians(), a, d, theta));
+    let identity = Pose::identity();
+    let robot = Robot::from_mdh(Mdh { base: identity, rows, flange: identity }).unwrap();
+    let limits = [170.0, 120.0, 170.0, 120.0, 170.0, 120.0, 175.0_f64];
+    let limits = limits.map(|limit| [-limit.to_radians(), limit.to_radians()]);
+    robot.with_limits(JointLimits::new(limits).unwrap())
+}
 
 /// Use the instruction set named in `IRBKIN_INSTRUCTION_SET`; without it, the widest. Fails if the
 /// processor does not support it: a run on another set would show nothing about this one.

@@ -138,6 +138,17 @@ def test_bad_input_is_named(robot, change, error, words):
         robot.follow(**given)
 
 
-def test_an_arm_of_seven_joints_cannot_follow():
-    with pytest.raises(irbkin.InvalidModelError, match="follow is for arms of six joints"):
-        irbkin.Robot("Panda").follow(np.zeros((2, 4, 4)), np.zeros(6))
+def test_seven_joints_follow_by_the_smallest_steps():
+    panda = irbkin.Robot("Panda")
+    start = np.array([0.1, -0.6, 0.2, -2.2, 0.1, 1.7, 0.6])
+    made = start + np.linspace(0, 1, 41)[:, None] * [0.3, 0.1, -0.2, 0.1, 0.2, -0.1, 0.1]
+    T = panda.fk(made)
+    followed = panda.follow(T, start)
+    assert followed.q.shape == (41, 7) and followed.breaks == ()
+    assert np.abs(panda.fk(followed.q) - T).max() < 1e-11
+    lengths = [np.linalg.norm(np.diff(q, axis=0), axis=1).sum() for q in (followed.q, made)]
+    assert lengths[0] < lengths[1]
+    many = panda.follow(T, np.stack([start, start + 0.01]), threads=2)
+    assert many.q.shape == (2, 41, 7) and np.array_equal(many.q[0], followed.q)
+    with pytest.raises(irbkin.InvalidModelError, match=r"wrist.*locked"):
+        panda.follow(T, start, singularity_mode="wrist")

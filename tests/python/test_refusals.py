@@ -162,7 +162,8 @@ MODELS = [
     ("robot.with_limits(np.degrees(robot.limits))", "joint 1 limit is -180 to 180 rad, beyond 50 "
      "rad as are the limits of most joints (did you pass degrees? for no limit give inf)"),
     ("robot.with_linkage_limits((-1, 1))", "no parallelogram linkage"),
-    ("panda.follow(many, np.zeros(7))", "pass the joints of the pose before to ik_nearest"),
+    ("panda.follow(many, np.zeros(7), singularity_mode='error')", "seven pass a wrist singularity "
+     "with \"through\"; lock one of them"),
     ("Robot('UR5e').configuration(q)", "has no ABB configuration: its structure is \"three "
      "parallel axes\", not a six-axis arm with a spherical wrist (the slot of a solution"),
     ("panda.ik_configured(T, [0] * 4)", "this robot has no ABB configuration"),

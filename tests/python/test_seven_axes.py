@@ -99,10 +99,6 @@ def test_joint_7_is_needed_by_seven_joints_and_refused_by_six(robot):
         match=r"q7 of shape \(3,\) cannot be broadcast with T of shape \(2, 4, 4\)",
     ):
         robot.ik_batch(np.stack([pose, pose]), np.zeros(3))
-    with pytest.raises(
-        irbkin.InvalidModelError, match="pass the joints of the pose before to ik_nearest"
-    ):
-        robot.follow(np.stack([pose, pose]), np.zeros(7))
 
 
 def test_joint_7_keeps_its_given_value_and_is_checked_against_its_limits(robot):

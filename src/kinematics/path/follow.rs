@@ -10,7 +10,6 @@ use nalgebra::{IsometryMatrix3, Rotation3, Translation3};
 
 use crate::error::Error;
 use crate::kinematics::answer::check::{check_seed_near, check_weights};
-use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::path::step::{largest, largest_step, steps};
@@ -91,31 +90,35 @@ impl fmt::Display for BreakReason {
 /// Follows a path pose by pose, each time with the solution that continues the previous one. Does
 /// not allocate.
 #[derive(Clone, Debug)]
-pub struct Follower<'a> {
-    robot: &'a Robot<6>,
-    weights: [f64; 6],
+pub struct Follower<'a, const N: usize = 6> {
+    robot: &'a Robot<N>,
+    weights: [f64; N],
     /// The pose of the previous step.
     last: Option<Pose>,
-    q: [f64; 6],
+    q: [f64; N],
     /// The previous step of the joints: where the path is heading.
-    velocity: [f64; 6],
+    velocity: [f64; N],
 }
 
-impl<'a> Follower<'a> {
+impl<'a, const N: usize> Follower<'a, N> {
     /// A follower that starts at `seed` [rad].
     ///
     /// # Errors
     ///
     /// [`Error::InvalidJoints`] when the seed or a weight is not finite or a weight is negative.
-    pub fn new(robot: &'a Robot<6>, seed: &[f64; 6], weights: &[f64; 6]) -> Result<Self, Error> {
+    pub fn new(robot: &'a Robot<N>, seed: &[f64; N], weights: &[f64; N]) -> Result<Self, Error> {
         check_seed_near(seed, robot.limits(), weights)?;
         check_weights(weights)?;
-        Ok(Self { robot, weights: *weights, last: None, q: *seed, velocity: [0.0; 6] })
+        let mut q = *seed;
+        if let Some((joint, angle)) = robot.locked_joint() {
+            q[joint - 1] = angle;
+        }
+        Ok(Self { robot, weights: *weights, last: None, q, velocity: [0.0; N] })
     }
 
     /// Continue from `q` [rad] at `pose`.
-    pub(crate) fn continue_from(&mut self, pose: &Pose, q: [f64; 6]) {
-        (self.last, self.q, self.velocity) = (Some(*pose), q, [0.0; 6]);
+    pub(crate) fn continue_from(&mut self, pose: &Pose, q: [f64; N]) {
+        (self.last, self.q, self.velocity) = (Some(*pose), q, [0.0; N]);
     }
 
     /// The joint vector of the next pose of the path [rad], with the reason if it is reached by a
@@ -127,12 +130,12 @@ impl<'a> Follower<'a> {
     pub fn step(
         &mut self,
         pose: &Pose,
-    ) -> Result<(Option<Solution<6>>, Option<BreakReason>), Error> {
+    ) -> Result<(Option<Solution<N>>, Option<BreakReason>), Error> {
         let pose = checked_pose(pose)?;
         let next = match self.nearest(&pose)? {
             Ok(next) => next,
             Err(explanation) => {
-                (self.last, self.velocity) = (None, [0.0; 6]);
+                (self.last, self.velocity) = (None, [0.0; N]);
                 return Ok((None, Some(BreakReason::Unreachable(explanation))));
             }
         };
@@ -144,24 +147,25 @@ impl<'a> Follower<'a> {
             }
         }
         self.velocity =
-            if self.last.is_none() || jump.is_some() { [0.0; 6] } else { steps(&self.q, &next.q) };
+            if self.last.is_none() || jump.is_some() { [0.0; N] } else { steps(&self.q, &next.q) };
         self.q = next.q;
         self.last = Some(pose);
         Ok((Some(next), jump))
     }
 
     /// The solution nearest to where the joints are heading.
-    fn nearest(&self, pose: &Pose) -> Result<Result<Solution<6>, Explanation>, Error> {
-        // A joint that swings while it passes a singularity does not continue to swing.
-        let steady = largest(&self.velocity) <= STEADY_STEP;
+    fn nearest(&self, pose: &Pose) -> Result<Result<Solution<N>, Explanation>, Error> {
+        // A joint that swings while it passes a singularity does not continue to swing, nor do seven
+        // joints drift along their self-motion.
+        let steady = !self.robot.is_redundant() && largest(&self.velocity) <= STEADY_STEP;
         let heading =
             if steady { core::array::from_fn(|i| self.q[i] + self.velocity[i]) } else { self.q };
-        let solutions = self.robot.solve(*pose, &FreeChoice::path(heading))?;
-        if let Some(mut next) = solutions.cheapest(&heading, &self.weights, Cost::Distance) {
+        if let Some(mut next) = self.robot.continued(pose, &heading, &self.weights)? {
             self.balance(&mut next, &heading, pose);
             return Ok(Ok(next));
         }
-        // At a singular pose, another solution than the continuing ones may be inside the limits.
+        // Another solution than the continuing ones may be inside the limits: at a singular pose,
+        // or of seven joints.
         match self.robot.nearest_checked(*pose, &heading, &self.weights) {
             Ok(next) => Ok(Ok(next)),
             Err(Error::Unreachable(explanation)) => Ok(Err(explanation)),
@@ -171,13 +175,14 @@ impl<'a> Follower<'a> {
 
     /// Near wrist singularities the residual was put on joint 6 alone; split it with joint 4 as far
     /// as the pose permits.
-    fn balance(&self, next: &mut Solution<6>, heading: &[f64; 6], pose: &Pose) {
-        let Some(arm) = self.robot.spherical_wrist().filter(|_| {
-            self.robot.sin_5(&next.q).is_some_and(|sin_5| sin_5.abs() <= PATH_WRIST_SIN)
+    fn balance(&self, next: &mut Solution<N>, heading: &[f64; N], pose: &Pose) {
+        let is_near = |sin_5: f64| sin_5.abs() <= PATH_WRIST_SIN;
+        let Some(wrist) = self.robot.singular_wrist().filter(|_| {
+            self.robot.spherical_wrist().is_some() && self.robot.sin_5(&next.q).is_some_and(is_near)
         }) else {
             return;
         };
-        let sign = match next.free_joint.unwrap_or_else(|| arm.wrist_pair(&next.q)) {
+        let sign = match next.free_joint.unwrap_or_else(|| wrist.wrist_pair(&next.q)) {
             FreeJoint::WristSum => 1.0,
             FreeJoint::WristDifference => -1.0,
             _ => return,
@@ -200,9 +205,9 @@ impl<'a> Follower<'a> {
         &self,
         from: &Pose,
         to: &Pose,
-        direct: &Solution<6>,
+        direct: &Solution<N>,
     ) -> Result<Option<BreakReason>, Error> {
-        let mut scout = Self { velocity: [0.0; 6], ..self.clone() };
+        let mut scout = Self { velocity: [0.0; N], ..self.clone() };
         let whole = largest(&steps(&self.q, &direct.q));
         let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
         while done < 1.0 {
@@ -233,7 +238,7 @@ impl<'a> Follower<'a> {
     }
 
     /// The jump from the current joints to `to`, at the pose where it is unavoidable.
-    fn jump(&self, to: &Solution<6>, pose: &Pose, at: &[f64; 6]) -> Result<BreakReason, Error> {
+    fn jump(&self, to: &Solution<N>, pose: &Pose, at: &[f64; N]) -> Result<BreakReason, Error> {
         let (joint, by) = largest_step(&self.q, &to.q);
         let solutions = self.robot.solve(*pose, &FreeChoice::seed(*at))?;
         let kinds = solutions.iter().fold(self.robot.singularity(at).kinds, |kinds, solution| {
@@ -245,9 +250,9 @@ impl<'a> Follower<'a> {
 
 /// A joint path along a path of poses.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Followed {
+pub struct Followed<const N: usize = 6> {
     /// Joint angles for each pose [rad]; `None` if the pose is not reached.
-    pub q: Vec<Option<[f64; 6]>>,
+    pub q: Vec<Option<[f64; N]>>,
     /// Angle between the tool's orientation and the orientation of each pose [rad].
     pub orientation_error: Vec<Option<f64>>,
     /// Where the joints cannot follow, with the reason.

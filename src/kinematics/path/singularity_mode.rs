@@ -1,14 +1,13 @@
 //! Singularity modes: how a path crosses the wrist singularity, named as ABB names them.
 
-use alloc::vec::Vec;
-
 use nalgebra::Vector3;
 
 use crate::error::{Error, JointFault, ModelFault};
 use crate::kinematics::answer::status::SingularityKind;
-use crate::kinematics::path::follow::{Break, BreakReason, Followed, Follower};
+use crate::kinematics::path::follow::{BreakReason, Followed, Follower};
 use crate::kinematics::path::step::largest_step;
-use crate::kinematics::pose::{Pose, PoseDifference, checked_pose};
+use crate::kinematics::path::walk::Walk;
+use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::structure::solver::Solver;
 use crate::kinematics::structure::spherical_wrist::SphericalWrist;
@@ -51,9 +50,6 @@ impl Default for FollowOptions {
     }
 }
 
-/// Steps between two questions whether to go on.
-const ASKED_EVERY: usize = 32;
-
 /// How often the arm and a wrist with axis 4 held are solved in turn: each round shrinks the error
 /// by the tool's length over the arm's.
 const ROUNDS: usize = 60;
@@ -93,26 +89,14 @@ impl Robot<6> {
         {
             return Err(ModelFault::NoSphericalWrist.into());
         }
-        let mut walk = Walk {
-            robot: self,
-            path,
-            options,
-            follower: Follower::new(self, seed, &options.weights)?,
-            followed: Followed {
-                q: Vec::with_capacity(path.len()),
-                orientation_error: Vec::with_capacity(path.len()),
-                breaks: Vec::new(),
-            },
-            go_on,
-            steps: 0,
-            is_stopped: false,
-        };
+        let follower = Follower::new(self, seed, &options.weights)?;
+        let mut walk = Modes { walk: Walk::new(self, path, follower, go_on), options };
         match options.singularity_mode {
             SingularityMode::Through | SingularityMode::Error => walk.through()?,
             SingularityMode::Wrist => walk.wrist()?,
             SingularityMode::LockAxis4 => walk.lock_axis_4()?,
         }
-        Ok(walk.finish())
+        Ok(walk.walk.finish())
     }
 }
 
@@ -123,55 +107,34 @@ enum Locked {
     Axes4And5,
 }
 
-/// The state of following a path.
-struct Walk<'a> {
-    robot: &'a Robot<6>,
-    path: &'a [Pose],
+/// A path that is followed in one of the modes.
+struct Modes<'a> {
+    walk: Walk<'a, 6>,
     options: &'a FollowOptions,
-    follower: Follower<'a>,
-    followed: Followed,
-    go_on: &'a mut dyn FnMut() -> bool,
-    steps: usize,
-    is_stopped: bool,
 }
 
-impl Walk<'_> {
+impl Modes<'_> {
     fn in_zone(&self, q: &[f64; 6]) -> bool {
-        self.robot.sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
-    }
-
-    /// Whether to take another step.
-    fn goes_on(&mut self) -> bool {
-        self.steps += 1;
-        if self.steps.is_multiple_of(ASKED_EVERY) {
-            self.is_stopped |= !(self.go_on)();
-        }
-        !self.is_stopped
-    }
-
-    fn record(&mut self, q: Option<[f64; 6]>, broken: Option<BreakReason>) {
-        let pose_index = self.followed.q.len();
-        self.followed.q.push(q);
-        self.followed.breaks.extend(broken.map(|reason| Break { pose_index, reason }));
+        self.walk.robot.sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
     }
 
     /// Pose by pose; with [`SingularityMode::Error`] up to the zone or a jump.
     fn through(&mut self) -> Result<(), Error> {
-        for pose in self.path {
-            if !self.goes_on() {
+        for pose in self.walk.path {
+            if !self.walk.goes_on() {
                 return Ok(());
             }
-            let (solution, broken) = self.follower.step(pose)?;
+            let (solution, broken) = self.walk.follower.step(pose)?;
             let q = solution.map(|solution| solution.q);
             if self.options.singularity_mode == SingularityMode::Error {
                 let stopped =
                     q.filter(|q| self.in_zone(q)).map(|q| BreakReason::Stopped { q5: q[4] });
                 if let Some(reason) = stopped.or(broken) {
-                    self.record(None, Some(reason));
+                    self.walk.record(None, Some(reason));
                     return Ok(());
                 }
             }
-            self.record(q, broken);
+            self.walk.record(q, broken);
         }
         Ok(())
     }
@@ -179,12 +142,12 @@ impl Walk<'_> {
     /// The wrist moves straight through the zone; the other three axes keep the position.
     fn wrist(&mut self) -> Result<(), Error> {
         let mut index = 0;
-        while index < self.path.len() && self.goes_on() {
-            let (solution, broken) = self.follower.step(&self.path[index])?;
+        while index < self.walk.path.len() && self.walk.goes_on() {
+            let (solution, broken) = self.walk.follower.step(&self.walk.path[index])?;
             let q = solution.map(|solution| solution.q);
             match q.filter(|q| self.in_zone(q)) {
                 None => {
-                    self.record(q, broken);
+                    self.walk.record(q, broken);
                     index += 1;
                 }
                 Some(entered) => index = self.cross(index, entered, broken)?,
@@ -211,22 +174,25 @@ impl Walk<'_> {
         //
         // is the same on both.
         let mut behind = first + 1;
-        while behind < self.path.len() && self.goes_on() {
-            match self.follower.step(&self.path[behind])?.0 {
+        while behind < self.walk.path.len() && self.walk.goes_on() {
+            match self.walk.follower.step(&self.walk.path[behind])?.0 {
                 Some(solution) if self.in_zone(&solution.q) => behind += 1,
                 _ => break,
             }
         }
-        self.record(Some(entered), broken);
-        let left =
-            match self.robot.ik_nearest(&self.path[behind - 1], &entered, &self.options.weights) {
-                Ok(solution) => solution.q,
-                Err(Error::Unreachable(_)) => entered,
-                Err(error) => return Err(error),
-            };
+        self.walk.record(Some(entered), broken);
+        let left = match self.walk.robot.ik_nearest(
+            &self.walk.path[behind - 1],
+            &entered,
+            &self.options.weights,
+        ) {
+            Ok(solution) => solution.q,
+            Err(Error::Unreachable(_)) => entered,
+            Err(error) => return Err(error),
+        };
         let mut q = entered;
         for index in first + 1..behind {
-            if !self.goes_on() {
+            if !self.walk.goes_on() {
                 break;
             }
             #[expect(clippy::cast_precision_loss, reason = "a part of the way")]
@@ -239,30 +205,30 @@ impl Walk<'_> {
             let found = if index + 1 == behind {
                 Some(left)
             } else {
-                self.solve_locked(&self.path[index], &wanted, Locked::Axes4And5)?
+                self.solve_locked(&self.walk.path[index], &wanted, Locked::Axes4And5)?
             };
             let broken = found.map_or(Some(BreakReason::Locked), |found| jump(&q, &found));
             q = found.unwrap_or(q);
-            self.record(found, broken);
+            self.walk.record(found, broken);
         }
-        self.follower.continue_from(&self.path[behind - 1], q);
+        self.walk.follower.continue_from(&self.walk.path[behind - 1], q);
         Ok(behind)
     }
 
     /// Axis 4 at whichever of 0 and +-180 deg is nearest, for the whole path.
     fn lock_axis_4(&mut self) -> Result<(), Error> {
         let mut previous: Option<[f64; 6]> = None;
-        for pose in self.path {
-            if !self.goes_on() {
+        for pose in self.walk.path {
+            if !self.walk.goes_on() {
                 return Ok(());
             }
             let from = match previous {
                 Some(q) => q,
                 // Before the first pose that is reached, the path is at the seed.
-                None => match self.follower.step(pose)? {
+                None => match self.walk.follower.step(pose)? {
                     (Some(start), _) => self.locked(start.q),
                     (None, broken) => {
-                        self.record(None, broken);
+                        self.walk.record(None, broken);
                         continue;
                     }
                 },
@@ -274,14 +240,14 @@ impl Walk<'_> {
                 (Some(_), None) => None,
             };
             previous = locked.or(previous);
-            self.record(locked, broken);
+            self.walk.record(locked, broken);
         }
         Ok(())
     }
 
     /// `q` with axis 4 locked in the plane of the arm.
     fn locked(&self, mut q: [f64; 6]) -> [f64; 6] {
-        if let Some(arm) = self.robot.spherical_wrist() {
+        if let Some(arm) = self.walk.robot.spherical_wrist() {
             q[3] = arm.axis_4_in_plane(&q);
         }
         q
@@ -296,7 +262,7 @@ impl Walk<'_> {
         how: Locked,
     ) -> Result<Option<[f64; 6]>, Error> {
         let pose = checked_pose(pose)?;
-        let Some(Solver { structure: arm, end_frames, .. }) = self.robot.wrist_solver() else {
+        let Some(Solver { structure: arm, end_frames, .. }) = self.walk.robot.wrist_solver() else {
             return Ok(None);
         };
         let rotation = end_frames.wrist_pose(&pose).rotation;
@@ -308,7 +274,7 @@ impl Walk<'_> {
                 Locked::Axis4 => arm.with_axis_4_locked(&m, &locked),
                 Locked::Axes4And5 => arm.with_axes_4_and_5_locked(&m, &locked),
             };
-            let wrist = self.robot.limits().wrapped_near(&wrist, &locked);
+            let wrist = self.walk.robot.limits().wrapped_near(&wrist, &locked);
             let Some(next) = wrist.and_then(|wrist| self.to_point(arm, &point, &lever, &wrist))
             else {
                 return Ok(None);
@@ -335,23 +301,8 @@ impl Walk<'_> {
             |found: &[f64; 6]| found.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
         let found = arm
             .to_point(point, lever, q)
-            .filter_map(|found| self.robot.limits().wrapped_near(&found, q));
+            .filter_map(|found| self.walk.robot.limits().wrapped_near(&found, q));
         found.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-    }
-
-    /// Measure the orientation error at every pose.
-    fn finish(mut self) -> Followed {
-        for (index, pose) in self.path.iter().enumerate().take(self.followed.q.len()) {
-            if !self.goes_on() {
-                break;
-            }
-            let error = |q: [f64; 6]| PoseDifference::between(&self.robot.fk(&q), pose).rotation;
-            self.followed.orientation_error.push(self.followed.q[index].map(error));
-        }
-        // The rest of the path after it stopped.
-        self.followed.q.resize(self.path.len(), None);
-        self.followed.orientation_error.resize(self.path.len(), None);
-        self.followed
     }
 }
 

@@ -3,7 +3,7 @@
 use alloc::format;
 use alloc::sync::Arc;
 
-use nalgebra::Vector3;
+use nalgebra::{Unit, Vector3};
 
 use super::{Lock, Released, Robot};
 use crate::error::{Error, JointFault, ModelFault};
@@ -105,15 +105,19 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The angles of the other six joints.
-    #[cfg(feature = "python")]
     pub(crate) fn others(&self, q: &[f64; N]) -> [f64; 6] {
         others(q, self.locked_index())
     }
 
     /// The joint vector for one of the other six joints, with the locked joint at its angle.
-    #[cfg(feature = "python")]
     pub(crate) fn with_others(&self, six: &[f64; 6]) -> [f64; N] {
         self.lock.as_ref().map_or([f64::NAN; N], |lock| lock.joint.joints(six, lock.angle))
+    }
+
+    /// The axis of the locked joint and a point on it [m]: of the first joint in the world, of the
+    /// last in the frame of the tool.
+    pub(crate) fn locked_axis(&self) -> Option<(Unit<Vector3<f64>>, Vector3<f64>)> {
+        self.lock.as_ref().map(|lock| lock.joint.axis())
     }
 
     /// The lock of a joint.
@@ -123,7 +127,7 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The index of the joint whose angle a caller or a lock determines.
-    pub(in crate::kinematics) fn locked_index(&self) -> usize {
+    pub(crate) fn locked_index(&self) -> usize {
         self.lock.as_ref().map_or(N - 1, |lock| lock.joint.joint())
     }
 

@@ -13,6 +13,7 @@ use crate::kinematics::robot::{Definition, Lock, Robot};
 use crate::kinematics::solve::correction::DETERMINED;
 use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::solve::self_motion::meets;
+use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::inverse::of_count;
 use crate::kinematics::structure::lanes::Choice;
 use crate::kinematics::structure::locked::others;
@@ -130,6 +131,29 @@ impl<const N: usize> Robot<N> {
             Err(Error::Unreachable(_)) => Err(unreachable()),
             Err(error) => Err(error),
         }
+    }
+
+    /// The solution inside the limits that continues a path whose joints head for `heading`: of six
+    /// joints the nearest one, of seven the nearest along the self-motion that passes there.
+    pub(crate) fn continued(
+        &self,
+        pose: &Pose,
+        heading: &[f64; N],
+        weights: &[f64; N],
+    ) -> Result<Option<Solution<N>>, Error> {
+        if let (Some(arm), Some(heading), Some(weights)) =
+            (self.of_seven_joints(), of_count(*heading), of_count(*weights))
+        {
+            let next = arm.continued_along_redundancy(pose, &heading, &weights)?;
+            return Ok(next.and_then(of_count));
+        }
+        let solutions = self.solve(*pose, &FreeChoice::path(*heading))?;
+        Ok(solutions.cheapest(heading, weights, Cost::Distance))
+    }
+
+    /// Whether the arm has one joint more than a pose needs.
+    pub(crate) fn is_redundant(&self) -> bool {
+        self.of_seven_joints().is_some()
     }
 
     /// The arm as one of seven joints none of which is locked, if it is one.

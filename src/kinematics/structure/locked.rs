@@ -59,6 +59,11 @@ impl LockedJoint {
         self.at
     }
 
+    /// Its axis and a point on it: of the first joint in the world, of the last in the tool's frame.
+    pub(crate) fn axis(&self) -> (Unit<Vector3<f64>>, Vector3<f64>) {
+        (self.axis, self.point)
+    }
+
     /// Whether another angle of a joint, from 0, needs no other chain: the first joint and the
     /// last.
     pub(crate) fn is_end(joint: usize) -> bool {

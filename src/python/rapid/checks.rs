@@ -47,7 +47,7 @@ pub(crate) fn check<'py>(
     let py = robot.py();
     let arm = robot.get().arm();
     arm.check_rule()?;
-    let robot = arm.six_joints("check", "")?;
+    let robot = arm.six_joints("check")?;
     let options = MotionOptions {
         max_velocity: read_limits(max_velocity, "max_velocity")?,
         step,

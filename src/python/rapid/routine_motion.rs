@@ -112,7 +112,7 @@ pub(crate) fn motion(
     let py = robot.py();
     let (arm, own) = (robot.get().arm(), &module.get().module);
     arm.check_rule()?;
-    let arm = arm.six_joints("motion", "")?;
+    let arm = arm.six_joints("motion")?;
     let motion = py.detach(|| rapid::motion(arm, own, routine, &options))?;
     let index = |number: usize| i64::try_from(number).unwrap_or(-1);
     let line = |of: &usize| index(motion.moves.get(*of).map_or(0, |step| step.line));

@@ -57,6 +57,20 @@ impl Robot<7> {
             .ok_or(Error::Unreachable(found.missed.explanation))?
     }
 
+    /// The solution inside the limits that is nearest to `seed` along the curve that passes there.
+    pub(in crate::kinematics) fn continued_along_redundancy(
+        &self,
+        pose: &Pose,
+        seed: &[f64; 7],
+        weights: &[f64; 7],
+    ) -> Result<Option<Solution<7>>, Error> {
+        let mut search = self.search_of(pose, seed, weights)?;
+        if !search.keep_seed() {
+            search.descend_from_seed();
+        }
+        search.best.map(|(_, q)| self.solution_at(pose, q)).transpose()
+    }
+
     /// The outcome of a solve over every angle of joint 7, in a sentence.
     pub(in crate::kinematics) fn explain_along_redundancy(
         &self,
@@ -79,10 +93,22 @@ impl Robot<7> {
         seed: &[f64; 7],
         weights: &[f64; 7],
     ) -> Result<Search<'a>, Error> {
+        let mut search = self.search_of(pose, seed, weights)?;
+        search.run()?;
+        Ok(search)
+    }
+
+    /// A search that has not begun.
+    fn search_of<'a>(
+        &'a self,
+        pose: &'a Pose,
+        seed: &[f64; 7],
+        weights: &[f64; 7],
+    ) -> Result<Search<'a>, Error> {
         if let Some(reason) = self.unknown_structure() {
             return Err(ModelFault::UnknownStructure(reason).into());
         }
-        let mut search = Search {
+        Ok(Search {
             robot: self,
             curve: SelfMotion { robot: self, pose, rounding: self.rounding() },
             pose,
@@ -94,9 +120,7 @@ impl Robot<7> {
             missed: Missed::NOTHING,
             bisections: 0,
             uncertain: MOST_UNCERTAIN,
-        };
-        search.run()?;
-        Ok(search)
+        })
     }
 
     /// Upper bound of the rounding of a pose of this arm [m, rad].
@@ -190,17 +214,12 @@ struct Search<'a> {
 impl Search<'_> {
     fn run(&mut self) -> Result<(), Error> {
         // No cost is below zero, and near a singularity known joints are more exact than any solve.
-        if self.closes(&self.seed) {
-            self.keep(&self.seed.clone());
-        }
-        if self.best.is_some() {
+        if self.keep_seed() {
             return Ok(());
         }
         // The solution that continues from the seed, with its joint 7 and along the curve.
         let at_seed = self.samples(&self.seed.clone())?;
-        if let Some(start) = self.curve.nearest(&Joints::from(self.seed)) {
-            self.descend(start);
-        }
+        self.descend_from_seed();
         if !self.are_named {
             self.start_at(&self.seed.clone());
             let chosen = at_seed.slots.iter().flatten().filter(|sample| sample.is_chosen);
@@ -219,6 +238,19 @@ impl Search<'_> {
             self.least_shortfall(JOINT_7_SPACING)?;
         }
         Ok(())
+    }
+
+    fn keep_seed(&mut self) -> bool {
+        if self.closes(&self.seed) {
+            self.keep(&self.seed.clone());
+        }
+        self.best.is_some()
+    }
+
+    fn descend_from_seed(&mut self) {
+        if let Some(start) = self.curve.nearest(&Joints::from(self.seed)) {
+            self.descend(start);
+        }
     }
 
     fn nearest(&self) -> Option<[f64; 7]> {

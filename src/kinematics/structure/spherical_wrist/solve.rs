@@ -137,12 +137,6 @@ impl SphericalWrist {
         Reach::Reached
     }
 
-    /// The combination of joints that is fixed where axes 4 and 6 act as one, as they nearly do
-    /// near the joint 5 of `q`.
-    pub(crate) fn wrist_pair(&self, q: &[f64; 6]) -> FreeJoint {
-        self.free_wrist(self.theta(q)[4])
-    }
-
     /// The joints that the pose leaves undetermined at theta_5 = 0 or 180 deg.
     pub(super) fn free_wrist(&self, theta_5: f64) -> FreeJoint {
         let sum =
