@@ -4,45 +4,70 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::common::coupled_arm::{limited, odd, opw, unlimited, with_linkage};
+use crate::common::coupled_arm::{
+    limited, odd, opposed, opw, others, serial, unlimited, with_linkage,
+};
 use crate::common::{Rng, apart, central_difference, difference_bound, reach_of};
 use irbkin::batch::Batch;
 use irbkin::{
-    Error, Explanation, FreeJoint, JacobianFrame, JointLimits, OpwParameters, Robot, pose,
+    DhRow, Error, Explanation, FreeJoint, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose,
+    Robot, pose,
 };
 use nalgebra::Matrix6;
 
 const SLOTS: usize = 8;
 
-fn serial(mut q: [f64; 6]) -> [f64; 6] {
-    q[2] -= q[1];
-    q
-}
-
 const CASES: usize = 2000;
+
+/// Arms of every structure whose axes 2 and 3 may be coupled, in both senses.
+fn arms() -> Vec<Robot<6>> {
+    let [crx, ur, crooked] = others();
+    vec![unlimited(), odd(), opposed(), crx, ur, crooked]
+}
 
 #[test]
 fn forward_kinematics_equals_that_of_the_uncoupled_arm() {
     let mut rng = Rng::new(1);
-    for robot in [unlimited(), odd()] {
+    for robot in arms() {
         let twin = robot.clone().uncoupled();
         assert!(robot.is_coupled() && !twin.is_coupled());
         for _ in 0..CASES {
             let q = rng.inside(robot.limits());
-            assert_eq!(robot.fk(&q), twin.fk(&serial(q)));
-            assert_eq!(robot.link_frames(&q), twin.link_frames(&serial(q)));
-            assert_eq!(robot.singularity(&q).distances, twin.singularity(&serial(q)).distances);
+            assert_eq!(robot.fk(&q), twin.fk(&serial(&robot, q)));
+            assert_eq!(robot.link_frames(&q), twin.link_frames(&serial(&robot, q)));
+            assert_eq!(
+                robot.singularity(&q).distances,
+                twin.singularity(&serial(&robot, q)).distances
+            );
         }
     }
 }
 
 #[test]
 fn axis_3_keeps_the_forearm_level_while_axis_2_turns() {
-    let robot = unlimited();
-    let level = robot.fk(&[0.0; 6]).rotation;
-    for q2 in [-1.0, -0.3, 0.4, 1.2] {
-        let turned = robot.fk(&[0.0, q2, 0.0, 0.0, 0.0, 0.0]).rotation;
-        assert!(level.angle_to(&turned) < 1e-15, "{q2}");
+    let [crx, ur, _] = others();
+    for robot in [unlimited(), odd(), opposed(), crx, ur] {
+        let level = robot.fk(&[0.0; 6]).rotation;
+        for q2 in [-1.0, -0.3, 0.4, 1.2] {
+            let turned = robot.fk(&[0.0, q2, 0.0, 0.0, 0.0, 0.0]).rotation;
+            assert!((level.matrix() - turned.matrix()).amax() < 1e-15, "{q2}");
+        }
+    }
+}
+
+/// Joints of a URDF and what the pendant shows: J3 = q3 - q2.
+#[test]
+fn a_fanuc_pendant_measures_joint_3_from_the_base() {
+    let urdf = [0.1, 0.5467, -0.0352, 0.2, -1.1, 0.3];
+    let pendant = [0.1, 0.5467, (-33.340_f64).to_radians(), 0.2, -1.1, 0.3];
+    for robot in [Robot::<6>::named("CRX-10iA").unwrap(), opposed().uncoupled()] {
+        let coupled = robot.clone().coupled().unwrap();
+        let off = coupled.residual(&pendant, &robot.fk(&urdf));
+        assert!(off.largest() < 3e-5, "{off:?}");
+        let seen = coupled.ik_nearest(&robot.fk(&urdf), &pendant, &[1.0; 6]).unwrap();
+        assert!((seen.q[2] - (urdf[2] - urdf[1])).abs() < 1e-12, "{seen:?}");
+        // Limits of the URDF's joint 3 are limits of the linkage.
+        assert_eq!(coupled.limits().linkage(), Some(robot.limits().to_array()[2]));
     }
 }
 
@@ -50,15 +75,15 @@ fn axis_3_keeps_the_forearm_level_while_axis_2_turns() {
 /// the serial q3 back.
 #[test]
 fn the_jacobian_follows_from_the_uncoupled_one_by_the_chain_rule() {
-    let mut derivative = Matrix6::identity();
-    derivative[(2, 1)] = -1.0;
     let mut rng = Rng::new(2);
-    for robot in [unlimited(), odd()] {
+    for robot in arms() {
         let twin = robot.clone().uncoupled();
+        let mut derivative = Matrix6::identity();
+        derivative[(2, 1)] = serial(&robot, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0])[2];
         for _ in 0..CASES {
             let q = rng.inside(robot.limits());
             for frame in [JacobianFrame::Base, JacobianFrame::Tool] {
-                let expected = twin.jacobian(&serial(q), frame) * derivative;
+                let expected = twin.jacobian(&serial(&robot, q), frame) * derivative;
                 assert!(
                     (robot.jacobian(&q, frame) - expected).amax()
                         <= 4.0 * f64::EPSILON * reach_of(&robot)
@@ -70,16 +95,16 @@ fn the_jacobian_follows_from_the_uncoupled_one_by_the_chain_rule() {
 
 #[test]
 fn the_jacobian_matches_central_differences() {
-    let robot = odd();
     let mut rng = Rng::new(3);
-    for _ in 0..200 {
-        let q = rng.inside(robot.limits());
-        let jacobian = robot.jacobian(&q, JacobianFrame::Base);
-        for joint in 0..6 {
-            for (row, wanted) in central_difference(&robot, &q, joint).into_iter().enumerate() {
-                assert!(
-                    (jacobian[(row, joint)] - wanted).abs() < difference_bound(reach_of(&robot))
-                );
+    for (robot, _) in arms().iter().zip(0..4) {
+        for _ in 0..100 {
+            let q = rng.inside(robot.limits());
+            let jacobian = robot.jacobian(&q, JacobianFrame::Base);
+            for joint in 0..6 {
+                for (row, wanted) in central_difference(robot, &q, joint).into_iter().enumerate() {
+                    let off = (jacobian[(row, joint)] - wanted).abs();
+                    assert!(off < difference_bound(reach_of(robot)), "{off}");
+                }
             }
         }
     }
@@ -88,7 +113,7 @@ fn the_jacobian_matches_central_differences() {
 #[test]
 fn solutions_equal_those_of_the_uncoupled_arm_slot_for_slot() {
     let mut rng = Rng::new(4);
-    for robot in [unlimited(), odd()] {
+    for robot in [unlimited(), odd(), opposed()] {
         let twin = robot.clone().uncoupled();
         for _ in 0..CASES {
             let q = rng.inside(robot.limits());
@@ -101,7 +126,7 @@ fn solutions_equal_those_of_the_uncoupled_arm_slot_for_slot() {
                     assert_eq!(solutions.slot(slot).is_none(), serials.slot(slot).is_none());
                     continue;
                 };
-                assert!(apart(&serial(solution.q), &other.q) < 1e-14);
+                assert!(apart(&serial(&robot, solution.q), &other.q) < 1e-14);
                 assert!(solution.q.iter().all(|angle| *angle > -PI && *angle <= PI));
                 let residual = robot.residual(&solution.q, &pose);
                 assert!(
@@ -113,15 +138,76 @@ fn solutions_equal_those_of_the_uncoupled_arm_slot_for_slot() {
     }
 }
 
+/// Solutions in ordinal slots have the order of the serial angles.
+#[test]
+fn solutions_of_other_structures_equal_those_of_the_uncoupled_arm() {
+    let mut rng = Rng::new(10);
+    for robot in others() {
+        let free = robot.with_limits(JointLimits::UNLIMITED).with_linkage_limits(None).unwrap();
+        let twin = free.clone().uncoupled();
+        let mut regular = 0;
+        for _ in 0..200 {
+            let q: [f64; 6] = rng.angles();
+            let pose = free.fk(&q);
+            let (solutions, serials) = (free.ik(&pose).unwrap(), twin.ik(&pose).unwrap());
+            assert_eq!(solutions.status(), serials.status());
+            assert!(solutions.iter().any(|solution| apart(&solution.q, &q) < 1e-8));
+            for (solution, other) in solutions.iter().zip(&serials) {
+                assert!(apart(&serial(&free, solution.q), &other.q) < 1e-9);
+                assert!(solution.q.iter().all(|angle| *angle > -PI && *angle <= PI));
+                regular += 1;
+            }
+        }
+        assert!(regular > 400, "{regular}");
+    }
+}
+
+/// A joint that a singular pose leaves undetermined is the controller's.
+#[test]
+fn the_free_joint_of_a_coupled_arm_takes_its_value() {
+    let [crx, ur, _] = others();
+    let angles = [0.0, FRAC_PI_2, -FRAC_PI_2];
+    let singular = |i: usize| [0.3, angles[i % 3], angles[i / 3 % 3], 0.0, angles[i / 9], 0.2];
+    let cases = (0..27).flat_map(|i| [(&crx, singular(i)), (&ur, singular(i))]);
+    let (mut moved, mut third) = (0, 0);
+    for (robot, q) in cases {
+        let limits = JointLimits::UNLIMITED;
+        let robot = robot.clone().with_limits(limits).with_linkage_limits(None).unwrap();
+        let pose = robot.fk(&q);
+        for solution in &robot.ik(&pose).unwrap() {
+            let Some(free) = solution.free_joint else { continue };
+            let value = solution.q[free.joint() - 1] + 0.05;
+            let Ok(Some(other)) = robot.with_free_joint(&pose, solution, value) else { continue };
+            assert_eq!(other.q[free.joint() - 1], value);
+            assert!(robot.residual(&other.q, &pose).largest() < 1e-8);
+            let turns = |joint: usize| (other.q[joint] - solution.q[joint]).abs() > 1e-6;
+            let is_named = |joint: usize| !free.fixed().contains(&format!("q{}", joint + 1));
+            assert!((0..6).all(|joint| !turns(joint) || is_named(joint)), "{free:?}");
+            moved += 1;
+            third += usize::from(turns(2));
+        }
+    }
+    assert!(moved > 10 && third > 0, "{moved} {third}");
+}
+
 #[test]
 fn limits_are_those_of_the_controllers_angles() {
     let mut rng = Rng::new(5);
-    for robot in [limited(), with_linkage()] {
+    let fanuc = opposed().with_linkage_limits(Some([-1.0, 2.0])).unwrap();
+    let [crx, ur, crooked] = others();
+    for (robot, cases) in [
+        (limited(), CASES),
+        (with_linkage(), CASES),
+        (fanuc, CASES),
+        (ur, CASES),
+        (crx, CASES / 10),
+        (crooked, CASES / 10),
+    ] {
         let limits = *robot.limits();
-        for _ in 0..CASES {
+        for _ in 0..cases {
             let q = rng.inside(&limits);
             for solution in &robot.ik(&robot.fk(&q)).unwrap() {
-                let linkage = solution.q[2] - solution.q[1];
+                let linkage = serial(&robot, solution.q)[2];
                 let holds =
                     |[low, high]: [f64; 2], angle: f64| angle >= low - 1e-9 && angle <= high + 1e-9;
                 let inside = limits
@@ -130,7 +216,7 @@ fn limits_are_those_of_the_controllers_angles() {
                     .zip(solution.q)
                     .all(|(limit, angle)| holds(limit, angle))
                     && limits.linkage().is_none_or(|limit| {
-                        [-TAU, 0.0, TAU].iter().any(|turn| holds(limit, linkage + turn))
+                        (-2..=2).any(|turn| holds(limit, linkage + TAU * f64::from(turn)))
                     });
                 assert_eq!(solution.is_within_limits(), inside, "{solution:?}");
             }
@@ -161,8 +247,14 @@ fn forward_kinematics_and_jacobian_of_rows_equal_single_calls() {
 
 #[test]
 fn turns_and_the_nearest_keep_the_linkage_inside() {
-    let (robot, mut rng) = (with_linkage(), Rng::new(8));
-    let mut kept_out = 0;
+    let fanuc = opposed().with_linkage_limits(Some([-1.0, 2.0])).unwrap();
+    for robot in [with_linkage(), fanuc] {
+        assert_linkage_is_kept(&robot);
+    }
+}
+
+fn assert_linkage_is_kept(robot: &Robot<6>) {
+    let (mut kept_out, mut rng) = (0, Rng::new(8));
     for _ in 0..CASES {
         let q = rng.inside(robot.limits());
         let solutions = robot.ik(&robot.fk(&q)).unwrap();
@@ -188,20 +280,23 @@ fn turns_and_the_nearest_keep_the_linkage_inside() {
 #[test]
 fn coupling_and_uncoupling_lose_no_posture() {
     let mut rng = Rng::new(9);
-    for robot in [limited(), with_linkage()] {
+    for robot in [limited(), with_linkage(), opposed()] {
         let twin = robot.clone().uncoupled();
         let back = twin.clone().coupled().unwrap();
         for _ in 0..CASES {
             let q = rng.inside(robot.limits());
             if robot.limits().contains(&q) {
-                assert!(twin.limits().contains(&serial(q)));
+                let [q1, q2, q3, rest @ ..] = serial(&robot, q);
+                // The linkage is compared modulo 2 pi.
+                let turned = |turn: f64| [q1, q2, q3 + turn, rest[0], rest[1], rest[2]];
+                let is_inside = |turn| twin.limits().contains(&turned(turn));
+                assert!([0.0, TAU, -TAU].into_iter().any(is_inside));
                 assert!(back.limits().contains(&q));
             }
         }
-        assert_eq!(
-            robot.limits().linkage().is_some(),
-            twin.limits().to_array()[2] == [-100.0, 40.0].map(f64::to_radians)
-        );
+        if let Some(linkage) = robot.limits().linkage() {
+            assert_eq!(twin.limits().to_array()[2], linkage);
+        }
     }
     assert_eq!(unlimited().uncoupled(), Robot::from_opw(opw()).unwrap());
     assert_eq!(unlimited().uncoupled().coupled().unwrap(), unlimited());
@@ -233,33 +328,44 @@ fn invalid_limits_are_reported() {
         message(serial.with_linkage_limits(Some([0.0, 1.0])))
             .starts_with("this robot has no parallelogram linkage")
     );
-    let senses = OpwParameters { signs: [1, 1, -1, 1, 1, 1], ..opw() };
     assert_eq!(
-        message(Robot::from_opw(senses).unwrap().coupled()),
-        "axes 2 and 3 cannot be coupled: they turn in opposite senses"
+        Robot::<7>::named("Panda").unwrap().coupled().unwrap_err().to_string(),
+        "axes 2 and 3 cannot be coupled: they are 90.0 deg off parallel, at most 2.9 deg is possible"
     );
     assert_eq!(
-        message(Robot::named("UR3").unwrap().coupled()),
-        "axes 2 and 3 cannot be coupled: the arm has no spherical wrist"
+        message(Robot::named("CRB 15000-5/0.95").unwrap().coupled()),
+        "axes 2 and 3 cannot be coupled: the controller of this arm measures joint 3 from the \
+         upper arm"
+    );
+    let seven = std::array::from_fn(|i| DhRow::new(if i == 2 { 0.0 } else { 1.0 }, 0.3, 0.2, 0.0));
+    let (base, flange) = (Pose::identity(), Pose::identity());
+    let seven: Robot<7> = Robot::serial_chain(Mdh { base, rows: seven, flange }).unwrap();
+    assert_eq!(
+        seven.coupled().unwrap_err().to_string(),
+        "axes 2 and 3 cannot be coupled: the arm has 7 joints, a linkage needs six"
     );
 }
 
 #[test]
 fn with_the_wrist_on_axis_2_the_coupled_axis_3_follows_axis_2() {
-    let robot = Robot::from_opw(OpwParameters::abb(0.1, 0.0, 0.5, 0.7, 0.7, 0.1))
-        .unwrap()
-        .coupled()
-        .unwrap();
-    // Folded: the serial axis 3 at 90 deg.
-    let q = [0.2, 0.3, FRAC_PI_2 + 0.3, 0.4, 0.5, 0.6];
-    let pose = robot.fk(&q);
-    let solutions = robot.ik(&pose).unwrap();
-    let free = solutions
-        .iter()
-        .find(|solution| solution.free_joint == Some(FreeJoint::UpperCoupled))
-        .unwrap();
-    assert_eq!(free.free_joint.unwrap().fixed(), "q1, q3 - q2");
-    let moved = robot.with_free_joint(&pose, free, 0.3).unwrap().unwrap();
-    assert!((moved.q[2] - moved.q[1] - FRAC_PI_2).abs() < 1e-12);
-    assert!(robot.residual(&moved.q, &pose).largest() < 1e-12);
+    let abb = OpwParameters::abb(0.1, 0.0, 0.5, 0.7, 0.7, 0.1);
+    let fanuc = OpwParameters { signs: [1, 1, -1, 1, 1, 1], ..abb };
+    for (opw, sense, free_joint, fixed) in [
+        (abb, 1.0, FreeJoint::UpperCoupled, "q1, q3 - q2"),
+        (fanuc, -1.0, FreeJoint::UpperOpposed, "q1, q3 + q2"),
+    ] {
+        let robot = Robot::from_opw(opw).unwrap().coupled().unwrap();
+        // Folded: the serial axis 3 at 90 deg.
+        let q = [0.2, 0.3, sense * (FRAC_PI_2 + 0.3), 0.4, 0.5, 0.6];
+        let pose = robot.fk(&q);
+        let solutions = robot.ik(&pose).unwrap();
+        let free =
+            solutions.iter().find(|solution| solution.free_joint == Some(free_joint)).unwrap();
+        assert_eq!(free.free_joint.unwrap().fixed(), fixed);
+        let moved = robot.with_free_joint(&pose, free, 0.7).unwrap().unwrap();
+        assert!((moved.q[2] - sense * (moved.q[1] + FRAC_PI_2)).abs() < 1e-12);
+        assert!(robot.residual(&moved.q, &pose).largest() < 1e-12);
+        let nearest = robot.ik_nearest(&pose, &q, &[1.0; 6]).unwrap();
+        assert!(apart(&nearest.q, &q) < 1e-6, "{nearest:?}");
+    }
 }

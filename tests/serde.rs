@@ -51,13 +51,17 @@ fn robots_round_trip() {
     }
     let coupled: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap().coupled().unwrap();
     round_trips_with_settings(&coupled);
+    let opposed: Robot<6> = Robot::named("CRX-10iA").unwrap();
+    round_trips_with_settings(&opposed.coupled().unwrap());
     let panda: Robot<7> = Robot::named("Panda").unwrap();
     round_trips_with_settings(&panda.locked(3, 0.2).unwrap());
     let nominal: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
     let mut corrections = Corrections::NONE;
     corrections.rows[2] = [1e-4, 2e-4, 3e-4, 4e-4, 5e-4];
     let calibrated = nominal.with_corrections(&corrections).unwrap();
-    round_trips_with_settings(&calibrated.with_nominal(&nominal).unwrap());
+    let refined = calibrated.with_nominal(&nominal).unwrap();
+    round_trips_with_settings(&refined.clone().coupled().unwrap());
+    round_trips_with_settings(&refined);
     round_trips(&coupled.clone().with_linkage_limits(None).unwrap());
     round_trips(&coupled.with_linkage_limits(Some([-1.0, f64::INFINITY])).unwrap());
 }
@@ -69,7 +73,7 @@ fn joint_limits_round_trip() {
     round_trips(&JointLimits::<7>::UNLIMITED);
     assert_eq!(
         serde_json::to_string(&limits).unwrap(),
-        r#"{"joints":[[-1.0,2.0],[null,0.5]],"linkage":null}"#
+        r#"{"joints":[[-1.0,2.0],[null,0.5]],"linkage":null,"is_opposed":false}"#
     );
 }
 
@@ -85,8 +89,10 @@ fn error_with(old: &str, new: &str) -> String {
 fn a_robot_is_checked_when_it_is_read() {
     let velocity = error_with(r#""max_velocity":["#, r#""max_velocity":[-1.0,"#);
     assert!(velocity.contains('6') && velocity.contains('7'), "{velocity}");
-    let coupled = error_with(r#""coupled":false"#, r#""coupled":true"#);
-    assert!(coupled.contains("spherical wrist"), "{coupled}");
+    let panda = serde_json::to_string(&Robot::<7>::named("Panda").unwrap()).unwrap();
+    let coupled = panda.replacen(r#""coupled":false"#, r#""coupled":true"#, 1);
+    let coupled = serde_json::from_str::<Robot<7>>(&coupled).unwrap_err().to_string();
+    assert!(coupled.contains("90.0 deg off parallel"), "{coupled}");
     let limits = error_with(r#""joints":[[-6.28"#, r#""joints":[[16.28"#);
     assert!(limits.contains("joint 1 limit is empty"), "{limits}");
     let tool = error_with(r#""tool":{"rotation":[1.0"#, r#""tool":{"rotation":[2.0"#);

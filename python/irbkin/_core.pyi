@@ -283,9 +283,9 @@ class FreeJoint(_Record):
     @property
     def fixed(self) -> str:
         """Joints that stay fixed along the self-motion: "q4 + q6", "q4 - q6", "q2, q3", "q1, q3"
-        or, with coupled axes 2 and 3, "q1, q3 - q2"; "q1, q5" of three parallel axes; "q1 + q3",
-        "q1 - q3", "q4, q6" or "q4, q5" of seven axes. Of an arm without a closed form the joints
-        that stand still, or "nothing".
+        or, with coupled axes 2 and 3, "q1, q3 - q2" or "q1, q3 + q2"; "q1, q5" of three parallel
+        axes; "q1 + q3", "q1 - q3", "q4, q6" or "q4, q5" of seven axes. Of an arm without a
+        closed form the joints that stand still, or "nothing".
         """
     def __new__(cls, joint: int, fixed: str) -> FreeJoint: ...
 
@@ -863,44 +863,47 @@ class Robot:
         """
     @property
     def is_coupled(self) -> bool:
-        """Whether a parallelogram linkage couples axes 2 and 3: q3 is then measured from the
-        base, as the controller does.
+        """Whether axes 2 and 3 are coupled, by a parallelogram linkage or by the controller: q3
+        is then measured from the base.
         """
     @property
     def linkage_limits(self) -> _Floats | None:
-        """Lower and upper limit of q3 - q2 [rad], shape (2,), of the parallelogram linkage; None
-        where none are known.
+        """Lower and upper limit of the serial joint 3 [rad], shape (2,), of a robot with coupled
+        axes 2 and 3: of q3 of `uncoupled()`. None where none are known.
         """
     def with_linkage_limits(self, limits: npt.ArrayLike | None) -> Robot:
-        """Return the robot with other limits of q3 - q2, the angle of its parallelogram linkage.
+        """Return the robot, whose axes 2 and 3 are coupled, with other limits of the serial joint
+        3, the angle of a parallelogram linkage.
 
         Args:
-            limits: Lower and upper limit [rad], shape (2,), met by any 2 pi equivalent of q3 - q2;
-                None for none.
+            limits: Lower and upper limit of q3 of `uncoupled()` [rad], shape (2,), met by any 2 pi
+                equivalent; None for none.
 
         Raises:
             InvalidModelError: A limit is NaN, the lower one is above the upper one, or axes 2 and 3
                 are not coupled.
         """
     def uncoupled(self) -> Robot:
-        """Return the twin without the coupling of axes 2 and 3: its q3 is this robot's q3 - q2. The
-        robot itself where it has no linkage.
+        """Return the twin without the coupling of axes 2 and 3: its q3 is this robot's q3 - q2 or,
+        if the axes turn in opposite senses, q3 + q2. The robot itself where it has no coupling.
 
-        The limits of its joint 3 are the linkage's or, where these are not known, the range
-        of q3 - q2 inside the limits of both axes. Its velocity is the sum of both. `coupled()` of
-        the twin therefore has wider limits and a higher velocity than this robot.
+        The limits of its joint 3 are `linkage_limits` or, where these are not known, the range of
+        its q3 inside the limits of both axes. Its velocity is the sum of both. `coupled()` of the
+        twin therefore has wider limits and a higher velocity than this robot.
         """
     def coupled(self) -> Robot:
-        """Return the twin whose axes 2 and 3 are coupled by a parallelogram linkage: its q3 is this
-        robot's q3 + q2, as a controller measures it.
+        """Return the twin whose axes 2 and 3 are coupled: it measures q3 from the base, as
+        controllers do of arms with a parallelogram linkage, and Fanuc's pendants of all. Its q3 is
+        this robot's q3 + q2 or, if axes 2 and 3 turn in opposite senses, as in Fanuc's URDFs, q3 -
+        q2.
 
-        The limits of joint 3 become the linkage's. The limits of its joint 3 are the range
-        that axis 2 and the linkage allow, and its velocity is the sum of both. `uncoupled()` of the
-        twin therefore has wider limits and a higher velocity than this robot.
+        The limits of joint 3 become `linkage_limits`. The limits of its joint 3 are the range that
+        axis 2 and the linkage allow, and its velocity is the sum of both. `uncoupled()` of the twin
+        therefore has wider limits and a higher velocity than this robot.
 
         Raises:
-            InvalidModelError: The arm has no spherical wrist, or its axes 2 and 3 turn in opposite
-                directions.
+            InvalidModelError: Axes 2 and 3 are not parallel, the arm has seven joints, or it is a
+                GoFa, whose controller measures joint 3 from the upper arm.
         """
     def fk(self, q: npt.ArrayLike, out: _Floats | None = None) -> _Floats:
         """Forward kinematics: the pose of the tool.
@@ -959,19 +962,20 @@ class Robot:
         `plan`. Rates: docs/guide/calibrate.md.
 
         Args:
-            nominal: A Robot with a closed form, or its catalog name. Its base, tool and limits do
-                not count.
+            nominal: A Robot with a closed form, or its catalog name. Its base, tool, limits and
+                coupling do not count.
 
         Raises:
             UnknownRobotError: No arm of that name.
-            InvalidModelError: The nominal robot has no closed form, coupled axes, or its tool is
-                more than 0.05 rad, or 0.05 of its reach, from this robot's.
+            InvalidModelError: The nominal robot has no closed form, or its tool is more than 0.05
+                rad, or 0.05 of its reach, from this robot's.
         """
     def with_corrections(self, corrections: npt.ArrayLike) -> Robot:
         """Return the robot with corrected base, table and tool: what `irbkin.calibrate` makes of
         it.
 
-        Corrections of base and tool alone leave the structure as it is. See
+        Corrections of base and tool alone leave the structure as it is. Limits, velocities, name
+        and a coupling of axes 2 and 3 are kept: `theta` of row 3 corrects the serial joint 3. See
         docs/guide/calibrate.md.
 
         Args:
@@ -982,7 +986,7 @@ class Robot:
 
         Raises:
             InvalidModelError: A correction is not finite, the shape is wrong, the corrected table
-                is not a table, or the table of a robot with coupled axes 2 and 3 is corrected.
+                is not a table, or it leaves coupled axes 2 and 3 more than 0.05 rad off parallel.
         """
     def _parameter_jacobian(
         self,

@@ -3,6 +3,8 @@
 use core::f64::consts::TAU;
 use core::fmt;
 
+use alloc::string::String;
+
 use thiserror::Error;
 
 use super::UrdfFault;
@@ -52,12 +54,12 @@ pub enum ModelFault {
     #[error("linkage limit is empty: lower {lower} rad > upper {upper} rad")]
     EmptyLinkageLimit { lower: f64, upper: f64 },
     #[error(
-        "this robot has no parallelogram linkage: linkage limits bound q3 - q2 of a robot with \
-         coupled axes 2 and 3 (see coupled)"
+        "this robot has no parallelogram linkage: linkage limits bound the serial joint 3 of a \
+         robot with coupled axes 2 and 3 (see coupled)"
     )]
     NoLinkage,
     #[error("axes 2 and 3 cannot be coupled: {reason}")]
-    NotCoupled { reason: &'static str },
+    NotCoupled { reason: String },
     #[error("joint {joint} velocity is {value} rad/s, it must be positive")]
     Velocity { joint: usize, value: f64 },
     #[error("the robot has {found} joints, it must have {wanted}")]
@@ -103,11 +105,6 @@ pub enum ModelFault {
         .axes.0, .axes.1
     )]
     LeftNearlyParallel { joint: usize, angle: f64, axes: (usize, usize), off: f64, bound: f64 },
-    #[error(
-        "the table of a robot with coupled axes 2 and 3 cannot be corrected: correct its \
-         uncoupled() twin, whose q3 is q3 - q2"
-    )]
-    CoupledTable,
     #[error(
         "the structure of the nominal robot is \"{structure}\", it must have a closed form (give \
          the arm of the data sheet)"

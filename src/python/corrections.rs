@@ -14,7 +14,8 @@ use crate::kinematics::{Corrections, Robot};
 impl PyRobot {
     /// Return the robot with corrected base, table and tool: what `irbkin.calibrate` makes of it.
     ///
-    /// Corrections of base and tool alone leave the structure as it is. See
+    /// Corrections of base and tool alone leave the structure as it is. Limits, velocities, name
+    /// and a coupling of axes 2 and 3 are kept: `theta` of row 3 corrects the serial joint 3. See
     /// docs/guide/calibrate.md.
     ///
     /// Args:
@@ -25,7 +26,7 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidModelError: A correction is not finite, the shape is wrong, the corrected table
-    ///         is not a table, or the table of a robot with coupled axes 2 and 3 is corrected.
+    ///         is not a table, or it leaves coupled axes 2 and 3 more than 0.05 rad off parallel.
     fn with_corrections(&self, corrections: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(on!(self.arm(), robot => {
             Arm::from(robot.with_corrections(&read(robot, Some(corrections))?)?)
@@ -42,13 +43,13 @@ impl PyRobot {
     /// `plan`. Rates: docs/guide/calibrate.md.
     ///
     /// Args:
-    ///     nominal: A Robot with a closed form, or its catalog name. Its base, tool and limits do
-    ///         not count.
+    ///     nominal: A Robot with a closed form, or its catalog name. Its base, tool, limits and
+    ///         coupling do not count.
     ///
     /// Raises:
     ///     UnknownRobotError: No arm of that name.
-    ///     InvalidModelError: The nominal robot has no closed form, coupled axes, or its tool is
-    ///         more than 0.05 rad, or 0.05 of its reach, from this robot's.
+    ///     InvalidModelError: The nominal robot has no closed form, or its tool is more than 0.05
+    ///         rad, or 0.05 of its reach, from this robot's.
     fn with_nominal(&self, nominal: &Bound<'_, PyAny>) -> PyResult<Self> {
         let nominal = match nominal.cast::<Self>() {
             Ok(nominal) => nominal.get().arm().clone(),

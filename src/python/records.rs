@@ -32,9 +32,9 @@ record! {
         /// Its number, from 1.
         joint: usize,
         /// Joints that stay fixed along the self-motion: "q4 + q6", "q4 - q6", "q2, q3", "q1, q3"
-        /// or, with coupled axes 2 and 3, "q1, q3 - q2"; "q1, q5" of three parallel axes; "q1 +
-        /// q3", "q1 - q3", "q4, q6" or "q4, q5" of seven axes. Of an arm without a closed form the
-        /// joints that stand still, or "nothing".
+        /// or, with coupled axes 2 and 3, "q1, q3 - q2" or "q1, q3 + q2"; "q1, q5" of three parallel
+        /// axes; "q1 + q3", "q1 - q3", "q4, q6" or "q4, q5" of seven axes. Of an arm without a
+        /// closed form the joints that stand still, or "nothing".
         fixed: String,
     }
 }

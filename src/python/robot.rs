@@ -154,26 +154,27 @@ impl PyRobot {
         Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_base(&base)?)).into())
     }
 
-    /// Whether a parallelogram linkage couples axes 2 and 3: q3 is then measured from the base, as
-    /// the controller does.
+    /// Whether axes 2 and 3 are coupled, by a parallelogram linkage or by the controller: q3 is then
+    /// measured from the base.
     #[getter]
     fn is_coupled(&self) -> bool {
         on!(&self.arm, robot => robot.is_coupled())
     }
 
-    /// Lower and upper limit of q3 - q2 [rad], shape (2,), of the parallelogram linkage; None where
-    /// none are known.
+    /// Lower and upper limit of the serial joint 3 [rad], shape (2,), of a robot with coupled axes 2
+    /// and 3: of q3 of `uncoupled()`. None where none are known.
     #[getter]
     fn linkage_limits<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
         on!(&self.arm, robot => robot.limits().linkage())
             .map(|linkage| PyArray1::from_slice(py, &linkage))
     }
 
-    /// Return the robot with other limits of q3 - q2, the angle of its parallelogram linkage.
+    /// Return the robot, whose axes 2 and 3 are coupled, with other limits of the serial joint 3,
+    /// the angle of a parallelogram linkage.
     ///
     /// Args:
-    ///     limits: Lower and upper limit [rad], shape (2,), met by any 2 pi equivalent of q3 - q2;
-    ///         None for none.
+    ///     limits: Lower and upper limit of q3 of `uncoupled()` [rad], shape (2,), met by any 2 pi
+    ///         equivalent; None for none.
     ///
     /// Raises:
     ///     InvalidModelError: A limit is NaN, the lower one is above the upper one, or axes 2 and 3
@@ -184,26 +185,27 @@ impl PyRobot {
             .into())
     }
 
-    /// Return the twin without the coupling of axes 2 and 3: its q3 is this robot's q3 - q2. The
-    /// robot itself where it has no linkage.
+    /// Return the twin without the coupling of axes 2 and 3: its q3 is this robot's q3 - q2 or, if
+    /// the axes turn in opposite senses, q3 + q2. The robot itself where it has no coupling.
     ///
-    /// The limits of its joint 3 are the linkage's or, where these are not known, the range
-    /// of q3 - q2 inside the limits of both axes. Its velocity is the sum of both. `coupled()` of
-    /// the twin therefore has wider limits and a higher velocity than this robot.
+    /// The limits of its joint 3 are `linkage_limits` or, where these are not known, the range of
+    /// its q3 inside the limits of both axes. Its velocity is the sum of both. `coupled()` of the
+    /// twin therefore has wider limits and a higher velocity than this robot.
     fn uncoupled(&self) -> Self {
         on!(&self.arm, robot => Arm::from(Robot::clone(robot).uncoupled())).into()
     }
 
-    /// Return the twin whose axes 2 and 3 are coupled by a parallelogram linkage: its q3 is this
-    /// robot's q3 + q2, as a controller measures it.
+    /// Return the twin whose axes 2 and 3 are coupled: it measures q3 from the base, as controllers
+    /// do of arms with a parallelogram linkage, and Fanuc's pendants of all. Its q3 is this robot's
+    /// q3 + q2 or, if axes 2 and 3 turn in opposite senses, as in Fanuc's URDFs, q3 - q2.
     ///
-    /// The limits of joint 3 become the linkage's. The limits of its joint 3 are the range
-    /// that axis 2 and the linkage allow, and its velocity is the sum of both. `uncoupled()` of the
-    /// twin therefore has wider limits and a higher velocity than this robot.
+    /// The limits of joint 3 become `linkage_limits`. The limits of its joint 3 are the range that
+    /// axis 2 and the linkage allow, and its velocity is the sum of both. `uncoupled()` of the twin
+    /// therefore has wider limits and a higher velocity than this robot.
     ///
     /// Raises:
-    ///     InvalidModelError: The arm has no spherical wrist, or its axes 2 and 3 turn in opposite
-    ///         directions.
+    ///     InvalidModelError: Axes 2 and 3 are not parallel, the arm has seven joints, or it is a
+    ///         GoFa, whose controller measures joint 3 from the upper arm.
     fn coupled(&self) -> PyResult<Self> {
         Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).coupled()?)).into())
     }

@@ -83,13 +83,13 @@ pub enum Explanation {
     /// Solutions exist, none inside the limits: only the linkage of coupled axes 2 and 3 keeps the
     /// best of them out.
     #[error(
-        "all {solutions} outside limits; nearest: the linkage (q3 - q2) by {:.1} deg",
+        "all {solutions} outside limits; nearest: the linkage (serial joint 3) by {:.1} deg",
         .excess.to_degrees()
     )]
     OutsideLinkage {
         /// All solutions.
         solutions: usize,
-        /// How far q3 - q2 is outside the limits of the linkage [rad].
+        /// How far the serial joint 3 is outside the limits of the linkage [rad].
         excess: f64,
     },
     /// The wrist center does not reach the pose.

@@ -15,6 +15,8 @@ pub enum FreeJoint {
     Upper,
     /// As `Upper`, for an arm with coupled axes 2 and 3: q3 moves with q2.
     UpperCoupled,
+    /// As `UpperCoupled`, of axes 2 and 3 that turn in opposite senses: q3 moves against q2.
+    UpperOpposed,
     /// Axes 4 and 6 are one: q4 is free, q4 + q6 is fixed.
     WristSum,
     /// Axes 4 and 6 are one: q4 is free, q4 - q6 is fixed.
@@ -73,10 +75,11 @@ const JOINTS: usize = 6;
 impl FreeJoint {
     /// All but the ones of a chain.
     #[cfg(test)]
-    const ALL: [Self; 11] = [
+    const ALL: [Self; 12] = [
         Self::Base,
         Self::Upper,
         Self::UpperCoupled,
+        Self::UpperOpposed,
         Self::WristSum,
         Self::WristDifference,
         Self::Parallel,
@@ -93,6 +96,15 @@ impl FreeJoint {
         Self::ALL.into_iter().chain((1..1 << JOINTS).map(|moving| Self::Chain { moving }))
     }
 
+    /// The free joint of an arm that is folded onto axis 2, with the factor of q2 in its q3.
+    pub(crate) fn upper(coupling: f64) -> Self {
+        match coupling {
+            0.0 => Self::Upper,
+            _ if coupling > 0.0 => Self::UpperCoupled,
+            _ => Self::UpperOpposed,
+        }
+    }
+
     /// The free joint of a chain of which these joints move; `None` if all stand still.
     pub(crate) fn of_chain(moving: [bool; JOINTS]) -> Option<Self> {
         let bits = moving.iter().rev().fold(0, |bits, moves| 2 * bits + u8::from(*moves));
@@ -104,6 +116,7 @@ impl FreeJoint {
             Self::Base => (1, "q2, q3", Rest::Still(&[2, 3])),
             Self::Upper => (2, "q1, q3", Rest::Still(&[1, 3])),
             Self::UpperCoupled => (2, "q1, q3 - q2", Rest::Still(&[1])),
+            Self::UpperOpposed => (2, "q1, q3 + q2", Rest::Still(&[1])),
             Self::WristSum => (4, "q4 + q6", Rest::Partner(6, 1.0)),
             Self::WristDifference => (4, "q4 - q6", Rest::Partner(6, -1.0)),
             Self::Parallel => (6, "q1, q5", Rest::Still(&[1, 5])),
@@ -180,6 +193,6 @@ mod tests {
         assert_eq!(chain([true; 6]).fixed(), "nothing");
         assert_eq!(chain([false, true, true, true, true, true]).joint(), 2);
         assert_eq!(FreeJoint::of_chain([false; 6]), None);
-        assert_eq!(FreeJoint::all().count(), 11 + 63);
+        assert_eq!(FreeJoint::all().count(), 12 + 63);
     }
 }

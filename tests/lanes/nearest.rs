@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use irbkin::batch::Batch;
 use irbkin::{JointLimits, Robot, pose};
 
-use crate::common::coupled_arm::{limited, odd, with_linkage};
+use crate::common::coupled_arm::{limited, odd, opposed, with_linkage};
 use crate::common::{Rng, on_each_set};
 use crate::structures::Structure;
 use crate::subjects::{PoseRow, rows, subjects};
@@ -107,7 +107,8 @@ fn the_nearest_of_a_coupled_arm_is_the_nearest_alone() {
         JointLimits::new(limits).map(|limits| robot.with_limits(limits)).unwrap()
     };
     on_each_set(|set| {
-        for robot in [limited(), with_linkage(), odd(), narrow(with_linkage())] {
+        let fanuc = opposed().with_linkage_limits(Some([-1.0, 2.0])).unwrap();
+        for robot in [limited(), with_linkage(), odd(), narrow(with_linkage()), fanuc] {
             let joints: Vec<_> = (0..403).map(|_| rng.inside(limited().limits())).collect();
             let poses: Vec<_> =
                 joints.iter().map(|q| irbkin::pose::to_rows(&robot.fk(q))).collect();

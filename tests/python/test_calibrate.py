@@ -287,11 +287,24 @@ def test_a_name_is_no_robot():
         irbkin.calibrate("UR5e", Q, T)
 
 
-def test_a_coupled_table_is_refused_but_not_its_ends():
+@pytest.mark.parametrize("name", ["IRB 2400-10/1.55", "CRX-10iA"])
+def test_a_coupled_arm_is_calibrated_by_its_controllers_joints(name):
+    robot = irbkin.Robot(name).coupled()
+    q = drawn(robot, 40, 27)
+    corrections = np.zeros(42)
+    corrections[6:36] = 1e-3 * np.sin(np.arange(30))
+    real = robot.with_corrections(corrections)
+    found = irbkin.calibrate(robot, q, real.fk(q)).robot
+    assert found.is_coupled
+    np.testing.assert_array_equal(found.limits, robot.limits)
+    others = drawn(robot, 100, 28)
+    np.testing.assert_allclose(found.fk(others), real.fk(others), rtol=0, atol=1e-8)
+    assert np.abs(real.fk(others) - robot.fk(others)).max() > 1e-3
+
+
+def test_the_ends_of_a_coupled_arm_are_calibrated():
     robot = irbkin.Robot("IRB 2400-10/1.55")
     q = drawn(robot, 20, 27)
-    with pytest.raises(irbkin.InvalidModelError, match=r"its uncoupled\(\) twin"):
-        irbkin.calibrate(robot, q, robot.fk(q))
     moved = robot.with_tool(irbkin.pose([0.0, 0.0, 0.1]))
     calibration = irbkin.calibrate(robot, q, moved.fk(q), fit=("base", "tool"))
     np.testing.assert_allclose(calibration.robot.tool, moved.tool, atol=1e-9)

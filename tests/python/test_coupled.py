@@ -99,7 +99,63 @@ def test_configurations_do_not_count_the_slot():
 
 
 def test_arms_that_cannot_have_a_linkage_are_refused():
-    with pytest.raises(irbkin.InvalidModelError, match="the arm has no spherical wrist"):
-        irbkin.Robot("UR3").coupled()
-    with pytest.raises(irbkin.InvalidModelError, match="the arm has no spherical wrist"):
+    with pytest.raises(irbkin.InvalidModelError, match=r"90\.0 deg off parallel, at most 2\.9 deg"):
         irbkin.Robot("Panda").coupled()
+    with pytest.raises(irbkin.InvalidModelError, match="measures joint 3 from the upper arm"):
+        irbkin.Robot("GoFa 5").coupled()
+
+
+FANUC = irbkin.Robot.from_opw(
+    a1=0.05,
+    a2=-0.035,
+    b=0,
+    c1=0.33,
+    c2=0.33,
+    c3=0.335,
+    c4=0.08,
+    offsets=[0, 0, -np.pi / 2, 0, 0, 0],
+    signs=[1, 1, -1, -1, -1, -1],
+    name="LR Mate 200iD",
+).with_limits(np.deg2rad([[-170, 170], [-100, 145], [-70, 205], *[[-190, 190]] * 3]))
+
+
+@pytest.mark.parametrize("robot", [irbkin.Robot("CRX-10iA"), FANUC], ids=["CRX", "LR Mate"])
+def test_a_fanuc_pendant_measures_joint_3_from_the_base(robot):
+    pendant = robot.coupled()
+    q = np.array([0.1, 0.5467, -0.0352, 0.2, -1.1, 0.3])
+    shown = np.array([0.1, 0.5467, -0.5819, 0.2, -1.1, 0.3])
+    assert np.degrees(shown[2]) == pytest.approx(-33.342, abs=0.005)
+    T = pendant.fk(shown)
+    np.testing.assert_allclose(T, robot.fk(q), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(pendant.ik_nearest(T, shown), shown, rtol=0, atol=1e-9)
+    derivative = np.eye(6)
+    derivative[2, 1] = 1
+    np.testing.assert_allclose(
+        pendant.jacobian(shown), robot.jacobian(q) @ derivative, rtol=0, atol=1e-14
+    )
+    np.testing.assert_array_equal(pendant.linkage_limits, robot.limits[2])
+    limits = pendant.limits
+    limits[2] = [-0.5, 0.5]
+    assert pendant.check_pose(T).within_limits
+    assert not any(
+        abs(s.q[2] + 0.5819) < 1e-6 for s in pendant.with_limits(limits).ik(T) if s.is_within_limits
+    )
+    narrow = pendant.with_linkage_limits((0.0, 1.0))
+    assert not any(abs(s.q[2] + 0.5819) < 1e-6 for s in narrow.ik(T) if s.is_within_limits)
+    for coupled in (pendant, narrow):
+        again = pickle.loads(pickle.dumps(coupled))
+        assert again == coupled
+        assert again.is_coupled
+        np.testing.assert_array_equal(again.linkage_limits, coupled.linkage_limits)
+
+
+@pytest.mark.parametrize("robot", [irbkin.Robot("CRX-10iA"), FANUC], ids=["CRX", "LR Mate"])
+def test_paths_follow_the_pendants_joints(robot):
+    pendant = robot.coupled()
+    q = np.linspace([0.1, 0.4, -0.3, 0.2, -1.1, 0.3], [0.4, 0.8, -0.6, 0.4, -0.9, 0.1], 60)
+    T = pendant.fk(q)
+    np.testing.assert_allclose(pendant.follow(T, q[0]).q, q, rtol=0, atol=1e-7)
+    planned = pendant.plan(T, start=q[0])
+    np.testing.assert_allclose(pendant.fk(planned.q), T, rtol=0, atol=1e-6)
+    inside = [pendant.limits[:, 0] - 1e-9 <= row for row in planned.q]
+    assert np.all(inside)

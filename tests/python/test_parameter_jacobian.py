@@ -153,7 +153,10 @@ def test_corrections_that_are_none_are_refused(corrections, words):
         robot.with_corrections(corrections)
 
 
-def test_a_coupled_table_is_not_corrected():
+def test_corrected_coupled_axes_stay_nearly_parallel():
     robot = irbkin.Robot("IRB 2400-10/1.55")
-    with pytest.raises(irbkin.InvalidModelError, match=r"its uncoupled\(\) twin"):
-        robot.with_corrections(np.full(42, 1e-3))
+    assert robot.with_corrections(np.full(42, 1e-3)).is_coupled
+    twist = np.zeros(42)
+    twist[6 + 5 * 2] = 0.1
+    with pytest.raises(irbkin.InvalidModelError, match=r"5\.7 deg off parallel, at most 2\.9 deg"):
+        robot.with_corrections(twist)

@@ -83,7 +83,6 @@ def calibrate(
         InvalidJointsError: `q` has a wrong shape, is not finite or in degrees.
         InvalidPoseError: `measured` has a wrong shape, is not finite or holds a matrix that is no
             pose.
-        InvalidModelError: The table of a robot with coupled axes 2 and 3 is to be fitted.
         CalibrationError: Too few poses, a joint that does not move, positions in millimeters, or
             joints and measurements that do not belong together.
         ValueError: Another `fit`, `loss`, standard deviation or number of folds.
@@ -97,9 +96,6 @@ def calibrate(
     check_robot(robot)
     wanted = _options(robot, fit, position_std, rotation_std, loss, folds)
     has_table = bool(wanted & {"table", *_parameters.of_table(robot.dof)})
-    if has_table and robot.is_coupled:
-        # Refused with the words of the core.
-        robot.with_corrections(_only(len(_parameters.FRAME), robot.dof))
     measurements = _measurements.read(robot, q, measured)
     problem = _fit.Problem(robot, measurements, position_std, rotation_std, loss)
     tiers = _parameters.tiers(robot, wanted)
@@ -140,13 +136,6 @@ def _options(
     if folds < 0 or folds == 1:
         raise ValueError(f"folds is {folds}, it must be 0 for none, or 2 at least")
     return wanted
-
-
-def _only(index: int, dof: int) -> Floats:
-    """Corrections that are zero but for one."""
-    corrections = np.zeros(len(_parameters.names(dof)))
-    corrections[index] = 1e-3
-    return corrections
 
 
 def _everywhere(problem: _fit.Problem, corrections: Floats) -> Floats:

@@ -148,20 +148,23 @@ pub(in crate::kinematics) fn jacobian_rows<
             (rows[i][joint], rows[3 + i][joint]) = (linear[i], angular[i]);
         }
     }
-    if chain.is_coupled() {
-        take_coupling_back(&mut rows);
+    if chain.coupling() != 0.0 {
+        take_coupling_back(&mut rows, chain.coupling());
     }
     rows
 }
 
 /// With q3 measured from the base, q2 turns the serial joint 3 back: the column of joint 3 is
-/// subtracted from joint 2's (eq. 26).
+/// subtracted from joint 2's by the factor of the coupling (eq. 26).
 #[inline(always)]
-fn take_coupling_back<const N: usize, const W: usize>(rows: &mut [[[f64; W]; N]; 6]) {
+fn take_coupling_back<const N: usize, const W: usize>(
+    rows: &mut [[[f64; W]; N]; 6],
+    coupling: f64,
+) {
     for row in rows {
         if let [_, second, third, ..] = &mut row[..] {
             for (second, third) in second.iter_mut().zip(third) {
-                *second -= *third;
+                *second -= coupling * *third;
             }
         }
     }

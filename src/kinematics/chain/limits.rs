@@ -12,15 +12,21 @@ use crate::lanes::{nearest_whole, whole_above, whole_below};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "StoredLimits<N>", into = "StoredLimits<N>"))]
 pub struct JointLimits<const N: usize> {
-    lower: [f64; N],
-    upper: [f64; N],
-    linkage: Option<[f64; 2]>,
+    pub(super) lower: [f64; N],
+    pub(super) upper: [f64; N],
+    pub(super) linkage: Option<[f64; 2]>,
+    /// Factor of q2 in the controller's q3; zero without limits of the linkage.
+    pub(super) coupling: f64,
 }
 
 impl<const N: usize> JointLimits<N> {
     /// No limits at all.
-    pub const UNLIMITED: Self =
-        Self { lower: [f64::NEG_INFINITY; N], upper: [f64::INFINITY; N], linkage: None };
+    pub const UNLIMITED: Self = Self {
+        lower: [f64::NEG_INFINITY; N],
+        upper: [f64::INFINITY; N],
+        linkage: None,
+        coupling: 0.0,
+    };
 
     /// Limits from (lower, upper) of each joint [rad].
     ///
@@ -45,7 +51,7 @@ impl<const N: usize> JointLimits<N> {
         Ok(Self {
             lower: limits.map(|limit| limit[0]),
             upper: limits.map(|limit| limit[1]),
-            linkage: None,
+            ..Self::UNLIMITED
         })
     }
 
@@ -65,28 +71,6 @@ impl<const N: usize> JointLimits<N> {
         Err(ModelFault::LimitsInDegrees { joint: joint + 1, lower, upper, bound }.into())
     }
 
-    /// Return the limits with linkage limits: (lower, upper) of q3 - q2 [rad], at whatever turn.
-    pub(crate) fn with_linkage(self, linkage: Option<[f64; 2]>) -> Result<Self, Error> {
-        if let Some([lower, upper]) = linkage {
-            check(["lower limit of the linkage", "upper limit of the linkage"], 0, [lower, upper])?;
-            if lower > upper {
-                return Err(ModelFault::EmptyLinkageLimit { lower, upper }.into());
-            }
-        }
-        Ok(Self { linkage, ..self })
-    }
-
-    /// Return the limits with the linkage limits of `others`.
-    pub(crate) fn with_linkage_of(self, others: &Self) -> Self {
-        Self { linkage: others.linkage, ..self }
-    }
-
-    /// (lower, upper) of q3 - q2 [rad]; `None` if the arm has no linkage or its limits are unknown.
-    #[must_use]
-    pub fn linkage(&self) -> Option<[f64; 2]> {
-        self.linkage
-    }
-
     /// (lower, upper) of each joint [rad].
     #[must_use]
     pub fn to_array(&self) -> [[f64; 2]; N] {
@@ -96,7 +80,7 @@ impl<const N: usize> JointLimits<N> {
     /// The limits of the six others of seven joints, without joint `out`, from 0.
     pub(crate) fn without(&self, out: usize) -> JointLimits<6> {
         let six = |all: &[f64; N]| core::array::from_fn(|i| all[i + usize::from(i >= out)]);
-        JointLimits { lower: six(&self.lower), upper: six(&self.upper), linkage: None }
+        JointLimits { lower: six(&self.lower), upper: six(&self.upper), ..JointLimits::UNLIMITED }
     }
 
     /// The least and the greatest angles that count as inside [rad].
@@ -105,34 +89,6 @@ impl<const N: usize> JointLimits<N> {
             self.lower.map(|lower| lower - LIMIT_TOLERANCE),
             self.upper.map(|upper| upper + LIMIT_TOLERANCE),
         ]
-    }
-
-    /// Return the limits of the coupled twin: the limit of joint 3 is the linkage's.
-    pub(crate) fn coupled(self) -> Self {
-        self.twin(
-            1.0,
-            Some([self.lower[2], self.upper[2]])
-                .filter(|linkage| linkage.iter().any(|limit| limit.is_finite())),
-        )
-    }
-
-    /// The limits of the uncoupled arm: the linkage limit, where known, becomes joint 3's.
-    pub(crate) fn uncoupled(self) -> Self {
-        let mut twin = self.twin(-1.0, None);
-        if let Some([lower, upper]) = self.linkage {
-            (twin.lower[2], twin.upper[2]) = (lower, upper);
-        }
-        twin
-    }
-
-    /// With joint 3 limited to the range of `q3 + sign * q2`.
-    fn twin(mut self, sign: f64, linkage: Option<[f64; 2]>) -> Self {
-        let (low, high) = (sign * self.lower[1], sign * self.upper[1]);
-        let (lower, upper) = (self.lower[2] + low.min(high), self.upper[2] + low.max(high));
-        // A bound that exceeds [`MOST_ANGLE`] is no limit.
-        self.lower[2] = if lower < -MOST_ANGLE { f64::NEG_INFINITY } else { lower };
-        self.upper[2] = if upper > MOST_ANGLE { f64::INFINITY } else { upper };
-        Self { linkage, ..self }
     }
 
     /// These limits, narrowed to (lower, upper) for some joints, from 0 [rad]; `None` if that
@@ -160,22 +116,6 @@ impl<const N: usize> JointLimits<N> {
     pub fn contains(&self, q: &[f64; N]) -> bool {
         q.iter().enumerate().all(|(joint, angle)| angle.is_finite() && self.holds(joint, *angle))
             && self.linkage_excess(q) == 0.0
-    }
-
-    /// How far q3 - q2, at its best 2 pi equivalent, exceeds the linkage limits, beyond
-    /// [`LIMIT_TOLERANCE`] [rad]; zero inside.
-    pub(crate) fn linkage_excess(&self, q: &[f64; N]) -> f64 {
-        let excess = self.linkage_overrun(q);
-        if excess <= LIMIT_TOLERANCE { 0.0 } else { excess }
-    }
-
-    /// How far q3 - q2, at its best 2 pi equivalent, exceeds the linkage limits [rad]; negative
-    /// inside.
-    pub(crate) fn linkage_overrun(&self, q: &[f64; N]) -> f64 {
-        let (Some([lower, upper]), [_, q2, q3, ..]) = (self.linkage, &q[..]) else {
-            return f64::NEG_INFINITY;
-        };
-        overrun(lower, upper, q3 - q2)
     }
 
     /// Whether an angle of joint `joint` (from 0) is inside its limits, within [`LIMIT_TOLERANCE`].
@@ -288,7 +228,11 @@ impl<const N: usize> JointLimits<N> {
 }
 
 /// Check limits, each a number or infinite: minus infinity below, infinity above.
-fn check(fields: [&'static str; 2], index: usize, limits: [f64; 2]) -> Result<(), Error> {
+pub(super) fn check(
+    fields: [&'static str; 2],
+    index: usize,
+    limits: [f64; 2],
+) -> Result<(), Error> {
     for ((field, value), none) in
         fields.into_iter().zip(limits).zip([f64::NEG_INFINITY, f64::INFINITY])
     {
@@ -303,7 +247,7 @@ fn check(fields: [&'static str; 2], index: usize, limits: [f64; 2]) -> Result<()
 }
 
 /// How far an angle, at its best 2 pi equivalent, exceeds its limits [rad]; negative inside.
-fn overrun(lower: f64, upper: f64, angle: f64) -> f64 {
+pub(super) fn overrun(lower: f64, upper: f64, angle: f64) -> f64 {
     let middle = 0.5 * (lower + upper);
     // With one side unlimited, some 2 pi equivalent is always inside.
     if !middle.is_finite() {
@@ -323,13 +267,20 @@ struct StoredLimits<const N: usize> {
     joints: [[Option<f64>; 2]; N],
     /// (lower, upper) of the linkage [rad].
     linkage: Option<[Option<f64>; 2]>,
+    /// Whether axes 2 and 3 turn in opposite senses, so that the linkage's angle is q3 + q2.
+    #[serde(default)]
+    is_opposed: bool,
 }
 
 #[cfg(feature = "serde")]
 impl<const N: usize> From<JointLimits<N>> for StoredLimits<N> {
     fn from(limits: JointLimits<N>) -> Self {
         let stored = |pair: [f64; 2]| pair.map(|limit| limit.is_finite().then_some(limit));
-        Self { joints: limits.to_array().map(stored), linkage: limits.linkage().map(stored) }
+        Self {
+            joints: limits.to_array().map(stored),
+            linkage: limits.linkage().map(stored),
+            is_opposed: limits.coupling < 0.0,
+        }
     }
 }
 
@@ -341,7 +292,8 @@ impl<const N: usize> TryFrom<StoredLimits<N>> for JointLimits<N> {
         let limits = |[lower, upper]: [Option<f64>; 2]| {
             [lower.unwrap_or(f64::NEG_INFINITY), upper.unwrap_or(f64::INFINITY)]
         };
-        Self::new(stored.joints.map(limits))?.with_linkage(stored.linkage.map(limits))
+        let coupling = if stored.is_opposed { -1.0 } else { 1.0 };
+        Self::new(stored.joints.map(limits))?.with_linkage(stored.linkage.map(limits), coupling)
     }
 }
 

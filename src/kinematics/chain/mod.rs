@@ -30,7 +30,8 @@ pub(crate) struct Chain<const N: usize> {
     links: [Link; N],
     /// Sine and cosine of Hayati's rotation in each link, if there is one.
     tilts: Option<[(f64, f64); N]>,
-    coupled: bool,
+    /// Factor of q2 in the controller's q3: 1, -1 or, without a coupling, zero.
+    coupling: f64,
     t_world_first: Pose,
     t_last_tool: Pose,
 }
@@ -49,7 +50,7 @@ impl<const N: usize> Chain<N> {
             t_flange_tool: Pose::identity(),
             links,
             tilts,
-            coupled: false,
+            coupling: 0.0,
             t_world_first: Pose::identity(),
             t_last_tool: Pose::identity(),
         };
@@ -74,11 +75,11 @@ impl<const N: usize> Chain<N> {
         self
     }
 
-    /// Return the chain with the joint angles of a controller that couples axes 2 and 3, or with
-    /// the angles of the serial chain.
+    /// Return the chain with the joint angles of a controller that adds q2 by a factor to joint 3, or
+    /// with the angles of the serial chain.
     #[must_use]
-    pub(crate) fn with_coupling(mut self, coupled: bool) -> Self {
-        self.coupled = coupled;
+    pub(crate) fn with_coupling(mut self, coupling: f64) -> Self {
+        self.coupling = coupling;
         self
     }
 
@@ -105,16 +106,16 @@ impl<const N: usize> Chain<N> {
         &self.t_flange_tool
     }
 
-    /// Whether axes 2 and 3 are coupled: then joint 3 is the table's plus joint 2.
+    /// Factor of q2 in the controller's q3: 1, -1 or, without a coupling, zero.
     #[must_use]
-    pub(crate) fn is_coupled(&self) -> bool {
-        self.coupled
+    pub(crate) fn coupling(&self) -> f64 {
+        self.coupling
     }
 
     /// The table's joint angles.
     #[inline(always)]
     pub(in crate::kinematics) fn uncoupled(&self, q: &[f64; N]) -> [f64; N] {
-        if self.coupled { uncoupled(*q) } else { *q }
+        uncoupled(*q, self.coupling)
     }
 
     /// The links of the table: they differ from those that lead to the tool if the table has a

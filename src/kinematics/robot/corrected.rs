@@ -1,12 +1,13 @@
 //! A robot with corrected parameters: what a calibration makes of it.
 
 use super::Robot;
-use crate::error::{Error, ModelFault};
+use crate::error::Error;
 use crate::kinematics::chain::corrections::{Corrections, correction};
 use crate::kinematics::pose::Pose;
 
 impl<const N: usize> Robot<N> {
-    /// Return the robot with corrected base, table and tool; limits, velocities and name are kept.
+    /// Return the robot with corrected base, table and tool; limits, velocities, name and a coupling
+    /// of axes 2 and 3 are kept. Column `theta` of row 3 corrects the serial joint 3.
     ///
     /// Corrections of base and tool alone leave the structure as it is. Corrections of the table
     /// make an arm of general structure; corrections of two nearly parallel axes may put their
@@ -14,9 +15,9 @@ impl<const N: usize> Robot<N> {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when a correction is not finite, when [`Robot::serial_chain`]
-    /// refuses the corrected table, or when the table of an arm with coupled axes 2 and 3 is
-    /// corrected.
+    /// [`Error::InvalidModel`] when a correction is not finite, or when [`Robot::serial_chain`]
+    /// refuses the corrected table, and when it leaves coupled axes 2 and 3 more than 0.05 rad
+    /// off parallel.
     pub fn with_corrections(&self, corrections: &Corrections<N>) -> Result<Self, Error> {
         corrections.check()?;
         let (mut base, mut tool) = (*self.base(), *self.tool());
@@ -31,12 +32,9 @@ impl<const N: usize> Robot<N> {
         let robot = if is_zero(corrections.rows.as_flattened()) {
             self.clone()
         } else {
-            if self.is_coupled() {
-                return Err(ModelFault::CoupledTable.into());
-            }
             Self::of_table(corrections.table(self.mdh()))?
+                .with_coupling_of(self)?
                 .with_name(self.name.clone())
-                .with_limits(*self.limits())
                 .with_max_velocity(self.max_velocity)?
                 .with_lock(self.locked_joint())?
         };

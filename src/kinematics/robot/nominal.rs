@@ -22,17 +22,13 @@ impl<const N: usize> Robot<N> {
     /// nominal arm has not is not seen, next to a fold. A branch whose refinement fails has its
     /// slot flagged [`MERGED`](crate::Status::MERGED). Rates: docs/guide/calibrate.md, section 5.
     ///
-    /// Base, tool, limits and velocities belong to this robot.
+    /// Base, tool, limits, velocities and a coupling of axes 2 and 3 belong to this robot.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidModel`] when the nominal arm has no closed form, when this robot or it has
-    /// coupled axes, and when their tools are more than 0.05 apart, in rad or as a
-    /// part of the reach.
+    /// [`Error::InvalidModel`] when the nominal arm has no closed form, and when their tools are
+    /// more than 0.05 apart, in rad or as a part of the reach.
     pub fn with_nominal(&self, nominal: &Self) -> Result<Self, Error> {
-        if self.is_coupled() || nominal.is_coupled() {
-            return Err(ModelFault::CoupledTable.into());
-        }
         self.check_near(nominal)?;
         let closed_form = nominal.inverse.as_ref().filter(|_| nominal.is_closed_form());
         let refined = closed_form
@@ -47,7 +43,8 @@ impl<const N: usize> Robot<N> {
 
     /// Check that a nominal robot is near.
     fn check_near(&self, nominal: &Self) -> Result<(), Error> {
-        let nominal = nominal.clone().with_base(self.base())?.with_tool(self.tool())?;
+        let nominal = nominal.clone().with_coupling_of(self)?;
+        let nominal = nominal.with_base(self.base())?.with_tool(self.tool())?;
         // The longest distance of the flange from an axis, not of tables: nearly parallel axes
         // have offsets that cancel.
         let reach: f64 = nominal.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();

@@ -58,7 +58,7 @@ impl<'de, const N: usize> Deserialize<'de> for Robot<N> {
 
 impl<const N: usize> Stored<N> {
     fn build(self) -> Result<Robot<N>, Error> {
-        let mut robot = Robot::of_definition(self.definition)?;
+        let mut robot = Robot::of_definition(self.definition)?.with_rule(self.rule);
         if self.coupled {
             robot.check_linkage()?;
             robot = robot.with_coupling(true);
@@ -72,7 +72,6 @@ impl<const N: usize> Stored<N> {
             None => None,
         };
         robot
-            .with_rule(self.rule)
             .with_name(self.name)
             .with_limits(self.limits)
             .with_linkage_limits(self.limits.linkage())?

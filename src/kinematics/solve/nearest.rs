@@ -188,9 +188,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
     fn is_singular_once(&self, solution: &Solution<N>) -> bool {
         let at_corner = match solution.free_joint {
             Some(FreeJoint::Parallel) => SingularityKind::ELBOW,
-            Some(FreeJoint::Base | FreeJoint::Upper | FreeJoint::UpperCoupled) => {
-                SingularityKind::WRIST
-            }
+            Some(free) if [FreeJoint::Base, self.upper()].contains(&free) => SingularityKind::WRIST,
             _ => SingularityKind::empty(),
         };
         let met = solution.singularities() & !at_corner;
@@ -322,12 +320,13 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
         self.look_at_wrist(solution);
         for free in self.self_motions_of(solution).into_iter().flatten() {
             let limits = &self.wanted.limits;
-            // A joint that is fixed along a self-motion may be outside the limits for all members;
-            // no member moves the linkage.
+            // A joint that is fixed along a self-motion may be outside the limits for all members,
+            // and so may the linkage: only four parallel axes move it.
             let stuck =
                 |joint: &usize| limits.overrun(joint - 1, solution.q[joint - 1]) > SOLUTION_OFF;
             let stuck = free.still().iter().any(stuck);
-            if !stuck && limits.linkage_overrun(&solution.q) <= SOLUTION_OFF {
+            let moves_linkage = free == FreeJoint::Parallel;
+            if !stuck && (moves_linkage || limits.linkage_overrun(&solution.q) <= SOLUTION_OFF) {
                 self.look_along_self_motion(solution, free);
             }
         }
@@ -365,7 +364,7 @@ impl<'a, const N: usize> NearestSearch<'a, N> {
 
     /// The free joint of an arm that is folded onto axis 2.
     pub(super) fn upper(&self) -> FreeJoint {
-        if self.robot.is_coupled() { FreeJoint::UpperCoupled } else { FreeJoint::Upper }
+        FreeJoint::upper(self.robot.coupling())
     }
 
     /// Whether no solution on the same branches, whose slots differ in a bit, was searched along

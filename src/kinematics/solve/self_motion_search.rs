@@ -307,7 +307,7 @@ impl<const N: usize> Along<'_, N> {
         let slot = Slot::new(from.slot.index() & !family.bit() | bit);
         let own = match free {
             FreeJoint::Base => Status::SHOULDER,
-            FreeJoint::Upper | FreeJoint::UpperCoupled => Status::ELBOW,
+            FreeJoint::Upper | FreeJoint::UpperCoupled | FreeJoint::UpperOpposed => Status::ELBOW,
             _ => Status::WRIST,
         };
         // Other singularities come and go along it.

@@ -84,8 +84,8 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     fn joint_map(&self) -> &JointMap<N>;
 
     /// Place the arm between a base and a tool, whose lengths add to the rounding of a pose, with
-    /// axes 2 and 3 coupled or not.
-    fn between(self, base: &Pose, tool: &Pose, coupled: bool) -> Self;
+    /// q2 added by a factor to the controller's q3.
+    fn between(self, base: &Pose, tool: &Pose, coupling: f64) -> Self;
 
     /// The kernel of this arm; `None` if most of its poses are not regular.
     fn kernel(&self) -> Option<Self::Kernel>;

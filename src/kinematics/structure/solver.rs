@@ -33,7 +33,7 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Solver<T, N, S> {
     /// The structure between the base and the tool of `chain`, coupled as the chain is, with
     /// limits.
     pub(crate) fn new(structure: T, chain: &Chain<N>, limits: &JointLimits<N>) -> Self {
-        let structure = structure.between(chain.base(), chain.tool(), chain.is_coupled());
+        let structure = structure.between(chain.base(), chain.tool(), chain.coupling());
         let map = structure.joint_map();
         let columns = Columns::of(map, T::Kernel::DIFFERENCES, limits);
         Self {

@@ -87,8 +87,7 @@ impl Solved {
         }
         let Some(order) = found.order(simd) else { return };
         for number in &order[..found.rows.len()] {
-            let row = Vector::load_array_ref(simd, &found.rows[usize::from(*number)]);
-            let (row, is_inside) = joints.wrapped(row);
+            let (row, is_inside) = joints.wrapped(simd, &found.rows[usize::from(*number)]);
             let [q @ .., _, _] = row.to_array();
             self.q.push(q);
             self.status.push(if is_inside { INSIDE } else { OUTSIDE });

@@ -47,7 +47,7 @@ impl General {
         let joint_map = JointMap {
             signs: [1.0; 6],
             offsets,
-            coupled: false,
+            coupling: 0.0,
             t_base_shoulder: mdh.base * screw_x(first.alpha, first.a) * translation_z(first.d),
             t_wrist_flange: translation_z(last.d) * mdh.flange,
         };

@@ -61,7 +61,8 @@ impl Structure<6, SLOTS> for General {
         &self.joint_map
     }
 
-    fn between(self, base: &Pose, tool: &Pose, _coupled: bool) -> Self {
+    fn between(mut self, base: &Pose, tool: &Pose, coupling: f64) -> Self {
+        self.joint_map.coupling = coupling;
         let map = &self.joint_map;
         let fixed = [base, &map.t_base_shoulder, &map.t_wrist_flange, tool];
         let ends = fixed.iter().map(|pose| pose.translation.vector.norm()).sum();

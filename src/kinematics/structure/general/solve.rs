@@ -61,7 +61,8 @@ impl General {
             let one = &all[usize::from(*number)];
             branches.q[slot] = Some(self.joint_map.joints(one.theta));
             branches.flags[slot] = singularities_of(one).into();
-            branches.free[slot] = one.moving.and_then(FreeJoint::of_chain);
+            branches.free[slot] =
+                one.moving.and_then(|moving| FreeJoint::of_chain(self.joint_map.moving(moving)));
         }
         branches
     }

@@ -5,7 +5,6 @@ use core::f64::consts::{PI, TAU};
 use fearless_simd::prelude::*;
 
 use crate::kinematics::answer::status::Status;
-use crate::kinematics::chain::coupling::coupled;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::joint_map::JointMap;
@@ -17,7 +16,7 @@ use crate::lanes::{Column, LANES, Vector};
 pub(crate) struct Columns<const N: usize> {
     pub(crate) joints: [JointColumn; N],
     /// Factor of theta_2 that is subtracted from theta_23 for joint 3: one, or zero for an arm with
-    /// coupled axes (eq. 25).
+    /// coupled axes whose thetas turn in one sense (eq. 25).
     pub(crate) uncoupled: f64,
     /// The serial joint 3, if the linkage of the arm has limits.
     pub(crate) linkage: Option<JointColumn>,
@@ -37,14 +36,17 @@ impl<const N: usize> Columns<N> {
         let column = |offsets: &[f64; N], limits: &[[f64; 2]; N]| {
             JointColumn::of(signs, offsets, limits, differences)
         };
-        let of_controller = if map.coupled { coupled(*offsets) } else { *offsets };
+        // Joint 3 of a controller turns by theta_3 + coupling theta_2.
+        let coupling = map.coupling * signs[1] * signs[2];
+        let mut of_controller = *offsets;
+        of_controller[2] += coupling * offsets[1];
         let linkage = match limits.linkage() {
             Some(linkage) => Some(column(offsets, &[linkage; N])?[2]),
             None => None,
         };
-        let uncoupled = if map.coupled { 0.0 } else { 1.0 };
         let joints = column(&of_controller, &limits.to_array())?;
-        Some(Self { joints, uncoupled, linkage, row: JointRow::of(&joints) })
+        let row = JointRow { coupling, linkage, ..JointRow::of(&joints) };
+        Some(Self { joints, uncoupled: 1.0 - coupling, linkage, row })
     }
 }
 
@@ -172,6 +174,10 @@ pub(crate) struct JointRow {
     offset: Column,
     low: Column,
     high: Column,
+    /// Factor of theta_2 that is added to theta_3 for joint 3 (eq. 25).
+    coupling: f64,
+    /// The serial joint 3, if the linkage of the arm has limits.
+    linkage: Option<JointColumn>,
 }
 
 impl JointRow {
@@ -181,6 +187,8 @@ impl JointRow {
         offset: [0.0; LANES],
         low: [f64::NEG_INFINITY; LANES],
         high: [f64::INFINITY; LANES],
+        coupling: 0.0,
+        linkage: None,
     };
 
     fn of<const N: usize>(joints: &[JointColumn; N]) -> Self {
@@ -194,8 +202,11 @@ impl JointRow {
 
     /// [`JointColumn::wrapped`] for all joints, and whether all are inside.
     #[inline(always)]
-    pub(crate) fn wrapped<S: Simd>(&self, theta: Vector<S>) -> (Vector<S>, bool) {
-        let simd = theta.token();
+    pub(crate) fn wrapped<S: Simd>(&self, simd: S, theta: &Column) -> (Vector<S>, bool) {
+        let mut of_controller = *theta;
+        of_controller[2] += self.coupling * theta[1];
+        let theta_3 = theta[2];
+        let theta = Vector::load_array(simd, of_controller);
         let (low, high) =
             (Vector::load_array_ref(simd, &self.low), Vector::load_array_ref(simd, &self.high));
         let angle = theta + Vector::load_array_ref(simd, &self.offset);
@@ -205,7 +216,8 @@ impl JointRow {
         let (up, down) = (angle + TAU, angle - TAU);
         let raised = (angle.simd_lt(low) & up.simd_le(high)).select(up, angle);
         let angle = (angle.simd_gt(high) & down.simd_ge(low)).select(down, raised);
-        (angle, (angle.simd_ge(low) & angle.simd_le(high)).all_true())
+        let is_inside = (angle.simd_ge(low) & angle.simd_le(high)).all_true();
+        (angle, is_inside && self.linkage.is_none_or(|linkage| linkage.wrapped(theta_3).1))
     }
 }
 
@@ -223,7 +235,7 @@ mod tests {
 
         #[inline(always)]
         fn run<S: Simd>(self, simd: S) -> (Column, bool) {
-            let (row, is_inside) = self.0.wrapped(Vector::load_array(simd, self.1));
+            let (row, is_inside) = self.0.wrapped(simd, &self.1);
             (row.to_array(), is_inside)
         }
     }

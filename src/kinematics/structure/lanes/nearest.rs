@@ -21,8 +21,10 @@ pub(crate) struct Choice<const N: usize> {
     weights: [f64; N],
     low: [f64; N],
     high: [f64; N],
-    /// Lower and upper limit of q3 - q2 [rad], and the middle between them.
+    /// Lower and upper limit of the serial joint 3 [rad], and the middle between them.
     linkage: Option<[f64; 3]>,
+    /// Factor of q2 in the controller's q3.
+    coupling: f64,
 }
 
 /// A solution and its cost, a column of lanes for each number.
@@ -45,7 +47,7 @@ impl<const N: usize> Choice<N> {
             .linkage()
             .map(|[lower, upper]| [lower, upper, 0.5 * (lower + upper)])
             .filter(|[_, _, middle]| middle.is_finite());
-        Self { weights: *weights, low, high, linkage }
+        Self { weights: *weights, low, high, linkage, coupling: limits.coupling() }
     }
 
     /// Writes the nearest solution of each pose of a block, NaN where none is inside the limits;
@@ -148,7 +150,7 @@ impl<const N: usize> Choice<N> {
         if let Some([lower, upper, middle]) = self.linkage {
             let (second, third) = (slots.angles(slot, 1), slots.angles(slot, 2));
             for lane in 0..LANES {
-                let angle = third[lane] - second[lane];
+                let angle = third[lane] - self.coupling * second[lane];
                 let angle = angle + TAU * nearest_whole((middle - angle) / TAU);
                 let excess = (lower - angle).max(angle - upper);
                 priced.inside[lane] &= u64::from(excess <= LIMIT_TOLERANCE);

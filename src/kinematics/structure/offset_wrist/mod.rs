@@ -49,8 +49,8 @@ impl Structure<6, SLOTS> for OffsetWrist {
         self.general.joint_map()
     }
 
-    fn between(self, base: &Pose, tool: &Pose, coupled: bool) -> Self {
-        let general = Box::new(self.general.between(base, tool, coupled));
+    fn between(self, base: &Pose, tool: &Pose, coupling: f64) -> Self {
+        let general = Box::new(self.general.between(base, tool, coupling));
         let constants = Constants { closure: *general.closure(), ..self.constants };
         Self { constants, general, ..self }
     }

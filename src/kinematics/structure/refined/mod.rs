@@ -37,8 +37,7 @@ pub(crate) struct Refined {
     nominal_chain: Chain<6>,
     closure: Closure,
     end_frames: EndFrames,
-    /// Theta of the calibrated table at zero joint angles [rad].
-    offsets: [f64; 6],
+    joint_map: JointMap<6>,
 }
 
 impl Refined {
@@ -49,13 +48,16 @@ impl Refined {
         chain: &Chain<6>,
         limits: &JointLimits<6>,
     ) -> Self {
-        let nominal_chain = nominal_chain.with_base(*chain.base()).with_tool(*chain.tool());
+        let nominal_chain = nominal_chain
+            .with_base(*chain.base())
+            .with_tool(*chain.tool())
+            .with_coupling(chain.coupling());
         let mdh = chain.mdh();
         let tilted = tilted_rows(&mdh.rows);
-        let map = JointMap {
+        let joint_map = JointMap {
             signs: [1.0; 6],
-            offsets: [0.0; 6],
-            coupled: false,
+            offsets: tilted.map(|TiltedRow { row, .. }| -row.theta),
+            coupling: chain.coupling(),
             t_base_shoulder: mdh.base,
             t_wrist_flange: mdh.flange,
         };
@@ -65,8 +67,8 @@ impl Refined {
             nominal: nominal.between(&nominal_chain, limits),
             nominal_chain,
             closure: Closure::of(&tilted).between(ends),
-            end_frames: EndFrames::new(&map, chain),
-            offsets: tilted.map(|TiltedRow { row, .. }| row.theta),
+            end_frames: EndFrames::new(&joint_map, chain),
+            joint_map,
         }
     }
 
@@ -105,16 +107,15 @@ impl Refined {
     fn refined_of(&self, pose: &Pose, q: &[Option<[f64; 6]>; LANES]) -> Option<Candidates> {
         // Empty lanes follow another one: they must not take more steps.
         let any = q.iter().flatten().next()?;
-        let theta = core::array::from_fn(|joint| {
-            q.map(|q| q.as_ref().unwrap_or(any)[joint] + self.offsets[joint])
-        });
+        let theta = q.map(|q| self.joint_map.theta(q.as_ref().unwrap_or(any)));
+        let theta = core::array::from_fn(|joint| theta.map(|theta| theta[joint]));
         let target = self.closure.target(self.end_frames.seen.of::<false>(&Frame::of(pose)));
         Some(self.closure.converged(&target, &theta))
     }
 
     /// A solution of the calibrated arm, inside the limits if it can be.
     fn place(&self, theta: [f64; 6], slot: Slot, limits: &JointLimits<6>) -> Place<6> {
-        let q = limits.wrap(core::array::from_fn(|joint| wrap(theta[joint] - self.offsets[joint])));
+        let q = limits.wrap(self.joint_map.joints(theta));
         let mut status = Status::FOUND;
         status.set(Status::WITHIN_LIMITS, limits.contains(&q));
         Place::Found(Solution { q, slot, status, free_joint: None })

@@ -117,7 +117,7 @@ pub(super) fn measure(mdh: &Mdh<7>) -> Result<SphericalShoulder, UnknownStructur
         joint_map: JointMap {
             signs: [sign_1, 1.0, sign_3, sign_4, sign_5, sign_6, 1.0],
             offsets: [0.0, -theta_2, -theta_3, -theta_4, -theta_5, 0.0, -rows[6].theta],
-            coupled: false,
+            coupling: 0.0,
             t_base_shoulder: mdh.base * t_base_shoulder,
             t_wrist_flange: mdh.flange,
         },

@@ -59,7 +59,7 @@ impl Structure<7, 8> for SphericalShoulder {
         &self.joint_map
     }
 
-    fn between(self, base: &Pose, tool: &Pose, _coupled: bool) -> Self {
+    fn between(self, base: &Pose, tool: &Pose, _coupling: f64) -> Self {
         let JointMap { t_base_shoulder, t_wrist_flange, .. } = &self.joint_map;
         let fixed = [base, t_base_shoulder, &self.t_seven_hand, t_wrist_flange, tool];
         Self { links: self.links.between(fixed), ..self }

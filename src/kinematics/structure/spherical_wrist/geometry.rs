@@ -33,7 +33,7 @@ impl SphericalWrist {
             joint_map: JointMap {
                 signs: opw.signs.map(f64::from),
                 offsets: opw.offsets,
-                coupled: false,
+                coupling: 0.0,
                 t_base_shoulder: translation_z(opw.c1),
                 t_wrist_flange: translation_z(opw.c4),
             },
@@ -158,7 +158,7 @@ pub(super) fn measure(mdh: &mut Mdh<6>) -> Result<SphericalWrist, UnknownStructu
         joint_map: JointMap {
             signs: [sign_1, sign_2, sign_3, sign_4, sign_5, sign_6],
             offsets: [0.0, -theta_2, -theta_3, -theta_4, -theta_5, 0.0],
-            coupled: false,
+            coupling: 0.0,
             t_base_shoulder: mdh.base * shoulder_pose(&f1, &forward, &side, &up),
             t_wrist_flange: t_wrist_last * mdh.flange,
         },

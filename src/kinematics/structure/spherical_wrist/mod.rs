@@ -59,8 +59,8 @@ impl Structure<6, 8> for SphericalWrist {
         &self.joint_map
     }
 
-    fn between(mut self, base: &Pose, tool: &Pose, coupled: bool) -> Self {
-        self.joint_map.coupled = coupled;
+    fn between(mut self, base: &Pose, tool: &Pose, coupling: f64) -> Self {
+        self.joint_map.coupling = coupling;
         let fixed = [base, &self.joint_map.t_base_shoulder, &self.joint_map.t_wrist_flange, tool];
         Self { planar: self.planar.between(fixed), ..self }
     }
@@ -116,7 +116,7 @@ impl Structure<6, 8> for SphericalWrist {
         let [theta_1, theta_2, theta_3, ..] = theta;
         let (free, left, right) = match free {
             FreeJoint::Base => (0, about_y(-theta_2 - theta_3), rotation),
-            FreeJoint::Upper | FreeJoint::UpperCoupled => {
+            FreeJoint::Upper | FreeJoint::UpperCoupled | FreeJoint::UpperOpposed => {
                 let seen = turned_back(theta_1, &rotation);
                 (1, about_y(-theta_3) * y_to_z().transpose(), y_to_z() * seen)
             }
@@ -132,14 +132,5 @@ impl Structure<6, 8> for SphericalWrist {
 
     fn singular_wrist(&self) -> Option<&dyn SingularWrist<6>> {
         Some(self)
-    }
-}
-
-impl SphericalWrist {
-    /// Whether a parallelogram linkage may couple axes 2 and 3; otherwise the reason: if they turn
-    /// in the same sense, q2 + q3 is a pitch.
-    pub(crate) fn may_be_coupled(&self) -> Result<(), &'static str> {
-        let same_sense = self.joint_map.signs[1].total_cmp(&self.joint_map.signs[2]).is_eq();
-        if same_sense { Ok(()) } else { Err("they turn in opposite senses") }
     }
 }

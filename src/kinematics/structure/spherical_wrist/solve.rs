@@ -114,8 +114,7 @@ impl SphericalWrist {
             branches.flags[kept] = flags;
             branches.flags[flipped] = flags;
             if elbows.free {
-                let upper =
-                    if self.joint_map.coupled { FreeJoint::UpperCoupled } else { FreeJoint::Upper };
+                let upper = FreeJoint::upper(self.joint_map.coupling);
                 (branches.free[kept], branches.free[flipped]) = (Some(upper), Some(upper));
             }
             if wrist.free {

@@ -90,7 +90,7 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<ThreeParallel, UnknownStructure> {
         joint_map: JointMap {
             signs: [sign_1, sign_2, sign_3, sign_4, sign_5, sign_6],
             offsets: [0.0, -theta_2, theta_2 - theta_23, -theta_4, -theta_5, 0.0],
-            coupled: false,
+            coupling: 0.0,
             t_base_shoulder: mdh.base * t_base_shoulder,
             t_wrist_flange: t_wrist_last * mdh.flange,
         },

@@ -3,10 +3,10 @@
 use super::branch::{Branch, Constants, Facing, branch, facing};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::{
-    Block, Columns, Directions, FOUND_INSIDE, LaneKernel, Poses, RegularSlots, SlotColumns,
-    half_turn, where_found,
+    Block, Columns, Directions, FOUND_INSIDE, JointColumn, LaneKernel, Poses, RegularSlots,
+    SlotColumns, half_turn, where_found,
 };
-use crate::lanes::{Column, Flags, LANES};
+use crate::lanes::{Column, Flags, LANES, mul_add};
 
 /// Slots of the structure.
 pub(super) const SLOTS: usize = 8;
@@ -60,8 +60,11 @@ impl Block<Constants, 6, SLOTS> for ParallelBlock {
             self.put(lane, 7, &branch::<FUSED>(&constants, &behind, wz, -1.0, -1.0));
         }
         self.directions.angles::<FUSED>();
-        self.thetas();
+        self.thetas::<FUSED>(columns.uncoupled);
         self.slots.wrap(&columns.joints);
+        if let Some(linkage) = columns.linkage {
+            self.limit(linkage);
+        }
         self.regular
     }
 
@@ -88,9 +91,9 @@ impl ParallelBlock {
         self.regular[lane] &= u64::from(branch.regular);
     }
 
-    /// theta of every slot (eq. 40).
+    /// theta of every slot (eq. 40), with joint 3 as the controller's (eq. 25).
     #[inline(always)]
-    fn thetas(&mut self) {
+    fn thetas<const FUSED: bool>(&mut self, uncoupled: f64) {
         let (angle, status) = (&self.directions.angle, &self.slots.status);
         let q = &mut self.slots.q;
         for slot in 0..SLOTS {
@@ -106,11 +109,23 @@ impl ParallelBlock {
                 let found = status[slot][lane];
                 q[0][slot][lane] = where_found(found, angle[THETA_1 + shoulder][lane]);
                 q[1][slot][lane] = theta_2;
-                q[2][slot][lane] = theta_23 - theta_2;
+                q[2][slot][lane] = mul_add::<FUSED>(-uncoupled, theta_2, theta_23);
                 q[3][slot][lane] = if flipped { half_turn(phi) } else { phi } - theta_23;
                 q[4][slot][lane] = where_found(found, if flipped { -theta_5 } else { theta_5 });
                 let theta_6 = if flipped { half_turn(theta_6) } else { theta_6 };
                 q[5][slot][lane] = where_found(found, theta_6);
+            }
+        }
+    }
+
+    /// Check the serial joint 3 against the limits of the linkage.
+    #[inline(always)]
+    fn limit(&mut self, linkage: JointColumn) {
+        let angle = &self.directions.angle;
+        for slot in 0..SLOTS {
+            for lane in 0..LANES {
+                let theta_3 = angle[THETA_23 + slot][lane] - angle[THETA_2 + slot][lane];
+                self.slots.status[slot][lane] &= linkage.left_of(theta_3);
             }
         }
     }
@@ -145,7 +160,8 @@ impl LaneKernel<6, SLOTS> for Constants {
         t_shoulder_wrist: &Frame,
         _: f64,
     ) -> Option<RegularSlots<6, SLOTS>> {
-        let (constants, columns, frame) = (*self, columns.joints, *t_shoulder_wrist);
+        let (constants, frame) = (*self, *t_shoulder_wrist);
+        let Columns { joints: columns, uncoupled, linkage, .. } = *columns;
         let wz = frame.origin[2];
         let (mut directions, mut slots, mut regular) =
             (Directions::<6, SLOTS>::NEW, RegularSlots::NEW, [0; SLOTS]);
@@ -173,10 +189,13 @@ impl LaneKernel<6, SLOTS> for Constants {
             let phi = if flipped { half_turn(phi) } else { phi };
             slots.wrap(slot, 0, angle[ONE_THETA_1][slot], columns[0]);
             slots.wrap(slot, 1, theta_2, columns[1]);
-            slots.wrap(slot, 2, theta_23 - theta_2, columns[2]);
+            slots.wrap(slot, 2, mul_add::<FUSED>(-uncoupled, theta_2, theta_23), columns[2]);
             slots.wrap(slot, 3, phi - theta_23, columns[3]);
             slots.wrap(slot, 4, WRIST[slot] * angle[ONE_THETA_5][slot], columns[4]);
             slots.wrap(slot, 5, if flipped { half_turn(theta_6) } else { theta_6 }, columns[5]);
+            if let Some(linkage) = linkage {
+                slots.status[slot] &= linkage.left_of(theta_23 - theta_2);
+            }
         }
         Some(slots)
     }

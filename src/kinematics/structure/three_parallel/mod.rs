@@ -60,7 +60,8 @@ impl Structure<6, 8> for ThreeParallel {
         &self.joint_map
     }
 
-    fn between(self, base: &Pose, tool: &Pose, _coupled: bool) -> Self {
+    fn between(mut self, base: &Pose, tool: &Pose, coupling: f64) -> Self {
+        self.joint_map.coupling = coupling;
         let fixed = [base, &self.joint_map.t_base_shoulder, &self.joint_map.t_wrist_flange, tool];
         let planar = self.planar.between(fixed);
         Self { planar: PlanarArm { extent: planar.extent + self.d5, ..planar }, ..self }

@@ -184,8 +184,8 @@ impl ThreeParallel {
             None => branches.flags[slot + 2] |= Status::MERGED,
         }
         if elbows.free {
-            (branches.free[slot], branches.free[slot + 2]) =
-                (Some(FreeJoint::Upper), Some(FreeJoint::Upper));
+            let upper = FreeJoint::upper(self.joint_map.coupling);
+            (branches.free[slot], branches.free[slot + 2]) = (Some(upper), Some(upper));
         }
     }
 
