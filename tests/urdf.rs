@@ -381,12 +381,16 @@ fn only_independent_revolute_joints_may_be_between_base_and_tip() {
     let mimic = third("<axis", "<mimic joint=\"joint_2\"/><axis");
     assert_eq!(
         tool(&mimic),
-        "URDF: joint \"joint_3\" mimics \"joint_2\", between base and tip each joint must turn \
-         by itself"
+        "URDF: joint \"joint_3\" mimics \"joint_2\" with multiplier 1, between base and tip each \
+         joint must turn by itself, except a linkage: it takes joint 2 back on the axis of joint \
+         3, with multiplier -1, or 1 about the reverse axis (make the joint fixed or choose base \
+         and tip beside it; snap makes angles with few digits exact)"
     );
-    let behind = "URDF: 6 revolute joints lead from \"base_link\" to no end of a chain: \"base\" \
-        (0), \"tool0\" (behind joint \"joint_3\", ";
-    assert_eq!(words(&mimic), format!("{behind}a mimic)"));
+    let ends = "URDF: 6 revolute joints lead from \"base_link\" to no end of a chain: \"base\" (0)";
+    let behind = format!("{ends}, \"tool0\" (behind joint \"joint_3\", ");
+    assert_eq!(words(&mimic), format!("{ends}, \"tool0\" (5, and a mimic)"));
+    let doubled = third("<axis", "<mimic joint=\"joint_2\" multiplier=\"2\"/><axis");
+    assert_eq!(words(&doubled), format!("{behind}a mimic)"));
     assert_eq!(words(&third("revolute", "prismatic")), format!("{behind}prismatic)"));
     let fixed = third("revolute", "fixed");
     assert_eq!(

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::coupled_arm::{limited, odd, with_linkage};
+use crate::common::coupled_arm::{limited, odd, opposed, with_linkage};
 use crate::common::{Rng, apart, kuka_kr6, random_pose, reach_of};
 use irbkin::{AnyRobot, Error, JointLimits, PoseDifference, Robot, catalog, thresholds};
 
@@ -111,7 +111,7 @@ fn base_and_tool_are_links_of_their_own() {
 
 #[test]
 fn a_linkage_is_a_joint_that_mimics_joint_2_and_keeps_its_limits() {
-    for robot in [limited(), with_linkage()] {
+    for robot in [limited(), with_linkage(), opposed()] {
         let robot = robot.with_name("coupled");
         let read = again(&robot);
         assert_eq!(read.limits().linkage(), robot.limits().linkage());
@@ -127,8 +127,62 @@ fn a_linkage_is_a_joint_that_mimics_joint_2_and_keeps_its_limits() {
     assert!(odd.to_urdf().contains("<joint name=\"joint_2-linkage\" type=\"continuous\">"));
 }
 
+/// The text of a coupled arm with a part of its linkage's joint, and then a part of joint 3, replaced.
+fn linkage_replaced(linkage: &[[&str; 2]], third: &[[&str; 2]]) -> Result<Robot<6>, Error> {
+    let text = limited().with_name("coupled").to_urdf();
+    let [first, second] = ["<joint name=\"joint_2-linkage\"", "<joint name=\"joint_3\""]
+        .map(|start| text.find(start).unwrap());
+    let replaced = |text: &str, parts: &[[&str; 2]]| {
+        parts.iter().fold(text.to_string(), |text, [from, to]| {
+            assert!(text.contains(from), "{from}");
+            text.replacen(from, to, 1)
+        })
+    };
+    let (linkage, third) =
+        (replaced(&text[first..second], linkage), replaced(&text[second..], third));
+    Robot::from_urdf(&format!("{}{linkage}{third}", &text[..first]), None, Some("tool0"))
+}
+
 #[test]
-fn a_mimic_is_a_linkage_behind_joint_2_on_axis_3_alone() {
+fn a_joint_that_takes_joint_2_back_on_axis_3_is_a_linkage_however_it_is_written() {
+    let robot = limited().with_name("coupled");
+    let plain = linkage_replaced(&[], &[]).unwrap();
+    let (mimic, reverse) = ("multiplier=\"-1\" offset=\"0\"", ["\"0 1 0\"", "\"0 -1 0\""]);
+    // About the reverse axis; under another name.
+    let reversed = linkage_replaced(&[reverse, [mimic, ""]], &[]).unwrap();
+    assert_eq!(reversed, plain);
+    let named = linkage_replaced(&[["joint_2-linkage", "parallel_rod"]], &[]).unwrap();
+    assert_eq!(named, plain);
+    // With an offset; behind joint 3; with axis 3 in the opposite sense, as Fanuc has it.
+    let offset = linkage_replaced(&[[mimic, "multiplier=\"-1\" offset=\"0.1\""]], &[]).unwrap();
+    let turned = [reverse, [mimic, "multiplier=\"1\" offset=\"-0.1\""]];
+    let turned = linkage_replaced(&turned, &[]).unwrap();
+    let mimicking = "<mimic joint=\"joint_2\" multiplier=\"-1\" offset=\"0\"/>";
+    let behind = linkage_replaced(
+        &[["joint_2-linkage", "third"], [mimicking, ""]],
+        &[["joint_3", "passive"], ["<axis", "<mimic joint=\"joint_2\" multiplier=\"-1\"/><axis"]],
+    );
+    let (behind, opposed) = (behind.unwrap(), linkage_replaced(&[], &[reverse]).unwrap());
+    let mut rng = Rng::new(5);
+    for _ in 0..100 {
+        let q = rng.inside(robot.limits());
+        let third = |angle: f64| [q[0], q[1], angle, q[3], q[4], q[5]];
+        for (read, q3) in [
+            (&plain, q[2]),
+            (&offset, q[2] - 0.1),
+            (&turned, q[2] - 0.1),
+            (&behind, q[2]),
+            (&opposed, -q[2]),
+        ] {
+            assert!(read.is_coupled());
+            let off = PoseDifference::between(&read.fk(&third(q3)), &robot.fk(&q));
+            assert!(off.largest() <= rounding(&robot), "{off:?}");
+        }
+    }
+}
+
+#[test]
+fn a_mimic_is_a_linkage_beside_joint_3_on_its_axis_alone() {
     let text = limited().to_urdf();
     let refused = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
@@ -136,22 +190,26 @@ fn a_mimic_is_a_linkage_behind_joint_2_on_axis_3_alone() {
         assert!(matches!(read, Err(Error::InvalidModel(_))));
         read.unwrap_err().to_string()
     };
-    let wanted = |of: &str| {
+    let wanted = |of: &str, multiplier: &str| {
         format!(
-            "URDF: joint \"joint_2-linkage\" mimics \"{of}\", between base and tip each joint must \
-             turn by itself"
+            "URDF: joint \"joint_2-linkage\" mimics \"{of}\" with multiplier {multiplier}, between \
+             base and tip each joint must turn by itself, except a linkage: it takes joint 2 back \
+             on the axis of joint 3, with multiplier -1, or 1 about the reverse axis (make the \
+             joint fixed or choose base and tip beside it; snap makes angles with few digits exact)"
         )
     };
     let mimic = "<mimic joint=\"joint_2\" multiplier=\"-1\" offset=\"0\"/>";
-    for other in [
-        "<mimic joint=\"joint_2\"/>",
-        "<mimic joint=\"joint_2\" multiplier=\"-1.5\" offset=\"0\"/>",
-        "<mimic joint=\"joint_2\" multiplier=\"-1\" offset=\"0.1\"/>",
-        "<mimic joint=\"joint_2\" multiplier=\"minus\"/>",
-    ] {
-        assert_eq!(refused(mimic, other), wanted("joint_2"));
+    for (of, multiplier) in
+        [("2", "1"), ("2", "-1.5"), ("2", "2"), ("2", "minus"), ("1", "-1"), ("3", "-1")]
+    {
+        let of = format!("joint_{of}");
+        let other = format!("<mimic joint=\"{of}\" multiplier=\"{multiplier}\"/>");
+        assert_eq!(refused(mimic, &other), wanted(&of, multiplier));
     }
-    assert_eq!(refused(mimic, "<mimic joint=\"joint_1\" multiplier=\"-1\"/>"), wanted("joint_1"));
+    for offset in ["nan", "1e9"] {
+        let other = format!("<mimic joint=\"joint_2\" multiplier=\"-1\" offset=\"{offset}\"/>");
+        assert_eq!(refused(mimic, &other), wanted("joint_2", "-1"));
+    }
     let refuses = |origin: &str, axis: &str| {
         let start = text.find("<joint name=\"joint_3\"").unwrap();
         let (before, after) = text.split_at(start);
@@ -159,10 +217,10 @@ fn a_mimic_is_a_linkage_behind_joint_2_on_axis_3_alone() {
         let moved = moved.replacen("<axis xyz=\"0 1 0\"/>", axis, 1);
         assert_ne!(moved, after);
         let read = Robot::<6>::from_urdf(&format!("{before}{moved}"), None, None);
-        assert_eq!(read.unwrap_err().to_string(), wanted("joint_2"));
+        assert_eq!(read.unwrap_err().to_string(), wanted("joint_2", "-1"));
     };
     refuses("xyz=\"0 0 0.1\"", "<axis xyz=\"0 1 0\"/>");
-    refuses("xyz=\"0 0 0\"", "<axis xyz=\"0 -1 0\"/>");
+    refuses("xyz=\"0 0 0\"", "<axis xyz=\"0 1 1e-3\"/>");
     // A gripper's finger that mimics another joint is no tip, and leaves the tip what it is.
     let finger = text.replace(
         "</robot>",

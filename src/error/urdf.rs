@@ -94,8 +94,13 @@ pub enum UrdfFault {
          fixed (choose base and tip beside it)"
     )]
     JointType { joint: String, kind: String },
-    #[error("joint {joint:?} mimics {of:?}, between base and tip each joint must turn by itself")]
-    Mimic { joint: String, of: String },
+    #[error(
+        "joint {joint:?} mimics {of:?} with multiplier {multiplier}, between base and tip each \
+         joint must turn by itself, except a linkage: it takes joint 2 back on the axis of joint \
+         3, with multiplier -1, or 1 about the reverse axis (make the joint fixed or choose base \
+         and tip beside it; snap makes angles with few digits exact)"
+    )]
+    Mimic { joint: String, of: String, multiplier: String },
     #[error(
         "{found} revolute joints lead from {base:?} to {tip:?}, there must be {} (choose base and \
          tip)",

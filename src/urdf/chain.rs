@@ -55,7 +55,8 @@ pub(super) fn chain_between<'t, 'a>(
         Ok(way) if wanted.contains(&way.turning) => return Ok(chain),
         Ok(Way { turning: found, .. }) => {
             let [base, tip] = [base, tip].map(|link| tree.links[link].to_owned());
-            UrdfFault::JointCount { base, tip, found, wanted: wanted.to_vec() }
+            let count = UrdfFault::JointCount { base, tip, found, wanted: wanted.to_vec() };
+            chain.iter().find(|joint| joint.is_linkage()).map_or(count, |joint| joint.mimic())
         }
         Err(fault) => fault,
     };
@@ -181,8 +182,8 @@ fn only_root(tree: &Tree<'_>) -> Result<usize, UrdfFault> {
 struct Way<'a> {
     /// Number of revolute joints.
     turning: usize,
-    /// Name of the last of them.
-    last: &'a str,
+    /// Name of the second of them.
+    second: &'a str,
     /// Whether the joint of a linkage is on it.
     coupled: bool,
     /// The first joint that must not be on the path.
@@ -194,12 +195,13 @@ impl<'a> Way<'a> {
     fn through(self, joint: &Joint<'a>) -> Result<Self, UrdfFault> {
         joint.fault()?;
         if joint.is_linkage() {
-            let is_behind_joint_2 = (self.turning, self.last) == (2, joint.followed());
-            let may_be = is_behind_joint_2 && !self.coupled;
+            let is_beside_joint_3 = matches!(self.turning, 2 | 3);
+            let may_be = is_beside_joint_3 && self.second == joint.followed() && !self.coupled;
             return may_be.then_some(Self { coupled: true, ..self }).ok_or_else(|| joint.mimic());
         }
         let turning = self.turning + usize::from(joint.turns());
-        Ok(Self { turning, last: if joint.turns() { joint.name } else { self.last }, ..self })
+        let second = if joint.turns() && turning == 2 { joint.name } else { self.second };
+        Ok(Self { turning, second, ..self })
     }
 }
 
@@ -245,6 +247,7 @@ fn remark(tree: &Tree<'_>, link: usize, way: Way<'_>) -> String {
             format!("{name:?} (behind joint {:?}, a mimic)", joint.name)
         }
         Some(joint) => format!("{name:?} (behind joint {:?}, {})", joint.name, joint.kind),
+        None if way.coupled => format!("{name:?} ({}, and a mimic)", way.turning),
         None => format!("{name:?} ({})", way.turning),
     }
 }

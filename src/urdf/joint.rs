@@ -2,7 +2,7 @@
 
 use alloc::borrow::ToOwned;
 
-use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
 use super::attributes::{Version, check_attributes};
@@ -45,11 +45,13 @@ pub(super) struct Motion {
     pub(super) velocity: Option<f64>,
 }
 
-/// A parallelogram linkage that couples axes 2 and 3, as a joint between the two that takes joint 2
-/// back.
+/// A parallelogram linkage that couples axes 2 and 3, as a joint on axis 3 that takes joint 2 back.
 pub(super) struct Linkage {
+    /// The axis about which it turns by -q2.
     direction: Vector3<f64>,
-    /// Limits of q3 - q2 [rad].
+    /// Its angle about that axis where joint 2 is at zero [rad].
+    offset: f64,
+    /// Limits of the serial joint 3 [rad].
     pub(super) limits: Option<[f64; 2]>,
     /// The fault of a joint that turns another way.
     pub(super) fault: UrdfFault,
@@ -75,6 +77,13 @@ impl Linkage {
     /// The axis, as in [`Motion`].
     pub(super) fn axis(&self, t_base_child: &Pose, snap: f64) -> JointAxis {
         axis(self.direction, t_base_child, snap)
+    }
+
+    /// The child's frame, seen from where the joint is at an angle of zero.
+    pub(super) fn turned(&self, snap: f64) -> Pose {
+        let axis = Unit::new_unchecked(snapped_direction(self.direction, snap));
+        let rotation = Rotation3::from_axis_angle(&axis, snapped(self.offset, snap));
+        Pose::from_parts(Translation3::identity(), rotation)
     }
 }
 
@@ -122,19 +131,22 @@ impl<'a> Joint<'a> {
         matches!(self.kind, "revolute" | "continuous")
     }
 
-    /// Whether the joint turns as far as another one, the other way, as a linkage's does;
-    /// whether it is one depends on the joints before it.
+    /// Whether the joint turns as far as another one, as a linkage's does; whether it is one depends
+    /// on the other joints.
     pub(super) fn is_linkage(&self) -> bool {
-        let is = |mimic: Node<'_, '_>, attribute, value: f64, default: f64| {
+        self.multiplier_and_offset().is_some()
+    }
+
+    /// The multiplier, 1 or -1, and the offset [rad] of a joint that turns as far as another one.
+    fn multiplier_and_offset(&self) -> Option<[f64; 2]> {
+        let mimic = self.element("mimic").ok()?.filter(|_| self.is_revolute())?;
+        let number = |attribute, default: f64| {
             let given = mimic.attribute(attribute).map_or(Ok(default), |text| text.trim().parse());
-            given.is_ok_and(|given| given.total_cmp(&value).is_eq())
+            given.ok()
         };
-        self.is_revolute()
-            && self.element("mimic").is_ok_and(|mimic| {
-                mimic.is_some_and(|mimic| {
-                    is(mimic, "multiplier", -1.0, 1.0) && is(mimic, "offset", 0.0, 0.0)
-                })
-            })
+        let [multiplier, offset] = [number("multiplier", 1.0)?, number("offset", 0.0)?];
+        let is_linkage = [1.0, -1.0].contains(&multiplier) && offset.abs() <= MOST_ANGLE;
+        is_linkage.then_some([multiplier, offset])
     }
 
     /// The reason why the joint may not be between base and tip.
@@ -153,13 +165,22 @@ impl<'a> Joint<'a> {
 
     /// The fault of a joint that follows another one.
     pub(super) fn mimic(&self) -> UrdfFault {
-        UrdfFault::Mimic { joint: self.name.to_owned(), of: self.followed().to_owned() }
+        let multiplier = self.mimicking("multiplier").unwrap_or("1");
+        UrdfFault::Mimic {
+            joint: self.name.to_owned(),
+            of: self.followed().to_owned(),
+            multiplier: multiplier.chars().take(REPEATED).collect(),
+        }
     }
 
     /// The name of the joint that it follows; empty if it does not.
     pub(super) fn followed(&self) -> &'a str {
-        let mimic = self.element("mimic").ok().flatten();
-        mimic.and_then(|mimic| mimic.attribute("joint")).unwrap_or_default()
+        self.mimicking("joint").unwrap_or_default()
+    }
+
+    /// An attribute of how it follows another joint.
+    fn mimicking(&self, attribute: &'static str) -> Option<&'a str> {
+        self.element("mimic").ok()??.attribute(attribute)
     }
 
     /// The numbers of the joint.
@@ -170,7 +191,7 @@ impl<'a> Joint<'a> {
             xyz = self.three(origin, "xyz", "origin xyz", MOST_LENGTH)?.unwrap_or(xyz);
             rpy = self.rpy(origin)?.unwrap_or(rpy);
         }
-        let linkage = if self.is_linkage() { Some(self.linkage()?) } else { None };
+        let linkage = self.multiplier_and_offset().map(|turns| self.linkage(turns)).transpose()?;
         Ok(Placed { xyz, rpy, motion: self.motion()?, linkage })
     }
 
@@ -194,7 +215,7 @@ impl<'a> Joint<'a> {
         Ok(Some([roll, pitch, yaw]))
     }
 
-    fn linkage(&self) -> Result<Linkage, UrdfFault> {
+    fn linkage(&self, [multiplier, offset]: [f64; 2]) -> Result<Linkage, UrdfFault> {
         let limits = self.element(LINKAGE)?.map(|linkage| {
             let limit = |name, field| match linkage.attribute(name) {
                 Some(text) => self.numbers::<1>(field, text, MOST_ANGLE).map(|[limit]| limit),
@@ -202,8 +223,8 @@ impl<'a> Joint<'a> {
             };
             Ok([limit("lower", "linkage lower")?, limit("upper", "linkage upper")?])
         });
-        let (direction, limits) = (self.direction()?, limits.transpose()?);
-        Ok(Linkage { direction, limits, fault: self.mimic() })
+        let (direction, limits) = (self.direction()? * -multiplier, limits.transpose()?);
+        Ok(Linkage { direction, offset: -multiplier * offset, limits, fault: self.mimic() })
     }
 
     /// The direction of the axis.

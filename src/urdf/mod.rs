@@ -31,9 +31,9 @@ impl<const N: usize> Robot<N> {
     /// `N` revolute joints. Joints are numbered from base to tip; fixed joints, and joints that are
     /// not between them, are not counted. A joint turns in the sense of its axis. Limits and
     /// velocities are the text's. A velocity that is missing or zero is unknown, and one
-    /// unknown velocity leaves the robot without velocities. A joint that mimics joint 2 with the
-    /// multiplier -1, on the axis of joint 3 and before it, is a parallelogram linkage: the arm is
-    /// then [`Robot::coupled`].
+    /// unknown velocity leaves the robot without velocities. A joint that takes joint 2 back on the axis
+    /// of joint 3, by mimicking it with the multiplier -1, or 1 about the reverse axis, and any
+    /// offset, is a parallelogram linkage: the arm is then [`Robot::coupled`].
     ///
     /// # Errors
     ///
@@ -161,10 +161,15 @@ impl UrdfArm {
         for joint in &self.joints {
             t_base_tip *= joint.origin(snap);
             axes.extend(joint.motion.as_ref().map(|motion| motion.axis(&t_base_tip, snap)));
-            linkage = joint.linkage.as_ref().map(|l| (l.axis(&t_base_tip, snap), l)).or(linkage);
+            if let Some(found) = &joint.linkage {
+                linkage = Some((found.axis(&t_base_tip, snap), found));
+                t_base_tip *= found.turned(snap);
+            }
         }
-        match (linkage, axes.get(2)) {
-            (Some((axis, linkage)), Some(third)) if !are_one(&axis, third) => {
+        match (linkage, &axes[..]) {
+            (Some((axis, linkage)), [_, second, third, ..])
+                if !(are_on_one_line(&axis, third) && turn_alike(&axis, second)) =>
+            {
                 Err(linkage.fault.clone())
             }
             _ => Ok((axes, t_base_tip)),
@@ -190,10 +195,14 @@ impl UrdfArm {
     }
 }
 
-/// Whether two axes are on one line and turn in one sense.
-fn are_one(one: &JointAxis, two: &JointAxis) -> bool {
+/// Whether two axes are on one line, in whatever sense.
+fn are_on_one_line(one: &JointAxis, two: &JointAxis) -> bool {
     let [direction, other] = [one, two].map(|axis| Vector3::from(axis.direction));
     let between = Vector3::from(two.point) - Vector3::from(one.point);
-    (direction - other).norm() <= FORM_TOLERANCE
-        && direction.cross(&between).norm() <= FORM_TOLERANCE
+    [other, between].iter().all(|along| direction.cross(along).norm() <= FORM_TOLERANCE)
+}
+
+/// Whether two axes, parallel or nearly so, turn in one sense.
+fn turn_alike(one: &JointAxis, two: &JointAxis) -> bool {
+    Vector3::from(one.direction).dot(&Vector3::from(two.direction)) > 0.0
 }

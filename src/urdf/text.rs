@@ -84,7 +84,7 @@ impl Text {
         self.turning("joint_2-linkage", links, &Hinge { limits: [-upper, -lower], ..*second });
         self.push("    <mimic joint=\"joint_2\" multiplier=\"-1\" offset=\"0\"/>\n");
         if let Some([lower, upper]) = limits.map(finite) {
-            self.push("    <!-- Limits of joint_3 - joint_2, for irbkin. -->\n");
+            self.push("    <!-- Limits of the angle between link_2 and link_3, for irbkin. -->\n");
             self.line(format_args!("    <{LINKAGE} lower=\"{lower}\" upper=\"{upper}\"/>"));
         }
         self.push("  </joint>\n");

@@ -27,10 +27,9 @@ const HEAD: &[&str] = &[
 
 /// Why an arm with a parallelogram linkage has one joint more.
 const LINKAGE: &[&str] = &[
-    "<!-- A parallelogram linkage couples axes 2 and 3: joint_3 is the controller's and is measured",
-    "     from the base. The joint of the linkage takes joint_2 back, so that link_3 turns by",
-    "     joint_3 - joint_2 relative to link_2. A program that ignores mimic needs -joint_2 for it.",
-    "     -->",
+    "<!-- Axes 2 and 3 are coupled: joint_3 is the controller's and is measured from the base. The",
+    "     joint of the linkage takes joint_2 back, so that joint_2 does not change the pitch of",
+    "     link_3. A program that ignores mimic needs -joint_2 for it. -->",
 ];
 
 impl<const N: usize> Robot<N> {
@@ -39,8 +38,8 @@ impl<const N: usize> Robot<N> {
     /// Links are `base_link`, `base` (the same), `link_1` to `link_N`, `flange` and `tool0`; joints
     /// are `joint_1` to `joint_N`, with limits and velocities. `tool0` is the flange of this
     /// crate, with z out of it; `flange` has x out of it. With a base, `base_link` is placed in
-    /// `world`; with a tool, `tool` is placed in `tool0`. If a parallelogram linkage couples axes
-    /// 2 and 3, a passive joint between them mimics joint 2, and joint 3 is the controller's;
+    /// `world`; with a tool, `tool` is placed in `tool0`. If axes 2 and 3 are coupled, a
+    /// passive joint between them mimics joint 2, and joint 3 is the controller's;
     /// [`Self::uncoupled`] has no such joint. A joint with a limit on one side only gets
     /// [`MOST_ANGLE`](crate::thresholds::MOST_ANGLE) on the other.
     ///
@@ -65,7 +64,7 @@ impl<const N: usize> Robot<N> {
             flange: &mdh.flange,
             limits: &self.limits().to_array(),
             velocity: self.max_velocity().map(|velocity| &velocity[..]),
-            is_coupled: self.is_coupled(),
+            coupling: self.coupling(),
             linkage: self.limits().linkage(),
         };
         arm.urdf()
@@ -82,7 +81,8 @@ struct Arm<'a> {
     flange: &'a Pose,
     limits: &'a [[f64; 2]],
     velocity: Option<&'a [f64]>,
-    is_coupled: bool,
+    /// Factor of joint 2 in joint 3; zero without a coupling.
+    coupling: f64,
     /// Limits of the linkage [rad].
     linkage: Option<[f64; 2]>,
 }
@@ -122,10 +122,12 @@ impl Arm<'_> {
             let twist = constant_pose([row.a, 0.0, 0.0], [0.0, 0.0, row.alpha]);
             frame *= twist * constant_pose([0.0, 0.0, row.d], [row.theta, 0.0, 0.0]);
             let mut hinge = self.hinge(i, &frame);
-            if i == 2 && self.is_coupled {
+            if i == 2 && self.coupling != 0.0 {
+                let second = self.hinge(1, &frame);
+                let second = Hinge { axis: second.axis * self.coupling, ..second };
                 text.lines(LINKAGE);
                 text.link("linkage");
-                text.linkage([&parent, "linkage"], &self.hinge(1, &frame), self.linkage);
+                text.linkage([&parent, "linkage"], &second, self.linkage);
                 "linkage".clone_into(&mut parent);
                 hinge.origin = Vector3::zeros();
             }

@@ -94,6 +94,46 @@ def test_base_and_tool_are_part_of_it(build, name):
 
 
 @pytest.mark.parametrize("build", [by_pinocchio, by_yourdfpy, by_mujoco])
+@pytest.mark.parametrize("name", ["CRX-10iA", "UR5e", "IRB 2600-12/1.65"])
+def test_coupled_axes_turn_in_whatever_sense(build, name):
+    robot = Robot(name).coupled()
+    assert_agrees(robot, build)
+    read = Robot.from_urdf(robot.to_urdf())
+    assert read.is_coupled
+    np.testing.assert_array_equal(read.linkage_limits, robot.linkage_limits)
+
+
+MIMIC = '<mimic joint="joint_2" multiplier="-1" offset="0"/>'
+LINKAGE_AXIS = '<axis xyz="0 1 0"/>'
+
+
+@pytest.mark.parametrize(
+    ("axis", "mimic"),
+    [
+        (LINKAGE_AXIS, MIMIC),
+        (LINKAGE_AXIS, MIMIC.replace('"0"', '"0.3"')),
+        ('<axis xyz="0 -1 0"/>', '<mimic joint="joint_2"/>'),
+        ('<axis xyz="0 -1 0"/>', '<mimic joint="joint_2" multiplier="1" offset="-0.3"/>'),
+    ],
+)
+@pytest.mark.parametrize("third", [LINKAGE_AXIS, '<axis xyz="0 -1 0"/>'])
+def test_a_mimic_that_takes_joint_2_back_is_read(axis, mimic, third):
+    text = Robot(COUPLED).to_urdf().replace("joint_2-linkage", "parallel_rod")
+    before, linkage, rest = text.partition('<joint name="parallel_rod"')
+    passive, name, after = rest.partition('<joint name="joint_3"')
+    passive = passive.replace(LINKAGE_AXIS, axis).replace(MIMIC, mimic)
+    text = before + linkage + passive + name + after.replace(LINKAGE_AXIS, third, 1)
+    robot = Robot.from_urdf(text, tip="tool0")
+    assert robot.is_coupled
+    model = pinocchio.buildModelFromXML(text, mimic=True)
+    data, tip = model.createData(), model.getFrameId("tool0")
+    for q in np.random.default_rng(3).uniform(-1.5, 1.5, (SAMPLES, 6)):
+        pinocchio.framesForwardKinematics(model, data, q)
+        np.testing.assert_allclose(robot.fk(q), data.oMf[tip].homogeneous, rtol=0, atol=1e-13)
+        assert np.abs(robot.ik(robot.fk(q)).q - q).max(axis=1).min() < 1e-9
+
+
+@pytest.mark.parametrize("build", [by_pinocchio, by_yourdfpy, by_mujoco])
 @pytest.mark.parametrize("name", ["IRB 2600-12/1.65", COUPLED])
 def test_joints_without_limits_are_continuous(build, name):
     robot = Robot(name)
