@@ -1,5 +1,7 @@
 """A plan as RAPID: its targets and its module give the joints of the plan again."""
 
+import re
+
 import irbkin
 import numpy as np
 import pytest
@@ -72,6 +74,17 @@ def test_a_module_moves_along_the_plan():
     motion = rapid.motion(ROBOT, read)
     assert motion.findings == ()
     assert motion.duration == pytest.approx(0.6 / 0.020, rel=1e-3)
+
+
+def test_numbers_of_a_module_have_the_digits_of_a_controller():
+    text = rapid.dump(rapid.plan_module(ROBOT, PLAN, wobj=TABLE))
+    targets = re.findall(r"robtarget p\d+:=\[\[(.*?)\],\[(.*?)\]", text)
+    assert len(targets) == len(PLAN.q)
+    for numbers in targets:
+        for part, decimals in zip(numbers, (3, 7), strict=True):
+            assert all(float(it) == round(float(it), decimals) for it in part.split(","))
+    target = rapid.RobTarget.of(irbkin.pose([1.12, 1e-16, 0.66], [0.5, 0.5, 0.5, 0.5]), [0] * 4)
+    assert rapid.dump(target).startswith("[[1120,0,660],[0.5,0.5,0.5,0.5]")
 
 
 def test_data_are_speeds_and_zones_too():

@@ -94,7 +94,8 @@ def plan_module(
 ) -> Module:
     r"""Return a module that moves along a plan in `main`: MoveJ to its first pose, then MoveL.
 
-    `dump` writes it, `calc_moves` gives the joints of the plan again, `motion` times it.
+    `dump` writes it, `calc_moves` gives the joints of the plan again, `motion` times it. Targets
+    have the digits of a controller: 0.001 mm, quaternions 1e-7, external axes 1e-6.
 
     Args:
         robot: The arm of the plan.
@@ -114,7 +115,14 @@ def plan_module(
         RapidError: As `plan_targets`; a name, speed or zone that RAPID does not read.
         InvalidModelError: As `plan_targets`.
     """
-    targets = plan_targets(robot, plan, tool, wobj, extax=extax, carrier=carrier)
+    targets = [
+        target._replace(
+            trans_mm=np.round(target.trans_mm, 3),
+            rot=np.round(target.rot, 7),
+            extax=np.round(target.extax, 6),
+        )
+        for target in plan_targets(robot, plan, tool, wobj, extax=extax, carrier=carrier)
+    ]
     data: Mapping[str, ToolData | WobjData | RobTarget] = {
         "tPlan": ToolData(tframe=Pose.of(robot.tool)) if tool is None else tool,
         **({} if wobj is None else {"wPlan": wobj}),

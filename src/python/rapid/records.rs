@@ -10,6 +10,10 @@ use crate::rapid::class::{Field, Given, Refused};
 use crate::rapid::{JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, rapid_pose};
 use crate::report::Configuration;
 
+/// Powers of ten of the decimals of a position [mm] and a quaternion that are made of a matrix:
+/// further ones are rounding errors.
+const DECIMALS: [f64; 2] = [1e9, 1e12];
+
 /// The homogeneous matrix of a frame.
 fn matrix(py: Python<'_>, trans_mm: [f64; 3], rot: [f64; 4]) -> PyResult<Bound<'_, PyArray2<f64>>> {
     Ok(pose_array(py, &pose_from_wxyz(trans_mm.map(|mm| mm / 1e3), rot)?))
@@ -22,7 +26,14 @@ impl RapidPose {
     #[pyo3(signature = (T))]
     #[expect(non_snake_case, reason = "the name of a matrix")]
     fn of(T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        Ok(rapid_pose(&read_pose(T)?))
+        let Self { trans_mm, rot } = rapid_pose(&read_pose(T)?);
+        let [millimeters, units] = DECIMALS;
+        // -0.0 is 0.
+        let rounded = |value: f64, decimals: f64| (value * decimals).round() / decimals + 0.0;
+        Ok(Self {
+            trans_mm: trans_mm.map(|mm| rounded(mm, millimeters)),
+            rot: rot.map(|part| rounded(part, units)),
+        })
     }
 
     /// Return the homogeneous matrix, shape (4, 4), translation [m].
