@@ -917,8 +917,8 @@ class Robot:
             or inf gives NaN.
 
         Raises:
-            InvalidJointsError: A wrong shape, or a single joint vector that is not finite or more
-                than four turns outside the limits, as one in degrees is.
+            InvalidJointsError: A wrong shape, a single joint vector that is not finite, or one, or
+                most of many, more than four turns outside the limits, as degrees are.
         """
     def link_frames(self, q: npt.ArrayLike, out: _Floats | None = None) -> _Floats:
         """Every frame of the modified Denavit-Hartenberg table after its joint, then the tool.
@@ -1118,8 +1118,8 @@ class Robot:
             UnreachableError: A single pose has no solution inside the limits; the message says what
                 is missing.
             InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
-                is not finite; a seed more than four turns outside the limits; a single pose or seed
-                for a whole batch that is invalid.
+                is not finite; a seed, or most of many, more than four turns outside the limits; a
+                single pose or seed for a whole batch that is invalid.
         """
     def margin(self, q: npt.ArrayLike, *, threads: int = 1) -> Margin:
         """How far joint vectors are from limits and singularities, as parts of the farthest that

@@ -70,6 +70,12 @@ pub enum JointFault {
         .bounds[0], .bounds[1]
     )]
     FarOutside { field: &'static str, joint: usize, value: f64, bounds: [f64; 2] },
+    /// The first of more than half of the joints.
+    #[error(
+        "{field}: joint {joint} is {value:.2} rad, beyond {bound:.2} rad as most joints are (did \
+         you pass degrees?)"
+    )]
+    Degrees { field: &'static str, joint: usize, value: f64, bound: f64 },
     /// `off`: the larger of meters and radians.
     #[error(
         "solution does not reach this pose: residual {off:.1e} (m or rad), it must be at most \

@@ -10,7 +10,7 @@ mod structure;
 pub mod thresholds;
 
 #[cfg(feature = "python")]
-pub(crate) use answer::check::{check_joints, check_near};
+pub(crate) use answer::check::{check_joints, check_most_near, check_near};
 pub(crate) use answer::check::{check_seed, check_weights};
 #[cfg(feature = "python")]
 pub(crate) use answer::select::Cost;

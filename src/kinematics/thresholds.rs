@@ -172,8 +172,8 @@ pub(crate) const MOST_REACH: f64 = 100.0;
 /// stands for none.
 pub(crate) const DEGREE_LIMITS: core::ops::RangeInclusive<f64> = 50.0..=1000.0;
 
-/// How far outside its limits a joint of a joint vector may be [rad]: four turns. A seed may be two
-/// turns away; joints in degrees are farther off.
+/// How far outside its limits a joint of a joint vector may be, and how large most joints of a
+/// motion may be [rad]: four turns. A seed may be two turns away; degrees are farther off.
 pub(crate) const FARTHEST_OUTSIDE: f64 = 4.0 * core::f64::consts::TAU;
 
 /// Greatest angle of a model and greatest joint limit [rad], apart from no limit: beyond, full

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use super::arrays::Rows;
 use super::errors::Fault;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{AnyRobot, JointLimits, Robot, check_joints, check_near};
+use crate::kinematics::{AnyRobot, JointLimits, Robot, check_joints, check_most_near, check_near};
 
 /// A value of a robot of six joints, or of one of seven.
 #[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -90,18 +90,22 @@ impl Arm {
         Ok(on!(self, robot => robot.configuration_rule().map(drop))?)
     }
 
-    /// Joint vectors as an argument; a single one must be finite and near the limits.
+    /// Joint vectors as an argument: a single one must be finite and near the limits, of many most
+    /// must be near them.
     pub(super) fn joints<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
         let rows = Rows::read(q, &[self.dof()], "q", Fault::Joints)?;
-        if rows.is_single() {
-            on!(self, robot => check_single(&rows, robot.limits())?);
-        }
+        on!(self, robot => check_rows(&rows, robot.limits())?);
         Ok(rows)
     }
 }
 
-fn check_single<const N: usize>(rows: &Rows<'_>, limits: &JointLimits<N>) -> PyResult<()> {
-    let Some(q) = rows.single::<N>()? else { return Ok(()) };
-    check_joints("q", q)?;
-    Ok(check_near("q", q, limits, &[1.0; N])?)
+fn check_rows<const N: usize>(rows: &Rows<'_>, limits: &JointLimits<N>) -> PyResult<()> {
+    match rows.single::<N>()? {
+        Some(q) => {
+            check_joints("q", q)?;
+            check_near("q", q, limits, &[1.0; N])?;
+        }
+        None => check_most_near("q", rows.chunks()?, limits, &[1.0; N])?,
+    }
+    Ok(())
 }

@@ -20,7 +20,7 @@ use super::signals::detached;
 use super::solutions::{Found, PySolutions};
 use super::targets::{Seeded, read_ik_pose, read_seeded, read_single_pose, read_weights};
 use crate::batch::Margins;
-use crate::kinematics::check_near;
+use crate::kinematics::{check_most_near, check_near};
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -193,8 +193,8 @@ impl PyRobot {
     ///     UnreachableError: A single pose has no solution inside the limits; the message says what
     ///         is missing.
     ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
-    ///         is not finite; a seed more than four turns outside the limits; a single pose or seed
-    ///         for a whole batch that is invalid.
+    ///         is not finite; a seed, or most of many, more than four turns outside the limits; a
+    ///         single pose or seed for a whole batch that is invalid.
     #[pyo3(signature = (T, seed, weights=None, *, out=None, threads=1))]
     fn ik_nearest<'py>(
         &self,
@@ -214,6 +214,7 @@ impl PyRobot {
             }
             Seeded::Many(poses, seeds) => {
                 let (weights, shape) = (read_weights(weights)?, poses.shape_with(&[self.arm().dof()]));
+                check_most_near("seed", seeds.chunks()?, robot.limits(), &weights)?;
                 let inputs = [poses.addresses(), seeds.addresses()];
                 let mut answer = Output::new(py, out, &shape, &inputs)?;
                 let (poses, seeds, q) = (poses.data()?, seeds.data()?, answer.slice()?);

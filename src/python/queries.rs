@@ -27,8 +27,8 @@ impl PyRobot {
     ///     or inf gives NaN.
     ///
     /// Raises:
-    ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite or more
-    ///         than four turns outside the limits, as one in degrees is.
+    ///     InvalidJointsError: A wrong shape, a single joint vector that is not finite, or one, or
+    ///         most of many, more than four turns outside the limits, as degrees are.
     #[pyo3(signature = (q, out=None))]
     fn fk<'py>(
         &self,

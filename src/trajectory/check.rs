@@ -1,9 +1,12 @@
 //! Checks of what a caller gives.
 
 use super::axis::AxisLimits;
-use crate::error::{Error, MotionFault};
+use crate::error::{Error, JointFault, MotionFault};
 use crate::kinematics::check_seed;
-use crate::kinematics::thresholds::{LEAST_DURATION, MOST_DURATION};
+use crate::kinematics::thresholds::{FARTHEST_OUTSIDE, LEAST_DURATION, MOST_DURATION};
+
+/// Joints of an arm, at least: most of them beyond four turns are in degrees.
+const LEAST_JOINTS: usize = 6;
 
 /// Check that limits are positive; infinity is no limit.
 pub(super) fn check_limits(field: &'static str, limits: &[f64]) -> Result<(), Error> {
@@ -54,7 +57,8 @@ pub(super) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> 
     if q.is_empty() {
         return Err(MotionFault::NoJoints { field }.into());
     }
-    check_seed(field, q)
+    check_seed(field, q)?;
+    in_degrees(field, q, q.len()).map_or(Ok(()), |(_, fault)| Err(fault.into()))
 }
 
 /// Check the angles of joint vectors, rows of `dof` numbers.
@@ -68,7 +72,22 @@ pub(super) fn check_rows(field: &'static str, q: &[f64], dof: usize) -> Result<(
             checked => checked?,
         }
     }
-    Ok(())
+    in_degrees(field, q, dof)
+        .map_or(Ok(()), |(row, fault)| Err(MotionFault::Row { row, fault }.into()))
+}
+
+/// The first row of joint vectors of an arm in which a joint is beyond [`FARTHEST_OUTSIDE`], where
+/// more than half of the joints somewhere are.
+fn in_degrees(field: &'static str, q: &[f64], dof: usize) -> Option<(usize, JointFault)> {
+    let far =
+        |joint: usize| q.chunks_exact(dof).position(|row| row[joint].abs() > FARTHEST_OUTSIDE);
+    let joints = (0..dof).filter_map(|joint| Some((far(joint)?, joint)));
+    if dof < LEAST_JOINTS || 2 * joints.clone().count() <= dof {
+        return None;
+    }
+    let (row, joint) = joints.min()?;
+    let (value, bound) = (q[row * dof + joint], FARTHEST_OUTSIDE);
+    Some((row, JointFault::Degrees { field, joint: joint + 1, value, bound }))
 }
 
 /// Check a duration [s].

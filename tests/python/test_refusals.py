@@ -107,6 +107,12 @@ POSES = [
 ]  # fmt: skip
 JOINTS = [
     ("robot.fk(np.zeros((2, 5)))", "q must have shape (..., 6), got (2, 5)"),
+    ("robot.fk(np.degrees([q, 2 * q, 0 * q]))", "row 0 of q: joint 5 is -34.38 rad, far outside "
+     "its limits -2.09 to 2.09 rad (did you pass degrees? otherwise remove whole turns)"),
+    ("robot.ik_nearest(many, np.degrees(2 * q))", "row 0 of seed: joint 1 is 34.38 rad, far"),
+    ("irbkin.trajectory.retime(np.degrees([0 * q, 2 * q]), 1, 1)", "row 1 of q: joint 1 is 34.38 "
+     "rad, beyond 25.13 rad as most joints are (did you pass degrees?)"),
+    ("irbkin.trajectory.joint(q, np.degrees(2 * q))", "q1: joint 1 is 34.38 rad, beyond 25.13"),
     ("panda.fk(q)", "q must have shape (..., 7), got (6,)"),
     ("robot.fk([[1, 2], [3]])", "q must be an array of numbers"),
     ("robot.jacobian(put(q, 2, -inf))", "q: joint 3 is -inf, every angle must be finite [rad]"),
@@ -237,8 +243,11 @@ REFUSED = [
 ACCEPTED = [
     "robot.ik(sheared(0.9e-5))",
     "robot.ik(put(T, (3, 2), 0.5e-9))",
-    "robot.with_tool(irbkin.pose([0, 0, 50]))",
+    "robot.with_tool(irbkin.pose([0, 0, 11]))",
     "robot.with_base(irbkin.pose([0, 0, 5000]))",
+    "robot.fk([q, np.degrees(2 * q), 0 * q])",
+    "irbkin.trajectory.retime(np.degrees([[0], [90]]), 1, 1)",
+    "irbkin.trajectory.joint(q, q + [30, 30, 30, 0, 0, 0])",
     "Robot.from_mdh(rows * [1, 10, 10, 1])",
     "opw(offsets=[0, 2 * np.pi, -np.pi / 2, 14 * np.pi, 100.0, -7])",
     "irbkin.pose([0, 0, 0], euler_zyx=[-6.2832, 0, 0])",
