@@ -37,7 +37,7 @@ def main() -> None:
     print(f"and of those inside the limits: {low.within_limits().explain()}")
 
     # With tighter limits, the message names the joint that exceeds them.
-    limits = robot.limits
+    limits = robot.limits.copy()
     limits[0] = np.radians([-90, 90])
     limits[4] = np.radians([-20, 20])
     try:

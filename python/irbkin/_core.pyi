@@ -649,7 +649,8 @@ class Robot:
     """A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
 
     Frozen, hashable, equal by value, picklable. Other arms come from `from_mdh`, `from_sdh`,
-    `from_opw` and `from_urdf`.
+    `from_opw` and `from_urdf`. Its arrays are read-only: change a copy, and pass that to
+    `with_limits`, `with_tool` or `with_base`.
 
     Args:
         name: Catalog name or alias, the maker's name before it or not; case, blanks, -, _, /,
@@ -832,21 +833,25 @@ class Robot:
     @property
     def max_velocity(self) -> _Floats | None:
         """Largest velocity of each joint [rad/s], shape (n,), or None where it is not known."""
-    def with_tool(self, T: npt.ArrayLike) -> Robot:
+    def with_tool(self, T: npt.ArrayLike | ToolData) -> Robot:
         """Return the robot with another tool, in place of the one that it had.
 
         Args:
-            T: Pose of the tool center point in the flange frame, shape (4, 4), translation [m].
+            T: Pose of the tool center point in the flange frame, shape (4, 4), translation [m]; or
+                its translation alone, shape (3,); or a `rapid.ToolData` that the robot holds.
 
         Raises:
-            InvalidPoseError: T is not a rigid transform or has a wrong shape.
+            InvalidPoseError: T is not a rigid transform, has a wrong shape, or is longer than ten
+                times the size of the arm.
+            RapidError: The tool is stationary.
         """
     def with_base(self, T: npt.ArrayLike) -> Robot:
         """Return the robot with another base, in place of the one that it had; poses are then given
         in the world.
 
         Args:
-            T: Pose of the base in the world, shape (4, 4), translation [m].
+            T: Pose of the base in the world, shape (4, 4), translation [m]; or its translation
+                alone, shape (3,).
 
         Raises:
             InvalidPoseError: T is not a rigid transform or has a wrong shape.

@@ -45,8 +45,8 @@ pub enum PoseFault {
     )]
     EulerAngle { index: usize, value: f64, bound: f64 },
     #[error(
-        "the tool center point is {length:.1} m from the flange, it must be at most {bound} m (is \
-         the tool in millimeters? meters are wanted)"
+        "the tool center point is {length:.1} m from the flange, it must be at most {bound:.1} m, \
+         ten times the size of the arm (is the tool in millimeters? meters are wanted)"
     )]
     ToolTooLong { length: f64, bound: f64 },
 }

@@ -159,9 +159,9 @@ pub const MOST_LENGTH: f64 = 1e6;
 /// at most a micrometer for each meter of reach.
 pub(crate) const FARTHEST_NORMAL: f64 = MOST_LENGTH / 2.0;
 
-/// Longest tool that is taken [m]: the distance of its center point from the flange. No arm carries
-/// one of 50 m, and a pointer or laser is aimed less far; a tool of 50 mm in millimeters is one.
-pub(crate) const MOST_TOOL: f64 = 50.0;
+/// Longest tool that is taken, in sizes of the arm [1], the largest distance of its flange from an
+/// axis in two poses. No arm carries a longer one; for most a tool of 20 mm in millimeters is one.
+pub(crate) const MOST_TOOL: f64 = 10.0;
 
 /// Farthest that the flange of an arm may be from its base [m]: the longest manipulators reach 70
 /// m, and an arm in millimeters hundreds.

@@ -9,14 +9,17 @@ use pyo3::prelude::*;
 use super::arm::{Arm, on};
 use super::arrays::vector;
 use super::errors::Fault;
+use super::outputs::read_only;
+use super::rapid::records::carried_tool;
 use super::state::{Reduced, hash_of, reduced};
-use super::targets::{pose_array, read_single_pose};
+use super::targets::{pose_array, read_frame};
 use crate::kinematics::{Robot, pose_to_rows};
 
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
 ///
 /// Frozen, hashable, equal by value, picklable. Other arms come from `from_mdh`, `from_sdh`,
-/// `from_opw` and `from_urdf`.
+/// `from_opw` and `from_urdf`. Its arrays are read-only: change a copy, and pass that to
+/// `with_limits`, `with_tool` or `with_base`.
 ///
 /// Args:
 ///     name: Catalog name or alias, the maker's name before it or not; case, blanks, -, _, /,
@@ -83,61 +86,67 @@ impl PyRobot {
     /// Modified Denavit-Hartenberg rows: alpha [rad], a [m], d [m], theta offset [rad], shape (n,
     /// 4). `flange` follows the last row.
     #[getter]
-    fn mdh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn mdh(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         let rows: Vec<f64> = on!(&self.arm, robot => {
             robot.mdh().rows.iter().flat_map(|row| row.to_array()).collect()
         });
-        PyArray1::from_vec(py, rows).reshape([self.arm.dof(), 4])
+        PyArray1::from_vec(py, rows).reshape([self.arm.dof(), 4]).map(read_only)
     }
 
     /// Fixed transform from the base to the frame before the first row of `mdh`, shape (4, 4).
     #[getter]
-    fn _root<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        on!(&self.arm, robot => pose_array(py, &robot.mdh().base))
+    fn _root(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
+        on!(&self.arm, robot => read_only(pose_array(py, &robot.mdh().base)))
     }
 
     /// Fixed transform from the last frame of `mdh` to the flange, shape (4, 4).
     #[getter]
-    fn flange<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        on!(&self.arm, robot => pose_array(py, &robot.mdh().flange))
+    fn flange(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
+        on!(&self.arm, robot => read_only(pose_array(py, &robot.mdh().flange)))
     }
 
     /// Pose of the base in the world, shape (4, 4).
     #[getter]
-    fn base<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        on!(&self.arm, robot => pose_array(py, robot.base()))
+    fn base(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
+        on!(&self.arm, robot => read_only(pose_array(py, robot.base())))
     }
 
     /// Pose of the tool center point in the flange frame, shape (4, 4).
     #[getter]
-    fn tool<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        on!(&self.arm, robot => pose_array(py, robot.tool()))
+    fn tool(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
+        on!(&self.arm, robot => read_only(pose_array(py, robot.tool())))
     }
 
     /// Lower and upper limit of each joint [rad], shape (n, 2); infinite where a joint has none.
     #[getter]
-    fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn limits(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         let flat = on!(&self.arm, robot => robot.limits().to_array().concat());
-        PyArray1::from_vec(py, flat).reshape([self.arm.dof(), 2])
+        PyArray1::from_vec(py, flat).reshape([self.arm.dof(), 2]).map(read_only)
     }
 
     /// Largest velocity of each joint [rad/s], shape (n,), or None where it is not known.
     #[getter]
-    fn max_velocity<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+    fn max_velocity(&self, py: Python<'_>) -> Option<Py<PyArray1<f64>>> {
         on!(&self.arm, robot => {
-            robot.max_velocity().map(|velocity| PyArray1::from_slice(py, velocity))
+            robot.max_velocity().map(|velocity| read_only(PyArray1::from_slice(py, velocity)))
         })
     }
 
     /// Return the robot with another tool, in place of the one that it had.
     ///
     /// Args:
-    ///     T: Pose of the tool center point in the flange frame, shape (4, 4), translation [m].
+    ///     T: Pose of the tool center point in the flange frame, shape (4, 4), translation [m]; or
+    ///         its translation alone, shape (3,); or a `rapid.ToolData` that the robot holds.
     ///
     /// Raises:
-    ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
+    ///     InvalidPoseError: T is not a rigid transform, has a wrong shape, or is longer than ten
+    ///         times the size of the arm.
+    ///     RapidError: The tool is stationary.
     fn with_tool(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let tool = read_single_pose(T, "with_tool")?;
+        let tool = match T.extract() {
+            Ok(tool) => carried_tool(&tool)?,
+            Err(_) => read_frame(T, "with_tool")?,
+        };
         Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_tool(&tool)?)).into())
     }
 
@@ -145,12 +154,13 @@ impl PyRobot {
     /// the world.
     ///
     /// Args:
-    ///     T: Pose of the base in the world, shape (4, 4), translation [m].
+    ///     T: Pose of the base in the world, shape (4, 4), translation [m]; or its translation
+    ///         alone, shape (3,).
     ///
     /// Raises:
     ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
     fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let base = read_single_pose(T, "with_base")?;
+        let base = read_frame(T, "with_base")?;
         Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_base(&base)?)).into())
     }
 
@@ -164,9 +174,9 @@ impl PyRobot {
     /// Lower and upper limit of the serial joint 3 [rad], shape (2,), of a robot with coupled axes 2
     /// and 3: of q3 of `uncoupled()`. None where none are known.
     #[getter]
-    fn linkage_limits<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+    fn linkage_limits(&self, py: Python<'_>) -> Option<Py<PyArray1<f64>>> {
         on!(&self.arm, robot => robot.limits().linkage())
-            .map(|linkage| PyArray1::from_slice(py, &linkage))
+            .map(|linkage| read_only(PyArray1::from_slice(py, &linkage)))
     }
 
     /// Return the robot, whose axes 2 and 3 are coupled, with other limits of the serial joint 3,

@@ -6,7 +6,9 @@ use pyo3::prelude::*;
 use super::arrays::{Rows, copied_matrix4, copied_vector, matrix4, together, vector};
 use super::errors::{Fault, index_in, shape_text};
 use super::outputs::matrix;
-use crate::kinematics::{Pose, check_seed, check_weights, pose_from_rows, pose_to_rows};
+use crate::kinematics::{
+    Pose, check_seed, check_weights, pose_from_rows, pose_from_wxyz, pose_to_rows,
+};
 
 /// Poses that are read between two looks at the signals.
 const POSES_AT_A_TIME: usize = 1 << 18;
@@ -28,6 +30,14 @@ pub(super) fn read_ik_pose(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
 /// The argument T of a method that takes one pose and has no batch.
 pub(super) fn read_single_pose(value: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
     read_one_pose(value, &format!(": {method} takes a single pose, call it for each"))
+}
+
+/// A frame of the robot: a pose as the argument T of `method`, or its translation alone.
+pub(super) fn read_frame(value: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
+    match shape_of(value).as_deref() {
+        Some([3]) => Ok(pose_from_wxyz(vector(value, "T", Fault::Pose)?, [1.0, 0.0, 0.0, 0.0])?),
+        _ => read_single_pose(value, method),
+    }
 }
 
 /// The argument T of a call that takes one pose; a message on many ends with `many`.

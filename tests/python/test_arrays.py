@@ -107,9 +107,6 @@ def test_answers_are_new_arrays_that_may_be_written(robot):
     for answer in (
         robot.fk(Q),
         robot.jacobian(Q),
-        robot.mdh,
-        robot.limits,
-        robot.max_velocity,
         robot.ik(robot.fk(Q)).q,
     ):
         assert answer.dtype == np.float64

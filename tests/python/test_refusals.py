@@ -14,6 +14,7 @@ from irbkin import (
     InvalidModelError,
     InvalidPoseError,
     IrbkinError,
+    RapidError,
     Robot,
     UnknownRobotError,
     UnreachableError,
@@ -94,7 +95,9 @@ POSES = [
     ("robot.ik_batch(np.zeros((5, 16)))", "T must have shape (..., 4, 4), got (5, 16)"),
     ("robot.with_tool(many)", "got (5, 4, 4): with_tool takes a single pose, call it for each"),
     ("robot.with_tool(irbkin.pose([0, 0, 110]))", "is 110.0 m from the flange, it must be at most "
-     "50 m (is the tool in millimeters? meters are wanted)"),
+     "12.0 m, ten times the size of the arm (is the tool in millimeters? meters are wanted)"),
+    ("robot.with_tool([0, 0, 20])", "is 20.0 m from the flange, it must be at most 12.0 m"),
+    ("robot.with_tool([0, nan, 0])", "xyz[1] is NaN: every element must be finite"),
     ("robot.follow(T, q)", "T must have shape (..., m, 4, 4), got (4, 4)"),
     ("irbkin.pose([0, 0, 2e6])", "xyz[2] is 2e6 m, its size must be at most 1e6 m"),
     ("irbkin.pose([0, nan, 0])", "xyz[1] is NaN: every element must be finite"),
@@ -189,7 +192,8 @@ ARGUMENTS = [
     ("panda.ik(T, given={1: 0.1, 3: 0.2})", ValueError, "given has 2 joints"),
     ("robot.ik(T, given={3: 0.2})", TypeError, "given is for arms of seven joints"),
     ("robot.ik(target)", TypeError, "T must be real numbers, got a RobTarget: pass .matrix()"),
-    ("robot.with_tool(tool)", TypeError, "got a ToolData: pass .tframe.matrix()"),
+    ("robot.with_tool(tool._replace(robhold=False))", RapidError, "the tool is stationary (robhold "
+     "FALSE), with_tool takes one that the robot holds"),
     ("robot.with_base(wobj)", TypeError, "got a WobjData: pass .uframe.matrix() @ its .oframe."),
     ("robot.fk(joints)", TypeError, "got a JointTarget: pass np.radians of its .robax_deg"),
     ("robot.ik(Rotation.identity())", TypeError, "got a Rotation: pass irbkin.pose(xyz, "),

@@ -169,7 +169,7 @@ def test_weights_decide_what_is_nearest():
 
 
 def test_what_is_out_of_limits_is_listed_and_has_no_nearest():
-    limits = ROBOT.limits
+    limits = ROBOT.limits.copy()
     limits[0] = 2.9, 3.0
     robot = ROBOT.with_limits(limits)
     answer = asked(ros.Kinematics(robot), "IK", pose=pose(ROBOT.fk(Q)))

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
 from irbkin.cli.errors import CommandError, complain
-from irbkin.cli.numbers import MOST_TOOL, check_euler, check_joints, check_millimeters, number
+from irbkin.cli.numbers import check_euler, check_joints, check_millimeters, number
 
 if TYPE_CHECKING:
     from irbkin import Robot
@@ -117,7 +117,7 @@ def _check_ending(output: str | None, endings: Sequence[str]) -> None:
 
 def read_robot(arguments: argparse.Namespace) -> Robot:
     """The arm of the arguments, with its tool and base."""
-    from irbkin import Robot
+    from irbkin import InvalidPoseError, Robot
 
     name: str = arguments.robot.strip()
     tip, base, snap = arguments.tip, arguments.base_link, arguments.snap
@@ -133,13 +133,15 @@ def read_robot(arguments: argparse.Namespace) -> Robot:
         robot = robot.with_base(frame(arguments.base, "--base"))
     if arguments.tool is None:
         return robot
-    length = math.hypot(*arguments.tool[:3])
-    if length > MOST_TOOL:
-        raise CommandError(
-            f"--tool is {length:g} mm from the flange, it must be at most {MOST_TOOL:g} mm"
-        )
     check_millimeters(arguments.tool[:3], "--tool", 1.0)
-    return robot.with_tool(frame(arguments.tool, "--tool"))
+    tool = frame(arguments.tool, "--tool")
+    try:
+        return robot.with_tool(tool)
+    except InvalidPoseError:
+        length = math.hypot(*arguments.tool[:3])
+        raise CommandError(
+            f"--tool is {length:g} mm from the flange, more than ten times the size of the arm"
+        ) from None
 
 
 def frame(numbers: Sequence[float], name: str) -> Floats:

@@ -12,8 +12,6 @@ MOST_ANGLE = math.degrees(1e5)
 """The largest angle of a joint that the library takes [deg]."""
 MOST_TURN = 360.0
 """The largest Euler angle that the library takes [deg]."""
-MOST_TOOL = 50e3
-"""The farthest tool center point that the library takes [mm from the flange]."""
 LEAST_LENGTH = 5.0
 """Coordinates that are all below it may be in meters [mm]."""
 _TOO_LARGE = f"is too large: its size must be at most {MOST_ANGLE:.0f} deg (remove whole turns)"

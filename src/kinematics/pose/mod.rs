@@ -14,7 +14,7 @@ use crate::error::{Error, PoseFault};
 use crate::kinematics::pose::angles::constant_sin_cos;
 use crate::kinematics::pose::rotation::{Rows3, determinant, gram_excess, nearest_rotation};
 use crate::kinematics::thresholds::{
-    GIMBAL_COS, LAST_ROW_BOUND, MOST_EULER, MOST_LENGTH, MOST_TOOL, QUATERNION_NORM_BOUND,
+    GIMBAL_COS, LAST_ROW_BOUND, MOST_EULER, MOST_LENGTH, QUATERNION_NORM_BOUND,
     ROTATION_REPAIR_BOUND, ROTATION_ROUNDING,
 };
 
@@ -309,16 +309,6 @@ fn check_near(field: &'static str, xyz: [f64; 3]) -> Result<(), Error> {
         }
         None => Ok(()),
     }
-}
-
-/// A tool, checked as [`checked_pose`] and to be no longer than [`MOST_TOOL`].
-pub(crate) fn checked_tool(t_flange_tool: &Pose) -> Result<Pose, Error> {
-    let tool = checked_pose(t_flange_tool)?;
-    let length = tool.translation.vector.norm();
-    if length > MOST_TOOL {
-        return Err(PoseFault::ToolTooLong { length, bound: MOST_TOOL }.into());
-    }
-    Ok(tool)
 }
 
 /// The translation by `z` along z.

@@ -4,15 +4,15 @@ use alloc::borrow::Cow;
 
 use super::reading::other_reading;
 use super::{Definition, Robot};
-use crate::error::{Error, ModelFault};
+use crate::error::{Error, ModelFault, PoseFault};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
 use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::chain::limits::JointLimits;
-use crate::kinematics::pose::{Pose, checked_pose, checked_tool};
+use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::structure::known::{self, Recognized};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
-use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_SNAP};
+use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_SNAP, MOST_TOOL};
 use crate::report::{ConfigurationRule, Convention};
 
 /// Values of `snap` that are proposed for an arm that needs one [rad]; the least that helps is
@@ -120,21 +120,14 @@ impl<const N: usize> Robot<N> {
         }
     }
 
-    /// Check that the flange is no farther from an axis than [`MOST_REACH`]. Lengths by themselves
-    /// say nothing: next to parallel axes they are large and cancel.
+    /// Check that the tool is no farther from an axis than [`MOST_REACH`].
     fn check_reach(&self) -> Result<(), Error> {
-        for q in [[0.0; N], [1.0; N]] {
-            let jacobian = self.jacobian(&q, JacobianFrame::Base);
-            for (i, column) in jacobian.column_iter().enumerate() {
-                let distance = column.fixed_rows::<3>(0).norm();
-                if distance > MOST_REACH {
-                    return Err(
-                        ModelFault::TooFar { axis: i + 1, distance, bound: MOST_REACH }.into()
-                    );
-                }
+        match distances_of_axes(&self.chain).find(|(_, distance)| *distance > MOST_REACH) {
+            None => Ok(()),
+            Some((axis, distance)) => {
+                Err(ModelFault::TooFar { axis, distance, bound: MOST_REACH }.into())
             }
         }
-        Ok(())
     }
 
     /// Note another reading of the rows of the table, in which the arm has a closed form, where it
@@ -250,11 +243,31 @@ impl<const N: usize> Robot<N> {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidPose`] when the tool is not a rigid transform.
+    /// [`Error::InvalidPose`] when the tool is not a rigid transform, or longer than ten times the
+    /// size of the arm.
     pub fn with_tool(mut self, t_flange_tool: &Pose) -> Result<Self, Error> {
-        self.chain = self.chain.with_tool(checked_tool(t_flange_tool)?);
+        let tool = checked_pose(t_flange_tool)?;
+        let length = tool.translation.vector.norm();
+        if length > 0.0 {
+            let bare = self.chain.clone().with_tool(Pose::identity());
+            let size = distances_of_axes(&bare).map(|(_, distance)| distance);
+            let bound = MOST_TOOL * size.fold(0.0, f64::max);
+            if length > bound {
+                return Err(PoseFault::ToolTooLong { length, bound }.into());
+            }
+        }
+        self.chain = self.chain.with_tool(tool);
         Ok(self.joined())
     }
+}
+
+/// The axes (from 1) and their distances from the tool [m], in two poses. Lengths of a table by
+/// themselves say nothing: next to parallel axes they are large and cancel.
+fn distances_of_axes<const N: usize>(chain: &Chain<N>) -> impl Iterator<Item = (usize, f64)> {
+    [[0.0; N], [1.0; N]].into_iter().flat_map(|q| {
+        let jacobian = chain.jacobian(&q, JacobianFrame::Base);
+        (0..N).map(move |i| (i + 1, jacobian.fixed_view::<3, 1>(0, i).norm()))
+    })
 }
 
 fn check_rows(rows: &[DhRow]) -> Result<(), Error> {

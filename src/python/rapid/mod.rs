@@ -4,7 +4,7 @@ mod calc;
 mod checks;
 mod module;
 mod program;
-mod records;
+pub(super) mod records;
 mod routine_motion;
 mod text;
 mod values;

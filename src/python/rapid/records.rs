@@ -4,10 +4,11 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
-use crate::kinematics::pose_from_wxyz;
+use crate::kinematics::{Pose, pose_from_wxyz};
+use crate::python::errors::Fault;
 use crate::python::targets::{pose_array, read_pose};
 use crate::rapid::class::{Field, Given, Refused};
-use crate::rapid::{JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, rapid_pose};
+use crate::rapid::{JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, rapid_pose};
 use crate::report::Configuration;
 
 /// Powers of ten of the decimals of a position [mm] and a quaternion that are made of a matrix:
@@ -17,6 +18,16 @@ const DECIMALS: [f64; 2] = [1e9, 1e12];
 /// The homogeneous matrix of a frame.
 fn matrix(py: Python<'_>, trans_mm: [f64; 3], rot: [f64; 4]) -> PyResult<Bound<'_, PyArray2<f64>>> {
     Ok(pose_array(py, &pose_from_wxyz(trans_mm.map(|mm| mm / 1e3), rot)?))
+}
+
+/// The frame of a tool that the robot holds [m].
+pub(in crate::python) fn carried_tool(tool: &ToolData) -> PyResult<Pose> {
+    if !tool.robhold {
+        let message = "the tool is stationary (robhold FALSE), with_tool takes one that the robot \
+                       holds: rapid.calc_joint_t takes both";
+        return Err(Fault::Rapid.error(message));
+    }
+    Ok(pose_from_wxyz(tool.tframe.trans_mm.map(|mm| mm / 1e3), tool.tframe.rot)?)
 }
 
 #[pymethods]
