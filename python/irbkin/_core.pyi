@@ -2722,6 +2722,7 @@ def retime(
     max_velocity: npt.ArrayLike,
     max_acceleration: npt.ArrayLike,
     *,
+    max_jerk: npt.ArrayLike | None = None,
     T: npt.ArrayLike | None = None,
     max_tool_speed: float | None = None,
     start_velocity: npt.ArrayLike | None = None,
@@ -2731,14 +2732,16 @@ def retime(
 ) -> Trajectory:
     """Move along a path in the shortest time within limits.
 
-    The path is a cubic spline through the samples. No joint exceeds a velocity or an acceleration
-    anywhere; with `limits` its angle is checked between the samples too. Catalogs have no
+    The path is a cubic spline through the samples. No joint exceeds a velocity, an acceleration
+    or a jerk anywhere; with `limits` its angle is checked between the samples too. Catalogs have no
     accelerations: they are the caller's.
 
     Args:
         q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
         max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
         max_acceleration: Limits [rad/s^2], a number or shape (n,).
+        max_jerk: Limits [rad/s^3] of a motion from rest to rest, a number or shape (n,). Without
+            them the accelerations jump.
         T: With `max_tool_speed`, the poses of the tool at the samples, shape (m, 4, 4).
         max_tool_speed: Speed along `T` [m/s] that is not exceeded: the tool has it where the limits
             allow.

@@ -70,6 +70,8 @@ pub enum MotionFault {
          raise a limit, or give a longer path"
     )]
     EndTooFast { field: &'static str, part: f64 },
+    #[error("{field} must be zero with max_jerk: such a motion goes from rest to rest")]
+    JerkAtEnd { field: &'static str },
     #[error("the motion was stopped")]
     Stopped,
     #[error(

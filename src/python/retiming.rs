@@ -68,14 +68,16 @@ impl Path {
 
 /// Move along a path in the shortest time within limits.
 ///
-/// The path is a cubic spline through the samples. No joint exceeds a velocity or an acceleration
-/// anywhere; with `limits` its angle is checked between the samples too. Catalogs have no
+/// The path is a cubic spline through the samples. No joint exceeds a velocity, an acceleration
+/// or a jerk anywhere; with `limits` its angle is checked between the samples too. Catalogs have no
 /// accelerations: they are the caller's.
 ///
 /// Args:
 ///     q: Samples of the path [rad], shape (m, n), of `robot.follow` for instance.
 ///     max_velocity: Limits [rad/s], a number or shape (n,); `robot.max_velocity` has a robot's.
 ///     max_acceleration: Limits [rad/s^2], a number or shape (n,).
+///     max_jerk: Limits [rad/s^3] of a motion from rest to rest, a number or shape (n,). Without
+///         them the accelerations jump.
 ///     T: With `max_tool_speed`, the poses of the tool at the samples, shape (m, 4, 4).
 ///     max_tool_speed: Speed along `T` [m/s] that is not exceeded: the tool has it where the limits
 ///         allow.
@@ -98,14 +100,15 @@ impl Path {
 ///     InvalidJointsError: A wrong shape, or an angle that is not finite.
 ///     InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
 #[pyfunction]
-#[pyo3(signature = (q, max_velocity, max_acceleration, *, T=None, max_tool_speed=None,
-    start_velocity=None, end_velocity=None, limits=None, steps=None))]
+#[pyo3(signature = (q, max_velocity, max_acceleration, *, max_jerk=None, T=None,
+    max_tool_speed=None, start_velocity=None, end_velocity=None, limits=None, steps=None))]
 #[expect(non_snake_case, reason = "the name that users pass")]
 #[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 pub(super) fn retime(
     q: &Bound<'_, PyAny>,
     max_velocity: &Bound<'_, PyAny>,
     max_acceleration: &Bound<'_, PyAny>,
+    max_jerk: Option<&Bound<'_, PyAny>>,
     T: Option<&Bound<'_, PyAny>>,
     max_tool_speed: Option<f64>,
     start_velocity: Option<&Bound<'_, PyAny>>,
@@ -115,6 +118,7 @@ pub(super) fn retime(
 ) -> PyResult<PyTrajectory> {
     let path = Path::read(q, max_velocity, Some(max_acceleration))?;
     let dof = path.max_velocity.len();
+    let jerk = max_jerk.map(|_| read_each(max_jerk, "max_jerk", dof, 0.0)).transpose()?;
     let start = read_each(start_velocity, "start_velocity", dof, 0.0)?;
     let end = read_each(end_velocity, "end_velocity", dof, 0.0)?;
     let lengths = T.map(|tool| path.read_lengths(tool)).transpose()?;
@@ -125,8 +129,9 @@ pub(super) fn retime(
     };
     path.timed(q.py(), limits, steps, |Path { q, max_velocity, max_acceleration }, go_on| {
         let (start_velocity, end_velocity) = (Some(&start[..]), Some(&end[..]));
-        Retiming { max_velocity, max_acceleration, start_velocity, end_velocity, tool }
-            .along_while(q, go_on)
+        let max_jerk = jerk.as_deref();
+        let within = Retiming::within(max_velocity, max_acceleration);
+        Retiming { max_jerk, start_velocity, end_velocity, tool, ..within }.along_while(q, go_on)
     })
 }
 

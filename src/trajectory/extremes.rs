@@ -1,5 +1,8 @@
 //! The extremes of a trajectory between its samples too, and the limits that they keep.
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -46,6 +49,22 @@ impl Trajectory {
             }
         }
         peaks
+    }
+
+    /// For each piece how much slower it must be to keep limits [1]; less than one where it may be
+    /// faster.
+    pub(super) fn excesses(&self, limits: &[AxisLimits]) -> Vec<f64> {
+        let excess = |(_, length, terms): (f64, f64, &[[f64; TERMS]])| {
+            terms.iter().zip(limits).fold(0.0_f64, |most, (terms, limits)| {
+                let velocity = derivative(terms);
+                let acceleration = derivative(&velocity);
+                let jerk = derivative(&acceleration);
+                most.max(size_bound(&velocity, length) / limits.velocity)
+                    .max((size_bound(&acceleration, length) / limits.acceleration).sqrt())
+                    .max((size_bound(&jerk, length) / limits.jerk).cbrt())
+            })
+        };
+        self.timed_pieces().map(excess).collect()
     }
 
     /// The least and the greatest angle of each joint [rad]: exact, not of samples.

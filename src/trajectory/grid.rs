@@ -53,10 +53,10 @@ pub(super) struct PaceLimits<'a> {
 
 /// The spline, cut into pieces that are short enough.
 pub(super) struct Grid {
-    dof: usize,
-    lengths: Vec<f64>,
+    pub(super) dof: usize,
+    pub(super) lengths: Vec<f64>,
     /// By piece and joint.
-    terms: Vec<[f64; TERMS]>,
+    pub(super) terms: Vec<[f64; TERMS]>,
 }
 
 impl Grid {
@@ -128,7 +128,7 @@ impl Grid {
     }
 
     /// The largest paces at the points of the grid; no piece exceeds its cap.
-    fn paces(
+    pub(super) fn paces(
         &self,
         limits: &PaceLimits<'_>,
         cap: impl Fn(usize) -> f64,
@@ -192,7 +192,7 @@ impl Grid {
 }
 
 /// Asks whether to go on, each so many pieces.
-fn asked(index: usize, go_on: &mut GoOn<'_>) -> Result<(), MotionFault> {
+pub(super) fn asked(index: usize, go_on: &mut GoOn<'_>) -> Result<(), MotionFault> {
     if index.is_multiple_of(ASKED_EACH) && !go_on() { Err(MotionFault::Stopped) } else { Ok(()) }
 }
 

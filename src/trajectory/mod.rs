@@ -20,6 +20,7 @@ mod axis;
 mod check;
 mod extremes;
 mod grid;
+mod jerk;
 mod joint;
 mod piece;
 mod piecewise;
@@ -41,6 +42,8 @@ pub(crate) use retime::{evenly, within_times};
 pub use tool_speed::{ToolSpeedLimits, at_tool_speed, tool_lengths, tool_speed_limits};
 pub use waypoints::{SplineKind, spline, through};
 
+#[cfg(test)]
+mod jerk_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -129,7 +129,11 @@ fn critical_points(coefficients: &[f64; TERMS], end: f64, points: &mut [f64; TER
 
 /// The zero between two places between which the polynomial is monotone; `None` where it keeps its
 /// sign.
-fn monotone_root(coefficients: &[f64; TERMS], mut low: f64, mut high: f64) -> Option<f64> {
+pub(super) fn monotone_root(
+    coefficients: &[f64; TERMS],
+    mut low: f64,
+    mut high: f64,
+) -> Option<f64> {
     let at = |t| derivatives(coefficients, t)[0];
     let (rises, falls) = (at(low) <= 0.0 && at(high) >= 0.0, at(low) >= 0.0 && at(high) <= 0.0);
     if !rises && !falls {

@@ -6,8 +6,9 @@ use nalgebra::ComplexField as _;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::check::{check_duration, check_finite, check_path_limits, check_rows};
+use super::check::{check_duration, check_finite, check_limits, check_path_limits, check_rows};
 use super::grid::{GoOn, Grid, PaceLimits};
+use super::jerk::paced_with_jerk;
 use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
 use super::tool_speed::{ToolPath, check_speed};
@@ -37,6 +38,9 @@ pub struct Retiming<'a> {
     pub max_velocity: &'a [f64],
     /// Limits [rad/s^2], infinity for none.
     pub max_acceleration: &'a [f64],
+    /// Limits [rad/s^3] of a motion from rest to rest, infinity for none; accelerations may jump if
+    /// `None`.
+    pub max_jerk: Option<&'a [f64]>,
     /// Velocities of the joints at the start [rad/s], in the direction of the path; rest if `None`.
     pub start_velocity: Option<&'a [f64]>,
     /// Velocities of the joints at the end, in the same way.
@@ -53,6 +57,7 @@ impl<'a> Retiming<'a> {
         Self {
             max_velocity,
             max_acceleration,
+            max_jerk: None,
             start_velocity: None,
             end_velocity: None,
             tool: None,
@@ -73,6 +78,7 @@ impl<'a> Retiming<'a> {
     pub(crate) fn along_while(&self, q: &[f64], go_on: &mut GoOn<'_>) -> Result<Trajectory, Error> {
         let Self { max_velocity, max_acceleration, .. } = *self;
         let dof = check_path_limits(max_velocity, max_acceleration)?;
+        self.check_jerk(dof)?;
         let (knots, spline, most) = match self.tool {
             None => {
                 let (knots, points) = polygon(q, dof)?;
@@ -93,9 +99,30 @@ impl<'a> Retiming<'a> {
         }
         let grid = Grid::fine(&knots, &spline, dof, go_on)?;
         drop(spline);
-        let timed =
-            grid.paced(&PaceLimits { max_velocity, max_acceleration, ends }, |_| most, go_on)?;
+        let limits = PaceLimits { max_velocity, max_acceleration, ends };
+        let timed = match self.max_jerk {
+            None => grid.paced(&limits, |_| most, go_on)?,
+            Some(max_jerk) => paced_with_jerk(&grid, &limits, max_jerk, most, go_on)?,
+        };
         check_duration(timed.duration()).and_then(|()| timed.checked())
+    }
+
+    /// Check limits of jerk, which are for a motion from rest to rest.
+    fn check_jerk(&self, dof: usize) -> Result<(), Error> {
+        let Some(max_jerk) = self.max_jerk else { return Ok(()) };
+        check_limits("max_jerk", max_jerk)?;
+        if max_jerk.len() != dof {
+            let (found, wanted) = (max_jerk.len(), dof);
+            return Err(Error::WrongLength { field: "max_jerk", found, wanted });
+        }
+        for (field, velocity) in
+            [("start_velocity", self.start_velocity), ("end_velocity", self.end_velocity)]
+        {
+            if velocity.is_some_and(|velocity| velocity.iter().any(|rate| *rate != 0.0)) {
+                return Err(MotionFault::JerkAtEnd { field }.into());
+            }
+        }
+        Ok(())
     }
 
     /// The squares of ds/dt at both ends: the velocities there are q' ds/dt.

@@ -401,3 +401,14 @@ print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * 1024 / len
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     assert float(run.stdout) < 2048
+
+
+def test_a_path_is_retimed_with_limits_of_jerk():
+    q = np.array([[0.0, 0.0], [1.0, 0.2], [1.5, 1.0], [0.8, 1.2]])
+    fastest, smooth = (trajectory.retime(q, 2.0, 8.0, max_jerk=it) for it in (None, [60.0, 90.0]))
+    assert (smooth.peaks().jerk <= np.array([60.0, 90.0]) * (1 + 1e-12)).all()
+    assert fastest.duration < smooth.duration < 1.5 * fastest.duration
+    np.testing.assert_allclose(smooth.q[[0, -1]], q[[0, -1]], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(smooth.ddq[[0, -1]], 0, atol=1e-9)
+    with pytest.raises(irbkin.InvalidMotionError, match="end_velocity must be zero with max_jerk"):
+        trajectory.retime(q, 2.0, 8.0, max_jerk=60.0, end_velocity=[-0.1, 0.0])

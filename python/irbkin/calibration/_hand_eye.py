@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
+from irbkin._arguments import check_scipy
 from irbkin.calibration._loss import check_weights, outlying
 from irbkin.calibration._measurements import read_poses
 from irbkin.calibration._start import nearest_rotation, turns
