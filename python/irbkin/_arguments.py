@@ -31,3 +31,13 @@ def count(value: object, name: str, error: type[IrbkinError]) -> int:
     if number < 1:
         raise error(f"{name} is {number}, it must be at least 1")
     return number
+
+
+def check_scipy(function: str) -> None:
+    """Check that scipy is installed."""
+    try:
+        import scipy.optimize  # type: ignore[import-untyped]  # noqa: F401
+    except ImportError as missing:
+        raise ImportError(
+            f"{function} needs scipy: pip install 'irbkin[calibrate]'", name="scipy"
+        ) from missing

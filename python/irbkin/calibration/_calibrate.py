@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from irbkin._arguments import check_robot
+from irbkin._arguments import check_robot, check_scipy
 from irbkin.calibration import _fit, _identify, _measurements, _parameters, _start
 from irbkin.calibration._loss import check_weights
 from irbkin.calibration._records import (
@@ -20,7 +20,7 @@ from irbkin.calibration._records import (
 from irbkin.errors import CalibrationError
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Collection, Mapping, Sequence
 
     import numpy.typing as npt
 
@@ -87,20 +87,17 @@ def calibrate(
             joints and measurements that do not belong together.
         ValueError: Another `fit`, `loss`, standard deviation or number of folds.
     """
-    try:
-        import scipy.optimize  # type: ignore[import-untyped]  # noqa: F401
-    except ImportError as missing:
-        raise ImportError(
-            "irbkin.calibrate needs scipy: pip install 'irbkin[calibrate]'", name="scipy"
-        ) from missing
+    check_scipy("irbkin.calibrate")
     check_robot(robot)
-    wanted = _options(robot, fit, position_std, rotation_std, loss, folds)
+    wanted = check_fit(robot, fit, position_std, rotation_std, loss)
+    if folds < 0 or folds == 1:
+        raise ValueError(f"folds is {folds}, it must be 0 for none, or 2 at least")
     has_table = bool(wanted & {"table", *_parameters.of_table(robot.dof)})
     measurements = _measurements.read(robot, q, measured)
     problem = _fit.Problem(robot, measurements, position_std, rotation_std, loss)
     tiers = _parameters.tiers(robot, wanted)
-    everywhere = _everywhere(problem, np.zeros(len(_parameters.names(robot.dof))))
-    needed = len(_identify.chosen(everywhere, tiers, _identify.INDEPENDENT))
+    moved = everywhere(problem, np.zeros(len(_parameters.names(robot.dof))))
+    needed = len(_identify.chosen(moved, tiers, _identify.INDEPENDENT))
     _measurements.check_poses(measurements, "table" in wanted, needed)
 
     problem = _aligned(problem, wanted)
@@ -117,14 +114,10 @@ def calibrate(
     return _calibration(problem, tiers, kept, start, corrections, folds)
 
 
-def _options(
-    robot: Robot,
-    fit: Collection[str],
-    position_std: float,
-    rotation_std: float,
-    loss: str,
-    folds: int,
+def check_fit(
+    robot: Robot, fit: Collection[str], position_std: float, rotation_std: float, loss: str
 ) -> frozenset[str]:
+    """The parts to fit, which the robot has."""
     wanted = frozenset([fit] if isinstance(fit, str) else fit)
     names = _parameters.names(robot.dof)
     if not wanted or not wanted <= {*FITS, *names}:
@@ -133,12 +126,10 @@ def _options(
             f"of parameters, such as {names[6]} and {names[-1]})"
         )
     check_weights(position_std, rotation_std, loss)
-    if folds < 0 or folds == 1:
-        raise ValueError(f"folds is {folds}, it must be 0 for none, or 2 at least")
     return wanted
 
 
-def _everywhere(problem: _fit.Problem, corrections: Floats) -> Floats:
+def everywhere(problem: _fit.Problem, corrections: Floats) -> Floats:
     """Weighted Jacobian at joint vectors all over the joint space."""
     limits = np.clip(problem.robot.limits, -np.pi, np.pi)
     q = np.random.default_rng(0).uniform(
@@ -232,29 +223,14 @@ def _calibration(
     robot, measurements = problem.robot, problem.measurements
     names, nominal = _parameters.names(robot.dof), _parameters.nominal(robot)
     errors = _fit.standard_errors(problem, kept, corrections)
-    fitted = robot.with_corrections(corrections)
-    after, distance, angle = _residuals(fitted, measurements)
-    jacobian, everywhere = problem.jacobian(corrections), _everywhere(problem, corrections)
-    left_out = sorted({index for tier in tiers for index in tier} - set(kept))
+    found = robot.with_corrections(corrections)
+    after, distance, angle = _residuals(found, measurements)
+    jacobian, moved = problem.jacobian(corrections), everywhere(problem, corrections)
     return Calibration(
-        robot=fitted,
+        robot=found,
         nominal=robot,
-        parameters=tuple(
-            CalibratedParameter(
-                names[index],
-                _parameters.unit(names[index]),
-                float(nominal[index]),
-                float(nominal[index] + corrections[index]),
-                float(error),
-            )
-            for index, error in zip(kept, errors, strict=True)
-        ),
-        left_out=tuple(
-            LeftOutParameter(
-                names[index], _identify.reason(jacobian, everywhere, kept, index, names)
-            )
-            for index in left_out
-        ),
+        parameters=fitted(names, nominal, corrections, dict(zip(kept, errors, strict=True))),
+        left_out=left_out(jacobian, moved, tiers, kept, names),
         residuals=CalibrationResiduals(
             _residuals(robot, measurements)[0],
             _residuals(robot.with_corrections(start), measurements)[0],
@@ -264,6 +240,37 @@ def _calibration(
         position_error=distance,
         rotation_error=angle,
         condition=_identify.condition(jacobian[:, kept]),
+    )
+
+
+def fitted(
+    names: Sequence[str], nominal: Floats, corrections: Floats, errors: Mapping[int, float]
+) -> tuple[CalibratedParameter, ...]:
+    """The parameters that have standard errors."""
+    return tuple(
+        CalibratedParameter(
+            names[index],
+            _parameters.unit(names[index]),
+            float(nominal[index]),
+            float(nominal[index] + corrections[index]),
+            float(error),
+        )
+        for index, error in errors.items()
+    )
+
+
+def left_out(
+    jacobian: Floats,
+    moved: Floats,
+    tiers: Sequence[Sequence[int]],
+    kept: Sequence[int],
+    names: Sequence[str],
+) -> tuple[LeftOutParameter, ...]:
+    """The parameters of the tiers that are not kept, with the reason."""
+    indices = sorted({index for tier in tiers for index in tier} - set(kept))
+    return tuple(
+        LeftOutParameter(names[index], _identify.reason(jacobian, moved, kept, index, names))
+        for index in indices
     )
 
 

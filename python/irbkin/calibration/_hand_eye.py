@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from irbkin._arrays import Floats
+    from irbkin._arguments import check_scipy
+from irbkin._arrays import Floats
 
 # Least singular value of the relative rotations, for each pose [1]: about the angle in rad by which
 # the hand turns about its second axis.
@@ -135,12 +136,7 @@ def robot_world(
 
 
 def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floats]:
-    try:
-        import scipy.optimize  # type: ignore[import-untyped]  # noqa: F401
-    except ImportError as missing:
-        raise ImportError(
-            "hand-eye calibration needs scipy: pip install 'irbkin[calibrate]'", name="scipy"
-        ) from missing
+    check_scipy("hand-eye calibration")
     first, second = read_poses(a, "a"), read_poses(b, "b")
     check_meters(first[:, :3, 3], "a")
     check_meters(second[:, :3, 3], "b")
@@ -185,7 +181,7 @@ def _refined(
     options: tuple[float, float, str],
 ) -> list[Floats]:
     """The frames near `start` for which both sides differ least."""
-    from scipy.optimize import least_squares
+    from scipy.optimize import least_squares  # type: ignore[import-untyped]
     from scipy.spatial.transform import Rotation
 
     position_std, rotation_std, loss = options
