@@ -3,6 +3,7 @@
 //! A row that is not finite gives a row of NaN, and where the answer has a status,
 //! [`Status::INVALID`](crate::Status::INVALID). A row's answer does not depend on its neighbors.
 
+mod cells;
 mod forward;
 mod inverse;
 mod margins;

@@ -99,7 +99,11 @@ extern crate std;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod batch;
 #[cfg(any(feature = "std", feature = "libm"))]
+pub mod body;
+#[cfg(any(feature = "std", feature = "libm"))]
 pub mod catalog;
+#[cfg(any(feature = "std", feature = "libm"))]
+pub mod cell;
 pub mod error;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod kinematics;

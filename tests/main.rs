@@ -9,6 +9,7 @@ mod any_robot;
 mod bounds;
 mod catalog;
 mod catalog_page;
+mod cell;
 mod certificates;
 mod common;
 mod configuration;

@@ -15,6 +15,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from irbkin._core import (
+    Cell,
     Robot,
     Solution,
     Solutions,
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from types import ModuleType
 
+    from irbkin import body as body
     from irbkin import calibration as calibration
     from irbkin import map as map
     from irbkin import paths as paths
@@ -67,6 +69,7 @@ if TYPE_CHECKING:
 __all__ = [
     "CalibrationError",
     "CatalogEntry",
+    "Cell",
     "Configuration",
     "FollowResult",
     "IkBatch",
@@ -107,9 +110,10 @@ __all__ = [
     "trajectory",
 ]
 
-# `plot` needs an extra: it is not in `__all__`, which a star import takes in whole. Nor is `map`,
+# `plot` needs an extra: it is not in `__all__`, which a star import takes in whole. Nor are `body`,
+# whose shapes are few users', and `map`,
 # which would then replace Python's own.
-_MODULES = ("calibration", "map", "paths", "placement", "plot", "rapid", "ros", "trajectory")
+_MODULES = ("body", "calibration", "map", "paths", "placement", "plot", "rapid", "ros", "trajectory")
 
 
 def __getattr__(name: str) -> ModuleType | Callable[..., Any]:

@@ -41,8 +41,11 @@ class _Rotation(Protocol):
 __all__ = [
     "NOT_THERE",
     "Argument",
+    "Body",
     "Break",
     "CatalogEntry",
+    "Cell",
+    "CellDistance",
     "Configuration",
     "ConfigurationBatch",
     "Declaration",
@@ -66,6 +69,7 @@ __all__ = [
     "RobTarget",
     "Robot",
     "RoutineMotion",
+    "Shape",
     "Singularity",
     "Skipped",
     "Solution",
@@ -351,6 +355,25 @@ class ConfigurationBatch(_Record):
         cf6: npt.NDArray[np.int32],
         cfx: npt.NDArray[np.int32],
     ) -> ConfigurationBatch: ...
+
+@final
+class CellDistance(_Record):
+    """The nearest two of links and obstacles."""
+
+    @property
+    def distance(self) -> _Floats:
+        """How far they are apart [m], shape (...); less than zero if they touch, infinite if
+        there is nothing to compare.
+        """
+    @property
+    def pair(self) -> tuple[tuple[str, str], ...]:
+        """The names of each two, one after the other: "link 3", "table"."""
+    @property
+    def points(self) -> _Floats:
+        """The nearest points of the two in the world [m], shape (..., 2, 3)."""
+    def __new__(
+        cls, distance: _Floats, pair: tuple[tuple[str, str], ...], points: _Floats
+    ) -> CellDistance: ...
 
 @final
 class Singularity(_Record):
@@ -833,6 +856,15 @@ class Robot:
     @property
     def max_velocity(self) -> _Floats | None:
         """Largest velocity of each joint [rad/s], shape (n,), or None where it is not known."""
+    @property
+    def body(self) -> Body | None:
+        """The shapes of its links, an `irbkin.body.Body`; None where the catalog has none."""
+    def with_body(self, body: Body | None) -> Robot:
+        """Return the robot with other shapes of its links, or without.
+
+        Raises:
+            InvalidModelError: A capsule of a link that the arm does not have.
+        """
     def with_tool(self, T: npt.ArrayLike | ToolData) -> Robot:
         """Return the robot with another tool, in place of the one that it had.
 
@@ -1566,12 +1598,13 @@ class Solutions:
         pi equivalents considered: least sum of weights * |difference|. Arguments and errors are
         those of `nearest`.
         """
-    def filter(self, accept: Callable[[Solution], object]) -> Solutions:
-        """Return the solutions for which `accept(solution)` is true.
+    def filter(self, accept: Callable[[Solution], object] | Cell) -> Solutions:
+        """Return the solutions for which `accept(solution)` is true, or that do not collide in a
+        cell.
 
         Args:
             accept: Called with each `Solution`, which is also the sequence of its joint angles
-                [rad]. An exception of it is passed on.
+                [rad]; an exception of it is passed on. Or a `Cell`.
         """
     def __array__(
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
@@ -2521,6 +2554,165 @@ class RoutineMotion:
     def __reduce__(
         self,
     ) -> tuple[Callable[..., RoutineMotion], tuple[Robot, Module, str | None]]: ...
+
+@final
+class Shape:
+    """A solid: a box, sphere, capsule, cylinder or half space. Lengths are in meters."""
+
+    @staticmethod
+    def box(size: npt.ArrayLike, pose: npt.ArrayLike | None = None) -> Shape:
+        """A box.
+
+        Args:
+            size: Lengths of its edges along x, y and z [m], shape (3,).
+            pose: Pose of its middle, shape (4, 4); the identity when not given.
+
+        Raises:
+            InvalidModelError: A length that is not positive, or more than 1e6 m.
+            InvalidPoseError: pose is not a rigid transform.
+        """
+    @staticmethod
+    def sphere(radius: float, center: npt.ArrayLike) -> Shape:
+        """A sphere.
+
+        Args:
+            radius: Its radius [m].
+            center: Its center [m], shape (3,).
+
+        Raises:
+            InvalidModelError: A radius that is not positive, or more than 1e6 m.
+        """
+    @staticmethod
+    def capsule(a: npt.ArrayLike, b: npt.ArrayLike, radius: float) -> Shape:
+        """All points within a radius of a line segment.
+
+        Args:
+            a, b: The ends of the segment [m], shape (3,) each.
+            radius: The radius [m].
+
+        Raises:
+            InvalidModelError: A radius that is not positive, or more than 1e6 m.
+        """
+    @staticmethod
+    def cylinder(radius: float, length: float, pose: npt.ArrayLike | None = None) -> Shape:
+        """A cylinder along the z axis of its pose.
+
+        Args:
+            radius: Its radius [m].
+            length: Its length [m].
+            pose: Pose of its middle, shape (4, 4); the identity when not given.
+
+        Raises:
+            InvalidModelError: A length that is not positive, or more than 1e6 m.
+            InvalidPoseError: pose is not a rigid transform.
+        """
+    @staticmethod
+    def half_space(normal: npt.ArrayLike, point: npt.ArrayLike) -> Shape:
+        """Everything behind a plane.
+
+        Args:
+            normal: Normal of the plane, which points out of the solid: (0, 0, 1) of a floor.
+            point: A point of the plane [m], shape (3,).
+
+        Raises:
+            InvalidModelError: A normal of length zero.
+        """
+    def __reduce__(self) -> tuple[Callable[[str, bytes], Any], tuple[str, bytes]]: ...
+
+@final
+class Body:
+    """Capsules that contain the links of an arm, and the pairs of links that are kept apart."""
+
+    def __new__(
+        cls,
+        links: Sequence[int],
+        capsules: npt.ArrayLike,
+        pairs: Sequence[tuple[int, int]],
+    ) -> Body: ...
+    @property
+    def links(self) -> npt.NDArray[np.int64]:
+        """The link of each capsule, shape (k,)."""
+    @property
+    def capsules(self) -> _Floats:
+        """Both ends of the axis and the radius of each capsule [m], shape (k, 7), in the frame
+        of its link (`Robot.link_frames`).
+        """
+    @property
+    def pairs(self) -> list[tuple[int, int]]:
+        """The pairs of links that are kept apart. The others may touch by construction or, of a
+        body of the catalog, never do inside the catalog's limits.
+        """
+    @property
+    def source(self) -> str:
+        """Repository, commit, file and license of the meshes that it contains."""
+    @property
+    def excess(self) -> _Floats:
+        """How far outside its mesh 95 % of the surface of the capsules of each link are at most
+        [m], shape (n + 1,); empty if it is not known.
+        """
+    def __reduce__(self) -> tuple[Callable[[str, bytes], Any], tuple[str, bytes]]: ...
+
+@final
+class Cell:
+    """Obstacles around an arm: whether it touches them or itself.
+
+    Args:
+        obstacles: The `Shape` of each by its name, in the world; none when not given.
+        margin: How far the arm is to stay from them [m].
+
+    Raises:
+        InvalidModelError: A margin that is negative or not finite.
+    """
+
+    def __new__(cls, obstacles: Mapping[str, Shape] | None = None, margin: float = 0.0) -> Cell: ...
+    @property
+    def obstacles(self) -> dict[str, Shape]:
+        """The `Shape` of each obstacle, by its name."""
+    @property
+    def margin(self) -> float:
+        """How far the arm is to stay from the obstacles [m]."""
+    def collides(
+        self,
+        robot: Robot,
+        q: npt.ArrayLike | Solution,
+        out: npt.NDArray[np.bool_] | None = None,
+        *,
+        threads: int = 1,
+    ) -> npt.NDArray[np.bool_]:
+        """Whether an arm touches itself, or comes nearer to an obstacle than the margin.
+
+        The links are inside the capsules of `robot.body`: what does not collide is free, what
+        collides may be free by as much as `robot.body.excess`. The base, link 0, is not compared
+        with obstacles: it stands on one.
+
+        Args:
+            robot: The arm.
+            q: Joint angles [rad], shape (..., n).
+            out: Array to write to, shape (...), bool.
+            threads: Number of threads; 0 for one a core.
+
+        Returns:
+            Truth values, shape (...).
+
+        Raises:
+            InvalidJointsError: A wrong shape, or joints that are not finite.
+            InvalidModelError: The robot has no body.
+        """
+    def distance(self, robot: Robot, q: npt.ArrayLike | Solution) -> CellDistance:
+        """How far the nearest two are apart: two links of the arm, or a link and an obstacle.
+
+        Args:
+            robot: The arm.
+            q: Joint angles [rad], shape (..., n).
+
+        Returns:
+            CellDistance: distances [m], names of the pairs, nearest points [m].
+
+        Raises:
+            InvalidJointsError: A wrong shape, or joints that are not finite.
+            InvalidModelError: The robot has no body.
+        """
+    def __reduce__(self) -> tuple[Callable[[str, bytes], Any], tuple[str, bytes]]: ...
 
 @final
 class Trajectory:

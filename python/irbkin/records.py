@@ -13,6 +13,7 @@ from typing import Any
 from irbkin._core import (
     Break,
     CatalogEntry,
+    CellDistance,
     Configuration,
     ConfigurationBatch,
     FollowResult,
@@ -34,6 +35,7 @@ __all__ = [
     "Break",
     "BreakReason",
     "CatalogEntry",
+    "CellDistance",
     "Configuration",
     "ConfigurationBatch",
     "FollowResult",

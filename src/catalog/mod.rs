@@ -10,6 +10,7 @@ mod universal_robots;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 
+use crate::body::body_of;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{AnyRobot, DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
 
@@ -271,6 +272,6 @@ impl<const N: usize> Robot<N> {
         let limits =
             JointLimits::new(limits.map(|limit| limit.map(|angle| arm.angles.to_radians(angle))))?;
         let robot = robot.with_name(arm.name).with_limits(limits).with_max_velocity(velocity)?;
-        Ok(robot.with_rule(arm.own_configuration_rule()))
+        robot.with_rule(arm.own_configuration_rule()).with_body(body_of(arm.name))
     }
 }

@@ -4,6 +4,7 @@
 //! A caller matches [`Error`] and prints the fault inside it: the types of faults have no public
 //! names.
 
+mod body;
 mod input;
 mod lists;
 mod model;
@@ -14,6 +15,7 @@ mod rapid;
 mod tests;
 mod urdf;
 
+pub(crate) use self::body::BodyFault;
 pub(crate) use self::input::{JointFault, PoseFault};
 pub(crate) use self::lists::Names;
 pub use self::lists::{LeftOut, NoConfiguration, UnknownRobot};
@@ -45,6 +47,9 @@ pub enum Error {
     /// An argument of a plan is invalid.
     #[error(transparent)]
     InvalidPlan(#[from] PlanFault),
+    /// A shape, a body or a cell is invalid, or the arm has no body.
+    #[error(transparent)]
+    InvalidBody(#[from] BodyFault),
     /// The catalog has no arm of that name.
     #[error(transparent)]
     UnknownRobot(#[from] UnknownRobot),

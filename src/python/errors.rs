@@ -67,7 +67,9 @@ impl From<Error> for PyErr {
             | Error::InvalidPlan(PlanFault::EndOff { .. } | PlanFault::EndOutside { .. }) => {
                 "InvalidJointsError"
             }
-            Error::InvalidModel(_) | Error::WrongLength { .. } => "InvalidModelError",
+            Error::InvalidModel(_) | Error::InvalidBody(_) | Error::WrongLength { .. } => {
+                "InvalidModelError"
+            }
             Error::InvalidMotion(_) | Error::InvalidPlan(_) => "InvalidMotionError",
             Error::UnknownRobot(_) => "UnknownRobotError",
             Error::Unreachable(_) | Error::NoConfiguration(_) => "UnreachableError",

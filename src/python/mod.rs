@@ -13,6 +13,7 @@ mod arm;
 mod arrays;
 mod borrows;
 mod catalog;
+mod cell;
 mod configured;
 mod corrections;
 mod errors;
@@ -46,11 +47,12 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use self::arm::{Arm, on};
+use self::cell::{PyBody, PyCell, PyShape};
 use self::errors::Fault;
 use self::records::{
-    Break, CatalogEntry, ConfigurationBatch, FollowResult, FreeJoint, IkBatch, IkMargin, Margin,
-    MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd, ToolSpeedLimits,
-    TrajectorySample,
+    Break, CatalogEntry, CellDistance, ConfigurationBatch, FollowResult, FreeJoint, IkBatch,
+    IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd,
+    ToolSpeedLimits, TrajectorySample,
 };
 use self::robot::PyRobot;
 use self::solution::PySolution;
@@ -102,6 +104,9 @@ fn restore<'py>(py: Python<'py>, kind: &str, state: &[u8]) -> PyResult<Bound<'py
                 |one: &PySolution| on!(&one.of, it => fits(&it.solution, it.robot.slot_count()));
             read(kind, state, is_whole)?.into_bound_py_any(py)
         }
+        "Shape" => PyShape(read(kind, state, |_| true)?).into_bound_py_any(py),
+        "Body" => PyBody(read(kind, state, |_| true)?).into_bound_py_any(py),
+        "Cell" => PyCell(read(kind, state, |_| true)?).into_bound_py_any(py),
         "Trajectory" => {
             let (motion, times) = read(kind, state, |_| true)?;
             PyTrajectory::new(py, motion, times)?.into_bound_py_any(py)
@@ -137,7 +142,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
         robot::PyRobot, solutions::PySolutions, solution::PySolution, Configuration,
         trajectory::PyTrajectory, Break, CatalogEntry, ConfigurationBatch, FollowResult, FreeJoint,
         IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd,
-        ToolSpeedLimits, TrajectorySample,
+        ToolSpeedLimits, TrajectorySample, PyShape, PyBody, PyCell, CellDistance,
     ], functions [
         catalog::catalog, catalog::catalog_entry, instruction_set, instruction_sets,
         use_instruction_set, restore, poses::pose, poses::to_xyz_wxyz,

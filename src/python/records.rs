@@ -108,6 +108,20 @@ record! {
 
 record! {
     "irbkin.records";
+    /// The nearest two of links and obstacles.
+    CellDistance {
+        /// How far they are apart [m], shape (...); less than zero if they touch, infinite if there
+        /// is nothing to compare.
+        distance: Array,
+        /// The names of each two, one after the other: "link 3", "table".
+        pair: Py<PyTuple>,
+        /// The nearest points of the two in the world [m], shape (..., 2, 3).
+        points: Array,
+    }
+}
+
+record! {
+    "irbkin.records";
     /// How far joint vectors are from limits and singularities, each as a part of the farthest that
     /// they can be: 1 in the middle, 0 at one, negative outside limits.
     Margin {

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use super::arm::{Arm, on};
 use super::arrays::vector;
+use super::cell::PyBody;
 use super::errors::Fault;
 use super::outputs::read_only;
 use super::rapid::records::carried_tool;
@@ -130,6 +131,22 @@ impl PyRobot {
         on!(&self.arm, robot => {
             robot.max_velocity().map(|velocity| read_only(PyArray1::from_slice(py, velocity)))
         })
+    }
+
+    /// The shapes of its links, an `irbkin.body.Body`; None where the catalog has none.
+    #[getter]
+    fn body(&self) -> Option<PyBody> {
+        on!(&self.arm, robot => robot.body().cloned()).map(PyBody)
+    }
+
+    /// Return the robot with other shapes of its links, or without.
+    ///
+    /// Raises:
+    ///     InvalidModelError: A capsule of a link that the arm does not have.
+    #[pyo3(signature = (body))]
+    fn with_body(&self, body: Option<&Bound<'_, PyBody>>) -> PyResult<Self> {
+        let body = body.map(|body| body.get().0.clone());
+        Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_body(body)?)).into())
     }
 
     /// Return the robot with another tool, in place of the one that it had.

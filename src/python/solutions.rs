@@ -9,12 +9,14 @@ use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PySlice, PyTuple};
 
 use super::arm::{ByJoints, on};
+use super::cell::PyCell;
 use super::outputs::matrix;
 use super::records;
 use super::solution::{Member, PySolution, as_array};
 use super::state::{Reduced, hash_of, reduced};
 use super::table;
 use super::targets::{read_seed, read_weights};
+use crate::cell::Placed;
 use crate::error::Error;
 use crate::kinematics::{
     Cost, MOST_SLOTS, Robot, Solution, Solutions, Status, check_near, pose_to_rows,
@@ -277,13 +279,19 @@ impl PySolutions {
         self.cheapest(seed, weights, Cost::Travel)
     }
 
-    /// Return the solutions for which `accept(solution)` is true.
+    /// Return the solutions for which `accept(solution)` is true, or that do not collide in a cell.
     ///
     /// Args:
     ///     accept: Called with each `Solution`, which is also the sequence of its joint angles
-    ///         [rad]. An exception of it is passed on.
+    ///         [rad]; an exception of it is passed on. Or a `Cell`.
     fn filter(&self, accept: &Bound<'_, PyAny>) -> PyResult<Self> {
         on!(&self.found, found => {
+            if let Ok(cell) = accept.cast::<PyCell>() {
+                let mut placed = Placed::of(&found.robot)?;
+                let cell = &cell.get().0;
+                let is_free = |one: Member<_>| Ok(!cell.collides_at(&mut placed, &one.solution.q));
+                return found.filter(is_free).map(Self::from);
+            }
             let accepts = |one| accept.call1((PySolution::from(one),))?.is_truthy();
             found.filter(accepts).map(Self::from)
         })

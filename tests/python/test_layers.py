@@ -61,8 +61,8 @@ def test_no_files_use_one_another_in_a_circle():
     "file", [path.relative_to(SRC).as_posix() for path in sorted(SRC.rglob("*.rs"))]
 )
 def test_a_file_is_no_longer_than_it_may_be(file):
-    # The arms of the catalog are blocks of numbers.
-    if not file.startswith("catalog/"):
+    # The arms of the catalog and their bodies are blocks of numbers.
+    if not file.startswith(("catalog/", "body/arms/")):
         assert len((SRC / file).read_text().splitlines()) <= LINES
 
 

@@ -1,10 +1,12 @@
 //! Building a robot from parameters, from tables, and from another robot.
 
 use alloc::borrow::Cow;
+use alloc::sync::Arc;
 
 use super::reading::other_reading;
 use super::{Definition, Robot};
-use crate::error::{Error, ModelFault, PoseFault};
+use crate::body::Body;
+use crate::error::{BodyFault, Error, ModelFault, PoseFault};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
 use crate::kinematics::chain::jacobian::JacobianFrame;
@@ -189,6 +191,7 @@ impl<const N: usize> Robot<N> {
             max_velocity: None,
             rule: None,
             lock: None,
+            body: None,
         }
     }
 
@@ -225,6 +228,25 @@ impl<const N: usize> Robot<N> {
         }
         self.max_velocity = max_velocity;
         Ok(self)
+    }
+
+    /// Return the robot with the shapes of its links, or without.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidBody`] for a capsule of a link that the arm does not have.
+    pub fn with_body(self, body: Option<Body>) -> Result<Self, Error> {
+        if let Some(own) = body.iter().flat_map(Body::capsules).find(|own| own.link > N) {
+            return Err(BodyFault::NoLink { link: own.link, dof: N }.into());
+        }
+        Ok(Self { body: body.map(Arc::new), ..self })
+    }
+
+    /// The shapes of its links, in their frames ([`Robot::link_frames`]); an arm of the catalog has
+    /// one if there is a free public mesh of it.
+    #[must_use]
+    pub fn body(&self) -> Option<&Body> {
+        self.body.as_deref()
     }
 
     /// Return the robot with its base at `t_world_base`, which replaces its current base. Poses and

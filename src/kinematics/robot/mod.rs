@@ -24,6 +24,7 @@ use core::any::Any;
 
 use nalgebra::SMatrix;
 
+use crate::body::Body;
 use crate::kinematics::answer::singularity::{SingularDistances, Singularity};
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
@@ -61,6 +62,7 @@ pub struct Robot<const N: usize> {
     /// How its controller counts configurations, if in a way of its own.
     rule: Option<ConfigurationRule>,
     lock: Option<Lock<N>>,
+    body: Option<Arc<Body>>,
 }
 
 /// A locked joint, with the robot of the six others.
@@ -112,6 +114,7 @@ impl<const N: usize> PartialEq for Robot<N> {
             && self.max_velocity == other.max_velocity
             && self.rule == other.rule
             && self.locked_joint() == other.locked_joint()
+            && self.body == other.body
     }
 }
 

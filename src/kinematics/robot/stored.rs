@@ -8,6 +8,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Definition, Robot};
+use crate::body::Body;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
@@ -30,6 +31,9 @@ struct Stored<const N: usize> {
     /// The joint that is locked, from 1, and its angle [rad].
     #[serde(default)]
     locked: Option<(usize, f64)>,
+    /// The shapes of its links.
+    #[serde(default)]
+    body: Option<Body>,
 }
 
 impl<const N: usize> Serialize for Robot<N> {
@@ -45,6 +49,7 @@ impl<const N: usize> Serialize for Robot<N> {
             max_velocity: self.max_velocity().map(|all| all.iter().map(finite).collect()),
             rule: self.own_rule(),
             locked: self.locked_joint(),
+            body: self.body().cloned(),
         }
         .serialize(serializer)
     }
@@ -78,6 +83,7 @@ impl<const N: usize> Stored<N> {
             .with_max_velocity(max_velocity)?
             .with_base(&self.base)?
             .with_tool(&self.tool)?
+            .with_body(self.body)?
             .with_lock(self.locked)
     }
 }

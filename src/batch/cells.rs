@@ -1,0 +1,39 @@
+//! Many joint vectors in a cell.
+
+use super::pace::Batch;
+use super::rows::{check_length, rows};
+use crate::cell::{Cell, Placed};
+use crate::error::Error;
+use crate::kinematics::{Robot, check_seed};
+
+/// Joint vectors that a thread takes at a time.
+const JOINT_VECTORS: usize = 256;
+
+impl Batch<'_> {
+    /// [`Cell::collides`] for rows of `N` joint angles.
+    ///
+    /// # Errors
+    ///
+    /// As [`Cell::collides`], of the first row that is not finite; [`Error::WrongLength`] when
+    /// `collides` does not hold as many elements as `q` has rows.
+    pub fn collides<const N: usize>(
+        &mut self,
+        cell: &Cell,
+        robot: &Robot<N>,
+        q: &[f64],
+        collides: &mut [bool],
+    ) -> Result<(), Error> {
+        let q = rows::<N>("q", q)?;
+        check_length("collides", collides.len(), q.len())?;
+        q.iter().try_for_each(|q| check_seed("q", q))?;
+        Placed::of(robot)?;
+        let parts = q.chunks(JOINT_VECTORS).zip(collides.chunks_mut(JOINT_VECTORS));
+        self.run(q.len(), parts, |(q, collides), _| {
+            let Ok(mut placed) = Placed::of(robot) else { return };
+            for (q, collides) in q.iter().zip(collides) {
+                *collides = cell.collides_at(&mut placed, q);
+            }
+        });
+        Ok(())
+    }
+}

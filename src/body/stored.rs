@@ -1,0 +1,37 @@
+//! A body as serde reads and writes it: the name of the catalog's arm, or its capsules.
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::arms::body_of;
+use super::links::{Body, LinkCapsule};
+use crate::error::BodyFault;
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "Body")]
+enum Stored {
+    OfArm(String),
+    Given(Vec<LinkCapsule>, Vec<[usize; 2]>),
+}
+
+impl Serialize for Body {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.arm {
+            Some(arm) => Stored::OfArm(arm.to_string()),
+            None => Stored::Given(self.links.clone(), self.pairs.clone()),
+        }
+        .serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Body {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match Stored::deserialize(deserializer)? {
+            Stored::OfArm(arm) => body_of(&arm).ok_or_else(|| D::Error::custom(BodyFault::NoBody)),
+            Stored::Given(links, pairs) => Self::new(links, pairs).map_err(D::Error::custom),
+        }
+    }
+}

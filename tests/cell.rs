@@ -1,0 +1,201 @@
+//! Laws of bodies and cells: what they call free is free of the public meshes, and distances are
+//! the least over all points of a capsule's axis.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use std::collections::BTreeMap;
+
+use crate::common::Rng;
+
+use irbkin::body::{Body, Capsule, LinkCapsule, Shape};
+use irbkin::catalog::{catalog, find};
+use irbkin::cell::{Cell, Near};
+use irbkin::{AnyRobot, Pose, Robot};
+use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
+
+/// Mesh against mesh: `tests/data/collisions.csv`.
+const COLLISIONS: &str = include_str!("data/collisions.csv");
+
+/// How much farther than the meshes a capsule may be from the last digit of the file [m].
+const PRINTED: f64 = 2e-6;
+
+/// The scene of the file: sizes and places as parts of the reach, roll, pitch and yaw.
+fn scene(reach: f64) -> Cell {
+    let pose = |xyz: [f64; 3], [roll, pitch, yaw]: [f64; 3]| {
+        let place = xyz.map(|part| (part * reach * 1e4).round() / 1e4);
+        let turn = Rotation3::from_euler_angles(roll, pitch, yaw);
+        IsometryMatrix3::from_parts(Translation3::from(Vector3::from(place)), turn)
+    };
+    let size = |size: [f64; 3]| size.map(|part: f64| (part * reach * 1e4).round() / 1e4);
+    let boxes = [
+        ("table", [0.5, 1.0, 0.04], [0.70, 0.0, 0.10], [0.0; 3]),
+        ("box1", [0.2, 0.2, 0.3], [0.60, 0.35, 0.27], [0.0; 3]),
+        ("box2", [0.15, 0.3, 0.2], [0.55, -0.40, 0.22], [0.0, 0.0, 0.5]),
+        ("beam", [0.1, 1.2, 0.1], [0.35, 0.0, 1.20], [0.3, 0.0, 0.2]),
+    ];
+    let mut obstacles: Vec<(String, Shape)> = boxes
+        .into_iter()
+        .map(|(name, edges, xyz, turns)| {
+            (name.to_owned(), Shape::cuboid(size(edges), &pose(xyz, turns)).unwrap())
+        })
+        .collect();
+    let [radius, length, _] = size([0.08, 1.0, 0.0]);
+    let post = Shape::cylinder(radius, length, &pose([-0.50, 0.45, 0.5], [0.0; 3])).unwrap();
+    obstacles.push(("post".to_owned(), post));
+    Cell::new(obstacles, 0.0).unwrap()
+}
+
+/// What a cell says of joint angles: collision and least distance.
+fn asked(cell: &Cell, robot: &AnyRobot, q: &[f64]) -> (bool, f64) {
+    fn of<const N: usize>(cell: &Cell, robot: &Robot<N>, q: &[f64]) -> (bool, f64) {
+        let q = &q[..N].try_into().unwrap();
+        let nearest = cell.nearest(robot, q).unwrap().unwrap();
+        (cell.collides(robot, q).unwrap(), nearest.distance)
+    }
+    match robot {
+        AnyRobot::Six(robot) => of(cell, robot, q),
+        AnyRobot::Seven(robot) => of(cell, robot, q),
+    }
+}
+
+#[test]
+fn no_collision_of_the_meshes_is_missed() {
+    let mut counts: BTreeMap<&str, [usize; 4]> = BTreeMap::new();
+    for line in COLLISIONS.lines().filter(|line| !line.starts_with('#')).skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let robot = AnyRobot::named(fields[0]).unwrap();
+        let q: Vec<f64> = fields[1..8].iter().filter_map(|q| q.parse().ok()).collect();
+        let number = |at: usize| fields[at].parse::<f64>().unwrap();
+        let alone = asked(&Cell::default(), &robot, &q);
+        let reach = find(fields[0]).unwrap().reach.unwrap();
+        let around = asked(&scene(reach), &robot, &q);
+        let [itself, with_scene] =
+            [[8, 9], [11, 12]].map(|[hit, apart]| (number(hit) > 0.0, number(apart)));
+        let least = itself.1.min(with_scene.1);
+        for ((is_hit, apart), (meshes_hit, meshes)) in
+            [(alone, itself), (around, (itself.0 || with_scene.0, least))]
+        {
+            assert!(is_hit || !meshes_hit, "missed: {line}");
+            assert!(apart <= meshes + PRINTED, "{apart} m, the meshes {meshes} m: {line}");
+        }
+        let count = counts.entry(fields[0]).or_default();
+        count[0] += 1;
+        count[1] += usize::from(itself.0 || with_scene.0);
+        count[2] += usize::from(around.0);
+        count[3] += usize::from(around.0 && least > 0.025);
+    }
+    for (name, [all, meshes, capsules, far]) in &counts {
+        println!(
+            "{name}: {all} postures, meshes touch in {meshes}, capsules in {capsules}, {far} of these more than 25 mm apart"
+        );
+        assert!(*meshes > 20 && *far * 20 <= *all, "{name}: {far} of {all} false alarms");
+    }
+    assert_eq!(counts.len(), 6);
+}
+
+#[test]
+fn bodies_belong_to_arms_of_the_catalog() {
+    let mut with_body = 0;
+    for arm in catalog() {
+        let robot = AnyRobot::from_catalog(arm).unwrap();
+        let (dof, body) = match &robot {
+            AnyRobot::Six(robot) => (6, robot.body()),
+            AnyRobot::Seven(robot) => (7, robot.body()),
+        };
+        let Some(body) = body else { continue };
+        with_body += 1;
+        for link in 0..=dof {
+            assert!(body.capsules().iter().any(|own| own.link == link), "{} {link}", arm.name);
+        }
+        assert_eq!(body.excess().len(), dof + 1, "{}", arm.name);
+        assert!(body.source().contains('/') && body.pairs().iter().all(|[a, b]| a + 1 < *b));
+    }
+    assert!(with_body >= 33, "{with_body}");
+}
+
+/// A pose anywhere near.
+fn pose(rng: &mut Rng) -> Pose {
+    let mut triple =
+        || Vector3::new(rng.between(-1.0, 1.0), rng.between(-1.0, 1.0), rng.between(-1.0, 1.0));
+    IsometryMatrix3::from_parts(Translation3::from(triple()), Rotation3::new(3.0 * triple()))
+}
+
+/// The signed distance of a point outside of a shape, or 0.
+fn outside(shape: &Shape, point: &Vector3<f64>) -> f64 {
+    let ball = Capsule::new((*point).into(), (*point).into(), 1e-6).unwrap();
+    let robot = probe(ball);
+    let cell = Cell::new(vec![("shape".to_owned(), shape.clone())], 0.0).unwrap();
+    cell.nearest(&robot, &[0.0; 6]).unwrap().unwrap().distance + 1e-6
+}
+
+/// An arm whose only capsule is of link 1, in the frame of the world.
+fn probe(capsule: Capsule) -> Robot<6> {
+    let robot = Robot::<6>::named("UR5e").unwrap();
+    let frame = robot.link_frames(&[0.0; 6]).0[0].inverse();
+    let ends = capsule.ends().map(|end| {
+        <[f64; 3]>::from(frame.rotation * Vector3::from(end) + frame.translation.vector)
+    });
+    let capsule = Capsule::new(ends[0], ends[1], capsule.radius()).unwrap();
+    robot
+        .with_body(Some(Body::new(vec![LinkCapsule { link: 1, capsule }], Vec::new()).unwrap()))
+        .unwrap()
+}
+
+#[test]
+fn a_distance_is_the_least_along_the_axis() {
+    let mut rng = Rng::new(61);
+    for case in 0..120 {
+        let near = pose(&mut rng);
+        let shape = match case % 4 {
+            0 => Shape::cuboid([0.3, 0.5, 0.2], &near),
+            1 => Shape::cylinder(0.2, 0.6, &near),
+            2 => Shape::half_space([0.3, -0.2, 0.9], near.translation.vector.into()),
+            _ => Shape::capsule([0.1, 0.2, 0.3], near.translation.vector.into(), 0.1),
+        }
+        .unwrap();
+        let [a, b] = [pose(&mut rng), pose(&mut rng)].map(|end| end.translation.vector);
+        let radius = 0.05;
+        let capsule = Capsule::new(a.into(), b.into(), radius).unwrap();
+        let cell = Cell::new(vec![("shape".to_owned(), shape.clone())], 0.0).unwrap();
+        let found = cell.nearest(&probe(capsule), &[0.0; 6]).unwrap().unwrap();
+        let parts = (0..=400).map(|part| f64::from(part) / 400.0);
+        let least =
+            parts.map(|part| outside(&shape, &(a + (b - a) * part))).fold(f64::INFINITY, f64::min);
+        let off = least - radius - found.distance;
+        assert!((-1e-6..5e-3).contains(&off), "case {case}: off by {off}");
+        assert_eq!((found.link, &found.near), (1, &Near::Obstacle("shape".to_owned())));
+        if found.distance > 1e-3 {
+            let [from, to] = found.points.map(Vector3::from);
+            assert!(((from - to).norm() - found.distance).abs() < 1e-6, "case {case}");
+        }
+    }
+}
+
+#[test]
+fn margins_move_the_answer_and_bad_shapes_are_named() {
+    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let q = [0.0; 6];
+    let floor = |margin: f64| {
+        let floor = Shape::half_space([0.0, 0.0, 1.0], [0.0, 0.0, -0.5]).unwrap();
+        Cell::new(vec![("floor".to_owned(), floor)], margin).unwrap()
+    };
+    let free = floor(0.0).nearest(&robot, &q).unwrap().unwrap();
+    assert!(!floor(0.0).collides(&robot, &q).unwrap());
+    let mut margins = (0..60).map(|step| f64::from(step) * 0.02);
+    let first = margins.find(|margin| floor(*margin).collides(&robot, &q).unwrap());
+    assert!(first.is_some_and(|margin| margin >= free.distance));
+    let message = |error: irbkin::Error| error.to_string();
+    assert!(message(Shape::sphere(0.0, [0.0; 3]).unwrap_err()).contains("radius is 0"));
+    assert!(message(Shape::half_space([0.0; 3], [0.0; 3]).unwrap_err()).contains("normal"));
+    assert!(
+        message(Shape::cuboid([1.0, f64::NAN, 1.0], &Pose::identity()).unwrap_err())
+            .contains("size is NaN")
+    );
+    let bare = robot.clone().with_body(None).unwrap();
+    assert!(message(floor(0.0).collides(&bare, &q).unwrap_err()).contains("with_body"));
+    assert!(message(floor(0.0).collides(&robot, &[f64::NAN; 6]).unwrap_err()).contains('q'));
+    let capsule = Capsule::new([0.0; 3], [0.0, 0.0, 1.0], 0.1).unwrap();
+    let of_link = |link| Body::new(vec![LinkCapsule { link, capsule }], Vec::new()).unwrap();
+    assert!(message(bare.with_body(Some(of_link(7))).unwrap_err()).contains("link 7"));
+    let pair = Body::new(vec![LinkCapsule { link: 1, capsule }], vec![[1, 2]]);
+    assert!(message(pair.unwrap_err()).contains("links 1 and 2"));
+}

@@ -1,0 +1,108 @@
+"""Shapes, bodies and cells from Python."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import irbkin
+from irbkin.body import Body, Shape
+
+ROBOT = irbkin.Robot("IRB 2600-12/1.65")
+CELL = irbkin.Cell(
+    {
+        "table": Shape.box([0.8, 1.2, 0.05], irbkin.pose([1.0, 0, 0.3])),
+        "ball": Shape.sphere(0.2, [0.6, 0.6, 1.0]),
+        "rod": Shape.capsule([-0.6, 0.6, 0], [-0.6, 0.6, 1.5], 0.1),
+        "post": Shape.cylinder(0.1, 1.5, irbkin.pose([-0.6, -0.6, 0.75])),
+        "floor": Shape.half_space([0, 0, 1], [0, 0, -0.5]),
+    },
+    margin=0.02,
+)
+
+
+def postures(count):
+    low, high = ROBOT.limits.T
+    return np.random.default_rng(5).uniform(low, high, (count, 6))
+
+
+def test_collisions_are_distances_up_to_the_margin():
+    q = postures(400)
+    alone = irbkin.Cell().distance(ROBOT, q).distance
+    near = CELL.distance(ROBOT, q)
+    collides = CELL.collides(ROBOT, q)
+    obstacles = np.array(["link" not in other for _, other in near.pair])
+    assert collides[(alone <= 0) | (obstacles & (near.distance <= 0.02))].all()
+    assert not collides[(near.distance > 0.02 + 1e-8)].any()
+    assert 20 < collides.sum() < 380
+    assert {other for _, other in near.pair} >= {"table", "ball", "post"}
+    assert near.points.shape == (400, 2, 3)
+    apart = np.linalg.norm(near.points[:, 0] - near.points[:, 1], axis=1)
+    free = near.distance > 1e-3
+    np.testing.assert_allclose(apart[free], near.distance[free], atol=1e-6)
+
+
+def test_shapes_of_arrays_out_and_threads():
+    q = postures(600).reshape(2, 300, 6)
+    once = CELL.collides(ROBOT, q)
+    assert once.shape == (2, 300) and once.dtype == bool
+    out = np.zeros((2, 300), bool)
+    assert CELL.collides(ROBOT, q, out, threads=2) is out and (out == once).all()
+    assert CELL.collides(ROBOT, q[0, 0]).shape == ()
+    assert CELL.distance(ROBOT, q[0, 0]).distance.shape == ()
+    with pytest.raises(irbkin.InvalidJointsError, match="NaN"):
+        CELL.collides(ROBOT, np.full((3, 6), np.nan))
+
+
+def test_solutions_are_filtered_by_a_cell():
+    solutions = ROBOT.ik(irbkin.pose([0.9, 0.2, 0.5], euler_zyx=[0, 2.9, 0]))
+    free = solutions.filter(CELL)
+    assert {one.slot for one in free} == {
+        one.slot for one in solutions if not CELL.collides(ROBOT, one)
+    }
+    assert 0 < len(free) < len(solutions)
+
+
+def test_values_are_frozen_equal_and_pickled():
+    for value in [ROBOT.body, CELL, *CELL.obstacles.values()]:
+        assert pickle.loads(pickle.dumps(value)) == value == copy.deepcopy(value)
+        with pytest.raises((AttributeError, TypeError)):
+            value.margin = 1
+    robot = ROBOT.with_tool(irbkin.pose([0, 0, 0.1]))
+    assert pickle.loads(pickle.dumps(robot)).body == ROBOT.body
+    assert len(pickle.dumps(robot)) < 1500
+    assert ROBOT.with_body(None) != ROBOT and ROBOT.with_body(None).body is None
+    assert "25 capsules" in repr(irbkin.Robot("IRB 1200-5/0.9").body)
+    assert repr(Shape.sphere(0.5, [0, 0, 1])) == "Shape.sphere(0.5, [0.0, 0.0, 1.0])"
+
+
+def test_a_body_of_ones_own_moves_with_its_links():
+    rod = [0, 0, 0, 0, 0, 0.5, 0.05]
+    robot = ROBOT.with_body(Body([6], [rod], []))
+    tip = ROBOT.link_frames(np.zeros(6))[5] @ [0, 0, 0.5, 1]
+    ball = irbkin.Cell({"ball": Shape.sphere(0.1, tip[:3])})
+    assert ball.collides(robot, np.zeros(6)) and not ball.collides(robot, [1, 0, 0, 0, 0, 0])
+    assert ball.distance(robot, np.zeros(6)).pair == (("link 6", "ball"),)
+    assert irbkin.Cell().distance(robot, np.zeros(6)).distance == np.inf
+    np.testing.assert_array_equal(robot.body.capsules, [rod])
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: Shape.box([1, 0, 1]), "size is 0 m"),
+        (lambda: Shape.sphere(1, [0, np.inf, 0]), "center"),
+        (lambda: Shape.half_space([0, 0, 0], [0, 0, 0]), "length zero"),
+        (lambda: irbkin.Cell(margin=-0.1), "margin is -0.1 m"),
+        (lambda: Body([1], [[0] * 6], []), r"\(1, 7\)"),
+        (lambda: Body([1], [[0] * 7], []), "radius is 0 m"),
+        (lambda: ROBOT.with_body(Body([9], [[0] * 6 + [1]], [])), "link 9"),
+        (lambda: irbkin.Cell().collides(irbkin.Robot("IRB 140-6/0.81"), np.zeros(6)), "with_body"),
+    ],
+)
+def test_bad_shapes_are_named(call, words):
+    with pytest.raises(irbkin.InvalidModelError, match=words):
+        call()
+    with pytest.raises(TypeError, match='obstacle "table" must be an irbkin.body.Shape'):
+        irbkin.Cell({"table": [1, 1, 1]})
