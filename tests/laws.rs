@@ -94,7 +94,7 @@ fn hold<const N: usize>(structure: &Structure<N>, law: Law<N>) -> Counts {
     let listed = any::<Index>().prop_map(move |index| index.get(&subjects).clone());
     let arms = prop_oneof![1 => listed, 3 => structure.random.clone()];
     let vectors = (prop::array::uniform7(-PI..PI), prop::array::uniform7(-1.0..1.0));
-    let cases = (arms, vectors, (poses(2.0), poses(2.0)), any::<u32>()).prop_map(
+    let cases = (arms, vectors, (poses(2.0), poses(1.0)), any::<u32>()).prop_map(
         |(arm, (q, velocity), (base, tool), bits)| Case {
             arm,
             q: std::array::from_fn(|i| q[i]),

@@ -113,7 +113,17 @@ __all__ = [
 # `plot` needs an extra: it is not in `__all__`, which a star import takes in whole. Nor are `body`,
 # whose shapes are few users', and `map`,
 # which would then replace Python's own.
-_MODULES = ("body", "calibration", "map", "paths", "placement", "plot", "rapid", "ros", "trajectory")
+_MODULES = (
+    "body",
+    "calibration",
+    "map",
+    "paths",
+    "placement",
+    "plot",
+    "rapid",
+    "ros",
+    "trajectory",
+)
 
 
 def __getattr__(name: str) -> ModuleType | Callable[..., Any]:

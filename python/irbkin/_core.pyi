@@ -1133,6 +1133,7 @@ class Robot:
         seed: npt.ArrayLike,
         weights: npt.ArrayLike | None = None,
         *,
+        cell: Cell | None = None,
         out: _Floats | None = None,
         threads: int = 1,
     ) -> _Floats:
@@ -1144,6 +1145,8 @@ class Robot:
                 poses, one pose for many seeds. Of joints that the pose leaves free, the nearest
                 angles are taken.
             weights: Cost of moving each joint, shape (n,); ones when not given.
+            cell: Only solutions that do not collide in an `irbkin.Cell`; with seven joints, of
+                those that the search passes.
             out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
             threads: Number of threads; 0 for one a core.
 
@@ -1152,8 +1155,8 @@ class Robot:
             or seed is invalid, is NaN.
 
         Raises:
-            UnreachableError: A single pose has no solution inside the limits; the message says what
-                is missing.
+            UnreachableError: A single pose has no solution inside the limits, or all collide; the
+                message says what is missing, or what collides.
             InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
                 is not finite; a seed, or most of many, more than four turns outside the limits; a
                 single pose or seed for a whole batch that is invalid.
@@ -1204,6 +1207,7 @@ class Robot:
         closed: bool = False,
         weights: npt.ArrayLike | None = None,
         accept: Callable[[_Floats], npt.ArrayLike] | None = None,
+        cell: Cell | None = None,
         carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
         tolerance: ToolCone | ToolOffset | Sequence[ToolCone | ToolOffset] | None = None,
         redundancy: int | None = None,
@@ -1227,9 +1231,9 @@ class Robot:
         with nothing free, and never the sum if it comes first. Every step of the answer is shown
         to be continuous between its two poses.
 
-        Of seven joints, joint 7 is one more external axis, or joint 1 if that makes the better plan.
-        Where neither leads through, since the other six are singular on the way, the plan is a path of
-        `follow`. Costs of limits and singularities are of the other six.
+        Of seven joints, joint 7 is one more external axis, or joint 1 if that makes the better
+        plan. Where neither leads through, since the other six are singular on the way, the plan is
+        a path of `follow`. Costs of limits and singularities are of the other six.
 
         Args:
             T: Poses of the tool, shape (m, 4, 4), translation [m].
@@ -1247,6 +1251,8 @@ class Robot:
             accept: Your own test, of collisions for instance: called with joint vectors of shape
                 (k, n), it returns k truth values. It is asked only for joint vectors near the best
                 path, and once for those that differ by full turns.
+            cell: An `irbkin.Cell` in which no joint vector of the plan may collide; not with a
+                carrier, which moves the base. The motion between the poses is not tested.
             carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
                 them. Their steps count for bottleneck and cost as steps of joints do.
             tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
@@ -2587,7 +2593,8 @@ class Shape:
         """All points within a radius of a line segment.
 
         Args:
-            a, b: The ends of the segment [m], shape (3,) each.
+            a: One end of the segment [m], shape (3,).
+            b: The other end [m], shape (3,).
             radius: The radius [m].
 
         Raises:

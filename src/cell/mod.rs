@@ -1,11 +1,13 @@
 //! A cell: obstacles around an arm, and whether the arm touches them or itself.
 
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::cell::RefCell;
 
 use crate::body::{Body, LinkCapsule, Shape, check_length};
 use crate::error::{BodyFault, Error};
-use crate::kinematics::{Robot, check_seed};
+use crate::kinematics::{Pose, Robot, Solution, check_seed};
 
 /// How near shapes may be and count as touching, for the rounding of poses and distances [m].
 const ROUNDING: f64 = 1e-9;
@@ -124,6 +126,48 @@ impl Cell {
             },
             points: apart.points.map(Into::into),
         }))
+    }
+
+    /// The solution inside the limits that is nearest to `seed` [rad] and does not collide, as
+    /// [`Robot::ik_nearest`]; of seven joints none of which is locked, of those that its search
+    /// along the redundancy passes.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_nearest`] and [`Self::collides`]; [`Error::Collides`] if every solution inside
+    /// the limits collides.
+    pub fn ik_nearest<const N: usize>(
+        &self,
+        robot: &Robot<N>,
+        pose: &Pose,
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> Result<Solution<N>, Error> {
+        let placed = RefCell::new(Placed::of(robot)?);
+        let nearest = robot.ik_nearest(pose, seed, weights)?;
+        let is_free = |q: &[f64; N]| !self.collides_at(&mut placed.borrow_mut(), q);
+        if is_free(&nearest.q) {
+            return Ok(nearest);
+        }
+        match robot.nearest_accepted(pose, seed, weights, &is_free) {
+            Err(Error::Unreachable(_)) => Err(self.collision(robot, &nearest.q)?),
+            found => found,
+        }
+    }
+
+    /// What the joints of an answer collide with.
+    fn collision<const N: usize>(&self, robot: &Robot<N>, q: &[f64; N]) -> Result<Error, Error> {
+        let alone = Self::default().nearest(robot, q)?.filter(|itself| itself.distance <= ROUNDING);
+        let Some(found) =
+            alone.map_or_else(|| self.nearest(robot, q), |itself| Ok(Some(itself)))?
+        else {
+            return Ok(BodyFault::NoBody.into());
+        };
+        let (other, margin) = match found.near {
+            Near::Link(other) => (format!("link {other}"), 0.0),
+            Near::Obstacle(name) => (name, self.margin),
+        };
+        Ok(Error::Collides { link: found.link, other, depth: margin - found.distance })
     }
 }
 

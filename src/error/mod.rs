@@ -4,6 +4,8 @@
 //! A caller matches [`Error`] and prints the fault inside it: the types of faults have no public
 //! names.
 
+use alloc::string::String;
+
 mod body;
 mod input;
 mod lists;
@@ -64,6 +66,20 @@ pub enum Error {
     /// No solution is inside the limits.
     #[error("{0}")]
     Unreachable(Explanation),
+    /// Every solution inside the limits collides; of the nearest one, the link, what it is in, and
+    /// how deep [m].
+    #[error(
+        "every solution inside the limits collides, the nearest one link {link} with {other}, \
+         {:.1} mm deep", 1e3 * depth
+    )]
+    Collides {
+        /// The link.
+        link: usize,
+        /// The obstacle or link.
+        other: String,
+        /// How deep, the margin included [m].
+        depth: f64,
+    },
     /// Solutions are inside the limits, none with the configuration that was asked for.
     #[error(transparent)]
     NoConfiguration(#[from] NoConfiguration),

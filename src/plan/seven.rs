@@ -19,8 +19,8 @@ impl Robot<7> {
     /// The best joint path along a path of poses, as [`Robot::<6>::plan`]: the better of the plan
     /// with joint 7 as one more external axis, and of the one with joint 1; or a joint of
     /// [`Robot::locked`] stays at its angle. Where neither leads through, since the other six joints
-    /// are singular on the way, the plan is a path of [`Robot::<7>::follow`]. `limit_cost` and `singularity_cost` are costs of these
-    /// six.
+    /// are singular on the way, the plan is a path of [`Robot::<7>::follow`]. `limit_cost` and
+    /// `singularity_cost` are costs of these six.
     ///
     /// # Errors
     ///

@@ -9,6 +9,7 @@ use pyo3::types::{PyFloat, PyTuple};
 
 use super::arguments::thread_count;
 use super::arm::{Arm, on};
+use super::cell::PyCell;
 use super::errors::of_seed;
 use super::outputs::{Output, Pair, answer_row, pair};
 use super::records::{IkBatch, IkMargin, PoseCheck};
@@ -182,6 +183,8 @@ impl PyRobot {
     ///         poses, one pose for many seeds. Of joints that the pose leaves free, the nearest
     ///         angles are taken.
     ///     weights: Cost of moving each joint, shape (n,); ones when not given.
+    ///     cell: Only solutions that do not collide in an `irbkin.Cell`; with seven joints, of
+    ///         those that the search passes.
     ///     out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
     ///     threads: Number of threads; 0 for one a core.
     ///
@@ -190,26 +193,31 @@ impl PyRobot {
     ///     or seed is invalid, is NaN.
     ///
     /// Raises:
-    ///     UnreachableError: A single pose has no solution inside the limits; the message says what
-    ///         is missing.
+    ///     UnreachableError: A single pose has no solution inside the limits, or all collide; the
+    ///         message says what is missing, or what collides.
     ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
     ///         is not finite; a seed, or most of many, more than four turns outside the limits; a
     ///         single pose or seed for a whole batch that is invalid.
-    #[pyo3(signature = (T, seed, weights=None, *, out=None, threads=1))]
+    #[pyo3(signature = (T, seed, weights=None, *, cell=None, out=None, threads=1))]
     fn ik_nearest<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         seed: &Bound<'py, PyAny>,
         weights: Option<&Bound<'py, PyAny>>,
+        cell: Option<&Bound<'py, PyCell>>,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (T.py(), thread_count(threads)?);
+        let cell = cell.map(|cell| &cell.get().0);
         on!(self.arm(), robot => match read_seeded(T, seed)? {
             Seeded::One(pose, seed) => {
                 let weights = read_weights(weights)?;
                 check_near("seed", &seed, robot.limits(), &weights)?;
-                let nearest = robot.nearest_checked(pose, &seed, &weights);
+                let nearest = match cell {
+                    None => robot.nearest_checked(pose, &seed, &weights),
+                    Some(cell) => cell.ik_nearest(robot, &pose, &seed, &weights),
+                };
                 answer_row(T, out, &nearest.map_err(|error| of_seed(error, &seed))?.q)
             }
             Seeded::Many(poses, seeds) => {
@@ -218,7 +226,10 @@ impl PyRobot {
                 let inputs = [poses.addresses(), seeds.addresses()];
                 let mut answer = Output::new(py, out, &shape, &inputs)?;
                 let (poses, seeds, q) = (poses.data()?, seeds.data()?, answer.slice()?);
-                detached(py, threads, |batch| batch.ik_nearest(robot, poses, seeds, &weights, q))?;
+                detached(py, threads, |batch| match cell {
+                    None => batch.ik_nearest(robot, poses, seeds, &weights, q),
+                    Some(cell) => batch.ik_nearest_free(cell, robot, poses, seeds, &weights, q),
+                })?;
                 Ok(answer.bound())
             }
         })

@@ -31,6 +31,7 @@ mod records;
 mod redundancy;
 mod retiming;
 mod robot;
+mod shapes;
 mod signals;
 mod solution;
 mod solutions;
@@ -47,7 +48,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use self::arm::{Arm, on};
-use self::cell::{PyBody, PyCell, PyShape};
+use self::cell::PyCell;
 use self::errors::Fault;
 use self::records::{
     Break, CatalogEntry, CellDistance, ConfigurationBatch, FollowResult, FreeJoint, IkBatch,
@@ -55,6 +56,7 @@ use self::records::{
     ToolSpeedLimits, TrajectorySample,
 };
 use self::robot::PyRobot;
+use self::shapes::{PyBody, PyShape};
 use self::solution::PySolution;
 use self::solutions::PySolutions;
 use self::state::read;

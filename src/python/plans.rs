@@ -9,6 +9,7 @@ use pyo3::types::PyTuple;
 use super::arguments::{ORDERS, one_of};
 use super::arm::Arm;
 use super::arrays::numbers;
+use super::cell::PyCell;
 use super::errors::{Fault, raised, shape_text, with_attributes};
 use super::freedoms::{read_carrier, read_end, read_redundancy, read_rotation, read_tolerance};
 use super::outputs::{array, column, matrix};
@@ -17,7 +18,8 @@ use super::robot::PyRobot;
 use super::signals::detached_while;
 use super::targets::{read_path_poses, read_weights};
 use super::trajectories::read_each;
-use crate::kinematics::Pose;
+use crate::cell::{Cell, Placed};
+use crate::kinematics::{Pose, Robot};
 use crate::plan::{Accept, NoPlan, Plan, PlanError, PlanOptions, Watch};
 
 #[pymethods]
@@ -37,9 +39,9 @@ impl PyRobot {
     /// with nothing free, and never the sum if it comes first. Every step of the answer is shown
     /// to be continuous between its two poses.
     ///
-    /// Of seven joints, joint 7 is one more external axis, or joint 1 if that makes the better plan.
-    /// Where neither leads through, since the other six are singular on the way, the plan is a path of
-    /// `follow`. Costs of limits and singularities are of the other six.
+    /// Of seven joints, joint 7 is one more external axis, or joint 1 if that makes the better
+    /// plan. Where neither leads through, since the other six are singular on the way, the plan is
+    /// a path of `follow`. Costs of limits and singularities are of the other six.
     ///
     /// Args:
     ///     T: Poses of the tool, shape (m, 4, 4), translation [m].
@@ -57,6 +59,8 @@ impl PyRobot {
     ///     accept: Your own test, of collisions for instance: called with joint vectors of shape
     ///         (k, n), it returns k truth values. It is asked only for joint vectors near the best
     ///         path, and once for those that differ by full turns.
+    ///     cell: An `irbkin.Cell` in which no joint vector of the plan may collide; not with a
+    ///         carrier, which moves the base. The motion between the poses is not tested.
     ///     carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
     ///         them. Their steps count for bottleneck and cost as steps of joints do.
     ///     tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
@@ -95,7 +99,7 @@ impl PyRobot {
     ///     ValueError: Another `order`.
     ///     TypeError: redundancy of an arm of six joints.
     ///     Exception: Whatever `accept` raises.
-    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, carrier=None, tolerance=None, redundancy=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0, objective=None, max_acceleration=None))]
+    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, cell=None, carrier=None, tolerance=None, redundancy=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0, objective=None, max_acceleration=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn plan<'py>(
         &self,
@@ -107,6 +111,7 @@ impl PyRobot {
         closed: bool,
         weights: Option<&Bound<'py, PyAny>>,
         accept: Option<&Bound<'py, PyAny>>,
+        cell: Option<&Bound<'py, PyCell>>,
         carrier: Option<&Bound<'py, PyAny>>,
         tolerance: Option<&Bound<'py, PyAny>>,
         redundancy: Option<&Bound<'py, PyAny>>,
@@ -125,6 +130,7 @@ impl PyRobot {
             closed,
             weights,
             accept,
+            cell: cell.map(|cell| &cell.get().0),
             carrier,
             tolerance,
             redundancy,
@@ -139,10 +145,12 @@ impl PyRobot {
                 "redundancy is for arms of seven joints: the pose alone determines the six of this \
                  one",
             )),
-            Arm::Six(robot) => asked
-                .plan(|path, options, accept, watch| robot.planned(path, options, accept, watch)),
-            Arm::Seven(robot) => asked
-                .plan(|path, options, accept, watch| robot.planned(path, options, accept, watch)),
+            Arm::Six(robot) => asked.plan(robot, |path, options, accept, watch| {
+                robot.planned(path, options, accept, watch)
+            }),
+            Arm::Seven(robot) => asked.plan(robot, |path, options, accept, watch| {
+                robot.planned(path, options, accept, watch)
+            }),
         }
     }
 }
@@ -158,6 +166,7 @@ struct Asked<'a, 'py> {
     closed: bool,
     weights: Option<&'a Bound<'py, PyAny>>,
     accept: Option<&'a Bound<'py, PyAny>>,
+    cell: Option<&'a Cell>,
     carrier: Option<&'a Bound<'py, PyAny>>,
     tolerance: Option<&'a Bound<'py, PyAny>>,
     redundancy: Option<&'a Bound<'py, PyAny>>,
@@ -203,6 +212,7 @@ impl Asked<'_, '_> {
     /// Plan without the interpreter's lock.
     fn plan<const N: usize>(
         &self,
+        robot: &Robot<N>,
         planned: impl FnOnce(
             &[Pose],
             &PlanOptions<N>,
@@ -213,18 +223,31 @@ impl Asked<'_, '_> {
     ) -> PyResult<records::Plan> {
         let py = self.T.py();
         let options = self.options::<N>()?;
+        let mut placed = self.cell.map(|_| Placed::of(robot)).transpose()?;
+        if self.cell.is_some() && !options.external.is_empty() {
+            return Err(Fault::Motion
+                .error("cell and carrier do not go together: a carrier moves the base"));
+        }
         let path = read_path_poses(self.T)?;
-        let accept = self.accept.map(|accept| accept.clone().unbind());
+        let (cell, accept) = (self.cell, self.accept.map(|accept| accept.clone().unbind()));
         let (planned, failure) = detached_while(py, |go_on| {
             let mut failure = None;
             let mut ask = |q: &[[f64; N]]| {
-                let accept = accept.as_ref()?;
-                let answers = Python::attach(|py| asked(accept.bind(py), q));
-                answers.map_err(|error| failure = Some(error)).ok()
+                let mut answers = vec![true; q.len()];
+                if let (Some(cell), Some(placed)) = (cell, &mut placed) {
+                    for (answer, q) in answers.iter_mut().zip(q) {
+                        *answer = !cell.collides_at(placed, q);
+                    }
+                }
+                let Some(accept) = &accept else { return Some(answers) };
+                let accepted = Python::attach(|py| asked(accept.bind(py), q));
+                let accepted = accepted.map_err(|error| failure = Some(error)).ok()?;
+                Some(answers.iter().zip(accepted).map(|(free, one)| *free && one).collect())
             };
             let go_on = RefCell::new(go_on);
             let goes_on = || go_on.borrow_mut()();
-            let ask = accept.is_some().then_some(&mut ask as &mut Accept<'_, N>);
+            let has_test = accept.is_some() || cell.is_some();
+            let ask = has_test.then_some(&mut ask as &mut Accept<'_, N>);
             let planned = planned(&path, &options, ask, Watch(Some(&goes_on)));
             (planned, failure)
         })?;

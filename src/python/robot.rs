@@ -8,10 +8,10 @@ use pyo3::prelude::*;
 
 use super::arm::{Arm, on};
 use super::arrays::vector;
-use super::cell::PyBody;
 use super::errors::Fault;
 use super::outputs::read_only;
 use super::rapid::records::carried_tool;
+use super::shapes::PyBody;
 use super::state::{Reduced, hash_of, reduced};
 use super::targets::{pose_array, read_frame};
 use crate::kinematics::{Robot, pose_to_rows};

@@ -3,10 +3,9 @@
 import copy
 import pickle
 
+import irbkin
 import numpy as np
 import pytest
-
-import irbkin
 from irbkin.body import Body, Shape
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
@@ -46,9 +45,11 @@ def test_collisions_are_distances_up_to_the_margin():
 def test_shapes_of_arrays_out_and_threads():
     q = postures(600).reshape(2, 300, 6)
     once = CELL.collides(ROBOT, q)
-    assert once.shape == (2, 300) and once.dtype == bool
+    assert once.shape == (2, 300)
+    assert once.dtype == bool
     out = np.zeros((2, 300), bool)
-    assert CELL.collides(ROBOT, q, out, threads=2) is out and (out == once).all()
+    assert CELL.collides(ROBOT, q, out, threads=2) is out
+    assert (out == once).all()
     assert CELL.collides(ROBOT, q[0, 0]).shape == ()
     assert CELL.distance(ROBOT, q[0, 0]).distance.shape == ()
     with pytest.raises(irbkin.InvalidJointsError, match="NaN"):
@@ -64,6 +65,65 @@ def test_solutions_are_filtered_by_a_cell():
     assert 0 < len(free) < len(solutions)
 
 
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "UR5e", "Panda", "CRX-10iA"])
+def test_the_nearest_solution_does_not_collide(name):
+    robot = irbkin.Robot(name)
+    rng = np.random.default_rng(7)
+    low, high = np.clip(robot.limits, -3, 3).T
+    q = rng.uniform(low, high, (60, robot.dof))
+    reach = irbkin.catalog_entry(name).reach
+    cell = irbkin.Cell({"wall": Shape.half_space([-1, 0, 0], [0.45 * reach, 0, 0])})
+    T, seed = robot.fk(q), q + 0.1
+    found = robot.ik_nearest(T, seed, cell=cell)
+    is_there = ~np.isnan(found[:, 0])
+    assert not cell.collides(robot, found[is_there]).any()
+    np.testing.assert_allclose(robot.fk(found[is_there]), T[is_there], atol=1e-9)
+    # What made a pose is an answer, unless it collides; the nearest is no farther.
+    free = ~cell.collides(robot, q)
+    assert is_there[free].all()
+    assert free.any()
+    assert not free.all()
+    cost = ((found - seed) ** 2).sum(axis=1)
+    assert (cost[free] <= 0.01 * robot.dof + 1e-9).all()
+    if robot.dof == 6:
+        for row in range(60):
+            free_ones = [s.q for s in robot.ik(T[row]).turns() if not cell.collides(robot, s.q)]
+            costs = [((one - seed[row]) ** 2).sum() for one in free_ones]
+            assert is_there[row] == bool(costs)
+            if costs:
+                np.testing.assert_allclose(cost[row], min(costs), atol=1e-9)
+    row = int(np.argmin(is_there))
+    if not is_there[row]:
+        words = "collides, the nearest one link . with|out of reach|limits"
+        with pytest.raises(irbkin.UnreachableError, match=words):
+            robot.ik_nearest(T[row], seed[row], cell=cell)
+
+
+def test_a_plan_stays_out_of_obstacles():
+    # A bent torch: the wrist goes round it.
+    robot = ROBOT.with_tool(irbkin.pose([0.3, 0, 0.2], euler_zyx=[0, 0.6, 0]))
+    ends = (irbkin.pose([0.9, y, 0.4], euler_zyx=[0, 2.9, 0]) for y in (-0.2, 0.2))
+    seam = irbkin.paths.line(*ends, steps=21)
+    bare = robot.plan(seam, rotation=24)
+    wrist = robot.link_frames(bare.q[10])[4, :3, 3]
+    cell = irbkin.Cell({"ball": Shape.sphere(0.01, wrist)})
+    assert cell.collides(robot, bare.q).any()
+    plan = robot.plan(seam, rotation=24, cell=cell)
+    assert not cell.collides(robot, plan.q).any()
+    assert plan.bottleneck >= bare.bottleneck * (1 - 1e-9)
+    wall = irbkin.Cell({"wall": Shape.half_space([-1, 0, 0], [0.3, 0, 0])})
+    with pytest.raises(irbkin.PathError, match="rejected"):
+        robot.plan(seam[:3], cell=wall)
+    seen = []
+    both = robot.plan(
+        seam[:3], cell=irbkin.Cell(), accept=lambda q: seen.append(1) or np.ones(len(q), bool)
+    )
+    assert seen
+    assert both.q.shape == (3, 6)
+    with pytest.raises(irbkin.InvalidMotionError, match="cell and carrier"):
+        ROBOT.plan(seam, cell=cell, carrier=irbkin.Track("y", -1, 1, steps=3))
+
+
 def test_values_are_frozen_equal_and_pickled():
     for value in [ROBOT.body, CELL, *CELL.obstacles.values()]:
         assert pickle.loads(pickle.dumps(value)) == value == copy.deepcopy(value)
@@ -72,7 +132,8 @@ def test_values_are_frozen_equal_and_pickled():
     robot = ROBOT.with_tool(irbkin.pose([0, 0, 0.1]))
     assert pickle.loads(pickle.dumps(robot)).body == ROBOT.body
     assert len(pickle.dumps(robot)) < 1500
-    assert ROBOT.with_body(None) != ROBOT and ROBOT.with_body(None).body is None
+    assert ROBOT.with_body(None) != ROBOT
+    assert ROBOT.with_body(None).body is None
     assert "25 capsules" in repr(irbkin.Robot("IRB 1200-5/0.9").body)
     assert repr(Shape.sphere(0.5, [0, 0, 1])) == "Shape.sphere(0.5, [0.0, 0.0, 1.0])"
 
@@ -82,7 +143,8 @@ def test_a_body_of_ones_own_moves_with_its_links():
     robot = ROBOT.with_body(Body([6], [rod], []))
     tip = ROBOT.link_frames(np.zeros(6))[5] @ [0, 0, 0.5, 1]
     ball = irbkin.Cell({"ball": Shape.sphere(0.1, tip[:3])})
-    assert ball.collides(robot, np.zeros(6)) and not ball.collides(robot, [1, 0, 0, 0, 0, 0])
+    assert ball.collides(robot, np.zeros(6))
+    assert not ball.collides(robot, [1, 0, 0, 0, 0, 0])
     assert ball.distance(robot, np.zeros(6)).pair == (("link 6", "ball"),)
     assert irbkin.Cell().distance(robot, np.zeros(6)).distance == np.inf
     np.testing.assert_array_equal(robot.body.capsules, [rod])
@@ -104,5 +166,5 @@ def test_a_body_of_ones_own_moves_with_its_links():
 def test_bad_shapes_are_named(call, words):
     with pytest.raises(irbkin.InvalidModelError, match=words):
         call()
-    with pytest.raises(TypeError, match='obstacle "table" must be an irbkin.body.Shape'):
+    with pytest.raises(TypeError, match=r'obstacle "table" must be an irbkin\.body\.Shape'):
         irbkin.Cell({"table": [1, 1, 1]})

@@ -144,11 +144,13 @@ def test_seven_joints_follow_by_the_smallest_steps():
     made = start + np.linspace(0, 1, 41)[:, None] * [0.3, 0.1, -0.2, 0.1, 0.2, -0.1, 0.1]
     T = panda.fk(made)
     followed = panda.follow(T, start)
-    assert followed.q.shape == (41, 7) and followed.breaks == ()
+    assert followed.q.shape == (41, 7)
+    assert followed.breaks == ()
     assert np.abs(panda.fk(followed.q) - T).max() < 1e-11
     lengths = [np.linalg.norm(np.diff(q, axis=0), axis=1).sum() for q in (followed.q, made)]
     assert lengths[0] < lengths[1]
     many = panda.follow(T, np.stack([start, start + 0.01]), threads=2)
-    assert many.q.shape == (2, 41, 7) and np.array_equal(many.q[0], followed.q)
+    assert many.q.shape == (2, 41, 7)
+    assert np.array_equal(many.q[0], followed.q)
     with pytest.raises(irbkin.InvalidModelError, match=r"wrist.*locked"):
         panda.follow(T, start, singularity_mode="wrist")

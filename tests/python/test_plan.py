@@ -371,7 +371,9 @@ def test_seven_joints_are_planned_with_their_redundancy():
     T = panda.fk(start + np.linspace(0, 1, 9)[:, None] * [0.3, 0.1, -0.2, 0.1, 0.2, -0.1, 0.1])
     followed = panda.follow(T, start).q
     plan = panda.plan(T, start=start, order="sum", redundancy=24)
-    assert plan.q.shape == (9, 7) and plan.external.shape == (9, 0) and plan.certified
+    assert plan.q.shape == (9, 7)
+    assert plan.external.shape == (9, 0)
+    assert plan.certified
     assert np.abs(panda.fk(plan.q) - T).max() < 1e-11
     assert plan.cost <= (np.diff(followed, axis=0) ** 2).sum() * (1 + 1e-6)
     # With a free tool angle, a track, and a test of all seven joints.
@@ -384,13 +386,15 @@ def test_seven_joints_are_planned_with_their_redundancy():
         redundancy=8,
         accept=lambda q: seen.append(q.shape[1]) or np.ones(len(q), bool),
     )
-    assert set(seen) == {7} and free.external.shape == (9, 1)
+    assert set(seen) == {7}
+    assert free.external.shape == (9, 1)
     shifted = panda.fk(free.q)
     shifted[:, 1, 3] += free.external[:, 0]
     assert np.abs(shifted[:, :3, 3] - T[:, :3, 3]).max() < 1e-11
     # One joint locked leaves six.
     locked = panda.locked({3: 0.2}).plan(T[:1])
-    assert locked.q.shape == (1, 7) and locked.q[0, 2] == 0.2
+    assert locked.q.shape == (1, 7)
+    assert locked.q[0, 2] == 0.2
     timed = panda.plan(T[:3], start=start, objective="time", max_acceleration=[5.0] * 7)
     assert timed.q.shape == (3, 7)
     with pytest.raises(irbkin.InvalidMotionError, match="redundancy"):

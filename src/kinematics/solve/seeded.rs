@@ -53,7 +53,8 @@ impl<const N: usize> Robot<N> {
         }
         if let (Some(arm), Some(seed), Some(weights)) =
             (self.of_seven_joints(), of_count(*seed), of_count(*weights))
-            && let Some(nearest) = of_count(arm.nearest_along_redundancy(&pose, &seed, &weights))
+            && let Some(nearest) =
+                of_count(arm.nearest_along_redundancy(&pose, &seed, &weights, &|_| true))
         {
             return nearest;
         }
@@ -73,6 +74,33 @@ impl<const N: usize> Robot<N> {
             Definition::Refined { .. } => self.nearest_of_seed(&solutions, nearest, seed, weights),
             _ => nearest,
         };
+        nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
+    }
+
+    /// [`Self::ik_nearest`] among the solutions that satisfy a condition. Of seven joints none of
+    /// which is locked, among those that the search along the redundancy passes.
+    pub(crate) fn nearest_accepted(
+        &self,
+        pose: &Pose,
+        seed: &[f64; N],
+        weights: &[f64; N],
+        accepts: &dyn Fn(&[f64; N]) -> bool,
+    ) -> Result<Solution<N>, Error> {
+        let pose = checked_pose(pose)?;
+        if let (Some(arm), Some(seed), Some(weights)) =
+            (self.of_seven_joints(), of_count(*seed), of_count(*weights))
+        {
+            let accepts = |q: &[f64; 7]| of_count(*q).is_some_and(|q| accepts(&q));
+            let nearest = arm.nearest_along_redundancy(&pose, &seed, &weights, &accepts);
+            if let Some(nearest) = of_count(nearest) {
+                return nearest;
+            }
+        }
+        let locked = self.locked_joint().map_or(f64::NAN, |(_, angle)| angle);
+        let solutions = self.ik_checked(pose, locked)?;
+        let accepts = |solution: &Solution<N>| accepts(&solution.q);
+        let wanted = Wanted { limits: *self.limits(), seed, weights, accepts: &accepts };
+        let nearest = self.nearest_at_singularity(&solutions, &wanted)?;
         nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
     }
 

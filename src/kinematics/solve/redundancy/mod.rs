@@ -49,8 +49,9 @@ impl Robot<7> {
         pose: &Pose,
         seed: &[f64; 7],
         weights: &[f64; 7],
+        accepts: &dyn Fn(&[f64; 7]) -> bool,
     ) -> Result<Solution<7>, Error> {
-        let found = self.search(pose, seed, weights)?;
+        let found = self.search(pose, seed, weights, accepts)?;
         found
             .nearest()
             .map(|q| self.solution_at(pose, q))
@@ -64,7 +65,7 @@ impl Robot<7> {
         seed: &[f64; 7],
         weights: &[f64; 7],
     ) -> Result<Option<Solution<7>>, Error> {
-        let mut search = self.search_of(pose, seed, weights)?;
+        let mut search = self.search_of(pose, seed, weights, &|_| true)?;
         if !search.keep_seed() {
             search.descend_from_seed();
         }
@@ -76,7 +77,7 @@ impl Robot<7> {
         &self,
         pose: &Pose,
     ) -> Result<Explanation, Error> {
-        let found = self.search(pose, &self.limits().rest(), &[1.0; 7])?;
+        let found = self.search(pose, &self.limits().rest(), &[1.0; 7], &|_| true)?;
         let Some(q) = found.nearest() else {
             return Ok(self.with_approach(found.missed.explanation, pose));
         };
@@ -92,8 +93,9 @@ impl Robot<7> {
         pose: &'a Pose,
         seed: &[f64; 7],
         weights: &[f64; 7],
+        accepts: &'a dyn Fn(&[f64; 7]) -> bool,
     ) -> Result<Search<'a>, Error> {
-        let mut search = self.search_of(pose, seed, weights)?;
+        let mut search = self.search_of(pose, seed, weights, accepts)?;
         search.run()?;
         Ok(search)
     }
@@ -104,6 +106,7 @@ impl Robot<7> {
         pose: &'a Pose,
         seed: &[f64; 7],
         weights: &[f64; 7],
+        accepts: &'a dyn Fn(&[f64; 7]) -> bool,
     ) -> Result<Search<'a>, Error> {
         if let Some(reason) = self.unknown_structure() {
             return Err(ModelFault::UnknownStructure(reason).into());
@@ -115,6 +118,7 @@ impl Robot<7> {
             are_named: self.slot_names().is_some(),
             seed: *seed,
             weights: *weights,
+            accepts,
             best: None,
             nearly: None,
             missed: Missed::NOTHING,
@@ -199,6 +203,8 @@ struct Search<'a> {
     are_named: bool,
     seed: [f64; 7],
     weights: [f64; 7],
+    /// A further condition that an answer must satisfy.
+    accepts: &'a dyn Fn(&[f64; 7]) -> bool,
     /// The least cost and its joint vector.
     best: Option<(f64, [f64; 7])>,
     /// Search among joint vectors that are farther off the pose than permitted: the pose is
@@ -261,7 +267,7 @@ impl Search<'_> {
     fn keep(&mut self, q: &[f64; 7]) {
         let cost = self.cost(q);
         let cheaper = |found: Option<(f64, [f64; 7])>| found.is_none_or(|(least, _)| cost < least);
-        if !cheaper(self.best) || self.outside(q) > 0.0 {
+        if !cheaper(self.best) || self.outside(q) > 0.0 || !(self.accepts)(q) {
             return;
         }
         if self.robot.residual(q, self.pose).largest() <= meets(self.pose) {

@@ -1,0 +1,213 @@
+//! Shapes of obstacles, bodies of arms.
+
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+use super::arrays::{Rows, vector};
+use super::errors::Fault;
+use super::outputs::{column, matrix};
+use super::state::{Reduced, reduced};
+use super::targets::read_single_pose;
+use crate::body::{Body, Capsule, LinkCapsule, Shape};
+use crate::error::Error;
+use crate::kinematics::Pose;
+
+/// A solid: a box, sphere, capsule, cylinder or half space. Lengths are in meters.
+#[pyclass(name = "Shape", module = "irbkin.body", frozen, eq)]
+#[derive(Clone, PartialEq)]
+pub(super) struct PyShape(pub(super) Shape);
+
+#[pymethods]
+impl PyShape {
+    /// A box.
+    ///
+    /// Args:
+    ///     size: Lengths of its edges along x, y and z [m], shape (3,).
+    ///     pose: Pose of its middle, shape (4, 4); the identity when not given.
+    ///
+    /// Raises:
+    ///     InvalidModelError: A length that is not positive, or more than 1e6 m.
+    ///     InvalidPoseError: pose is not a rigid transform.
+    #[staticmethod]
+    #[pyo3(signature = (size, pose=None))]
+    fn r#box(size: &Bound<'_, PyAny>, pose: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let size = vector::<3>(size, "size", Fault::Model)?;
+        Ok(Self(Shape::cuboid(size, &read_pose(pose)?)?))
+    }
+
+    /// A sphere.
+    ///
+    /// Args:
+    ///     radius: Its radius [m].
+    ///     center: Its center [m], shape (3,).
+    ///
+    /// Raises:
+    ///     InvalidModelError: A radius that is not positive, or more than 1e6 m.
+    #[staticmethod]
+    #[pyo3(signature = (radius, center))]
+    fn sphere(radius: f64, center: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self(Shape::sphere(radius, vector::<3>(center, "center", Fault::Model)?)?))
+    }
+
+    /// All points within a radius of a line segment.
+    ///
+    /// Args:
+    ///     a: One end of the segment [m], shape (3,).
+    ///     b: The other end [m], shape (3,).
+    ///     radius: The radius [m].
+    ///
+    /// Raises:
+    ///     InvalidModelError: A radius that is not positive, or more than 1e6 m.
+    #[staticmethod]
+    #[pyo3(signature = (a, b, radius))]
+    fn capsule(a: &Bound<'_, PyAny>, b: &Bound<'_, PyAny>, radius: f64) -> PyResult<Self> {
+        let [a, b] = [vector::<3>(a, "a", Fault::Model)?, vector::<3>(b, "b", Fault::Model)?];
+        Ok(Self(Shape::capsule(a, b, radius)?))
+    }
+
+    /// A cylinder along the z axis of its pose.
+    ///
+    /// Args:
+    ///     radius: Its radius [m].
+    ///     length: Its length [m].
+    ///     pose: Pose of its middle, shape (4, 4); the identity when not given.
+    ///
+    /// Raises:
+    ///     InvalidModelError: A length that is not positive, or more than 1e6 m.
+    ///     InvalidPoseError: pose is not a rigid transform.
+    #[staticmethod]
+    #[pyo3(signature = (radius, length, pose=None))]
+    fn cylinder(radius: f64, length: f64, pose: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        Ok(Self(Shape::cylinder(radius, length, &read_pose(pose)?)?))
+    }
+
+    /// Everything behind a plane.
+    ///
+    /// Args:
+    ///     normal: Normal of the plane, which points out of the solid: (0, 0, 1) of a floor.
+    ///     point: A point of the plane [m], shape (3,).
+    ///
+    /// Raises:
+    ///     InvalidModelError: A normal of length zero.
+    #[staticmethod]
+    #[pyo3(signature = (normal, point))]
+    fn half_space(normal: &Bound<'_, PyAny>, point: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let normal = vector::<3>(normal, "normal", Fault::Model)?;
+        Ok(Self(Shape::half_space(normal, vector::<3>(point, "point", Fault::Model)?)?))
+    }
+
+    fn __repr__(&self) -> String {
+        match &self.0 {
+            Shape::Capsule(capsule) => {
+                let ([a, b], radius) = (capsule.ends(), capsule.radius());
+                if capsule.is_sphere() {
+                    return format!("Shape.sphere({radius:?}, {a:?})");
+                }
+                format!("Shape.capsule({a:?}, {b:?}, {radius:?})")
+            }
+            Shape::Box { pose, half } => {
+                let size: [f64; 3] = (2.0 * half).into();
+                format!("Shape.box({size:?}) at {:?}", position(pose))
+            }
+            Shape::Cylinder { pose, radius, half } => {
+                format!("Shape.cylinder({radius:?}, {:?}) at {:?}", 2.0 * half, position(pose))
+            }
+            Shape::HalfSpace { normal, offset } => {
+                let point: [f64; 3] = (normal * *offset).into();
+                format!("Shape.half_space({:?}, {point:?})", <[f64; 3]>::from(*normal))
+            }
+        }
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced(py, "Shape", &self.0)
+    }
+}
+
+fn read_pose(pose: Option<&Bound<'_, PyAny>>) -> PyResult<Pose> {
+    pose.map_or(Ok(Pose::identity()), |pose| read_single_pose(pose, "pose"))
+}
+
+fn position(pose: &Pose) -> [f64; 3] {
+    pose.translation.vector.into()
+}
+
+/// Capsules that contain the links of an arm, and the pairs of links that are kept apart.
+#[pyclass(name = "Body", module = "irbkin.body", frozen, eq)]
+#[derive(Clone, PartialEq)]
+pub(super) struct PyBody(pub(super) Body);
+
+#[pymethods]
+impl PyBody {
+    /// Make a body of capsules.
+    ///
+    /// Args:
+    ///     links: The link of each capsule, shape (k,): 0 is the base, link i moves with joint i.
+    ///     capsules: Both ends of the axis and the radius of each [m], shape (k, 7), in the frame of
+    ///         its link (`Robot.link_frames`).
+    ///     pairs: Pairs of links that are kept apart, shape (m, 2).
+    ///
+    /// Raises:
+    ///     InvalidModelError: A radius that is not positive, a pair that is none, a wrong shape.
+    #[new]
+    fn new(
+        links: Vec<usize>,
+        capsules: &Bound<'_, PyAny>,
+        pairs: Vec<[usize; 2]>,
+    ) -> PyResult<Self> {
+        let rows = Rows::exact(capsules, &[links.len(), 7], "capsules", Fault::Model)?;
+        let made = links.into_iter().zip(rows.chunks::<7>()?).map(|(link, row)| {
+            let [ax, ay, az, bx, by, bz, radius] = *row;
+            Ok(LinkCapsule { link, capsule: Capsule::new([ax, ay, az], [bx, by, bz], radius)? })
+        });
+        Ok(Self(Body::new(made.collect::<Result<_, Error>>()?, pairs)?))
+    }
+
+    /// The link of each capsule, shape (k,).
+    #[getter]
+    fn links(&self, py: Python<'_>) -> Py<PyAny> {
+        #[expect(clippy::cast_possible_wrap, reason = "a few links")]
+        column(py, self.0.capsules().iter().map(|own| own.link as i64))
+    }
+
+    /// Both ends of the axis and the radius of each capsule [m], shape (k, 7), in the frame of its
+    /// link (`Robot.link_frames`).
+    #[getter]
+    fn capsules<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        matrix(py, &self.0.capsules().iter().map(row_of).collect::<Vec<_>>())
+    }
+
+    /// The pairs of links that are kept apart. The others may touch by construction or, of a body of
+    /// the catalog, never do inside the catalog's limits.
+    #[getter]
+    fn pairs(&self) -> Vec<(usize, usize)> {
+        self.0.pairs().iter().map(|pair| (pair[0], pair[1])).collect()
+    }
+
+    /// Repository, commit, file and license of the meshes that it contains.
+    #[getter]
+    fn source(&self) -> &str {
+        self.0.source()
+    }
+
+    /// How far outside its mesh 95 % of the surface of the capsules of each link are at most [m],
+    /// shape (n + 1,); empty if it is not known.
+    #[getter]
+    fn excess(&self, py: Python<'_>) -> Py<PyAny> {
+        column(py, self.0.excess().iter().copied())
+    }
+
+    fn __repr__(&self) -> String {
+        let (count, pairs) = (self.0.capsules().len(), self.0.pairs().len());
+        format!("<Body: {count} capsules, {pairs} pairs of links, {}>", self.0.source())
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced(py, "Body", &self.0)
+    }
+}
+
+fn row_of(own: &LinkCapsule) -> [f64; 7] {
+    let [[ax, ay, az], [bx, by, bz]] = own.capsule.ends();
+    [ax, ay, az, bx, by, bz, own.capsule.radius()]
+}
