@@ -1133,9 +1133,9 @@ class Robot:
         seed: npt.ArrayLike,
         weights: npt.ArrayLike | None = None,
         *,
-        cell: Cell | None = None,
         out: _Floats | None = None,
         threads: int = 1,
+        cell: Cell | None = None,
     ) -> _Floats:
         """The solution inside the limits that is nearest to `seed`, turns considered.
 
@@ -1145,10 +1145,10 @@ class Robot:
                 poses, one pose for many seeds. Of joints that the pose leaves free, the nearest
                 angles are taken.
             weights: Cost of moving each joint, shape (n,); ones when not given.
-            cell: Only solutions that do not collide in an `irbkin.Cell`; with seven joints, of
-                those that the search passes.
             out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
             threads: Number of threads; 0 for one a core.
+            cell: Only solutions that do not collide in an `irbkin.Cell`; with seven joints, of
+                those that the search passes.
 
         Returns:
             Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose

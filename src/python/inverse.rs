@@ -183,10 +183,10 @@ impl PyRobot {
     ///         poses, one pose for many seeds. Of joints that the pose leaves free, the nearest
     ///         angles are taken.
     ///     weights: Cost of moving each joint, shape (n,); ones when not given.
-    ///     cell: Only solutions that do not collide in an `irbkin.Cell`; with seven joints, of
-    ///         those that the search passes.
     ///     out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
     ///     threads: Number of threads; 0 for one a core.
+    ///     cell: Only solutions that do not collide in an `irbkin.Cell`; with seven joints, of
+    ///         those that the search passes.
     ///
     /// Returns:
     ///     Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose
@@ -198,15 +198,15 @@ impl PyRobot {
     ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
     ///         is not finite; a seed, or most of many, more than four turns outside the limits; a
     ///         single pose or seed for a whole batch that is invalid.
-    #[pyo3(signature = (T, seed, weights=None, *, cell=None, out=None, threads=1))]
+    #[pyo3(signature = (T, seed, weights=None, *, out=None, threads=1, cell=None))]
     fn ik_nearest<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         seed: &Bound<'py, PyAny>,
         weights: Option<&Bound<'py, PyAny>>,
-        cell: Option<&Bound<'py, PyCell>>,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
+        cell: Option<&Bound<'py, PyCell>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (T.py(), thread_count(threads)?);
         let cell = cell.map(|cell| &cell.get().0);

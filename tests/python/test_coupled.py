@@ -134,7 +134,7 @@ def test_a_fanuc_pendant_measures_joint_3_from_the_base(robot):
         pendant.jacobian(shown), robot.jacobian(q) @ derivative, rtol=0, atol=1e-14
     )
     np.testing.assert_array_equal(pendant.linkage_limits, robot.limits[2])
-    limits = pendant.limits
+    limits = pendant.limits.copy()
     limits[2] = [-0.5, 0.5]
     assert pendant.check_pose(T).within_limits
     assert not any(

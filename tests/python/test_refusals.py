@@ -348,7 +348,7 @@ def test_arguments_have_the_names_of_the_documentation():
         ROBOT.jacobian: "q frame out",
         ROBOT.ik: "T q7 given",
         ROBOT.ik_batch: "T q7 given out threads",
-        ROBOT.ik_nearest: "T seed weights out threads",
+        ROBOT.ik_nearest: "T seed weights out threads cell",
         ROBOT.with_tool: "T",
         ROBOT.with_limits: "limits",
     }.items():

@@ -216,7 +216,7 @@ def test_seven_axes_take_q7_and_a_target_finds_one():
     line = irbkin.paths.line(panda.fk(q), panda.fk(q + 0.1), steps=5)
     answer = planned(ros.Kinematics(panda, max_acceleration=np.ones(7)), line)
     assert answer.success, answer.message
-    assert len(answer.trajectory[0].q) == 7
+    assert len(answer.trajectory.points[0].q) == 7
 
 
 def test_targets_are_followed_from_the_start():
