@@ -37,6 +37,7 @@ impl<const N: usize> Robot<N> {
                 .with_name(self.name.clone())
                 .with_max_velocity(self.max_velocity)?
                 .with_lock(self.locked_joint())?
+                .with_body(self.body().cloned())?
         };
         robot.with_base(&base)?.with_tool(&tool)
     }
