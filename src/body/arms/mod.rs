@@ -9,24 +9,27 @@ mod abb_to_4600;
 mod others;
 mod universal_robots;
 
-use alloc::vec::Vec;
-
 use super::links::{Body, LinkCapsule};
 use super::shape::Capsule;
 
+/// A capsule, lengths in tenths of a millimeter.
+type Row = [i16; 7];
+
 /// The body of an arm, lengths in tenths of a millimeter.
 struct BodyOfArm {
-    /// Arms of the catalog with the same table; that their castings are the same is not known.
+    /// Arms of the catalog with these capsules: their meshes are equal or, if one is not known,
+    /// their tables.
     names: &'static [&'static str],
     /// Repository, commit, file and license of the meshes.
     source: &'static str,
     /// How far 95 % of the surface of each link's capsules are outside its mesh at most [mm].
     excess: &'static [u8],
-    /// The capsules of links: both ends of the axis in the link's frame, then the radius.
-    links: &'static [(u8, &'static [[i16; 7]])],
-    /// Those of cylinders, pistons and rods that move beside a link, wherever they may be.
-    parts: &'static [(u8, &'static [[i16; 7]])],
-    /// Pairs of links that may touch: neighbors do by construction, and of the others the meshes
+    /// The capsules of each link from the base on: both ends of the axis in the link's frame, then
+    /// the radius.
+    links: &'static [&'static [Row]],
+    /// The capsules of cylinders, pistons and rods beside a link, wherever they may be.
+    parts: &'static [(usize, Row)],
+    /// Pairs of links that are kept apart. Neighbors touch by construction; the meshes of others
     /// never did, or always, in 100,000 samples inside the limits.
     checked: &'static [[u8; 2]],
 }
@@ -45,23 +48,20 @@ pub(crate) fn body_of(name: &str) -> Option<Body> {
     ];
     let named = |arm: &'static BodyOfArm| Some((arm, *arm.names.iter().find(|own| **own == name)?));
     let (arm, name) = groups.into_iter().flatten().find_map(named)?;
-    let capsules = |rows: &[(u8, &[[i16; 7]])]| -> Vec<LinkCapsule> {
-        let of_link = |(link, rows): &(u8, &[[i16; 7]])| {
-            let link = usize::from(*link);
-            let of_row = move |row: &[i16; 7]| {
-                let [ax, ay, az, bx, by, bz, radius] = row.map(|value| f64::from(value) * UNIT);
-                LinkCapsule { link, capsule: Capsule::known([ax, ay, az], [bx, by, bz], radius) }
-            };
-            rows.iter().map(of_row).collect::<Vec<_>>()
-        };
-        rows.iter().flat_map(of_link).collect()
-    };
+    let links = arm.links.iter().enumerate();
+    let links = links.flat_map(|(link, rows)| rows.iter().map(move |row| capsule(link, row)));
+    let parts = arm.parts.iter().map(|(link, row)| capsule(*link, row));
     Some(Body {
         arm: Some(name),
-        links: capsules(arm.links),
-        parts: capsules(arm.parts),
+        links: links.collect(),
+        parts: parts.collect(),
         pairs: arm.checked.iter().map(|pair| pair.map(usize::from)).collect(),
         source: arm.source,
         excess: arm.excess.iter().map(|excess| f64::from(*excess) * 1e-3).collect(),
     })
+}
+
+fn capsule(link: usize, row: &Row) -> LinkCapsule {
+    let [ax, ay, az, bx, by, bz, radius] = row.map(|value| f64::from(value) * UNIT);
+    LinkCapsule { link, capsule: Capsule::known([ax, ay, az], [bx, by, bz], radius) }
 }
