@@ -1,16 +1,13 @@
 //! Many joint vectors in a cell.
 
 use super::pace::Batch;
-use super::rows::{check_length, rows, rows_for, rows_out};
+use super::rows::{check_length, rows};
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
-use crate::kinematics::{Robot, check_seed, check_weights, pose_from_rows};
+use crate::kinematics::{Robot, check_seed, pose_from_rows};
 
 /// Joint vectors that a thread takes at a time.
 const JOINT_VECTORS: usize = 256;
-
-/// Poses that a thread takes at a time.
-const POSES: usize = 64;
 
 impl Batch<'_> {
     /// [`Cell::collides`] for rows of `N` joint angles.
@@ -55,19 +52,13 @@ impl Batch<'_> {
         weights: &[f64; N],
         q: &mut [f64],
     ) -> Result<(), Error> {
-        check_weights(weights)?;
-        let poses = rows::<16>("poses", poses)?;
-        let seeds = rows_for::<N>("seeds", seeds, poses.len())?;
-        let q = rows_out::<N, _>("q", q, poses.len())?;
         Placed::of(robot)?;
-        let parts = poses.chunks(POSES).zip(seeds.chunks(POSES)).zip(q.chunks_mut(POSES));
-        self.run(poses.len(), parts, |((poses, seeds), q), _| {
+        self.seeded(poses, seeds, weights, q, |poses, seeds, q| {
             for ((pose, seed), q) in poses.iter().zip(seeds).zip(q) {
                 let nearest = pose_from_rows(pose)
                     .and_then(|pose| cell.ik_nearest(robot, &pose, seed, weights));
                 *q = nearest.map_or([f64::NAN; N], |nearest| nearest.q);
             }
-        });
-        Ok(())
+        })
     }
 }

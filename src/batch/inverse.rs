@@ -105,15 +105,27 @@ impl Batch<'_> {
         q: &mut [f64],
     ) -> Result<(), Error> {
         check_structure(robot)?;
+        self.seeded(poses, seeds, weights, q, |poses, seeds, q| {
+            robot.nearest_rows(poses, seeds, weights, q);
+        })
+    }
+
+    /// Call `solve` for parts of rows of poses, of seeds and of answers.
+    pub(super) fn seeded<const N: usize>(
+        &mut self,
+        poses: &[f64],
+        seeds: &[f64],
+        weights: &[f64; N],
+        q: &mut [f64],
+        solve: impl Fn(&[[f64; 16]], &[[f64; N]], &mut [[f64; N]]) + Sync,
+    ) -> Result<(), Error> {
         check_weights(weights)?;
         let poses = rows::<16>("poses", poses)?;
         let seeds = rows_for::<N>("seeds", seeds, poses.len())?;
         let q = rows_out::<N, f64>("q", q, poses.len())?;
         let asked = poses.chunks(SMALL_PART).zip(seeds.chunks(SMALL_PART));
         let parts = asked.zip(q.chunks_mut(SMALL_PART));
-        self.run(poses.len(), parts, |((poses, seeds), q), _| {
-            robot.nearest_rows(poses, seeds, weights, q);
-        });
+        self.run(poses.len(), parts, |((poses, seeds), q), _| solve(poses, seeds, q));
         Ok(())
     }
 

@@ -97,8 +97,13 @@ impl Capsule {
     /// Whether two capsules are apart since the balls around them are.
     #[inline]
     pub(crate) fn is_far(&self, other: &Self) -> bool {
-        let most = (self.ball() + other.ball()) * (1.0 + FAR);
-        (self.at(0.5) - other.at(0.5)).norm_squared() > most * most
+        self.is_far_from_ball(&other.at(0.5), other.ball())
+    }
+
+    /// Whether the ball around it is farther from a point than a distance [m].
+    fn is_far_from_ball(&self, center: &Vector3<f64>, distance: f64) -> bool {
+        let most = (self.ball() + distance) * (1.0 + FAR);
+        (self.at(0.5) - center).norm_squared() > most * most
     }
 
     /// The radius of the ball around it [m].
@@ -235,8 +240,7 @@ impl Shape {
             Self::Cylinder { pose, radius, half } => (pose.translation.vector, radius.hypot(*half)),
             Self::HalfSpace { .. } => return false,
         };
-        let most = (radius + capsule.ball() + distance) * (1.0 + FAR);
-        (capsule.at(0.5) - center).norm_squared() > most * most
+        capsule.is_far_from_ball(&center, radius + distance)
     }
 
     /// How far a capsule is from the shape; where they touch, less than zero, and not below minus

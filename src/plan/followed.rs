@@ -22,7 +22,7 @@ const HALVINGS: u32 = 10;
 
 impl Robot<7> {
     /// The plan along the first path of `follow` that meets the options, from `start` or from
-    /// solutions of the first pose. `None` if there is none, and where more is free than the
+    /// solutions of the first pose. `None` if no path does, and where more is free than the
     /// redundancy.
     pub(super) fn followed_plan(
         &self,
@@ -112,14 +112,10 @@ impl Robot<7> {
         let whole = largest(&steps(&ends[0], &ends[1]));
         let mean = core::array::from_fn(|joint| 0.5 * (ends[0][joint] + ends[1][joint]));
         let pose = poses[0].lerp_slerp(&poses[1], 0.5);
-        let middle = match self.continued(&pose, &mean, weights)? {
-            Some(middle) => middle.q,
-            None => match self.ik_nearest(&pose, &mean, weights) {
-                Ok(middle) => middle.q,
-                Err(Error::Unreachable(_)) => return Ok(false),
-                Err(error) => return Err(error),
-            },
+        let (Some(middle), _) = Follower::new(self, &mean, weights)?.step(&pose)? else {
+            return Ok(false);
         };
+        let middle = middle.q;
         let farther = ends.iter().map(|end| largest(&steps(end, &middle))).fold(0.0, f64::max);
         if farther <= (HALF * whole).max(CONTINUOUS_STEP) && whole <= EXAMINED_STEP {
             return Ok(true);

@@ -163,7 +163,7 @@ impl<const N: usize> Robot<N> {
 
     /// The solution inside the limits that continues a path whose joints head for `heading`: of six
     /// joints the nearest one, of seven the nearest along the self-motion that passes there.
-    pub(crate) fn continued(
+    pub(in crate::kinematics) fn continued(
         &self,
         pose: &Pose,
         heading: &[f64; N],
