@@ -44,7 +44,7 @@ fn scene(reach: f64) -> Cell {
     Cell::new(obstacles, 0.0).unwrap()
 }
 
-/// What a cell says of joint angles: collision and least distance.
+/// Collision and least distance of joint angles in a cell.
 fn asked(cell: &Cell, robot: &AnyRobot, q: &[f64]) -> (bool, f64) {
     fn of<const N: usize>(cell: &Cell, robot: &Robot<N>, q: &[f64]) -> (bool, f64) {
         let q = &q[..N].try_into().unwrap();

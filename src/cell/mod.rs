@@ -37,7 +37,7 @@ pub struct Nearest {
     pub distance: f64,
     /// The link.
     pub link: usize,
-    /// What it is nearest to.
+    /// The other link or the obstacle.
     pub near: Near,
     /// The nearest points of the link and of the other [m].
     pub points: [[f64; 3]; 2],
@@ -155,7 +155,7 @@ impl Cell {
         }
     }
 
-    /// What the joints of an answer collide with.
+    /// The error of joints that collide.
     fn collision<const N: usize>(&self, robot: &Robot<N>, q: &[f64; N]) -> Result<Error, Error> {
         let alone = Self::default().nearest(robot, q)?.filter(|itself| itself.distance <= ROUNDING);
         let Some(found) =

@@ -1,4 +1,4 @@
-//! What is free along a joint path, smoothed: the search leaves it on a grid
+//! Free axes along a joint path, smoothed: the search leaves them on a grid
 //! (docs/guide/plan.md, section 5).
 
 use alloc::vec;

@@ -15,7 +15,7 @@ use super::refine::{coarse_to_fine, is_long};
 use crate::trajectory::{Retiming, Trajectory};
 
 /// Of the best joint paths in either order, from each branch of the first pose and with a fixed
-/// tool, the one with the shortest timed motion; `None` if there is none through all poses.
+/// tool, the one with the shortest timed motion; `None` if no path leads through all poses.
 pub(super) fn fastest<'a>(
     arm: Arm<'a>,
     [coarse, fixed]: [&'a Freedom; 2],

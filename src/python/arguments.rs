@@ -61,7 +61,7 @@ pub(super) const ORIENTATIONS: [(&str, ArcOrientation); 3] = [
     ("via", ArcOrientation::Via),
 ];
 
-/// What makes one path better than another.
+/// The order in which costs make one path better than another.
 pub(super) const ORDERS: [(&str, PlanOrder); 2] =
     [("bottleneck", PlanOrder::Bottleneck), ("sum", PlanOrder::Sum)];
 

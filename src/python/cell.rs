@@ -142,7 +142,7 @@ impl PyCell {
     }
 }
 
-/// The names of a pair; two empty ones if there is none.
+/// The names of a pair; empty ones without a pair.
 fn names(nearest: Option<&Nearest>) -> (String, String) {
     nearest.map_or_else(Default::default, |nearest| {
         let other = match &nearest.near {

@@ -148,7 +148,8 @@ impl PyBody {
     ///     pairs: Pairs of links that are kept apart, shape (m, 2).
     ///
     /// Raises:
-    ///     InvalidModelError: A radius that is not positive, a pair that is none, a wrong shape.
+    ///     InvalidModelError: A radius that is not positive, a pair of links without capsules, a wrong
+    ///         shape.
     #[new]
     fn new(
         links: Vec<usize>,

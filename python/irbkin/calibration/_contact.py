@@ -28,7 +28,7 @@ FARTHEST = 1.0
 
 @dataclass(frozen=True)
 class _Problem(_fit.Problem):
-    """A robot and the bodies that it touches. Corrections are those of the robot, then the places
+    """A robot and the bodies that it touches. Corrections are the robot's, then the places
     of the bodies.
     """
 

@@ -79,7 +79,7 @@ const BY_SHAPE: [DataType; 6] = [
 ///
 /// # Errors
 ///
-/// [`Error::Rapid`] when the text is invalid, is none of these, or is followed by more text.
+/// [`Error::Rapid`] when the text is invalid, of another kind, or is followed by more text.
 pub fn parse_record(text: &str) -> Result<Value, Error> {
     let mut broken = None;
     for data_type in BY_SHAPE {

@@ -1,4 +1,4 @@
-//! What is left of a self-motion of an arm that is slightly off: several solutions next to a
+//! The rest of a self-motion of an arm that is slightly off: several solutions next to a
 //! singularity, on the curve on which five conditions hold.
 //!
 //! Docs: general.md, eq. 104d.
