@@ -5,13 +5,14 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use super::arguments::thread_count;
-use super::arm::on;
+use super::arm::{Arm, on};
 use super::outputs::{Output, array};
 use super::records::CellDistance;
 use super::robot::PyRobot;
 use super::shapes::PyShape;
 use super::signals::detached;
 use super::state::{Reduced, reduced};
+use super::targets::checked_joints;
 use crate::cell::{Cell, Near, Nearest};
 
 /// Obstacles around an arm: whether it touches them or itself.
@@ -89,6 +90,10 @@ impl PyCell {
         let (py, threads) = (q.py(), thread_count(threads)?);
         let rows = robot.arm().joints(q)?;
         let mut answer = Output::<bool>::new(py, out, &rows.lead, &[rows.addresses()])?;
+        match robot.arm() {
+            Arm::Six(_) => checked_joints::<6>("q", &rows).map(drop)?,
+            Arm::Seven(_) => checked_joints::<7>("q", &rows).map(drop)?,
+        }
         let (q, to) = (rows.data()?, answer.slice()?);
         detached(
             py,
@@ -115,7 +120,7 @@ impl PyCell {
         let rows = robot.arm().joints(q)?;
         let nearest: Vec<Option<Nearest>> = on!(robot.arm(), robot => {
             let nearest = |q: &_| self.0.nearest(robot, q);
-            rows.chunks()?.iter().map(nearest).collect::<Result<_, _>>()?
+            checked_joints("q", &rows)?.iter().map(nearest).collect::<Result<_, _>>()?
         });
         let distance =
             nearest.iter().map(|one| one.as_ref().map_or(f64::INFINITY, |one| one.distance));

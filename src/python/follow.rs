@@ -14,10 +14,10 @@ use super::outputs::{Output, pair};
 use super::records::{Break, FollowResult, break_reason};
 use super::robot::PyRobot;
 use super::signals::detached;
-use super::targets::{read_path, read_weights, single_seed};
+use super::targets::{checked_joints, read_path, read_weights, single_seed};
 use crate::error::Error;
 use crate::kinematics::thresholds::WRIST_ZONE;
-use crate::kinematics::{FollowOptions, Followed, Pose, SingularityMode, check_seed};
+use crate::kinematics::{FollowOptions, Followed, Pose, SingularityMode};
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -143,7 +143,7 @@ impl Paths<'_, '_> {
         memory.push(q.addresses());
         let mut errors = Output::new(py, errors_out.as_ref(), &shape, &memory)?;
         let poses = read_path(py, &rows, &shape)?;
-        let starts = checked_seeds::<N>(&seeds)?;
+        let starts = checked_joints::<N>("seed", &seeds)?;
         let length = shape.last().copied().unwrap_or_default();
         let followed =
             detached(py, self.threads, |batch| batch.follow(&poses, length, starts, follow))?;
@@ -158,17 +158,6 @@ impl Paths<'_, '_> {
         let breaks = breaks(py, &rows.lead, &followed)?.unbind();
         Ok(FollowResult { q: q.array(), orientation_error: errors.array(), breaks })
     }
-}
-
-fn checked_seeds<'a, const N: usize>(seeds: &'a Rows<'_>) -> PyResult<&'a [[f64; N]]> {
-    let rows = seeds.chunks::<N>()?;
-    for (path, seed) in rows.iter().enumerate() {
-        check_seed("seed", seed).map_err(|error| {
-            let place = index_in(&seeds.lead, path);
-            Fault::Joints.error(format_args!("seed{place:?}: {error}"))
-        })?;
-    }
-    Ok(rows)
 }
 
 /// The breaks of paths with the leading dimensions `lead`.

@@ -147,3 +147,21 @@ fn read_arrays<'py, const N: usize>(
     together(&mut [&mut poses, &mut seeds])?;
     Ok(Seeded::Many(poses, seeds))
 }
+
+/// Joint vectors that are checked; an error has the place of its row among several.
+pub(super) fn checked_joints<'a, const N: usize>(
+    field: &'static str,
+    rows: &'a Rows<'_>,
+) -> PyResult<&'a [[f64; N]]> {
+    let all = rows.chunks::<N>()?;
+    for (row, q) in all.iter().enumerate() {
+        check_seed(field, q).map_err(|error| {
+            if rows.is_single() {
+                return PyErr::from(error);
+            }
+            let place = index_in(&rows.lead, row);
+            Fault::Joints.error(format_args!("{field}{place:?}: {error}"))
+        })?;
+    }
+    Ok(all)
+}

@@ -52,8 +52,16 @@ def test_shapes_of_arrays_out_and_threads():
     assert (out == once).all()
     assert CELL.collides(ROBOT, q[0, 0]).shape == ()
     assert CELL.distance(ROBOT, q[0, 0]).distance.shape == ()
-    with pytest.raises(irbkin.InvalidJointsError, match="NaN"):
-        CELL.collides(ROBOT, np.full((3, 6), np.nan))
+    assert CELL.collides(ROBOT, np.zeros((0, 6))).shape == (0,)
+    assert CELL.distance(ROBOT, np.zeros((0, 6))).points.shape == (0, 2, 3)
+    assert ROBOT.ik_nearest(np.zeros((0, 4, 4)), np.zeros((0, 6)), cell=CELL).shape == (0, 6)
+    assert np.isnan(ROBOT.ik_nearest(np.full((2, 4, 4), np.nan), np.zeros((2, 6)), cell=CELL)).all()
+    q[1, 7, 2] = np.nan
+    for call in (CELL.collides, CELL.distance):
+        with pytest.raises(irbkin.InvalidJointsError, match=r"q\[1, 7\]: q: joint 3 is NaN"):
+            call(ROBOT, q)
+        with pytest.raises(irbkin.InvalidJointsError, match=r"^q: joint 3 is NaN"):
+            call(ROBOT, q[1, 7])
 
 
 def test_solutions_are_filtered_by_a_cell():

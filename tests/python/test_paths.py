@@ -152,5 +152,15 @@ def test_seven_joints_follow_by_the_smallest_steps():
     many = panda.follow(T, np.stack([start, start + 0.01]), threads=2)
     assert many.q.shape == (2, 41, 7)
     assert np.array_equal(many.q[0], followed.q)
+    assert panda.follow(np.zeros((0, 4, 4)), start).q.shape == (0, 7)
+    with pytest.raises(irbkin.InvalidJointsError, match="seed: joint 1 is NaN"):
+        panda.follow(T, start * np.nan)
+    with pytest.raises(irbkin.InvalidPoseError, match=r"T\[0\]: pose\[0, 0\] is NaN"):
+        panda.follow(T * np.nan, start)
+    # Joint 2 passes zero, where axes 1 and 3 are one line.
+    through = np.linspace([0, -0.3, 0, -1.5, 0, 1.5, 0], [0, 0.3, 0, -1.5, 0, 1.5, 0], 21)
+    followed = panda.follow(panda.fk(through), through[0])
+    assert followed.breaks == ()
+    assert np.abs(np.diff(followed.q, axis=0)).max() < 0.1
     with pytest.raises(irbkin.InvalidModelError, match=r"wrist.*locked"):
         panda.follow(T, start, singularity_mode="wrist")
