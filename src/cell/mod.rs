@@ -1,16 +1,17 @@
 //! A cell: obstacles around an arm, and whether the arm touches them or itself.
 
+mod placed;
+
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::cell::RefCell;
 
-use crate::body::{Body, LinkCapsule, Shape, check_length};
+pub(crate) use self::placed::Placed;
+use self::placed::ROUNDING;
+use crate::body::{Shape, check_length};
 use crate::error::{BodyFault, Error};
 use crate::kinematics::{Pose, Robot, Solution, check_seed};
-
-/// How near shapes may be and count as touching, for the rounding of poses and distances [m].
-const ROUNDING: f64 = 1e-9;
 
 /// Obstacles in the frame of the world, and a margin around them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -91,7 +92,7 @@ impl Cell {
         q: &[f64; N],
     ) -> bool {
         placed.move_to(q);
-        placed.touches_itself() || placed.is_near_obstacle(self)
+        placed.touches_itself() || placed.is_near_obstacle(&self.obstacles, self.margin)
     }
 
     /// The link and the other link or obstacle that are nearest; `None` if there is nothing to
@@ -168,69 +169,5 @@ impl Cell {
             Near::Obstacle(name) => (name, self.margin),
         };
         Ok(Error::Collides { link: found.link, other, depth: margin - found.distance })
-    }
-}
-
-/// The capsules of an arm at its joint angles, in the world.
-pub(crate) struct Placed<'a, const N: usize> {
-    robot: &'a Robot<N>,
-    body: &'a Body,
-    /// Of the links, in the order of the body.
-    links: Vec<LinkCapsule>,
-    parts: Vec<LinkCapsule>,
-}
-
-impl<'a, const N: usize> Placed<'a, N> {
-    pub(crate) fn of(robot: &'a Robot<N>) -> Result<Self, Error> {
-        let body = robot.body().ok_or(BodyFault::NoBody)?;
-        let (links, parts) = (body.capsules().to_vec(), body.parts().to_vec());
-        Ok(Self { robot, body, links, parts })
-    }
-
-    fn move_to(&mut self, q: &[f64; N]) {
-        let (frames, _) = self.robot.link_frames(q);
-        let own = self.body.capsules().iter().chain(self.body.parts());
-        for (placed, own) in self.links.iter_mut().chain(&mut self.parts).zip(own) {
-            let frame = match own.link.checked_sub(1) {
-                Some(joint) => &frames[joint],
-                None => self.robot.base(),
-            };
-            placed.capsule = own.capsule.moved(frame);
-        }
-    }
-
-    fn of_link(&self, link: usize) -> impl Iterator<Item = &LinkCapsule> {
-        self.links.iter().filter(move |own| own.link == link)
-    }
-
-    /// The capsules that are kept apart from each other.
-    fn pairs(&self) -> impl Iterator<Item = (&LinkCapsule, &LinkCapsule)> {
-        self.body.pairs().iter().flat_map(move |[link, other]| {
-            let ones = self.of_link(*link);
-            ones.flat_map(move |one| self.of_link(*other).map(move |two| (one, two)))
-        })
-    }
-
-    /// The capsules that are kept apart from obstacles.
-    fn moving(&self) -> impl Iterator<Item = &LinkCapsule> {
-        self.links.iter().chain(&self.parts).filter(|own| own.link > 0)
-    }
-
-    fn touches_itself(&self) -> bool {
-        self.pairs().any(|(one, other)| {
-            let (one, other) = (&one.capsule, &other.capsule);
-            !one.is_far(other) && one.separation(other).distance <= ROUNDING
-        })
-    }
-
-    fn is_near_obstacle(&self, cell: &Cell) -> bool {
-        let most = cell.margin + ROUNDING;
-        self.moving().any(|own| {
-            let mut shapes = cell.obstacles.iter().map(|(_, shape)| shape);
-            shapes.any(|shape| {
-                let own = &own.capsule;
-                !shape.is_far(own, most) && shape.separation(own).distance <= most
-            })
-        })
     }
 }
