@@ -10,6 +10,7 @@ mod bounds;
 mod catalog;
 mod catalog_page;
 mod cell;
+mod cell_paths;
 mod certificates;
 mod common;
 mod configuration;

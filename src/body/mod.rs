@@ -2,11 +2,13 @@
 
 mod arms;
 mod links;
+mod outline;
 mod shape;
 #[cfg(feature = "serde")]
 mod stored;
 
 pub(crate) use arms::body_of;
 pub use links::{Body, LinkCapsule};
-pub(crate) use shape::check_length;
+pub(crate) use outline::{Group, Middle, Outline};
 pub use shape::{Capsule, Shape};
+pub(crate) use shape::{Separation, check_length};

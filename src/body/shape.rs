@@ -16,9 +16,6 @@ const LEAST: f64 = 1e-6;
 /// Square of the sine between two axes below which they count as parallel [1].
 const PARALLEL: f64 = 1e-12;
 
-/// By how much balls must be apart, relative to their sizes: more than rounding [1].
-const FAR: f64 = 1e-9;
-
 /// Rounds in which the nearest point of an axis is found, at most.
 const ROUNDS: u32 = 60;
 
@@ -94,20 +91,8 @@ impl Capsule {
         }
     }
 
-    /// Whether two capsules are apart since the balls around them are.
-    #[inline]
-    pub(crate) fn is_far(&self, other: &Self) -> bool {
-        self.is_far_from_ball(&other.at(0.5), other.ball())
-    }
-
-    /// Whether the ball around it is farther from a point than a distance [m].
-    fn is_far_from_ball(&self, center: &Vector3<f64>, distance: f64) -> bool {
-        let most = (self.ball() + distance) * (1.0 + FAR);
-        (self.at(0.5) - center).norm_squared() > most * most
-    }
-
     /// The radius of the ball around it [m].
-    fn ball(&self) -> f64 {
+    pub(crate) fn ball(&self) -> f64 {
         0.5 * (self.ends[1] - self.ends[0]).norm() + self.radius
     }
 
@@ -232,15 +217,14 @@ impl Shape {
         Ok(Self::HalfSpace { normal, offset: normal.dot(&point) })
     }
 
-    /// Whether a capsule is farther than a distance [m] since the balls around both are.
-    pub(crate) fn is_far(&self, capsule: &Capsule, distance: f64) -> bool {
-        let (center, radius) = match self {
+    /// The center and the radius of a ball around it [m], if it has an end.
+    pub(crate) fn ball(&self) -> Option<(Vector3<f64>, f64)> {
+        Some(match self {
             Self::Capsule(own) => (own.at(0.5), own.ball()),
             Self::Box { pose, half } => (pose.translation.vector, half.norm()),
             Self::Cylinder { pose, radius, half } => (pose.translation.vector, radius.hypot(*half)),
-            Self::HalfSpace { .. } => return false,
-        };
-        capsule.is_far_from_ball(&center, radius + distance)
+            Self::HalfSpace { .. } => return None,
+        })
     }
 
     /// How far a capsule is from the shape; where they touch, less than zero, and not below minus

@@ -3,75 +3,59 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::body::{Body, LinkCapsule, Shape};
+use super::block::Block;
+use crate::body::{Capsule, Outline, Shape};
 use crate::error::{BodyFault, Error};
 use crate::kinematics::Robot;
+use crate::lanes::LANES;
 
-/// How near shapes may be and count as touching, for the rounding of poses and distances [m].
-pub(super) const ROUNDING: f64 = 1e-9;
-
-/// The capsules of an arm at its joint angles, in the world.
+/// An arm with the outline of its body.
 pub(crate) struct Placed<'a, const N: usize> {
     robot: &'a Robot<N>,
-    body: &'a Body,
-    /// Of the links, in the order of the body.
-    links: Vec<LinkCapsule>,
-    parts: Vec<LinkCapsule>,
+    pub(super) outline: Outline,
+    block: Block<N>,
+    /// How far any axis of a capsule is from an axis of a joint at most [m].
+    reach: f64,
 }
 
 impl<'a, const N: usize> Placed<'a, N> {
     pub(crate) fn of(robot: &'a Robot<N>) -> Result<Self, Error> {
-        let body = robot.body().ok_or(BodyFault::NoBody)?;
-        let (links, parts) = (body.capsules().to_vec(), body.parts().to_vec());
-        Ok(Self { robot, body, links, parts })
+        let outline = Outline::of(robot.body().ok_or(BodyFault::NoBody)?);
+        let block = Block::new(robot, &outline);
+        let table = robot.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum::<f64>();
+        let own = outline.groups.iter().map(|group| group.center.norm() + group.spread);
+        let reach = table + own.fold(0.0, f64::max);
+        Ok(Self { robot, outline, block, reach })
     }
 
-    pub(super) fn move_to(&mut self, q: &[f64; N]) {
+    /// Which of up to eight joint vectors touch something, as bits: [`Block::touching`].
+    pub(super) fn touching(
+        &mut self,
+        around: (&[(String, Shape)], f64),
+        q: &[[f64; N]],
+        spans: Option<&[[f64; N]]>,
+    ) -> u64 {
+        debug_assert!(q.len() <= LANES);
+        self.block.touching(self.robot, &self.outline, around, q, spans)
+    }
+
+    /// How far any axis of a capsule moves at most while the joints turn by spans [rad] [m].
+    pub(super) fn most_motion(&self, spans: [f64; N]) -> f64 {
+        self.robot.table_spans(spans).iter().sum::<f64>() * self.reach
+    }
+
+    /// The capsules at a joint vector, in the order of the outline.
+    pub(super) fn capsules(&self, q: &[f64; N]) -> Vec<Capsule> {
         let (frames, _) = self.robot.link_frames(q);
-        let own = self.body.capsules().iter().chain(self.body.parts());
-        for (placed, own) in self.links.iter_mut().chain(&mut self.parts).zip(own) {
-            let frame = match own.link.checked_sub(1) {
+        let mut placed = Vec::with_capacity(self.outline.capsules.len());
+        for group in &self.outline.groups {
+            let frame = match group.link.checked_sub(1) {
                 Some(joint) => &frames[joint],
                 None => self.robot.base(),
             };
-            placed.capsule = own.capsule.moved(frame);
+            let own = &self.outline.capsules[group.capsules.clone()];
+            placed.extend(own.iter().map(|capsule| capsule.moved(frame)));
         }
-    }
-
-    pub(super) fn of_link(&self, link: usize) -> impl Iterator<Item = &LinkCapsule> {
-        self.links.iter().filter(move |own| own.link == link)
-    }
-
-    /// The capsules that are kept apart from each other.
-    pub(super) fn pairs(&self) -> impl Iterator<Item = (&LinkCapsule, &LinkCapsule)> {
-        self.body.pairs().iter().flat_map(move |[link, other]| {
-            let ones = self.of_link(*link);
-            ones.flat_map(move |one| self.of_link(*other).map(move |two| (one, two)))
-        })
-    }
-
-    /// The capsules that are kept apart from obstacles.
-    pub(super) fn moving(&self) -> impl Iterator<Item = &LinkCapsule> {
-        self.links.iter().chain(&self.parts).filter(|own| own.link > 0)
-    }
-
-    /// Whether links that are kept apart touch.
-    pub(super) fn touches_itself(&self) -> bool {
-        self.pairs().any(|(one, other)| {
-            let (one, other) = (&one.capsule, &other.capsule);
-            !one.is_far(other) && one.separation(other).distance <= ROUNDING
-        })
-    }
-
-    /// Whether a moving link is as near to an obstacle as the margin [m].
-    pub(super) fn is_near_obstacle(&self, obstacles: &[(String, Shape)], margin: f64) -> bool {
-        let most = margin + ROUNDING;
-        self.moving().any(|own| {
-            let mut shapes = obstacles.iter().map(|(_, shape)| shape);
-            shapes.any(|shape| {
-                let own = &own.capsule;
-                !shape.is_far(own, most) && shape.separation(own).distance <= most
-            })
-        })
+        placed
     }
 }

@@ -19,6 +19,7 @@ pub(crate) use answer::slot::MOST_SLOTS;
 pub use answer::slot::Slot;
 pub use answer::solutions::{Solution, Solutions};
 pub use answer::status::{SingularityKind, Status};
+pub(crate) use chain::axes::Axes;
 pub use chain::corrections::Corrections;
 #[cfg(feature = "urdf")]
 pub(crate) use chain::dh::check_snap;

@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::axis::AxisMotion;
-use super::polynomial::{TERMS, derivatives, shifted};
+use super::polynomial::{TERMS, derivatives, hull, shifted};
 use super::sampling::Samples;
 use crate::error::{Error, MotionFault};
 use crate::kinematics::thresholds::{JOINED_POSITION, LIMIT_ROUNDING, MOST_SAMPLES};
@@ -123,6 +123,19 @@ impl Trajectory {
         Self { dof: axes.len(), knots, terms }
     }
 
+    /// The time at a part of a piece, from 0 to 1 [s].
+    pub(crate) fn time(&self, piece: usize, part: f64) -> f64 {
+        let [from, to] = [self.knots[piece], self.knots[piece + 1]];
+        from + part * (to - from)
+    }
+
+    /// Two angles between which a joint is from one part of a piece to another [rad].
+    pub(crate) fn hull(&self, joint: usize, piece: usize, [from, to]: [f64; 2]) -> [f64; 2] {
+        let length = self.knots[piece + 1] - self.knots[piece];
+        let terms = &self.terms[piece * self.dof + joint];
+        hull(&shifted(terms, from * length), (to - from) * length)
+    }
+
     /// Number of joints.
     #[must_use]
     pub fn dof(&self) -> usize {
@@ -155,7 +168,7 @@ impl Trajectory {
         &self.knots
     }
 
-    pub(super) fn pieces(&self) -> usize {
+    pub(crate) fn pieces(&self) -> usize {
         self.knots.len() - 1
     }
 

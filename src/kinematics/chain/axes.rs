@@ -51,7 +51,7 @@ impl<const W: usize> Axes<W> {
     /// Takes the frames on by `Rx(alpha) Tx(a) Rz(theta + q) Tz(d)`, with the sines and cosines of
     /// q. In place: new frames would be copied for each link.
     #[inline(always)]
-    pub(crate) fn advance<const FUSED: bool>(
+    pub(in crate::kinematics) fn advance<const FUSED: bool>(
         &mut self,
         link: Link,
         sin_q: &[f64; W],
@@ -70,7 +70,7 @@ impl<const W: usize> Axes<W> {
     /// Takes the frames on by `Rx(alpha) Tx(a) Ry(beta) Rz(theta + q) Tz(d)`, with the sines and
     /// cosines of beta and q (docs/guide/calibrate.md, eq. 20 to 22).
     #[inline(always)]
-    pub(crate) fn advance_tilted<const FUSED: bool>(
+    pub(in crate::kinematics) fn advance_tilted<const FUSED: bool>(
         &mut self,
         link: Link,
         (sin_beta, cos_beta): (f64, f64),

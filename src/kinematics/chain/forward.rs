@@ -33,6 +33,13 @@ pub(crate) struct Poses<'a, const N: usize> {
     pub(crate) out: &'a mut [[f64; 16]],
 }
 
+/// The link frames of up to a block of joint vectors, one in a lane.
+pub(crate) struct Frames<'a, const N: usize> {
+    pub(crate) chain: &'a Chain<N>,
+    pub(crate) q: &'a [[f64; N]],
+    pub(crate) out: &'a mut [Axes<LANES>; N],
+}
+
 /// The pose of one joint vector, of a chain with tilts or without.
 struct OnePose<'a, const N: usize, const TILTS: bool> {
     chain: &'a Chain<N>,
@@ -59,6 +66,22 @@ impl<const N: usize> Kernel for Poses<'_, N> {
             for (_, pose) in q.iter().zip(poses).filter(|(q, _)| !is_finite(q)) {
                 *pose = [f64::NAN; 16];
             }
+        }
+    }
+}
+
+impl<const N: usize> Kernel for Frames<'_, N> {
+    type Answer = ();
+    const WIDE: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let (mut sin, mut cos) = ([[0.0; LANES]; N], [[0.0; LANES]; N]);
+        sines_of_rows::<N, FUSED>(self.chain, self.q, &mut sin, &mut cos);
+        let mut frame = Axes::of(self.chain.first());
+        for (joint, link) in self.chain.table_links().iter().enumerate() {
+            frame.advance::<FUSED>(*link, &sin[joint], &cos[joint]);
+            self.out[joint] = frame;
         }
     }
 }

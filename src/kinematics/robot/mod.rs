@@ -29,8 +29,9 @@ use crate::kinematics::answer::singularity::{SingularDistances, Singularity};
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::axes::Axes;
 use crate::kinematics::chain::dh::Mdh;
-use crate::kinematics::chain::forward::{Poses, is_finite};
+use crate::kinematics::chain::forward::{Frames, Poses, is_finite};
 use crate::kinematics::chain::jacobian::{JacobianFrame, Jacobians};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::chain::singular_values::SingularValues;
@@ -261,6 +262,19 @@ impl<const N: usize> Robot<N> {
     #[must_use]
     pub fn link_frames(&self, q: &[f64; N]) -> ([Pose; N], Pose) {
         self.chain.link_frames(q)
+    }
+
+    /// The frames of [`Self::link_frames`] for up to eight joint vectors, one in a lane.
+    pub(crate) fn frames(&self, q: &[[f64; N]], frames: &mut [Axes<LANES>; N]) {
+        run(Frames { chain: &self.chain, q, out: frames });
+    }
+
+    /// How far the joints of the table turn at most when those of the controller do [rad].
+    pub(crate) fn table_spans(&self, mut spans: [f64; N]) -> [f64; N] {
+        if let [_, second, third, ..] = &mut spans[..] {
+            *third += self.chain.coupling().abs() * *second;
+        }
+        spans
     }
 
     /// Geometric Jacobian of the tool: three linear rows [m/rad], three angular [1]; column `i`

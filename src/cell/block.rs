@@ -1,0 +1,358 @@
+//! Eight joint vectors, or boxes of joint vectors, at once: which of them touch something.
+
+use alloc::string::String;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use fearless_simd::prelude::*;
+use nalgebra::Vector3;
+
+use super::apart::{Axis, Decided, Point, Solid, constant, in_frame, load, minus};
+use crate::body::{Capsule, Group, Middle, Outline, Shape};
+use crate::kinematics::{Axes, Robot};
+use crate::lanes::{Column, LANES, Number as _, Vector, VectorKernel, cross, dot, run_vectors};
+
+/// How near shapes may be and count as touching, for the rounding of poses and distances [m].
+pub(super) const ROUNDING: f64 = 1e-9;
+
+/// All lanes, as bits.
+const ALL: u64 = (1 << LANES) - 1;
+
+/// Where everything of an arm is, in eight lanes.
+#[derive(Clone)]
+pub(crate) struct Block<const N: usize> {
+    frames: [Axes<LANES>; N],
+    base: Axes<LANES>,
+    /// How far the joints turn to either side [rad]; zero for joint vectors.
+    spans: [Column; N],
+    /// The centers of the groups' balls.
+    centers: Vec<[Column; 3]>,
+    /// How far the axes of a group move, by the link from which it is seen.
+    moves: Vec<[Column; N]>,
+    /// The middles and the halves of the capsules' axes, of the groups that are placed.
+    axes: Vec<[[Column; 3]; 2]>,
+    is_placed: Vec<bool>,
+}
+
+impl<const N: usize> Block<N> {
+    pub(super) fn new(robot: &Robot<N>, outline: &Outline) -> Self {
+        let (base, groups) = (Axes::of(robot.base()), outline.groups.len());
+        let zero = [0.0; LANES];
+        Self {
+            frames: [base; N],
+            base,
+            spans: [zero; N],
+            centers: vec![[zero; 3]; groups],
+            moves: vec![[zero; N]; groups],
+            axes: vec![[[zero; 3]; 2]; outline.capsules.len()],
+            is_placed: vec![false; groups],
+        }
+    }
+
+    /// Which of up to eight joint vectors, whose joints may turn by spans to either side [rad],
+    /// touch themselves or come nearer to an obstacle than the margin [m], as bits. Without spans
+    /// the answer is exact to rounding; with them all that do not are certain not to (eq. 2).
+    pub(super) fn touching(
+        &mut self,
+        robot: &Robot<N>,
+        outline: &Outline,
+        around: (&[(String, Shape)], f64),
+        q: &[[f64; N]],
+        spans: Option<&[[f64; N]]>,
+    ) -> u64 {
+        robot.frames(q, &mut self.frames);
+        if let Some(spans) = spans {
+            for (lane, spans) in spans.iter().enumerate() {
+                for (column, span) in self.spans.iter_mut().zip(robot.table_spans(*spans)) {
+                    column[lane] = span;
+                }
+            }
+        }
+        let asked = ALL >> (LANES - q.len());
+        let (obstacles, margin) = around;
+        let swept = spans.is_some();
+        run_vectors(Touch { block: self, outline, obstacles, margin, swept, asked })
+    }
+
+    fn frame(&self, link: usize) -> &Axes<LANES> {
+        match link.checked_sub(1) {
+            Some(joint) => &self.frames[joint],
+            None => &self.base,
+        }
+    }
+
+    /// A capsule in one lane.
+    fn capsule(&self, outline: &Outline, index: usize, lane: usize) -> Capsule {
+        let [middle, half] = self.axes[index].map(|point| point.map(|component| component[lane]));
+        outline.middles[index].at(middle.into(), half.into())
+    }
+}
+
+/// Whether lanes touch something.
+struct Touch<'a, const N: usize> {
+    block: &'a mut Block<N>,
+    outline: &'a Outline,
+    obstacles: &'a [(String, Shape)],
+    margin: f64,
+    swept: bool,
+    asked: u64,
+}
+
+impl<const N: usize> VectorKernel for Touch<'_, N> {
+    type Answer = u64;
+
+    #[inline(always)]
+    fn run<S: Simd>(mut self, simd: S) -> u64 {
+        let asked = self.asked;
+        for group in 0..self.outline.groups.len() {
+            self.block.is_placed[group] = false;
+            self.center(simd, group);
+            if self.swept {
+                self.moves(simd, group);
+            }
+        }
+        for pair in 0..self.outline.pairs.len() {
+            self.apart_of_links(simd, self.outline.pairs[pair]);
+            if self.asked == 0 {
+                return asked;
+            }
+        }
+        for obstacle in 0..self.obstacles.len() {
+            for group in 0..self.outline.groups.len() {
+                if self.outline.groups[group].link > 0 {
+                    self.apart_of_obstacle(simd, group, obstacle);
+                }
+            }
+            if self.asked == 0 {
+                return asked;
+            }
+        }
+        asked & !self.asked
+    }
+}
+
+impl<const N: usize> Touch<'_, N> {
+    /// A point of a link's frame.
+    #[inline(always)]
+    fn placed<S: Simd>(&self, simd: S, link: usize, point: &Vector3<f64>) -> Point<S> {
+        let turned = self.turned(simd, link, point);
+        let origin = load(simd, &self.block.frame(link).origin);
+        [origin[0] + turned[0], origin[1] + turned[1], origin[2] + turned[2]]
+    }
+
+    /// A direction of a link's frame.
+    #[inline(always)]
+    fn turned<S: Simd>(&self, simd: S, link: usize, way: &Vector3<f64>) -> Point<S> {
+        let frame = self.block.frame(link);
+        let (x, y, z) = (load(simd, &frame.x), load(simd, &frame.y), load(simd, &frame.z));
+        [
+            x[0].scaled_plus(way.x, y[0].scaled_plus(way.y, z[0] * way.z)),
+            x[1].scaled_plus(way.x, y[1].scaled_plus(way.y, z[1] * way.z)),
+            x[2].scaled_plus(way.x, y[2].scaled_plus(way.y, z[2] * way.z)),
+        ]
+    }
+
+    #[inline(always)]
+    fn center<S: Simd>(&mut self, simd: S, group: usize) {
+        let Group { link, center, .. } = &self.outline.groups[group];
+        let center = self.placed(simd, *link, center);
+        store(center, &mut self.block.centers[group]);
+    }
+
+    /// How far the axes of a group move at most while its joints turn, seen from the links before
+    /// it: the joints turn one after another, the last one first (eq. 1).
+    #[inline(always)]
+    fn moves<S: Simd>(&mut self, simd: S, group: usize) {
+        let Group { link, spread, .. } = &self.outline.groups[group];
+        let center = load(simd, &self.block.centers[group]);
+        let mut moved = Vector::splat(simd, 0.0);
+        for joint in (0..*link).rev() {
+            let frame = &self.block.frames[joint];
+            let arm = minus(center, load(simd, &frame.origin));
+            let around = cross(load(simd, &frame.z), arm);
+            let span = Vector::load_array_ref(simd, &self.block.spans[joint]);
+            let radius = dot(around, around).root() + *spread;
+            moved = span.times_plus(radius + moved, moved);
+            moved.store_array(&mut self.block.moves[group][joint]);
+        }
+    }
+
+    /// How far the axes of a group move, seen from a link; zero for joint vectors.
+    #[inline(always)]
+    fn moved<S: Simd>(&self, simd: S, group: usize, from: usize) -> Vector<S> {
+        if self.swept {
+            Vector::load_array_ref(simd, &self.block.moves[group][from])
+        } else {
+            Vector::splat(simd, 0.0)
+        }
+    }
+
+    #[inline(always)]
+    fn place<S: Simd>(&mut self, simd: S, group: usize) {
+        if self.block.is_placed[group] {
+            return;
+        }
+        self.block.is_placed[group] = true;
+        let Group { link, capsules, .. } = &self.outline.groups[group];
+        for index in capsules.clone() {
+            let own = &self.outline.middles[index];
+            let middle = self.placed(simd, *link, &own.middle);
+            let half = self.turned(simd, *link, &own.half);
+            store(middle, &mut self.block.axes[index][0]);
+            store(half, &mut self.block.axes[index][1]);
+        }
+    }
+
+    #[inline(always)]
+    fn axis<S: Simd>(&self, simd: S, index: usize) -> Axis<S> {
+        let [middle, half] = &self.block.axes[index];
+        Axis::new(load(simd, middle), load(simd, half), self.outline.middles[index].square)
+    }
+
+    /// Look at two groups of capsules of the arm.
+    #[inline(always)]
+    fn apart_of_links<S: Simd>(&mut self, simd: S, pair: [usize; 2]) {
+        let [one, other] = pair.map(|group| &self.outline.groups[group]);
+        let moved = self.moved(simd, pair[1], one.link) + ROUNDING;
+        let [center, from] = pair.map(|group| load(simd, &self.block.centers[group]));
+        if self.asked & !self.beyond(minus(center, from), moved + (one.radius + other.radius)) == 0
+        {
+            return;
+        }
+        self.place(simd, pair[0]);
+        self.place(simd, pair[1]);
+        for index in one.capsules.clone() {
+            let capsule = &self.outline.middles[index];
+            let own = self.axis(simd, index);
+            let ball = moved + (capsule.ball + other.radius);
+            if self.asked & !self.beyond(minus(center, own.middle), ball) == 0 {
+                continue;
+            }
+            for second in other.capsules.clone() {
+                let facing = &self.outline.middles[second];
+                let limit = moved + (capsule.radius + facing.radius);
+                let decided = own.from_axis(&self.axis(simd, second), limit, self.asked);
+                let left = self.asked & !decided.far;
+                if left != 0 {
+                    self.asked &= !(left & decided.near);
+                    self.settle_links(left & !decided.near, [index, second], limit);
+                }
+            }
+        }
+    }
+
+    /// Lanes in which a vector is longer than a limit.
+    #[inline(always)]
+    fn beyond<S: Simd>(&self, way: Point<S>, limit: Vector<S>) -> u64 {
+        dot(way, way).simd_gt(limit * limit).to_bitmask()
+    }
+
+    /// Look at a group of capsules and an obstacle.
+    #[inline(always)]
+    fn apart_of_obstacle<S: Simd>(&mut self, simd: S, group: usize, obstacle: usize) {
+        let own = &self.outline.groups[group];
+        let shape = &self.obstacles[obstacle].1;
+        let moved = self.moved(simd, group, 0) + (self.margin + ROUNDING);
+        let center = load(simd, &self.block.centers[group]);
+        if self.asked & !ball_beyond(shape, center, moved + own.radius) == 0 {
+            return;
+        }
+        self.place(simd, group);
+        for index in own.capsules.clone() {
+            let capsule = &self.outline.middles[index];
+            let limit = moved + capsule.radius;
+            let decided = from_shape(&self.axis(simd, index), shape, limit, self.asked);
+            let left = self.asked & !decided.far;
+            if left != 0 {
+                self.asked &= !(left & decided.near);
+                self.settle_obstacle(left & !decided.near, [index, obstacle], moved);
+            }
+        }
+    }
+
+    /// Decide lanes of two capsules that bounds leave open.
+    #[cold]
+    #[inline(never)]
+    fn settle_links<S: Simd>(&mut self, open: u64, [one, other]: [usize; 2], limit: Vector<S>) {
+        let radii = self.outline.middles[one].radius + self.outline.middles[other].radius;
+        for lane in bits(open) {
+            let own = self.block.capsule(self.outline, one, lane);
+            let apart = own.separation(&self.block.capsule(self.outline, other, lane));
+            if apart.distance <= limit.as_array()[lane] - radii {
+                self.asked &= !(1 << lane);
+            }
+        }
+    }
+
+    /// Decide lanes of a capsule and an obstacle that bounds leave open.
+    #[cold]
+    #[inline(never)]
+    fn settle_obstacle<S: Simd>(&mut self, open: u64, [own, at]: [usize; 2], least: Vector<S>) {
+        for lane in bits(open) {
+            let capsule = self.block.capsule(self.outline, own, lane);
+            if self.obstacles[at].1.separation(&capsule).distance <= least.as_array()[lane] {
+                self.asked &= !(1 << lane);
+            }
+        }
+    }
+}
+
+/// The numbers of the lanes in bits.
+fn bits(bits: u64) -> impl Iterator<Item = usize> {
+    (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
+}
+
+#[inline(always)]
+fn store<S: Simd>(point: Point<S>, columns: &mut [Column; 3]) {
+    for index in 0..3 {
+        point[index].store_array(&mut columns[index]);
+    }
+}
+
+/// Lanes in which a ball is apart from a shape, or from the ball around the shape; a limit is its
+/// radius and more [m].
+#[inline(always)]
+fn ball_beyond<S: Simd>(shape: &Shape, center: Point<S>, limit: Vector<S>) -> u64 {
+    let simd = limit.token();
+    match shape {
+        Shape::HalfSpace { normal, offset } => {
+            dot(center, constant(simd, normal)).simd_gt(limit + *offset).to_bitmask()
+        }
+        Shape::Box { pose, half } => {
+            let local = in_frame(minus(center, constant(simd, &pose.translation.vector)), pose);
+            let way = minus(local, Solid::Box((*half).into()).nearest(local));
+            dot(way, way).simd_gt(limit * limit).to_bitmask()
+        }
+        _ => match shape.ball() {
+            Some((around, radius)) => {
+                let way = minus(center, constant(simd, &around));
+                let limit = limit + radius;
+                dot(way, way).simd_gt(limit * limit).to_bitmask()
+            }
+            None => 0,
+        },
+    }
+}
+
+/// Compare the distance of an axis from a shape with a limit [m], in the lanes that are asked.
+#[inline(always)]
+fn from_shape<S: Simd>(axis: &Axis<S>, shape: &Shape, limit: Vector<S>, asked: u64) -> Decided {
+    let simd = limit.token();
+    match shape {
+        Shape::Capsule(own) => {
+            axis.from_axis(&Axis::of(simd, &Middle::of(own)), limit + own.radius, asked)
+        }
+        Shape::Box { pose, half } => {
+            axis.from_solid(&Solid::Box((*half).into()), pose, limit, asked)
+        }
+        Shape::Cylinder { pose, radius, half } => {
+            axis.from_solid(&Solid::Cylinder([*radius, *half]), pose, limit, asked)
+        }
+        Shape::HalfSpace { normal, offset } => {
+            let normal = constant(simd, normal);
+            let lowest = dot(axis.middle, normal) - dot(axis.half, normal).size();
+            let far = lowest.simd_gt(limit + *offset).to_bitmask();
+            Decided { far, near: !far }
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Motions in a cell: free all the way, or the first instant at which something touches.
+//!
+//! Boxes of joint angles that contain parts of the motion are proven free (docs/theory/cell.md,
+//! eq. 2), eight at a time; a part that is not is halved.
+
+use alloc::vec::Vec;
+
+use super::pairs::pairs;
+use super::placed::Placed;
+use super::postures::{Cell, Nearest};
+use crate::error::Error;
+use crate::kinematics::{Robot, check_seed};
+use crate::lanes::LANES;
+use crate::trajectory::Trajectory;
+
+/// What comes nearer than this counts as touching in a motion [m]: it bounds the halvings.
+pub const RESOLUTION: f64 = 1e-4;
+
+/// Postures at which the depth of a contact is measured, until the end of the piece.
+const SAMPLES: u32 = 16;
+
+/// A motion in pieces.
+trait Motion<const N: usize> {
+    /// Number of pieces.
+    fn pieces(&self) -> usize;
+
+    /// When it is at a part of a piece.
+    fn instant(&self, piece: usize, part: f64) -> f64;
+
+    /// A box that contains the joint angles of a piece from one part of it to another, by its middle
+    /// and how far it goes to either side [rad]; a part is from 0 to 1.
+    fn range(&self, piece: usize, part: [f64; 2]) -> ([f64; N], [f64; N]);
+}
+
+/// Joint vectors, each joint moving evenly from one to the next.
+impl<const N: usize> Motion<N> for [[f64; N]] {
+    fn pieces(&self) -> usize {
+        // A single joint vector rests.
+        if self.len() == 1 { 1 } else { self.len().saturating_sub(1) }
+    }
+
+    #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 joint vectors")]
+    fn instant(&self, piece: usize, part: f64) -> f64 {
+        piece as f64 + part
+    }
+
+    fn range(&self, piece: usize, [from, to]: [f64; 2]) -> ([f64; N], [f64; N]) {
+        let (first, last) = (&self[piece], &self[(piece + 1).min(self.len() - 1)]);
+        let (part, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let way: [f64; N] = core::array::from_fn(|joint| last[joint] - first[joint]);
+        let middle = core::array::from_fn(|joint| first[joint] + part * way[joint]);
+        (middle, way.map(|way| half * way.abs()))
+    }
+}
+
+impl<const N: usize> Motion<N> for Trajectory {
+    fn pieces(&self) -> usize {
+        self.pieces()
+    }
+
+    fn instant(&self, piece: usize, part: f64) -> f64 {
+        self.time(piece, part)
+    }
+
+    fn range(&self, piece: usize, part: [f64; 2]) -> ([f64; N], [f64; N]) {
+        let ranges: [_; N] = core::array::from_fn(|joint| self.hull(joint, piece, part));
+        (ranges.map(|[low, high]| 0.5 * (low + high)), ranges.map(|[low, high]| 0.5 * (high - low)))
+    }
+}
+
+/// Where a motion first touches something.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact<const N: usize> {
+    /// When: the index of the joint vector before it, plus the part of the way to the next one that
+    /// is behind; of a trajectory the time [s].
+    pub at: f64,
+    /// The joint angles there [rad].
+    pub q: [f64; N],
+    /// What is nearest there.
+    pub nearest: Nearest,
+    /// How deep the two get into each other, or into the margin, on this piece [m].
+    pub depth: f64,
+}
+
+/// A part of a piece that is not proven free yet.
+#[derive(Clone, Copy)]
+struct Part {
+    piece: usize,
+    part: [f64; 2],
+}
+
+impl Part {
+    fn halves(self) -> [Self; 2] {
+        let Self { piece, part: [from, to] } = self;
+        let middle = 0.5 * (from + to);
+        [Self { piece, part: [from, middle] }, Self { piece, part: [middle, to] }]
+    }
+}
+
+impl Cell {
+    /// Where a motion first collides or comes nearer than [`RESOLUTION`] to a collision; `None` if
+    /// it is proven that it does not, at no instant.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::collides`].
+    pub fn check_path<const N: usize>(
+        &self,
+        robot: &Robot<N>,
+        q: &[[f64; N]],
+    ) -> Result<Option<Contact<N>>, Error> {
+        q.iter().try_for_each(|q| check_seed("q", q))?;
+        self.check_motion(robot, q)
+    }
+
+    /// [`Self::check_path`] along a trajectory.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::check_path`]; [`Error::WrongLength`] if the trajectory has another number of
+    /// joints.
+    pub fn check_trajectory<const N: usize>(
+        &self,
+        robot: &Robot<N>,
+        trajectory: &Trajectory,
+    ) -> Result<Option<Contact<N>>, Error> {
+        let found = trajectory.dof();
+        if found != N {
+            return Err(Error::WrongLength { field: "trajectory", found, wanted: N });
+        }
+        self.check_motion(robot, trajectory)
+    }
+
+    fn check_motion<const N: usize, M: Motion<N> + ?Sized>(
+        &self,
+        robot: &Robot<N>,
+        motion: &M,
+    ) -> Result<Option<Contact<N>>, Error> {
+        let mut placed = Placed::of(robot)?;
+        let Some(Part { piece, part }) = self.first_contact(&mut placed, motion) else {
+            return Ok(None);
+        };
+        let (q, _) = motion.range(piece, part);
+        let Some(first) = self.deepest(&placed, &q) else { return Ok(None) };
+        let mut depth = self.depth(&first);
+        for sample in 0..=SAMPLES {
+            let part = part[0] + (1.0 - part[0]) * f64::from(sample) / f64::from(SAMPLES);
+            let (q, _) = motion.range(piece, [part; 2]);
+            let later = pairs(&placed, self.obstacles(), &q);
+            let later = later.filter(|pair| pair.link == first.link && pair.other == first.other);
+            depth = later.map(|pair| self.depth(&pair)).fold(depth, f64::max);
+        }
+        let at = motion.instant(piece, 0.5 * (part[0] + part[1]));
+        Ok(Some(Contact { at, q, nearest: self.named(&first), depth }))
+    }
+
+    /// The first part of a motion that is not free, as short as the resolution asks.
+    fn first_contact<const N: usize, M: Motion<N> + ?Sized>(
+        &self,
+        placed: &mut Placed<'_, N>,
+        motion: &M,
+    ) -> Option<Part> {
+        let around = (self.obstacles(), self.margin());
+        if motion.pieces() == 0 {
+            return None;
+        }
+        let start = Part { piece: 0, part: [0.0, 0.0] };
+        if placed.touching(around, &[motion.range(start.piece, start.part).0], None) != 0 {
+            return Some(start);
+        }
+        let mut contact = None;
+        // The first part is the last one here.
+        let whole = |piece| Part { piece, part: [0.0, 1.0] };
+        let mut left: Vec<Part> = (0..motion.pieces()).rev().map(whole).collect();
+        while !left.is_empty() {
+            let next = left.split_off(left.len().saturating_sub(LANES));
+            let (mut q, mut spans) = ([[0.0; N]; LANES], [[0.0; N]; LANES]);
+            for (lane, own) in next.iter().enumerate() {
+                (q[lane], spans[lane]) = motion.range(own.piece, own.part);
+            }
+            let count = next.len();
+            let touching = placed.touching(around, &q[..count], Some(&spans[..count]));
+            for (lane, own) in next.iter().enumerate().filter(|(lane, _)| touching >> lane & 1 == 1)
+            {
+                if placed.most_motion(spans[lane]) <= RESOLUTION {
+                    contact = Some(*own);
+                    left.clear();
+                } else {
+                    let [first, second] = own.halves();
+                    left.extend([second, first]);
+                }
+            }
+        }
+        contact
+    }
+}
