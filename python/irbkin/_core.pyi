@@ -45,6 +45,7 @@ __all__ = [
     "Break",
     "CatalogEntry",
     "Cell",
+    "CellContact",
     "CellDistance",
     "Configuration",
     "ConfigurationBatch",
@@ -355,6 +356,30 @@ class ConfigurationBatch(_Record):
         cf6: npt.NDArray[np.int32],
         cfx: npt.NDArray[np.int32],
     ) -> ConfigurationBatch: ...
+
+@final
+class CellContact(_Record):
+    """Where a motion first touches something."""
+
+    @property
+    def at(self) -> float:
+        """When: the index of the row before it, plus the part of the way to the next row that is
+        behind; of a trajectory the time [s].
+        """
+    @property
+    def q(self) -> _Floats:
+        """The joint angles there [rad], shape (n,)."""
+    @property
+    def pair(self) -> tuple[str, str]:
+        """The names of the two that touch: "link 3", "table"."""
+    @property
+    def depth(self) -> float:
+        """How deep the two get into each other, or into the margin, before the next row or knot
+        [m].
+        """
+    def __new__(
+        cls, at: float, q: _Floats, pair: tuple[str, str], depth: float
+    ) -> CellContact: ...
 
 @final
 class CellDistance(_Record):
@@ -2718,6 +2743,29 @@ class Cell:
         Raises:
             InvalidJointsError: A wrong shape, or joints that are not finite.
             InvalidModelError: The robot has no body.
+        """
+    def check_path(
+        self, robot: Robot, motion: npt.ArrayLike | Trajectory
+    ) -> CellContact | None:
+        """Where a motion first touches something, between its samples too: `None` if it is proven
+        that it never does.
+
+        Between two rows each joint moves evenly. Parts of the motion are proven by bounds of how
+        far the links move, and halved where that fails; what comes nearer than 0.1 mm to a
+        collision counts as one.
+
+        Args:
+            robot: The arm.
+            motion: Joint angles [rad], shape (m, n), or a `Trajectory`.
+
+        Returns:
+            CellContact: the first instant, the joint angles, the two that touch, the depth; or
+            None.
+
+        Raises:
+            InvalidJointsError: A wrong shape, or joints that are not finite.
+            InvalidModelError: The robot has no body.
+            ValueError: A trajectory of another number of joints.
         """
     def __reduce__(self) -> tuple[Callable[[str, bytes], Any], tuple[str, bytes]]: ...
 

@@ -13,6 +13,7 @@ from typing import Any
 from irbkin._core import (
     Break,
     CatalogEntry,
+    CellContact,
     CellDistance,
     Configuration,
     ConfigurationBatch,
@@ -35,6 +36,7 @@ __all__ = [
     "Break",
     "BreakReason",
     "CatalogEntry",
+    "CellContact",
     "CellDistance",
     "Configuration",
     "ConfigurationBatch",

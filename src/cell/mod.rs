@@ -2,11 +2,13 @@
 
 mod apart;
 mod block;
+mod obstacles;
 mod pairs;
 mod path;
 mod placed;
 mod postures;
 
+pub use obstacles::Cell;
 pub use path::{Contact, RESOLUTION};
 pub(crate) use placed::Placed;
-pub use postures::{Cell, Near, Nearest};
+pub use postures::{Near, Nearest};

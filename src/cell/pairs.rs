@@ -1,16 +1,16 @@
 //! What is compared with what at a posture, and how far apart it is.
 
-use alloc::string::String;
-
+use super::obstacles::Cell;
 use super::placed::Placed;
-use crate::body::{Separation, Shape};
+use crate::body::{Capsule, Separation};
 
-/// A link and something else, with their nearest points.
+/// A capsule of a link and what it is compared with.
 #[derive(Clone, Copy)]
 pub(super) struct Pair {
     pub(super) link: usize,
     pub(super) other: Other,
-    pub(super) apart: Separation,
+    /// The places of the link's capsule and of the other's, or of the obstacle.
+    places: [usize; 2],
 }
 
 /// What a link is compared with: a link, or an obstacle by its place.
@@ -20,30 +20,56 @@ pub(super) enum Other {
     Obstacle(usize),
 }
 
-/// The links and obstacles that are compared, with their nearest points.
-pub(super) fn pairs<const N: usize>(
-    placed: &Placed<'_, N>,
-    obstacles: &[(String, Shape)],
-    q: &[f64; N],
-) -> impl Iterator<Item = Pair> {
-    let (outline, capsules) = (&placed.outline, placed.capsules(q));
-    let of_links = outline.pairs.iter().flat_map(|[one, other]| {
-        let [one, other] = [&outline.groups[*one], &outline.groups[*other]];
-        let both = one.capsules.clone().flat_map(|a| other.capsules.clone().map(move |b| [a, b]));
-        both.map(|pair| (one.link, Other::Link(other.link), pair))
-    });
-    let moving = outline.groups.iter().filter(|group| group.link > 0);
-    let around = moving.flat_map(move |group| {
-        let own = group.capsules.clone();
-        own.flat_map(move |a| {
-            (0..obstacles.len()).map(move |at| (group.link, Other::Obstacle(at), [a, at]))
-        })
-    });
-    of_links.chain(around).map(move |(link, other, [own, at])| {
-        let apart = match other {
+impl Cell {
+    /// All that is compared.
+    pub(super) fn pairs<const N: usize>(
+        &self,
+        placed: &Placed<'_, N>,
+    ) -> impl Iterator<Item = Pair> {
+        let outline = &placed.outline;
+        let of_links = outline.pairs.iter().flat_map(|pair| {
+            let [one, other] = pair.map(|group| &outline.groups[group]);
+            let both = one.capsules.clone();
+            let both = both.flat_map(|a| other.capsules.clone().map(move |b| [a, b]));
+            both.map(|places| Pair { link: one.link, other: Other::Link(other.link), places })
+        });
+        let around = (0..self.obstacles().len()).flat_map(move |at| {
+            let groups = outline.groups.iter().filter(move |group| self.compares(at, group.link));
+            groups.flat_map(move |group| {
+                let (link, other) = (group.link, Other::Obstacle(at));
+                group.capsules.clone().map(move |own| Pair { link, other, places: [own, at] })
+            })
+        });
+        of_links.chain(around)
+    }
+
+    /// How far a pair is apart, by the capsules at a posture.
+    pub(super) fn separation(&self, pair: &Pair, capsules: &[Capsule]) -> Separation {
+        let [own, at] = pair.places;
+        match pair.other {
             Other::Link(_) => capsules[own].separation(&capsules[at]),
-            Other::Obstacle(_) => obstacles[at].1.separation(&capsules[own]),
-        };
-        Pair { link, other, apart }
-    })
+            Other::Obstacle(_) => self.obstacles()[at].1.separation(&capsules[own]),
+        }
+    }
+
+    /// How deep two are in each other or, with an obstacle, in the margin [m].
+    pub(super) fn depth(&self, other: Other, apart: &Separation) -> f64 {
+        match other {
+            Other::Link(_) => -apart.distance,
+            Other::Obstacle(_) => self.margin() - apart.distance,
+        }
+    }
+
+    /// The pair that is deepest in each other or in the margin; if nothing touches, the pair that is
+    /// next to it.
+    pub(super) fn deepest<const N: usize>(
+        &self,
+        placed: &Placed<'_, N>,
+        q: &[f64; N],
+    ) -> Option<(Pair, Separation)> {
+        let capsules = placed.capsules(q);
+        let measured = self.pairs(placed).map(|pair| (pair, self.separation(&pair, &capsules)));
+        let depth = |(pair, apart): &(Pair, Separation)| self.depth(pair.other, apart);
+        measured.max_by(|a, b| depth(a).total_cmp(&depth(b)))
+    }
 }

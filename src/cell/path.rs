@@ -5,9 +5,9 @@
 
 use alloc::vec::Vec;
 
-use super::pairs::pairs;
+use super::obstacles::Cell;
 use super::placed::Placed;
-use super::postures::{Cell, Nearest};
+use super::postures::Nearest;
 use crate::error::Error;
 use crate::kinematics::{Robot, check_seed};
 use crate::lanes::LANES;
@@ -141,17 +141,19 @@ impl Cell {
             return Ok(None);
         };
         let (q, _) = motion.range(piece, part);
-        let Some(first) = self.deepest(&placed, &q) else { return Ok(None) };
-        let mut depth = self.depth(&first);
+        let Some((first, apart)) = self.deepest(&placed, &q) else { return Ok(None) };
+        let mut depth = self.depth(first.other, &apart);
         for sample in 0..=SAMPLES {
             let part = part[0] + (1.0 - part[0]) * f64::from(sample) / f64::from(SAMPLES);
-            let (q, _) = motion.range(piece, [part; 2]);
-            let later = pairs(&placed, self.obstacles(), &q);
-            let later = later.filter(|pair| pair.link == first.link && pair.other == first.other);
-            depth = later.map(|pair| self.depth(&pair)).fold(depth, f64::max);
+            let capsules = placed.capsules(&motion.range(piece, [part; 2]).0);
+            let pairs = self.pairs(&placed);
+            let of_two = pairs.filter(|pair| pair.link == first.link && pair.other == first.other);
+            let depths =
+                of_two.map(|pair| self.depth(pair.other, &self.separation(&pair, &capsules)));
+            depth = depths.fold(depth, f64::max);
         }
         let at = motion.instant(piece, 0.5 * (part[0] + part[1]));
-        Ok(Some(Contact { at, q, nearest: self.named(&first), depth }))
+        Ok(Some(Contact { at, q, nearest: self.named(first, &apart), depth }))
     }
 
     /// The first part of a motion that is not free, as short as the resolution asks.

@@ -1,23 +1,15 @@
-//! A cell, and what an arm touches in it at single postures.
+//! What an arm touches in a cell at single postures.
 
 use alloc::string::{String, ToString as _};
-use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::fmt;
 
-use super::pairs::{Other, Pair, pairs};
+use super::obstacles::Cell;
+use super::pairs::{Other, Pair};
 use super::placed::Placed;
-use crate::body::{Shape, check_length};
+use crate::body::Separation;
 use crate::error::{BodyFault, Error};
 use crate::kinematics::{Pose, Robot, Solution, check_seed};
-
-/// Obstacles in the frame of the world, and a margin around them.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Cell {
-    obstacles: Vec<(String, Shape)>,
-    margin: f64,
-}
 
 /// Something that a link is near to.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,34 +44,6 @@ pub struct Nearest {
 }
 
 impl Cell {
-    /// A cell with named obstacles, from which the arm is to stay at least `margin` [m].
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidBody`] for two obstacles of one name, and a margin that is negative or not
-    /// finite.
-    pub fn new(obstacles: Vec<(String, Shape)>, margin: f64) -> Result<Self, Error> {
-        check_length("margin", margin, 0.0)?;
-        for (index, (name, _)) in obstacles.iter().enumerate() {
-            if obstacles[..index].iter().any(|(other, _)| other == name) {
-                return Err(BodyFault::TwoNames { index }.into());
-            }
-        }
-        Ok(Self { obstacles, margin })
-    }
-
-    /// The obstacles, with their names.
-    #[must_use]
-    pub fn obstacles(&self) -> &[(String, Shape)] {
-        &self.obstacles
-    }
-
-    /// How far the arm is to stay from the obstacles [m].
-    #[must_use]
-    pub fn margin(&self) -> f64 {
-        self.margin
-    }
-
     /// Whether the arm touches itself, or comes nearer to an obstacle than the margin. Link 0, on
     /// which the arm stands, is not compared with obstacles.
     ///
@@ -107,7 +71,7 @@ impl Cell {
         placed: &mut Placed<'_, N>,
         q: &[[f64; N]],
     ) -> u64 {
-        placed.touching((&self.obstacles, self.margin), q, None)
+        placed.touching((self.obstacles(), self.margin()), q, None)
     }
 
     /// The link and the other link or obstacle that are nearest; `None` if there is nothing to
@@ -123,39 +87,21 @@ impl Cell {
     ) -> Result<Option<Nearest>, Error> {
         check_seed("q", q)?;
         let placed = Placed::of(robot)?;
-        let pairs = pairs(&placed, &self.obstacles, q);
-        let least = pairs.min_by(|a, b| a.apart.distance.total_cmp(&b.apart.distance));
-        Ok(least.map(|pair| self.named(&pair)))
+        let capsules = placed.capsules(q);
+        let pairs = self.pairs(&placed).map(|pair| (pair, self.separation(&pair, &capsules)));
+        let least = pairs.min_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance));
+        Ok(least.map(|(pair, apart)| self.named(pair, &apart)))
     }
 
-    /// The pair that is deepest in each other or in the margin; if nothing touches, the pair that is
-    /// next to it.
-    pub(super) fn deepest<const N: usize>(
-        &self,
-        placed: &Placed<'_, N>,
-        q: &[f64; N],
-    ) -> Option<Pair> {
-        let pairs = pairs(placed, &self.obstacles, q);
-        pairs.max_by(|a, b| self.depth(a).total_cmp(&self.depth(b)))
-    }
-
-    /// How deep a pair is in each other or in the margin [m].
-    pub(super) fn depth(&self, pair: &Pair) -> f64 {
-        match pair.other {
-            Other::Link(_) => -pair.apart.distance,
-            Other::Obstacle(_) => self.margin - pair.apart.distance,
-        }
-    }
-
-    pub(super) fn named(&self, pair: &Pair) -> Nearest {
+    pub(super) fn named(&self, pair: Pair, apart: &Separation) -> Nearest {
         Nearest {
-            distance: pair.apart.distance,
+            distance: apart.distance,
             link: pair.link,
             near: match pair.other {
                 Other::Link(link) => Near::Link(link),
-                Other::Obstacle(at) => Near::Obstacle(self.obstacles[at].0.clone()),
+                Other::Obstacle(at) => Near::Obstacle(self.obstacles()[at].0.clone()),
             },
-            points: pair.apart.points.map(Into::into),
+            points: apart.points.map(Into::into),
         }
     }
 
@@ -188,8 +134,10 @@ impl Cell {
 
     /// The error of joints that collide.
     fn collision<const N: usize>(&self, placed: &Placed<'_, N>, q: &[f64; N]) -> Error {
-        let Some(pair) = self.deepest(placed, q) else { return BodyFault::NoBody.into() };
-        let Nearest { link, near, .. } = self.named(&pair);
-        Error::Collides { link, other: near.to_string(), depth: self.depth(&pair) }
+        let Some((pair, apart)) = self.deepest(placed, q) else {
+            return BodyFault::NoBody.into();
+        };
+        let Nearest { link, near, .. } = self.named(pair, &apart);
+        Error::Collides { link, other: near.to_string(), depth: self.depth(pair.other, &apart) }
     }
 }

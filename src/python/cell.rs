@@ -7,13 +7,14 @@ use pyo3::types::{PyDict, PyTuple};
 use super::arguments::thread_count;
 use super::arm::{Arm, on};
 use super::outputs::{Output, array};
-use super::records::CellDistance;
+use super::records::{CellContact, CellDistance};
 use super::robot::PyRobot;
 use super::shapes::PyShape;
 use super::signals::detached;
 use super::state::{Reduced, reduced};
 use super::targets::checked_joints;
-use crate::cell::{Cell, Near, Nearest};
+use super::trajectory::PyTrajectory;
+use crate::cell::{Cell, Contact, Nearest};
 
 /// Obstacles around an arm: whether it touches them or itself.
 ///
@@ -137,6 +138,46 @@ impl PyCell {
         })
     }
 
+    /// Where a motion first touches something, between its samples too: `None` if it is proven
+    /// that it never does.
+    ///
+    /// Between two rows each joint moves evenly. Parts of the motion are proven by bounds of how
+    /// far the links move, and halved where that fails; what comes nearer than 0.1 mm to a
+    /// collision counts as one.
+    ///
+    /// Args:
+    ///     robot: The arm.
+    ///     motion: Joint angles [rad], shape (m, n), or a `Trajectory`.
+    ///
+    /// Returns:
+    ///     CellContact: the first instant, the joint angles, the two that touch, the depth; or
+    ///     None.
+    ///
+    /// Raises:
+    ///     InvalidJointsError: A wrong shape, or joints that are not finite.
+    ///     InvalidModelError: The robot has no body.
+    ///     ValueError: A trajectory of another number of joints.
+    fn check_path(
+        &self,
+        robot: &PyRobot,
+        motion: &Bound<'_, PyAny>,
+    ) -> PyResult<Option<CellContact>> {
+        let py = motion.py();
+        if let Ok(trajectory) = motion.cast::<PyTrajectory>() {
+            let trajectory = trajectory.get().motion();
+            return on!(robot.arm(), robot => {
+                let found = py.detach(|| self.0.check_trajectory(robot, trajectory))?;
+                found.map(|contact| contact_of(py, contact)).transpose()
+            });
+        }
+        let rows = robot.arm().joints(motion)?;
+        on!(robot.arm(), robot => {
+            let q = checked_joints("motion", &rows)?;
+            let found = py.detach(|| self.0.check_path(robot, q))?;
+            found.map(|contact| contact_of(py, contact)).transpose()
+        })
+    }
+
     fn __repr__(&self) -> String {
         let names: Vec<_> = self.0.obstacles().iter().map(|(name, _)| name.as_str()).collect();
         format!("<Cell: {} obstacles {names:?}, margin {} m>", names.len(), self.0.margin())
@@ -150,10 +191,15 @@ impl PyCell {
 /// The names of a pair; empty ones without a pair.
 fn names(nearest: Option<&Nearest>) -> (String, String) {
     nearest.map_or_else(Default::default, |nearest| {
-        let other = match &nearest.near {
-            Near::Link(link) => format!("link {link}"),
-            Near::Obstacle(name) => name.clone(),
-        };
-        (format!("link {}", nearest.link), other)
+        (format!("link {}", nearest.link), nearest.near.to_string())
+    })
+}
+
+fn contact_of<const N: usize>(py: Python<'_>, contact: Contact<N>) -> PyResult<CellContact> {
+    Ok(CellContact {
+        at: contact.at,
+        q: array(py, contact.q, &[N])?,
+        pair: names(Some(&contact.nearest)),
+        depth: contact.depth,
     })
 }

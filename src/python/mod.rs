@@ -51,8 +51,8 @@ use self::arm::{Arm, on};
 use self::cell::PyCell;
 use self::errors::Fault;
 use self::records::{
-    Break, CatalogEntry, CellDistance, ConfigurationBatch, FollowResult, FreeJoint, IkBatch,
-    IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd,
+    Break, CatalogEntry, CellContact, CellDistance, ConfigurationBatch, FollowResult, FreeJoint,
+    IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd,
     ToolSpeedLimits, TrajectorySample,
 };
 use self::robot::PyRobot;
@@ -144,7 +144,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
         robot::PyRobot, solutions::PySolutions, solution::PySolution, Configuration,
         trajectory::PyTrajectory, Break, CatalogEntry, ConfigurationBatch, FollowResult, FreeJoint,
         IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd,
-        ToolSpeedLimits, TrajectorySample, PyShape, PyBody, PyCell, CellDistance,
+        ToolSpeedLimits, TrajectorySample, PyShape, PyBody, PyCell, CellContact, CellDistance,
     ], functions [
         catalog::catalog, catalog::catalog_entry, instruction_set, instruction_sets,
         use_instruction_set, restore, poses::pose, poses::to_xyz_wxyz,

@@ -122,6 +122,23 @@ record! {
 
 record! {
     "irbkin.records";
+    /// Where a motion first touches something.
+    CellContact {
+        /// When: the index of the row before it, plus the part of the way to the next row that is
+        /// behind; of a trajectory the time [s].
+        at: f64,
+        /// The joint angles there [rad], shape (n,).
+        q: Array,
+        /// The names of the two that touch: "link 3", "table".
+        pair: (String, String),
+        /// How deep the two get into each other, or into the margin, before the next row or knot
+        /// [m].
+        depth: f64,
+    }
+}
+
+record! {
+    "irbkin.records";
     /// How far joint vectors are from limits and singularities, each as a part of the farthest that
     /// they can be: 1 in the middle, 0 at one, negative outside limits.
     Margin {

@@ -48,6 +48,10 @@ impl PyTrajectory {
         Self::new(py, motion, times)
     }
 
+    pub(super) fn motion(&self) -> &Trajectory {
+        &self.motion
+    }
+
     fn times(&self, py: Python<'_>) -> PyResult<Vec<f64>> {
         Ok(self.t.bind(py).to_vec()?)
     }
