@@ -1276,8 +1276,9 @@ class Robot:
             accept: Your own test, of collisions for instance: called with joint vectors of shape
                 (k, n), it returns k truth values. It is asked only for joint vectors near the best
                 path, and once for those that differ by full turns.
-            cell: An `irbkin.Cell` in which no joint vector of the plan may collide; not with a
-                carrier, which moves the base. The motion between the poses is not tested.
+            cell: An `irbkin.Cell` in which the plan is proven free (`Cell.check_path`): at the
+                poses and between them, each joint moving evenly from one to the next; not with a
+                carrier, which moves the base.
             carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
                 them. Their steps count for bottleneck and cost as steps of joints do.
             tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an

@@ -3,6 +3,7 @@
 //! Boxes of joint angles that contain parts of the motion are proven free (docs/theory/cell.md,
 //! eq. 2), eight at a time; a part that is not is halved.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::obstacles::Cell;
@@ -90,10 +91,11 @@ struct Part {
 }
 
 impl Part {
+    /// Its halves, the first one last.
     fn halves(self) -> [Self; 2] {
         let Self { piece, part: [from, to] } = self;
         let middle = 0.5 * (from + to);
-        [Self { piece, part: [from, middle] }, Self { piece, part: [middle, to] }]
+        [Self { piece, part: [middle, to] }, Self { piece, part: [from, middle] }]
     }
 }
 
@@ -162,37 +164,91 @@ impl Cell {
         placed: &mut Placed<'_, N>,
         motion: &M,
     ) -> Option<Part> {
-        let around = (self.obstacles(), self.margin());
         if motion.pieces() == 0 {
             return None;
         }
         let start = Part { piece: 0, part: [0.0, 0.0] };
-        if placed.touching(around, &[motion.range(start.piece, start.part).0], None) != 0 {
+        if self.collides_at(placed, &motion.range(start.piece, start.part).0) {
             return Some(start);
         }
         let mut contact = None;
         // The first part is the last one here.
-        let whole = |piece| Part { piece, part: [0.0, 1.0] };
-        let mut left: Vec<Part> = (0..motion.pieces()).rev().map(whole).collect();
+        let mut left = whole(motion.pieces());
         while !left.is_empty() {
             let next = left.split_off(left.len().saturating_sub(LANES));
-            let (mut q, mut spans) = ([[0.0; N]; LANES], [[0.0; N]; LANES]);
-            for (lane, own) in next.iter().enumerate() {
-                (q[lane], spans[lane]) = motion.range(own.piece, own.part);
-            }
-            let count = next.len();
-            let touching = placed.touching(around, &q[..count], Some(&spans[..count]));
-            for (lane, own) in next.iter().enumerate().filter(|(lane, _)| touching >> lane & 1 == 1)
-            {
-                if placed.most_motion(spans[lane]) <= RESOLUTION {
-                    contact = Some(*own);
-                    left.clear();
-                } else {
-                    let [first, second] = own.halves();
-                    left.extend([second, first]);
+            for (own, verdict) in next.iter().zip(self.verdicts(placed, motion, &next)) {
+                match verdict {
+                    Verdict::Free => {}
+                    Verdict::Open => left.extend(own.halves()),
+                    Verdict::Contact => {
+                        contact = Some(*own);
+                        left.clear();
+                    }
                 }
             }
         }
         contact
     }
+
+    /// Whether the motion from each joint vector to the next one is free.
+    pub(crate) fn free_motions<const N: usize>(
+        &self,
+        placed: &mut Placed<'_, N>,
+        q: &[[f64; N]],
+    ) -> Vec<bool> {
+        let mut free = vec![true; q.len().saturating_sub(1)];
+        let mut left = whole(free.len());
+        while !left.is_empty() {
+            let next = left.split_off(left.len().saturating_sub(LANES));
+            for (own, verdict) in next.iter().zip(self.verdicts(placed, q, &next)) {
+                match verdict {
+                    Verdict::Open if free[own.piece] => left.extend(own.halves()),
+                    Verdict::Contact => free[own.piece] = false,
+                    _ => {}
+                }
+            }
+        }
+        free
+    }
+
+    /// Look at up to eight parts of a motion.
+    fn verdicts<const N: usize, M: Motion<N> + ?Sized>(
+        &self,
+        placed: &mut Placed<'_, N>,
+        motion: &M,
+        parts: &[Part],
+    ) -> [Verdict; LANES] {
+        let (mut q, mut spans) = ([[0.0; N]; LANES], [[0.0; N]; LANES]);
+        for (lane, own) in parts.iter().enumerate() {
+            (q[lane], spans[lane]) = motion.range(own.piece, own.part);
+        }
+        let around = (self.obstacles(), self.margin());
+        let (q, some) = (&q[..parts.len()], &spans[..parts.len()]);
+        let touching = placed.touching(around, q, Some(some));
+        core::array::from_fn(|lane| {
+            if touching >> lane & 1 == 0 {
+                Verdict::Free
+            } else if placed.most_motion(spans[lane]) <= RESOLUTION {
+                Verdict::Contact
+            } else {
+                Verdict::Open
+            }
+        })
+    }
+}
+
+/// All pieces, the first one last.
+fn whole(pieces: usize) -> Vec<Part> {
+    (0..pieces).rev().map(|piece| Part { piece, part: [0.0, 1.0] }).collect()
+}
+
+/// What is known of a part of a motion.
+#[derive(Clone, Copy)]
+enum Verdict {
+    /// It is proven free.
+    Free,
+    /// It is not, and its halves may be.
+    Open,
+    /// It is not, and it is as short as the resolution asks.
+    Contact,
 }

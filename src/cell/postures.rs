@@ -1,6 +1,7 @@
 //! What an arm touches in a cell at single postures.
 
 use alloc::string::{String, ToString as _};
+use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::fmt;
 
@@ -10,6 +11,7 @@ use super::placed::Placed;
 use crate::body::Separation;
 use crate::error::{BodyFault, Error};
 use crate::kinematics::{Pose, Robot, Solution, check_seed};
+use crate::lanes::LANES;
 
 /// Something that a link is near to.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,6 +65,20 @@ impl Cell {
         q: &[f64; N],
     ) -> bool {
         self.colliding(placed, core::slice::from_ref(q)) != 0
+    }
+
+    /// Whether each joint vector is free.
+    pub(crate) fn free_postures<const N: usize>(
+        &self,
+        placed: &mut Placed<'_, N>,
+        q: &[[f64; N]],
+    ) -> Vec<bool> {
+        let mut free = Vec::with_capacity(q.len());
+        for q in q.chunks(LANES) {
+            let colliding = self.colliding(placed, q);
+            free.extend((0..q.len()).map(|lane| colliding >> lane & 1 == 0));
+        }
+        free
     }
 
     /// Which of up to eight joint vectors collide, as bits.

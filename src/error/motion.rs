@@ -229,6 +229,8 @@ pub enum PlanFault {
     Open { position: f64, rotation: f64, bound: f64 },
     #[error("closed: a closed path ends at its start: give start only, or leave closed out")]
     ClosedEnd,
+    #[error("cell and external axes do not go together: an axis moves the base; use accept")]
+    CellMoves,
     #[error("times give the pace of the path: leave them out, or max_acceleration")]
     TimedTwice,
     #[error(

@@ -99,7 +99,7 @@ pub enum StrandReason {
     Ended,
     /// The bound on the work was reached before the motion to that pose was known to be continuous.
     Unknown,
-    /// The caller's own test rejected it.
+    /// The caller's own test rejected it, or it collides.
     Rejected,
     /// It does not lead to the joint angles that were asked for at the end.
     NotAtEnd,
@@ -194,7 +194,7 @@ impl fmt::Display for StrandReason {
             Self::Unknown => f.write_str(
                 "the search was given up before the motion to this pose was known to be continuous",
             ),
-            Self::Rejected => f.write_str("rejected by accept"),
+            Self::Rejected => f.write_str("rejected by accept or cell"),
             Self::NotAtEnd => f.write_str("does not lead to the joint angles at the end"),
         }
     }

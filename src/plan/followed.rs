@@ -7,7 +7,8 @@ use core::f64::consts::PI;
 
 use super::answer::{Plan, PlanError};
 use super::certificate::HALF;
-use super::options::{Accept, PlanOptions, Watch};
+use super::options::{PlanOptions, Watch};
+use super::tested::Tests;
 use crate::error::Error;
 use crate::kinematics::thresholds::{
     CONTINUOUS_STEP, EXAMINED_STEP, LIMIT_TOLERANCE, PLAN_END_OFF,
@@ -28,7 +29,7 @@ impl Robot<7> {
         &self,
         path: &[Pose],
         options: &PlanOptions<7>,
-        mut accept: Option<&mut Accept<'_, 7>>,
+        tests: &mut Tests<'_, '_, 7>,
         watch: Watch<'_>,
     ) -> Result<Option<Plan<7>>, PlanError<7>> {
         let is_tool_free = options.rotation.is_some() || options.cone.is_some();
@@ -40,7 +41,8 @@ impl Robot<7> {
             let plan = self.plan_along(&q, options);
             if self.meets_options(&q, &plan, options)
                 && self.is_continuous(path, &q, &options.weights)?
-                && is_accepted(&q, &mut accept)?
+                && tests.postures(&q).ok_or(PlanError::Stopped)?.into_iter().all(|passed| passed)
+                && tests.motions(&q).into_iter().all(|passed| passed)
             {
                 return Ok(Some(plan));
             }
@@ -164,14 +166,4 @@ impl Robot<7> {
         };
         is_slow && is_at(options.start, &q[0]) && is_at(end, &q[q.len() - 1])
     }
-}
-
-/// Whether the caller accepts all joint vectors.
-fn is_accepted(
-    q: &[[f64; 7]],
-    accept: &mut Option<&mut Accept<'_, 7>>,
-) -> Result<bool, PlanError<7>> {
-    let Some(accept) = accept else { return Ok(true) };
-    let verdicts = accept(q).filter(|verdicts| verdicts.len() == q.len());
-    Ok(verdicts.ok_or(PlanError::Stopped)?.into_iter().all(|is_accepted| is_accepted))
 }

@@ -252,6 +252,8 @@ pub(super) struct Layer {
     pub(super) crossings: Vec<Edge>,
     /// Edges from the layer before that are not continuous.
     pub(super) refused: Vec<Edge>,
+    /// Edges of these whose motion does not pass its test.
+    pub(super) blocked: Vec<Edge>,
     /// Steps from the layer before, by their joint angles, that were shown to be continuous.
     pub(super) proven: Vec<[[f64; 6]; 2]>,
     /// Edges from the layer before with a larger bottleneck are not continuous; negative where the
@@ -276,6 +278,7 @@ impl Layer {
             turn: None,
             crossings: Vec::new(),
             refused: Vec::new(),
+            blocked: Vec::new(),
             proven: Vec::new(),
             cap: f64::INFINITY,
             is_examined: false,

@@ -48,6 +48,7 @@ mod robot;
 mod roughness;
 mod seven;
 mod smooth;
+mod tested;
 mod timed;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};

@@ -1,9 +1,11 @@
 //! The options of a plan, and the questions that it asks its caller.
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::axes::{ExternalAxis, ToolCone, ToolOffset, ToolRotation};
 use super::graph::Values;
+use crate::cell::Cell;
 use crate::error::{Error, MotionFault, PlanFault};
 use crate::kinematics::check_weights;
 use crate::kinematics::thresholds::MOST_EXTERNAL;
@@ -70,6 +72,9 @@ pub struct PlanOptions<const N: usize = 6> {
     /// [`retime`](crate::trajectory::retime). `None`: the plan is judged at an even pace, or at its
     /// times.
     pub max_acceleration: Option<Vec<f64>>,
+    /// What the arm must not touch: no joint vector collides, and no motion to the next one in which
+    /// each joint moves evenly. Not with external axes, which move the base.
+    pub cell: Option<Arc<Cell>>,
 }
 
 impl<const N: usize> Default for PlanOptions<N> {
@@ -91,6 +96,7 @@ impl<const N: usize> Default for PlanOptions<N> {
             limit_cost: 0.0,
             singularity_cost: 0.0,
             max_acceleration: None,
+            cell: None,
         }
     }
 }
@@ -162,12 +168,18 @@ const WATCHED: usize = 64;
 /// nothing to stop.
 pub type Accept<'a, const N: usize = 6> = dyn FnMut(&[[f64; N]]) -> Option<Vec<bool>> + 'a;
 
-/// The test of a caller, asked for the values of the free axes too.
-pub(super) type Ask<'a> = dyn FnMut(&[[f64; 6]], &[Values]) -> Option<Vec<bool>> + 'a;
+/// The tests of joint vectors, with the values of the free axes.
+pub(super) trait Test {
+    /// Whether each joint vector passes; nothing to stop.
+    fn postures(&mut self, q: &[[f64; 6]], values: &[Values]) -> Option<Vec<bool>>;
 
-/// A caller: its test of joint vectors, if it has one, and whether to go on.
-pub(super) struct Caller<'a, 'b> {
-    pub(super) accept: Option<&'a mut Ask<'b>>,
+    /// Whether the motion from each joint vector to the next one passes.
+    fn motions(&mut self, q: &[[f64; 6]], values: &[Values]) -> Vec<bool>;
+}
+
+/// A caller: its tests, if it has any, and whether to go on.
+pub(super) struct Caller<'a> {
+    pub(super) tests: Option<&'a mut dyn Test>,
     pub(super) watch: Watch<'a>,
 }
 

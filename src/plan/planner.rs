@@ -10,7 +10,7 @@ use super::graph::{Grid, Layer, Node, Waypoint};
 use super::joints::TurnStates;
 use super::ladder::{Ends, Ladder};
 use super::nodes::Arm;
-use super::options::{Ask, Caller, PlanOptions, PlanOrder};
+use super::options::{Caller, PlanOptions, PlanOrder, Test};
 use crate::error::{Error, PlanFault};
 use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_PLAN_NODES};
 use crate::kinematics::{largest, steps};
@@ -145,7 +145,7 @@ impl<'a> Planner<'a> {
     pub(super) fn proven_path(
         &mut self,
         from: usize,
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<Option<JointPath>, PlanError> {
         let mut reach = 1;
         loop {
@@ -293,9 +293,9 @@ impl<'a> Planner<'a> {
         &mut self,
         path: &JointPath,
         reach: usize,
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<bool, PlanError> {
-        let Some(accept) = &mut caller.accept else { return Ok(true) };
+        let Some(tests) = &mut caller.tests else { return Ok(true) };
         let grid = self.grid;
         let number = |step: usize| (path.from + step, grid.number(path.nodes[step]));
         let is_new = |layers: &[Layer], (layer, node): &(usize, usize)| -> bool {
@@ -304,9 +304,9 @@ impl<'a> Planner<'a> {
         let mut open: Vec<_> = (0..path.nodes.len()).map(number).collect();
         open.retain(|key| is_new(&self.layers, key));
         let q: Vec<_> = open.iter().map(|(layer, _)| path.q[layer - path.from]).collect();
-        let rejected = self.ask(&open, &q, accept)?;
+        let rejected = self.ask(&open, &q, *tests)?;
         if rejected.is_empty() {
-            return Ok(true);
+            return Ok(self.are_motions_accepted(path, *tests));
         }
         let mut around = Vec::new();
         for (layer, number) in &rejected {
@@ -324,8 +324,34 @@ impl<'a> Planner<'a> {
         around.sort_unstable_by_key(|(key, _)| *key);
         around.dedup_by_key(|(key, _)| *key);
         let (keys, q): (Vec<_>, Vec<_>) = around.into_iter().unzip();
-        self.ask(&keys, &q, accept)?;
+        self.ask(&keys, &q, *tests)?;
         Ok(false)
+    }
+
+    /// Whether all motions of a joint path pass their test; those that do not are refused. Motions
+    /// between poses with others in between are not the ones of the plan, so they are not looked
+    /// at.
+    fn are_motions_accepted(&mut self, path: &JointPath, tests: &mut dyn Test) -> bool {
+        let layers = &self.layers[path.from..][..path.nodes.len()];
+        let poses: Vec<usize> =
+            (0..layers.len()).filter(|at| layers[*at].index.is_some()).collect();
+        let q: Vec<_> = poses.iter().map(|at| path.q[*at]).collect();
+        let values = poses.iter().map(|at| layers[*at].values(&self.grid, path.nodes[*at].cell));
+        let passed = tests.motions(&q, &values.collect::<Vec<_>>());
+        let mut all = true;
+        for (ends, passed) in poses.windows(2).zip(passed) {
+            let [from, to] =
+                [ends[0], ends[1]].map(|at| self.layers[path.from + at].index.unwrap_or_default());
+            if passed || to != from + 1 {
+                continue;
+            }
+            all = false;
+            let at = path.from + ends[1];
+            let edge = [ends[1] - 1, ends[1]].map(|step| self.grid.number(path.nodes[step]));
+            self.layers[at].refused.push(edge);
+            self.layers[at].blocked.push(edge);
+        }
+        all
     }
 
     /// Ask the caller for nodes; take those away that are rejected, and return them.
@@ -333,7 +359,7 @@ impl<'a> Planner<'a> {
         &mut self,
         keys: &[(usize, usize)],
         q: &[[f64; 6]],
-        accept: &mut Ask<'_>,
+        tests: &mut dyn Test,
     ) -> Result<Vec<(usize, usize)>, PlanError> {
         if keys.is_empty() {
             return Ok(Vec::new());
@@ -342,7 +368,7 @@ impl<'a> Planner<'a> {
             self.layers[*layer].values(&self.grid, self.grid.node(*number).cell)
         };
         let values: Vec<_> = keys.iter().map(values).collect();
-        let verdicts = accept(q, &values).filter(|verdicts| verdicts.len() == q.len());
+        let verdicts = tests.postures(q, &values).filter(|verdicts| verdicts.len() == q.len());
         let verdicts = verdicts.ok_or(PlanError::Stopped)?;
         let mut rejected = Vec::new();
         for ((layer, number), is_accepted) in keys.iter().zip(verdicts) {

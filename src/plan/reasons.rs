@@ -71,6 +71,9 @@ impl Planner<'_> {
         }
         let edge = [first, to].map(|node| self.grid.number(node));
         let q = before.joints(&self.grid, first).unwrap_or_default();
+        if after.blocked.contains(&edge) {
+            return Ok(StrandReason::Rejected);
+        }
         if after.refused.contains(&edge) || largest(&steps) > CROSSING_JUMP {
             let joint = (0..6).max_by(|a, b| steps[*a].abs().total_cmp(&steps[*b].abs()));
             let joint = joint.unwrap_or_default();

@@ -47,7 +47,7 @@ pub(super) fn coarse_to_fine<'a>(
     arm: Arm<'a>,
     points: &[Waypoint],
     options: &PlanOptions,
-    caller: &mut Caller<'_, '_>,
+    caller: &mut Caller<'_>,
 ) -> Result<Option<(Planner<'a>, JointPath)>, PlanError> {
     if arm.freedom.axes.is_empty() || !is_long(points) {
         return Ok(None);
@@ -144,7 +144,7 @@ impl Planner<'_> {
     /// The best joint path, if it goes through all layers. From then on, no others are searched.
     pub(super) fn whole_path(
         &mut self,
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<Option<JointPath>, PlanError> {
         self.whole = true;
         self.proven_path(0, caller)
@@ -155,7 +155,7 @@ impl Planner<'_> {
     pub(super) fn path_within(
         &mut self,
         bottleneck: f64,
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<Option<JointPath>, PlanError> {
         let speed = self.speed;
         if self.order == PlanOrder::Bottleneck {
@@ -173,7 +173,7 @@ impl Planner<'_> {
     pub(super) fn refined(
         &mut self,
         mut path: JointPath,
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<JointPath, PlanError> {
         let axes = &self.arm.freedom.axes;
         let mut steps = self.grid.steps;
@@ -204,7 +204,7 @@ impl Planner<'_> {
         &mut self,
         mut path: JointPath,
         steps: &Values,
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<JointPath, PlanError> {
         let mut axes = self.arm.freedom.axes.iter().zip(steps);
         let moves = axes.any(|(axis, step)| *step > 0.0 && !axis.is_rotation());
@@ -296,7 +296,7 @@ impl Planner<'_> {
     fn polished(
         &mut self,
         mut path: JointPath,
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<JointPath, PlanError> {
         let axes = &self.arm.freedom.axes;
         let angle = self.steps_of_angle();

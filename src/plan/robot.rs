@@ -8,12 +8,13 @@ use super::answer::{NoPlan, Plan, PlanBreak, PlanError};
 use super::best::JointPath;
 use super::ends::Given;
 use super::freedom::Freedom;
-use super::graph::{Values, Waypoint};
+use super::graph::Waypoint;
 use super::joints::{NodeCost, PlannedJoints};
 use super::nodes::Arm;
-use super::options::{Accept, Caller, PlanOptions, Watch};
+use super::options::{Accept, Caller, PlanOptions, Test, Watch};
 use super::planner::Planner;
 use super::refine::coarse_to_fine;
+use super::tested::Tests;
 use super::timed::fastest;
 use super::work::Work;
 use crate::error::{Error, ModelFault, PlanFault};
@@ -66,11 +67,9 @@ impl Robot<6> {
         accept: Option<&mut Accept<'_>>,
         watch: Watch<'_>,
     ) -> Result<Plan, PlanError> {
-        let Some(accept) = accept else {
-            return self.planned_for(path, options, &mut Caller { accept: None, watch });
-        };
-        let ask = &mut |q: &[[f64; 6]], _: &[Values]| accept(q);
-        self.planned_for(path, options, &mut Caller { accept: Some(ask), watch })
+        let mut tests = Tests::new(self, options, accept)?;
+        let tests = tests.is_any().then_some(&mut tests as &mut dyn Test);
+        self.planned_for(path, options, &mut Caller { tests, watch })
     }
 
     /// [`Self::planned`], for a caller that is asked for free axes, too.
@@ -78,7 +77,7 @@ impl Robot<6> {
         &self,
         path: &[Pose],
         options: &PlanOptions,
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<Plan, PlanError> {
         options.check(path.len())?;
         if let Some(reason) = self.unknown_structure() {
@@ -142,7 +141,7 @@ fn reached_from_the_end(
     arm: Arm<'_>,
     path: &[Pose],
     options: &PlanOptions,
-    caller: &mut Caller<'_, '_>,
+    caller: &mut Caller<'_>,
 ) -> Result<usize, PlanError> {
     let backward: Vec<Pose> = path.iter().rev().copied().collect();
     let times = options.times.as_ref().map(|times| times.iter().rev().map(|time| -time).collect());

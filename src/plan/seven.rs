@@ -9,7 +9,8 @@ use core::f64::consts::TAU;
 use super::answer::{NoPlan, Plan, PlanError, StrandEnd, StrandReason};
 use super::axes::{Carried, ExternalAxis};
 use super::graph::Values;
-use super::options::{Accept, Caller, PlanOptions, Watch};
+use super::options::{Accept, Caller, PlanOptions, Test, Watch};
+use super::tested::Tests;
 use crate::error::{Error, JointFault, ModelFault, PlanFault};
 use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_EXTERNAL};
 use crate::kinematics::{Pose, Robot, Slot, check_weights};
@@ -54,19 +55,14 @@ impl Robot<7> {
         if let Some(reason) = self.unknown_structure() {
             return Err(Error::from(ModelFault::UnknownStructure(reason)).into());
         }
-        let mut accept = accept;
+        let mut tests = Tests::new(self, options, accept)?;
         if self.locked_joint().is_some() {
             return Seven { robot: self, locked: self, is_free: false }
-                .planned(path, options, accept, watch);
+                .planned(path, options, &mut tests, watch);
         }
         let mut by = |joint| {
             let locked = &self.locked(joint, 0.0)?;
-            Seven { robot: self, locked, is_free: true }.planned(
-                path,
-                options,
-                accept.as_deref_mut(),
-                watch,
-            )
+            Seven { robot: self, locked, is_free: true }.planned(path, options, &mut tests, watch)
         };
         match (by(7), by(1)) {
             (Ok(one), Ok(other)) => {
@@ -75,7 +71,7 @@ impl Robot<7> {
             }
             (Err(PlanError::NoPlan(one)), Err(PlanError::NoPlan(other))) => {
                 let farther = if other.pose_index > one.pose_index { other } else { one };
-                let followed = self.followed_plan(path, options, accept, watch)?;
+                let followed = self.followed_plan(path, options, &mut tests, watch)?;
                 followed.ok_or(PlanError::NoPlan(farther))
             }
             (Err(PlanError::NoPlan(_)), other) => other,
@@ -107,27 +103,45 @@ struct Seven<'a> {
     is_free: bool,
 }
 
+/// The tests of seven joints, asked for the six that are planned.
+struct TestsOfSix<'a, 'b, 'c, 'd> {
+    seven: &'a Seven<'b>,
+    tests: &'a mut Tests<'c, 'd, 7>,
+}
+
+impl TestsOfSix<'_, '_, '_, '_> {
+    fn all(&self, q: &[[f64; 6]], values: &[Values]) -> Vec<[f64; 7]> {
+        q.iter().zip(values).map(|(q, values)| self.seven.all(q, values)).collect()
+    }
+}
+
+impl Test for TestsOfSix<'_, '_, '_, '_> {
+    fn postures(&mut self, q: &[[f64; 6]], values: &[Values]) -> Option<Vec<bool>> {
+        let q = self.all(q, values);
+        self.tests.postures(&q)
+    }
+
+    fn motions(&mut self, q: &[[f64; 6]], values: &[Values]) -> Vec<bool> {
+        let q = self.all(q, values);
+        self.tests.motions(&q)
+    }
+}
+
 impl Seven<'_> {
     fn planned(
         &self,
         path: &[Pose],
         options: &PlanOptions<7>,
-        accept: Option<&mut Accept<'_, 7>>,
+        tests: &mut Tests<'_, '_, 7>,
         watch: Watch<'_>,
     ) -> Result<Plan<7>, PlanError<7>> {
         let six = self.locked.six_joints()?.ok_or(JointFault::NoJoint { joint: 7, dof: 7 });
         let six = six.map_err(Error::from)?;
         let options = self.options(options)?;
-        let planned = match accept {
-            None => six.planned_for(path, &options, &mut Caller { accept: None, watch }),
-            Some(accept) => {
-                let ask = &mut |q: &[[f64; 6]], values: &[Values]| {
-                    let all = q.iter().zip(values).map(|(q, values)| self.all(q, values));
-                    accept(&all.collect::<Vec<_>>())
-                };
-                six.planned_for(path, &options, &mut Caller { accept: Some(ask), watch })
-            }
-        };
+        let is_any = tests.is_any();
+        let mut tests = TestsOfSix { seven: self, tests };
+        let tests = is_any.then_some(&mut tests as &mut dyn Test);
+        let planned = six.planned_for(path, &options, &mut Caller { tests, watch });
         planned.map(|plan| self.plan(plan)).map_err(|error| match error {
             PlanError::Invalid(error) => PlanError::Invalid(error),
             PlanError::Stopped => PlanError::Stopped,
@@ -184,6 +198,8 @@ impl Seven<'_> {
             limit_cost,
             singularity_cost,
             max_acceleration: self.accelerations(options.max_acceleration.as_deref()),
+            // Its tests are of all seven joints.
+            cell: None,
         })
     }
 

@@ -50,7 +50,7 @@ impl Planner<'_> {
     pub(super) fn smoothed(
         &mut self,
         path: JointPath,
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<JointPath, PlanError> {
         let most = path.cost(self.order).0;
         if self.arm.freedom.axes.is_empty() {
@@ -99,7 +99,7 @@ impl Planner<'_> {
         &mut self,
         path: &JointPath,
         points: &[Waypoint],
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<Option<JointPath>, PlanError> {
         let (grid, layers, expected) = (self.grid, self.layers.clone(), self.expected);
         self.follow(path, points, &Values::default())?;
@@ -121,7 +121,7 @@ impl Planner<'_> {
         path: &JointPath,
         most: f64,
         paces: &[[f64; 2]],
-        caller: &mut Caller<'_, '_>,
+        caller: &mut Caller<'_>,
     ) -> Result<Option<JointPath>, PlanError> {
         // A single layer has no motion, and joints that do not move need none.
         let moves = self.layers.len() > 1 && path.bottleneck > 0.0;

@@ -21,7 +21,7 @@ pub(super) fn fastest<'a>(
     [coarse, fixed]: [&'a Freedom; 2],
     points: &[Waypoint],
     (options, max_acceleration): (&PlanOptions, &[f64]),
-    caller: &mut Caller<'_, '_>,
+    caller: &mut Caller<'_>,
 ) -> Result<Option<(Planner<'a>, JointPath)>, PlanError> {
     let mut best: Option<(Planner<'a>, JointPath)> = None;
     let mut shortest = f64::INFINITY;
@@ -70,7 +70,7 @@ fn whole<'a>(
     coarse: &'a Freedom,
     points: &[Waypoint],
     options: &PlanOptions,
-    caller: &mut Caller<'_, '_>,
+    caller: &mut Caller<'_>,
 ) -> Result<Option<(Planner<'a>, JointPath)>, PlanError> {
     let long = coarse_to_fine(Arm { freedom: coarse, ..arm }, points, options, caller)?;
     if long.is_some() || (is_long(points) && !coarse.axes.is_empty()) {

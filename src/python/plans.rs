@@ -1,6 +1,7 @@
 //! `Robot.plan`: the best joint path along a path of poses.
 
 use std::cell::RefCell;
+use std::sync::Arc;
 
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -18,8 +19,8 @@ use super::robot::PyRobot;
 use super::signals::detached_while;
 use super::targets::{read_path_poses, read_weights};
 use super::trajectories::read_each;
-use crate::cell::{Cell, Placed};
-use crate::kinematics::{Pose, Robot};
+use crate::cell::Cell;
+use crate::kinematics::Pose;
 use crate::plan::{Accept, NoPlan, Plan, PlanError, PlanOptions, Watch};
 
 #[pymethods]
@@ -59,8 +60,9 @@ impl PyRobot {
     ///     accept: Your own test, of collisions for instance: called with joint vectors of shape
     ///         (k, n), it returns k truth values. It is asked only for joint vectors near the best
     ///         path, and once for those that differ by full turns.
-    ///     cell: An `irbkin.Cell` in which no joint vector of the plan may collide; not with a
-    ///         carrier, which moves the base. The motion between the poses is not tested.
+    ///     cell: An `irbkin.Cell` in which the plan is proven free (`Cell.check_path`): at the
+    ///         poses and between them, each joint moving evenly from one to the next; not with a
+    ///         carrier, which moves the base.
     ///     carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
     ///         them. Their steps count for bottleneck and cost as steps of joints do.
     ///     tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
@@ -145,12 +147,10 @@ impl PyRobot {
                 "redundancy is for arms of seven joints: the pose alone determines the six of this \
                  one",
             )),
-            Arm::Six(robot) => asked.plan(robot, |path, options, accept, watch| {
-                robot.planned(path, options, accept, watch)
-            }),
-            Arm::Seven(robot) => asked.plan(robot, |path, options, accept, watch| {
-                robot.planned(path, options, accept, watch)
-            }),
+            Arm::Six(robot) => asked
+                .plan(|path, options, accept, watch| robot.planned(path, options, accept, watch)),
+            Arm::Seven(robot) => asked
+                .plan(|path, options, accept, watch| robot.planned(path, options, accept, watch)),
         }
     }
 }
@@ -206,13 +206,13 @@ impl Asked<'_, '_> {
                 N + external.len(),
             )?,
             external,
+            cell: self.cell.map(|cell| Arc::new(cell.clone())),
         })
     }
 
     /// Plan without the interpreter's lock.
     fn plan<const N: usize>(
         &self,
-        robot: &Robot<N>,
         planned: impl FnOnce(
             &[Pose],
             &PlanOptions<N>,
@@ -223,31 +223,18 @@ impl Asked<'_, '_> {
     ) -> PyResult<records::Plan> {
         let py = self.T.py();
         let options = self.options::<N>()?;
-        let mut placed = self.cell.map(|_| Placed::of(robot)).transpose()?;
-        if self.cell.is_some() && !options.external.is_empty() {
-            return Err(Fault::Motion
-                .error("cell and carrier do not go together: a carrier moves the base"));
-        }
         let path = read_path_poses(self.T)?;
-        let (cell, accept) = (self.cell, self.accept.map(|accept| accept.clone().unbind()));
+        let accept = self.accept.map(|accept| accept.clone().unbind());
         let (planned, failure) = detached_while(py, |go_on| {
             let mut failure = None;
             let mut ask = |q: &[[f64; N]]| {
-                let mut answers = vec![true; q.len()];
-                if let (Some(cell), Some(placed)) = (cell, &mut placed) {
-                    for (answer, q) in answers.iter_mut().zip(q) {
-                        *answer = !cell.collides_at(placed, q);
-                    }
-                }
-                let Some(accept) = &accept else { return Some(answers) };
+                let accept = accept.as_ref()?;
                 let accepted = Python::attach(|py| asked(accept.bind(py), q));
-                let accepted = accepted.map_err(|error| failure = Some(error)).ok()?;
-                Some(answers.iter().zip(accepted).map(|(free, one)| *free && one).collect())
+                accepted.map_err(|error| failure = Some(error)).ok()
             };
             let go_on = RefCell::new(go_on);
             let goes_on = || go_on.borrow_mut()();
-            let has_test = accept.is_some() || cell.is_some();
-            let ask = has_test.then_some(&mut ask as &mut Accept<'_, N>);
+            let ask = accept.is_some().then_some(&mut ask as &mut Accept<'_, N>);
             let planned = planned(&path, &options, ask, Watch(Some(&goes_on)));
             (planned, failure)
         })?;

@@ -128,8 +128,59 @@ def test_a_plan_stays_out_of_obstacles():
     )
     assert seen
     assert both.q.shape == (3, 6)
-    with pytest.raises(irbkin.InvalidMotionError, match="cell and carrier"):
+    with pytest.raises(irbkin.InvalidMotionError, match="external axes"):
         ROBOT.plan(seam, cell=cell, carrier=irbkin.Track("y", -1, 1, steps=3))
+
+
+def test_a_motion_is_free_between_its_rows_or_says_where_it_is_not():
+    q = np.array([[-0.6, 0.3, 0.2, 0, 0.5, 0], [0.6, 0.3, 0.2, 0, 0.5, 0]])
+    middle = ROBOT.link_frames(q.mean(axis=0))[5, :3, 3]
+    cell = irbkin.Cell({"ball": Shape.sphere(0.02, middle)})
+    assert not cell.collides(ROBOT, q).any()
+    assert irbkin.Cell().check_path(ROBOT, q) is None
+    contact = cell.check_path(ROBOT, q)
+    assert 0.2 < contact.at < 0.5
+    assert contact.pair[1] == "ball"
+    assert contact.depth > 0.02
+    part = q[0] + contact.at * (q[1] - q[0])
+    assert np.abs(part - contact.q).max() < 1e-9
+    assert abs(float(cell.distance(ROBOT, contact.q).distance)) < 3e-4
+    assert cell.check_path(ROBOT, [q[0], q[0] + 0.9 * contact.at * (q[1] - q[0])]) is None
+    motion = irbkin.trajectory.joint(q[0], q[1], max_velocity=1, max_acceleration=2)
+    timed = cell.check_path(ROBOT, motion)
+    assert 0 < timed.at < motion.duration
+    assert np.abs(motion.sample(timed.at).q - timed.q).max() < 1e-3
+    assert irbkin.Cell().check_path(ROBOT, motion) is None
+
+
+def test_paths_of_one_row_of_none_and_in_collision():
+    inside = irbkin.Cell({"all": Shape.sphere(3, [0, 0, 0])})
+    q = np.zeros((3, 6))
+    assert inside.check_path(ROBOT, q).at == 0
+    assert inside.check_path(ROBOT, q[0]).at == 0
+    assert irbkin.Cell().check_path(ROBOT, q[0]) is None
+    assert inside.check_path(ROBOT, q[:0]) is None
+    with pytest.raises(irbkin.InvalidJointsError, match=r"motion\[1\]"):
+        inside.check_path(ROBOT, [[0] * 6, [0, 0, np.inf, 0, 0, 0]])
+    of_two = irbkin.trajectory.joint([0, 0], [1, 1], max_velocity=1, max_acceleration=2)
+    with pytest.raises(ValueError, match="trajectory"):
+        inside.check_path(ROBOT, of_two)
+
+
+def test_a_plan_goes_round_what_is_between_its_poses():
+    robot = ROBOT.with_tool(irbkin.pose([0.3, 0, 0.2], euler_zyx=[0, 0.6, 0]))
+    ends = [irbkin.pose([0.9, y, 0.4], euler_zyx=[0, 2.9, 0]) for y in (-0.2, 0.2)]
+    for steps in (2, 3, 5):
+        seam = irbkin.paths.line(*ends, steps=steps)
+        bare = robot.plan(seam, rotation=24)
+        between = 0.5 * (bare.q[0] + bare.q[1])
+        ball = Shape.sphere(0.01, robot.link_frames(between)[4, :3, 3])
+        cell = irbkin.Cell({"ball": ball})
+        assert cell.check_path(robot, bare.q) is not None
+        plan = robot.plan(seam, rotation=24, cell=cell)
+        assert cell.check_path(robot, plan.q) is None
+        with pytest.raises(irbkin.PathError, match="cell"):
+            robot.plan(robot.fk(bare.q), start=bare.q[0], end=bare.q[-1], cell=cell)
 
 
 def test_values_are_frozen_equal_and_pickled():

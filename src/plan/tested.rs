@@ -1,0 +1,68 @@
+//! The tests that joint vectors of a plan must pass: the caller's own, and those of a cell.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::graph::Values;
+use super::options::{Accept, PlanOptions, Test};
+use crate::cell::{Cell, Placed};
+use crate::error::{Error, PlanFault};
+use crate::kinematics::Robot;
+
+/// The tests of a plan, if it has any.
+pub(super) struct Tests<'a, 'b, const N: usize> {
+    accept: Option<&'a mut Accept<'b, N>>,
+    cell: Option<(&'a Cell, Placed<'a, N>)>,
+}
+
+impl<'a, 'b, const N: usize> Tests<'a, 'b, N> {
+    pub(super) fn new(
+        robot: &'a Robot<N>,
+        options: &'a PlanOptions<N>,
+        accept: Option<&'a mut Accept<'b, N>>,
+    ) -> Result<Self, Error> {
+        let cell = match &options.cell {
+            Some(_) if !options.external.is_empty() => return Err(PlanFault::CellMoves.into()),
+            Some(cell) => Some((&**cell, Placed::of(robot)?)),
+            None => None,
+        };
+        Ok(Self { accept, cell })
+    }
+
+    pub(super) fn is_any(&self) -> bool {
+        self.accept.is_some() || self.cell.is_some()
+    }
+
+    /// Whether each joint vector passes; nothing to stop.
+    pub(super) fn postures(&mut self, q: &[[f64; N]]) -> Option<Vec<bool>> {
+        let mut passed = match &mut self.cell {
+            Some((cell, placed)) => cell.free_postures(placed, q),
+            None => vec![true; q.len()],
+        };
+        if let Some(accept) = &mut self.accept {
+            let verdicts = accept(q).filter(|verdicts| verdicts.len() == q.len())?;
+            for (passed, accepted) in passed.iter_mut().zip(verdicts) {
+                *passed &= accepted;
+            }
+        }
+        Some(passed)
+    }
+
+    /// Whether the motion from each joint vector to the next one passes.
+    pub(super) fn motions(&mut self, q: &[[f64; N]]) -> Vec<bool> {
+        match &mut self.cell {
+            Some((cell, placed)) => cell.free_motions(placed, q),
+            None => vec![true; q.len().saturating_sub(1)],
+        }
+    }
+}
+
+impl Test for Tests<'_, '_, 6> {
+    fn postures(&mut self, q: &[[f64; 6]], _: &[Values]) -> Option<Vec<bool>> {
+        self.postures(q)
+    }
+
+    fn motions(&mut self, q: &[[f64; 6]], _: &[Values]) -> Vec<bool> {
+        self.motions(q)
+    }
+}
