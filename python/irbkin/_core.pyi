@@ -2451,6 +2451,7 @@ def check(
     max_velocity: npt.ArrayLike | None = None,
     step: float = 0.005,
     turn: float | None = None,
+    cell: Cell | None = None,
 ) -> tuple[Finding, ...]:
     """Check every move of a module, of all routines.
 

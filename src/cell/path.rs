@@ -21,7 +21,7 @@ pub const RESOLUTION: f64 = 1e-4;
 const SAMPLES: u32 = 16;
 
 /// A motion in pieces.
-trait Motion<const N: usize> {
+pub(crate) trait Motion<const N: usize> {
     /// Number of pieces.
     fn pieces(&self) -> usize;
 
@@ -112,7 +112,7 @@ impl Cell {
         q: &[[f64; N]],
     ) -> Result<Option<Contact<N>>, Error> {
         q.iter().try_for_each(|q| check_seed("q", q))?;
-        self.check_motion(robot, q)
+        Ok(self.contact(&mut Placed::of(robot)?, q))
     }
 
     /// [`Self::check_path`] along a trajectory.
@@ -130,32 +130,30 @@ impl Cell {
         if found != N {
             return Err(Error::WrongLength { field: "trajectory", found, wanted: N });
         }
-        self.check_motion(robot, trajectory)
+        Ok(self.contact(&mut Placed::of(robot)?, trajectory))
     }
 
-    fn check_motion<const N: usize, M: Motion<N> + ?Sized>(
+    /// Where a motion first touches something; its joint angles must be finite.
+    pub(crate) fn contact<const N: usize, M: Motion<N> + ?Sized>(
         &self,
-        robot: &Robot<N>,
+        placed: &mut Placed<'_, N>,
         motion: &M,
-    ) -> Result<Option<Contact<N>>, Error> {
-        let mut placed = Placed::of(robot)?;
-        let Some(Part { piece, part }) = self.first_contact(&mut placed, motion) else {
-            return Ok(None);
-        };
+    ) -> Option<Contact<N>> {
+        let Part { piece, part } = self.first_contact(placed, motion)?;
         let (q, _) = motion.range(piece, part);
-        let Some((first, apart)) = self.deepest(&placed, &q) else { return Ok(None) };
+        let (first, apart) = self.deepest(placed, &q)?;
         let mut depth = self.depth(first.other, &apart);
         for sample in 0..=SAMPLES {
             let part = part[0] + (1.0 - part[0]) * f64::from(sample) / f64::from(SAMPLES);
             let capsules = placed.capsules(&motion.range(piece, [part; 2]).0);
-            let pairs = self.pairs(&placed);
+            let pairs = self.pairs(placed);
             let of_two = pairs.filter(|pair| pair.link == first.link && pair.other == first.other);
             let depths =
                 of_two.map(|pair| self.depth(pair.other, &self.separation(&pair, &capsules)));
             depth = depths.fold(depth, f64::max);
         }
         let at = motion.instant(piece, 0.5 * (part[0] + part[1]));
-        Ok(Some(Contact { at, q, nearest: self.named(first, &apart), depth }))
+        Some(Contact { at, q, nearest: self.named(first, &apart), depth })
     }
 
     /// The first part of a motion that is not free, as short as the resolution asks.

@@ -9,7 +9,7 @@ use super::obstacles::Cell;
 use super::pairs::{Other, Pair};
 use super::placed::Placed;
 use crate::body::Separation;
-use crate::error::{BodyFault, Error};
+use crate::error::Error;
 use crate::kinematics::{Pose, Robot, Solution, check_seed};
 use crate::lanes::LANES;
 
@@ -143,17 +143,25 @@ impl Cell {
             return Ok(nearest);
         }
         match robot.nearest_accepted(pose, seed, weights, &is_free) {
-            Err(Error::Unreachable(_)) => Err(self.collision(&placed.borrow(), &nearest.q)),
+            Err(Error::Unreachable(reason)) => {
+                Err(match self.collision(&placed.borrow(), &nearest.q) {
+                    Some((Nearest { link, near, .. }, depth)) => {
+                        Error::Collides { link, other: near.to_string(), depth }
+                    }
+                    None => Error::Unreachable(reason),
+                })
+            }
             found => found,
         }
     }
 
-    /// The error of joints that collide.
-    fn collision<const N: usize>(&self, placed: &Placed<'_, N>, q: &[f64; N]) -> Error {
-        let Some((pair, apart)) = self.deepest(placed, q) else {
-            return BodyFault::NoBody.into();
-        };
-        let Nearest { link, near, .. } = self.named(pair, &apart);
-        Error::Collides { link, other: near.to_string(), depth: self.depth(pair.other, &apart) }
+    /// The two that are deepest in each other or in the margin, and how deep [m].
+    pub(crate) fn collision<const N: usize>(
+        &self,
+        placed: &Placed<'_, N>,
+        q: &[f64; N],
+    ) -> Option<(Nearest, f64)> {
+        let (pair, apart) = self.deepest(placed, q)?;
+        Some((self.named(pair, &apart), self.depth(pair.other, &apart)))
     }
 }

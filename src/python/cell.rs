@@ -1,5 +1,7 @@
 //! Cells: whether an arm touches what is around it.
 
+use std::sync::Arc;
+
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -26,7 +28,7 @@ use crate::cell::{Cell, Contact, Nearest};
 ///     InvalidModelError: A margin that is negative or not finite.
 #[pyclass(name = "Cell", module = "irbkin", frozen, eq)]
 #[derive(Clone, PartialEq)]
-pub(super) struct PyCell(pub(super) Cell);
+pub(super) struct PyCell(pub(super) Arc<Cell>);
 
 #[pymethods]
 impl PyCell {
@@ -43,7 +45,7 @@ impl PyCell {
             })?;
             read.push((name, shape.get().0.clone()));
         }
-        Ok(Self(Cell::new(read, margin)?))
+        Ok(Self(Arc::new(Cell::new(read, margin)?)))
     }
 
     /// The `Shape` of each obstacle, by its name.
@@ -184,7 +186,7 @@ impl PyCell {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        reduced(py, "Cell", &self.0)
+        reduced(py, "Cell", &*self.0)
     }
 }
 

@@ -166,7 +166,7 @@ struct Asked<'a, 'py> {
     closed: bool,
     weights: Option<&'a Bound<'py, PyAny>>,
     accept: Option<&'a Bound<'py, PyAny>>,
-    cell: Option<&'a Cell>,
+    cell: Option<&'a Arc<Cell>>,
     carrier: Option<&'a Bound<'py, PyAny>>,
     tolerance: Option<&'a Bound<'py, PyAny>>,
     redundancy: Option<&'a Bound<'py, PyAny>>,
@@ -206,7 +206,7 @@ impl Asked<'_, '_> {
                 N + external.len(),
             )?,
             external,
-            cell: self.cell.map(|cell| Arc::new(cell.clone())),
+            cell: self.cell.map(Arc::clone),
         })
     }
 

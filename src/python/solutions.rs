@@ -16,7 +16,7 @@ use super::solution::{Member, PySolution, as_array};
 use super::state::{Reduced, hash_of, reduced};
 use super::table;
 use super::targets::{read_seed, read_weights};
-use crate::cell::Placed;
+use crate::cell::{Cell, Nearest, Placed};
 use crate::error::Error;
 use crate::kinematics::{
     Cost, MOST_SLOTS, Robot, Solution, Solutions, Status, check_near, pose_to_rows,
@@ -37,15 +37,18 @@ pub(super) struct Found<const N: usize> {
     pub(super) turned: Option<Vec<Solution<N>>>,
     /// The angle of joint 7 [rad] that was passed with the pose.
     pub(super) q7: Option<f64>,
+    /// Solutions that a cell took away, and the cell.
+    pub(super) colliding: Option<(Arc<Cell>, Vec<Solution<N>>)>,
 }
 
 impl<const N: usize> Found<N> {
     pub(super) fn new(robot: Arc<Robot<N>>, solutions: Solutions<N>) -> Self {
-        Self { robot, solutions, turned: None, q7: None }
+        Self { robot, solutions, turned: None, q7: None, colliding: None }
     }
 
     fn with(&self, solutions: Solutions<N>, turned: Option<Vec<Solution<N>>>) -> Self {
-        Self { robot: Arc::clone(&self.robot), solutions, turned, q7: self.q7 }
+        let Self { robot, q7, colliding, .. } = self.clone();
+        Self { robot, solutions, turned, q7, colliding }
     }
 
     fn len(&self) -> usize {
@@ -140,9 +143,44 @@ impl<const N: usize> Found<N> {
                 kept.push(solution);
             }
         }
+        Ok(self.keep(kept))
+    }
+
+    /// Keep the solutions that do not collide.
+    fn filter_free(&self, cell: &Arc<Cell>) -> PyResult<Self> {
+        let entries = self.entries();
+        let q: Vec<_> = entries.iter().map(|solution| solution.q).collect();
+        let free = cell.free_postures(&mut Placed::of(&self.robot)?, &q);
+        let mut free = free.into_iter();
+        let (kept, colliding): (Vec<_>, Vec<_>) =
+            entries.into_iter().partition(|_| free.next().unwrap_or_default());
+        let mut found = self.keep(kept);
+        if !colliding.is_empty() {
+            found.colliding = Some((Arc::clone(cell), colliding));
+        }
+        Ok(found)
+    }
+
+    fn keep(&self, kept: Vec<Solution<N>>) -> Self {
         let is_kept = |one: &Solution<N>| kept.iter().any(|kept| kept.slot == one.slot);
         let solutions = self.solutions.filter(is_kept);
-        Ok(self.with(solutions, self.turned.is_some().then_some(kept)))
+        self.with(solutions, self.turned.is_some().then_some(kept))
+    }
+
+    /// The outcome, and what each solution touches that a cell took away.
+    fn explained(&self) -> String {
+        let mut text = format!("{}{}", self.explain(), self.solutions.reservation());
+        let Some((cell, colliding)) = &self.colliding else { return text };
+        let Ok(placed) = Placed::of(&self.robot) else { return text };
+        for solution in colliding {
+            if let Some((Nearest { link, near, .. }, depth)) = cell.collision(&placed, &solution.q)
+            {
+                let (slot, depth) = (solution.slot, 1e3 * depth);
+                text +=
+                    &format!("; slot {slot} collides: link {link} and {near}, {depth:.1} mm deep");
+            }
+        }
+        text
     }
 }
 
@@ -229,9 +267,9 @@ impl PySolutions {
 
     /// Return the outcome in a sentence: how many solutions, or why there are none. For an arm
     /// without a closed form that has none, how near it gets is then searched, which takes
-    /// milliseconds.
+    /// milliseconds. Of solutions that a cell took away, it names what each touches.
     fn explain(&self) -> String {
-        on!(&self.found, found => format!("{}{}", found.explain(), found.solutions.reservation()))
+        on!(&self.found, found => found.explained())
     }
 
     /// Return the solutions inside the joint limits.
@@ -287,10 +325,7 @@ impl PySolutions {
     fn filter(&self, accept: &Bound<'_, PyAny>) -> PyResult<Self> {
         on!(&self.found, found => {
             if let Ok(cell) = accept.cast::<PyCell>() {
-                let mut placed = Placed::of(&found.robot)?;
-                let cell = &cell.get().0;
-                let is_free = |one: Member<_>| Ok(!cell.collides_at(&mut placed, &one.solution.q));
-                return found.filter(is_free).map(Self::from);
+                return found.filter_free(&cell.get().0).map(Self::from);
             }
             let accepts = |one| accept.call1((PySolution::from(one),))?.is_truthy();
             found.filter(accepts).map(Self::from)
@@ -348,18 +383,22 @@ impl PySolutions {
     }
 
     fn __repr__(&self) -> String {
-        format!("Solutions({})", self.explain())
+        format!("Solutions({})", self.outcome())
     }
 
     /// The table: a line on the outcome, then slot, angles [deg], limits and singularities of each
     /// solution.
     fn __str__(&self) -> String {
-        let outcome = self.explain();
+        let outcome = self.outcome();
         on!(&self.found, found => table::text(&outcome, &found.entries(), found.robot.limits()))
     }
 }
 
 impl PySolutions {
+    fn outcome(&self) -> String {
+        on!(&self.found, found => format!("{}{}", found.explain(), found.solutions.reservation()))
+    }
+
     fn cheapest(
         &self,
         seed: &Bound<'_, PyAny>,

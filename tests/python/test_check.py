@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from irbkin import rapid
 from irbkin._core import check_codes
+from irbkin.body import Shape
 from irbkin.cli.check import selected
 from irbkin.cli.checker import Checker, fix
 from irbkin.cli.sources import Source, read_modules
@@ -25,6 +26,8 @@ CODES = [code for code, _, _ in check_codes()]
 BLOCKS = dict(re.findall(r"^```rapid (\S+)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL))
 DATA = BLOCKS.pop("data")
 SEAM = BLOCKS.pop("seam.mod")
+CELL = irbkin.Cell({"post": Shape.cylinder(0.05, 0.6, irbkin.pose([0.9, 0, 0.3]))})
+"""As the page has it in cell.toml."""
 FAR = "[9E9,9E9,9E9,9E9,9E9,9E9]"
 
 
@@ -42,7 +45,7 @@ def check(file, *arguments):
 
 @pytest.mark.parametrize("code", [code for code in BLOCKS if code != "E001"])
 def test_the_example_of_a_code_has_it(code):
-    found = rapid.check(ROBOT, rapid.parse(module(BLOCKS[code])))
+    found = rapid.check(ROBOT, rapid.parse(module(BLOCKS[code])), cell=CELL)
     assert code in {it.code for it in found}, found
 
 
@@ -50,6 +53,28 @@ def test_the_page_has_every_code_with_its_name_in_order():
     headings = re.findall(r"^### (\w\d+) (.*)$", PAGE, re.MULTILINE)
     assert headings == [("E001", "syntax"), *((code, name) for code, name, _ in check_codes())]
     assert list(BLOCKS) == ["E001", *CODES]
+
+
+def test_a_move_that_touches_something_says_when_and_what(tmp_path):
+    text = re.search(r"^```toml cell.toml\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)[1]
+    (tmp_path / "cell.toml").write_text(text)
+    assert irbkin.Cell.load(tmp_path / "cell.toml") == CELL
+    file = tmp_path / "post.mod"
+    file.write_text(module(BLOCKS["K901"]))
+    assert "K9" not in check(file).stdout.decode()
+    done = check(file, "--cell", tmp_path / "cell.toml", "--select", "K")
+    assert done.returncode == 1
+    line = next(it for it in done.stdout.decode().splitlines() if "K901" in it)
+    assert re.search(r"MoveL pFar: link \d touches post after \d+ % of the way, [\d.]+ mm deep", line)
+    (finding,) = rapid.check(ROBOT, rapid.parse(module(BLOCKS["K901"])), cell=CELL, codes=["K901"])
+    part = int(re.search(r"after (\d+) %", finding.message)[1])
+    assert 0 < part < 50
+    bare = ROBOT.with_body(None)
+    with pytest.raises(irbkin.InvalidModelError, match="body"):
+        rapid.check(bare, rapid.parse(module(BLOCKS["K901"])), cell=CELL)
+    missing = check(file, "--cell", tmp_path / "missing.toml")
+    assert missing.returncode == 2
+    assert b"missing.toml" in missing.stderr
 
 
 def test_a_broken_text_has_its_line_and_column(tmp_path):

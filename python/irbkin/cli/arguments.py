@@ -13,7 +13,7 @@ from irbkin.cli.errors import CommandError, complain
 from irbkin.cli.numbers import check_euler, check_joints, check_millimeters, number
 
 if TYPE_CHECKING:
-    from irbkin import Robot
+    from irbkin import Cell, Robot
     from irbkin._arrays import Floats
 
 TABLES = (".csv", ".json", ".npy", ".txt")
@@ -66,6 +66,10 @@ class Parser:
                 metavar="N",
                 help=f"{frame}: x y z [mm], then w x y z or rz ry rx [deg] if turned",
             )
+
+    def add_cell(self) -> None:
+        """What is around the arm."""
+        self.add("--cell", metavar="FILE", help="what the arm must not touch: .toml or .urdf")
 
     def add_rows(self, what: str, *, optional: bool = True) -> None:
         """A file of rows."""
@@ -142,6 +146,13 @@ def read_robot(arguments: argparse.Namespace) -> Robot:
         raise CommandError(
             f"--tool is {length:g} mm from the flange, more than ten times the size of the arm"
         ) from None
+
+
+def read_cell(arguments: argparse.Namespace) -> Cell | None:
+    """The cell of the arguments, if there is one."""
+    from irbkin import Cell
+
+    return None if arguments.cell is None else Cell.load(arguments.cell)
 
 
 def frame(numbers: Sequence[float], name: str) -> Floats:

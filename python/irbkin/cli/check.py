@@ -6,7 +6,7 @@ import argparse
 import os
 from collections.abc import Collection, Sequence
 
-from irbkin.cli.arguments import Parser, read_robot
+from irbkin.cli.arguments import Parser, read_cell, read_robot
 from irbkin.cli.checker import Checker, fix
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.findings import report
@@ -14,12 +14,13 @@ from irbkin.cli.progress import Progress
 from irbkin.cli.sources import Source, expanded, read_modules
 
 HELP = """Every MoveJ, MoveL, MoveC and MoveAbsJ of every routine is checked: reach, limits, flips,
-confdata, singularities, joint speeds, zones, names (--codes lists the codes, docs/guide/check.md
-explains them). The files are one program: names that a file does not declare are looked for in the
-others. A comment `! noqa` on the line of a move, or `! noqa: C201,S301`, silences it. The robot may
-be given by the environment, too: IRBKIN_ROBOT. --fix corrects confdata in place and changes nothing
-else."""
+confdata, singularities, joint speeds, zones, names and, with --cell, collisions (--codes lists the
+codes, docs/guide/check.md explains them). The files are one program: names that a file does not
+declare are looked for in the others. A comment `! noqa` on the line of a move, or
+`! noqa: C201,S301`, silences it. The robot may be given by the environment, too: IRBKIN_ROBOT.
+--fix corrects confdata in place and changes nothing else."""
 EXAMPLES = """  irbkin check --robot "IRB 2600-12/1.65" program.mod
+  irbkin check --robot "IRB 2600-12/1.65" --cell cell.toml program.mod
   irbkin check --robot "IRB 2600-12/1.65" --fix programs/
   irbkin check --robot "IRB 2600-12/1.65" --select R,C,N --json program.mod tools.sys
   irbkin check --robot "IRB 2600-12/1.65" --ignore S,Z501 - < program.mod"""
@@ -32,6 +33,7 @@ def add_arguments(parser: Parser) -> None:
     robot = os.environ.get("IRBKIN_ROBOT") or None
     add("--robot", metavar="ROBOT", default=robot, help="name in the catalog, or a .urdf file")
     parser.add_frames()
+    parser.add_cell()
     add("--select", metavar="CODES", help="codes or their beginnings, with commas; ALL for all")
     add("--ignore", metavar="CODES", default="", help="codes or their beginnings to leave out")
     add("--fix", action="store_true", help="correct confdata in the files")
@@ -62,7 +64,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.fix and any(source.is_stdin for source in sources):
         raise CommandError("--fix corrects files, stdin is none")
     broken = read_modules(sources)
-    checker = Checker(robot, codes, arguments.step / 1e3)
+    checker = Checker(robot, codes, arguments.step / 1e3, read_cell(arguments))
     fixed = fix(checker, sources) if arguments.fix else 0
     found, unchecked = list(broken), 0
     with Progress("files", len(sources)) as progress:

@@ -11,7 +11,7 @@ from irbkin.cli.findings import Found
 from irbkin.cli.sources import Source
 
 if TYPE_CHECKING:
-    from irbkin import Robot
+    from irbkin import Cell, Robot
     from irbkin.rapid import Finding, Module
 
 UNCHECKED = ("U801", "U802")
@@ -24,10 +24,12 @@ PASSES = 10
 class Checker:
     """Checks modules of one arm."""
 
-    def __init__(self, robot: Robot, codes: Collection[str], step: float) -> None:
+    def __init__(
+        self, robot: Robot, codes: Collection[str], step: float, cell: Cell | None = None
+    ) -> None:
         from irbkin._core import check_codes
 
-        self.robot, self.codes, self.step = robot, codes, step
+        self.robot, self.codes, self.step, self.cell = robot, codes, step, cell
         faults = (code for code, _, is_default in check_codes() if is_default)
         self.asked = {*faults, *UNCHECKED, *codes}
 
@@ -35,7 +37,9 @@ class Checker:
         """Return the findings on a module that its comments do not silence."""
         from irbkin._core import check
 
-        found = check(self.robot, module, codes=self.asked, step=self.step)
+        found = check(
+            self.robot, module, codes=self.asked, step=self.step, cell=self.cell
+        )
         if "noqa" not in module.source.lower():
             return list(found)
         lines = module.source.split("\n")

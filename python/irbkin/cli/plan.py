@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from irbkin.cli.arguments import Parser, joints, read_robot
+from irbkin.cli.arguments import Parser, joints, read_cell, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.numbers import check_millimeters, count, number
 from irbkin.cli.tool_paths import add_path, fastest, read_path
@@ -31,6 +31,7 @@ MOST_TRACK = 1e6
 def add_arguments(parser: Parser) -> None:
     """The arguments of the verb."""
     parser.add_robot()
+    parser.add_cell()
     add_path(parser)
     add = parser.add
     add(
@@ -68,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
     from irbkin.cli.progress import waiting
     from irbkin.errors import PathError
 
-    robot = read_robot(arguments)
+    robot, cell = read_robot(arguments), read_cell(arguments)
     poses = read_path(arguments, robot)
     try:
         with waiting(f"plan of {len(poses):,} poses"):
@@ -78,6 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
                 start=_end(arguments, "start", robot),
                 end=_end(arguments, "end", robot),
                 closed=arguments.closed,
+                cell=cell,
                 carrier=_track(arguments.track),
             )
     except PathError as error:

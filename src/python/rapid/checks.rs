@@ -6,6 +6,7 @@ use pyo3::types::PyTuple;
 
 use super::module::{RapidModule, close_names};
 use super::program::Finding;
+use crate::python::cell::PyCell;
 use crate::python::errors::Fault;
 use crate::python::robot::PyRobot;
 use crate::python::trajectories::read_limits;
@@ -24,6 +25,8 @@ use crate::rapid::{self, Code, Module, MotionOptions};
 ///         either no joint is found to be too fast.
 ///     step: Largest distance of the tool between two samples of a MoveL or MoveC [m].
 ///     turn: Largest turn of the tool between two samples [rad]; 5 deg without it.
+///     cell: An `irbkin.Cell` in which each move is proven to touch nothing; without it collisions
+///         are not looked for.
 ///
 /// Returns:
 ///     A tuple of `Finding`, in the order of the text.
@@ -35,7 +38,7 @@ use crate::rapid::{self, Code, Module, MotionOptions};
 ///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
 ///         catalog.
 #[pyfunction]
-#[pyo3(signature = (robot, module, *, codes=None, max_velocity=None, step=0.005, turn=None))]
+#[pyo3(signature = (robot, module, *, codes=None, max_velocity=None, step=0.005, turn=None, cell=None))]
 pub(crate) fn check<'py>(
     robot: &Bound<'py, PyRobot>,
     module: &Bound<'py, RapidModule>,
@@ -43,8 +46,10 @@ pub(crate) fn check<'py>(
     max_velocity: Option<&Bound<'py, PyAny>>,
     step: f64,
     turn: Option<f64>,
+    cell: Option<&Bound<'py, PyCell>>,
 ) -> PyResult<Bound<'py, PyTuple>> {
     let py = robot.py();
+    let cell = cell.map(|cell| &*cell.get().0);
     let arm = robot.get().arm();
     arm.check_rule()?;
     let robot = arm.six_joints("check")?;
@@ -55,7 +60,7 @@ pub(crate) fn check<'py>(
         ..MotionOptions::default()
     };
     let RapidModule { module, source, context, .. } = module.get();
-    let found = py.detach(|| rapid::check(robot, module, source, &options))?;
+    let found = py.detach(|| rapid::check(robot, module, source, &options, cell))?;
     let others = context.iter().map(|other| &other.get().module);
     let modules: Vec<&Module> = core::iter::once(module).chain(others).collect();
     let codes = codes.map(read_codes).transpose()?;

@@ -9,6 +9,7 @@ use nalgebra::ComplexField as _;
 use super::fixes::{Demand, Finder, correct};
 use super::inherited::with_inherited;
 use super::runs::{Run, runs};
+use crate::cell::{Cell, Placed};
 use crate::error::{Error, RapidFault, RapidFaultKind};
 use crate::kinematics::thresholds::{CONFIGURATION_EDGE, LEAST_WAY};
 use crate::kinematics::{Pose, Robot};
@@ -32,18 +33,20 @@ const AXES: [(usize, &str); 3] = [(0, "cf1"), (3, "cf4"), (5, "cf6")];
 ///
 /// `source` is the text that `module` was read from. Without velocities, neither of the robot nor
 /// in the options, no joint is too fast. The start and the accelerations of the options do not
-/// count.
+/// count. With a cell, each move is proven to touch nothing, each joint moving evenly between two
+/// samples, or where it first does is found.
 ///
 /// # Errors
 ///
 /// [`Error::InvalidModel`] for an arm without configurations; [`Error::InvalidMotion`] for limits
 /// or steps that are not positive, or for too many samples; [`Error::Rapid`] if `source` is not the
-/// text of `module`.
+/// text of `module`; [`Error::InvalidBody`] for a robot without a body in a cell.
 pub fn check(
     robot: &Robot<6>,
     module: &Module,
     source: &str,
     options: &MotionOptions,
+    cell: Option<&Cell>,
 ) -> Result<Vec<Finding>, Error> {
     robot.configuration_rule()?;
     check_options(options)?;
@@ -58,6 +61,7 @@ pub fn check(
         robots: [robot, &flange],
         options: *options,
         max_velocity,
+        cell: cell.map(|cell| Ok::<_, Error>((cell, Placed::of(robot)?))).transpose()?,
         ends: Vec::new(),
         found: Vec::new(),
         demands: Vec::new(),
@@ -76,6 +80,7 @@ struct Checker<'a, 'm> {
     robots: [&'a Robot<6>; 2],
     options: MotionOptions,
     max_velocity: [f64; 6],
+    cell: Option<(&'a Cell, Placed<'a, 6>)>,
     /// The joints at the targets of the moves of each run.
     ends: Vec<Vec<Option<[f64; 6]>>>,
     found: Vec<Finding>,
@@ -109,6 +114,12 @@ impl<'m> Checker<'_, 'm> {
             }
             self.found.push(finding);
         }
+        for (index, goal) in
+            goals.iter().enumerate().filter(|(index, _)| made[*index].as_programmed)
+        {
+            let finding = self.collision(followed.along(index));
+            self.found.extend(finding.map(|finding| finding.at(goal.step, index)));
+        }
         let zones = Zones { flange: self.robots[1], goals, made };
         for (index, goal) in goals.iter().enumerate() {
             let mut found = |finding: Finding| self.found.push(finding.at(goal.step, index));
@@ -129,6 +140,21 @@ impl<'m> Checker<'_, 'm> {
         }
         self.ends.push(made.iter().map(|made| made.q).collect());
         Ok(())
+    }
+
+    /// A move that touches something in the cell.
+    fn collision(&mut self, along: &[[f64; 6]]) -> Option<Finding> {
+        let (cell, placed) = self.cell.as_mut()?;
+        let contact = cell.contact(placed, along)?;
+        let part = contact.at / along.len().saturating_sub(1).max(1) as f64;
+        let words = format!(
+            "link {} touches {} after {:.0} % of the way, {:.1} mm deep",
+            contact.nearest.link,
+            contact.nearest.near,
+            1e2 * part,
+            1e3 * contact.depth.max(0.0),
+        );
+        Some(Finding::new(Code::Collision, words))
     }
 
     /// A finding on confdata that no solution has, with the configuration of the nearest joints.

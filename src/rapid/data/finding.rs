@@ -23,7 +23,7 @@ macro_rules! codes {
 
         impl Code {
             /// Every code.
-            pub const ALL: [Self; 24] = [$(Self::$Code),*];
+            pub const ALL: [Self; 25] = [$(Self::$Code),*];
 
             /// The code: a letter for its group and three digits.
             #[must_use]
@@ -75,6 +75,8 @@ codes! {
     JointTooFast "V401" "joint-too-fast";
     /// A zone is over half of the distance to a target next to it.
     ZoneTooLarge "Z501" "zone-too-large";
+    /// A move touches something: the arm itself or an obstacle of a cell.
+    Collision "K901" "collision";
     /// A target is not declared.
     UnknownTarget "N601" "unknown-target";
     /// A tool is not declared.

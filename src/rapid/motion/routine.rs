@@ -138,6 +138,12 @@ impl<'m> Followed<'m> {
         Ok(Self { goals, indices, samples, made, findings })
     }
 
+    /// The joints along a move, from where it begins.
+    pub(in crate::rapid) fn along(&self, index: usize) -> &[[f64; 6]] {
+        let intervals = self.samples.intervals(index);
+        &self.samples.q[intervals.start.saturating_sub(1)..intervals.end]
+    }
+
     /// Find the joints that are too fast at the programmed speeds.
     pub(in crate::rapid) fn check_speeds(&mut self, max_velocity: &[f64; 6]) {
         let Self { goals, samples, made, findings, .. } = self;

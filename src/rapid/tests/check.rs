@@ -24,7 +24,7 @@ fn text(moves: &str) -> String {
 fn checked(text: &str) -> Vec<Finding> {
     let robot = Robot::named("IRB 2600-12/1.65").unwrap();
     let module = parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let mut found = check(&robot, &module, text, &MotionOptions::default()).unwrap();
+    let mut found = check(&robot, &module, text, &MotionOptions::default(), None).unwrap();
     found.retain(|it| it.code != Code::ConfdataEdge);
     found
 }
@@ -206,13 +206,13 @@ fn settings_hold_across_calls() {
 fn what_cannot_be_checked_is_an_error() {
     let (module, options) = (parse(&text(""), &[]).unwrap(), MotionOptions::default());
     let robot = Robot::named("IRB 2600-12/1.65").unwrap();
-    assert_eq!(check(&robot, &module, &text(""), &options).unwrap(), []);
-    let other = check(&robot, &module, "MODULE", &options).unwrap_err();
+    assert_eq!(check(&robot, &module, &text(""), &options, None).unwrap(), []);
+    let other = check(&robot, &module, "MODULE", &options, None).unwrap_err();
     assert!(matches!(other, Error::Rapid(_)), "{other}");
     let no_step = MotionOptions { step: 0.0, ..options };
-    let no_step = check(&robot, &module, &text(""), &no_step).unwrap_err();
+    let no_step = check(&robot, &module, &text(""), &no_step, None).unwrap_err();
     assert!(matches!(no_step, Error::InvalidMotion(_)), "{no_step}");
     let other_arm = Robot::named("UR5e").unwrap();
-    let other_arm = check(&other_arm, &module, &text(""), &options).unwrap_err();
+    let other_arm = check(&other_arm, &module, &text(""), &options, None).unwrap_err();
     assert!(matches!(other_arm, Error::InvalidModel(_)), "{other_arm}");
 }
