@@ -199,3 +199,52 @@ fn margins_move_the_answer_and_bad_shapes_are_named() {
     let pair = Body::new(vec![LinkCapsule { link: 1, capsule }], vec![[1, 2]]);
     assert!(message(pair.unwrap_err()).contains("links 1 and 2"));
 }
+
+#[test]
+fn standing_arms_and_pairs_that_may_touch_are_kept() {
+    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let beside = IsometryMatrix3::from_parts(
+        Translation3::new(0.0, 1.2, 0.0),
+        Rotation3::from_euler_angles(0.0, 0.0, -1.5),
+    );
+    let left = Robot::<6>::named("UR5e").unwrap().with_base(&beside).unwrap();
+    let corners = [[0.0; 3], [0.3, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0, 0.0, 0.3]];
+    let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]].map(|face| face.map(|at| corners[at]));
+    let place = Pose::translation(0.6, -0.3, 0.4);
+    let obstacles = vec![
+        ("hull".to_owned(), Shape::convex(&corners, &place).unwrap()),
+        ("mesh".to_owned(), Shape::mesh(&faces, true, &place).unwrap()),
+        ("scan".to_owned(), Shape::points(&corners, 0.05, &place).unwrap()),
+    ];
+    let cell = Cell::new(obstacles, 0.01).unwrap();
+    let cell = cell.with_may_touch(&[("mesh", 6)]).unwrap();
+    let cell = cell.with_robot("left", &left, &[0.1, -1.2, 1.4, 0.2, 0.3, 0.0]).unwrap();
+    let cell = cell.with_may_touch(&[("left, link 6", 4)]).unwrap();
+    let pairs: Vec<_> = cell.may_touch().collect();
+    assert_eq!(pairs, [("mesh", 6), ("left, link 6", 4)]);
+    let again: Cell = serde_json::from_str(&serde_json::to_string(&cell).unwrap()).unwrap();
+    assert_eq!(again, cell);
+    let mut rng = Rng::new(62);
+    let (mut seen, mut hits) = (BTreeMap::new(), 0);
+    for _ in 0..1500 {
+        let q = rng.inside(robot.limits());
+        let nearest = cell.nearest(&robot, &q).unwrap().unwrap();
+        assert_eq!(again.nearest(&robot, &q).unwrap().unwrap(), nearest);
+        let collides = cell.collides(&robot, &q).unwrap();
+        let alone = Cell::default().collides(&robot, &q).unwrap();
+        if let Near::Obstacle(name) = nearest.near {
+            assert_eq!(collides, alone || nearest.distance <= 0.01 + 1e-9, "{q:?}");
+            assert!((&*name, nearest.link) != ("mesh", 6));
+            *seen.entry(name).or_insert(0) += 1;
+        }
+        hits += usize::from(collides && !alone);
+    }
+    assert!(hits > 100 && seen.len() > 6, "{hits} hits, {seen:?}");
+    let message = |pairs| cell.clone().with_may_touch(&[pairs]).unwrap_err().to_string();
+    assert!(
+        message(("mseh", 6)).contains("no obstacle has the name \"mseh\", there are: \"hull\"")
+    );
+    assert!(message(("mesh", 0)).contains("no link 0"));
+    let twice = cell.with_robot("left", &left, &[0.0; 6]).unwrap_err().to_string();
+    assert!(twice.contains("name of another"), "{twice}");
+}

@@ -1602,7 +1602,7 @@ class Solutions:
     def explain(self) -> str:
         """Return the outcome in a sentence: how many solutions, or why there are none. For an
         arm without a closed form that has none, how near it gets is then searched, which takes
-        milliseconds.
+        milliseconds. Of solutions that a cell took away, it names what each touches.
         """
     def within_limits(self) -> Solutions:
         """Return the solutions inside the joint limits."""
@@ -2466,6 +2466,8 @@ def check(
             either no joint is found to be too fast.
         step: Largest distance of the tool between two samples of a MoveL or MoveC [m].
         turn: Largest turn of the tool between two samples [rad]; 5 deg without it.
+        cell: An `irbkin.Cell` in which each move is proven to touch nothing; without it collisions
+            are not looked for.
 
     Returns:
         A tuple of `Finding`, in the order of the text.
@@ -2590,7 +2592,9 @@ class RoutineMotion:
 
 @final
 class Shape:
-    """A solid: a box, sphere, capsule, cylinder or half space. Lengths are in meters."""
+    """A box, sphere, capsule, cylinder, half space, convex hull, triangle mesh, point cloud, or
+    several of them. Lengths are in meters.
+    """
 
     @staticmethod
     def box(size: npt.ArrayLike, pose: npt.ArrayLike | None = None) -> Shape:
@@ -2639,6 +2643,85 @@ class Shape:
         Raises:
             InvalidModelError: A length that is not positive, or more than 1e6 m.
             InvalidPoseError: pose is not a rigid transform.
+        """
+    @staticmethod
+    def convex(
+        points: npt.ArrayLike | str | PathLike[str],
+        pose: npt.ArrayLike | None = None,
+        *,
+        scale: float = 1.0,
+    ) -> Shape:
+        """The convex hull of points.
+
+        Args:
+            points: At least four points that are in no plane [m], shape (n, 3); or a file of a
+                mesh, whose corners they are.
+            pose: Pose of the frame of the points, shape (4, 4); the identity when not given.
+            scale: Meters of a unit of the points: 0.001 of millimeters.
+
+        Raises:
+            InvalidModelError: Points that are not finite, in a plane, or more than 100 m apart.
+            InvalidPoseError: pose is not a rigid transform.
+            ImportError: A file is given and trimesh is not installed.
+        """
+    @staticmethod
+    def mesh(
+        triangles: npt.ArrayLike | str | PathLike[str],
+        pose: npt.ArrayLike | None = None,
+        *,
+        scale: float = 1.0,
+        solid: bool = True,
+    ) -> Shape:
+        """A triangle mesh: what is inside belongs to it.
+
+        Args:
+            triangles: The corners of its triangles [m], shape (n, 3, 3); or a file (STL, OBJ, DAE
+                and what else trimesh reads). A solid mesh is closed; its corners are
+                counterclockwise, seen from outside.
+            pose: Pose of the frame of the mesh, shape (4, 4); the identity when not given.
+            scale: Meters of a unit of the mesh: 0.001 of millimeters. A file that states its unit
+                is converted to meters first.
+            solid: False for its surface alone, which need not be closed. Inside of it is free.
+
+        Raises:
+            InvalidModelError: Corners that are not finite or more than 100 m apart, a solid mesh
+                that is not closed or has no volume.
+            InvalidPoseError: pose is not a rigid transform.
+            ImportError: A file is given and trimesh is not installed.
+        """
+    @staticmethod
+    def points(points: npt.ArrayLike, radius: float, pose: npt.ArrayLike | None = None) -> Shape:
+        """A cloud of points, each with a ball around it.
+
+        Args:
+            points: The points [m], shape (n, 3).
+            radius: The radius of the balls [m]; the distance of neighboring points leaves no gaps
+                between them.
+            pose: Pose of the frame of the points, shape (4, 4); the identity when not given.
+
+        Raises:
+            InvalidModelError: Points that are not finite or more than 100 m apart, a radius that
+                is not positive.
+            InvalidPoseError: pose is not a rigid transform.
+        """
+    @staticmethod
+    def union(shapes: Sequence[Shape]) -> Shape:
+        """Several shapes as one.
+
+        Args:
+            shapes: At least one shape.
+
+        Raises:
+            InvalidModelError: No shape.
+        """
+    def moved(self, T: npt.ArrayLike) -> Shape:
+        """Return the shape moved from a frame, whose pose is given, into the frame of the pose.
+
+        Args:
+            T: Pose of the frame that the shape is in, shape (4, 4).
+
+        Raises:
+            InvalidPoseError: T is not a rigid transform.
         """
     @staticmethod
     def half_space(normal: npt.ArrayLike, point: npt.ArrayLike) -> Shape:
@@ -2693,12 +2776,48 @@ class Cell:
     Args:
         obstacles: The `Shape` of each by its name, in the world; none when not given.
         margin: How far the arm is to stay from them [m].
+        may_touch: Pairs of an obstacle's name and a link that are not compared, as
+            ("table", 1); none when not given.
 
     Raises:
-        InvalidModelError: A margin that is negative or not finite.
+        InvalidModelError: A margin that is negative or not finite, a name that no obstacle has, a
+            link other than 1 to 7.
     """
 
-    def __new__(cls, obstacles: Mapping[str, Shape] | None = None, margin: float = 0.0) -> Cell: ...
+    def __new__(
+        cls,
+        obstacles: Mapping[str, Shape] | None = None,
+        margin: float = 0.0,
+        may_touch: Sequence[tuple[str, int]] | None = None,
+    ) -> Cell: ...
+    @staticmethod
+    def load(path: str | PathLike[str]) -> Cell:
+        """Read a cell from a file: TOML as described in docs/guide/cell.md, or a URDF.
+
+        Args:
+            path: A file that ends in .toml, .urdf or .xml.
+
+        Raises:
+            InvalidModelError: An unknown key or frame, a shape that cannot be; the message names
+                the entry and, where there is one, the line.
+            ImportError: A mesh is in the file and trimesh is not installed.
+            OSError: The file cannot be read.
+        """
+    def with_robot(self, name: str, robot: Robot, q: npt.ArrayLike | Solution) -> Cell:
+        """Return the cell with another arm in it, which stands still.
+
+        Args:
+            name: The arm's name: its link 3 is the obstacle "left, link 3" if the name is "left".
+            robot: The arm, at its base (`Robot.with_base`).
+            q: Its joint angles [rad], shape (n,).
+
+        Raises:
+            InvalidJointsError: A wrong shape, or joints that are not finite.
+            InvalidModelError: The robot has no body, or an obstacle has one of these names.
+        """
+    @property
+    def may_touch(self) -> list[tuple[str, int]]:
+        """The pairs of an obstacle's name and a link that are not compared."""
     @property
     def obstacles(self) -> dict[str, Shape]:
         """The `Shape` of each obstacle, by its name."""

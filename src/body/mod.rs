@@ -10,5 +10,5 @@ mod stored;
 pub(crate) use arms::body_of;
 pub use links::{Body, LinkCapsule};
 pub(crate) use outline::{Group, Middle, Outline};
-pub use shape::{Capsule, Shape};
+pub use shape::{Capsule, Cloud, Hull, Mesh, Shape};
 pub(crate) use shape::{Separation, check_length};

@@ -3,9 +3,9 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-#[cfg(not(feature = "std"))]
-use nalgebra::RealField as _;
 use nalgebra::Vector3;
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
 
 use super::links::{Body, LinkCapsule};
 use super::shape::Capsule;

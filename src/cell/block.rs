@@ -1,6 +1,5 @@
 //! Eight joint vectors, or boxes of joint vectors, at once: which of them touch something.
 
-use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -8,6 +7,7 @@ use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
 use super::apart::{Axis, Decided, Point, Solid, constant, in_frame, load, minus};
+use super::obstacles::Cell;
 use crate::body::{Capsule, Group, Middle, Outline, Shape};
 use crate::kinematics::{Axes, Robot};
 use crate::lanes::{Column, LANES, Number as _, Vector, VectorKernel, cross, dot, run_vectors};
@@ -56,7 +56,7 @@ impl<const N: usize> Block<N> {
         &mut self,
         robot: &Robot<N>,
         outline: &Outline,
-        around: (&[(String, Shape)], f64),
+        cell: &Cell,
         q: &[[f64; N]],
         spans: Option<&[[f64; N]]>,
     ) -> u64 {
@@ -69,9 +69,8 @@ impl<const N: usize> Block<N> {
             }
         }
         let asked = ALL >> (LANES - q.len());
-        let (obstacles, margin) = around;
         let swept = spans.is_some();
-        run_vectors(Touch { block: self, outline, obstacles, margin, swept, asked })
+        run_vectors(Touch { block: self, outline, cell, swept, asked })
     }
 
     fn frame(&self, link: usize) -> &Axes<LANES> {
@@ -92,8 +91,7 @@ impl<const N: usize> Block<N> {
 struct Touch<'a, const N: usize> {
     block: &'a mut Block<N>,
     outline: &'a Outline,
-    obstacles: &'a [(String, Shape)],
-    margin: f64,
+    cell: &'a Cell,
     swept: bool,
     asked: u64,
 }
@@ -117,9 +115,9 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
                 return asked;
             }
         }
-        for obstacle in 0..self.obstacles.len() {
+        for obstacle in 0..self.cell.obstacles().len() {
             for group in 0..self.outline.groups.len() {
-                if self.outline.groups[group].link > 0 {
+                if self.cell.compares(obstacle, self.outline.groups[group].link) {
                     self.apart_of_obstacle(simd, group, obstacle);
                 }
             }
@@ -251,8 +249,8 @@ impl<const N: usize> Touch<'_, N> {
     #[inline(always)]
     fn apart_of_obstacle<S: Simd>(&mut self, simd: S, group: usize, obstacle: usize) {
         let own = &self.outline.groups[group];
-        let shape = &self.obstacles[obstacle].1;
-        let moved = self.moved(simd, group, 0) + (self.margin + ROUNDING);
+        let shape = &self.cell.obstacles()[obstacle].1;
+        let moved = self.moved(simd, group, 0) + (self.cell.margin() + ROUNDING);
         let center = load(simd, &self.block.centers[group]);
         if self.asked & !ball_beyond(shape, center, moved + own.radius) == 0 {
             return;
@@ -261,7 +259,12 @@ impl<const N: usize> Touch<'_, N> {
         for index in own.capsules.clone() {
             let capsule = &self.outline.middles[index];
             let limit = moved + capsule.radius;
-            let decided = from_shape(&self.axis(simd, index), shape, limit, self.asked);
+            let axis = self.axis(simd, index);
+            let mut decided = Decided { far: ALL, near: 0 };
+            for part in shape.parts() {
+                let one = from_shape(&axis, part, limit, self.asked);
+                decided = Decided { far: decided.far & one.far, near: decided.near | one.near };
+            }
             let left = self.asked & !decided.far;
             if left != 0 {
                 self.asked &= !(left & decided.near);
@@ -290,7 +293,7 @@ impl<const N: usize> Touch<'_, N> {
     fn settle_obstacle<S: Simd>(&mut self, open: u64, [own, at]: [usize; 2], least: Vector<S>) {
         for lane in bits(open) {
             let capsule = self.block.capsule(self.outline, own, lane);
-            if self.obstacles[at].1.separation(&capsule).distance <= least.as_array()[lane] {
+            if self.cell.obstacles()[at].1.is_within(&capsule, least.as_array()[lane]) {
                 self.asked &= !(1 << lane);
             }
         }
@@ -354,5 +357,6 @@ fn from_shape<S: Simd>(axis: &Axis<S>, shape: &Shape, limit: Vector<S>, asked: u
             let far = lowest.simd_gt(limit + *offset).to_bitmask();
             Decided { far, near: !far }
         }
+        _ => Decided::default(),
     }
 }

@@ -7,6 +7,7 @@ mod pairs;
 mod path;
 mod placed;
 mod postures;
+mod standing;
 
 pub use obstacles::Cell;
 pub use path::{Contact, RESOLUTION};

@@ -1,10 +1,14 @@
 //! A cell: obstacles in the frame of the world.
 
-use alloc::string::String;
+use alloc::format;
+use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
 
 use crate::body::{Shape, check_length};
 use crate::error::{BodyFault, Error};
+
+/// The last link of the longest arm.
+const LAST_LINK: usize = 7;
 
 /// Obstacles in the frame of the world, and a margin around them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,6 +16,8 @@ use crate::error::{BodyFault, Error};
 pub struct Cell {
     obstacles: Vec<(String, Shape)>,
     margin: f64,
+    /// Obstacles, by their places, and links that are not compared.
+    may_touch: Vec<(usize, usize)>,
 }
 
 impl Cell {
@@ -28,7 +34,7 @@ impl Cell {
                 return Err(BodyFault::TwoNames { index }.into());
             }
         }
-        Ok(Self { obstacles, margin })
+        Ok(Self { obstacles, margin, may_touch: Vec::new() })
     }
 
     /// The obstacles, with their names.
@@ -43,9 +49,45 @@ impl Cell {
         self.margin
     }
 
+    /// The cell in which pairs of an obstacle, by its name, and a link are not compared, besides
+    /// those that already are not.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidBody`] for a name that no obstacle has, and a link other than 1 to 7: link 0,
+    /// on which an arm stands, is never compared.
+    pub fn with_may_touch<S: AsRef<str>>(mut self, pairs: &[(S, usize)]) -> Result<Self, Error> {
+        for (name, link) in pairs {
+            let name = name.as_ref();
+            let Some(obstacle) = self.obstacles.iter().position(|(own, _)| own == name) else {
+                let existing = self.obstacles.iter().map(|(own, _)| format!("{own:?}")).collect();
+                return Err(BodyFault::NoObstacle { name: name.to_string(), existing }.into());
+            };
+            if !(1..=LAST_LINK).contains(link) {
+                return Err(BodyFault::NoMovingLink { name: name.to_string(), link: *link }.into());
+            }
+            if self.compares(obstacle, *link) {
+                self.may_touch.push((obstacle, *link));
+            }
+        }
+        Ok(self)
+    }
+
+    /// The obstacles, by their names, and the links that are not compared with them.
+    pub fn may_touch(&self) -> impl Iterator<Item = (&str, usize)> {
+        let pairs = self.may_touch.iter();
+        pairs.filter_map(|(at, link)| self.obstacles.get(*at).map(|(name, _)| (&**name, *link)))
+    }
+
+    /// The cell with more obstacles.
+    pub(super) fn with_obstacles(self, more: Vec<(String, Shape)>) -> Result<Self, Error> {
+        let obstacles = [self.obstacles, more].concat();
+        Ok(Self { may_touch: self.may_touch, ..Self::new(obstacles, self.margin)? })
+    }
+
     /// Whether a link is compared with an obstacle, by its place: not the one on which the arm
     /// stands.
-    pub(super) fn compares(&self, _obstacle: usize, link: usize) -> bool {
-        link > 0
+    pub(super) fn compares(&self, obstacle: usize, link: usize) -> bool {
+        link > 0 && !self.may_touch.contains(&(obstacle, link))
     }
 }

@@ -220,9 +220,8 @@ impl Cell {
         for (lane, own) in parts.iter().enumerate() {
             (q[lane], spans[lane]) = motion.range(own.piece, own.part);
         }
-        let around = (self.obstacles(), self.margin());
         let (q, some) = (&q[..parts.len()], &spans[..parts.len()]);
-        let touching = placed.touching(around, q, Some(some));
+        let touching = placed.touching(self, q, Some(some));
         core::array::from_fn(|lane| {
             if touching >> lane & 1 == 0 {
                 Verdict::Free

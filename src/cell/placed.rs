@@ -1,10 +1,10 @@
 //! The capsules of an arm at its joint angles.
 
-use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::block::Block;
-use crate::body::{Capsule, Outline, Shape};
+use super::obstacles::Cell;
+use crate::body::{Capsule, Outline};
 use crate::error::{BodyFault, Error};
 use crate::kinematics::Robot;
 use crate::lanes::LANES;
@@ -31,12 +31,12 @@ impl<'a, const N: usize> Placed<'a, N> {
     /// Which of up to eight joint vectors touch something, as bits: [`Block::touching`].
     pub(super) fn touching(
         &mut self,
-        around: (&[(String, Shape)], f64),
+        cell: &Cell,
         q: &[[f64; N]],
         spans: Option<&[[f64; N]]>,
     ) -> u64 {
         debug_assert!(q.len() <= LANES);
-        self.block.touching(self.robot, &self.outline, around, q, spans)
+        self.block.touching(self.robot, &self.outline, cell, q, spans)
     }
 
     /// How far any axis of a capsule moves at most while the joints turn by spans [rad] [m].

@@ -87,7 +87,7 @@ impl Cell {
         placed: &mut Placed<'_, N>,
         q: &[[f64; N]],
     ) -> u64 {
-        placed.touching((self.obstacles(), self.margin()), q, None)
+        placed.touching(self, q, None)
     }
 
     /// The link and the other link or obstacle that are nearest; `None` if there is nothing to

@@ -1,9 +1,15 @@
 //! Shapes, bodies and cells that are refused.
 
+use core::fmt;
+
+use alloc::string::String;
+
 use thiserror::Error;
 
+use super::lists::Names;
+
 /// Why a shape, a body or a cell is refused. Lengths in meters; links and obstacles count from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BodyFault {
     #[error(
@@ -14,6 +20,34 @@ pub enum BodyFault {
     Length { field: &'static str, value: f64, least: f64, most: f64 },
     #[error("normal has length zero: it must point out of the solid, as [0, 0, 1] of a floor does")]
     Normal,
+    #[error("{field} has {count} points, it must have {least} to {most}")]
+    Count { field: &'static str, count: usize, least: usize, most: usize },
+    #[error("{field}: point {row} has the coordinate {value}, every one must be finite [m]")]
+    Row { field: &'static str, row: usize, value: f64 },
+    #[error(
+        "{field} extend over {span} m, more than {most} m: are they in millimeters? scale=0.001 \
+         makes meters"
+    )]
+    Span { field: &'static str, span: f64, most: f64 },
+    /// `thickness`: how far the points are from a plane [m].
+    #[error(
+        "points are in a plane within {thickness:e} m, a convex hull must be {least:e} m thick at \
+         least: give a plate by points on both of its sides"
+    )]
+    Flat { thickness: f64, least: f64 },
+    /// `senses`: how many triangles use the edge in one sense and in the other.
+    #[error(
+        "the mesh is not closed: {}; {count} edges are open. Close it, fill it by Shape.convex, or \
+         take its surface alone by solid=False", OpenEdge(.edge, *.senses)
+    )]
+    Open { edge: [[f64; 3]; 2], senses: [u32; 2], count: usize },
+    #[error(
+        "the mesh encloses no volume: it is {thickness:e} m thick, it must be {least:e} m at least; \
+         take its surface alone by solid=False"
+    )]
+    NoVolume { thickness: f64, least: f64 },
+    #[error("a union has no shape: give one at least")]
+    NoShape,
     #[error(
         "links {} and {} are no pair to be kept apart: they must be two links with capsules",
         .pair[0], .pair[1]
@@ -23,9 +57,31 @@ pub enum BodyFault {
     NoLink { link: usize, dof: usize },
     #[error("obstacle {index} has the name of another one: each must have its own")]
     TwoNames { index: usize },
+    #[error("may_touch: no obstacle has the name {name:?}, there are: {existing}")]
+    NoObstacle { name: String, existing: Names },
+    #[error(
+        "may_touch: there is no link {link} that could touch {name:?}: links 1 to 7 move, link 0 is \
+         not compared"
+    )]
+    NoMovingLink { name: String, link: usize },
     #[error(
         "the robot has no body: the catalog has none of this arm; give one by with_body, of capsules \
          that contain its links"
     )]
     NoBody,
+}
+
+/// An edge that is not used in both senses equally often.
+struct OpenEdge<'a>(&'a [[f64; 3]; 2], [u32; 2]);
+
+impl fmt::Display for OpenEdge<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self([a, b], [along, back]) = self;
+        write!(f, "the edge from {a:?} to {b:?} m ")?;
+        match along + back {
+            1 => f.write_str("belongs to one triangle only"),
+            2 => f.write_str("belongs to two triangles that face opposite sides"),
+            count => write!(f, "belongs to {count} triangles, {along} in one sense"),
+        }
+    }
 }

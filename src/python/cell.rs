@@ -8,6 +8,8 @@ use pyo3::types::{PyDict, PyTuple};
 
 use super::arguments::thread_count;
 use super::arm::{Arm, on};
+use super::arrays::vector;
+use super::errors::Fault;
 use super::outputs::{Output, array};
 use super::records::{CellContact, CellDistance};
 use super::robot::PyRobot;
@@ -23,9 +25,12 @@ use crate::cell::{Cell, Contact, Nearest};
 /// Args:
 ///     obstacles: The `Shape` of each by its name, in the world; none when not given.
 ///     margin: How far the arm is to stay from them [m].
+///     may_touch: Pairs of an obstacle's name and a link that are not compared, as
+///         ("table", 1); none when not given.
 ///
 /// Raises:
-///     InvalidModelError: A margin that is negative or not finite.
+///     InvalidModelError: A margin that is negative or not finite, a name that no obstacle has, a
+///         link other than 1 to 7.
 #[pyclass(name = "Cell", module = "irbkin", frozen, eq)]
 #[derive(Clone, PartialEq)]
 pub(super) struct PyCell(pub(super) Arc<Cell>);
@@ -33,8 +38,12 @@ pub(super) struct PyCell(pub(super) Arc<Cell>);
 #[pymethods]
 impl PyCell {
     #[new]
-    #[pyo3(signature = (obstacles=None, margin=0.0))]
-    fn new(obstacles: Option<&Bound<'_, PyDict>>, margin: f64) -> PyResult<Self> {
+    #[pyo3(signature = (obstacles=None, margin=0.0, may_touch=None))]
+    fn new(
+        obstacles: Option<&Bound<'_, PyDict>>,
+        margin: f64,
+        may_touch: Option<Vec<(String, usize)>>,
+    ) -> PyResult<Self> {
         let mut read = Vec::new();
         for (name, shape) in obstacles.into_iter().flatten() {
             let name: String = name.extract()?;
@@ -45,7 +54,42 @@ impl PyCell {
             })?;
             read.push((name, shape.get().0.clone()));
         }
-        Ok(Self(Arc::new(Cell::new(read, margin)?)))
+        let cell = Cell::new(read, margin)?.with_may_touch(&may_touch.unwrap_or_default())?;
+        Ok(Self(Arc::new(cell)))
+    }
+
+    /// Read a cell from a file: TOML as described in docs/guide/cell.md, or a URDF.
+    ///
+    /// Args:
+    ///     path: A file that ends in .toml, .urdf or .xml.
+    ///
+    /// Raises:
+    ///     InvalidModelError: An unknown key or frame, a shape that cannot be; the message names
+    ///         the entry and, where there is one, the line.
+    ///     ImportError: A mesh is in the file and trimesh is not installed.
+    ///     OSError: The file cannot be read.
+    #[staticmethod]
+    fn load(path: &Bound<'_, PyAny>) -> PyResult<Py<Self>> {
+        let module = path.py().import("irbkin._cell")?;
+        Ok(module.call_method1("load", (path,))?.extract()?)
+    }
+
+    /// Return the cell with another arm in it, which stands still.
+    ///
+    /// Args:
+    ///     name: The arm's name: its link 3 is the obstacle "left, link 3" if the name is "left".
+    ///     robot: The arm, at its base (`Robot.with_base`).
+    ///     q: Its joint angles [rad], shape (n,).
+    ///
+    /// Raises:
+    ///     InvalidJointsError: A wrong shape, or joints that are not finite.
+    ///     InvalidModelError: The robot has no body, or an obstacle has one of these names.
+    fn with_robot(&self, name: &str, robot: &PyRobot, q: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let cell = Cell::clone(&self.0);
+        let cell = on!(robot.arm(), robot => {
+            cell.with_robot(name, robot, &vector(q, "q", Fault::Joints)?)?
+        });
+        Ok(Self(Arc::new(cell)))
     }
 
     /// The `Shape` of each obstacle, by its name.
@@ -56,6 +100,12 @@ impl PyCell {
             obstacles.set_item(name, PyShape(shape.clone()))?;
         }
         Ok(obstacles)
+    }
+
+    /// The pairs of an obstacle's name and a link that are not compared.
+    #[getter]
+    fn may_touch(&self) -> Vec<(&str, usize)> {
+        self.0.may_touch().collect()
     }
 
     /// How far the arm is to stay from the obstacles [m].

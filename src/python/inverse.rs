@@ -11,6 +11,7 @@ use super::arguments::thread_count;
 use super::arm::{Arm, on};
 use super::cell::PyCell;
 use super::errors::of_seed;
+use super::found::Found;
 use super::outputs::{Output, Pair, answer_row, pair};
 use super::records::{IkBatch, IkMargin, PoseCheck};
 use super::redundancy::{
@@ -18,7 +19,7 @@ use super::redundancy::{
 };
 use super::robot::PyRobot;
 use super::signals::detached;
-use super::solutions::{Found, PySolutions};
+use super::solutions::PySolutions;
 use super::targets::{Seeded, read_ik_pose, read_seeded, read_single_pose, read_weights};
 use crate::batch::Margins;
 use crate::kinematics::{check_most_near, check_near};

@@ -12,7 +12,8 @@ use crate::body::{Body, Capsule, LinkCapsule, Shape};
 use crate::error::Error;
 use crate::kinematics::Pose;
 
-/// A solid: a box, sphere, capsule, cylinder or half space. Lengths are in meters.
+/// A box, sphere, capsule, cylinder, half space, convex hull, triangle mesh, point cloud, or
+/// several of them. Lengths are in meters.
 #[pyclass(name = "Shape", module = "irbkin.body", frozen, eq)]
 #[derive(Clone, PartialEq)]
 pub(super) struct PyShape(pub(super) Shape);
@@ -116,6 +117,19 @@ impl PyShape {
                 let point: [f64; 3] = (normal * *offset).into();
                 format!("Shape.half_space({:?}, {point:?})", <[f64; 3]>::from(*normal))
             }
+            Shape::Convex { pose, hull } => {
+                format!("<Shape.convex: {} points at {:?}>", hull.points().len(), position(pose))
+            }
+            Shape::Mesh { pose, mesh } => {
+                let kind = if mesh.is_solid() { "" } else { ", a surface" };
+                let count = mesh.triangles().len();
+                format!("<Shape.mesh: {count} triangles{kind} at {:?}>", position(pose))
+            }
+            Shape::Points { pose, cloud } => {
+                let (count, radius) = (cloud.points().len(), cloud.radius());
+                format!("<Shape.points: {count} points, {radius:?} m, at {:?}>", position(pose))
+            }
+            Shape::Union(parts) => format!("<Shape.union: {} shapes>", parts.len()),
         }
     }
 
@@ -124,7 +138,7 @@ impl PyShape {
     }
 }
 
-fn read_pose(pose: Option<&Bound<'_, PyAny>>) -> PyResult<Pose> {
+pub(super) fn read_pose(pose: Option<&Bound<'_, PyAny>>) -> PyResult<Pose> {
     pose.map_or(Ok(Pose::identity()), |pose| read_single_pose(pose, "pose"))
 }
 

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import re
 
 import irbkin
 import numpy as np
@@ -71,6 +72,13 @@ def test_solutions_are_filtered_by_a_cell():
         one.slot for one in solutions if not CELL.collides(ROBOT, one)
     }
     assert 0 < len(free) < len(solutions)
+    assert re.search(r"slot \d collides: link \d and \w+, [\d.]+ mm deep", free.explain())
+    assert "collides" not in repr(free)
+    assert pickle.loads(pickle.dumps(free)) == free
+    assert free.filter(CELL) == free
+    walls = irbkin.Cell({"all": Shape.sphere(3, [0, 0, 0])})
+    none = solutions.filter(walls).explain()
+    assert none.count("and all") == len(solutions)
 
 
 @pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "UR5e", "Panda", "CRX-10iA"])

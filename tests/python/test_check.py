@@ -26,7 +26,7 @@ CODES = [code for code, _, _ in check_codes()]
 BLOCKS = dict(re.findall(r"^```rapid (\S+)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL))
 DATA = BLOCKS.pop("data")
 SEAM = BLOCKS.pop("seam.mod")
-CELL = irbkin.Cell({"post": Shape.cylinder(0.05, 0.6, irbkin.pose([0.9, 0, 0.3]))})
+CELL = irbkin.Cell({"post": Shape.cylinder(0.05, 0.8, irbkin.pose([0.9, 0, 0.4]))})
 """As the page has it in cell.toml."""
 FAR = "[9E9,9E9,9E9,9E9,9E9,9E9]"
 
@@ -65,8 +65,11 @@ def test_a_move_that_touches_something_says_when_and_what(tmp_path):
     done = check(file, "--cell", tmp_path / "cell.toml", "--select", "K")
     assert done.returncode == 1
     line = next(it for it in done.stdout.decode().splitlines() if "K901" in it)
-    assert re.search(r"MoveL pFar: link \d touches post after \d+ % of the way, [\d.]+ mm deep", line)
-    (finding,) = rapid.check(ROBOT, rapid.parse(module(BLOCKS["K901"])), cell=CELL, codes=["K901"])
+    assert re.search(
+        r"MoveL pFar: link \d touches post after \d+ % of the way, [\d.]+ mm deep", line
+    )
+    text = module(BLOCKS["K901"])
+    (finding,) = rapid.check(ROBOT, rapid.parse(text), cell=CELL, codes=["K901"])
     part = int(re.search(r"after (\d+) %", finding.message)[1])
     assert 0 < part < 50
     bare = ROBOT.with_body(None)

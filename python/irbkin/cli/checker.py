@@ -37,9 +37,7 @@ class Checker:
         """Return the findings on a module that its comments do not silence."""
         from irbkin._core import check
 
-        found = check(
-            self.robot, module, codes=self.asked, step=self.step, cell=self.cell
-        )
+        found = check(self.robot, module, codes=self.asked, step=self.step, cell=self.cell)
         if "noqa" not in module.source.lower():
             return list(found)
         lines = module.source.split("\n")

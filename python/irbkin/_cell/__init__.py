@@ -1,0 +1,35 @@
+"""Cells from files: `Cell.load`. What is in them is in docs/guide/cell.md."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from irbkin.errors import InvalidModelError
+
+if TYPE_CHECKING:
+    from irbkin._core import Cell
+
+__all__ = ["load"]
+
+
+def load(path: str | os.PathLike[str]) -> Cell:
+    """Read the cell of a TOML file or of a URDF."""
+    path = os.fspath(path)
+    ending = os.path.splitext(path)[1].lower()
+    if ending not in (".toml", ".urdf", ".xml"):
+        raise InvalidModelError(f"{path}: a cell is in a file that ends in .toml, .urdf or .xml")
+    with open(path, "rb") as file:
+        content = file.read()
+    try:
+        if ending == ".toml":
+            from irbkin._cell.tables import cell_of
+
+            return cell_of(content, os.path.dirname(path))
+        from irbkin._cell.urdf import cell_of_urdf
+
+        return cell_of_urdf(content, path)
+    except InvalidModelError as error:
+        raise InvalidModelError(f"{path}: {error}") from None
+    except RecursionError:
+        raise InvalidModelError(f"{path}: values or frames are nested too deeply") from None

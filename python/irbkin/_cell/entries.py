@@ -1,0 +1,118 @@
+"""Tables of a TOML file, and values that are checked when they are taken out."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+import numpy as np
+import numpy.typing as npt
+
+from irbkin.errors import InvalidModelError, IrbkinError
+
+
+class EntryError(InvalidModelError):
+    """An error that names an entry of a file."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A table of a file, with the keys that lead to it and the folder of the file."""
+
+    text: str
+    folder: str
+    keys: tuple[str, ...]
+    table: Mapping[str, Any]
+
+    def refuse(self, cause: str | IrbkinError, key: str = "") -> NoReturn:
+        """Raise an error that names the entry and its line; an error that does is raised again."""
+        if isinstance(cause, EntryError):
+            raise cause
+        keys = (*self.keys, key) if key else self.keys
+        line = line_of(self.text, keys)
+        names = ".".join(keys)
+        places = ([f"line {line}"] if line else []) + ([names] if names else [])
+        raise EntryError(": ".join([", ".join(places), str(cause)]) if places else str(cause))
+
+    def check(self, *known: str) -> None:
+        """Refuse keys that are not known."""
+        for key in self.table:
+            if key not in known:
+                self.refuse(f"unknown key; {close(key, known)}", key)
+
+    def sub(self, key: str) -> Entry:
+        """The table of a key, empty if it is not there."""
+        table = self.table.get(key, {})
+        if not isinstance(table, Mapping):
+            self.refuse(f"is {table!r}, it must be a table", key)
+        return Entry(self.text, self.folder, (*self.keys, key), table)
+
+    def subs(self, key: str) -> dict[str, Entry]:
+        """The tables in the table of a key, by their names."""
+        own = self.sub(key)
+        return {name: own.sub(name) for name in own.table}
+
+    def number(self, key: str, default: float | None = None) -> float:
+        """A number."""
+        value = self.table.get(key, default)
+        if value is None:
+            self.refuse(f"{key} is missing, a number")
+        if not _is_number(value):
+            self.refuse(f"is {value!r}, it must be a number", key)
+        return float(value)
+
+    def numbers(self, key: str, count: int) -> npt.NDArray[np.float64]:
+        """A list of numbers."""
+        value = self.table.get(key)
+        if value is None:
+            self.refuse(f"{key} is missing, a list of {count} numbers")
+        if not isinstance(value, list) or len(value) != count or not all(map(_is_number, value)):
+            self.refuse(f"is {value!r}, it must be a list of {count} numbers", key)
+        return np.array(value, dtype=float)
+
+    def name(self, key: str) -> str:
+        """A text."""
+        value = self.table.get(key)
+        if value is None:
+            self.refuse(f"{key} is missing, a text")
+        if not isinstance(value, str):
+            self.refuse(f"is {value!r}, it must be a text", key)
+        return value
+
+    def truth(self, key: str, default: bool) -> bool:
+        """A truth value."""
+        value = self.table.get(key, default)
+        if not isinstance(value, bool):
+            self.refuse(f"is {value!r}, it must be true or false", key)
+        return value
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def close(name: str, known: Iterable[str]) -> str:
+    """The known names that are spelled like one, or the first ones, for a message."""
+    names = sorted(known)
+    near = difflib.get_close_matches(name, names, 3, 0.5)
+    if near:
+        return f"did you mean {' or '.join(near)}?"
+    return f"known: {', '.join(names[:12])}" if names else "there are none"
+
+
+def line_of(text: str, keys: tuple[str, ...]) -> int | None:
+    """The line of the last of some keys, each of which is in or after the line of the one before.
+
+    None if one is in no line, written with escapes for instance.
+    """
+    lines = [re.sub(r"#.*", "", line) for line in text.splitlines()]
+    at = None
+    for key in keys:
+        word = re.compile(rf"(?<![\w-]){re.escape(key)}(?![\w-])")
+        at = next((row for row in range(at or 0, len(lines)) if word.search(lines[row])), None)
+        if at is None:
+            return None
+    return None if at is None else at + 1

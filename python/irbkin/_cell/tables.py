@@ -1,0 +1,151 @@
+"""Cells from TOML files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from irbkin._cell.entries import Entry, close
+from irbkin._cell.frames import Frames
+from irbkin._core import Cell, Robot, Shape
+from irbkin.errors import InvalidModelError, IrbkinError
+
+_ORIGIN = np.zeros(3)
+
+
+def cell_of(content: bytes, folder: str) -> Cell:
+    """The cell of a TOML text, beside which its files are in a folder."""
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InvalidModelError(f"is not UTF-8: {error}") from None
+    root = Entry(text, folder, (), _parsed(text))
+    root.check("margin", "may_touch", "frames", "obstacles", "robots")
+    frames = Frames(root.subs("frames"))
+    obstacles = {name: _shape(entry, frames) for name, entry in root.subs("obstacles").items()}
+    margin = root.number("margin", 0.0)
+    try:
+        cell = Cell(obstacles, margin)
+    except IrbkinError as error:
+        root.refuse(error, "margin")
+    for name, entry in root.subs("robots").items():
+        cell = _with_robot(cell, name, entry, frames)
+    pairs = _pairs(root, cell)
+    try:
+        return Cell(cell.obstacles, margin, pairs)
+    except IrbkinError as error:
+        root.refuse(error, "may_touch")
+
+
+def _parsed(text: str) -> dict[str, Any]:
+    try:
+        import tomllib
+    except ImportError:
+        try:
+            import tomli as tomllib  # type: ignore[import-not-found, no-redef, unused-ignore]
+        except ImportError as missing:
+            raise ImportError(
+                "Python 3.10 reads TOML by tomli: pip install 'irbkin[mesh]'", name="tomli"
+            ) from missing
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InvalidModelError(f"is not TOML: {error}") from None
+
+
+def _pairs(root: Entry, cell: Cell) -> list[tuple[str, int]]:
+    pairs = root.table.get("may_touch", [])
+    if not isinstance(pairs, list) or not all(map(_is_pair, pairs)):
+        root.refuse('must be pairs of an obstacle and a link, as [["table", 1]]', "may_touch")
+    for name, _ in pairs:
+        if name not in cell.obstacles:
+            hint = close(name, cell.obstacles)
+            root.refuse(f"there is no obstacle {name}; {hint}", "may_touch")
+    return [(name, link) for name, link in pairs]
+
+
+def _is_pair(pair: object) -> bool:
+    if not isinstance(pair, list) or len(pair) != 2:
+        return False
+    return isinstance(pair[0], str) and type(pair[1]) is int and pair[1] >= 0
+
+
+def _with_robot(cell: Cell, name: str, entry: Entry, frames: Frames) -> Cell:
+    entry.check("name", "pose", "q", "q_deg")
+    angles = [key for key in ("q", "q_deg") if key in entry.table]
+    if len(angles) != 1:
+        entry.refuse("its joint angles must be given by one of q [rad] and q_deg")
+    try:
+        robot = Robot(entry.name("name")).with_base(frames.pose_of(entry))
+        q = entry.numbers(angles[0], robot.dof)
+        return cell.with_robot(name, robot, np.radians(q) if angles == ["q_deg"] else q)
+    except IrbkinError as error:
+        entry.refuse(error)
+
+
+def _shape(entry: Entry, frames: Frames) -> Shape:
+    kinds = [kind for kind in _SHAPES if kind in entry.table]
+    make, beside = _SHAPES[kinds[0]] if len(kinds) == 1 else (None, ("scale", "solid", "radius"))
+    entry.check(*_SHAPES, "pose", *beside)
+    if make is None:
+        entry.refuse(f"has {' and '.join(kinds) or 'no shape'}, give one of {', '.join(_SHAPES)}")
+    try:
+        return make(entry).moved(frames.pose_of(entry))
+    except IrbkinError as error:
+        entry.refuse(error)
+
+
+def _capsule(entry: Entry) -> Shape:
+    own = entry.sub("capsule")
+    own.check("a", "b", "radius")
+    return Shape.capsule(own.numbers("a", 3), own.numbers("b", 3), own.number("radius"))
+
+
+def _cylinder(entry: Entry) -> Shape:
+    own = entry.sub("cylinder")
+    own.check("radius", "length")
+    return Shape.cylinder(own.number("radius"), own.number("length"))
+
+
+def _convex(entry: Entry) -> Shape:
+    return Shape.convex(_file_or_rows(entry, "convex"), scale=entry.number("scale", 1.0))
+
+
+def _mesh(entry: Entry) -> Shape:
+    scale, solid = entry.number("scale", 1.0), entry.truth("solid", True)
+    return Shape.mesh(_file_or_rows(entry, "mesh"), scale=scale, solid=solid)
+
+
+_SHAPES: dict[str, tuple[Callable[[Entry], Shape], tuple[str, ...]]] = {
+    "box": (lambda entry: Shape.box(entry.numbers("box", 3)), ()),
+    "sphere": (lambda entry: Shape.sphere(entry.number("sphere"), _ORIGIN), ()),
+    "capsule": (_capsule, ()),
+    "cylinder": (_cylinder, ()),
+    "half_space": (lambda entry: Shape.half_space(entry.numbers("half_space", 3), _ORIGIN), ()),
+    "convex": (_convex, ("scale",)),
+    "mesh": (_mesh, ("scale", "solid")),
+    "points": (
+        lambda entry: Shape.points(_file_or_rows(entry, "points"), entry.number("radius")),
+        ("radius",),
+    ),
+}
+"""What makes the shape of each key, and the keys beside it."""
+
+
+def _file_or_rows(entry: Entry, key: str) -> Any:
+    """Rows of numbers, of the entry or of an .npy file, or the path of a file of a mesh."""
+    value = entry.table[key]
+    try:
+        if not isinstance(value, str):
+            return np.array(value, dtype=float)
+        path = os.path.join(entry.folder, value)
+        if not os.path.isfile(path):
+            entry.refuse(f"there is no file {path}", key)
+        return np.load(path) if path.endswith(".npy") else path
+    except (TypeError, ValueError) as error:
+        if isinstance(error, IrbkinError):
+            raise
+        entry.refuse("must be rows of numbers, or the name of a file", key)

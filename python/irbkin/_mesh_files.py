@@ -1,0 +1,39 @@
+"""Files of meshes, read by trimesh: `pip install 'irbkin[mesh]'`."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from irbkin.errors import InvalidModelError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+
+def triangles(path: str | os.PathLike[str]) -> npt.NDArray[np.float64]:
+    """The corners of all triangles of a file, in meters if it states its unit, shape (n, 3, 3)."""
+    try:
+        import trimesh
+    except ImportError as missing:
+        raise ImportError(
+            "a file of a mesh is read by trimesh: pip install 'irbkin[mesh]', or give its "
+            "triangles as an array of shape (n, 3, 3)",
+            name="trimesh",
+        ) from missing
+    path = os.fspath(path)
+    if not os.path.isfile(path):
+        raise FileNotFoundError(f"there is no file of a mesh at {path}")
+    try:
+        scene = trimesh.load_scene(path, process=False)
+    # Its readers raise whatever a damaged file makes them raise.
+    except Exception as error:
+        raise InvalidModelError(f"{path} is no mesh that trimesh reads: {error}") from error
+    if scene.units not in (None, "m", "meter", "meters"):
+        scene = scene.convert_units("meters")
+    mesh = scene.to_mesh()
+    if not len(mesh.faces):
+        raise InvalidModelError(f"{path} has no triangles")
+    return np.array(mesh.vertices[mesh.faces], dtype=np.float64)

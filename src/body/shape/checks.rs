@@ -1,0 +1,74 @@
+//! What lengths and points of shapes must be.
+
+use alloc::vec::Vec;
+
+use nalgebra::Vector3;
+
+use super::tree::Bounds;
+use crate::error::{BodyFault, Error};
+use crate::kinematics::thresholds::MOST_LENGTH;
+use crate::kinematics::{Pose, checked_pose};
+
+/// Least size of a shape [m].
+pub(super) const LEAST: f64 = 1e-6;
+
+/// Size beyond which points count as millimeters [m].
+const MOST_SPAN: f64 = 100.0;
+
+/// Most points or triangles of a shape: their numbers are 32 bits.
+const MOST_COUNT: usize = 1 << 28;
+
+/// Check a length of a shape [m].
+pub(crate) fn check_length(field: &'static str, value: f64, least: f64) -> Result<(), Error> {
+    // NaN is in no range.
+    if value >= least && value <= MOST_LENGTH {
+        Ok(())
+    } else {
+        Err(BodyFault::Length { field, value, least, most: MOST_LENGTH }.into())
+    }
+}
+
+/// Check a point [m].
+pub(super) fn check_point(field: &'static str, point: &Vector3<f64>) -> Result<(), Error> {
+    for (index, value) in point.iter().enumerate() {
+        if value.is_nan() || value.abs() > MOST_LENGTH {
+            return Err(BodyFault::Point { field, index, value: *value, most: MOST_LENGTH }.into());
+        }
+    }
+    Ok(())
+}
+
+/// Check a pose.
+pub(super) fn placed(pose: &Pose) -> Result<Pose, Error> {
+    let pose = checked_pose(pose)?;
+    check_point("pose", &pose.translation.vector)?;
+    Ok(pose)
+}
+
+/// Points of a shape, checked: finite, at least `least` of them, and together not so large that they
+/// are in millimeters.
+pub(super) fn check_points(
+    field: &'static str,
+    points: &[[f64; 3]],
+    least: usize,
+) -> Result<Vec<Vector3<f64>>, Error> {
+    if points.len() < least || points.len() > MOST_COUNT {
+        let count = points.len();
+        return Err(BodyFault::Count { field, count, least, most: MOST_COUNT }.into());
+    }
+    let points: Vec<_> = points.iter().copied().map(Vector3::from).collect();
+    for (row, point) in points.iter().enumerate() {
+        if let Some(value) = point.iter().find(|value| !value.is_finite()) {
+            return Err(BodyFault::Row { field, row, value: *value }.into());
+        }
+    }
+    let Bounds { low, high } = Bounds::of(&points);
+    let span = (high - low).max();
+    if span > MOST_SPAN {
+        return Err(BodyFault::Span { field, span, most: MOST_SPAN }.into());
+    }
+    for point in [low, high] {
+        check_point(field, &point)?;
+    }
+    Ok(points)
+}

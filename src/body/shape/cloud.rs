@@ -1,0 +1,114 @@
+//! Clouds of points: balls of one radius.
+
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+
+use nalgebra::Vector3;
+#[cfg(not(feature = "std"))]
+use nalgebra::{ComplexField as _, RealField as _};
+
+use super::capsule::{Capsule, Separation};
+use super::checks::{LEAST, check_length, check_points};
+use super::segment::{NOWHERE, Nearest, Segment, at, nearer, part_near};
+use super::tree::{Bounds, Tree, above};
+use crate::error::Error;
+
+/// Points, and all that is within a radius of them.
+#[derive(Clone, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Stored", into = "Stored")
+)]
+pub struct Cloud(Arc<Inside>);
+
+/// A cloud as serde reads and writes it.
+type Stored = (Vec<[f64; 3]>, f64);
+
+#[derive(Debug)]
+struct Inside {
+    points: Vec<Vector3<f64>>,
+    radius: f64,
+    tree: Tree,
+}
+
+impl PartialEq for Cloud {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.radius.to_bits() == other.0.radius.to_bits() && self.0.points == other.0.points
+    }
+}
+
+impl From<Cloud> for Stored {
+    fn from(cloud: Cloud) -> Self {
+        (cloud.points().collect(), cloud.radius())
+    }
+}
+
+impl TryFrom<Stored> for Cloud {
+    type Error = Error;
+
+    fn try_from((points, radius): Stored) -> Result<Self, Error> {
+        Self::new(&points, radius)
+    }
+}
+
+impl Cloud {
+    /// At least one point [m], and the radius of the balls around them [m].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidBody`] for points that are not finite or more than 100 m apart, and a radius
+    /// below 1e-6 m.
+    pub fn new(points: &[[f64; 3]], radius: f64) -> Result<Self, Error> {
+        check_length("radius", radius, LEAST)?;
+        let points = check_points("points", points, 1)?;
+        let boxes: Vec<_> = points.iter().map(|point| Bounds::of([point])).collect();
+        Ok(Self(Arc::new(Inside { points, radius, tree: Tree::new(&boxes) })))
+    }
+
+    /// The points [m].
+    #[must_use]
+    pub fn points(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+        self.0.points.iter().map(|point| (*point).into())
+    }
+
+    /// The radius of the balls around the points [m].
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.0.radius
+    }
+
+    /// The box around the points.
+    pub(super) fn bounds(&self) -> &Bounds {
+        self.0.tree.bounds()
+    }
+
+    /// How far a capsule is from the nearest ball.
+    pub(super) fn separation(&self, capsule: &Capsule) -> Separation {
+        let (_, points) = self.nearest(&capsule.ends, f64::INFINITY, |_| false);
+        Separation::of_balls(points, [capsule.radius, self.radius()])
+    }
+
+    /// Whether a capsule is as near to a ball as a distance [m], or nearer.
+    pub(super) fn is_within(&self, capsule: &Capsule, distance: f64) -> bool {
+        let is_near = |square: f64| square.sqrt() - capsule.radius - self.radius() <= distance;
+        let most = above(distance + capsule.radius + self.radius());
+        is_near(self.nearest(&capsule.ends, most, is_near).0)
+    }
+
+    /// The nearest points of an axis and of the cloud, if the square of their distance is less than
+    /// `most`, or the first that are near enough.
+    fn nearest(&self, axis: &Segment, most: f64, is_enough: impl Fn(f64) -> bool) -> Nearest {
+        let mut nearest = (most, NOWHERE.1);
+        self.0.tree.search(
+            most,
+            |bounds| bounds.square_from(axis),
+            |index| {
+                let point = self.0.points[index];
+                nearest = nearer(nearest, at(axis, part_near(axis, &point)), point);
+                if is_enough(nearest.0) { f64::NEG_INFINITY } else { nearest.0 }
+            },
+        );
+        nearest
+    }
+}

@@ -1,0 +1,23 @@
+//! Shapes and how far a capsule is from them.
+
+mod capsule;
+mod checks;
+mod cloud;
+mod convex;
+mod hull;
+mod mesh;
+mod segment;
+mod solid;
+mod surface;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod triangle;
+
+pub use self::capsule::Capsule;
+pub(crate) use self::capsule::Separation;
+pub(crate) use self::checks::check_length;
+pub use self::cloud::Cloud;
+pub use self::hull::Hull;
+pub use self::mesh::Mesh;
+pub use self::solid::Shape;

@@ -1,0 +1,40 @@
+//! Arms that stand still beside the one that moves.
+
+use alloc::format;
+use alloc::vec::Vec;
+
+use super::obstacles::Cell;
+use super::placed::Placed;
+use crate::body::Shape;
+use crate::error::Error;
+use crate::kinematics::{Robot, check_seed};
+
+impl Cell {
+    /// The cell with another arm in it, which stands still at joints `q` [rad]. Each of its links is
+    /// an obstacle: link 3 of an arm `left` has the name `left, link 3`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidBody`] if the robot has no body, or an obstacle has the name of one of its
+    /// links; [`Error::InvalidJoints`] for joints that are not finite.
+    pub fn with_robot<const N: usize>(
+        self,
+        name: &str,
+        robot: &Robot<N>,
+        q: &[f64; N],
+    ) -> Result<Self, Error> {
+        check_seed("q", q)?;
+        let placed = Placed::of(robot)?;
+        let capsules = placed.capsules(q);
+        let mut links = Vec::new();
+        for link in 0..=N {
+            let groups = placed.outline.groups.iter().filter(|group| group.link == link);
+            let own = groups.flat_map(|group| &capsules[group.capsules.clone()]);
+            let shapes: Vec<_> = own.copied().map(Shape::Capsule).collect();
+            if !shapes.is_empty() {
+                links.push((format!("{name}, link {link}"), Shape::union(shapes)?));
+            }
+        }
+        self.with_obstacles(links)
+    }
+}
