@@ -202,7 +202,8 @@ fn refute<const N: usize>(robot: &Robot<N>, rng: &mut Rng) {
         let ball = Shape::sphere(ball, center.into()).unwrap();
         let cell = Cell::new(vec![("ball".to_owned(), ball)], 0.0).unwrap();
         let found = cell.check_path(robot, &rows).unwrap();
-        let contact = found.unwrap_or_else(|| panic!("missed at {part} of {rows:?} by {own:?}"));
+        assert!(found.is_some(), "missed at {part} of {rows:?} by {own:?}");
+        let contact = found.unwrap();
         assert!(contact.at <= part && contact.nearest.near == Near::Obstacle("ball".to_owned()));
         tried += 1;
     }

@@ -9,6 +9,6 @@ mod stored;
 
 pub(crate) use arms::body_of;
 pub use links::{Body, LinkCapsule};
-pub(crate) use outline::{Group, Middle, Outline};
+pub(crate) use outline::{Centered, Group, Outline};
 pub use shape::{Capsule, Cloud, Hull, Mesh, Shape};
 pub(crate) use shape::{Separation, check_length};

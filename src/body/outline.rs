@@ -1,4 +1,4 @@
-//! The capsules of a body in groups that move together, with a ball around each group.
+//! The capsules of a body in groups that move together, with a capsule around each group.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -10,26 +10,27 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::links::{Body, LinkCapsule};
 use super::shape::Capsule;
 
-/// Capsules that move together, inside a ball.
+/// Axes of different length that are tried for the capsule around others.
+const AXES: u32 = 16;
+
+/// Capsules that move together, inside another one.
 #[derive(Clone, Debug)]
 pub(crate) struct Group {
     /// The link with which they move.
     pub(crate) link: usize,
     /// Their places in the outline.
     pub(crate) capsules: Range<usize>,
-    /// The center of the ball, in the link's frame [m].
-    pub(crate) center: Vector3<f64>,
-    /// How far the ends of their axes are from the center at most [m].
+    /// A capsule around them, in the link's frame.
+    pub(crate) around: Centered,
+    /// How far the ends of their axes are from its middle at most [m].
     pub(crate) spread: f64,
-    /// The radius of the ball [m].
-    pub(crate) radius: f64,
 }
 
-/// A capsule by the middle of its axis.
+/// A capsule by the center of its axis.
 #[derive(Clone, Debug)]
-pub(crate) struct Middle {
+pub(crate) struct Centered {
     /// The middle of the axis [m].
-    pub(crate) middle: Vector3<f64>,
+    pub(crate) center: Vector3<f64>,
     /// From the middle to an end [m].
     pub(crate) half: Vector3<f64>,
     /// The square of the length of this [m^2].
@@ -40,18 +41,18 @@ pub(crate) struct Middle {
     pub(crate) ball: f64,
 }
 
-impl Middle {
+impl Centered {
     pub(crate) fn of(capsule: &Capsule) -> Self {
         let [a, b] = capsule.ends;
         let half = 0.5 * (b - a);
         let square = half.norm_squared();
         let radius = capsule.radius;
-        Self { middle: 0.5 * (a + b), half, square, radius, ball: square.sqrt() + radius }
+        Self { center: 0.5 * (a + b), half, square, radius, ball: square.sqrt() + radius }
     }
 
     /// The capsule with its axis elsewhere.
-    pub(crate) fn at(&self, middle: Vector3<f64>, half: Vector3<f64>) -> Capsule {
-        Capsule { ends: [middle - half, middle + half], radius: self.radius }
+    pub(crate) fn at(&self, center: Vector3<f64>, half: Vector3<f64>) -> Capsule {
+        Capsule { ends: [center - half, center + half], radius: self.radius }
     }
 }
 
@@ -60,7 +61,7 @@ impl Middle {
 pub(crate) struct Outline {
     pub(crate) capsules: Vec<Capsule>,
     /// In the same order.
-    pub(crate) middles: Vec<Middle>,
+    pub(crate) centered: Vec<Centered>,
     /// Of the links, then of the parts beside them.
     pub(crate) groups: Vec<Group>,
     /// The groups that are kept apart from each other; the first is of the lower link.
@@ -75,7 +76,7 @@ impl Outline {
         outline.take(body.parts());
         let group = |link| outline.groups[..of_links].iter().position(|own| own.link == link);
         let ordered = |pair: &[usize; 2]| [pair[0].min(pair[1]), pair[0].max(pair[1])];
-        outline.middles = outline.capsules.iter().map(Middle::of).collect();
+        outline.centered = outline.capsules.iter().map(Centered::of).collect();
         outline.pairs = body
             .pairs()
             .iter()
@@ -93,27 +94,40 @@ impl Outline {
             self.capsules
                 .extend(capsules.iter().filter(|own| own.link == link).map(|own| own.capsule));
             if self.capsules.len() > first {
-                self.groups.push(Group::around(link, first..self.capsules.len(), &self.capsules));
+                self.groups.push(Group::new(link, first..self.capsules.len(), &self.capsules));
             }
         }
     }
 }
 
 impl Group {
-    fn around(link: usize, range: Range<usize>, capsules: &[Capsule]) -> Self {
+    fn new(link: usize, range: Range<usize>, capsules: &[Capsule]) -> Self {
         let own = &capsules[range.clone()];
-        let ends = || own.iter().flat_map(|capsule| capsule.ends.map(|end| (end, capsule.radius)));
-        let first = own[0].ends[0];
-        let (low, high) = ends().fold((first, first), |(low, high), (end, radius)| {
-            let size = Vector3::repeat(radius);
-            (low.inf(&(end - size)), high.sup(&(end + size)))
-        });
-        let center = 0.5 * (low + high);
-        let (spread, radius) =
-            ends().fold((0.0, 0.0), |(spread, most): (f64, f64), (end, radius)| {
-                let far = (end - center).norm();
-                (spread.max(far), most.max(far + radius))
-            });
-        Self { link, capsules: range, center, spread, radius }
+        let around = Centered::of(&around(own));
+        let far = |capsule: &Capsule| capsule.ends.map(|end| (end - around.center).norm());
+        let spread = own.iter().flat_map(far).fold(0.0, f64::max);
+        Self { link, capsules: range, around, spread }
     }
+}
+
+/// A capsule around capsules: its axis is on the line between the two ends that are farthest apart,
+/// as long as makes it least.
+fn around(capsules: &[Capsule]) -> Capsule {
+    let ends = || capsules.iter().flat_map(|own| own.ends.map(|end| (end, own.radius)));
+    let pairs = ends().flat_map(|(a, _)| ends().map(move |(b, _)| [a, b]));
+    let length = |[a, b]: &[Vector3<f64>; 2]| (b - a).norm();
+    let [a, b] = pairs.max_by(|one, two| length(one).total_cmp(&length(two))).unwrap_or_default();
+    let least = (0..=AXES).map(|step| {
+        let part = 0.5 * f64::from(step) / f64::from(AXES);
+        let axis = [a + (b - a) * part, b + (a - b) * part];
+        let line = Capsule { ends: axis, radius: 0.0 };
+        let far = |(end, radius): (Vector3<f64>, f64)| {
+            line.separation(&Capsule { ends: [end; 2], radius: 0.0 }).distance + radius
+        };
+        Capsule { ends: axis, radius: ends().map(far).fold(0.0, f64::max) }
+    });
+    // By volume, without the factor of pi.
+    let size =
+        |own: &Capsule| own.radius * own.radius * (length(&own.ends) + 4.0 / 3.0 * own.radius);
+    least.min_by(|one, two| size(one).total_cmp(&size(two))).unwrap_or(capsules[0])
 }

@@ -4,7 +4,7 @@
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
-use crate::body::Middle;
+use crate::body::Centered;
 use crate::kinematics::Pose;
 use crate::lanes::{Column, Number as _, Vector, dot};
 
@@ -87,8 +87,8 @@ impl<S: Simd> Axis<S> {
 
     /// An axis that is the same in all lanes.
     #[inline(always)]
-    pub(super) fn of(simd: S, own: &Middle) -> Self {
-        Self::new(constant(simd, &own.middle), constant(simd, &own.half), own.square)
+    pub(super) fn of(simd: S, own: &Centered) -> Self {
+        Self::new(constant(simd, &own.center), constant(simd, &own.half), own.square)
     }
 
     /// The inverse of the square of the length of the half; zero for a point.
@@ -99,7 +99,7 @@ impl<S: Simd> Axis<S> {
 
     /// Compare the distance from another axis with a limit [m], in the lanes that are asked (eq. 4).
     #[inline(always)]
-    pub(super) fn from_axis(&self, other: &Self, limit: Vector<S>, asked: u64) -> Decided {
+    pub(super) fn against_axis(&self, other: &Self, limit: Vector<S>, asked: u64) -> Decided {
         let (one, two) = (self.half, other.half);
         let between = minus(self.middle, other.middle);
         let (c, f) = (dot(one, between), dot(two, between));
@@ -120,7 +120,7 @@ impl<S: Simd> Axis<S> {
     /// Compare the distance from a solid around the origin of a frame with a limit [m], in the
     /// lanes that are asked (eq. 5).
     #[inline(always)]
-    pub(super) fn from_solid(
+    pub(super) fn against_solid(
         &self,
         solid: &Solid,
         pose: &Pose,

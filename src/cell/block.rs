@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use super::apart::{Axis, Decided, Point, Solid, constant, in_frame, load, minus};
 use super::obstacles::Cell;
-use crate::body::{Capsule, Group, Middle, Outline, Shape};
+use crate::body::{Capsule, Centered, Group, Outline, Shape};
 use crate::kinematics::{Axes, Robot};
 use crate::lanes::{Column, LANES, Number as _, Vector, VectorKernel, cross, dot, run_vectors};
 
@@ -25,8 +25,8 @@ pub(crate) struct Block<const N: usize> {
     base: Axes<LANES>,
     /// How far the joints turn to either side [rad]; zero for joint vectors.
     spans: [Column; N],
-    /// The centers of the groups' balls.
-    centers: Vec<[Column; 3]>,
+    /// The middles and the halves of the axes of the capsules around the groups.
+    around: Vec<[[Column; 3]; 2]>,
     /// How far the axes of a group move, by the link from which it is seen.
     moves: Vec<[Column; N]>,
     /// The middles and the halves of the capsules' axes, of the groups that are placed.
@@ -42,7 +42,7 @@ impl<const N: usize> Block<N> {
             frames: [base; N],
             base,
             spans: [zero; N],
-            centers: vec![[zero; 3]; groups],
+            around: vec![[[zero; 3]; 2]; groups],
             moves: vec![[zero; N]; groups],
             axes: vec![[[zero; 3]; 2]; outline.capsules.len()],
             is_placed: vec![false; groups],
@@ -83,7 +83,7 @@ impl<const N: usize> Block<N> {
     /// A capsule in one lane.
     fn capsule(&self, outline: &Outline, index: usize, lane: usize) -> Capsule {
         let [middle, half] = self.axes[index].map(|point| point.map(|component| component[lane]));
-        outline.middles[index].at(middle.into(), half.into())
+        outline.centered[index].at(middle.into(), half.into())
     }
 }
 
@@ -104,7 +104,7 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
         let asked = self.asked;
         for group in 0..self.outline.groups.len() {
             self.block.is_placed[group] = false;
-            self.center(simd, group);
+            self.put_around(simd, group);
             if self.swept {
                 self.moves(simd, group);
             }
@@ -151,10 +151,19 @@ impl<const N: usize> Touch<'_, N> {
     }
 
     #[inline(always)]
-    fn center<S: Simd>(&mut self, simd: S, group: usize) {
-        let Group { link, center, .. } = &self.outline.groups[group];
-        let center = self.placed(simd, *link, center);
-        store(center, &mut self.block.centers[group]);
+    fn put_around<S: Simd>(&mut self, simd: S, group: usize) {
+        let Group { link, around, .. } = &self.outline.groups[group];
+        let middle = self.placed(simd, *link, &around.center);
+        let half = self.turned(simd, *link, &around.half);
+        store(middle, &mut self.block.around[group][0]);
+        store(half, &mut self.block.around[group][1]);
+    }
+
+    /// The axis of the capsule around a group.
+    #[inline(always)]
+    fn around<S: Simd>(&self, simd: S, group: usize) -> Axis<S> {
+        let [middle, half] = &self.block.around[group];
+        Axis::new(load(simd, middle), load(simd, half), self.outline.groups[group].around.square)
     }
 
     /// How far the axes of a group move at most while its joints turn, seen from the links before
@@ -162,7 +171,7 @@ impl<const N: usize> Touch<'_, N> {
     #[inline(always)]
     fn moves<S: Simd>(&mut self, simd: S, group: usize) {
         let Group { link, spread, .. } = &self.outline.groups[group];
-        let center = load(simd, &self.block.centers[group]);
+        let center = load(simd, &self.block.around[group][0]);
         let mut moved = Vector::splat(simd, 0.0);
         for joint in (0..*link).rev() {
             let frame = &self.block.frames[joint];
@@ -193,8 +202,8 @@ impl<const N: usize> Touch<'_, N> {
         self.block.is_placed[group] = true;
         let Group { link, capsules, .. } = &self.outline.groups[group];
         for index in capsules.clone() {
-            let own = &self.outline.middles[index];
-            let middle = self.placed(simd, *link, &own.middle);
+            let own = &self.outline.centered[index];
+            let middle = self.placed(simd, *link, &own.center);
             let half = self.turned(simd, *link, &own.half);
             store(middle, &mut self.block.axes[index][0]);
             store(half, &mut self.block.axes[index][1]);
@@ -204,7 +213,7 @@ impl<const N: usize> Touch<'_, N> {
     #[inline(always)]
     fn axis<S: Simd>(&self, simd: S, index: usize) -> Axis<S> {
         let [middle, half] = &self.block.axes[index];
-        Axis::new(load(simd, middle), load(simd, half), self.outline.middles[index].square)
+        Axis::new(load(simd, middle), load(simd, half), self.outline.centered[index].square)
     }
 
     /// Look at two groups of capsules of the arm.
@@ -212,25 +221,28 @@ impl<const N: usize> Touch<'_, N> {
     fn apart_of_links<S: Simd>(&mut self, simd: S, pair: [usize; 2]) {
         let [one, other] = pair.map(|group| &self.outline.groups[group]);
         let moved = self.moved(simd, pair[1], one.link) + ROUNDING;
-        let [center, from] = pair.map(|group| load(simd, &self.block.centers[group]));
-        if self.asked & !self.beyond(minus(center, from), moved + (one.radius + other.radius)) == 0
-        {
+        let limit = moved + (one.around.radius + other.around.radius);
+        let facing = self.around(simd, pair[1]);
+        let near =
+            self.asked & !self.around(simd, pair[0]).against_axis(&facing, limit, self.asked).far;
+        if near == 0 {
             return;
         }
         self.place(simd, pair[0]);
         self.place(simd, pair[1]);
         for index in one.capsules.clone() {
-            let capsule = &self.outline.middles[index];
+            let capsule = &self.outline.centered[index];
             let own = self.axis(simd, index);
-            let ball = moved + (capsule.ball + other.radius);
-            if self.asked & !self.beyond(minus(center, own.middle), ball) == 0 {
+            let limit = moved + (capsule.radius + other.around.radius);
+            let near = near & self.asked;
+            let near = near & !own.against_axis(&facing, limit, near).far;
+            if near == 0 {
                 continue;
             }
             for second in other.capsules.clone() {
-                let facing = &self.outline.middles[second];
-                let limit = moved + (capsule.radius + facing.radius);
-                let decided = own.from_axis(&self.axis(simd, second), limit, self.asked);
-                let left = self.asked & !decided.far;
+                let limit = moved + (capsule.radius + self.outline.centered[second].radius);
+                let decided = own.against_axis(&self.axis(simd, second), limit, near & self.asked);
+                let left = near & self.asked & !decided.far;
                 if left != 0 {
                     self.asked &= !(left & decided.near);
                     self.settle_links(left & !decided.near, [index, second], limit);
@@ -239,33 +251,29 @@ impl<const N: usize> Touch<'_, N> {
         }
     }
 
-    /// Lanes in which a vector is longer than a limit.
-    #[inline(always)]
-    fn beyond<S: Simd>(&self, way: Point<S>, limit: Vector<S>) -> u64 {
-        dot(way, way).simd_gt(limit * limit).to_bitmask()
-    }
-
     /// Look at a group of capsules and an obstacle.
     #[inline(always)]
     fn apart_of_obstacle<S: Simd>(&mut self, simd: S, group: usize, obstacle: usize) {
         let own = &self.outline.groups[group];
         let shape = &self.cell.obstacles()[obstacle].1;
         let moved = self.moved(simd, group, 0) + (self.cell.margin() + ROUNDING);
-        let center = load(simd, &self.block.centers[group]);
-        if self.asked & !ball_beyond(shape, center, moved + own.radius) == 0 {
+        let center = load(simd, &self.block.around[group][0]);
+        let near = self.asked & !ball_beyond(shape, center, moved + own.around.ball);
+        if near == 0 {
+            return;
+        }
+        let limit = moved + own.around.radius;
+        let near = near & !against_parts(&self.around(simd, group), shape, limit, near).far;
+        if near == 0 {
             return;
         }
         self.place(simd, group);
         for index in own.capsules.clone() {
-            let capsule = &self.outline.middles[index];
+            let capsule = &self.outline.centered[index];
             let limit = moved + capsule.radius;
             let axis = self.axis(simd, index);
-            let mut decided = Decided { far: ALL, near: 0 };
-            for part in shape.parts() {
-                let one = from_shape(&axis, part, limit, self.asked);
-                decided = Decided { far: decided.far & one.far, near: decided.near | one.near };
-            }
-            let left = self.asked & !decided.far;
+            let decided = against_parts(&axis, shape, limit, near & self.asked);
+            let left = near & self.asked & !decided.far;
             if left != 0 {
                 self.asked &= !(left & decided.near);
                 self.settle_obstacle(left & !decided.near, [index, obstacle], moved);
@@ -277,7 +285,7 @@ impl<const N: usize> Touch<'_, N> {
     #[cold]
     #[inline(never)]
     fn settle_links<S: Simd>(&mut self, open: u64, [one, other]: [usize; 2], limit: Vector<S>) {
-        let radii = self.outline.middles[one].radius + self.outline.middles[other].radius;
+        let radii = self.outline.centered[one].radius + self.outline.centered[other].radius;
         for lane in bits(open) {
             let own = self.block.capsule(self.outline, one, lane);
             let apart = own.separation(&self.block.capsule(self.outline, other, lane));
@@ -337,19 +345,31 @@ fn ball_beyond<S: Simd>(shape: &Shape, center: Point<S>, limit: Vector<S>) -> u6
     }
 }
 
+/// Compare the distance of an axis from all parts of a shape with a limit [m], in the lanes that are
+/// asked.
+#[inline(always)]
+fn against_parts<S: Simd>(axis: &Axis<S>, shape: &Shape, limit: Vector<S>, asked: u64) -> Decided {
+    let mut decided = Decided { far: ALL, near: 0 };
+    for part in shape.parts() {
+        let one = against_shape(axis, part, limit, asked);
+        decided = Decided { far: decided.far & one.far, near: decided.near | one.near };
+    }
+    decided
+}
+
 /// Compare the distance of an axis from a shape with a limit [m], in the lanes that are asked.
 #[inline(always)]
-fn from_shape<S: Simd>(axis: &Axis<S>, shape: &Shape, limit: Vector<S>, asked: u64) -> Decided {
+fn against_shape<S: Simd>(axis: &Axis<S>, shape: &Shape, limit: Vector<S>, asked: u64) -> Decided {
     let simd = limit.token();
     match shape {
         Shape::Capsule(own) => {
-            axis.from_axis(&Axis::of(simd, &Middle::of(own)), limit + own.radius, asked)
+            axis.against_axis(&Axis::of(simd, &Centered::of(own)), limit + own.radius, asked)
         }
         Shape::Box { pose, half } => {
-            axis.from_solid(&Solid::Box((*half).into()), pose, limit, asked)
+            axis.against_solid(&Solid::Box((*half).into()), pose, limit, asked)
         }
         Shape::Cylinder { pose, radius, half } => {
-            axis.from_solid(&Solid::Cylinder([*radius, *half]), pose, limit, asked)
+            axis.against_solid(&Solid::Cylinder([*radius, *half]), pose, limit, asked)
         }
         Shape::HalfSpace { normal, offset } => {
             let normal = constant(simd, normal);

@@ -23,7 +23,7 @@ impl<'a, const N: usize> Placed<'a, N> {
         let outline = Outline::of(robot.body().ok_or(BodyFault::NoBody)?);
         let block = Block::new(robot, &outline);
         let table = robot.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum::<f64>();
-        let own = outline.groups.iter().map(|group| group.center.norm() + group.spread);
+        let own = outline.groups.iter().map(|group| group.around.center.norm() + group.spread);
         let reach = table + own.fold(0.0, f64::max);
         Ok(Self { robot, outline, block, reach })
     }

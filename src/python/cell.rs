@@ -219,14 +219,14 @@ impl PyCell {
             let trajectory = trajectory.get().motion();
             return on!(robot.arm(), robot => {
                 let found = py.detach(|| self.0.check_trajectory(robot, trajectory))?;
-                found.map(|contact| contact_of(py, contact)).transpose()
+                found.map(|contact| contact_of(py, &contact)).transpose()
             });
         }
         let rows = robot.arm().joints(motion)?;
         on!(robot.arm(), robot => {
             let q = checked_joints("motion", &rows)?;
             let found = py.detach(|| self.0.check_path(robot, q))?;
-            found.map(|contact| contact_of(py, contact)).transpose()
+            found.map(|contact| contact_of(py, &contact)).transpose()
         })
     }
 
@@ -247,7 +247,7 @@ fn names(nearest: Option<&Nearest>) -> (String, String) {
     })
 }
 
-fn contact_of<const N: usize>(py: Python<'_>, contact: Contact<N>) -> PyResult<CellContact> {
+fn contact_of<const N: usize>(py: Python<'_>, contact: &Contact<N>) -> PyResult<CellContact> {
     Ok(CellContact {
         at: contact.at,
         q: array(py, contact.q, &[N])?,

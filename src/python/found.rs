@@ -1,5 +1,6 @@
 //! The solutions of a pose with their robot, and what was kept of them.
 
+use std::fmt::Write as _;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
@@ -166,8 +167,10 @@ impl<const N: usize> Found<N> {
             if let Some((Nearest { link, near, .. }, depth)) = cell.collision(&placed, &solution.q)
             {
                 let (slot, depth) = (solution.slot, 1e3 * depth);
-                text +=
-                    &format!("; slot {slot} collides: link {link} and {near}, {depth:.1} mm deep");
+                let _ = write!(
+                    text,
+                    "; slot {slot} collides: link {link} and {near}, {depth:.1} mm deep"
+                );
             }
         }
         text

@@ -146,6 +146,7 @@ impl<'m> Checker<'_, 'm> {
     fn collision(&mut self, along: &[[f64; 6]]) -> Option<Finding> {
         let (cell, placed) = self.cell.as_mut()?;
         let contact = cell.contact(placed, along)?;
+        #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 samples")]
         let part = contact.at / along.len().saturating_sub(1).max(1) as f64;
         let words = format!(
             "link {} touches {} after {:.0} % of the way, {:.1} mm deep",
