@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use irbkin::{
-    catalog,
+    AnyRobot, catalog,
     catalog::{CatalogArm, CatalogGeometry, left_out},
 };
 
@@ -60,28 +60,52 @@ fn figures(table: &str, arm: &CatalogArm) -> Vec<String> {
     if table == "abb" { Vec::new() } else { vec![known(arm.payload), known(arm.reach)] }
 }
 
-/// A row for all arms with the same cells: their names, the cells, the number of their sources.
+/// How far 95 % of the surface of the capsules of the worst link is outside its mesh at most [mm].
+fn body(arm: &CatalogArm) -> String {
+    let robot = AnyRobot::from_catalog(arm).unwrap();
+    let body = match &robot {
+        AnyRobot::Six(robot) => robot.body().unwrap(),
+        AnyRobot::Seven(robot) => robot.body().unwrap(),
+    };
+    if body.is_approximate() {
+        return "approximate".to_owned();
+    }
+    format!("{:.0}", 1e3 * body.excess().iter().copied().fold(0.0, f64::max))
+}
+
+/// Values of the arms of a row, or the one that all have.
+fn joined(values: &[String]) -> String {
+    if values.iter().all(|value| *value == values[0]) {
+        return values[0].clone();
+    }
+    values.join(", ")
+}
+
+/// A row for all arms with the same cells: their names, the cells, their bodies, the number of their
+/// sources.
 fn table(name: &str, columns: &[&str]) -> String {
-    let heads = || head(name).iter().chain(columns).chain(&["sources"]);
+    let heads = || head(name).iter().chain(columns).chain(&["body [mm]", "sources"]);
     let mut table = row(heads().map(|&head| head.to_owned()))
         + &format!("|{}\n", "---|".repeat(heads().count()));
-    let mut rows: Vec<(Vec<&str>, Vec<String>, Vec<String>)> = Vec::new();
+    let mut rows: Vec<(Vec<&str>, Vec<String>, [Vec<_>; 2])> = Vec::new();
     for arm in catalog() {
         let (place, lengths) = geometry(arm);
         if place != name {
             continue;
         }
         let cells = [figures(name, arm), lengths].concat();
-        let sources = arm.sources.to_string();
-        if let Some((names, _, counts)) = rows.iter_mut().find(|(_, known, _)| *known == cells) {
+        let [body, sources] = [body(arm), arm.sources.to_string()];
+        if let Some((names, _, own)) = rows.iter_mut().find(|(_, known, _)| *known == cells) {
             names.push(arm.name);
-            counts.push(sources);
+            own[0].push(body);
+            own[1].push(sources);
         } else {
-            rows.push((vec![arm.name], cells, vec![sources]));
+            rows.push((vec![arm.name], cells, [vec![body], vec![sources]]));
         }
     }
-    for (names, cells, counts) in rows {
-        table += &row([vec![names.join(", ")], cells, vec![counts.join(", ")]].concat());
+    for (names, cells, [bodies, counts]) in rows {
+        let last = vec![joined(&bodies), counts.join(", ")];
+        table += &row([vec![names.join(", ")], cells, last].concat());
     }
     table
 }

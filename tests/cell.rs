@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use crate::common::Rng;
 
 use irbkin::body::{Body, Capsule, LinkCapsule, Shape};
-use irbkin::catalog::{catalog, find};
+use irbkin::catalog::find;
 use irbkin::cell::{Cell, Near};
 use irbkin::{AnyRobot, Pose, Robot};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
@@ -19,7 +19,7 @@ const COLLISIONS: &str = include_str!("data/collisions.csv");
 const PRINTED: f64 = 2e-6;
 
 /// The scene of the file: sizes and places as parts of the reach, roll, pitch and yaw.
-fn scene(reach: f64) -> Cell {
+pub(crate) fn scene(reach: f64) -> Cell {
     let pose = |xyz: [f64; 3], [roll, pitch, yaw]: [f64; 3]| {
         let place = xyz.map(|part| (part * reach * 1e4).round() / 1e4);
         let turn = Rotation3::from_euler_angles(roll, pitch, yaw);
@@ -90,26 +90,6 @@ fn no_collision_of_the_meshes_is_missed() {
         assert!(*meshes > 20 && *far * 20 <= *all, "{name}: {far} of {all} false alarms");
     }
     assert_eq!(counts.len(), 6);
-}
-
-#[test]
-fn bodies_belong_to_arms_of_the_catalog() {
-    let mut with_body = 0;
-    for arm in catalog() {
-        let robot = AnyRobot::from_catalog(arm).unwrap();
-        let (dof, body) = match &robot {
-            AnyRobot::Six(robot) => (6, robot.body()),
-            AnyRobot::Seven(robot) => (7, robot.body()),
-        };
-        let Some(body) = body else { continue };
-        with_body += 1;
-        for link in 0..=dof {
-            assert!(body.capsules().iter().any(|own| own.link == link), "{} {link}", arm.name);
-        }
-        assert_eq!(body.excess().len(), dof + 1, "{}", arm.name);
-        assert!(body.source().contains('/') && body.pairs().iter().all(|[a, b]| a + 1 < *b));
-    }
-    assert!(with_body >= 33, "{with_body}");
 }
 
 /// A pose anywhere near.
@@ -195,7 +175,7 @@ fn margins_move_the_answer_and_bad_shapes_are_named() {
     assert!(message(floor(0.0).collides(&robot, &[f64::NAN; 6]).unwrap_err()).contains('q'));
     let capsule = Capsule::new([0.0; 3], [0.0, 0.0, 1.0], 0.1).unwrap();
     let of_link = |link| Body::new(vec![LinkCapsule { link, capsule }], Vec::new()).unwrap();
-    assert!(message(bare.with_body(Some(of_link(7))).unwrap_err()).contains("link 7"));
+    assert!(message(bare.with_body(Some(of_link(8))).unwrap_err()).contains("link 8"));
     let pair = Body::new(vec![LinkCapsule { link: 1, capsule }], vec![[1, 2]]);
     assert!(message(pair.unwrap_err()).contains("links 1 and 2"));
 }

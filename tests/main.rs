@@ -6,6 +6,7 @@
 
 mod allocation;
 mod any_robot;
+mod bodies;
 mod bounds;
 mod catalog;
 mod catalog_page;

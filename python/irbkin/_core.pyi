@@ -87,6 +87,7 @@ __all__ = [
     "__version__",
     "_restore",
     "_trajectory_of",
+    "_urdf_links",
     "arc",
     "at_tool_speed",
     "calc_joint_t",
@@ -227,6 +228,9 @@ def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
     """
 
 def _restore(kind: str, state: bytes) -> Any: ...
+def _urdf_links(
+    text_or_path: str | bytes | PathLike[str], base: str | None, tip: str | None
+) -> list[tuple[str, int, _Floats]]: ...
 def _trajectory_of(
     dof: int, knots: list[float], terms: list[list[float]], times: list[float]
 ) -> Trajectory: ...
@@ -377,9 +381,7 @@ class CellContact(_Record):
         """How deep the two get into each other, or into the margin, before the next row or knot
         [m].
         """
-    def __new__(
-        cls, at: float, q: _Floats, pair: tuple[str, str], depth: float
-    ) -> CellContact: ...
+    def __new__(cls, at: float, q: _Floats, pair: tuple[str, str], depth: float) -> CellContact: ...
 
 @final
 class CellDistance(_Record):
@@ -821,13 +823,20 @@ class Robot:
                 message names what is wrong, and the base and tip that could be passed.
             OSError: The file cannot be read.
         """
-    def to_urdf(self) -> str:
+    def to_urdf(self, visual: bool = False) -> str:
         """Return the text of a URDF of the robot, which `from_urdf` reads back.
 
         Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it);
         `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 0 if unknown. A
         parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
         See docs/guide/conventions.md.
+
+        Args:
+            visual: Whether links get the capsules of `body` as `visual` and `collision` elements, a
+                cylinder and two spheres each. What the flange carries is of `tool0`.
+
+        Raises:
+            InvalidModelError: visual, and the robot has no body.
         """
     @property
     def name(self) -> str:
@@ -883,7 +892,44 @@ class Robot:
         """Largest velocity of each joint [rad/s], shape (n,), or None where it is not known."""
     @property
     def body(self) -> Body | None:
-        """The shapes of its links, an `irbkin.body.Body`; None where the catalog has none."""
+        """The shapes of its links, an `irbkin.body.Body`: of an arm of the catalog, capsules
+        that contain a public mesh or, without one, `approximate_body()`. None of an arm of your
+        own until `with_body`.
+        """
+    def approximate_body(self) -> Body:
+        """Return a body made of the lengths of the kinematic table: capsules along its lines,
+        thicker towards the base. The arm may be outside of it; see docs/guide/cell.md.
+
+        Raises:
+            InvalidModelError: The lengths of the table are more than ten times the size of the arm.
+        """
+    def with_attached(
+        self,
+        shapes: Shape | Sequence[Shape],
+        pose: npt.ArrayLike | None = None,
+        *,
+        excess: float | None = None,
+    ) -> Robot:
+        """Return the robot with shapes that its flange carries, besides those it has: a tool, a
+        work piece. They are link n + 1 of its body, in the flange frame.
+
+        Capsules contain each shape. They are kept apart from links 0 to n - 2, unless they touch
+        one in each of 64 postures that fill the limits.
+
+        Args:
+            shapes: A `Shape`, or several.
+            pose: Pose of the shapes in the flange frame `tool0`, shape (4, 4); the identity when
+                not given. The tool center point does not move them: pass `robot.tool` if they are
+                in its frame.
+            excess: How far the capsules may be outside the shape [m]; when not given, at most four
+                capsules with the least excess, which `body.excess[n + 1]` has.
+
+        Raises:
+            InvalidModelError: The robot has no body, a shape is a half space or reaches farther
+                from the flange than the arm, or the excess needs more than 100 capsules for a
+                shape.
+            InvalidPoseError: pose is not a rigid transform.
+        """
     def with_body(self, body: Body | None) -> Robot:
         """Return the robot with other shapes of its links, or without.
 
@@ -2742,10 +2788,47 @@ class Body:
 
     def __new__(
         cls,
-        links: Sequence[int],
+        links: Sequence[int] | npt.NDArray[np.integer[Any]],
         capsules: npt.ArrayLike,
         pairs: Sequence[tuple[int, int]],
+        *,
+        source: str = "given",
+        excess: Sequence[float] | npt.NDArray[np.float64] | None = None,
     ) -> Body: ...
+    @staticmethod
+    def fit(
+        urdf: str | bytes | PathLike[str],
+        base: str | None = None,
+        tip: str | None = None,
+        *,
+        excess: float | None = None,
+        most: int = 4,
+        packages: Mapping[str, str | PathLike[str]] | None = None,
+    ) -> Body:
+        """Fit capsules to the meshes of a URDF: they contain every triangle, and the inside of
+        closed meshes. It needs `pip install 'irbkin[mesh]'`, and takes some 20 s for an arm.
+
+        Of each link, the meshes and shapes of its `collision` elements, or of its `visual` ones
+        where it has none. Links that are not neighbors are kept apart; left out are pairs that
+        touch in all of 2,000 random postures inside the limits, and pairs whose capsules touch in
+        more than 2 % of these and whose meshes do in none. The same body comes out each time.
+
+        Args:
+            urdf: As of `Robot.from_urdf`.
+            base: As of `Robot.from_urdf`.
+            tip: As of `Robot.from_urdf`.
+            excess: How far 95 % of the surface of the capsules of a link may be outside its mesh
+                [m]: the fewest that meet it are taken. When not given, or not met, as many as
+                `most` allows.
+            most: Capsules of a link at most, 1 to 12.
+            packages: Folder of each package that `package://` names; a folder of that name above
+                the URDF when not given.
+
+        Raises:
+            InvalidModelError: As `Robot.from_urdf`; a file is no mesh, or no link has a shape.
+            FileNotFoundError: A mesh is not found.
+            ImportError: trimesh or scipy is not installed.
+        """
     @property
     def links(self) -> npt.NDArray[np.int64]:
         """The link of each capsule, shape (k,)."""
@@ -2760,12 +2843,20 @@ class Body:
         body of the catalog, never do inside the catalog's limits.
         """
     @property
+    def is_approximate(self) -> bool:
+        """Whether it is made of the lengths of the kinematic table alone: the arm may be
+        outside.
+        """
+    @property
     def source(self) -> str:
-        """Repository, commit, file and license of the meshes that it contains."""
+        """Repository, commit, file and license of the meshes that it contains; or what else it
+        is of.
+        """
     @property
     def excess(self) -> _Floats:
         """How far outside its mesh 95 % of the surface of the capsules of each link are at most
-        [m], shape (n + 1,); empty if it is not known.
+        [m], and all of the surface of what the flange carries, shape (n + 1,) or (n + 2,); empty
+        if it is not known.
         """
     def __reduce__(self) -> tuple[Callable[[str, bytes], Any], tuple[str, bytes]]: ...
 
@@ -2865,9 +2956,7 @@ class Cell:
             InvalidJointsError: A wrong shape, or joints that are not finite.
             InvalidModelError: The robot has no body.
         """
-    def check_path(
-        self, robot: Robot, motion: npt.ArrayLike | Trajectory
-    ) -> CellContact | None:
+    def check_path(self, robot: Robot, motion: npt.ArrayLike | Trajectory) -> CellContact | None:
         """Where a motion first touches something, between its samples too: `None` if it is proven
         that it never does.
 

@@ -2,6 +2,71 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
 from irbkin._core import Body, Shape
 
-__all__ = ["Body", "Shape"]
+if TYPE_CHECKING:
+    import os
+
+    import numpy.typing as npt
+
+__all__ = ["Body", "Shape", "cover"]
+
+
+def cover(
+    mesh: str | os.PathLike[str] | npt.ArrayLike,
+    *,
+    scale: float = 1.0,
+    excess: float | None = None,
+    most: int = 4,
+) -> list[Shape]:
+    """Return capsules that contain a mesh, as a tool for `Robot.with_attached`.
+
+    They contain every triangle, and the inside of a closed mesh. It needs `pip install
+    'irbkin[mesh]'`, and takes some seconds.
+
+    Args:
+        mesh: A file (STL, OBJ, DAE), or the corners of triangles, shape (n, 3, 3).
+        scale: Factor of its lengths: 0.001 of a file in millimeters.
+        excess: How far 95 % of their surface may be outside the mesh [m]: the fewest that meet it
+            are taken. When not given, or not met, as many as `most` allows.
+        most: Capsules at most, 1 to 12.
+
+    Raises:
+        InvalidModelError: A file is no mesh, the triangles have no size or are not finite.
+        FileNotFoundError: There is no such file.
+        ImportError: trimesh or scipy is not installed.
+    """
+    _check_extra("irbkin.body.cover")
+    from irbkin._fit import capsules_around
+
+    rows = capsules_around(mesh, scale, excess, most)
+    return [Shape.capsule(row[:3], row[3:6], row[6]) for row in rows]
+
+
+def _fit_body(
+    urdf: str | bytes | os.PathLike[str],
+    base: str | None,
+    tip: str | None,
+    excess: float | None,
+    most: int,
+    packages: Mapping[str, str | os.PathLike[str]] | None,
+) -> Body:
+    """Return the body of a URDF; see `Body.fit`."""
+    _check_extra("irbkin.body.Body.fit")
+    from irbkin._fit import body_of
+
+    return body_of(urdf, base, tip, excess, most, packages)
+
+
+def _check_extra(function: str) -> None:
+    """Check that what reads and fits meshes is installed."""
+    try:
+        import scipy  # type: ignore[import-untyped]  # noqa: F401
+        import trimesh  # noqa: F401
+    except ImportError as missing:
+        raise ImportError(
+            f"{function} needs {missing.name}: pip install 'irbkin[mesh]'", name=missing.name
+        ) from missing

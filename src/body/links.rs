@@ -1,16 +1,20 @@
 //! Capsules that move with the links of an arm.
 
+use alloc::borrow::Cow;
 use alloc::vec::Vec;
 
-use super::shape::Capsule;
+use super::shape::{Capsule, check_length};
 use crate::error::{BodyFault, Error};
+
+/// The source of a body that is made of lengths alone.
+const APPROXIMATE: &str = "approximate: capsules along the links of the kinematic table";
 
 /// A capsule that moves with a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LinkCapsule {
     /// The link: 0 is the base frame, link i the frame of joint i of the modified
-    /// Denavit-Hartenberg table.
+    /// Denavit-Hartenberg table; link n + 1 of n joints is carried by the flange, in its frame.
     pub link: usize,
     /// The capsule, in the link's frame.
     pub capsule: Capsule,
@@ -24,8 +28,9 @@ pub struct Body {
     pub(super) links: Vec<LinkCapsule>,
     pub(super) parts: Vec<LinkCapsule>,
     pub(super) pairs: Vec<[usize; 2]>,
-    pub(super) source: &'static str,
+    pub(super) source: Cow<'static, str>,
     pub(super) excess: Vec<f64>,
+    pub(super) is_approximate: bool,
 }
 
 impl Body {
@@ -35,14 +40,80 @@ impl Body {
     ///
     /// [`Error::InvalidBody`] for a pair of a link with itself, or of a link without capsules.
     pub fn new(capsules: Vec<LinkCapsule>, pairs: Vec<[usize; 2]>) -> Result<Self, Error> {
-        let has = |link: usize| capsules.iter().any(|own| own.link == link);
-        for pair in &pairs {
+        let body = Self { links: capsules, pairs, ..Self::empty("given") };
+        body.check_pairs()?;
+        Ok(body)
+    }
+
+    /// The body under another source, with how far the capsules of each link are outside of what
+    /// they contain [m].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidBody`] for an excess that is negative, not finite, or not given for every
+    /// link.
+    pub fn with_source(
+        self,
+        source: impl Into<Cow<'static, str>>,
+        excess: Vec<f64>,
+    ) -> Result<Self, Error> {
+        excess.iter().try_for_each(|value| check_length("excess", *value, 0.0))?;
+        let most = self.links.iter().map(|own| own.link).max().unwrap_or(0);
+        if !excess.is_empty() && excess.len() <= most {
+            return Err(BodyFault::ExcessCount { found: excess.len(), wanted: most + 1 }.into());
+        }
+        Ok(Self { arm: None, source: source.into(), excess, ..self })
+    }
+
+    fn empty(source: &'static str) -> Self {
+        let source = Cow::Borrowed(source);
+        let (links, parts, pairs, excess) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { arm: None, links, parts, pairs, source, excess, is_approximate: false }
+    }
+
+    pub(super) fn check_pairs(&self) -> Result<(), Error> {
+        let has = |link: usize| self.links.iter().any(|own| own.link == link);
+        for pair in &self.pairs {
             if pair[0] == pair[1] || !has(pair[0]) || !has(pair[1]) {
                 return Err(BodyFault::Pair { pair: *pair }.into());
             }
         }
-        let (parts, excess) = (Vec::new(), Vec::new());
-        Ok(Self { arm: None, links: capsules, parts, pairs, source: "given", excess })
+        Ok(())
+    }
+
+    /// A body that is made of lengths alone.
+    pub(crate) fn approximate(links: Vec<LinkCapsule>, pairs: Vec<[usize; 2]>) -> Self {
+        Self { links, pairs, is_approximate: true, ..Self::empty(APPROXIMATE) }
+    }
+
+    /// A body of the collision shapes of a URDF.
+    #[cfg(feature = "urdf")]
+    pub(crate) fn of_shapes(
+        links: Vec<LinkCapsule>,
+        pairs: Vec<[usize; 2]>,
+        excess: Vec<f64>,
+    ) -> Self {
+        Self { links, pairs, excess, ..Self::empty("collision shapes of a URDF") }
+    }
+
+    /// The body with capsules that the flange carries, as a link of that number, at most `excess`
+    /// outside of what they contain [m].
+    pub(crate) fn carrying(
+        mut self,
+        link: usize,
+        capsules: Vec<LinkCapsule>,
+        excess: f64,
+        pairs: &[[usize; 2]],
+    ) -> Self {
+        self.links.extend(capsules);
+        self.pairs.retain(|pair| !pair.contains(&link));
+        self.pairs.extend(pairs);
+        if self.excess.len() > link {
+            self.excess[link] = self.excess[link].max(excess);
+        } else if self.excess.len() == link {
+            self.excess.push(excess);
+        }
+        Self { arm: None, ..self }
     }
 
     /// The capsules of the links.
@@ -58,8 +129,8 @@ impl Body {
         &self.parts
     }
 
-    /// The pairs of links that are kept apart. The others may touch by construction or, of a body of
-    /// the catalog, never do inside the catalog's limits.
+    /// The pairs of links that are kept apart. The others may touch by construction or, of a body
+    /// of the catalog, never do inside the catalog's limits.
     #[must_use]
     pub fn pairs(&self) -> &[[usize; 2]] {
         &self.pairs
@@ -68,11 +139,17 @@ impl Body {
     /// Where the shapes of the links are from.
     #[must_use]
     pub fn source(&self) -> &str {
-        self.source
+        &self.source
     }
 
-    /// How far outside its mesh 95 % of the surface of the capsules of each link are at most [m];
-    /// empty if it is not known.
+    /// Whether it is made of the lengths of the kinematic table alone: the arm may be outside.
+    #[must_use]
+    pub fn is_approximate(&self) -> bool {
+        self.is_approximate
+    }
+
+    /// How far outside its mesh 95 % of the surface of the capsules of each link are at most [m],
+    /// and all of the surface of what the flange carries; empty if it is not known.
     #[must_use]
     pub fn excess(&self) -> &[f64] {
         &self.excess

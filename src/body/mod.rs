@@ -1,6 +1,7 @@
 //! The body of an arm: shapes that its links are inside of, and which links are to be kept apart.
 
 mod arms;
+mod cover;
 mod links;
 mod outline;
 mod shape;

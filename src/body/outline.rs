@@ -9,6 +9,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::links::{Body, LinkCapsule};
 use super::shape::Capsule;
+use crate::kinematics::Pose;
 
 /// Axes of different length that are tried for the capsule around others.
 const AXES: u32 = 16;
@@ -18,6 +19,8 @@ const AXES: u32 = 16;
 pub(crate) struct Group {
     /// The link with which they move.
     pub(crate) link: usize,
+    /// The link whose they are: of what the flange carries, one more.
+    pub(crate) number: usize,
     /// Their places in the outline.
     pub(crate) capsules: Range<usize>,
     /// A capsule around them, in the link's frame.
@@ -69,12 +72,13 @@ pub(crate) struct Outline {
 }
 
 impl Outline {
-    pub(crate) fn of(body: &Body) -> Self {
+    /// The outline of a body on an arm whose last link has the flange at a pose.
+    pub(crate) fn of(body: &Body, last: usize, t_last_flange: &Pose) -> Self {
         let mut outline = Self::default();
-        outline.take(body.capsules());
+        outline.take(body.capsules(), last, t_last_flange);
         let of_links = outline.groups.len();
-        outline.take(body.parts());
-        let group = |link| outline.groups[..of_links].iter().position(|own| own.link == link);
+        outline.take(body.parts(), last, t_last_flange);
+        let group = |link| outline.groups[..of_links].iter().position(|own| own.number == link);
         let ordered = |pair: &[usize; 2]| [pair[0].min(pair[1]), pair[0].max(pair[1])];
         outline.centered = outline.capsules.iter().map(Centered::of).collect();
         outline.pairs = body
@@ -87,26 +91,30 @@ impl Outline {
     }
 
     /// Add a group for each link.
-    fn take(&mut self, capsules: &[LinkCapsule]) {
-        let most = capsules.iter().map(|own| own.link).max();
-        for link in 0..=most.unwrap_or(0) {
+    fn take(&mut self, capsules: &[LinkCapsule], last: usize, t_last_flange: &Pose) {
+        for number in 0..=last + 1 {
             let first = self.capsules.len();
-            self.capsules
-                .extend(capsules.iter().filter(|own| own.link == link).map(|own| own.capsule));
-            if self.capsules.len() > first {
-                self.groups.push(Group::new(link, first..self.capsules.len(), &self.capsules));
+            let own = capsules.iter().filter(|own| own.link == number).map(|own| own.capsule);
+            if number > last {
+                self.capsules.extend(own.map(|capsule| capsule.moved(t_last_flange)));
+            } else {
+                self.capsules.extend(own);
+            }
+            let range = first..self.capsules.len();
+            if !range.is_empty() {
+                self.groups.push(Group::new(number, last, range, &self.capsules));
             }
         }
     }
 }
 
 impl Group {
-    fn new(link: usize, range: Range<usize>, capsules: &[Capsule]) -> Self {
+    fn new(number: usize, last: usize, range: Range<usize>, capsules: &[Capsule]) -> Self {
         let own = &capsules[range.clone()];
         let around = Centered::of(&around(own));
         let far = |capsule: &Capsule| capsule.ends.map(|end| (end - around.center).norm());
         let spread = own.iter().flat_map(far).fold(0.0, f64::max);
-        Self { link, capsules: range, around, spread }
+        Self { link: number.min(last), number, capsules: range, around, spread }
     }
 }
 

@@ -1,5 +1,6 @@
 //! A body as serde reads and writes it: the name of the catalog's arm, or its capsules.
 
+use alloc::borrow::Cow;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -14,14 +15,31 @@ use crate::error::BodyFault;
 #[serde(rename = "Body")]
 enum Stored {
     OfArm(String),
-    Given(Vec<LinkCapsule>, Vec<[usize; 2]>),
+    Given(Given),
+}
+
+#[derive(Serialize, Deserialize)]
+struct Given {
+    links: Vec<LinkCapsule>,
+    parts: Vec<LinkCapsule>,
+    pairs: Vec<[usize; 2]>,
+    source: String,
+    excess: Vec<f64>,
+    is_approximate: bool,
 }
 
 impl Serialize for Body {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.arm {
             Some(arm) => Stored::OfArm(arm.to_string()),
-            None => Stored::Given(self.links.clone(), self.pairs.clone()),
+            None => Stored::Given(Given {
+                links: self.links.clone(),
+                parts: self.parts.clone(),
+                pairs: self.pairs.clone(),
+                source: self.source().to_string(),
+                excess: self.excess.clone(),
+                is_approximate: self.is_approximate,
+            }),
         }
         .serialize(serializer)
     }
@@ -31,7 +49,12 @@ impl<'de> Deserialize<'de> for Body {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match Stored::deserialize(deserializer)? {
             Stored::OfArm(arm) => body_of(&arm).ok_or_else(|| D::Error::custom(BodyFault::NoBody)),
-            Stored::Given(links, pairs) => Self::new(links, pairs).map_err(D::Error::custom),
+            Stored::Given(Given { links, parts, pairs, source, excess, is_approximate }) => {
+                let source = Cow::Owned(source);
+                let body = Self { arm: None, links, parts, pairs, source, excess, is_approximate };
+                body.check_pairs().map_err(D::Error::custom)?;
+                Ok(body)
+            }
         }
     }
 }

@@ -272,6 +272,8 @@ impl<const N: usize> Robot<N> {
         let limits =
             JointLimits::new(limits.map(|limit| limit.map(|angle| arm.angles.to_radians(angle))))?;
         let robot = robot.with_name(arm.name).with_limits(limits).with_max_velocity(velocity)?;
-        robot.with_rule(arm.own_configuration_rule()).with_body(body_of(arm.name))
+        let robot = robot.with_rule(arm.own_configuration_rule());
+        let body = body_of(arm.name).map_or_else(|| robot.approximate_body(), Ok)?;
+        robot.with_body(Some(body))
     }
 }

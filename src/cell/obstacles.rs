@@ -8,7 +8,7 @@ use crate::body::{Shape, check_length};
 use crate::error::{BodyFault, Error};
 
 /// The last link of the longest arm.
-const LAST_LINK: usize = 7;
+const LAST_LINK: usize = 8;
 
 /// Obstacles in the frame of the world, and a margin around them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -54,7 +54,7 @@ impl Cell {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidBody`] for a name that no obstacle has, and a link other than 1 to 7: link 0,
+    /// [`Error::InvalidBody`] for a name that no obstacle has, and a link other than 1 to 8: link 0,
     /// on which an arm stands, is never compared.
     pub fn with_may_touch<S: AsRef<str>>(mut self, pairs: &[(S, usize)]) -> Result<Self, Error> {
         for (name, link) in pairs {

@@ -26,17 +26,17 @@ impl Cell {
         &self,
         placed: &Placed<'_, N>,
     ) -> impl Iterator<Item = Pair> {
-        let outline = &placed.outline;
+        let outline = placed.outline;
         let of_links = outline.pairs.iter().flat_map(|pair| {
             let [one, other] = pair.map(|group| &outline.groups[group]);
             let both = one.capsules.clone();
             let both = both.flat_map(|a| other.capsules.clone().map(move |b| [a, b]));
-            both.map(|places| Pair { link: one.link, other: Other::Link(other.link), places })
+            both.map(|places| Pair { link: one.number, other: Other::Link(other.number), places })
         });
         let around = (0..self.obstacles().len()).flat_map(move |at| {
-            let groups = outline.groups.iter().filter(move |group| self.compares(at, group.link));
+            let groups = outline.groups.iter().filter(move |group| self.compares(at, group.number));
             groups.flat_map(move |group| {
-                let (link, other) = (group.link, Other::Obstacle(at));
+                let (link, other) = (group.number, Other::Obstacle(at));
                 group.capsules.clone().map(move |own| Pair { link, other, places: [own, at] })
             })
         });

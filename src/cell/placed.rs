@@ -12,7 +12,7 @@ use crate::lanes::LANES;
 /// An arm with the outline of its body.
 pub(crate) struct Placed<'a, const N: usize> {
     robot: &'a Robot<N>,
-    pub(super) outline: Outline,
+    pub(super) outline: &'a Outline,
     block: Block<N>,
     /// How far any axis of a capsule is from an axis of a joint at most [m].
     reach: f64,
@@ -20,8 +20,8 @@ pub(crate) struct Placed<'a, const N: usize> {
 
 impl<'a, const N: usize> Placed<'a, N> {
     pub(crate) fn of(robot: &'a Robot<N>) -> Result<Self, Error> {
-        let outline = Outline::of(robot.body().ok_or(BodyFault::NoBody)?);
-        let block = Block::new(robot, &outline);
+        let outline = robot.outline().ok_or(BodyFault::NoBody)?;
+        let block = Block::new(robot, outline);
         let table = robot.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum::<f64>();
         let own = outline.groups.iter().map(|group| group.around.center.norm() + group.spread);
         let reach = table + own.fold(0.0, f64::max);
@@ -36,7 +36,7 @@ impl<'a, const N: usize> Placed<'a, N> {
         spans: Option<&[[f64; N]]>,
     ) -> u64 {
         debug_assert!(q.len() <= LANES);
-        self.block.touching(self.robot, &self.outline, cell, q, spans)
+        self.block.touching(self.robot, self.outline, cell, q, spans)
     }
 
     /// How far any axis of a capsule moves at most while the joints turn by spans [rad] [m].

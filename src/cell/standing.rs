@@ -27,8 +27,8 @@ impl Cell {
         let placed = Placed::of(robot)?;
         let capsules = placed.capsules(q);
         let mut links = Vec::new();
-        for link in 0..=N {
-            let groups = placed.outline.groups.iter().filter(|group| group.link == link);
+        for link in 0..=N + 1 {
+            let groups = placed.outline.groups.iter().filter(|group| group.number == link);
             let own = groups.flat_map(|group| &capsules[group.capsules.clone()]);
             let shapes: Vec<_> = own.copied().map(Shape::Capsule).collect();
             if !shapes.is_empty() {

@@ -53,20 +53,50 @@ pub enum BodyFault {
         .pair[0], .pair[1]
     )]
     Pair { pair: [usize; 2] },
-    #[error("a capsule is of link {link}: the arm has {dof} joints, its links are 0 to {dof}")]
+    #[error(
+        "links {} and {} are no pair to be kept apart: the flange carries one, they do not move \
+         against each other", .pair[0], .pair[1]
+    )]
+    Rigid { pair: [usize; 2] },
+    #[error(
+        "a capsule is of link {link}: the arm has {dof} joints, its links are 0 to {dof}, and {} is \
+         carried by the flange", dof + 1
+    )]
     NoLink { link: usize, dof: usize },
+    #[error("excess has {found} lengths, it must have {wanted}, one of each link, or none")]
+    ExcessCount { found: usize, wanted: usize },
+    #[error(
+        "boxes, spheres, capsules and cylinders are attached, no half space, hull, mesh or point \
+         cloud: irbkin.body.cover makes capsules of a mesh"
+    )]
+    NoCover,
+    #[error(
+        "excess is {excess} m, {most} capsules or fewer contain the shape with {least} m or more: allow \
+         that, or give the shape in smaller pieces"
+    )]
+    Excess { excess: f64, least: f64, most: usize },
+    #[error(
+        "shape {index} reaches {length} m from the flange, more than the arm's {bound} m: is it in \
+         meters, in the flange frame?"
+    )]
+    LargerThanArm { index: usize, length: f64, bound: f64 },
+    #[error(
+        "the kinematic table has {length} m of lengths in all, an approximate body needs more than 0 \
+         and at most {bound} m, ten times the size of the arm: give a body by with_body"
+    )]
+    Lengths { length: f64, bound: f64 },
     #[error("obstacle {index} has the name of another one: each must have its own")]
     TwoNames { index: usize },
     #[error("may_touch: no obstacle has the name {name:?}, there are: {existing}")]
     NoObstacle { name: String, existing: Names },
     #[error(
-        "may_touch: there is no link {link} that could touch {name:?}: links 1 to 7 move, link 0 is \
+        "may_touch: there is no link {link} that could touch {name:?}: links 1 to 8 move, link 0 is \
          not compared"
     )]
     NoMovingLink { name: String, link: usize },
     #[error(
-        "the robot has no body: the catalog has none of this arm; give one by with_body, of capsules \
-         that contain its links"
+        "the robot has no body: give one by with_body, of capsules that contain its links, or its \
+         approximate_body()"
     )]
     NoBody,
 }

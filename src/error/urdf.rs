@@ -122,6 +122,10 @@ pub enum UrdfFault {
     TooLarge { joint: String, field: &'static str, value: f64, bound: f64 },
     #[error("joint {joint:?} axis is 0 0 0, it must have a length")]
     NoAxis { joint: String },
+    #[error("link {link:?} collision {what}")]
+    Shape { link: String, what: String },
+    #[error("the links have more than {bound} collision shapes")]
+    Shapes { bound: usize },
 }
 
 /// None or several links without a parent.

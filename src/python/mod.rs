@@ -11,6 +11,7 @@ macro_rules! add {
 mod arguments;
 mod arm;
 mod arrays;
+mod bodies;
 mod borrows;
 mod catalog;
 mod cell;
@@ -152,7 +153,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
         use_instruction_set, restore, poses::pose, poses::to_xyz_wxyz,
         poses::to_xyz_euler_zyx, trajectory::trajectory_of, trajectories::joint,
         trajectories::spline, retiming::retime, retiming::at_tool_speed,
-        retiming::tool_speed_limits, tool_paths::line, tool_paths::arc, tool_paths::polyline,
+        models::urdf_links, retiming::tool_speed_limits, tool_paths::line, tool_paths::arc, tool_paths::polyline,
     ]);
     // `spline` is taken by trajectories; `irbkin.paths` gives this one its name.
     module.add("path_spline", wrap_pyfunction!(tool_paths::spline, module)?)?;

@@ -7,6 +7,7 @@ use super::arm::{Arm, on};
 use super::arrays::{Rows, vector};
 use super::errors::Fault;
 use super::robot::PyRobot;
+use super::targets::pose_array;
 use crate::error::{Error, ModelFault, UrdfFault};
 use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
 use crate::report::Convention;
@@ -167,8 +168,19 @@ impl PyRobot {
     /// `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 0 if unknown. A
     /// parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
     /// See docs/guide/conventions.md.
-    fn to_urdf(&self) -> String {
-        on!(self.arm(), robot => robot.to_urdf())
+    ///
+    /// Args:
+    ///     visual: Whether links get the capsules of `body` as `visual` and `collision` elements, a
+    ///         cylinder and two spheres each. What the flange carries is of `tool0`.
+    ///
+    /// Raises:
+    ///     InvalidModelError: visual, and the robot has no body.
+    #[pyo3(signature = (visual=false))]
+    fn to_urdf(&self, visual: bool) -> PyResult<String> {
+        if visual {
+            return Ok(on!(self.arm(), robot => robot.to_urdf_with_body()?));
+        }
+        Ok(on!(self.arm(), robot => robot.to_urdf()))
     }
 }
 
@@ -238,10 +250,26 @@ where
     Ok(Robot::clone(robot).with_limits(JointLimits::new(limits)?).into())
 }
 
-fn arm_of(bytes: &[u8], base: Option<&str>, tip: Option<&str>, snap: f64) -> Result<Arm, Error> {
+/// Name, link of the body and pose in its frame of every link of a URDF that moves with the arm.
+#[pyfunction(name = "_urdf_links")]
+pub(super) fn urdf_links<'py>(
+    text_or_path: &Bound<'py, PyAny>,
+    base: Option<&str>,
+    tip: Option<&str>,
+) -> PyResult<Vec<(String, usize, Bound<'py, PyAny>)>> {
+    let (py, bytes) = (text_or_path.py(), bytes_of(text_or_path)?);
+    let links = UrdfArm::links(text_of(&bytes)?, base, tip)?.into_iter();
+    Ok(links.map(|(name, link, pose)| (name, link, pose_array(py, &pose).into_any())).collect())
+}
+
+fn text_of(bytes: &[u8]) -> Result<&str, Error> {
     let text =
         str::from_utf8(bytes).map_err(|error| UrdfFault::NotUtf8 { byte: error.valid_up_to() })?;
-    UrdfArm::read(text, base, tip, &[6, 7])?.any_robot(snap).map(Arm::from)
+    Ok(text)
+}
+
+fn arm_of(bytes: &[u8], base: Option<&str>, tip: Option<&str>, snap: f64) -> Result<Arm, Error> {
+    UrdfArm::read(text_of(bytes)?, base, tip, &[6, 7])?.any_robot(snap).map(Arm::from)
 }
 
 /// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a

@@ -1,5 +1,5 @@
 //! `irbkin.Robot`: the class, what it has and how it is changed. Its other methods are in `models`,
-//! `queries` and `inverse`.
+//! `bodies`, `queries` and `inverse`.
 
 use std::sync::{Arc, OnceLock};
 
@@ -11,7 +11,6 @@ use super::arrays::vector;
 use super::errors::Fault;
 use super::outputs::read_only;
 use super::rapid::records::carried_tool;
-use super::shapes::PyBody;
 use super::state::{Reduced, hash_of, reduced};
 use super::targets::{pose_array, read_frame};
 use crate::kinematics::{Robot, pose_to_rows};
@@ -131,22 +130,6 @@ impl PyRobot {
         on!(&self.arm, robot => {
             robot.max_velocity().map(|velocity| read_only(PyArray1::from_slice(py, velocity)))
         })
-    }
-
-    /// The shapes of its links, an `irbkin.body.Body`; None where the catalog has none.
-    #[getter]
-    fn body(&self) -> Option<PyBody> {
-        on!(&self.arm, robot => robot.body().cloned()).map(PyBody)
-    }
-
-    /// Return the robot with other shapes of its links, or without.
-    ///
-    /// Raises:
-    ///     InvalidModelError: A capsule of a link that the arm does not have.
-    #[pyo3(signature = (body))]
-    fn with_body(&self, body: Option<&Bound<'_, PyBody>>) -> PyResult<Self> {
-        let body = body.map(|body| body.get().0.clone());
-        Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_body(body)?)).into())
     }
 
     /// Return the robot with another tool, in place of the one that it had.

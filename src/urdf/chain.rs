@@ -23,14 +23,14 @@ const MOST_JOINTS: usize = 7;
 /// Number of ends of chains up to which a message looks for chains that could be taken.
 const MOST_ENDS: usize = 64;
 
-/// The joints from base to tip, all of them revolute or fixed; the number of revolute ones is in
+/// The base, and the joints from there to the tip, all of them revolute or fixed; the number of revolute ones is in
 /// `wanted`.
 pub(super) fn chain_between<'t, 'a>(
     tree: &'t Tree<'a>,
     base: Option<&str>,
     tip: Option<&str>,
     wanted: &[usize],
-) -> Result<Vec<&'t Joint<'a>>, UrdfFault> {
+) -> Result<(usize, Vec<&'t Joint<'a>>), UrdfFault> {
     let base = match base {
         Some(name) => named(tree, "base", name)?,
         None => only_root(tree)?,
@@ -52,7 +52,7 @@ pub(super) fn chain_between<'t, 'a>(
     }
     chain.reverse();
     let fault = match chain.iter().try_fold(Way::default(), |way, joint| way.through(joint)) {
-        Ok(way) if wanted.contains(&way.turning) => return Ok(chain),
+        Ok(way) if wanted.contains(&way.turning) => return Ok((base, chain)),
         Ok(Way { turning: found, .. }) => {
             let [base, tip] = [base, tip].map(|link| tree.links[link].to_owned());
             let count = UrdfFault::JointCount { base, tip, found, wanted: wanted.to_vec() };

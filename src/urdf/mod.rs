@@ -5,6 +5,7 @@
 
 mod attributes;
 mod chain;
+mod collision;
 mod joint;
 mod shape;
 mod text;
@@ -17,6 +18,9 @@ use alloc::vec::Vec;
 use nalgebra::Vector3;
 
 use self::chain::chain_between;
+use self::collision::{Solid, body_of, solids};
+#[cfg(feature = "python")]
+use self::collision::{carriers, places};
 use self::joint::{Joint, Motion, Placed};
 use self::tree::{Tree, parsed};
 use crate::error::{Error, ModelFault, UrdfFault};
@@ -30,10 +34,15 @@ impl<const N: usize> Robot<N> {
     /// `tip` is the link whose poses are given; by default the only one at the end of a chain of
     /// `N` revolute joints. Joints are numbered from base to tip; fixed joints, and joints that are
     /// not between them, are not counted. A joint turns in the sense of its axis. Limits and
-    /// velocities are the text's. A velocity that is missing or zero is unknown, and one
-    /// unknown velocity leaves the robot without velocities. A joint that takes joint 2 back on the axis
-    /// of joint 3, by mimicking it with the multiplier -1, or 1 about the reverse axis, and any
+    /// velocities are the text's. A velocity that is missing or zero is unknown, and one unknown
+    /// velocity leaves the robot without velocities. A joint that takes joint 2 back on the axis of
+    /// joint 3, by mimicking it with the multiplier -1, or 1 about the reverse axis, and any
     /// offset, is a parallelogram linkage: the arm is then [`Robot::coupled`].
+    ///
+    /// The body of the robot has capsules that contain the collision shapes of all links that move
+    /// with the chain, behind fixed joints too: boxes, cylinders, spheres and capsules. Links that
+    /// are not neighbors are kept apart, unless they touch in each of 64 postures that fill the
+    /// limits. With a mesh among the shapes, which is not read, there is no body.
     ///
     /// # Errors
     ///
@@ -88,6 +97,8 @@ impl AnyRobot {
 pub(crate) struct UrdfArm {
     name: String,
     joints: Vec<Placed>,
+    /// The shapes of its links, if all are read.
+    solids: Vec<Solid>,
 }
 
 impl UrdfArm {
@@ -100,10 +111,36 @@ impl UrdfArm {
     ) -> Result<Self, Error> {
         let (document, skipped) = parsed(text)?;
         let tree = Tree::new(&document, skipped)?;
-        let chain = chain_between(&tree, base, tip, wanted)?;
+        let (base, chain) = chain_between(&tree, base, tip, wanted)?;
+        let solids = solids(&tree, document.root_element(), base, &chain)?.unwrap_or_default();
         let placed = |joint: &Joint<'_>| joint.placed(tree.version);
         let joints = chain.into_iter().map(placed).collect::<Result<_, _>>()?;
-        Ok(Self { name: tree.name.to_string(), joints })
+        Ok(Self { name: tree.name.to_string(), joints, solids })
+    }
+
+    #[cfg(feature = "python")]
+    /// Name, link of the body and pose in its frame of every link that moves with the chain.
+    pub(crate) fn links(
+        text: &str,
+        base: Option<&str>,
+        tip: Option<&str>,
+    ) -> Result<Vec<(String, usize, Pose)>, Error> {
+        let (document, skipped) = parsed(text)?;
+        let tree = Tree::new(&document, skipped)?;
+        let (from, chain) = chain_between(&tree, base, tip, &[6, 7])?;
+        let arm = Self::read(text, base, tip, &[6, 7])?;
+        let places = match arm.any_robot(0.0)? {
+            AnyRobot::Six(robot) => places(&robot, &arm.joints, 0.0),
+            AnyRobot::Seven(robot) => places(&robot, &arm.joints, 0.0),
+        };
+        let mut links = Vec::new();
+        for (link, carrier) in carriers(&tree, from, &chain).into_iter().enumerate() {
+            let Some((after, pose)) = carrier.transpose()? else { continue };
+            if let Some((number, place)) = &places[after] {
+                links.push((tree.links[link].to_owned(), *number, place * pose));
+            }
+        }
+        Ok(links)
     }
 
     fn motions(&self) -> impl Iterator<Item = &Motion> {
@@ -118,8 +155,8 @@ impl UrdfArm {
         }
     }
 
-    /// The robot, which must have `N` joints. Angles within `snap` of a multiple of 90 deg [rad] are
-    /// made exact. If the arm has no closed form, or no table, and would have one with a larger
+    /// The robot, which must have `N` joints. Angles within `snap` of a multiple of 90 deg [rad]
+    /// are made exact. If the arm has no closed form, or no table, and would have one with a larger
     /// snap, that is proposed.
     pub(crate) fn robot<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error> {
         check_snap(snap)?;
@@ -142,7 +179,9 @@ impl UrdfArm {
             }
             other => other?,
         };
-        self.limited(robot)
+        let robot = self.limited(robot)?;
+        let body = body_of(&robot, &self.solids, &self.joints, snap);
+        robot.with_body(body)
     }
 
     /// The table of the chain.

@@ -4,9 +4,12 @@ use core::fmt::Write as _;
 
 use alloc::string::String;
 
-use nalgebra::Vector3;
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+use nalgebra::{Rotation3, Vector3};
 
 use super::joint::LINKAGE;
+use crate::body::Capsule;
 use crate::kinematics::thresholds::MOST_ANGLE;
 use crate::kinematics::{Pose, pose_to_euler_zyx};
 
@@ -66,6 +69,37 @@ impl Text {
         self.line(format_args!("  <link name=\"{name}\"/>"));
     }
 
+    /// A link with capsules in its frame: a sphere each, or a cylinder and the spheres at its ends.
+    pub(super) fn solid_link(&mut self, name: &str, capsules: &[Capsule]) {
+        if capsules.is_empty() {
+            return self.link(name);
+        }
+        self.line(format_args!("  <link name=\"{name}\">"));
+        for element in ["visual", "collision"] {
+            for capsule in capsules {
+                let ([a, b], radius) = (capsule.ends(), capsule.radius());
+                let sphere = alloc::format!("<sphere radius=\"{radius}\"/>");
+                self.solid(element, a, [0.0; 3], &sphere);
+                if !capsule.is_sphere() {
+                    self.solid(element, b, [0.0; 3], &sphere);
+                    let (pose, length) = along(a, b);
+                    let cylinder =
+                        alloc::format!("<cylinder radius=\"{radius}\" length=\"{length}\"/>");
+                    let (xyz, [yaw, pitch, roll]) = pose_to_euler_zyx(&pose);
+                    self.solid(element, xyz, [roll, pitch, yaw], &cylinder);
+                }
+            }
+        }
+        self.push("  </link>\n");
+    }
+
+    fn solid(&mut self, element: &str, xyz: [f64; 3], rpy: [f64; 3], shape: &str) {
+        let (xyz, rpy) = (numbers(xyz), numbers(rpy));
+        self.line(format_args!(
+            "    <{element}><origin xyz=\"{xyz}\" rpy=\"{rpy}\"/><geometry>{shape}</geometry></{element}>"
+        ));
+    }
+
     pub(super) fn fixed(&mut self, name: &str, links: [&str; 2], pose: &Pose) {
         let (xyz, [yaw, pitch, roll]) = pose_to_euler_zyx(pose);
         self.begin(name, "fixed", links, xyz, [roll, pitch, yaw]);
@@ -118,6 +152,17 @@ impl Text {
         let (xyz, rpy) = (numbers(xyz), numbers(rpy));
         self.line(format_args!("    <origin xyz=\"{xyz}\" rpy=\"{rpy}\"/>"));
     }
+}
+
+/// The frame in the middle of a line, with z along it, and the length of the line [m].
+fn along(a: [f64; 3], b: [f64; 3]) -> (Pose, f64) {
+    let [a, b] = [a, b].map(Vector3::from);
+    let way = b - a;
+    // Upward, so that no half turn is needed.
+    let up = if way.z < 0.0 { -way } else { way };
+    let rotation =
+        Rotation3::rotation_between(&Vector3::z(), &up).unwrap_or_else(Rotation3::identity);
+    (Pose::from_parts(((a + b) * 0.5).into(), rotation), way.norm())
 }
 
 /// Three numbers with the digits to be read back as they are. Adding zero removes minus zero.

@@ -11,15 +11,25 @@ use core::f64::consts::FRAC_PI_2;
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
+use alloc::vec::Vec;
 
 use nalgebra::{Translation3, Vector3};
 
 use super::text::{Hinge, Text};
+use crate::body::{Capsule, LinkCapsule};
+use crate::error::{BodyFault, Error};
 use crate::kinematics::{AnyRobot, DhRow, Pose, Robot, constant_pose};
 
-/// The head of a file without masses and shapes.
+/// The first lines of a file without shapes.
+const KINEMATICS: &str =
+    "<!-- Kinematics only, in meters and radians: no masses, no shapes. An effort or a velocity of";
+
+/// The first lines of a file with shapes.
+const SHAPES: &str =
+    "<!-- In meters and radians. Shapes are capsules, no masses. An effort or a velocity of";
+
+/// The lines that follow.
 const HEAD: &[&str] = &[
-    "<!-- Kinematics only, in meters and radians: no masses, no shapes. An effort or a velocity of",
     "     0 is unknown. At zero joint angles every link but tool0 is parallel to base_link. -->",
     "<!-- MuJoCo accepts no moving link without a mass; other programs ignore this. -->",
     "<mujoco><compiler fusestatic=\"false\" boundmass=\"0.001\" boundinertia=\"0.001\"/></mujoco>",
@@ -54,8 +64,26 @@ impl<const N: usize> Robot<N> {
     /// ```
     #[must_use]
     pub fn to_urdf(&self) -> String {
+        self.urdf_with(&[])
+    }
+
+    /// [`Self::to_urdf`] with the body of the robot as the `visual` and `collision` elements of the
+    /// links: a capsule is a cylinder and the spheres at its ends. What the flange carries is of
+    /// `tool0`. Cylinders, pistons and rods that move beside a link ([`Body::parts`]) are left out.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidBody`] if the robot has no body.
+    ///
+    /// [`Body::parts`]: crate::body::Body::parts
+    pub fn to_urdf_with_body(&self) -> Result<String, Error> {
+        Ok(self.urdf_with(self.body().ok_or(BodyFault::NoBody)?.capsules()))
+    }
+
+    fn urdf_with(&self, capsules: &[LinkCapsule]) -> String {
         let mdh = self.mdh();
         let arm = Arm {
+            capsules,
             name: self.name(),
             base: self.base(),
             tool: self.tool(),
@@ -74,6 +102,7 @@ impl<const N: usize> Robot<N> {
 /// The written part of a robot, whatever its number of joints.
 struct Arm<'a> {
     name: &'a str,
+    capsules: &'a [LinkCapsule],
     base: &'a Pose,
     tool: &'a Pose,
     root: &'a Pose,
@@ -90,12 +119,13 @@ struct Arm<'a> {
 impl Arm<'_> {
     fn urdf(&self) -> String {
         let mut text = Text::new(self.name);
+        text.lines(&[if self.capsules.is_empty() { KINEMATICS } else { SHAPES }]);
         text.lines(HEAD);
         if *self.base != Pose::identity() {
             text.link("world");
             text.fixed("world-base_link", ["world", "base_link"], self.base);
         }
-        text.link("base_link");
+        text.solid_link("base_link", &self.solids(0, &Pose::identity()));
         text.link("base");
         text.fixed("base_link-base", ["base_link", "base"], &Pose::identity());
         let (last, t_last_flange) = self.write_chain(&mut text);
@@ -104,7 +134,7 @@ impl Arm<'_> {
         let joint = format!("joint_{}-flange", self.rows.len());
         text.link("flange");
         text.fixed(&joint, [&last, "flange"], &(t_last_flange * turn.inverse()));
-        text.link("tool0");
+        text.solid_link("tool0", &self.solids(self.rows.len() + 1, &Pose::identity()));
         text.fixed("flange-tool0", ["flange", "tool0"], &turn);
         if *self.tool != Pose::identity() {
             text.link("tool");
@@ -132,13 +162,19 @@ impl Arm<'_> {
                 hinge.origin = Vector3::zeros();
             }
             let (joint, child) = (format!("joint_{}", i + 1), format!("link_{}", i + 1));
-            text.link(&child);
-            text.hinge(&joint, [&parent, &child], &hinge);
-            parent = child;
             // The link has its origin there, and is parallel to its parent.
             frame.translation = Translation3::identity();
+            text.solid_link(&child, &self.solids(i + 1, &frame));
+            text.hinge(&joint, [&parent, &child], &hinge);
+            parent = child;
         }
         (parent, frame * self.flange)
+    }
+
+    /// The capsules of a link, moved from the table's frame into the text's.
+    fn solids(&self, link: usize, frame: &Pose) -> Vec<Capsule> {
+        let own = self.capsules.iter().filter(|own| own.link == link);
+        own.map(|own| own.capsule.moved(frame)).collect()
     }
 
     /// Joint `i`, counted from zero, about z of a frame.
@@ -156,6 +192,18 @@ impl AnyRobot {
         match self {
             Self::Six(robot) => robot.to_urdf(),
             Self::Seven(robot) => robot.to_urdf(),
+        }
+    }
+
+    /// The text of a URDF with the body of the robot; see [`Robot::to_urdf_with_body`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::to_urdf_with_body`].
+    pub fn to_urdf_with_body(&self) -> Result<String, Error> {
+        match self {
+            Self::Six(robot) => robot.to_urdf_with_body(),
+            Self::Seven(robot) => robot.to_urdf_with_body(),
         }
     }
 }

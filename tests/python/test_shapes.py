@@ -250,11 +250,11 @@ def test_motions_are_checked_between_meshes_too():
         (lambda: Shape.union([]), "no shape"),
         (lambda: irbkin.Cell(may_touch=[("tabel", 1)]), 'no obstacle has the name "tabel"'),
         (
-            lambda: irbkin.Cell({"ball": Shape.sphere(1, [0, 0, 0])}, may_touch=[("ball", 8)]),
-            "no link 8",
+            lambda: irbkin.Cell({"ball": Shape.sphere(1, [0, 0, 0])}, may_touch=[("ball", 9)]),
+            "no link 9",
         ),
         (
-            lambda: irbkin.Cell().with_robot("a", irbkin.Robot("IRB 140-6/0.81"), np.zeros(6)),
+            lambda: irbkin.Cell().with_robot("a", ROBOT.with_body(None), np.zeros(6)),
             "with_body",
         ),
         (

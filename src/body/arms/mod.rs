@@ -9,6 +9,8 @@ mod abb_to_4600;
 mod others;
 mod universal_robots;
 
+use alloc::borrow::Cow;
+
 use super::links::{Body, LinkCapsule};
 use super::shape::Capsule;
 
@@ -56,7 +58,8 @@ pub(crate) fn body_of(name: &str) -> Option<Body> {
         links: links.collect(),
         parts: parts.collect(),
         pairs: arm.checked.iter().map(|pair| pair.map(usize::from)).collect(),
-        source: arm.source,
+        source: Cow::Borrowed(arm.source),
+        is_approximate: false,
         excess: arm.excess.iter().map(|excess| f64::from(*excess) * 1e-3).collect(),
     })
 }

@@ -73,6 +73,11 @@ impl Capsule {
         (own - center).norm_squared() > most * most
     }
 
+    /// How far its farthest point is from the origin [m].
+    pub(crate) fn farthest(&self) -> f64 {
+        self.ends[0].norm().max(self.ends[1].norm()) + self.radius
+    }
+
     /// The ball around it: center and radius [m].
     #[inline]
     pub(super) fn ball(&self) -> (Vector3<f64>, f64) {

@@ -1,12 +1,10 @@
 //! Building a robot from parameters, from tables, and from another robot.
 
 use alloc::borrow::Cow;
-use alloc::sync::Arc;
 
 use super::reading::other_reading;
 use super::{Definition, Robot};
-use crate::body::Body;
-use crate::error::{BodyFault, Error, ModelFault, PoseFault};
+use crate::error::{Error, ModelFault, PoseFault};
 use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
 use crate::kinematics::chain::jacobian::JacobianFrame;
@@ -132,6 +130,12 @@ impl<const N: usize> Robot<N> {
         }
     }
 
+    /// The largest distance of the flange from an axis, in two poses [m].
+    pub(super) fn size(&self) -> f64 {
+        let bare = self.chain.clone().with_tool(Pose::identity());
+        distances_of_axes(&bare).map(|(_, distance)| distance).fold(0.0, f64::max)
+    }
+
     /// Note another reading of the rows of the table, in which the arm has a closed form, where it
     /// has none as it is.
     #[must_use]
@@ -230,25 +234,6 @@ impl<const N: usize> Robot<N> {
         Ok(self)
     }
 
-    /// Return the robot with the shapes of its links, or without.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidBody`] for a capsule of a link that the arm does not have.
-    pub fn with_body(self, body: Option<Body>) -> Result<Self, Error> {
-        if let Some(own) = body.iter().flat_map(Body::capsules).find(|own| own.link > N) {
-            return Err(BodyFault::NoLink { link: own.link, dof: N }.into());
-        }
-        Ok(Self { body: body.map(Arc::new), ..self })
-    }
-
-    /// The shapes of its links, in their frames ([`Robot::link_frames`]); an arm of the catalog has
-    /// one if there is a free public mesh of it.
-    #[must_use]
-    pub fn body(&self) -> Option<&Body> {
-        self.body.as_deref()
-    }
-
     /// Return the robot with its base at `t_world_base`, which replaces its current base. Poses and
     /// Jacobians are then in the world frame.
     ///
@@ -271,9 +256,7 @@ impl<const N: usize> Robot<N> {
         let tool = checked_pose(t_flange_tool)?;
         let length = tool.translation.vector.norm();
         if length > 0.0 {
-            let bare = self.chain.clone().with_tool(Pose::identity());
-            let size = distances_of_axes(&bare).map(|(_, distance)| distance);
-            let bound = MOST_TOOL * size.fold(0.0, f64::max);
+            let bound = MOST_TOOL * self.size();
             if length > bound {
                 return Err(PoseFault::ToolTooLong { length, bound }.into());
             }

@@ -1,6 +1,7 @@
 //! A robot: a chain, its limits and, where its structure is known, its inverse.
 
 pub(super) mod any;
+mod body;
 mod build;
 mod corrected;
 mod display;
@@ -24,7 +25,7 @@ use core::any::Any;
 
 use nalgebra::SMatrix;
 
-use crate::body::Body;
+use crate::body::{Body, Outline};
 use crate::kinematics::answer::singularity::{SingularDistances, Singularity};
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
@@ -63,7 +64,7 @@ pub struct Robot<const N: usize> {
     /// How its controller counts configurations, if in a way of its own.
     rule: Option<ConfigurationRule>,
     lock: Option<Lock<N>>,
-    body: Option<Arc<Body>>,
+    body: Option<Arc<(Body, Outline)>>,
 }
 
 /// A locked joint, with the robot of the six others.
@@ -115,7 +116,7 @@ impl<const N: usize> PartialEq for Robot<N> {
             && self.max_velocity == other.max_velocity
             && self.rule == other.rule
             && self.locked_joint() == other.locked_joint()
-            && self.body == other.body
+            && self.body() == other.body()
     }
 }
 

@@ -1,0 +1,72 @@
+"""Capsules that contain the meshes of an arm: `irbkin.body.Body.fit`.
+
+`urdf` reads the solids of the links, `solid` makes points and distances of one, `capsules` fits it,
+`pairs` finds the links that are kept apart.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from irbkin._core import Body, Robot
+from irbkin._fit.capsules import fitted
+from irbkin._fit.pairs import pairs_of
+from irbkin._fit.solid import Array, Solid
+from irbkin._fit.urdf import links_of
+from irbkin._mesh_files import triangles
+from irbkin.errors import InvalidModelError
+
+# Capsules of a link, at most.
+MOST = 12
+
+
+def check(excess: float | None, most: int) -> None:
+    """Check what is wanted of capsules."""
+    if excess is not None and not 0 < excess < np.inf:
+        raise InvalidModelError(f"excess is {excess} m, it must be positive")
+    if not 1 <= most <= MOST:
+        raise InvalidModelError(f"most is {most}, it must be 1 to {MOST} capsules")
+
+
+def capsules_around(
+    mesh: str | os.PathLike[str] | npt.ArrayLike, scale: float, excess: float | None, most: int
+) -> Array:
+    """Return capsules around a mesh, shape (k, 7); see `irbkin.body.cover`."""
+    check(excess, most)
+    given = triangles(mesh) if isinstance(mesh, str | os.PathLike) else np.array(mesh, float)
+    if given.ndim != 3 or given.shape[1:] != (3, 3) or not len(given):
+        raise InvalidModelError(f"mesh has shape {given.shape}, it must have (n, 3, 3)")
+    if not 0 < scale < np.inf:
+        raise InvalidModelError(f"scale is {scale}, it must be positive")
+    return fitted(Solid(given * scale), excess, most)[0]
+
+
+def body_of(
+    urdf: str | bytes | os.PathLike[str],
+    base: str | None,
+    tip: str | None,
+    excess: float | None,
+    most: int,
+    packages: Mapping[str, str | os.PathLike[str]] | None,
+) -> Body:
+    """Return the body of a URDF; see `Body.fit`."""
+    check(excess, most)
+    robot = Robot.from_urdf(urdf, base, tip)
+    solids = {
+        link: Solid(corners)
+        for link, corners in sorted(links_of(urdf, base, tip, packages or {}).items())
+    }
+    found = {link: fitted(solid, excess, most) for link, solid in solids.items()}
+    links = np.concatenate([np.full(len(rows), link) for link, (rows, _) in found.items()])
+    capsules = np.concatenate([rows for rows, _ in found.values()])
+    outside = np.zeros(max(found) + 1)
+    for link, (_, value) in found.items():
+        outside[link] = value
+    body = Body(links, capsules, [])
+    pairs = pairs_of(robot, body, solids)
+    source = f"capsules fitted to the meshes of {robot.name}"
+    return Body(links, capsules, pairs, source=source, excess=outside)

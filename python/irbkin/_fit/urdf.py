@@ -1,0 +1,149 @@
+"""The triangles of the links of a URDF, in the frames of the arm."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from irbkin._core import _urdf_links, pose
+from irbkin._fit.solid import Array
+from irbkin._mesh_files import triangles
+from irbkin.errors import InvalidModelError
+
+# Sides of the prism around a cylinder.
+SIDES = 32
+
+Packages = Mapping[str, "str | os.PathLike[str]"]
+
+
+def links_of(
+    urdf: str | bytes | os.PathLike[str], base: str | None, tip: str | None, packages: Packages
+) -> dict[int, Array]:
+    """The triangles of each link by its number, shape (n, 3, 3), in the frame of the link [m].
+
+    Of a URDF link, those of its collision elements, or of its visual ones where it has none.
+    """
+    text, folder = text_and_folder(urdf)
+    elements = {link.get("name"): link for link in ElementTree.fromstring(text).findall("link")}
+    found: dict[int, list[Array]] = {}
+    for name, number, placed in _urdf_links(urdf, base, tip):
+        link = elements[name]
+        for shape in link.findall("collision") or link.findall("visual"):
+            solid = solid_of(shape, name, folder, packages)
+            turned = placed @ origin_of(shape)
+            moved = solid @ turned[:3, :3].T + turned[:3, 3]
+            found.setdefault(number, []).append(moved)
+    if not found:
+        raise InvalidModelError("the links of the URDF have neither collision nor visual elements")
+    return {number: np.concatenate(parts) for number, parts in found.items()}
+
+
+def text_and_folder(urdf: str | bytes | os.PathLike[str]) -> tuple[str | bytes, Path | None]:
+    """The text of a URDF, and the folder of its file where it has one."""
+    if isinstance(urdf, bytes) or str(urdf).lstrip("\ufeff \t\r\n").startswith("<"):
+        return (urdf if isinstance(urdf, bytes) else str(urdf).strip("\ufeff \t\r\n")), None
+    path = Path(os.fspath(urdf))
+    return path.read_bytes().strip(), path.resolve().parent
+
+
+def origin_of(shape: ElementTree.Element) -> Array:
+    """The pose of a shape in its link."""
+    origin = shape.find("origin")
+    given = {} if origin is None else origin.attrib
+    xyz, rpy = numbers(given.get("xyz", "0 0 0")), numbers(given.get("rpy", "0 0 0"))
+    return pose(xyz, euler_zyx=rpy[::-1])
+
+
+def solid_of(
+    shape: ElementTree.Element, link: str, folder: Path | None, packages: Packages
+) -> Array:
+    """The triangles of a shape in its own frame."""
+    kinds = [*shape.iterfind("geometry/*")]
+    if not kinds:
+        raise InvalidModelError(f'link "{link}" has a shape without geometry')
+    kind = kinds[0]
+
+    def given(name: str) -> Array:
+        values = numbers(kind.get(name, "nan"))
+        if not (values > 0).all():
+            what = f'{kind.tag} {name} is "{kind.get(name, "")}"'
+            raise InvalidModelError(f'link "{link}" {what}, it must be positive')
+        return values
+
+    if kind.tag == "mesh":
+        scale = numbers(kind.get("scale", "1 1 1"))
+        path = path_of(kind.get("filename", ""), link, folder, packages)
+        return triangles(path) * scale
+    if kind.tag == "box":
+        return hull(np.array([*signs()]) * given("size") / 2)
+    if kind.tag == "sphere":
+        return hull(ball() * given("radius"))
+    if kind.tag in ("cylinder", "capsule"):
+        radius, half = given("radius")[0], given("length")[0] / 2
+        points = ball() if kind.tag == "capsule" else ring()
+        ends = [points * [radius, radius, radius] + [0, 0, half * sign] for sign in (-1, 1)]
+        return hull(np.concatenate(ends))
+    raise InvalidModelError(f'link "{link}" has a shape <{kind.tag}>, which is not known')
+
+
+def signs() -> Iterator[tuple[int, int, int]]:
+    """The corners of a cube."""
+    return ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))
+
+
+def ring() -> Array:
+    """A polygon around the unit circle."""
+    angle = np.arange(SIDES) * 2 * np.pi / SIDES
+    points = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
+    around: Array = points / np.cos(np.pi / SIDES)
+    return around
+
+
+def ball() -> Array:
+    """Points whose hull is around the unit ball."""
+    heights = np.sin(np.linspace(-np.pi / 2, np.pi / 2, SIDES // 2 + 1))
+    rings = [ring() * [np.sqrt(1 - z * z), np.sqrt(1 - z * z), 0] + [0, 0, z] for z in heights]
+    around: Array = np.concatenate(rings) / np.cos(np.pi / SIDES) ** 2
+    return around
+
+
+def hull(points: Array) -> Array:
+    """The triangles of the convex hull of points."""
+    from scipy.spatial import ConvexHull  # type: ignore[import-untyped]
+
+    corners: Array = points[ConvexHull(points).simplices]
+    return corners
+
+
+def path_of(name: str, link: str, folder: Path | None, packages: Packages) -> Path:
+    """The file of a mesh: `package://` of `packages`, or of a folder above the URDF."""
+    if name.startswith("package://"):
+        package, _, rest = name.removeprefix("package://").partition("/")
+        if package in packages:
+            places = [Path(packages[package])]
+        else:
+            above = [] if folder is None else [folder, *folder.parents]
+            places = [place / package for place in above]
+            places += [place for place in above if place.name == package]
+        paths = [place / rest for place in places]
+    else:
+        paths = [(folder or Path()) / name.removeprefix("file://")]
+    for path in paths:
+        if path.is_file():
+            return path
+    raise FileNotFoundError(
+        f'the mesh {name} of link "{link}" is not found: pass the folder of its package as '
+        "packages={name: folder}"
+    )
+
+
+def numbers(text: str) -> Array:
+    """Numbers of an attribute."""
+    try:
+        return np.array([float(word) for word in text.split()])
+    except ValueError:
+        raise InvalidModelError(f"{text!r} must be numbers") from None
