@@ -117,7 +117,7 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
         }
         for obstacle in 0..self.cell.obstacles().len() {
             for group in 0..self.outline.groups.len() {
-                if self.cell.compares(obstacle, self.outline.groups[group].link) {
+                if self.cell.compares(obstacle, self.outline.groups[group].number) {
                     self.apart_of_obstacle(simd, group, obstacle);
                 }
             }
