@@ -126,6 +126,8 @@ bench: $(RELEASED) ## Time single poses, batches, Python's calls and a RAPID mod
 	$(BIN)/python benches/motion.py
 	$(BIN)/python benches/motion_limits.py
 	$(BIN)/python benches/plan.py
+	$(BIN)/python benches/cells.py
+	$(BIN)/python benches/free_motion.py
 	$(BIN)/python benches/reach_map.py
 	$(BIN)/python benches/rapid_module.py
 	$(BIN)/python benches/rapid_check.py

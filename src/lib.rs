@@ -106,6 +106,8 @@ pub mod catalog;
 pub mod cell;
 pub mod error;
 #[cfg(any(feature = "std", feature = "libm"))]
+pub mod go;
+#[cfg(any(feature = "std", feature = "libm"))]
 mod kinematics;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod lanes;

@@ -20,6 +20,7 @@ mod coupled;
 mod display;
 mod follow;
 mod general;
+mod go;
 mod hard_sets;
 mod joint_axes;
 mod laws;

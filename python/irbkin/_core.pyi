@@ -378,8 +378,8 @@ class CellContact(_Record):
         """The names of the two that touch: "link 3", "table"."""
     @property
     def depth(self) -> float:
-        """How deep the two get into each other, or into the margin, before the next row or knot
-        [m].
+        """How deep the two get into each other, or into the margin, until they are apart [m]: of
+        16 postures to the next row or knot and one at each that follows.
         """
     def __new__(cls, at: float, q: _Floats, pair: tuple[str, str], depth: float) -> CellContact: ...
 
@@ -1363,6 +1363,51 @@ class Robot:
             ValueError: Another `order`.
             TypeError: redundancy of an arm of six joints.
             Exception: Whatever `accept` raises.
+        """
+    def go(
+        self,
+        start: npt.ArrayLike,
+        goal: npt.ArrayLike,
+        cell: Cell | None = None,
+        *,
+        seconds: float = 2.0,
+        seed: int = 0,
+        max_velocity: npt.ArrayLike | None = None,
+        max_acceleration: npt.ArrayLike | None = None,
+        steps: int = 100,
+    ) -> Trajectory:
+        """Move from joint angles or a pose to joint angles or a pose, from rest to rest, without
+        touching anything: the motion is proven free at every instant (`Cell.check_path`).
+
+        A pose is left or reached by any of its solutions inside the limits, at the turns of the
+        joints that are near the other end; of seven joints with joint 7 at 24 angles. If the joints
+        can move evenly to a goal, they do. Otherwise a path is sought by samples from both ends
+        (RRT-Connect), shortened, its corners rounded as far as that is free, and timed. One seed
+        gives one motion. A locked joint stays at its angle.
+
+        Args:
+            start: Joint angles [rad], shape (n,), or a pose of the tool, shape (4, 4).
+            goal: The same.
+            cell: What is around the arm; when not given, the arm stays clear of itself.
+            seconds: How long is sought [s].
+            seed: Which samples are taken, a whole number from 0 on.
+            max_velocity: Limits [rad/s], a number or shape (n,); those of the robot when not given,
+                1 rad/s where they are unknown.
+            max_acceleration: Limits [rad/s^2], a number or shape (n,); when not given, those that
+                reach the velocities in 0.5 s.
+            steps: Number of samples of the answer.
+
+        Returns:
+            The `irbkin.trajectory.Trajectory`.
+
+        Raises:
+            UnreachableError: `proven` is True where no motion can be: the start or every solution
+                of the goal collides (the message names the two that touch and the depth), is not
+                reached, or is outside the limits. It is False where none was found in the time, or
+                where not all solutions of the pose were tried.
+            InvalidPoseError, InvalidJointsError: A wrong shape, or an element that is not finite.
+            InvalidMotionError: A limit or a time that is not positive.
+            InvalidModelError: The robot has no body.
         """
     def follow(
         self,

@@ -47,12 +47,17 @@ class CalibrationError(IrbkinError):
 
 
 class UnreachableError(IrbkinError):
-    """No solution is inside the limits, or none has the configuration that was asked for."""
+    """No solution is inside the limits, or none has the configuration that was asked for.
+
+    Or there is no free motion.
+    """
 
     configurations: tuple[Configuration, ...] = ()
     """The configurations that exist, where another one was asked for."""
     rapid_error: Literal["ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"] | None = None
     """RAPID's name of the error, in errors of `irbkin.rapid`: ERR_OUTSIDE_REACH or ERR_ROBLIMIT."""
+    proven: bool = False
+    """Whether it is proven that `Robot.go` has no motion, not that none was found in the time."""
 
 
 class PathError(UnreachableError):

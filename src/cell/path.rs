@@ -5,6 +5,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::array;
 
 use super::obstacles::Cell;
 use super::placed::Placed;
@@ -17,8 +18,10 @@ use crate::trajectory::Trajectory;
 /// What comes nearer than this counts as touching in a motion [m]: it bounds the halvings.
 pub const RESOLUTION: f64 = 1e-4;
 
-/// Postures at which the depth of a contact is measured, until the end of the piece.
+/// Postures at which the depth of a contact is measured until the end of its piece, and in all: one
+/// at the end of each piece that follows, while the two touch.
 const SAMPLES: u32 = 16;
+const MOST_SAMPLES: u32 = 1000;
 
 /// A motion in pieces.
 pub(crate) trait Motion<const N: usize> {
@@ -79,7 +82,8 @@ pub struct Contact<const N: usize> {
     pub q: [f64; N],
     /// What is nearest there.
     pub nearest: Nearest,
-    /// How deep the two get into each other, or into the margin, on this piece [m].
+    /// How deep the two get into each other, or into the margin, until they are apart: of 16
+    /// postures to the end of the piece and one at the end of each that follows [m].
     pub depth: f64,
 }
 
@@ -139,28 +143,70 @@ impl Cell {
         placed: &mut Placed<'_, N>,
         motion: &M,
     ) -> Option<Contact<N>> {
-        let Part { piece, part } = self.first_contact(placed, motion)?;
+        let Part { piece, part } = self.first_contact(placed, motion, RESOLUTION)?;
         let (q, _) = motion.range(piece, part);
         let (first, apart) = self.deepest(placed, &q)?;
         let mut depth = self.depth(first.other, &apart);
-        for sample in 0..=SAMPLES {
-            let part = part[0] + (1.0 - part[0]) * f64::from(sample) / f64::from(SAMPLES);
-            let capsules = placed.capsules(&motion.range(piece, [part; 2]).0);
+        for sample in 1..=MOST_SAMPLES {
+            // Evenly over this piece, then at the ends of the others.
+            let (later, at) = match sample.checked_sub(SAMPLES) {
+                None => (piece, part[0] + (1.0 - part[0]) * f64::from(sample) / f64::from(SAMPLES)),
+                Some(more) => (piece + more as usize, 1.0),
+            };
+            if later >= motion.pieces() {
+                break;
+            }
+            let capsules = placed.capsules(&motion.range(later, [at; 2]).0);
             let pairs = self.pairs(placed);
             let of_two = pairs.filter(|pair| pair.link == first.link && pair.other == first.other);
             let depths =
                 of_two.map(|pair| self.depth(pair.other, &self.separation(&pair, &capsules)));
-            depth = depths.fold(depth, f64::max);
+            let own = depths.fold(f64::NEG_INFINITY, f64::max);
+            depth = depth.max(own);
+            if own <= 0.0 && sample >= SAMPLES {
+                break;
+            }
         }
         let at = motion.instant(piece, 0.5 * (part[0] + part[1]));
         Some(Contact { at, q, nearest: self.named(first, &apart), depth })
     }
 
-    /// The first part of a motion that is not free, as short as the resolution asks.
+    /// How much of the even motion from one joint vector to another is proven free, as a part of it
+    /// from 0 to 1; what comes nearer than `resolution` [m] counts as a contact.
+    #[expect(clippy::cast_precision_loss, reason = "up to the number of lanes")]
+    pub(crate) fn free_part<const N: usize>(
+        &self,
+        placed: &mut Placed<'_, N>,
+        [from, to]: [&[f64; N]; 2],
+        resolution: f64,
+    ) -> f64 {
+        // A part for each lane.
+        let rows: [[f64; N]; LANES + 1] = array::from_fn(|row| {
+            let part = row as f64 / LANES as f64;
+            array::from_fn(|joint| from[joint] + part * (to[joint] - from[joint]))
+        });
+        match self.first_part(placed, &rows[..], resolution) {
+            Some(Part { piece, part }) => (piece as f64 + part[0]) / LANES as f64,
+            None => 1.0,
+        }
+    }
+
+    /// The first piece of a trajectory that is not free.
+    pub(crate) fn first_piece<const N: usize>(
+        &self,
+        placed: &mut Placed<'_, N>,
+        motion: &Trajectory,
+        resolution: f64,
+    ) -> Option<usize> {
+        self.first_part(placed, motion, resolution).map(|part| part.piece)
+    }
+
+    /// [`Self::first_part`], the start included.
     fn first_contact<const N: usize, M: Motion<N> + ?Sized>(
         &self,
         placed: &mut Placed<'_, N>,
         motion: &M,
+        resolution: f64,
     ) -> Option<Part> {
         if motion.pieces() == 0 {
             return None;
@@ -169,14 +215,33 @@ impl Cell {
         if self.collides_at(placed, &motion.range(start.piece, start.part).0) {
             return Some(start);
         }
+        self.first_part(placed, motion, resolution)
+    }
+
+    /// The first part of a motion that is not free, as short as the resolution asks [m].
+    fn first_part<const N: usize, M: Motion<N> + ?Sized>(
+        &self,
+        placed: &mut Placed<'_, N>,
+        motion: &M,
+        resolution: f64,
+    ) -> Option<Part> {
         let mut contact = None;
         // The first part is the last one here.
         let mut left = whole(motion.pieces());
         while !left.is_empty() {
             let next = left.split_off(left.len().saturating_sub(LANES));
-            for (own, verdict) in next.iter().zip(self.verdicts(placed, motion, &next)) {
-                match verdict {
+            let verdicts = self.verdicts(placed, motion, &next, resolution);
+            let touching = self.touching_middles(placed, motion, &next, verdicts);
+            for (lane, own) in next.iter().enumerate() {
+                match verdicts[lane] {
                     Verdict::Free => {}
+                    Verdict::Open if touching >> lane & 1 == 1 => {
+                        // What is behind the middle does not count.
+                        let [behind, before] = own.halves();
+                        contact = Some(Part { part: [behind.part[0]; 2], ..behind });
+                        left.clear();
+                        left.push(before);
+                    }
                     Verdict::Open => left.extend(own.halves()),
                     Verdict::Contact => {
                         contact = Some(*own);
@@ -186,6 +251,25 @@ impl Cell {
             }
         }
         contact
+    }
+
+    /// The open parts whose middles collide, as bits.
+    fn touching_middles<const N: usize, M: Motion<N> + ?Sized>(
+        &self,
+        placed: &mut Placed<'_, N>,
+        motion: &M,
+        parts: &[Part],
+        verdicts: [Verdict; LANES],
+    ) -> u64 {
+        if !verdicts[..parts.len()].iter().any(|verdict| matches!(verdict, Verdict::Open)) {
+            return 0;
+        }
+        let mut q = [[0.0; N]; LANES];
+        for (q, own) in q.iter_mut().zip(parts) {
+            let middle = 0.5 * (own.part[0] + own.part[1]);
+            (*q, _) = motion.range(own.piece, [middle; 2]);
+        }
+        self.colliding(placed, &q[..parts.len()])
     }
 
     /// Whether the motion from each joint vector to the next one is free.
@@ -198,7 +282,7 @@ impl Cell {
         let mut left = whole(free.len());
         while !left.is_empty() {
             let next = left.split_off(left.len().saturating_sub(LANES));
-            for (own, verdict) in next.iter().zip(self.verdicts(placed, q, &next)) {
+            for (own, verdict) in next.iter().zip(self.verdicts(placed, q, &next, RESOLUTION)) {
                 match verdict {
                     Verdict::Open if free[own.piece] => left.extend(own.halves()),
                     Verdict::Contact => free[own.piece] = false,
@@ -215,6 +299,7 @@ impl Cell {
         placed: &mut Placed<'_, N>,
         motion: &M,
         parts: &[Part],
+        resolution: f64,
     ) -> [Verdict; LANES] {
         let (mut q, mut spans) = ([[0.0; N]; LANES], [[0.0; N]; LANES]);
         for (lane, own) in parts.iter().enumerate() {
@@ -225,7 +310,7 @@ impl Cell {
         core::array::from_fn(|lane| {
             if touching >> lane & 1 == 0 {
                 Verdict::Free
-            } else if placed.most_motion(spans[lane]) <= RESOLUTION {
+            } else if placed.most_motion(spans[lane]) <= resolution {
                 Verdict::Contact
             } else {
                 Verdict::Open

@@ -7,6 +7,7 @@
 use alloc::string::String;
 
 mod body;
+mod go;
 mod input;
 mod lists;
 mod model;
@@ -18,6 +19,7 @@ mod tests;
 mod urdf;
 
 pub(crate) use self::body::BodyFault;
+pub(crate) use self::go::GoFault;
 pub(crate) use self::input::{JointFault, PoseFault};
 pub(crate) use self::lists::Names;
 pub use self::lists::{LeftOut, NoConfiguration, UnknownRobot};
@@ -80,6 +82,9 @@ pub enum Error {
         /// How deep, the margin included [m].
         depth: f64,
     },
+    /// A free motion cannot be, or was not found.
+    #[error(transparent)]
+    NoMotion(#[from] GoFault),
     /// Solutions are inside the limits, none with the configuration that was asked for.
     #[error(transparent)]
     NoConfiguration(#[from] NoConfiguration),

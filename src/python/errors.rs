@@ -72,9 +72,10 @@ impl From<Error> for PyErr {
             }
             Error::InvalidMotion(_) | Error::InvalidPlan(_) => "InvalidMotionError",
             Error::UnknownRobot(_) => "UnknownRobotError",
-            Error::Unreachable(_) | Error::Collides { .. } | Error::NoConfiguration(_) => {
-                "UnreachableError"
-            }
+            Error::Unreachable(_)
+            | Error::NoMotion(_)
+            | Error::Collides { .. }
+            | Error::NoConfiguration(_) => "UnreachableError",
             Error::Rapid(_) | Error::Frame(_) => "RapidError",
             Error::NoInstructionSet { .. } => return PyValueError::new_err(error.to_string()),
         };

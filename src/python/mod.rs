@@ -21,6 +21,7 @@ mod errors;
 mod follow;
 mod found;
 mod freedoms;
+mod go;
 mod inverse;
 mod meshes;
 mod models;

@@ -131,8 +131,8 @@ record! {
         q: Array,
         /// The names of the two that touch: "link 3", "table".
         pair: (String, String),
-        /// How deep the two get into each other, or into the margin, before the next row or knot
-        /// [m].
+        /// How deep the two get into each other, or into the margin, until they are apart [m]: of
+        /// 16 postures to the next row or knot and one at each that follows.
         depth: f64,
     }
 }

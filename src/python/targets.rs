@@ -79,7 +79,7 @@ pub(super) fn read_path(py: Python<'_>, rows: &Rows<'_>, shape: &[usize]) -> PyR
 }
 
 /// The shape that NumPy sees in an argument.
-fn shape_of(value: &Bound<'_, PyAny>) -> Option<Vec<usize>> {
+pub(super) fn shape_of(value: &Bound<'_, PyAny>) -> Option<Vec<usize>> {
     let numpy = value.py().import("numpy").ok()?;
     numpy.call_method1("shape", (value,)).ok()?.extract().ok()
 }

@@ -26,6 +26,7 @@ mod piece;
 mod piecewise;
 mod polynomial;
 mod retime;
+mod rounded;
 mod sampling;
 mod tool_speed;
 mod waypoints;
@@ -39,6 +40,7 @@ pub(crate) use piecewise::TrajectoryParts;
 pub use retime::{Retiming, retime, retime_tool};
 #[cfg(feature = "rapid")]
 pub(crate) use retime::{evenly, within_times};
+pub(crate) use rounded::{distance, paced, rounded};
 pub use tool_speed::{ToolSpeedLimits, at_tool_speed, tool_lengths, tool_speed_limits};
 pub use waypoints::{SplineKind, spline, through};
 

@@ -26,6 +26,7 @@ CALLS = {
     "follow through a wrist": "robot.follow(T, q[0], singularity_mode='wrist', zone=0.9)",
     "plan": "robot.plan(T[:100_000], rotation=3)",
     "plan, the sum first": "robot.plan(T[:50_000], rotation=12, order='sum')",
+    "go": "ball.go(*ends, rooms, seconds=100)",
     "retime": "irbkin.trajectory.retime(walk, 3.0, 10.0)",
     "spline": "irbkin.trajectory.spline(walk, max_velocity=3.0)",
     "pose": "irbkin.pose(T[:, :3, 3], rotation=T[:, :3, :3])",
@@ -45,6 +46,11 @@ n = {count}
 one = np.array([0.3, -0.2, 0.4, 0.5, 0.6, 0.7])
 q = np.repeat(one[None], n, axis=0)
 T = np.repeat(robot.fk(one)[None], n, axis=0)
+# A ball in one of four rooms, and a goal in another.
+ball = robot.with_body(irbkin.body.Body([6], [[0, 0, 0, 0, 0, 0, 0.05]], []))
+sizes = {{"one": [6, 0.02, 6], "other": [0.02, 6, 6]}}
+rooms = irbkin.Cell({{name: irbkin.body.Shape.box(size) for name, size in sizes.items()}})
+ends = [[q1, 0.5, 0, 0, 0.5, 0] for q1 in (0.7, 2.3)]
 walk = np.cumsum(np.random.default_rng(1).uniform(-0.1, 0.1, (n // 5, 6)), axis=0)
 sent = []
 

@@ -1,0 +1,93 @@
+//! Free motion: from joint angles or a pose to joint angles or a pose, without touching anything
+//! (docs/guide/cell.md).
+
+mod ends;
+mod samples;
+mod search;
+mod shorten;
+mod timed;
+mod tree;
+
+use crate::cell::{Cell, Placed};
+use crate::error::{Error, GoFault};
+use crate::kinematics::{Pose, Robot};
+use crate::trajectory::Trajectory;
+
+/// An end of a free motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End<const N: usize> {
+    /// Joint angles [rad].
+    Joints([f64; N]),
+    /// A pose of the tool, with any of its solutions.
+    Pose(Pose),
+}
+
+/// How a free motion is sought and timed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GoOptions<const N: usize> {
+    /// Which samples are taken: one seed gives one motion.
+    pub seed: u64,
+    /// Limits of the velocities [rad/s]; the robot's if `None`, 1 rad/s if they are unknown.
+    pub max_velocity: Option<[f64; N]>,
+    /// Limits of the accelerations [rad/s^2]; if `None`, full velocity in half a second.
+    pub max_acceleration: Option<[f64; N]>,
+}
+
+impl<const N: usize> Robot<N> {
+    /// A motion from one end to another, from rest to rest, that is proven free at every instant
+    /// ([`Cell::check_trajectory`]). Each joint moves evenly to the nearest goal if that is free;
+    /// else a path is sought, shortened and rounded.
+    ///
+    /// The search goes on for as long as `go_on` says so, which is asked for each sample; a motion
+    /// depends on the seed alone.
+    ///
+    /// ```
+    /// use irbkin::Robot;
+    /// use irbkin::body::Shape;
+    /// use irbkin::cell::Cell;
+    /// use irbkin::go::{End, GoOptions};
+    ///
+    /// let robot: Robot<6> = Robot::named("UR5e")?;
+    /// let post = Shape::sphere(0.2, [-0.6, 0.0, 0.4])?;
+    /// let cell = Cell::new(vec![("post".into(), post)], 0.01)?;
+    /// let [start, goal] = [[-1.0, -1.0, 1.2, -1.6, -1.5, 0.0], [1.0, -1.0, 1.2, -1.6, -1.5, 0.0]];
+    /// let mut samples = 0..10_000;
+    /// let motion = robot.go(
+    ///     &End::Joints(start),
+    ///     &End::Joints(goal),
+    ///     &cell,
+    ///     &GoOptions::default(),
+    ///     &mut || samples.next().is_some(),
+    /// )?;
+    /// assert!(cell.check_trajectory(&robot, &motion)?.is_none());
+    /// # Ok::<(), irbkin::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoMotion`] if an end collides, is not reached or is outside the limits, or if no
+    /// motion was found, which its words keep apart; [`Error::InvalidPose`] and
+    /// [`Error::InvalidJoints`] for ends that are not finite; [`Error::InvalidMotion`] for limits
+    /// that are not positive; [`Error::InvalidBody`] if the robot has no body.
+    pub fn go(
+        &self,
+        start: &End<N>,
+        goal: &End<N>,
+        cell: &Cell,
+        options: &GoOptions<N>,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<Trajectory, Error> {
+        let pace = timed::Pace::new(self, options)?;
+        let mut placed = Placed::of(self)?;
+        let ends = ends::free_ends(self, cell, &mut placed, [start, goal])?;
+        let mut space = search::Space { robot: self, cell, placed };
+        let path = if let Some(path) = space.direct(&ends) {
+            path
+        } else {
+            let samples = samples::Samples::new(self, &ends, options.seed);
+            let path = space.path(ends, samples, go_on)?;
+            space.shortened(&path, options.seed)
+        };
+        space.timed(&path, &pace)?.ok_or_else(|| GoFault::NotFound { samples: 0 }.into())
+    }
+}

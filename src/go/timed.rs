@@ -1,0 +1,116 @@
+//! The motion along a path: its corners rounded as far as that is free, at the fastest pace.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use alloc::vec::Vec;
+
+use super::GoOptions;
+use super::search::{RESOLUTION, Space};
+use crate::cell;
+use crate::error::Error;
+use crate::kinematics::Robot;
+use crate::trajectory::{
+    AxisLimits, Profile, Synchronization, Trajectory, distance, joint_within, paced, rounded,
+};
+
+/// How much of a side a rounded corner takes at most [1].
+const LARGEST: f64 = 0.45;
+
+/// Halvings of a corner, after which the motion stops there.
+const HALVINGS: i32 = 6;
+
+/// Velocity over acceleration of a joint without limits of acceleration [s].
+const RISE: f64 = 0.5;
+
+/// Limits of the joints.
+pub(super) struct Pace<const N: usize> {
+    velocity: [f64; N],
+    acceleration: [f64; N],
+}
+
+impl<const N: usize> Pace<N> {
+    pub(super) fn new(robot: &Robot<N>, options: &GoOptions<N>) -> Result<Self, Error> {
+        let own = robot.max_velocity().copied().unwrap_or([1.0; N]);
+        let velocity = options.max_velocity.unwrap_or(own);
+        let default = velocity.map(|velocity| velocity / RISE);
+        let pace = Self { velocity, acceleration: options.max_acceleration.unwrap_or(default) };
+        // Refuses limits that are not positive.
+        pace.straight(&[[0.0; N]; 2])?;
+        Ok(pace)
+    }
+
+    /// From rest to rest, the joints along a straight line.
+    fn straight(&self, [from, to]: &[[f64; N]; 2]) -> Result<Trajectory, Error> {
+        let limits: [_; N] = core::array::from_fn(|joint| AxisLimits {
+            velocity: self.velocity[joint],
+            acceleration: self.acceleration[joint],
+            jerk: f64::INFINITY,
+        });
+        joint_within(Profile::Trapezoid, from, to, &limits, Synchronization::Phase)
+    }
+
+    /// From rest to rest along a path with rounded corners, with a stop at those that are not.
+    fn along(&self, path: &[[f64; N]], cuts: &[f64]) -> Result<Trajectory, Error> {
+        let mut motion: Option<Trajectory> = None;
+        let mut first = 0;
+        for last in 1..path.len() {
+            if last + 1 < path.len() && cuts[last - 1] > 0.0 {
+                continue;
+            }
+            let part = match &path[first..=last] {
+                [from, to] => self.straight(&[*from, *to])?,
+                part => {
+                    let path = rounded(part, &cuts[first..last - 1]);
+                    paced(&path, &self.velocity, &self.acceleration)?
+                }
+            };
+            motion = Some(match motion {
+                Some(motion) => motion.then(&part)?,
+                None => part,
+            });
+            first = last;
+        }
+        motion.map_or_else(|| self.straight(&[path[0]; 2]), Ok)
+    }
+}
+
+impl<const N: usize> Space<'_, N> {
+    /// The motion along a path that is proven free.
+    pub(super) fn timed(
+        &mut self,
+        path: &[[f64; N]],
+        pace: &Pace<N>,
+    ) -> Result<Option<Trajectory>, Error> {
+        let mut cuts = self.cuts(path);
+        loop {
+            let motion = pace.along(path, &cuts)?;
+            let contact = self.cell.first_piece(&mut self.placed, &motion, cell::RESOLUTION);
+            if contact.is_none() {
+                return Ok(Some(motion));
+            }
+            if cuts.iter().all(|cut| *cut == 0.0) {
+                return Ok(None);
+            }
+            cuts.fill(0.0);
+        }
+    }
+
+    /// How far before and behind each corner it is rounded, so that the path is free.
+    fn cuts(&mut self, path: &[[f64; N]]) -> Vec<f64> {
+        let sides: Vec<f64> = path.windows(2).map(|ends| distance(&ends[0], &ends[1])).collect();
+        let mut cuts: Vec<f64> =
+            sides.windows(2).map(|sides| LARGEST * sides[0].min(sides[1])).collect();
+        for (corner, cut) in cuts.iter_mut().enumerate() {
+            let ends = &path[corner..corner + 3];
+            let is_free = |cut: &f64| {
+                let path = rounded(ends, &[*cut]);
+                self.cell.first_piece(&mut self.placed, &path, RESOLUTION).is_none()
+            };
+            let largest = *cut;
+            let mut smaller = (0..HALVINGS).map(|halving| largest * 0.5_f64.powi(halving));
+            *cut = smaller.find(is_free).unwrap_or(0.0);
+        }
+        cuts
+    }
+}
