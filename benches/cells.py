@@ -1,4 +1,4 @@
-"""Collisions: times of a posture, of the solutions of a pose and of a move, beside NumPy products."""
+"""Collisions: times of a posture, of the solutions of a pose and of a move, in NumPy products."""
 
 import timeit
 
