@@ -86,6 +86,48 @@ fn a_posture_collides_where_its_distance_says_so() {
     });
 }
 
+/// Compare gradients with differences; how many were compared.
+fn gradients<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> usize {
+    const STEP: f64 = 1e-6;
+    let mut compared = 0;
+    for _ in 0..80 {
+        let cell = any_cell(robot, rng);
+        let q = any_joints(robot, rng);
+        let Some(nearest) = cell.nearest(robot, &q).unwrap() else { continue };
+        let gradient = nearest.gradient(robot, &q);
+        // Not within a step of where another pair, or another point, is the nearest.
+        let mut is_smooth = nearest.distance > 1e-3;
+        let slopes: [f64; N] = std::array::from_fn(|joint| {
+            let at = |step: f64| {
+                let mut moved = q;
+                moved[joint] += step;
+                cell.nearest(robot, &moved).unwrap().unwrap().distance
+            };
+            let [before, after] = [at(-STEP), at(STEP)];
+            is_smooth &= (before + after - 2.0 * nearest.distance).abs() < 1e-9;
+            (after - before) / (2.0 * STEP)
+        });
+        if is_smooth {
+            let off = slopes.iter().zip(gradient).map(|(a, b)| (a - b).abs());
+            let most = off.fold(0.0, f64::max);
+            assert!(most < 1e-3, "{most}: {slopes:?} {gradient:?} {nearest:?}");
+            compared += 1;
+        }
+    }
+    compared
+}
+
+#[test]
+fn a_gradient_is_the_slope_of_the_distance() {
+    on_arms(|robot, rng| {
+        let compared = match robot {
+            AnyRobot::Six(robot) => gradients(robot, rng),
+            AnyRobot::Seven(robot) => gradients(robot, rng),
+        };
+        assert!(compared > 20, "{compared} compared");
+    });
+}
+
 /// Compare an answer with postures along the motion.
 fn compare<const N: usize>(
     cell: &Cell,

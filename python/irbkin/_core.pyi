@@ -398,8 +398,17 @@ class CellDistance(_Record):
     @property
     def points(self) -> _Floats:
         """The nearest points of the two in the world [m], shape (..., 2, 3)."""
+    @property
+    def gradient(self) -> _Floats:
+        """How the distance changes with each joint [m/rad], shape (..., n); NaN if that is not
+        known: where the points are one, and of the axis of a capsule inside a solid.
+        """
     def __new__(
-        cls, distance: _Floats, pair: tuple[tuple[str, str], ...], points: _Floats
+        cls,
+        distance: _Floats,
+        pair: tuple[tuple[str, str], ...],
+        points: _Floats,
+        gradient: _Floats,
     ) -> CellDistance: ...
 
 @final
@@ -2995,7 +3004,7 @@ class Cell:
             q: Joint angles [rad], shape (..., n).
 
         Returns:
-            CellDistance: distances [m], names of the pairs, nearest points [m].
+            CellDistance: distances [m], names of the pairs, nearest points [m], gradients [m/rad].
 
         Raises:
             InvalidJointsError: A wrong shape, or joints that are not finite.

@@ -8,7 +8,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use super::arguments::thread_count;
 use super::arm::{Arm, on};
-use super::arrays::vector;
+use super::arrays::{Rows, vector};
 use super::errors::Fault;
 use super::outputs::{Output, array};
 use super::records::{CellContact, CellDistance};
@@ -19,6 +19,7 @@ use super::state::{Reduced, reduced};
 use super::targets::checked_joints;
 use super::trajectory::PyTrajectory;
 use crate::cell::{Cell, Contact, Nearest};
+use crate::kinematics::Robot;
 
 /// Obstacles around an arm: whether it touches them or itself.
 ///
@@ -163,7 +164,7 @@ impl PyCell {
     ///     q: Joint angles [rad], shape (..., n).
     ///
     /// Returns:
-    ///     CellDistance: distances [m], names of the pairs, nearest points [m].
+    ///     CellDistance: distances [m], names of the pairs, nearest points [m], gradients [m/rad].
     ///
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or joints that are not finite.
@@ -171,10 +172,7 @@ impl PyCell {
     fn distance(&self, robot: &PyRobot, q: &Bound<'_, PyAny>) -> PyResult<CellDistance> {
         let py = q.py();
         let rows = robot.arm().joints(q)?;
-        let nearest: Vec<Option<Nearest>> = on!(robot.arm(), robot => {
-            let nearest = |q: &_| self.0.nearest(robot, q);
-            checked_joints("q", &rows)?.iter().map(nearest).collect::<Result<_, _>>()?
-        });
+        let (nearest, gradient) = on!(robot.arm(), robot => self.nearest(robot, &rows)?);
         let distance =
             nearest.iter().map(|one| one.as_ref().map_or(f64::INFINITY, |one| one.distance));
         let points = nearest.iter().flat_map(|one| {
@@ -187,6 +185,7 @@ impl PyCell {
             distance: array(py, distance, &rows.lead)?,
             pair: PyTuple::new(py, nearest.iter().map(|one| names(one.as_ref())))?.unbind(),
             points: array(py, points, &[&rows.lead[..], &[2, 3]].concat())?,
+            gradient: array(py, gradient, &[&rows.lead[..], &[robot.arm().dof()]].concat())?,
         })
     }
 
@@ -237,6 +236,24 @@ impl PyCell {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         reduced(py, "Cell", &*self.0)
+    }
+}
+
+impl PyCell {
+    /// The nearest pair at each row of joint angles, and the gradients of the distances.
+    fn nearest<const N: usize>(
+        &self,
+        robot: &Robot<N>,
+        rows: &Rows<'_>,
+    ) -> PyResult<(Vec<Option<Nearest>>, Vec<f64>)> {
+        let (mut all, mut gradients) = (Vec::new(), Vec::new());
+        for q in checked_joints("q", rows)? {
+            let nearest = self.0.nearest(robot, q)?;
+            let gradient = nearest.as_ref().map_or([f64::NAN; N], |one| one.gradient(robot, q));
+            gradients.extend(gradient);
+            all.push(nearest);
+        }
+        Ok((all, gradients))
     }
 }
 

@@ -117,6 +117,9 @@ record! {
         pair: Py<PyTuple>,
         /// The nearest points of the two in the world [m], shape (..., 2, 3).
         points: Array,
+        /// How the distance changes with each joint [m/rad], shape (..., n); NaN if that is not
+        /// known: where the points are one, and of the axis of a capsule inside a solid.
+        gradient: Array,
     }
 }
 

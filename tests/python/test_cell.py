@@ -140,6 +140,16 @@ def test_a_plan_stays_out_of_obstacles():
         ROBOT.plan(seam, cell=cell, carrier=irbkin.Track("y", -1, 1, steps=3))
 
 
+def test_a_gradient_leads_away():
+    q = np.array([[0.3, 0.4, 0.2, 0.1, 0.5, 0], [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]])
+    near = CELL.distance(ROBOT, q)
+    assert near.gradient.shape == (2, 6)
+    away = q + 1e-4 * near.gradient
+    gain = CELL.distance(ROBOT, away).distance - near.distance
+    assert np.allclose(gain, 1e-4 * (near.gradient**2).sum(axis=1), rtol=0.05)
+    assert CELL.distance(ROBOT, q[:0]).gradient.shape == (0, 6)
+
+
 def test_a_motion_is_free_between_its_rows_or_says_where_it_is_not():
     q = np.array([[-0.6, 0.3, 0.2, 0, 0.5, 0], [0.6, 0.3, 0.2, 0, 0.5, 0]])
     middle = ROBOT.link_frames(q.mean(axis=0))[5, :3, 3]

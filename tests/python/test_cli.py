@@ -493,6 +493,22 @@ def test_a_plan_is_that_of_the_library(corners, tmp_path):
         np.testing.assert_allclose(np.load(q), ROBOT.plan(lines, **options).q, atol=1e-9)
 
 
+def test_a_plan_stays_out_of_a_cell(corners, tmp_path):
+    file, q = tmp_path / "cell.toml", tmp_path / "q.npy"
+    file.write_text("[obstacles.ball]\nsphere = 0.05\npose = { xyz = [-0.4, 0, 1.2] }\n")
+    words = ["plan", NAME, corners, "--cell", file]
+    done = run(*words, "-o", q)
+    assert done.returncode == 0, done
+    assert irbkin.Cell.load(file).check_path(ROBOT, np.load(q)) is None
+    wrist = ROBOT.link_frames(np.load(q)[0])[4, :3, 3]
+    file.write_text(f"[obstacles.ball]\nsphere = 2.0\npose = {{ xyz = {wrist.tolist()} }}\n")
+    done = run(*words)
+    assert done.returncode == 1
+    assert b"rejected by accept or cell" in done.stderr
+    file.write_text("[obstacles.ball]\nspere = 2.0\n")
+    assert "did you mean sphere" in refused(*words)
+
+
 PROGRAM = """MODULE Weld
     PERS tooldata tGun:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
     CONST robtarget a:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];

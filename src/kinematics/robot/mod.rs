@@ -270,6 +270,14 @@ impl<const N: usize> Robot<N> {
         run(Frames { chain: &self.chain, q, out: frames });
     }
 
+    /// Derivatives in the controller's joint angles, by derivatives in the angles of the table.
+    pub(crate) fn by_controller(&self, mut derivatives: [f64; N]) -> [f64; N] {
+        if let [_, second, third, ..] = &mut derivatives[..] {
+            *second -= self.chain.coupling() * *third;
+        }
+        derivatives
+    }
+
     /// How far the joints of the table turn at most when those of the controller do [rad].
     pub(crate) fn table_spans(&self, mut spans: [f64; N]) -> [f64; N] {
         if let [_, second, third, ..] = &mut spans[..] {
