@@ -107,6 +107,8 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "the bench of motion runs" env MOVES=1000 $(BIN)/python benches/motion.py >/dev/null
 	$(STEP) "the bench of limits runs" env TRAJECTORIES=200 LINES=10 $(BIN)/python benches/motion_limits.py >/dev/null
 	$(STEP) "the bench of plans runs" env QUICK=1 $(BIN)/python benches/plan.py >/dev/null
+	$(STEP) "the bench of cells runs" env QUICK=1 $(BIN)/python benches/cells.py >/dev/null
+	$(STEP) "the bench of free motions runs" env QUICK=1 $(BIN)/python benches/free_motion.py >/dev/null
 	$(STEP) "the bench of maps runs" env QUICK=1 $(BIN)/python benches/reach_map.py >/dev/null
 	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
 	$(STEP) "the bench of a check runs" env MOVES=1000 $(BIN)/python benches/rapid_check.py >/dev/null

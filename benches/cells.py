@@ -1,12 +1,13 @@
 """Collisions: times of a posture, of the solutions of a pose and of a move, in NumPy products."""
 
+import os
 import timeit
 
 import irbkin
 import numpy as np
 from irbkin.body import Shape
 
-COUNT = 20_000
+COUNT = 1_000 if os.environ.get("QUICK") else 20_000
 ARMS = ("IRB 1200-5/0.9", "IRB 2600-12/1.65", "IRB 6700-200/2.6", "UR5e", "CRB 15000-5/0.95")
 
 

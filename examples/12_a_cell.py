@@ -43,6 +43,7 @@ def main() -> None:
     ends = [irbkin.pose([0.9, y, 0.42], euler_zyx=[0, np.pi, 0]) for y in (-0.25, 0.25)]
     line = robot.plan(irbkin.paths.line(*ends, steps=51), rotation=24)
     contact = cell.check_path(robot, line.q)
+    assert contact is not None
     print(f"a straight line: {' touches '.join(contact.pair)}, {contact.depth * 1e3:.0f} mm deep")
 
     motion = robot.go(ends[0], ends[1], cell)
