@@ -2849,6 +2849,19 @@ class Body:
         source: str = "given",
         excess: Sequence[float] | npt.NDArray[np.float64] | None = None,
     ) -> Body: ...
+    def with_capsules(
+        self, links: Sequence[int] | npt.NDArray[np.integer[Any]], capsules: npt.ArrayLike
+    ) -> Body:
+        """Return the body with more capsules: a hose, a dress pack. Rods and cylinders that move
+        beside the links stay.
+
+        Args:
+            links: The link of each capsule, shape (k,).
+            capsules: Both ends of the axis and the radius of each [m], shape (k, 7).
+
+        Raises:
+            InvalidModelError: A radius that is not positive, a wrong shape.
+        """
     @staticmethod
     def fit(
         urdf: str | bytes | PathLike[str],

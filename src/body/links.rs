@@ -116,6 +116,13 @@ impl Body {
         Self { arm: None, ..self }
     }
 
+    /// The body with more capsules: a hose, a dress pack. The parts beside its links stay.
+    #[must_use]
+    pub fn with_capsules(mut self, more: Vec<LinkCapsule>) -> Self {
+        self.links.extend(more);
+        Self { arm: None, ..self }
+    }
+
     /// The capsules of the links.
     #[must_use]
     pub fn capsules(&self) -> &[LinkCapsule] {

@@ -16,8 +16,8 @@ const LAST_LINK: usize = 8;
 pub struct Cell {
     obstacles: Vec<(String, Shape)>,
     margin: f64,
-    /// Obstacles, by their places, and links that are not compared.
-    may_touch: Vec<(usize, usize)>,
+    /// The links that an obstacle is not compared with, as bits, by its place.
+    may_touch: Vec<u16>,
 }
 
 impl Cell {
@@ -66,17 +66,19 @@ impl Cell {
             if !(1..=LAST_LINK).contains(link) {
                 return Err(BodyFault::NoMovingLink { name: name.to_string(), link: *link }.into());
             }
-            if self.compares(obstacle, *link) {
-                self.may_touch.push((obstacle, *link));
-            }
+            self.may_touch.resize(self.obstacles.len(), 0);
+            self.may_touch[obstacle] |= 1 << link;
         }
         Ok(self)
     }
 
     /// The obstacles, by their names, and the links that are not compared with them.
     pub fn may_touch(&self) -> impl Iterator<Item = (&str, usize)> {
-        let pairs = self.may_touch.iter();
-        pairs.filter_map(|(at, link)| self.obstacles.get(*at).map(|(name, _)| (&**name, *link)))
+        let named = self.obstacles.iter().zip(&self.may_touch);
+        named.flat_map(|((name, _), links)| {
+            let links = (1..=LAST_LINK).filter(move |link| links >> link & 1 == 1);
+            links.map(move |link| (&**name, link))
+        })
     }
 
     /// The cell with more obstacles.
@@ -88,6 +90,6 @@ impl Cell {
     /// Whether a link is compared with an obstacle, by its place: not the one on which the arm
     /// stands.
     pub(super) fn compares(&self, obstacle: usize, link: usize) -> bool {
-        link > 0 && !self.may_touch.contains(&(obstacle, link))
+        link > 0 && self.may_touch.get(obstacle).is_none_or(|links| links >> link & 1 == 0)
     }
 }

@@ -20,6 +20,9 @@ const LARGEST: f64 = 0.45;
 /// Halvings of a corner, after which the motion stops there.
 const HALVINGS: i32 = 6;
 
+/// Joint vectors that are one [rad].
+const LEAST: f64 = 1e-12;
+
 /// Velocity over acceleration of a joint without limits of acceleration [s].
 const RISE: f64 = 0.5;
 
@@ -42,6 +45,8 @@ impl<const N: usize> Pace<N> {
 
     /// From rest to rest, the joints along a straight line.
     fn straight(&self, [from, to]: &[[f64; N]; 2]) -> Result<Trajectory, Error> {
+        // A motion over less would take no time that counts.
+        let from = if distance(from, to) < LEAST { to } else { from };
         let limits: [_; N] = core::array::from_fn(|joint| AxisLimits {
             velocity: self.velocity[joint],
             acceleration: self.acceleration[joint],

@@ -21,6 +21,9 @@ use super::trajectory::PyTrajectory;
 use crate::cell::{Cell, Contact, Nearest};
 use crate::kinematics::Robot;
 
+/// Rows after which signals are handled.
+const WATCHED: usize = 2048;
+
 /// Obstacles around an arm: whether it touches them or itself.
 ///
 /// Args:
@@ -172,7 +175,7 @@ impl PyCell {
     fn distance(&self, robot: &PyRobot, q: &Bound<'_, PyAny>) -> PyResult<CellDistance> {
         let py = q.py();
         let rows = robot.arm().joints(q)?;
-        let (nearest, gradient) = on!(robot.arm(), robot => self.nearest(robot, &rows)?);
+        let (nearest, gradient) = on!(robot.arm(), robot => self.nearest(py, robot, &rows)?);
         let distance =
             nearest.iter().map(|one| one.as_ref().map_or(f64::INFINITY, |one| one.distance));
         let points = nearest.iter().flat_map(|one| {
@@ -218,14 +221,20 @@ impl PyCell {
             let trajectory = trajectory.get().motion();
             return on!(robot.arm(), robot => {
                 let found = py.detach(|| self.0.check_trajectory(robot, trajectory))?;
-                found.map(|contact| contact_of(py, &contact)).transpose()
+                found.map(|contact| contact_of(py, 0, &contact)).transpose()
             });
         }
         let rows = robot.arm().joints(motion)?;
         on!(robot.arm(), robot => {
             let q = checked_joints("motion", &rows)?;
-            let found = py.detach(|| self.0.check_path(robot, q))?;
-            found.map(|contact| contact_of(py, &contact)).transpose()
+            for first in (0..q.len().max(1)).step_by(WATCHED) {
+                py.check_signals()?;
+                let some = &q[first..q.len().min(first + WATCHED + 1)];
+                if let Some(contact) = py.detach(|| self.0.check_path(robot, some))? {
+                    return contact_of(py, first, &contact).map(Some);
+                }
+            }
+            Ok(None)
         })
     }
 
@@ -243,11 +252,15 @@ impl PyCell {
     /// The nearest pair at each row of joint angles, and the gradients of the distances.
     fn nearest<const N: usize>(
         &self,
+        py: Python<'_>,
         robot: &Robot<N>,
         rows: &Rows<'_>,
     ) -> PyResult<(Vec<Option<Nearest>>, Vec<f64>)> {
         let (mut all, mut gradients) = (Vec::new(), Vec::new());
-        for q in checked_joints("q", rows)? {
+        for (row, q) in checked_joints("q", rows)?.iter().enumerate() {
+            if row % WATCHED == WATCHED - 1 {
+                py.check_signals()?;
+            }
             let nearest = self.0.nearest(robot, q)?;
             let gradient = nearest.as_ref().map_or([f64::NAN; N], |one| one.gradient(robot, q));
             gradients.extend(gradient);
@@ -264,9 +277,15 @@ fn names(nearest: Option<&Nearest>) -> (String, String) {
     })
 }
 
-fn contact_of<const N: usize>(py: Python<'_>, contact: &Contact<N>) -> PyResult<CellContact> {
+/// A contact of rows from one on.
+#[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 rows")]
+fn contact_of<const N: usize>(
+    py: Python<'_>,
+    first: usize,
+    contact: &Contact<N>,
+) -> PyResult<CellContact> {
     Ok(CellContact {
-        at: contact.at,
+        at: first as f64 + contact.at,
         q: array(py, contact.q, &[N])?,
         pair: names(Some(&contact.nearest)),
         depth: contact.depth,

@@ -151,6 +151,16 @@ fn position(pose: &Pose) -> [f64; 3] {
 #[derive(Clone, PartialEq)]
 pub(super) struct PyBody(pub(super) Body);
 
+/// Capsules by their links, ends and radii.
+fn read_capsules(links: Vec<usize>, capsules: &Bound<'_, PyAny>) -> PyResult<Vec<LinkCapsule>> {
+    let rows = Rows::exact(capsules, &[links.len(), 7], "capsules", Fault::Model)?;
+    let made = links.into_iter().zip(rows.chunks::<7>()?).map(|(link, row)| {
+        let [ax, ay, az, bx, by, bz, radius] = *row;
+        Ok(LinkCapsule { link, capsule: Capsule::new([ax, ay, az], [bx, by, bz], radius)? })
+    });
+    Ok(made.collect::<Result<_, Error>>()?)
+}
+
 #[pymethods]
 impl PyBody {
     /// Make a body of capsules.
@@ -177,13 +187,21 @@ impl PyBody {
         source: &str,
         excess: Option<Vec<f64>>,
     ) -> PyResult<Self> {
-        let rows = Rows::exact(capsules, &[links.len(), 7], "capsules", Fault::Model)?;
-        let made = links.into_iter().zip(rows.chunks::<7>()?).map(|(link, row)| {
-            let [ax, ay, az, bx, by, bz, radius] = *row;
-            Ok(LinkCapsule { link, capsule: Capsule::new([ax, ay, az], [bx, by, bz], radius)? })
-        });
-        let body = Body::new(made.collect::<Result<_, Error>>()?, pairs)?;
+        let body = Body::new(read_capsules(links, capsules)?, pairs)?;
         Ok(Self(body.with_source(source.to_owned(), excess.unwrap_or_default())?))
+    }
+
+    /// Return the body with more capsules: a hose, a dress pack. Rods and cylinders that move
+    /// beside the links stay.
+    ///
+    /// Args:
+    ///     links: The link of each capsule, shape (k,).
+    ///     capsules: Both ends of the axis and the radius of each [m], shape (k, 7).
+    ///
+    /// Raises:
+    ///     InvalidModelError: A radius that is not positive, a wrong shape.
+    fn with_capsules(&self, links: Vec<usize>, capsules: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self(self.0.clone().with_capsules(read_capsules(links, capsules)?)))
     }
 
     /// Fit capsules to the meshes of a URDF: they contain every triangle, and the inside of closed

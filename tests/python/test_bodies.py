@@ -139,3 +139,17 @@ def test_a_standing_arm_carries_its_tool_and_pairs_may_name_it():
     assert irbkin.Cell({"ball": ball}).collides(robot, np.zeros(6))
     free = irbkin.Cell({"ball": ball}, may_touch=[("ball", 7)])
     assert not free.collides(robot, np.zeros(6))
+
+
+def test_more_capsules_keep_the_rods_beside_an_arm():
+    robot = irbkin.Robot("IRB 2400-10/1.55")
+    q = [1.204, -1.63, 1.016, -3.484, -1.694, -3.931]
+    cell = irbkin.Cell({"ball": Shape.sphere(0.05, [-0.23971373, -0.75700134, 0.32978733])})
+    assert cell.collides(robot, q)
+    body = robot.body.with_capsules([3], [[0, 0.2, -0.1, 0, 0.2, 0.4, 0.05]])
+    hose = robot.with_body(body)
+    assert cell.collides(hose, q)
+    assert len(hose.body.links) == len(robot.body.links) + 1
+    assert cell.collides(pickle.loads(pickle.dumps(hose)), q)
+    with pytest.raises(irbkin.InvalidModelError, match="radius"):
+        robot.body.with_capsules([3], [[0, 0, 0, 0, 0, 0, 0]])

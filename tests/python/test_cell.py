@@ -171,6 +171,14 @@ def test_a_motion_is_free_between_its_rows_or_says_where_it_is_not():
     assert irbkin.Cell().check_path(ROBOT, motion) is None
 
 
+def test_a_contact_far_along_a_path_has_its_row():
+    rows = np.zeros((5000, 6))
+    rows[4000:, 0] = 1.5
+    ball = Shape.sphere(0.05, ROBOT.link_frames([0.75, 0, 0, 0, 0, 0])[4, :3, 3])
+    contact = irbkin.Cell({"ball": ball}).check_path(ROBOT, rows)
+    assert 3999 < contact.at < 4000
+
+
 def test_paths_of_one_row_of_none_and_in_collision():
     inside = irbkin.Cell({"all": Shape.sphere(3, [0, 0, 0])})
     q = np.zeros((3, 6))

@@ -104,3 +104,10 @@ def test_bad_arguments_are_named(arguments, options, error, words):
         ROBOT.go(*arguments, **options)
     with pytest.raises(irbkin.InvalidModelError, match="with_body"):
         ROBOT.with_body(None).go(START, GOAL)
+
+
+def test_ends_that_are_next_to_each_other_are_one():
+    q = np.zeros(6)
+    for off in (0, 1e-20, 1e-13, 1e-9):
+        motion = irbkin.Robot("IRB 2600-12/1.65").go(q, q + off * np.eye(6)[0])
+        assert motion.duration < 1e-3
