@@ -236,3 +236,20 @@ def test_bad_input_is_refused_with_its_name():
     ]:
         with pytest.raises(error, match=message):
             best_base(**{"robot": ROBOT, "T": T, "region": REGION, **arguments})
+
+
+def test_the_plan_of_a_base_is_free_in_a_cell():
+    arm = irbkin.Robot("IRB 2600-12/1.65")
+    ends = [irbkin.pose([0.9, y, 0.4], euler_zyx=[0, 2.9, 0]) for y in (-0.2, 0.2)]
+    seam, region = irbkin.paths.line(*ends, steps=11), Region(x=(-0.3, 0.3))
+    options = {"path": True, "rotation": 12, "steps": 5, "refine": False}
+    bare = best_base(arm, seam, region, **options)
+    robot = arm.with_base(bare.base)
+    elbow = robot.link_frames(bare.plan.q[5])[2, :3, 3]
+    cell = irbkin.Cell({"ball": irbkin.body.Shape.sphere(0.05, elbow)})
+    assert cell.check_path(robot, bare.plan.q) is not None
+    found = best_base(arm, seam, region, cell=cell, **options)
+    assert cell.check_path(arm.with_base(found.base), found.plan.q) is None
+    assert found.margin <= bare.margin + 1e-9
+    with pytest.raises(irbkin.InvalidMotionError, match="path=True"):
+        best_base(arm, seam, region, cell=cell)

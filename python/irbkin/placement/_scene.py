@@ -10,12 +10,18 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin._arrays import as_array
-from irbkin.errors import InvalidModelError, InvalidPoseError, PathError, UnreachableError
+from irbkin.errors import (
+    InvalidModelError,
+    InvalidMotionError,
+    InvalidPoseError,
+    PathError,
+    UnreachableError,
+)
 from irbkin.freedom import ToolRotation
 from irbkin.records import Plan, Status
 
 if TYPE_CHECKING:
-    from irbkin import Robot
+    from irbkin import Cell, Robot
     from irbkin._arrays import Floats
 
 Flags = npt.NDArray[np.bool_]
@@ -62,8 +68,13 @@ class Scene:
         T: npt.ArrayLike,
         rotation: ToolRotation | int | None,
         path: bool,
+        cell: Cell | None,
         threads: int,
     ) -> None:
+        if cell is not None and not path:
+            raise InvalidMotionError(
+                "cell goes with path=True: a plan is proven free, not a target"
+            )
         if robot.dof != 6:
             raise InvalidModelError(
                 f"best_base takes arms of six joints, {robot.name} has {robot.dof}"
@@ -75,7 +86,7 @@ class Scene:
                 ToolRotation(*rotation) if isinstance(rotation, tuple) else ToolRotation(rotation)
             )
         self.rotation = rotation
-        self.path, self.threads = path, threads
+        self.path, self.cell, self.threads = path, cell, threads
         self._check()
         self.angles = np.zeros(1) if self.rotation is None else _angles(self.rotation)
         axis = "z" if self.rotation is None else self.rotation.axis
@@ -155,15 +166,15 @@ class Scene:
 
     def plans(self, bases: Floats) -> list[Plan | PathError]:
         """The plan of the path from each base; threads plan without the interpreter's lock."""
-        paths = inverse(bases)[:, None] @ self.targets
         if self.threads == 1:
-            return [self._plan(path) for path in paths]
+            return [self._plan(base) for base in bases]
         with ThreadPoolExecutor(self.threads or os.cpu_count()) as pool:
-            return list(pool.map(self._plan, paths))
+            return list(pool.map(self._plan, bases))
 
-    def _plan(self, path: Floats) -> Plan | PathError:
+    def _plan(self, base: Floats) -> Plan | PathError:
+        robot = self.robot.with_base(base)
         try:
-            return self.robot.plan(path, rotation=self.rotation)
+            return robot.plan(self.targets, rotation=self.rotation, cell=self.cell)
         except PathError as error:
             return error
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from irbkin import Robot
+    from irbkin import Cell, Robot
     from irbkin._arrays import Floats
     from irbkin._grids import Region
     from irbkin.freedom import ToolRotation
@@ -40,6 +40,7 @@ def best_base(
     steps: int | Sequence[int] = 9,
     refine: bool = True,
     frame: npt.ArrayLike | None = None,
+    cell: Cell | None = None,
     threads: int = 1,
 ) -> Placement:
     """Where a robot should stand so that it reaches all targets with the largest margin.
@@ -59,6 +60,7 @@ def best_base(
         steps: Number of values across each range of the region, or four such numbers.
         refine: Whether to search around the best of the grid.
         frame: Frame in which the region is given, shape (4, 4); the world where not given.
+        cell: Obstacles in the world among which the plan of a path is proven free; with `path`.
         threads: Number of threads; 0 for one a core.
 
     Returns:
@@ -68,12 +70,13 @@ def best_base(
     Raises:
         InvalidPoseError: T has a wrong shape or a matrix that is not a pose, or a region, steps
             or frame that are none.
-        InvalidMotionError: A rotation that is empty; of a path, two poses half a turn apart.
+        InvalidMotionError: A rotation that is empty; of a path, two poses half a turn apart; a cell
+            without path.
         InvalidModelError: The arm has seven joints.
     """
     check_robot(robot)
     bases = Bases.of(region, steps, frame, robot)
-    scene = Scene(robot, T, rotation, path, threads)
+    scene = Scene(robot, T, rotation, path, cell, threads)
     values = bases.grid()
     search = Search(scene, bases)
     poses = scene.turned.shape[0] * scene.turned.shape[1]
