@@ -92,7 +92,9 @@ struct Touch<'a, const N: usize> {
     block: &'a mut Block<N>,
     outline: &'a Outline,
     cell: &'a Cell,
+    /// Whether joints turn by spans.
     swept: bool,
+    /// The lanes in which nothing touches yet, as bits.
     asked: u64,
 }
 
