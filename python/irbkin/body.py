@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from irbkin._core import Body, Shape
 
@@ -46,19 +45,12 @@ def cover(
     return [Shape.capsule(row[:3], row[3:6], row[6]) for row in rows]
 
 
-def _fit_body(
-    urdf: str | bytes | os.PathLike[str],
-    base: str | None,
-    tip: str | None,
-    excess: float | None,
-    most: int,
-    packages: Mapping[str, str | os.PathLike[str]] | None,
-) -> Body:
+def _fit_body(*arguments: Any) -> Body:
     """Return the body of a URDF; see `Body.fit`."""
     _check_extra("irbkin.body.Body.fit")
     from irbkin._fit import body_of
 
-    return body_of(urdf, base, tip, excess, most, packages)
+    return body_of(*arguments)
 
 
 def _check_extra(function: str) -> None:

@@ -5,7 +5,6 @@ use super::rows::{check_length, rows};
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
 use crate::kinematics::{Robot, check_seed, pose_from_rows};
-use crate::lanes::LANES;
 
 /// Joint vectors that a thread takes at a time.
 const JOINT_VECTORS: usize = 256;
@@ -31,11 +30,8 @@ impl Batch<'_> {
         let parts = q.chunks(JOINT_VECTORS).zip(collides.chunks_mut(JOINT_VECTORS));
         self.run(q.len(), parts, |(q, collides), _| {
             let Ok(mut placed) = Placed::of(robot) else { return };
-            for (q, collides) in q.chunks(LANES).zip(collides.chunks_mut(LANES)) {
-                let touching = cell.colliding(&mut placed, q);
-                for (lane, collides) in collides.iter_mut().enumerate() {
-                    *collides = touching >> lane & 1 == 1;
-                }
+            for (collides, free) in collides.iter_mut().zip(cell.free_postures(&mut placed, q)) {
+                *collides = !free;
             }
         });
         Ok(())

@@ -46,10 +46,9 @@ pub(crate) struct Centered {
 
 impl Centered {
     pub(crate) fn of(capsule: &Capsule) -> Self {
-        let [a, b] = capsule.ends;
+        let ([a, b], radius) = (capsule.ends, capsule.radius);
         let half = 0.5 * (b - a);
         let square = half.norm_squared();
-        let radius = capsule.radius;
         Self { center: 0.5 * (a + b), half, square, radius, ball: square.sqrt() + radius }
     }
 
@@ -62,9 +61,7 @@ impl Centered {
 /// The capsules of a body, group by group.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Outline {
-    pub(crate) capsules: Vec<Capsule>,
-    /// In the same order.
-    pub(crate) centered: Vec<Centered>,
+    pub(crate) capsules: Vec<Centered>,
     /// Of the links, then of the parts beside them.
     pub(crate) groups: Vec<Group>,
     /// The groups that are kept apart from each other; the first is of the lower link.
@@ -80,7 +77,6 @@ impl Outline {
         outline.take(body.parts(), last, t_last_flange);
         let group = |link| outline.groups[..of_links].iter().position(|own| own.number == link);
         let ordered = |pair: &[usize; 2]| [pair[0].min(pair[1]), pair[0].max(pair[1])];
-        outline.centered = outline.capsules.iter().map(Centered::of).collect();
         outline.pairs = body
             .pairs()
             .iter()
@@ -95,22 +91,22 @@ impl Outline {
         for number in 0..=last + 1 {
             let first = self.capsules.len();
             let own = capsules.iter().filter(|own| own.link == number).map(|own| own.capsule);
-            if number > last {
-                self.capsules.extend(own.map(|capsule| capsule.moved(t_last_flange)));
+            let own: Vec<_> = if number > last {
+                own.map(|capsule| capsule.moved(t_last_flange)).collect()
             } else {
-                self.capsules.extend(own);
-            }
-            let range = first..self.capsules.len();
-            if !range.is_empty() {
-                self.groups.push(Group::new(number, last, range, &self.capsules));
+                own.collect()
+            };
+            if !own.is_empty() {
+                self.capsules.extend(own.iter().map(Centered::of));
+                let range = first..self.capsules.len();
+                self.groups.push(Group::new(number, last, range, &own));
             }
         }
     }
 }
 
 impl Group {
-    fn new(number: usize, last: usize, range: Range<usize>, capsules: &[Capsule]) -> Self {
-        let own = &capsules[range.clone()];
+    fn new(number: usize, last: usize, range: Range<usize>, own: &[Capsule]) -> Self {
         let around = Centered::of(&around(own));
         let far = |capsule: &Capsule| capsule.ends.map(|end| (end - around.center).norm());
         let spread = own.iter().flat_map(far).fold(0.0, f64::max);
@@ -128,11 +124,9 @@ fn around(capsules: &[Capsule]) -> Capsule {
     let least = (0..=AXES).map(|step| {
         let part = 0.5 * f64::from(step) / f64::from(AXES);
         let axis = [a + (b - a) * part, b + (a - b) * part];
-        let line = Capsule { ends: axis, radius: 0.0 };
-        let far = |(end, radius): (Vector3<f64>, f64)| {
-            line.separation(&Capsule { ends: [end; 2], radius: 0.0 }).distance + radius
-        };
-        Capsule { ends: axis, radius: ends().map(far).fold(0.0, f64::max) }
+        let thin = Capsule { ends: axis, radius: 0.0 };
+        let far = |(end, radius): (Vector3<f64>, f64)| thin.axis_distance(&end) + radius;
+        Capsule { radius: ends().map(far).fold(0.0, f64::max), ..thin }
     });
     // By volume, without the factor of pi.
     let size =

@@ -83,7 +83,7 @@ impl<const N: usize> Block<N> {
     /// A capsule in one lane.
     fn capsule(&self, outline: &Outline, index: usize, lane: usize) -> Capsule {
         let [middle, half] = self.axes[index].map(|point| point.map(|component| component[lane]));
-        outline.centered[index].at(middle.into(), half.into())
+        outline.capsules[index].at(middle.into(), half.into())
     }
 }
 
@@ -204,7 +204,7 @@ impl<const N: usize> Touch<'_, N> {
         self.block.is_placed[group] = true;
         let Group { link, capsules, .. } = &self.outline.groups[group];
         for index in capsules.clone() {
-            let own = &self.outline.centered[index];
+            let own = &self.outline.capsules[index];
             let middle = self.placed(simd, *link, &own.center);
             let half = self.turned(simd, *link, &own.half);
             store(middle, &mut self.block.axes[index][0]);
@@ -215,7 +215,7 @@ impl<const N: usize> Touch<'_, N> {
     #[inline(always)]
     fn axis<S: Simd>(&self, simd: S, index: usize) -> Axis<S> {
         let [middle, half] = &self.block.axes[index];
-        Axis::new(load(simd, middle), load(simd, half), self.outline.centered[index].square)
+        Axis::new(load(simd, middle), load(simd, half), self.outline.capsules[index].square)
     }
 
     /// Look at two groups of capsules of the arm.
@@ -233,7 +233,7 @@ impl<const N: usize> Touch<'_, N> {
         self.place(simd, pair[0]);
         self.place(simd, pair[1]);
         for index in one.capsules.clone() {
-            let capsule = &self.outline.centered[index];
+            let capsule = &self.outline.capsules[index];
             let own = self.axis(simd, index);
             let limit = moved + (capsule.radius + other.around.radius);
             let near = near & self.asked;
@@ -242,7 +242,7 @@ impl<const N: usize> Touch<'_, N> {
                 continue;
             }
             for second in other.capsules.clone() {
-                let limit = moved + (capsule.radius + self.outline.centered[second].radius);
+                let limit = moved + (capsule.radius + self.outline.capsules[second].radius);
                 let decided = own.against_axis(&self.axis(simd, second), limit, near & self.asked);
                 let left = near & self.asked & !decided.far;
                 if left != 0 {
@@ -271,7 +271,7 @@ impl<const N: usize> Touch<'_, N> {
         }
         self.place(simd, group);
         for index in own.capsules.clone() {
-            let capsule = &self.outline.centered[index];
+            let capsule = &self.outline.capsules[index];
             let limit = moved + capsule.radius;
             let axis = self.axis(simd, index);
             let decided = against_parts(&axis, shape, limit, near & self.asked);
@@ -287,7 +287,7 @@ impl<const N: usize> Touch<'_, N> {
     #[cold]
     #[inline(never)]
     fn settle_links<S: Simd>(&mut self, open: u64, [one, other]: [usize; 2], limit: Vector<S>) {
-        let radii = self.outline.centered[one].radius + self.outline.centered[other].radius;
+        let radii = self.outline.capsules[one].radius + self.outline.capsules[other].radius;
         for lane in bits(open) {
             let own = self.block.capsule(self.outline, one, lane);
             let apart = own.separation(&self.block.capsule(self.outline, other, lane));

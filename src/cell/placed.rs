@@ -54,7 +54,10 @@ impl<'a, const N: usize> Placed<'a, N> {
                 None => self.robot.base(),
             };
             let own = &self.outline.capsules[group.capsules.clone()];
-            placed.extend(own.iter().map(|capsule| capsule.moved(frame)));
+            placed.extend(own.iter().map(|own| {
+                let center = frame.rotation * own.center + frame.translation.vector;
+                own.at(center, frame.rotation * own.half)
+            }));
         }
         placed
     }

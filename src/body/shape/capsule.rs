@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::checks::{LEAST, check_length, check_point};
-use super::segment::{Segment, at, between};
+use super::segment::{Segment, at, between, part_near};
 use crate::error::Error;
 use crate::kinematics::Pose;
 
@@ -71,6 +71,11 @@ impl Capsule {
         let (own, radius) = self.ball();
         let most = (radius + distance) * (1.0 + FAR);
         (own - center).norm_squared() > most * most
+    }
+
+    /// How far a point is from the axis [m].
+    pub(crate) fn axis_distance(&self, point: &Vector3<f64>) -> f64 {
+        (point - at(&self.ends, part_near(&self.ends, point))).norm()
     }
 
     /// How far its farthest point is from the origin [m].

@@ -9,7 +9,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::{LEAST, check_length, check_points};
-use super::segment::{NOWHERE, Nearest, Segment, at, nearer, part_near};
+use super::segment::{Nearest, Segment, at, nearer, part_near};
 use super::tree::{Bounds, Tree, above};
 use crate::error::Error;
 
@@ -96,19 +96,11 @@ impl Cloud {
         is_near(self.nearest(&capsule.ends, most, is_near).0)
     }
 
-    /// The nearest points of an axis and of the cloud, if the square of their distance is less than
-    /// `most`, or the first that are near enough.
+    /// As [`Tree::nearest`] of an axis.
     fn nearest(&self, axis: &Segment, most: f64, is_enough: impl Fn(f64) -> bool) -> Nearest {
-        let mut nearest = (most, NOWHERE.1);
-        self.0.tree.search(
-            most,
-            |bounds| bounds.square_from(axis),
-            |index| {
-                let point = self.0.points[index];
-                nearest = nearer(nearest, at(axis, part_near(axis, &point)), point);
-                if is_enough(nearest.0) { f64::NEG_INFINITY } else { nearest.0 }
-            },
-        );
-        nearest
+        self.0.tree.nearest(axis, most, is_enough, |nearest, index| {
+            let point = self.0.points[index];
+            nearer(nearest, at(axis, part_near(axis, &point)), point)
+        })
     }
 }

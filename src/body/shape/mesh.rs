@@ -9,7 +9,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::check_points;
-use super::segment::{NOWHERE, Nearest, Segment, nearer};
+use super::segment::{Nearest, Segment, nearer};
 use super::surface::{check_closed, check_volume, crossings};
 use super::tree::{Bounds, Tree, above};
 use super::triangle::{Triangle, segment_and, square_outside};
@@ -122,23 +122,16 @@ impl Mesh {
             || (self.0.is_solid && self.holds(&capsule.ends[0]))
     }
 
-    /// The nearest points of an axis and of the surface, if the square of their distance is less than
-    /// `most`, or the first that are near enough.
+    /// As [`Tree::nearest`] of an axis and the surface.
     fn nearest(&self, axis: &Segment, most: f64, is_enough: impl Fn(f64) -> bool) -> Nearest {
-        let mut nearest = (most, NOWHERE.1);
-        self.0.tree.search(
-            most,
-            |bounds| bounds.square_from(axis),
-            |index| {
-                let triangle = &self.0.triangles[index];
-                if square_outside(triangle, axis) < nearest.0 {
-                    let (_, [from, to]) = segment_and(triangle, axis);
-                    nearest = nearer(nearest, from, to);
-                }
-                if is_enough(nearest.0) { f64::NEG_INFINITY } else { nearest.0 }
-            },
-        );
-        nearest
+        self.0.tree.nearest(axis, most, is_enough, |nearest, index| {
+            let triangle = &self.0.triangles[index];
+            if square_outside(triangle, axis) >= nearest.0 {
+                return nearest;
+            }
+            let (_, [from, to]) = segment_and(triangle, axis);
+            nearer(nearest, from, to)
+        })
     }
 
     /// Whether a point is inside, or so near to the surface that rounding decides.

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::segment::{Segment, at, part_near};
+use super::segment::{NOWHERE, Nearest, Segment, at, part_near};
 
 /// Items of a leaf, at most.
 const LEAF: usize = 4;
@@ -71,7 +71,7 @@ pub(super) fn square_along(way: &Vector3<f64>, least: f64) -> f64 {
     if least > 0.0 { least * least / way.norm_squared() * (1.0 - BOUND) } else { 0.0 }
 }
 
-/// A square [m^2] above that of a distance, by more than rounding.
+/// A square [m^2] above the square of a distance, by more than rounding.
 pub(super) fn above(distance: f64) -> f64 {
     distance * distance * (1.0 + BOUND) + f64::MIN_POSITIVE
 }
@@ -121,6 +121,28 @@ impl Tree {
         if bound(self.bounds()) < least {
             self.look(0, &bound, &mut value, &mut least);
         }
+    }
+
+    /// The nearest points of a segment and of the items, if the square of their distance is less
+    /// than `most`, or the first that are near enough; `nearer` returns the nearer of those known
+    /// and of an item.
+    pub(super) fn nearest(
+        &self,
+        segment: &Segment,
+        most: f64,
+        is_enough: impl Fn(f64) -> bool,
+        nearer: impl Fn(Nearest, usize) -> Nearest,
+    ) -> Nearest {
+        let mut nearest = (most, NOWHERE.1);
+        self.search(
+            most,
+            |bounds| bounds.square_from(segment),
+            |item| {
+                nearest = nearer(nearest, item);
+                if is_enough(nearest.0) { f64::NEG_INFINITY } else { nearest.0 }
+            },
+        );
+        nearest
     }
 
     fn look(
