@@ -47,10 +47,7 @@ class CalibrationError(IrbkinError):
 
 
 class UnreachableError(IrbkinError):
-    """No solution is inside the limits, or none has the configuration that was asked for.
-
-    Or there is no free motion.
-    """
+    """No solution inside the limits, none of the wanted configuration, or no free motion."""
 
     configurations: tuple[Configuration, ...] = ()
     """The configurations that exist, where another one was asked for."""

@@ -12,8 +12,8 @@
 //! *Cylinder, by one capsule along its axis.* The same with `u = radius` and `rho = radius`.
 //!
 //! *Cylinder, across its axis.* It is divided into strips of width `2 u` across a diameter and `2
-//! v` along the axis. A strip is in a cell as long as the chord at its inner side, and the capsule
-//! is that of the cell. The ends of its axis are `e` from the axis of the cylinder, so no point of
+//! v` along the axis. A strip is in a cell as long as the chord at its inner side, and so in the
+//! capsule of the cell. The ends of its axis are `e` from the axis of the cylinder, so no point of
 //! it is farther than `e + R - radius` from the lateral surface, nor than `R - v` from the ends.
 
 #[cfg(not(feature = "std"))]
@@ -214,7 +214,7 @@ mod tests {
     use crate::kinematics::Pose;
     use crate::rng::Rng;
 
-    /// A pose that is no special one.
+    /// A pose in general position.
     fn pose() -> Pose {
         Pose::new(Vector3::new(0.3, -0.2, 0.5), Vector3::new(0.4, 1.1, -0.7))
     }

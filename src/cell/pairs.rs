@@ -1,4 +1,4 @@
-//! What is compared with what at a posture, and how far apart it is.
+//! The pairs that are compared at a posture, and how far apart they are.
 
 use super::obstacles::Cell;
 use super::placed::Placed;
@@ -13,7 +13,7 @@ pub(super) struct Pair {
     places: [usize; 2],
 }
 
-/// What a link is compared with: a link, or an obstacle by its place.
+/// The other of a pair: a link, or an obstacle by its place.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Other {
     Link(usize),

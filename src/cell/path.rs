@@ -15,7 +15,7 @@ use crate::kinematics::{Robot, check_seed};
 use crate::lanes::LANES;
 use crate::trajectory::Trajectory;
 
-/// What comes nearer than this counts as touching in a motion [m]: it bounds the halvings.
+/// Links that come nearer than this count as touching in a motion [m]: it bounds the halvings.
 pub const RESOLUTION: f64 = 1e-4;
 
 /// Postures at which the depth of a contact is measured until the end of its piece, and in all: one
@@ -80,7 +80,7 @@ pub struct Contact<const N: usize> {
     pub at: f64,
     /// The joint angles there [rad].
     pub q: [f64; N],
-    /// What is nearest there.
+    /// The nearest pair there.
     pub nearest: Nearest,
     /// How deep the two get into each other, or into the margin, until they are apart: of 16
     /// postures to the end of the piece and one at the end of each that follows [m].
@@ -236,7 +236,7 @@ impl Cell {
                 match verdicts[lane] {
                     Verdict::Free => {}
                     Verdict::Open if touching >> lane & 1 == 1 => {
-                        // What is behind the middle does not count.
+                        // The half behind the middle does not count.
                         let [behind, before] = own.halves();
                         contact = Some(Part { part: [behind.part[0]; 2], ..behind });
                         left.clear();
@@ -324,7 +324,7 @@ fn whole(pieces: usize) -> Vec<Part> {
     (0..pieces).rev().map(|piece| Part { piece, part: [0.0, 1.0] }).collect()
 }
 
-/// What is known of a part of a motion.
+/// The proof of a part of a motion.
 #[derive(Clone, Copy)]
 enum Verdict {
     /// It is proven free.

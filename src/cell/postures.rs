@@ -1,4 +1,4 @@
-//! What an arm touches in a cell at single postures.
+//! Collisions of an arm in a cell at single postures.
 
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;

@@ -12,7 +12,7 @@ use crate::error::{Error, GoFault};
 use crate::kinematics::Robot;
 use crate::trajectory::distance;
 
-/// What comes nearer than this counts as touching in the search [m].
+/// Links that come nearer than this count as touching in the search [m].
 pub(super) const RESOLUTION: f64 = 1e-3;
 
 /// Length of an edge of a tree [rad].

@@ -72,7 +72,7 @@ pub struct PlanOptions<const N: usize = 6> {
     /// [`retime`](crate::trajectory::retime). `None`: the plan is judged at an even pace, or at its
     /// times.
     pub max_acceleration: Option<Vec<f64>>,
-    /// What the arm must not touch: no joint vector collides, and no motion to the next one in which
+    /// Obstacles that the plan stays out of: no joint vector collides, and no motion to the next one in which
     /// each joint moves evenly. Not with external axes, which move the base.
     pub cell: Option<Arc<Cell>>,
 }

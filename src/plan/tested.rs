@@ -1,4 +1,4 @@
-//! The tests that joint vectors of a plan must pass: the caller's own, and those of a cell.
+//! The tests that joint vectors of a plan must pass: the caller's own, and a cell's.
 
 use alloc::vec;
 use alloc::vec::Vec;

@@ -36,7 +36,7 @@ impl PyRobot {
     ///     cell: What is around the arm; when not given, the arm stays clear of itself.
     ///     seconds: How long is sought [s].
     ///     seed: Which samples are taken, a whole number from 0 on.
-    ///     max_velocity: Limits [rad/s], a number or shape (n,); those of the robot when not given,
+    ///     max_velocity: Limits [rad/s], a number or shape (n,); the robot's when not given,
     ///         1 rad/s where they are unknown.
     ///     max_acceleration: Limits [rad/s^2], a number or shape (n,); when not given, those that
     ///         reach the velocities in 0.5 s.

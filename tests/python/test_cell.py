@@ -94,7 +94,7 @@ def test_the_nearest_solution_does_not_collide(name):
     is_there = ~np.isnan(found[:, 0])
     assert not cell.collides(robot, found[is_there]).any()
     np.testing.assert_allclose(robot.fk(found[is_there]), T[is_there], atol=1e-9)
-    # What made a pose is an answer, unless it collides; the nearest is no farther.
+    # The joints of a pose are an answer, unless they collide; the nearest is at most as far.
     free = ~cell.collides(robot, q)
     assert is_there[free].all()
     assert free.any()

@@ -132,7 +132,7 @@ _SHAPES: dict[str, tuple[Callable[[Entry], Shape], tuple[str, ...]]] = {
         ("radius",),
     ),
 }
-"""What makes the shape of each key, and the keys beside it."""
+"""The maker of the shape of each key, and the keys beside it."""
 
 
 def _file_or_rows(entry: Entry, key: str) -> Any:

@@ -32,7 +32,7 @@ VALUES = (40, 150)
 VOLUME = 0.05
 # Points of the surface of capsules by which an excess is measured.
 POINTS = 2000
-# Part of that surface which is no farther outside than the excess [1].
+# Part of the surface that is at most as far outside as the excess [1].
 PART = 0.95
 # Points of an axis at which its depth is looked up, as parts of its length.
 ALONG = np.linspace(0, 1, 9)[:, None]

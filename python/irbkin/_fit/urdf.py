@@ -25,7 +25,7 @@ def links_of(
 ) -> dict[int, Array]:
     """The triangles of each link by its number, shape (n, 3, 3), in the frame of the link [m].
 
-    Of a URDF link, those of its collision elements, or of its visual ones where it has none.
+    Of the collision elements of a URDF link, or of the visual ones where it has no others.
     """
     text, folder = text_and_folder(urdf)
     elements = {link.get("name"): link for link in ElementTree.fromstring(text).findall("link")}

@@ -68,7 +68,7 @@ class Parser:
             )
 
     def add_cell(self) -> None:
-        """What is around the arm."""
+        """The cell around the arm."""
         self.add("--cell", metavar="FILE", help="what the arm must not touch: .toml or .urdf")
 
     def add_rows(self, what: str, *, optional: bool = True) -> None:

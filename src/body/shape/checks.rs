@@ -1,4 +1,4 @@
-//! What lengths and points of shapes must be.
+//! Checks of the lengths and points of shapes.
 
 use alloc::vec::Vec;
 

@@ -142,7 +142,7 @@ impl Hull {
         (bound, [from, to])
     }
 
-    /// The difference that is least along a direction, sought from those of a simplex on.
+    /// The difference that is least along a direction, sought from a simplex on.
     fn support(&self, axis: &Segment, direction: &Vector3<f64>, known: &Simplex) -> Difference {
         let along = |point: &Vector3<f64>| -direction.dot(point);
         let is_last = along(&axis[1]) > along(&axis[0]);

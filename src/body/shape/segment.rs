@@ -10,7 +10,7 @@ pub(super) type Segment = [Vector3<f64>; 2];
 /// The square of the distance of two points [m^2], and the points [m].
 pub(super) type Nearest = (f64, [Vector3<f64>; 2]);
 
-/// What is farther than any pair of points.
+/// Farther than any pair of points.
 pub(super) const NOWHERE: Nearest = (f64::INFINITY, [Vector3::new(0.0, 0.0, 0.0); 2]);
 
 /// The nearer of two pairs of points.

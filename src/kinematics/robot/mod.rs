@@ -278,7 +278,7 @@ impl<const N: usize> Robot<N> {
         derivatives
     }
 
-    /// How far the joints of the table turn at most when those of the controller do [rad].
+    /// How far the joints of the table turn at most, by how far the controller's do [rad].
     pub(crate) fn table_spans(&self, mut spans: [f64; N]) -> [f64; N] {
         if let [_, second, third, ..] = &mut spans[..] {
             *third += self.chain.coupling().abs() * *second;
