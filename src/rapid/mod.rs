@@ -35,8 +35,10 @@
 //! 5. `resolve`: names resolved, data in the order of their references, then moves.
 //! 6. `module`: whole modules read, made, written, and rewritten in place.
 //! 7. `calc`: joint angles of targets and back, one by one and in tables.
-//! 8. `motion`: a routine as one motion, followed, timed and checked.
-//! 9. `check`: all moves of a module checked, with corrections of confdata.
+//! 8. `program`: modules that know each other, and their moves in the order of calls, with the
+//!    values that arguments, assignments and loops give them.
+//! 9. `motion`: a routine as one motion, followed, timed and checked.
+//! 10. `check`: all moves of a program checked, with corrections of confdata.
 
 mod calc;
 mod check;
@@ -44,6 +46,7 @@ mod data;
 mod expression;
 mod module;
 mod motion;
+mod program;
 mod resolve;
 mod statements;
 #[cfg(test)]
@@ -52,10 +55,11 @@ mod text;
 
 pub use self::calc::table::{TableRow, calc_moves, calc_targets};
 pub use self::calc::target::{Fallback, calc_joint_t, calc_joint_t_or, calc_rob_t};
+pub use self::calc::units::{Unit, UnitAxis, Units};
 pub use self::calc::wrong::error_name;
 #[cfg(feature = "python")]
 pub(crate) use self::calc::{frames::rapid_pose, target::joint_target};
-pub use self::check::checker::{candidates, check};
+pub use self::check::checker::{CheckOptions, Checked, CheckedMove, candidates, check};
 #[cfg(feature = "python")]
 pub(crate) use self::data::class;
 pub use self::data::finding::{Code, Edit, Finding};

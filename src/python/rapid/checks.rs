@@ -5,21 +5,24 @@ use pyo3::pybacked::PyBackedStr;
 use pyo3::types::PyTuple;
 
 use super::module::{RapidModule, close_names};
-use super::program::Finding;
+use super::program::{Checked, CheckedMove, Finding};
 use crate::python::cell::PyCell;
 use crate::python::errors::Fault;
 use crate::python::robot::PyRobot;
+use crate::python::targets::read_pose;
 use crate::python::trajectories::read_limits;
-use crate::rapid::{self, Code, Module, MotionOptions};
+use crate::rapid::{self, CheckOptions, Code, Module, MotionOptions, Unit, UnitAxis, Units};
 
 /// Check every move of a module, of all routines.
 ///
-/// A branch or a loop is checked from where the robot is before it. Behind one that moves, behind
-/// a label and in a handler, the next move is checked as a target only.
+/// Routines are followed from `main` through calls, with their arguments; those that nothing calls,
+/// by themselves. A branch is checked from where the robot is before it, a loop in each pass if its
+/// bounds are known and else in the first. Behind a branch that moves, behind a label and in a
+/// handler, the next move is checked as a target only.
 ///
 /// Args:
 ///     robot: The arm. Work objects are given in the world, in which the robot's base is.
-///     module: Module.
+///     module: Module; calls of routines of its context are followed, too.
 ///     codes: The codes that are wanted, such as "C201"; without it all.
 ///     max_velocity: Limits [rad/s], a number or shape (6,); without it the robot's own. Without
 ///         either no joint is found to be too fast.
@@ -49,23 +52,123 @@ pub(crate) fn check<'py>(
     cell: Option<&Bound<'py, PyCell>>,
 ) -> PyResult<Bound<'py, PyTuple>> {
     let py = robot.py();
-    let cell = cell.map(|cell| &*cell.get().0);
+    let context = module.get().context.iter().map(|other| other.bind(py).clone());
+    let modules: Vec<_> = core::iter::once(module.clone()).chain(context).collect();
+    let options = (read_limits(max_velocity, "max_velocity")?, step, turn);
+    let checked = checked(robot, &modules, options, cell, &Extent::default())?;
+    let own = checked.findings.into_iter().filter(|finding| finding.module == 0);
+    records(py, own, &modules, codes)
+}
+
+/// Check every move of a program: modules that know each other.
+///
+/// Args:
+///     robot: The arm. Work objects are given in the world, in which the robot's base is.
+///     modules: Module of the task; each is parsed with the others as its context.
+///     codes: As of `check`.
+///     max_velocity: As of `check`.
+///     step: As of `check`.
+///     turn: As of `check`.
+///     cell: As of `check`.
+///     units: The mechanical units of the controller: tuples of a name, whether it carries the
+///         robot, whether its axes are determined, and its axes: tuples of the external axis from
+///         0, the frame of shape (4, 4) [m], and whether it turns about its z axis or else moves
+///         along its x axis. An external axis of no unit, which is not at zero, is not checked.
+///     last_values: Whether a PERS that the program assigns has the value of its declaration.
+///
+/// Returns:
+///     `Checked`.
+///
+/// Raises:
+///     RapidError: A code that does not exist.
+///     InvalidMotionError: As of `check`.
+///     InvalidModelError: As of `check`.
+#[pyfunction]
+#[pyo3(signature = (robot, modules, *, codes=None, max_velocity=None, step=0.005, turn=None,
+    cell=None, units=None, last_values=false))]
+#[expect(clippy::too_many_arguments, reason = "keywords of one call")]
+#[expect(clippy::needless_pass_by_value, reason = "a sequence is extracted by value")]
+pub(crate) fn check_program<'py>(
+    robot: &Bound<'py, PyRobot>,
+    modules: Vec<Bound<'py, RapidModule>>,
+    codes: Option<&Bound<'py, PyAny>>,
+    max_velocity: Option<&Bound<'py, PyAny>>,
+    step: f64,
+    turn: Option<f64>,
+    cell: Option<&Bound<'py, PyCell>>,
+    units: Option<Vec<GivenUnit<'py>>>,
+    last_values: bool,
+) -> PyResult<Checked> {
+    let py = robot.py();
+    let units = units.unwrap_or_default().into_iter().map(read_unit);
+    let units = Units(units.collect::<PyResult<Vec<_>>>()?);
+    let options = (read_limits(max_velocity, "max_velocity")?, step, turn);
+    let extent = Extent { units, takes_last: last_values };
+    let rapid::Checked { findings, moves } = checked(robot, &modules, options, cell, &extent)?;
+    let moves = moves.into_iter().map(|step| CheckedMove::of(py, step));
+    Ok(Checked {
+        findings: records(py, findings.into_iter(), &modules, codes)?.unbind(),
+        moves: PyTuple::new(py, moves.collect::<Vec<_>>())?.unbind(),
+    })
+}
+
+/// A unit as Python gives it.
+type GivenUnit<'py> = (String, bool, bool, Vec<(usize, Bound<'py, PyAny>, bool)>);
+
+fn read_unit((name, is_carrier, is_determined, axes): GivenUnit<'_>) -> PyResult<Unit> {
+    let axis = |(external, frame, is_rotation): (usize, Bound<'_, PyAny>, bool)| {
+        if external >= 6 {
+            return Err(Fault::Rapid.error(format_args!(
+                "units: {name} has the external axis {external}, there are 0 to 5"
+            )));
+        }
+        Ok(UnitAxis { external, frame: read_pose(&frame)?, is_rotation })
+    };
+    let axes = axes.into_iter().map(axis).collect::<PyResult<Vec<_>>>()?;
+    Ok(Unit { name: name.clone(), axes, is_carrier, is_determined })
+}
+
+/// What a check takes into account beside the moves.
+#[derive(Default)]
+struct Extent {
+    units: Units,
+    takes_last: bool,
+}
+
+/// The result of a check.
+fn checked(
+    robot: &Bound<'_, PyRobot>,
+    modules: &[Bound<'_, RapidModule>],
+    (max_velocity, step, turn): (Option<[f64; 6]>, f64, Option<f64>),
+    cell: Option<&Bound<'_, PyCell>>,
+    extent: &Extent,
+) -> PyResult<rapid::Checked> {
     let arm = robot.get().arm();
     arm.check_rule()?;
-    let robot = arm.six_joints("check")?;
-    let options = MotionOptions {
-        max_velocity: read_limits(max_velocity, "max_velocity")?,
-        step,
-        turn: turn.unwrap_or(MotionOptions::default().turn),
-        ..MotionOptions::default()
+    let arm = arm.six_joints("check")?;
+    let turn = turn.unwrap_or(MotionOptions::default().turn);
+    let options = CheckOptions {
+        motion: MotionOptions { max_velocity, step, turn, ..MotionOptions::default() },
+        cell: cell.map(|cell| &*cell.get().0),
+        units: Some(&extent.units),
+        takes_last: extent.takes_last,
     };
-    let RapidModule { module, source, context, .. } = module.get();
-    let found = py.detach(|| rapid::check(robot, module, source, &options, cell))?;
-    let others = context.iter().map(|other| &other.get().module);
-    let modules: Vec<&Module> = core::iter::once(module).chain(others).collect();
+    let own: Vec<&RapidModule> = modules.iter().map(Bound::get).collect();
+    let texts: Vec<_> = own.iter().map(|it| (&it.module, it.source.as_str())).collect();
+    Ok(robot.py().detach(|| rapid::check(arm, &texts, &options))?)
+}
+
+/// Findings of the wanted codes.
+fn records<'py>(
+    py: Python<'py>,
+    found: impl Iterator<Item = rapid::Finding>,
+    modules: &[Bound<'py, RapidModule>],
+    codes: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyTuple>> {
+    let modules: Vec<&Module> = modules.iter().map(|it| &it.get().module).collect();
     let codes = codes.map(read_codes).transpose()?;
     let is_wanted = |code: Code| codes.as_ref().is_none_or(|codes| codes.contains(&code));
-    let wanted = found.into_iter().filter(|finding| is_wanted(finding.code));
+    let wanted = found.filter(|finding| is_wanted(finding.code));
     let records = wanted.map(|finding| record(py, finding, &modules));
     PyTuple::new(py, records.collect::<PyResult<Vec<_>>>()?)
 }

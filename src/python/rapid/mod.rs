@@ -14,7 +14,8 @@ use pyo3::types::PyMapping;
 
 use self::module::RapidModule;
 use self::program::{
-    Argument, Declaration, Finding, MotionMove, MotionSettings, Move, Skipped, TargetTable,
+    Argument, Checked, CheckedMove, Declaration, Finding, MotionMove, MotionSettings, Move,
+    Skipped, TargetTable,
 };
 use self::routine_motion::PyRoutineMotion;
 use crate::rapid::{
@@ -27,11 +28,11 @@ pub(super) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add!(module: classes [
         RobTarget, JointTarget, ToolData, WobjData, RapidPose, LoadData, SpeedData, ZoneData,
         Declaration, Argument, MotionSettings, Move, MotionMove, Finding, Skipped, TargetTable,
-        RapidModule, PyRoutineMotion,
+        RapidModule, PyRoutineMotion, Checked, CheckedMove,
     ], functions [
         text::parse, text::parse_module, text::dump, calc::calc_joint_t, calc::calc_rob_t,
         calc::calc_moves, calc::calc_targets, routine_motion::motion, checks::check,
-        checks::check_codes,
+        checks::check_program, checks::check_codes,
     ]);
     PyMapping::register::<RapidModule>(module.py())
 }

@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::values::content;
+use crate::python::outputs::column as column_of;
 use crate::python::record::{self, record, record_methods};
 use crate::python::records::Array;
 use crate::rapid::{self, Datum, Target};
@@ -138,6 +139,8 @@ record! {
         code: String,
         /// The code in words, such as "wrong-confdata".
         name: String,
+        /// Index of the module among those that are checked.
+        module: usize,
         /// Line of the instruction, from 1.
         line: usize,
         /// Column of the instruction, from 1.
@@ -156,9 +159,41 @@ record! {
         value: Option<f64>,
         /// The bound that the value must not exceed or, of a singularity, must not be below.
         bound: Option<f64>,
-        /// The corrections: first byte and end in `Module.source` as UTF-8, and the text that takes
-        /// their place. Empty if nothing corrects it.
+        /// The corrections: index of the module, first byte and end in its `source` as UTF-8, and
+        /// the text that takes their place. Empty if nothing corrects it.
         edits: Py<PyTuple>,
+    }
+}
+
+record! {
+    "irbkin.rapid";
+    /// A place at which a program moves, checked.
+    CheckedMove {
+        /// Index of the module among those that are checked.
+        module: usize,
+        /// Line of the instruction, or of the call that its target is an argument of, from 1.
+        line: usize,
+        /// Column of it, from 1.
+        column: usize,
+        /// The routine that contains it.
+        routine: Option<String>,
+        /// The target as it is written.
+        target: String,
+        /// The joints at its target [rad], shape (6,); None if it has none or is not checked.
+        q: Option<Array>,
+        /// Whether its target, tool and work object are known.
+        is_checked: bool,
+    }
+}
+
+record! {
+    "irbkin.rapid";
+    /// What a check finds: findings on moves, and the moves.
+    Checked {
+        /// What is wrong, in the order of the modules and of their texts: a tuple of `Finding`.
+        findings: Py<PyTuple>,
+        /// The moves in the same order, each place once: a tuple of `CheckedMove`.
+        moves: Py<PyTuple>,
     }
 }
 
@@ -219,11 +254,15 @@ impl Finding {
 
 impl Finding {
     pub(super) fn of(py: Python<'_>, finding: &rapid::Finding) -> PyResult<Self> {
-        let rapid::Finding { code, line, column, move_index, joint, value, bound, .. } = *finding;
-        let edits = finding.edits.iter().map(|edit| (edit.span.start, edit.span.end, &edit.text));
+        let rapid::Finding { code, module, line, column, move_index, joint, value, bound, .. } =
+            *finding;
+        let edit =
+            |edit: &rapid::Edit| (edit.module, edit.span.start, edit.span.end, edit.text.clone());
+        let edits = finding.edits.iter().map(edit);
         Ok(Self {
             code: code.id().into(),
             name: code.name().into(),
+            module,
             line,
             column,
             routine: finding.routine.clone(),
@@ -237,9 +276,17 @@ impl Finding {
     }
 }
 
+impl CheckedMove {
+    pub(super) fn of(py: Python<'_>, step: rapid::CheckedMove) -> Self {
+        let rapid::CheckedMove { module, line, column, routine, target, q, is_checked } = step;
+        let q = q.map(|q| column_of(py, q));
+        Self { module, line, column, routine, target, q, is_checked }
+    }
+}
+
 impl From<&rapid::Skipped> for Skipped {
     fn from(part: &rapid::Skipped) -> Self {
-        let rapid::Skipped { line, column, routine, what, text } = part.clone();
+        let rapid::Skipped { line, column, routine, what, text, .. } = part.clone();
         Self { line, column, routine, what: what.to_string(), text }
     }
 }

@@ -1,5 +1,8 @@
 //! The flange pose for a tool pose in a work object: the frames of tooldata and wobjdata.
 
+use alloc::string::ToString;
+
+use super::units::Units;
 use crate::error::{Error, FrameFault};
 use crate::kinematics::{Pose, Robot, pose_from_wxyz, pose_to_wxyz};
 use crate::rapid::data::records::{RapidPose, ToolData, WobjData};
@@ -20,6 +23,16 @@ impl Frames {
         tool: Option<&ToolData>,
         wobj: Option<&WobjData>,
     ) -> Result<Self, Error> {
+        Self::at(robot, tool, wobj, (&Units::default(), &[0.0; 6]))
+    }
+
+    /// The frames where the external axes of units have values [deg or mm].
+    pub(in crate::rapid) fn at<const N: usize>(
+        robot: &Robot<N>,
+        tool: Option<&ToolData>,
+        wobj: Option<&WobjData>,
+        (units, extax): (&Units, &[f64; 6]),
+    ) -> Result<Self, Error> {
         let tool_carried = tool.is_none_or(|tool| tool.robhold);
         let wobj_carried = wobj.is_some_and(|wobj| wobj.robhold);
         if tool_carried == wobj_carried {
@@ -30,16 +43,24 @@ impl Frames {
             None => *robot.tool(),
         };
         let t_wobj = match wobj {
-            Some(wobj) if !wobj.ufprog => {
-                return Err(FrameFault::Moved { unit: wobj.ufmec.clone() }.into());
+            Some(wobj) => {
+                let own = pose_in(&wobj.uframe, "uframe")? * pose_in(&wobj.oframe, "oframe")?;
+                if wobj.ufprog {
+                    own
+                } else {
+                    let unit = || FrameFault::Moved { unit: wobj.ufmec.clone() };
+                    units.moved(&wobj.ufmec, extax).ok_or_else(unit)? * own
+                }
             }
-            Some(wobj) => pose_in(&wobj.uframe, "uframe")? * pose_in(&wobj.oframe, "oframe")?,
             None => Pose::identity(),
         };
+        let unit = || FrameFault::Moved { unit: "that carries the robot".to_string() };
+        // The robot is left where it is, the world is displaced.
+        let t_carrier_world = units.carried(extax).ok_or_else(unit)?.inverse();
         Ok(if tool_carried {
-            Self::Carried { t_flange_tool: t_tool, t_world_wobj: t_wobj }
+            Self::Carried { t_flange_tool: t_tool, t_world_wobj: t_carrier_world * t_wobj }
         } else {
-            Self::Stationary { t_world_tool: t_tool, t_flange_wobj: t_wobj }
+            Self::Stationary { t_world_tool: t_carrier_world * t_tool, t_flange_wobj: t_wobj }
         })
     }
 

@@ -7,8 +7,11 @@ use alloc::vec::Vec;
 
 use super::frames::Frames;
 use super::target::{Fallback, absent_axis, joint_vector, request, target_pose, with_flange};
-use super::wrong::{Found, absent, ambiguous, displaced, nearest_taken, not_solved, outside};
-use crate::error::Error;
+use super::units::Units;
+use super::wrong::{
+    Found, absent, ambiguous, displaced, nearest_taken, not_solved, outside, unknown_axis,
+};
+use crate::error::{Error, FrameFault};
 use crate::kinematics::{Robot, SingularDistances, Solution};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::{Content, Module};
@@ -98,11 +101,40 @@ pub fn calc_targets<const N: usize>(
     Ok(table.rows)
 }
 
-/// The frames of a move.
-pub(in crate::rapid) fn frames_of<const N: usize>(robot: &Robot<N>, step: &Move) -> Found<Frames> {
+/// The frames of a move, with the units of its external axes.
+pub(in crate::rapid) fn frames_of<const N: usize>(
+    robot: &Robot<N>,
+    step: &Move,
+    units: Option<&Units>,
+) -> Found<Frames> {
     let tool = known(&step.tool, Code::UnknownTool, "tool ")?;
     let wobj = step.wobj.as_ref().map(|wobj| known(wobj, Code::UnknownWorkObject, "work object "));
-    Frames::new(robot, Some(tool), wobj.transpose()?).map_err(|error| not_solved(&error).into())
+    let extax = external_axes(step);
+    let wobj = wobj.transpose()?;
+    let Some(units) = units else {
+        return Frames::new(robot, Some(tool), wobj).map_err(|error| not_solved(&error).into());
+    };
+    if let Some(external) = units.unknown(&extax) {
+        return Err(unknown_axis(external, extax[external]).into());
+    }
+    Frames::at(robot, Some(tool), wobj, (units, &extax)).map_err(|error| {
+        match (&error, &step.wobj) {
+            (Error::Frame(FrameFault::Moved { .. }), Some(wobj)) => {
+                let words = format!("work object {}: {error}", wobj.text);
+                Finding::new(Code::UnknownUnit, words).into()
+            }
+            _ => not_solved(&error).into(),
+        }
+    })
+}
+
+/// The external axes of a move's target [deg or mm]; zero where its value is not known.
+pub(in crate::rapid) fn external_axes(step: &Move) -> [f64; 6] {
+    match &step.target.value {
+        Ok(Target::RobTarget(target)) => target.extax,
+        Ok(Target::JointTarget(target)) => target.extax,
+        Err(_) => [0.0; 6],
+    }
 }
 
 /// The value of an argument, which messages name after what it is.
@@ -178,7 +210,7 @@ impl<'a, const N: usize> Table<'a, N> {
             Err(finding) => Err(finding),
             Ok(Ok(target)) => {
                 robconf = target.robconf;
-                self.solved(&target, frames_of(self.robot, step))
+                self.solved(&target, frames_of(self.robot, step, None))
             }
             Ok(Err(joints)) => {
                 if let Some((axis, degrees)) = absent_axis::<N>(&joints) {

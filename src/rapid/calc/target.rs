@@ -6,6 +6,7 @@
 
 use super::frames::{Frames, pose_in, rapid_pose};
 use crate::error::{Error, JointFault};
+use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 use crate::kinematics::{ConfigurationRequest, Pose, Robot};
 use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
 use crate::report::ConfigurationRule;
@@ -86,9 +87,11 @@ pub fn calc_rob_t<const N: usize>(
     Ok(RobTarget { trans_mm, rot, robconf, extax })
 }
 
-/// The robot with the flange as its tool.
+/// The robot with the flange as its tool, and with limits that take the rounding of a target's
+/// printed digits: controllers hold targets that are up to 0.005 deg beyond a limit.
 pub(in crate::rapid) fn with_flange<const N: usize>(robot: &Robot<N>) -> Result<Robot<N>, Error> {
-    robot.clone().with_tool(&Pose::identity())
+    let limits = robot.limits().widened(CONFIGURATION_EDGE);
+    robot.clone().with_limits(limits).with_tool(&Pose::identity())
 }
 
 /// The tool in the work object [m].
@@ -98,6 +101,10 @@ pub(in crate::rapid) fn target_pose(target: &RobTarget) -> Result<Pose, Error> {
 
 /// Angle above which an axis does not exist [deg]: no joint turns so far, and RAPID writes 9E9.
 pub(in crate::rapid) const MOST_DEGREES: f64 = 1e6;
+
+/// The components of extjoint.
+pub(in crate::rapid) const EXTERNAL_AXES: [&str; 6] =
+    ["eax_a", "eax_b", "eax_c", "eax_d", "eax_e", "eax_f"];
 
 /// The joint angles of a jointtarget [rad].
 pub(in crate::rapid) fn joint_vector<const N: usize>(joints: &JointTarget) -> [f64; N] {

@@ -5,7 +5,9 @@ use alloc::format;
 use alloc::string::{String, ToString};
 
 use crate::error::{Error, RapidFault};
+use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 use crate::kinematics::{BreakReason, Robot, SingularityKind};
+use crate::rapid::calc::target::EXTERNAL_AXES;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::records::NOT_THERE;
 use crate::rapid::data::value::Value;
@@ -70,6 +72,15 @@ pub(in crate::rapid) fn displaced(line: usize) -> Finding {
     Finding::new(Code::NotFollowed, words)
 }
 
+/// A target with the position of an external axis, from 0, that belongs to no unit that is known.
+pub(in crate::rapid) fn unknown_axis(external: usize, position: f64) -> Finding {
+    let name = EXTERNAL_AXES.get(external).copied().unwrap_or_default();
+    let words = format!(
+        "{name} is at {position}: the unit that it drives is not known, and it may carry the robot"
+    );
+    Finding::new(Code::UnknownUnit, words)
+}
+
 /// A jointtarget with the angle [deg] of an axis, from 1, that does not exist.
 pub(in crate::rapid) fn absent(axis: usize, degrees: f64) -> Finding {
     let written = if degrees.to_bits() == NOT_THERE.to_bits() {
@@ -83,7 +94,7 @@ pub(in crate::rapid) fn absent(axis: usize, degrees: f64) -> Finding {
 /// Joint angles outside the limits: the joint that exceeds them most, or the linkage.
 pub(in crate::rapid) fn outside<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Option<Finding> {
     let limits = robot.limits();
-    if limits.contains(q) {
+    if limits.widened(CONFIGURATION_EDGE).contains(q) {
         return None;
     }
     let farthest =

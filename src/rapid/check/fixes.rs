@@ -2,22 +2,24 @@
 //! one another are left out.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::{String, ToString};
+use alloc::string::ToString;
 use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::rapid::data::finding::{Edit, Finding};
-use crate::rapid::data::module::{Content, Module};
+use crate::rapid::data::module::Content;
 use crate::rapid::data::moves::Move;
 use crate::rapid::expression::functions::Displacement;
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Expression, Form};
+use crate::rapid::program::index::Program;
 use crate::rapid::text::tokens::Tokens;
 use crate::report::Configuration;
 
 /// The confdata that a move needs at its target.
-pub(super) struct Demand<'m> {
-    pub(super) step: &'m Move,
+pub(super) struct Demand {
+    /// Where it is written; `None` if it is calculated.
+    pub(super) written: Option<Written>,
     pub(super) from: Configuration,
     pub(super) to: Configuration,
     /// The finding that it corrects; `None` if the confdata is right as it is.
@@ -25,8 +27,8 @@ pub(super) struct Demand<'m> {
 }
 
 /// A correction of one confdata.
-struct Correction {
-    written: Written,
+struct Correction<'d> {
+    written: &'d Written,
     from: Configuration,
     to: Configuration,
     findings: Vec<usize>,
@@ -34,12 +36,11 @@ struct Correction {
 
 /// Give findings their corrections: none where another move needs the confdata as it is, or
 /// needs another one.
-pub(super) fn correct(finder: &Finder<'_>, demands: &[Demand<'_>], found: &mut [Finding]) {
-    let mut corrections: BTreeMap<usize, Correction> = BTreeMap::new();
+pub(super) fn correct(demands: &[Demand], found: &mut [Finding]) {
+    let mut corrections: BTreeMap<(usize, usize), Correction<'_>> = BTreeMap::new();
     let mut contradicted = BTreeSet::new();
     for demand in demands {
-        let Some(finding) = demand.finding else { continue };
-        let Some(written) = finder.of(demand.step) else { continue };
+        let (Some(finding), Some(written)) = (demand.finding, &demand.written) else { continue };
         let (begin, from, to) = (written.begin(), demand.from, demand.to);
         let made = || Correction { written, from, to, findings: Vec::new() };
         let correction = corrections.entry(begin).or_insert_with(made);
@@ -51,11 +52,8 @@ pub(super) fn correct(finder: &Finder<'_>, demands: &[Demand<'_>], found: &mut [
     if corrections.is_empty() {
         return;
     }
-    for demand in demands.iter().filter(|demand| demand.finding.is_none()) {
-        if let Some(written) = finder.of(demand.step) {
-            contradicted.insert(written.begin());
-        }
-    }
+    let right = demands.iter().filter(|demand| demand.finding.is_none());
+    contradicted.extend(right.filter_map(|demand| demand.written.as_ref()).map(Written::begin));
     for (begin, correction) in corrections {
         if contradicted.contains(&begin) {
             continue;
@@ -72,8 +70,9 @@ pub(super) fn correct(finder: &Finder<'_>, demands: &[Demand<'_>], found: &mut [
 /// How many names are followed from a target to its numbers.
 const MOST_NAMES: usize = 8;
 
-/// The confdata of a target in the text.
-struct Written {
+/// The confdata of a target in a text.
+pub(super) struct Written {
+    module: usize,
     span: Range<usize>,
     /// Its numbers, if it is written as such.
     numbers: Option<[Range<usize>; 4]>,
@@ -81,8 +80,8 @@ struct Written {
 
 impl Written {
     /// Where it begins: no two begin at the same byte.
-    fn begin(&self) -> usize {
-        self.span.start
+    fn begin(&self) -> (usize, usize) {
+        (self.module, self.span.start)
     }
 
     /// The edits from one configuration to another: only numbers that differ.
@@ -90,45 +89,45 @@ impl Written {
         let Some(numbers) = &self.numbers else {
             let Configuration { cf1, cf4, cf6, cfx } = to;
             let text = alloc::format!("[{cf1},{cf4},{cf6},{cfx}]");
-            return Vec::from([Edit { span: self.span.clone(), text }]);
+            return Vec::from([Edit { module: self.module, span: self.span.clone(), text }]);
         };
         let of = |it: Configuration| [it.cf1, it.cf4, it.cf6, it.cfx];
         let pairs = numbers.iter().zip(of(from).into_iter().zip(of(to)));
         let differing = pairs.filter(|(_, (from, to))| from != to);
-        differing.map(|(span, (_, to))| Edit { span: span.clone(), text: to.to_string() }).collect()
+        let edit = |(span, (_, to)): (&Range<usize>, (i32, i32))| Edit {
+            module: self.module,
+            span: span.clone(),
+            text: to.to_string(),
+        };
+        differing.map(edit).collect()
     }
 }
 
-/// A finder of confdata in a text.
-pub(super) struct Finder<'a> {
-    source: &'a str,
-    module: &'a Module,
-    /// Data of routines, by routine and name in lower case.
-    locals: BTreeMap<(String, String), usize>,
+/// A finder of confdata in the texts of a program.
+pub(super) struct Finder<'a, 'm> {
+    program: &'a Program<'m>,
+    sources: &'a [&'a str],
 }
 
-impl<'a> Finder<'a> {
-    pub(super) fn new(source: &'a str, module: &'a Module) -> Self {
-        let mut locals = BTreeMap::new();
-        for (index, datum) in module.data().iter().enumerate() {
-            if let Some(routine) = &datum.routine {
-                locals.insert((routine.to_lowercase(), datum.name.to_lowercase()), index);
-            }
-        }
-        Self { source, module, locals }
+/// A place from which names are looked up: a module and a routine of it.
+type At<'a> = (usize, Option<&'a str>);
+
+impl<'a, 'm> Finder<'a, 'm> {
+    pub(super) fn new(program: &'a Program<'m>, sources: &'a [&'a str]) -> Self {
+        Self { program, sources }
     }
 
-    /// The confdata of a move's target; `None` if it is in another module, or calculated.
-    fn of(&self, step: &Move) -> Option<Written> {
-        self.within(step.target.span.clone(), step.routine.as_deref(), MOST_NAMES)
+    /// The confdata of the target of a move in a module; `None` if it is calculated.
+    pub(super) fn of(&self, module: usize, step: &Move) -> Option<Written> {
+        self.within(step.target.span.clone(), (module, step.routine.as_deref()), MOST_NAMES)
     }
 
     /// The confdata of a value that is written in some bytes.
-    fn within(&self, span: Range<usize>, routine: Option<&str>, names: usize) -> Option<Written> {
-        let text = self.source.get(span.clone())?;
+    fn within(&self, span: Range<usize>, at: At<'_>, names: usize) -> Option<Written> {
+        let text = self.sources.get(at.0)?.get(span.clone())?;
         let mut tokens = Tokens::new(text).ok()?;
         let value = ExpressionReader::new(&mut tokens).argument().ok()?;
-        self.of_value(&value, span.start, routine, names)
+        self.of_value(&value, span.start, at, names)
     }
 
     /// The confdata of an expression, whose bytes count from `begin`.
@@ -136,7 +135,7 @@ impl<'a> Finder<'a> {
         &self,
         value: &Expression<'_>,
         begin: usize,
-        routine: Option<&str>,
+        at: At<'_>,
         names: usize,
     ) -> Option<Written> {
         let place = |part: &Expression<'_>| part.start + begin..part.end + begin;
@@ -152,15 +151,15 @@ impl<'a> Finder<'a> {
                     },
                     _ => None,
                 };
-                Some(Written { span: place(confdata), numbers })
+                Some(Written { module: at.0, span: place(confdata), numbers })
             }
-            Form::Name(name) => self.of_name(name, &[], routine, names),
+            Form::Name(name) => self.of_name(name, &[], at, names),
             Form::Reference(reference) if reference.components.is_empty() => {
-                self.of_name(reference.name, &reference.indices, routine, names)
+                self.of_name(reference.name, &reference.indices, at, names)
             }
             // A displaced target keeps its confdata.
             Form::Call(call) if Displacement::named(call.name).is_some() => {
-                self.of_value(call.required.first()?, begin, routine, names)
+                self.of_value(call.required.first()?, begin, at, names)
             }
             _ => None,
         }
@@ -170,14 +169,20 @@ impl<'a> Finder<'a> {
         &self,
         name: &str,
         indices: &[Expression<'_>],
-        routine: Option<&str>,
+        (module, routine): At<'_>,
         names: usize,
     ) -> Option<Written> {
         let names = names.checked_sub(1)?;
-        let local = routine.and_then(|routine| {
-            self.locals.get(&(routine.to_lowercase(), name.to_lowercase())).copied()
-        });
-        let datum = self.module.data().get(local.or_else(|| self.module.position(name))?)?;
+        let lower = name.to_lowercase();
+        let routine = routine.map(str::to_lowercase).unwrap_or_default();
+        let mut own = self.program.locals(module, &routine);
+        let local = own.find(|datum| datum.name.to_lowercase() == lower);
+        let (module, datum) = if let Some(datum) = local {
+            (module, datum)
+        } else {
+            let (id, datum) = self.program.datum(module, &lower)?;
+            (id.module, datum)
+        };
         let span = match &datum.content {
             Content::Single(_) if indices.is_empty() => datum.value_span.clone(),
             Content::Array { sizes, .. } if sizes.len() == indices.len() => {
@@ -185,7 +190,7 @@ impl<'a> Finder<'a> {
             }
             _ => return None,
         };
-        self.within(span, datum.routine.as_deref(), names)
+        self.within(span, (module, datum.routine.as_deref()), names)
     }
 }
 

@@ -1,6 +1,6 @@
-//! All moves of a module checked, as a linter does (docs/guide/check.md).
+//! All moves of a program checked, as a linter does (docs/guide/check.md).
 
 pub(super) mod checker;
+mod confdata;
+mod corners;
 mod fixes;
-mod inherited;
-mod runs;

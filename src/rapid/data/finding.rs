@@ -23,7 +23,7 @@ macro_rules! codes {
 
         impl Code {
             /// Every code.
-            pub const ALL: [Self; 25] = [$(Self::$Code),*];
+            pub const ALL: [Self; 31] = [$(Self::$Code),*];
 
             /// The code: a letter for its group and three digits.
             #[must_use]
@@ -58,10 +58,14 @@ codes! {
     NoPath "R105" "no-path";
     /// A jointtarget has the angle of an axis that does not exist.
     AbsentAxis "R106" "absent-axis";
+    /// The points of a circle hardly determine it, or it is too long.
+    UncertainCircle "R107" "uncertain-circle";
     /// No solution has the confdata of a target.
     WrongConfdata "C201" "wrong-confdata";
     /// A line or an arc arrives with another configuration than its target has.
     OtherConfiguration "C202" "other-configuration";
+    /// A target is a few degrees over the edge of a quarter of its confdata.
+    NearConfdata "C204" "near-confdata";
     /// More than one joint vector has the confdata of a target.
     AmbiguousConfdata "C203" "ambiguous-confdata";
     /// A line or an arc passes the wrist singularity.
@@ -75,6 +79,8 @@ codes! {
     JointTooFast "V401" "joint-too-fast";
     /// A zone is over half of the distance to a target next to it.
     ZoneTooLarge "Z501" "zone-too-large";
+    /// A zone is followed by something at which the program waits or ends.
+    CornerPath "Z502" "corner-path";
     /// A move touches something: the arm itself or an obstacle of a cell.
     Collision "K901" "collision";
     /// A target is not declared.
@@ -92,12 +98,18 @@ codes! {
     InvalidFrame "D701" "invalid-frame";
     /// A speed or a zone has a number that no move can have: it is left out.
     InvalidNumber "D702" "invalid-number";
+    /// An external axis is in one of two targets that follow one another.
+    ExternalAxes "D703" "external-axes";
     /// A value is not in the text.
     UnknownValue "U801" "unknown-value";
     /// An instruction that moves the robot is not followed.
     NotFollowed "U802" "not-followed";
     /// An axis is on the edge of its quarter.
     ConfdataEdge "U803" "confdata-edge";
+    /// A mechanical unit that carries the robot or moves a work object is not known.
+    UnknownUnit "U804" "unknown-unit";
+    /// A PERS that the program assigns is taken to have its last value.
+    LastValue "U805" "last-value";
 }
 
 impl Code {
@@ -105,7 +117,14 @@ impl Code {
     /// unknown or undecided (group U).
     #[must_use]
     pub fn is_default(self) -> bool {
-        !matches!(self, Self::UnknownValue | Self::NotFollowed | Self::ConfdataEdge)
+        !matches!(
+            self,
+            Self::UnknownValue
+                | Self::NotFollowed
+                | Self::ConfdataEdge
+                | Self::UnknownUnit
+                | Self::LastValue
+        )
     }
 
     /// The type of the data that an unknown name of this code should have.
@@ -123,7 +142,9 @@ impl Code {
 /// A part of a text, replaced.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
-    /// Bytes of the text.
+    /// The module among those that are checked, from 0.
+    pub module: usize,
+    /// Bytes of its text.
     pub span: Range<usize>,
     /// The text that takes their place.
     pub text: String,
@@ -135,6 +156,8 @@ pub struct Edit {
 pub struct Finding {
     /// The kind.
     pub code: Code,
+    /// The module among those that are checked, from 0.
+    pub module: usize,
     /// Line of the instruction, from 1; 0 if it was not read from a text.
     pub line: usize,
     /// Column of the instruction, from 1, in characters.
@@ -164,6 +187,7 @@ impl Finding {
     pub(crate) fn new(code: Code, words: impl Into<String>) -> Self {
         Self {
             code,
+            module: 0,
             line: 0,
             column: 0,
             routine: None,
@@ -207,6 +231,11 @@ impl Finding {
             Explanation::OutOfReach(reach) => self.with_value(reach.shortfall(), 0.0),
             _ => self,
         }
+    }
+
+    /// In a module.
+    pub(crate) fn in_module(self, module: usize) -> Self {
+        Self { module, ..self }
     }
 
     /// At a move.

@@ -1,6 +1,8 @@
 //! Instructions that are not read, by their effect on moves.
 
-use self::Effect::{Displaces, EndsDisplacement, Jumps, Leaves, Moves, Sets, Stops, Writes};
+use self::Effect::{
+    Displaces, EndsDisplacement, Jumps, Leaves, Moves, Offsets, Sets, Stops, Waits, Writes,
+};
 use super::settings::MotionSettings;
 
 /// The effect of an instruction on the moves of a program.
@@ -14,18 +16,22 @@ pub(crate) enum Effect {
     Displaces,
     /// It ends the displacement.
     EndsDisplacement,
+    /// It adds something to external axes, or ends that.
+    Offsets,
     /// It sets how the moves after it are made.
     Sets,
     /// It leaves the routine.
     Leaves,
     /// It ends the execution, which may go on behind it.
     Stops,
+    /// It waits for something, and with it the program.
+    Waits,
     /// It goes on at a label.
     Jumps,
 }
 
 #[rustfmt::skip]
-const INSTRUCTIONS: [(Effect, &[&str]); 12] = [
+const INSTRUCTIONS: [(Effect, &[&str]); 14] = [
     (Moves, &[
         "MoveLDO", "MoveJDO", "MoveCDO", "MoveLAO", "MoveJAO", "MoveCAO", "MoveLGO", "MoveJGO",
         "MoveCGO", "MoveLSync", "MoveJSync", "MoveCSync", "MoveExtJ", "TriggL", "TriggJ", "TriggC",
@@ -41,9 +47,15 @@ const INSTRUCTIONS: [(Effect, &[&str]); 12] = [
     (Writes(5), &["MToolTCPCalib", "SToolTCPCalib"]),
     (Displaces, &["PDispOn", "PDispSet"]),
     (EndsDisplacement, &["PDispOff"]),
+    (Offsets, &["EOffsOn", "EOffsSet", "EOffsOff"]),
     (Sets, &MotionSettings::INSTRUCTIONS),
     (Leaves, &["RETURN", "EXIT", "ExitCycle", "RAISE", "RETRY", "TRYNEXT"]),
-    (Stops, &["Stop"]),
+    (Stops, &["Stop", "Break", "SystemStopAction"]),
+    (Waits, &[
+        "WaitTime", "WaitUntil", "WaitDI", "WaitDO", "WaitGI", "WaitGO", "WaitAI", "WaitAO",
+        "WaitRob", "WaitSyncTask", "WaitTestAndSet", "WaitWObj", "SocketAccept", "SocketConnect",
+        "SocketReceive", "TPReadNum", "TPReadFK", "UIMsgBox",
+    ]),
     (Jumps, &["GOTO"]),
 ];
 

@@ -225,7 +225,7 @@ impl Module {
             (routine.line, routine.column) = (0, 0);
         }
         for skipped in &mut self.skipped {
-            (skipped.line, skipped.column) = (0, 0);
+            (skipped.line, skipped.column, skipped.start) = (0, 0, 0);
         }
         for setting in &mut self.settings {
             (setting.line, setting.column) = (0, 0);

@@ -119,6 +119,8 @@ pub struct Skipped {
     pub what: NotRead,
     /// The text, which is written back as it is.
     pub text: String,
+    /// The byte of the module's text at which it begins.
+    pub(crate) start: usize,
 }
 
 /// The kind of a part of the text that is not read.

@@ -99,7 +99,11 @@ impl Evaluator<'_, '_> {
     }
 
     /// The atoms of a value of a type.
-    fn atoms(&self, expression: &Expression<'_>, of: &'static Type) -> Result<Atoms, Stop> {
+    pub(crate) fn atoms(
+        &self,
+        expression: &Expression<'_>,
+        of: &'static Type,
+    ) -> Result<Atoms, Stop> {
         let mut atoms = Atoms::new();
         self.fill(expression, &Place { of, name: "", inside: None }, &mut atoms)?;
         Ok(atoms)

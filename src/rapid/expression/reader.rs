@@ -133,7 +133,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
     }
 
-    fn sum(&mut self) -> Result<Expression<'a>, RapidFault> {
+    pub(crate) fn sum(&mut self) -> Result<Expression<'a>, RapidFault> {
         self.chain([(b'+', Operator::Plus), (b'-', Operator::Minus)], Self::product)
     }
 

@@ -7,7 +7,7 @@ use super::goal::{Goal, Place};
 use super::joints::{Conf, Path, Samples, joint_line, round_joints, solved, way};
 use crate::error::Error;
 use crate::kinematics::thresholds::{
-    ELBOW_ZONE, JOINED_MOVES, MOST_REACH, MOST_SAMPLES, SHOULDER_ZONE, WRIST_ZONE,
+    ELBOW_ZONE, JOINED_MOVES, MOST_REACH, MOST_SAMPLES, NEAR_CONFDATA, SHOULDER_ZONE, WRIST_ZONE,
 };
 use crate::kinematics::{
     BreakReason, ConfigurationRequest, FollowOptions, Pose, Robot, SingularityKind,
@@ -16,6 +16,7 @@ use crate::kinematics::{
 use crate::paths::line::part;
 use crate::paths::polyline::{Corner, Leg, Rounded};
 use crate::paths::{ArcOrientation, Spacing};
+use crate::rapid::calc::confdata::{near, over_quarters};
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::wrong::{Found, broken, no_path, passes};
 use crate::rapid::data::finding::{Code, Finding};
@@ -341,7 +342,13 @@ impl<'a, 'm> Drive<'a, 'm> {
                 .ik_configured(&pose, ConfigurationRequest::from(wanted).near(q))
                 .is_ok_and(|solution| apart(&solution.q, &q, SingularityMode::Through).is_none())
         };
-        if found != wanted && !is_met() {
+        if found == wanted || is_met() {
+            return q;
+        }
+        let over = over_quarters(self.flange, &q, wanted);
+        if let Some(over) = over.filter(|over| over.by <= NEAR_CONFDATA) {
+            self.found(index, near(&over, wanted, found));
+        } else {
             let words = format!(
                 "arrives with the configuration {found}, its target has {wanted}: correct its \
                  confdata, or program ConfL\\Off"

@@ -9,11 +9,13 @@ use crate::paths::Zone;
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::table::{frames_of, target_of};
 use crate::rapid::calc::target::{absent_axis, joint_vector, target_pose};
+use crate::rapid::calc::units::Units;
 use crate::rapid::calc::wrong::{Found, absent, displaced, not_solved, outside};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::RobTarget;
 use crate::rapid::data::settings::CirPathMode;
+use crate::rapid::program::walk::Stepped;
 use crate::report::Configuration;
 
 /// The destination of a move.
@@ -25,8 +27,17 @@ pub(in crate::rapid) enum Place {
 }
 
 /// A move.
+#[expect(clippy::struct_excessive_bools, reason = "each says another thing of the move")]
 pub(in crate::rapid) struct Goal<'m> {
     pub(in crate::rapid) step: &'m Move,
+    /// The module of its place.
+    pub(in crate::rapid) module: usize,
+    /// The module and the index of the instruction.
+    pub(in crate::rapid) instruction: (usize, usize),
+    /// What the program waits at behind it.
+    pub(in crate::rapid) halt: Option<&'m str>,
+    /// Whether a value is the last one that a PERS had.
+    pub(in crate::rapid) takes_last: bool,
     /// Where it is known, with its tool and its work object.
     pub(in crate::rapid) place: Option<Place>,
     pub(in crate::rapid) frames: Frames,
@@ -40,6 +51,8 @@ pub(in crate::rapid) struct Goal<'m> {
     pub(in crate::rapid) speed: [f64; 2],
     /// The duration of `\T` [s].
     pub(in crate::rapid) time: Option<f64>,
+    /// Whether a unit moves the robot or the work object on the way.
+    pub(in crate::rapid) is_carried: bool,
     /// Whether something before it, which is not read, may have moved the robot.
     pub(in crate::rapid) from_unknown: bool,
 }
@@ -55,16 +68,21 @@ impl<'m> Goal<'m> {
     /// A move; report what is wrong with it.
     pub(in crate::rapid) fn new(
         robot: &Robot<6>,
-        step: &'m Move,
+        stepped: &'m Stepped<'_>,
+        units: Option<&Units>,
         move_index: usize,
         findings: &mut Vec<Finding>,
     ) -> Self {
+        let &Stepped { module, instruction, takes_last, .. } = stepped;
+        let step = &*stepped.step;
         let mut found = |finding: Finding| findings.push(finding.at(step, move_index));
-        let frames = frames_of(robot, step);
+        let frames = frames_of(robot, step, units);
         let mut place = placed(step, &frames).map_err(|finding| found(*finding)).ok();
         if let Some(Place::Joints(q)) = &place {
             outside(robot, q).into_iter().for_each(&mut found);
-            if let Err(finding) = &frames {
+            if let Err(finding) = &frames
+                && finding.code != Code::UnknownUnit
+            {
                 found(Finding::clone(finding));
             }
         }
@@ -93,7 +111,22 @@ impl<'m> Goal<'m> {
         let flange =
             Frames::Carried { t_flange_tool: Pose::identity(), t_world_wobj: Pose::identity() };
         let frames = frames.unwrap_or(flange);
-        Self { step, place, frames, via, zone, stops, speed, time, from_unknown: false }
+        Self {
+            step,
+            module,
+            instruction,
+            halt: stepped.halt.as_deref(),
+            takes_last,
+            place,
+            frames,
+            via,
+            zone,
+            stops,
+            speed,
+            time,
+            is_carried: false,
+            from_unknown: false,
+        }
     }
 }
 

@@ -8,13 +8,15 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::goal::{Goal, Place};
 use crate::error::Error;
-use crate::kinematics::thresholds::STEP_ROUNDING;
+use crate::kinematics::thresholds::{NEAR_CONFDATA, STEP_ROUNDING};
 use crate::kinematics::{ConfigurationRequest, Pose, Robot};
 use crate::paths::Spacing;
 use crate::paths::line::part;
+use crate::rapid::calc::confdata::{near, over_quarters};
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::wrong::{nearest_taken, not_solved};
 use crate::rapid::data::finding::Finding;
+use crate::report::Configuration;
 
 /// The way of the tool between two samples: a length [m] and an angle [rad].
 pub(in crate::rapid) type Way = [f64; 2];
@@ -124,6 +126,9 @@ pub(super) fn solved(
         match flange.ik_configured(&pose, request) {
             Ok(solution) => return (Some(solution.q), None),
             Err(error @ (Error::NoConfiguration(_) | Error::InvalidJoints(_))) => {
+                if let Some((q, finding)) = nearly(flange, &pose, robconf) {
+                    return (Some(q), Some(finding).filter(|_| conf == Conf::On));
+                }
                 missed = Some(error).filter(|_| conf == Conf::On);
             }
             Err(error) => return (None, Some(not_solved(&error))),
@@ -133,6 +138,20 @@ pub(super) fn solved(
         Ok(solution) => (Some(solution.q), missed.as_ref().map(nearest_taken)),
         Err(error) => (None, Some(not_solved(&error))),
     }
+}
+
+/// Of a target whose configuration no solution has, the solution that is nearest to it, if that is
+/// near: running cells keep targets whose tool or work object was measured again.
+fn nearly(flange: &Robot<6>, pose: &Pose, wanted: Configuration) -> Option<([f64; 6], Finding)> {
+    let solutions = flange.ik(pose).ok()?;
+    let turns = solutions.turns().filter(|it| flange.limits().contains(&it.q));
+    let over = turns.filter_map(|it| {
+        let over = over_quarters(flange, &it.q, wanted)?;
+        Some((it.q, over))
+    });
+    let (q, over) = over.min_by(|a, b| a.1.by.total_cmp(&b.1.by))?;
+    let found = flange.configuration(&q).ok()?;
+    (over.by <= NEAR_CONFDATA).then(|| (q, near(&over, wanted, found)))
 }
 
 /// The straight line in joint space between joints [rad]; `spacing` bounds the steps of a joint as

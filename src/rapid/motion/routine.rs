@@ -1,6 +1,5 @@
 //! A routine as one motion.
 
-use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -8,14 +7,17 @@ use super::drive::{Drive, Made, MotionOptions};
 use super::goal::Goal;
 use super::joints::Samples;
 use super::pace::Pace;
-use super::sequence::{Step, sequence};
+use super::sequence::sequence;
 use crate::error::{Error, MotionFault, RapidFault, RapidFaultKind, RoutineFault};
 use crate::kinematics::{Robot, check_seed};
 use crate::paths::Spacing;
+use crate::rapid::calc::table::external_axes;
 use crate::rapid::calc::target::with_flange;
+use crate::rapid::calc::units::Units;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::{Move, MoveKind};
+use crate::rapid::program::walk::Step;
 use crate::trajectory::Trajectory;
 
 /// The moves of a routine as one motion of the joints, checked.
@@ -89,8 +91,9 @@ pub fn motion(
     let max_velocity = velocities(robot, options)?.ok_or(MotionFault::NoMaxVelocity)?;
     let (routine, steps) = sequence(module, routine)?;
     let flange = with_flange(robot)?;
-    let Followed { goals, indices, samples, made, mut findings } =
-        Followed::new([robot, &flange], &steps, options)?;
+    let followed = Followed::new([robot, &flange], &steps, options, None)?;
+    let Followed { goals, samples, made, mut findings, unfollowed } = followed;
+    findings.extend(unfollowed);
     if samples.q.is_empty() || made.iter().all(|made| made.q.is_none()) {
         let finding = findings.first().map(Finding::to_string).unwrap_or_default();
         return Err(RapidFault::nowhere(RapidFaultKind::Routine(RoutineFault::NoMotion {
@@ -106,7 +109,7 @@ pub fn motion(
         findings: &mut findings,
     };
     let (trajectory, t) = pace.timed(options.max_acceleration.as_ref())?;
-    let moves = moves(&goals, &indices, &samples, &made, &t);
+    let moves = moves(&goals, &samples, &made, &t);
     let mut move_index = Vec::with_capacity(t.len());
     for (index, end) in samples.ends.iter().enumerate() {
         move_index.resize(*end, index);
@@ -118,24 +121,27 @@ pub fn motion(
 /// Steps that follow one another, gone through.
 pub(in crate::rapid) struct Followed<'m> {
     pub(in crate::rapid) goals: Vec<Goal<'m>>,
-    /// The index of each goal in [`Module::moves`].
-    pub(in crate::rapid) indices: Vec<usize>,
     samples: Samples,
     pub(in crate::rapid) made: Vec<Made>,
+    /// Findings on goals.
     pub(in crate::rapid) findings: Vec<Finding>,
+    /// Findings on what is not followed.
+    pub(in crate::rapid) unfollowed: Vec<Finding>,
 }
 
 impl<'m> Followed<'m> {
-    /// The second robot is the first one with the flange as its tool.
+    /// The second robot is the first one with the flange as its tool. Without units, external axes
+    /// do not matter.
     pub(in crate::rapid) fn new(
         robots: [&Robot<6>; 2],
-        steps: &[Step<'m>],
+        steps: &'m [Step<'_>],
         options: &MotionOptions,
+        units: Option<&Units>,
     ) -> Result<Self, Error> {
-        let mut findings = Vec::new();
-        let (goals, indices) = goals(robots[0], steps, &mut findings);
+        let (mut findings, mut unfollowed) = (Vec::new(), Vec::new());
+        let goals = goals(robots[0], steps, units, [&mut findings, &mut unfollowed]);
         let (samples, made) = Drive::through(robots, &goals, options, &mut findings)?;
-        Ok(Self { goals, indices, samples, made, findings })
+        Ok(Self { goals, samples, made, findings, unfollowed })
     }
 
     /// The joints along a move, from where it begins.
@@ -191,47 +197,48 @@ fn check_limits(field: &'static str, limits: Option<&[f64; 6]>) -> Result<(), Er
     Ok(())
 }
 
-/// The moves with their indices in the module; what is not read is found.
+/// The moves as goals; what is wrong with them, and what is not followed, is found.
 fn goals<'m>(
     robot: &Robot<6>,
-    steps: &[Step<'m>],
-    findings: &mut Vec<Finding>,
-) -> (Vec<Goal<'m>>, Vec<usize>) {
-    let (mut goals, mut indices) = (Vec::with_capacity(steps.len()), Vec::new());
+    steps: &'m [Step<'_>],
+    units: Option<&Units>,
+    [findings, unfollowed]: [&mut Vec<Finding>; 2],
+) -> Vec<Goal<'m>> {
+    let mut goals: Vec<Goal<'m>> = Vec::with_capacity(steps.len());
     let mut from_unknown = false;
     for step in steps {
         let move_index = goals.len();
-        let (skipped, words) = match step {
-            Step::Move(index, step) => {
-                let goal = Goal::new(robot, step, move_index, findings);
-                goals.push(Goal { from_unknown: core::mem::take(&mut from_unknown), ..goal });
-                indices.push(*index);
-                continue;
+        match step {
+            Step::Move(stepped) => {
+                let mut goal = Goal::new(robot, stepped, units, move_index, findings);
+                goal.from_unknown = core::mem::take(&mut from_unknown);
+                if let (Some(units), Some(before)) = (units, goals.last()) {
+                    let [from, to] = [before.step, goal.step].map(external_axes);
+                    let between = units.between(&from, &to);
+                    goal.from_unknown |= goal.is_cartesian() && between.turns;
+                    if between.moves {
+                        // How fast the tool goes there, seen from the robot, is not known.
+                        goal.speed = [f64::INFINITY; 2];
+                        goal.is_carried = true;
+                    }
+                }
+                goals.push(goal);
             }
-            Step::NotRead(skipped) => (skipped, skipped.what.to_string()),
-            Step::Call(skipped, name) => {
-                let words =
-                    format!("{name} is a routine of the module, its moves are not followed");
-                (skipped, words)
+            Step::NotFollowed { module, skipped, words } => {
+                let finding = Finding::new(Code::NotFollowed, words.clone()).in_module(*module);
+                unfollowed.push(finding.at_skipped(skipped, move_index));
+                from_unknown = true;
             }
-        };
-        findings.push(Finding::new(Code::NotFollowed, words).at_skipped(skipped, move_index));
-        from_unknown = true;
+        }
     }
-    for finding in findings.iter_mut() {
+    for finding in unfollowed.iter_mut() {
         finding.move_index = finding.move_index.min(goals.len().saturating_sub(1));
     }
-    (goals, indices)
+    goals
 }
 
 /// The moves with their times.
-fn moves(
-    goals: &[Goal<'_>],
-    indices: &[usize],
-    samples: &Samples,
-    made: &[Made],
-    t: &[f64],
-) -> Vec<MotionMove> {
+fn moves(goals: &[Goal<'_>], samples: &Samples, made: &[Made], t: &[f64]) -> Vec<MotionMove> {
     let one = |(index, (goal, made)): (usize, (&Goal<'_>, &Made))| {
         let own = samples.own(index);
         // It begins at the last sample of the move before it.
@@ -239,7 +246,7 @@ fn moves(
         let ways = &samples.ways[samples.intervals(index)];
         MotionMove {
             kind: goal.step.kind,
-            module_index: indices[index],
+            module_index: goal.instruction.1,
             line: goal.step.line,
             start: t.get(begin).copied().unwrap_or(0.0),
             end: t.get(own.end.saturating_sub(1)).copied().unwrap_or(0.0),

@@ -1,6 +1,9 @@
 //! The moves of a routine in the order in which they are made.
 
+use alloc::borrow::Cow;
+use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
+use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -9,16 +12,7 @@ use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::unread::{NotRead, Skipped};
-
-/// A step of a routine.
-pub(in crate::rapid) enum Step<'m> {
-    /// A move, by its index in the module.
-    Move(usize, &'m Move),
-    /// Something that may move the robot, or set how it moves, and is not read.
-    NotRead(&'m Skipped),
-    /// A call of a routine of the module.
-    Call(&'m Skipped, &'m str),
-}
+use crate::rapid::program::walk::{Step, Stepped};
 
 /// An item of a routine, for its place in the text.
 #[derive(Clone, Copy)]
@@ -35,7 +29,7 @@ pub(super) fn sequence<'m>(
 ) -> Result<(Option<String>, Vec<Step<'m>>), Error> {
     let name = chosen(module, routine)?;
     let steps = Walk::default().through(module, items(module, name.as_deref()))?;
-    if steps.iter().any(|step| matches!(step, Step::Move(..))) {
+    if steps.iter().any(|step| matches!(step, Step::Move(_))) {
         return Ok((name, steps));
     }
     let routine = name.unwrap_or_else(|| "the text".to_string());
@@ -96,6 +90,17 @@ pub(in crate::rapid) fn items_where(
     items
 }
 
+fn move_of(index: usize, step: &Move) -> Step<'_> {
+    let step = Cow::Borrowed(step);
+    let stepped =
+        Stepped { module: 0, instruction: (0, index), step, takes_last: false, halt: None };
+    Step::Move(Box::new(stepped))
+}
+
+fn not_followed(skipped: &Skipped, words: String) -> Step<'_> {
+    Step::NotFollowed { module: 0, skipped, words }
+}
+
 /// The blocks that are open.
 #[derive(Default)]
 struct Walk<'m> {
@@ -117,7 +122,7 @@ impl<'m> Walk<'m> {
             let skipped = match item {
                 Item::Move(index, step) => {
                     self.check_certain()?;
-                    steps.push(Step::Move(index, step));
+                    steps.push(move_of(index, step));
                     continue;
                 }
                 Item::Setting => {
@@ -135,7 +140,7 @@ impl<'m> Walk<'m> {
                 }
                 NotRead::Motion { .. } | NotRead::Unfinished { .. } => {
                     self.check_certain()?;
-                    steps.push(Step::NotRead(skipped));
+                    steps.push(not_followed(skipped, skipped.what.to_string()));
                 }
                 NotRead::Instruction { name } if Effect::Jumps.is_of(name) => {
                     let kind = RoutineFault::Branch { word: "GOTO".into() };
@@ -149,11 +154,13 @@ impl<'m> Walk<'m> {
                 }
                 NotRead::Instruction { name } if Effect::Sets.is_of(name) => {
                     self.check_certain()?;
-                    steps.push(Step::NotRead(skipped));
+                    steps.push(not_followed(skipped, skipped.what.to_string()));
                 }
                 NotRead::Instruction { name } if moving.contains(&name.to_lowercase()) => {
                     self.check_certain()?;
-                    steps.push(Step::Call(skipped, name));
+                    let words =
+                        format!("{name} is a routine of the module, its moves are not followed");
+                    steps.push(not_followed(skipped, words));
                 }
                 _ => {}
             }

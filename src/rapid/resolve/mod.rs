@@ -109,7 +109,8 @@ impl ResolvedData {
             Err(reason) => {
                 let what = NotRead::Datum { name, reason };
                 let text = source(declared.start..declared.end);
-                self.skipped.push(Skipped { line, column, routine, what, text });
+                let start = declared.start;
+                self.skipped.push(Skipped { line, column, routine, what, text, start });
                 return;
             }
         };

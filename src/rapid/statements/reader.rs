@@ -132,7 +132,8 @@ impl<'a> StatementReader<'a> {
         };
         let text = self.written.text[from.start..self.tokens.last_end].to_string();
         let routine = self.current_routine().map(|routine| routine.name.clone());
-        self.written.skipped.push(Skipped { line, column, routine, what, text });
+        let start = from.start;
+        self.written.skipped.push(Skipped { line, column, routine, what, text, start });
         line
     }
 

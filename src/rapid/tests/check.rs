@@ -7,7 +7,7 @@ use std::vec::Vec;
 
 use crate::error::Error;
 use crate::kinematics::Robot;
-use crate::rapid::{Code, Finding, MotionOptions, check, parse};
+use crate::rapid::{CheckOptions, Checked, Code, Finding, MotionOptions, check, parse};
 
 const DATA: &str = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
     CONST robtarget a:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
@@ -24,7 +24,7 @@ fn text(moves: &str) -> String {
 fn checked(text: &str) -> Vec<Finding> {
     let robot = Robot::named("IRB 2600-12/1.65").unwrap();
     let module = parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    let mut found = check(&robot, &module, text, &MotionOptions::default(), None).unwrap();
+    let mut found = check(&robot, &[(&module, text)], &CheckOptions::default()).unwrap().findings;
     found.retain(|it| it.code != Code::ConfdataEdge);
     found
 }
@@ -190,29 +190,28 @@ fn settings_hold_across_calls() {
         ("ConfL\\Off; ConfL\\On; weld;", vec![Code::OtherConfiguration]),
         ("settings; weld;", vec![]),
         ("weld; settings;", vec![Code::OtherConfiguration]),
-        // One of the callers does not mind.
-        ("weld; settings; weld;", vec![]),
+        // Each call has its own.
+        ("weld; settings; weld;", vec![Code::OtherConfiguration]),
     ] {
-        let mut found = codes(&format!("{main} {weld} {settings}"));
-        found.retain(|code| *code != Code::NotFollowed);
-        assert_eq!(found, wanted, "{main}");
+        assert_eq!(codes(&format!("{main} {weld} {settings}")), wanted, "{main}");
     }
     let own = weld.replace("MoveJ a", "ConfL\\On; MoveJ a");
     let found = codes(&format!("ConfL\\Off; weld; {own}"));
-    assert_eq!(found, [Code::NotFollowed, Code::OtherConfiguration]);
+    assert_eq!(found, [Code::OtherConfiguration]);
 }
 
 #[test]
 fn what_cannot_be_checked_is_an_error() {
-    let (module, options) = (parse(&text(""), &[]).unwrap(), MotionOptions::default());
+    let (module, options) = (parse(&text(""), &[]).unwrap(), CheckOptions::default());
     let robot = Robot::named("IRB 2600-12/1.65").unwrap();
-    assert_eq!(check(&robot, &module, &text(""), &options, None).unwrap(), []);
-    let other = check(&robot, &module, "MODULE", &options, None).unwrap_err();
+    assert_eq!(check(&robot, &[(&module, &text(""))], &options).unwrap(), Checked::default());
+    let other = check(&robot, &[(&module, "MODULE")], &options).unwrap_err();
     assert!(matches!(other, Error::Rapid(_)), "{other}");
-    let no_step = MotionOptions { step: 0.0, ..options };
-    let no_step = check(&robot, &module, &text(""), &no_step, None).unwrap_err();
+    let motion = MotionOptions { step: 0.0, ..MotionOptions::default() };
+    let no_step = CheckOptions { motion, ..options };
+    let no_step = check(&robot, &[(&module, &text(""))], &no_step).unwrap_err();
     assert!(matches!(no_step, Error::InvalidMotion(_)), "{no_step}");
     let other_arm = Robot::named("UR5e").unwrap();
-    let other_arm = check(&other_arm, &module, &text(""), &options, None).unwrap_err();
+    let other_arm = check(&other_arm, &[(&module, &text(""))], &options).unwrap_err();
     assert!(matches!(other_arm, Error::InvalidModel(_)), "{other_arm}");
 }

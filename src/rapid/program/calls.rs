@@ -1,0 +1,325 @@
+//! Calls of routines: arguments put in for parameters, and what is assigned to them given back.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::mem;
+use core::ops::Range;
+
+use super::arguments::{Parameter, arguments, assignment, called, referred};
+use super::index::Program;
+use super::state::{Local, Locals, State};
+use super::walk::Walk;
+use crate::rapid::data::instructions::written_argument;
+use crate::rapid::data::module::{Content, Storage};
+use crate::rapid::data::moves::Move;
+use crate::rapid::data::unread::{Reason, Skipped, Unresolved};
+use crate::rapid::expression::tree::Expression;
+
+/// Most calls within calls.
+const DEEPEST_CALLS: usize = 32;
+
+/// The call that a routine's moves are placed at where they depend on its arguments.
+#[derive(Clone)]
+pub(super) struct Site {
+    pub(super) module: usize,
+    line: usize,
+    column: usize,
+    routine: Option<String>,
+}
+
+/// The routine that is followed.
+#[derive(Clone, Default)]
+pub(super) struct Frame {
+    pub(super) module: usize,
+    /// Its name in lower case.
+    pub(super) routine: String,
+    pub(super) site: Option<Site>,
+    /// What was known where it was left.
+    pub(super) exits: Vec<State>,
+    /// Its optional parameters that no argument was given for.
+    pub(super) absent: BTreeSet<String>,
+    /// The text of its arguments, with their modules and bytes, by the names of its parameters.
+    texts: BTreeMap<String, (String, usize, Range<usize>)>,
+    /// The routines that are being followed.
+    above: Vec<(usize, String)>,
+}
+
+impl Frame {
+    pub(super) fn of(module: usize, routine: String) -> Self {
+        Self { module, routine, ..Self::default() }
+    }
+
+    /// A reason with the text of an argument in the place of its parameter.
+    pub(super) fn named(&self, reason: Reason) -> Reason {
+        match reason {
+            Reason::Reference { name, why } => {
+                let text = self.texts.get(&name.to_lowercase()).map(|(text, ..)| text.clone());
+                Reason::Reference { name: text.unwrap_or(name), why }
+            }
+            reason => reason,
+        }
+    }
+
+    /// Place a move at the call that it depends on.
+    pub(super) fn place(&self, site: &Site, step: &mut Move) {
+        (step.line, step.column) = (site.line, site.column);
+        step.routine.clone_from(&site.routine);
+        step.target.span = 0..0;
+        if let Some((text, module, span)) = self.texts.get(&step.target.text.to_lowercase()) {
+            step.target.text.clone_from(text);
+            if *module == site.module {
+                step.target.span = span.clone();
+            }
+        }
+    }
+}
+
+impl Program<'_> {
+    /// The data and the parameters of a routine at its beginning: parameters are unknown unless
+    /// they are `given`, in their order.
+    pub(super) fn locals_of(
+        &self,
+        module: usize,
+        routine: &str,
+        given: Option<Vec<(String, Local)>>,
+    ) -> Locals {
+        let data = self.locals(module, routine).map(|datum| {
+            let content = match (&datum.content, datum.storage) {
+                (Content::Uninitialized { .. }, _) => Err(Unresolved::NoValue),
+                (_, Storage::Pers) => Err(Unresolved::ValueNotKnown),
+                (content, _) => Ok(content.clone()),
+            };
+            (datum.name.to_lowercase(), Local { data_type: Some(datum.data_type), content })
+        });
+        let unknown = |parameter: &Parameter| {
+            let content = Err(Unresolved::Parameter { routine: routine.to_string() });
+            (parameter.name.clone(), Local { data_type: parameter.data_type, content })
+        };
+        let parameters =
+            given.unwrap_or_else(|| self.parameters(module, routine).iter().map(unknown).collect());
+        data.chain(parameters).collect()
+    }
+}
+
+impl<'m> Walk<'_, 'm> {
+    /// Follow a statement that may be a call.
+    pub(super) fn call(&mut self, skipped: &'m Skipped) {
+        let Some(name) = called(&skipped.text) else {
+            let words = "the name of the routine is calculated".to_string();
+            return self.not_followed(skipped, words);
+        };
+        let program = self.program;
+        let Some(home) = program.procedure(self.frame.module, &name) else { return };
+        let parameters = program.parameters(home, &name);
+        let Some(acts) = program.effects.of_routine(home, &name) else { return };
+        if !acts.matters() {
+            return;
+        }
+        let is_circular = self.frame.above.iter().any(|it| *it == (home, name.clone()))
+            || (self.frame.module, &self.frame.routine) == (home, &name);
+        let why = if is_circular {
+            Some(format!("{name} calls itself"))
+        } else if self.frame.above.len() >= DEEPEST_CALLS {
+            Some(format!("more than {DEEPEST_CALLS} calls within calls"))
+        } else if self.steps_left == 0 {
+            Some("the program has too many calls".to_string())
+        } else {
+            None
+        };
+        let bound = match (why, arguments(&skipped.text)) {
+            (None, Ok(arguments)) => {
+                self.bound(skipped, parameters, arguments.required, arguments.optional)
+            }
+            (why, _) => {
+                self.state.globals.retain(|datum, _| !acts.assigns.contains(datum));
+                if acts.moves {
+                    let words = why.unwrap_or_else(|| "its arguments are not read".to_string());
+                    self.not_followed(skipped, words);
+                }
+                return;
+            }
+        };
+        self.enter(skipped, (home, name), bound, parameters);
+    }
+
+    /// Follow a routine with its arguments.
+    fn enter(
+        &mut self,
+        skipped: &Skipped,
+        (home, name): (usize, String),
+        bound: Bound,
+        parameters: &[Parameter],
+    ) {
+        let Bound { given, absent, texts, names } = bound;
+        let own_site = || Site {
+            module: self.frame.module,
+            line: skipped.line,
+            column: skipped.column,
+            routine: skipped.routine.clone(),
+        };
+        let site = self.frame.site.clone().or_else(|| Some(own_site()));
+        let mut above = self.frame.above.clone();
+        above.push((self.frame.module, self.frame.routine.clone()));
+        let before: Locals = given.iter().cloned().collect();
+        let locals = self.program.locals_of(home, &name, Some(given));
+        let frame = Frame {
+            module: home,
+            routine: name,
+            site: site.filter(|_| !parameters.is_empty()),
+            exits: Vec::new(),
+            absent,
+            texts,
+            above,
+        };
+        let own_frame = mem::replace(&mut self.frame, frame);
+        let own_locals = mem::replace(&mut self.state.locals, locals);
+        self.routine();
+        self.frame = own_frame;
+        let after = mem::replace(&mut self.state.locals, own_locals);
+        for (parameter, name) in names {
+            if after.get(&parameter) != before.get(&parameter)
+                && let Some(local) = after.get(&parameter)
+            {
+                self.put(&name, local.content.clone().ok());
+            }
+        }
+    }
+
+    /// Give a datum or a local another content, or none that is known.
+    fn put(&mut self, lower: &str, content: Option<Content>) {
+        if let Some(local) = self.state.locals.get_mut(lower) {
+            local.content = content.ok_or(Unresolved::ValueNotKnown);
+            return;
+        }
+        let Some((datum, _)) = self.program.datum(self.frame.module, lower) else { return };
+        match content {
+            Some(content) => self.state.globals.insert(datum, content),
+            None => self.state.globals.remove(&datum),
+        };
+    }
+
+    /// An assignment.
+    pub(super) fn assign(&mut self, skipped: &Skipped) {
+        let Ok((target, value)) = assignment(&skipped.text) else { return };
+        let Some((name, _)) = referred(&target) else { return };
+        let content = self.scope().assigned(&skipped.text, &target, &value);
+        self.put(&name, content);
+    }
+
+    /// The datum that an instruction writes to is not known any more.
+    pub(super) fn written(&mut self, skipped: &Skipped, name: &str) {
+        let Some(place) = written_argument(name) else { return };
+        if let Ok(arguments) = arguments(&skipped.text)
+            && let Some(argument) = place.checked_sub(1).and_then(|at| arguments.required.get(at))
+            && let Some((name, _)) = referred(argument)
+        {
+            self.put(&name, None);
+        }
+    }
+
+    /// The parameters of a routine with the arguments of a call.
+    fn bound<'a>(
+        &self,
+        skipped: &'a Skipped,
+        parameters: &[Parameter],
+        required: Vec<Expression<'a>>,
+        mut optional: Vec<(&'a str, Option<Expression<'a>>)>,
+    ) -> Bound {
+        let mut bound = Bound::default();
+        let mut required = required.into_iter();
+        for parameter in parameters {
+            let argument = if parameter.is_optional {
+                let is_own = |(name, _): &(&str, _)| name.eq_ignore_ascii_case(&parameter.name);
+                let place = optional.iter().position(is_own);
+                place.map(|place| optional.swap_remove(place).1)
+            } else {
+                required.next().map(Some)
+            };
+            if let Some(value) = argument {
+                self.bind(skipped, parameter, value, &mut bound);
+            } else {
+                bound.absent.insert(parameter.name.clone());
+                bound.give(parameter, Err(Unresolved::NoValue));
+            }
+        }
+        bound
+    }
+
+    /// Put an argument in for a parameter.
+    fn bind(
+        &self,
+        skipped: &Skipped,
+        parameter: &Parameter,
+        value: Option<Expression<'_>>,
+        bound: &mut Bound,
+    ) {
+        let (Some(value), Some(data_type)) = (value, parameter.data_type) else {
+            return bound.give(parameter, Err(Unresolved::ValueNotKnown));
+        };
+        let text = skipped.text.get(value.start..value.end).unwrap_or_default();
+        // \Name?parameter passes on an argument, if there is one.
+        if let Some(passed) = text.strip_prefix('?') {
+            let passed = passed.trim().to_lowercase();
+            if self.frame.absent.contains(&passed) {
+                bound.absent.insert(parameter.name.clone());
+            }
+            let local = self.state.locals.get(&passed);
+            let content = local.map_or(Err(Unresolved::ValueNotKnown), |it| it.content.clone());
+            bound.texts.extend(
+                self.frame.texts.get(&passed).map(|it| (parameter.name.clone(), it.clone())),
+            );
+            return bound.give(parameter, content);
+        }
+        let name = referred(&value).filter(|(_, components)| components.is_empty());
+        let array = name.as_ref().and_then(|(name, _)| self.whole(name, &value));
+        let content = match array {
+            Some(content) => Ok(content),
+            None => match self.scope().value(&skipped.text, &value, data_type) {
+                Ok(value) => Ok(Content::Single(value)),
+                Err(Reason::Reference { why, .. }) => Err(why),
+                Err(_) => Err(Unresolved::ValueNotKnown),
+            },
+        };
+        let own = (
+            text.to_string(),
+            self.frame.module,
+            skipped.start + value.start..skipped.start + value.end,
+        );
+        let above = name.as_ref().and_then(|(name, _)| self.frame.texts.get(name).cloned());
+        bound.texts.insert(parameter.name.clone(), above.unwrap_or(own));
+        if let (true, Some((name, _))) = (parameter.is_reference, name) {
+            bound.names.push((parameter.name.clone(), name));
+        }
+        bound.give(parameter, content);
+    }
+
+    /// The whole array that a name refers to.
+    fn whole(&self, name: &str, value: &Expression<'_>) -> Option<Content> {
+        use crate::rapid::expression::names::{At, Found, Names as _};
+        use crate::rapid::expression::tree::Form;
+        let Form::Name(_) = value.form else { return None };
+        match self.scope().find(At::default(), name) {
+            Found::Datum { content: content @ Content::Array { .. }, .. } => Some(content.clone()),
+            _ => None,
+        }
+    }
+}
+
+/// Arguments put in for parameters.
+#[derive(Default)]
+struct Bound {
+    given: Vec<(String, Local)>,
+    absent: BTreeSet<String>,
+    texts: BTreeMap<String, (String, usize, Range<usize>)>,
+    /// Parameters by reference, with the names of their arguments.
+    names: Vec<(String, String)>,
+}
+
+impl Bound {
+    fn give(&mut self, parameter: &Parameter, content: Result<Content, Unresolved>) {
+        let local = Local { data_type: parameter.data_type, content };
+        self.given.push((parameter.name.clone(), local));
+    }
+}

@@ -1,0 +1,318 @@
+//! What routines may do, with those that they call: whether they move the robot or set how it
+//! moves, and the data that they assign.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::arguments::{Parameter, arguments, assignment, called, referred};
+use super::index::{DatumId, Program};
+use super::tree::{Block, Body, Node};
+use crate::rapid::data::instructions::{Effect, written_argument};
+use crate::rapid::data::unread::{NotRead, Skipped};
+
+/// How often effects are passed on from routine to routine: chains of calls are no longer.
+const PASSES: usize = 64;
+
+/// A routine by its module and its name in lower case.
+type Name = (usize, String);
+
+/// What a routine may do, with the routines that it calls.
+#[derive(Clone, Default, PartialEq)]
+pub(super) struct Acts {
+    /// Whether it moves the robot, displaces targets or sets how moves are made.
+    pub(super) moves: bool,
+    /// The data that it assigns.
+    pub(super) assigns: BTreeSet<DatumId>,
+    /// The parameters that it assigns, by their names.
+    assigned_parameters: BTreeSet<String>,
+}
+
+impl Acts {
+    /// Whether following it changes what is known.
+    pub(super) fn matters(&self) -> bool {
+        self.moves || !self.assigns.is_empty() || !self.assigned_parameters.is_empty()
+    }
+}
+
+/// The assignments of a datum.
+pub(super) struct Assigned {
+    /// The module and the line of the first one.
+    pub(super) by: (usize, usize),
+    /// The components that are assigned, joined by dots; "" for all.
+    components: BTreeSet<String>,
+}
+
+impl Assigned {
+    /// Whether assignments leave all components but one, and what is in it, as they are declared.
+    pub(super) fn are_within(&self, component: &str) -> bool {
+        let is_within = |it: &String| {
+            it.strip_prefix(component).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+        };
+        component.is_empty() || self.components.iter().all(is_within)
+    }
+}
+
+/// A call of a procedure, with the name that each argument refers to.
+struct Call {
+    line: usize,
+    to: Name,
+    required: Vec<Option<String>>,
+    optional: Vec<(String, Option<String>)>,
+}
+
+/// What the routines of a program may do.
+#[derive(Default)]
+pub(super) struct Effects {
+    of_routines: BTreeMap<Name, Acts>,
+    assigned: BTreeMap<DatumId, Assigned>,
+    /// The data that a routine assigns to which they are passed.
+    by_reference: BTreeSet<DatumId>,
+}
+
+impl Effects {
+    pub(super) fn of(program: &Program<'_>) -> Self {
+        let mut effects = Self::default();
+        let mut calls: BTreeMap<Name, Vec<Call>> = BTreeMap::new();
+        for (module, bodies) in program.bodies.iter().enumerate() {
+            for (routine, body) in bodies {
+                let name = (module, routine.clone());
+                let mut reader = Reader::new(program, (module, routine), &mut effects.assigned);
+                reader.body(body);
+                let Reader { acts, calls: own, .. } = reader;
+                effects.of_routines.insert(name.clone(), acts);
+                calls.insert(name, own);
+            }
+        }
+        effects.pass_on(program, &calls);
+        effects
+    }
+
+    /// What a routine may do.
+    pub(super) fn of_routine(&self, module: usize, lower: &str) -> Option<&Acts> {
+        self.of_routines.get(&(module, String::from(lower)))
+    }
+
+    /// The assignments of a datum; `None` if it is not assigned.
+    pub(super) fn assigned(&self, datum: DatumId) -> Option<&Assigned> {
+        self.assigned.get(&datum)
+    }
+
+    /// Whether a routine assigns the datum to which it is passed.
+    pub(super) fn is_passed_and_assigned(&self, datum: DatumId) -> bool {
+        self.by_reference.contains(&datum)
+    }
+
+    /// Whether there are data that a routine assigns to which they are passed.
+    pub(super) fn has_references(&self) -> bool {
+        !self.by_reference.is_empty()
+    }
+
+    /// The data and the names of locals that a block of a routine assigns.
+    pub(super) fn of_block(
+        &self,
+        program: &Program<'_>,
+        (module, routine): (usize, &str),
+        block: &Block<'_>,
+    ) -> (BTreeSet<DatumId>, BTreeSet<String>) {
+        let mut assigned = BTreeMap::new();
+        let mut reader = Reader::new(program, (module, routine), &mut assigned);
+        reader.block(block);
+        let Reader { mut acts, calls, mut locals, .. } = reader;
+        for call in calls {
+            let Some(of) = self.of_routines.get(&call.to) else { continue };
+            acts.assigns.extend(of.assigns.iter().copied());
+            let parameters = program.parameters(call.to.0, &call.to.1);
+            for passed in call.assigned(parameters, of) {
+                acts.assigns.extend(program.datum(module, passed).map(|(datum, _)| datum));
+                locals.insert(passed.into());
+            }
+        }
+        locals.extend(acts.assigned_parameters);
+        (acts.assigns, locals)
+    }
+
+    /// Add what called routines do to those that call them.
+    fn pass_on(&mut self, program: &Program<'_>, calls: &BTreeMap<Name, Vec<Call>>) {
+        for _ in 0..PASSES {
+            let mut has_changed = false;
+            for (name, own) in calls {
+                let Some(mut acts) = self.of_routines.get(name).cloned() else { continue };
+                for call in own {
+                    let Some(of) = self.of_routines.get(&call.to) else { continue };
+                    acts.moves |= of.moves;
+                    acts.assigns.extend(of.assigns.iter().copied());
+                    let parameters = program.parameters(call.to.0, &call.to.1);
+                    for passed in call.assigned(parameters, of) {
+                        let (module, routine) = name;
+                        let is_local = is_local(program, *module, routine, passed);
+                        let own = program.parameters(*module, routine);
+                        let is_parameter = own.iter().any(|it| it.name == passed);
+                        if is_parameter {
+                            acts.assigned_parameters.insert(passed.into());
+                        } else if let Some((datum, _)) =
+                            program.datum(*module, passed).filter(|_| !is_local)
+                        {
+                            acts.assigns.insert(datum);
+                            self.by_reference.insert(datum);
+                            add(&mut self.assigned, datum, (*module, call.line), String::new());
+                        }
+                    }
+                }
+                if self.of_routines.get(name) != Some(&acts) {
+                    self.of_routines.insert(name.clone(), acts);
+                    has_changed = true;
+                }
+            }
+            if !has_changed {
+                return;
+            }
+        }
+    }
+}
+
+impl Call {
+    /// The names that the called routine assigns.
+    fn assigned<'a>(
+        &'a self,
+        parameters: &'a [Parameter],
+        acts: &'a Acts,
+    ) -> impl Iterator<Item = &'a str> {
+        let required = parameters.iter().filter(|it| !it.is_optional).zip(&self.required);
+        let optional = self.optional.iter().filter_map(|(name, passed)| {
+            parameters.iter().find(|it| it.name == *name).map(|it| (it, passed))
+        });
+        required.chain(optional).filter_map(|(parameter, passed)| {
+            let is_assigned =
+                parameter.is_reference && acts.assigned_parameters.contains(&parameter.name);
+            passed.as_deref().filter(|_| is_assigned)
+        })
+    }
+}
+
+/// Whether a routine declares a name in lower case.
+fn is_local(program: &Program<'_>, module: usize, routine: &str, lower: &str) -> bool {
+    program.locals(module, routine).any(|datum| datum.name.to_lowercase() == lower)
+}
+
+/// A reader of what one routine does by itself.
+struct Reader<'e, 'm> {
+    program: &'e Program<'m>,
+    module: usize,
+    routine: &'e str,
+    parameters: &'e [Parameter],
+    acts: Acts,
+    calls: Vec<Call>,
+    /// Assigned data of the routine.
+    locals: BTreeSet<String>,
+    assigned: &'e mut BTreeMap<DatumId, Assigned>,
+}
+
+/// Add an assignment of a datum.
+fn add(
+    all: &mut BTreeMap<DatumId, Assigned>,
+    datum: DatumId,
+    by: (usize, usize),
+    components: String,
+) {
+    let none = || Assigned { by, components: BTreeSet::new() };
+    all.entry(datum).or_insert_with(none).components.insert(components);
+}
+
+impl<'e, 'm> Reader<'e, 'm> {
+    fn new(
+        program: &'e Program<'m>,
+        (module, routine): (usize, &'e str),
+        assigned: &'e mut BTreeMap<DatumId, Assigned>,
+    ) -> Self {
+        let parameters = program.parameters(module, routine);
+        let (acts, calls, locals) = (Acts::default(), Vec::new(), BTreeSet::new());
+        Self { program, module, routine, parameters, acts, calls, locals, assigned }
+    }
+
+    fn body(&mut self, body: &Body<'_>) {
+        self.block(&body.main);
+        body.handlers.iter().for_each(|handler| self.block(handler));
+    }
+
+    fn block(&mut self, block: &Block<'_>) {
+        for node in block {
+            match node {
+                Node::Move(..) | Node::Setting(_) => self.acts.moves = true,
+                Node::Other(skipped) => self.statement(skipped),
+                Node::Branches { parts, .. } => parts.iter().for_each(|part| self.block(part)),
+                Node::Loop { body, .. } => self.block(body),
+            }
+        }
+    }
+
+    fn statement(&mut self, skipped: &Skipped) {
+        match &skipped.what {
+            NotRead::Motion { name } => {
+                self.acts.moves = true;
+                self.written(name, skipped);
+            }
+            NotRead::Unfinished { .. } => self.acts.moves = true,
+            NotRead::Assignment { .. } => {
+                if let Ok((target, _)) = assignment(&skipped.text)
+                    && let Some((name, components)) = referred(&target)
+                {
+                    self.assign(&name, components, skipped.line);
+                }
+            }
+            NotRead::Instruction { name } => {
+                let is_of = |effect: Effect| effect.is_of(name);
+                self.acts.moves |= is_of(Effect::Displaces)
+                    || is_of(Effect::EndsDisplacement)
+                    || is_of(Effect::Offsets)
+                    || is_of(Effect::Sets);
+                self.written(name, skipped);
+                self.call(skipped);
+            }
+            _ => {}
+        }
+    }
+
+    /// The datum that an instruction writes to.
+    fn written(&mut self, name: &str, skipped: &Skipped) {
+        let Some(place) = written_argument(name) else { return };
+        if let Ok(arguments) = arguments(&skipped.text)
+            && let Some(argument) = place.checked_sub(1).and_then(|at| arguments.required.get(at))
+            && let Some((name, components)) = referred(argument)
+        {
+            self.assign(&name, components, skipped.line);
+        }
+    }
+
+    fn assign(&mut self, name: &str, components: String, line: usize) {
+        if is_local(self.program, self.module, self.routine, name) {
+            self.locals.insert(name.into());
+            return;
+        }
+        if self.parameters.iter().any(|it| it.name == name) {
+            self.acts.assigned_parameters.insert(name.into());
+        } else if let Some((datum, _)) = self.program.datum(self.module, name) {
+            self.acts.assigns.insert(datum);
+            add(self.assigned, datum, (self.module, line), components);
+        }
+    }
+
+    fn call(&mut self, skipped: &Skipped) {
+        let Skipped { line, text, .. } = skipped;
+        let Some(name) = called(text) else {
+            // A call by a name that is calculated may do anything.
+            self.acts.moves = true;
+            return;
+        };
+        let Some(home) = self.program.procedure(self.module, &name) else { return };
+        let to = (home, name);
+        let Ok(arguments) = arguments(text) else { return };
+        let name_of = |it| referred(it).map(|(name, _)| name);
+        let required = arguments.required.iter().map(name_of).collect();
+        let optional = arguments.optional.iter();
+        let optional = optional
+            .map(|(name, value)| (name.to_lowercase(), value.as_ref().and_then(name_of)))
+            .collect();
+        self.calls.push(Call { line: *line, to, required, optional });
+    }
+}

@@ -1,0 +1,164 @@
+//! The names of a program: which routine and which datum a name refers to in each module.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::arguments::{Parameter, parameters};
+use super::effects::Effects;
+use super::tree::{Body, bodies};
+use crate::rapid::data::module::{Datum, Module, RoutineKind, Scope};
+use crate::rapid::data::unread::NotRead;
+
+/// A datum: its module and its index there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::rapid) struct DatumId {
+    pub(in crate::rapid) module: usize,
+    pub(super) datum: usize,
+}
+
+/// Modules that know each other.
+pub(in crate::rapid) struct Program<'m> {
+    pub(in crate::rapid) modules: Vec<&'m Module>,
+    /// The parameters of the routines of each module by their names in lower case.
+    parameters: Vec<BTreeMap<String, Vec<Parameter>>>,
+    /// The names in lower case of the procedures of each module.
+    procedures: Vec<BTreeSet<String>>,
+    /// The first module that has a global procedure, by its name in lower case.
+    global_procedures: BTreeMap<String, usize>,
+    /// The first module that has a global datum, by its name in lower case.
+    global_data: BTreeMap<String, usize>,
+    /// The data of the routines of each module by the names of the routines in lower case.
+    locals: Vec<BTreeMap<String, Vec<usize>>>,
+    /// Names in lower case of the data of each module that are not read.
+    unread: Vec<BTreeSet<String>>,
+    /// The statements of the routines of each module by their names in lower case.
+    pub(super) bodies: Vec<BTreeMap<String, Body<'m>>>,
+    pub(super) effects: Effects,
+}
+
+impl<'m> Program<'m> {
+    pub(in crate::rapid) fn new(modules: &[&'m Module]) -> Self {
+        let mut program = Self {
+            modules: modules.to_vec(),
+            parameters: Vec::with_capacity(modules.len()),
+            procedures: Vec::with_capacity(modules.len()),
+            global_procedures: BTreeMap::new(),
+            global_data: BTreeMap::new(),
+            locals: modules.iter().map(|module| locals(module)).collect(),
+            unread: modules.iter().map(|module| unread(module)).collect(),
+            bodies: modules.iter().map(|module| bodies(module)).collect(),
+            effects: Effects::default(),
+        };
+        for (index, module) in modules.iter().enumerate() {
+            let (mut all, mut own) = (BTreeMap::new(), BTreeSet::new());
+            for routine in &module.routines {
+                let name = routine.name.to_lowercase();
+                all.entry(name.clone()).or_insert_with(|| parameters(routine));
+                if routine.kind != RoutineKind::Proc {
+                    continue;
+                }
+                if !is_local(&routine.header) {
+                    program.global_procedures.entry(name.clone()).or_insert(index);
+                }
+                own.insert(name);
+            }
+            program.parameters.push(all);
+            program.procedures.push(own);
+            for (name, datum) in &module.index {
+                if module.data.get(*datum).is_some_and(|it| it.scope != Scope::Local) {
+                    program.global_data.entry(name.clone()).or_insert(index);
+                }
+            }
+        }
+        program.effects = Effects::of(&program);
+        program
+    }
+
+    /// The module of the procedure that a name in lower case refers to in a module.
+    pub(super) fn procedure(&self, module: usize, lower: &str) -> Option<usize> {
+        if self.procedures.get(module)?.contains(lower) {
+            return Some(module);
+        }
+        self.global_procedures.get(lower).copied()
+    }
+
+    /// The datum of a module that a name in lower case refers to in a module.
+    pub(in crate::rapid) fn datum(
+        &self,
+        module: usize,
+        lower: &str,
+    ) -> Option<(DatumId, &'m Datum)> {
+        let at = |home: usize| {
+            let of = *self.modules.get(home)?;
+            let datum = *of.index.get(lower)?;
+            Some((DatumId { module: home, datum }, of.data.get(datum)?))
+        };
+        at(module).or_else(|| at(*self.global_data.get(lower)?))
+    }
+
+    /// The data of a routine, by its name in lower case.
+    pub(in crate::rapid) fn locals(
+        &self,
+        module: usize,
+        lower: &str,
+    ) -> impl Iterator<Item = &'m Datum> {
+        let of = self.modules.get(module).map_or(&[][..], |it| &it.data);
+        let own = self.locals.get(module).and_then(|it| it.get(lower));
+        own.into_iter().flatten().filter_map(|datum| of.get(*datum))
+    }
+
+    /// Whether a name in lower case may refer to a datum that is not read.
+    pub(super) fn is_unread(&self, module: usize, lower: &str) -> bool {
+        let own = self.unread.get(module).is_some_and(|names| names.contains(lower));
+        own || self.unread.iter().any(|names| names.contains(lower))
+    }
+
+    /// The statements of a routine, by its name in lower case.
+    pub(super) fn body(&self, module: usize, lower: &str) -> Option<&Body<'m>> {
+        self.bodies.get(module)?.get(lower)
+    }
+
+    /// The parameters of a routine, by its name in lower case.
+    pub(super) fn parameters(&self, module: usize, lower: &str) -> &[Parameter] {
+        self.parameters.get(module).and_then(|it| it.get(lower)).map_or(&[], Vec::as_slice)
+    }
+
+    /// The routines of all modules in the order of the text, by module and name in lower case; ""
+    /// for statements outside routines.
+    pub(super) fn routines(&self) -> Vec<(usize, String)> {
+        let mut all = Vec::new();
+        for (index, module) in self.modules.iter().enumerate() {
+            all.push((index, String::new()));
+            all.extend(module.routines.iter().map(|it| (index, it.name.to_lowercase())));
+        }
+        all
+    }
+}
+
+/// The data of each routine, by its name in lower case.
+fn locals(module: &Module) -> BTreeMap<String, Vec<usize>> {
+    let mut found: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (index, datum) in module.data.iter().enumerate() {
+        if let Some(routine) = &datum.routine {
+            found.entry(routine.to_lowercase()).or_default().push(index);
+        }
+    }
+    found
+}
+
+/// The names in lower case of data that are not read.
+fn unread(module: &Module) -> BTreeSet<String> {
+    let names = module.skipped.iter().filter_map(|skipped| match &skipped.what {
+        NotRead::Datum { name, .. } | NotRead::DatumOfType { name, .. } => {
+            Some(name.to_lowercase())
+        }
+        _ => None,
+    });
+    names.collect()
+}
+
+/// Whether a header begins with LOCAL.
+fn is_local(header: &str) -> bool {
+    header.get(.."LOCAL".len()).is_some_and(|word| word.eq_ignore_ascii_case("LOCAL"))
+}

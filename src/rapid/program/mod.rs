@@ -1,0 +1,16 @@
+//! A program: modules that know each other, and the moves of their routines in the order in which
+//! they are executed, with the values that arguments, assignments and loops give them.
+//!
+//! Nothing is executed on a controller's terms: conditions are not evaluated, signals not read. A
+//! branch begins with what is known before it, and behind it is known what all of its parts agree
+//! on. A value that is not determined by the text stays unknown, with the reason.
+
+mod arguments;
+mod calls;
+mod effects;
+pub(super) mod index;
+mod moves;
+mod state;
+mod tree;
+mod values;
+pub(super) mod walk;

@@ -1,0 +1,187 @@
+//! The statements of a routine as a tree: branches and loops with what is in them.
+
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::mem;
+
+use crate::rapid::data::module::Module;
+use crate::rapid::data::moves::Move;
+use crate::rapid::data::settings::Setting;
+use crate::rapid::data::unread::{NotRead, Skipped};
+
+/// Statements in the order of the text.
+pub(super) type Block<'m> = Vec<Node<'m>>;
+
+/// A statement, or a branch or a loop with its own.
+pub(super) enum Node<'m> {
+    /// A move, by its index in the module.
+    Move(usize, &'m Move),
+    Setting(&'m Setting),
+    /// An instruction, an assignment, a label.
+    Other(&'m Skipped),
+    /// IF or TEST, by its first line.
+    Branches {
+        head: &'m Skipped,
+        parts: Vec<Block<'m>>,
+        /// Whether one of the parts is certainly executed.
+        is_complete: bool,
+    },
+    /// FOR or WHILE, by its first line.
+    Loop {
+        head: &'m Skipped,
+        body: Block<'m>,
+    },
+}
+
+/// The statements of a routine.
+#[derive(Default)]
+pub(super) struct Body<'m> {
+    pub(super) main: Block<'m>,
+    /// Those behind ERROR, UNDO and BACKWARD.
+    pub(super) handlers: Vec<Block<'m>>,
+}
+
+/// An item of a module, with its line, its column and its routine.
+type Placed<'m> = (usize, usize, Option<&'m str>, Node<'m>);
+
+/// The statements of each routine, by its name in lower case; "" for those outside routines.
+pub(super) fn bodies(module: &Module) -> BTreeMap<String, Body<'_>> {
+    let mut items: Vec<Placed<'_>> = Vec::new();
+    items.extend(
+        (module.moves.iter().enumerate())
+            .map(|(index, it)| (it.line, it.column, it.routine.as_deref(), Node::Move(index, it))),
+    );
+    items.extend(
+        (module.settings.iter())
+            .map(|it| (it.line, it.column, it.routine.as_deref(), Node::Setting(it))),
+    );
+    items.extend(
+        (module.skipped.iter())
+            .map(|it| (it.line, it.column, it.routine.as_deref(), Node::Other(it))),
+    );
+    items.sort_by_key(|(line, column, ..)| (*line, *column));
+    let mut grown: BTreeMap<String, Grower<'_>> = BTreeMap::new();
+    let mut last: Option<(Option<&str>, String)> = None;
+    for (_, _, routine, node) in items {
+        let name = match last.take() {
+            Some((of, name)) if of == routine => name,
+            _ => routine.unwrap_or_default().to_lowercase(),
+        };
+        match grown.get_mut(&name) {
+            Some(grower) => grower.add(node),
+            None => grown.entry(name.clone()).or_default().add(node),
+        }
+        last = Some((routine, name));
+    }
+    grown.into_iter().map(|(name, grower)| (name, grower.finished())).collect()
+}
+
+/// A branch or a loop that is open.
+struct Open<'m> {
+    head: &'m Skipped,
+    /// Its parts that are closed.
+    parts: Vec<Block<'m>>,
+    /// The part that is open.
+    part: Block<'m>,
+    /// Whether a part has begun: that of a TEST begins at its first CASE.
+    has_begun: bool,
+    has_else: bool,
+    /// Whether it is an IF without THEN, of one instruction.
+    is_single: bool,
+}
+
+/// A body that grows by one statement after another.
+#[derive(Default)]
+struct Grower<'m> {
+    body: Body<'m>,
+    open: Vec<Open<'m>>,
+}
+
+impl<'m> Grower<'m> {
+    fn add(&mut self, node: Node<'m>) {
+        match node {
+            Node::Other(skipped) if matches!(skipped.what, NotRead::Flow { .. }) => {
+                let NotRead::Flow { word } = &skipped.what else { return };
+                self.flow(skipped, word);
+            }
+            node => {
+                self.push(node);
+                self.close_single();
+            }
+        }
+    }
+
+    fn push(&mut self, node: Node<'m>) {
+        let handler = self.body.handlers.last_mut();
+        match self.open.last_mut() {
+            Some(open) => open.part.push(node),
+            None => handler.unwrap_or(&mut self.body.main).push(node),
+        }
+    }
+
+    fn flow(&mut self, head: &'m Skipped, word: &str) {
+        match word {
+            "IF" | "FOR" | "WHILE" | "TEST" => {
+                let is_single = word == "IF" && !ends_with_then(&head.text);
+                let (parts, part, has_begun) = (Vec::new(), Vec::new(), word != "TEST");
+                self.open.push(Open { head, parts, part, has_begun, has_else: false, is_single });
+            }
+            "ELSEIF" | "ELSE" | "CASE" | "DEFAULT" => {
+                if let Some(open) = self.open.last_mut() {
+                    let part = mem::take(&mut open.part);
+                    if mem::replace(&mut open.has_begun, true) {
+                        open.parts.push(part);
+                    }
+                    open.has_else |= word == "ELSE" || word == "DEFAULT";
+                }
+            }
+            "ENDIF" | "ENDFOR" | "ENDWHILE" | "ENDTEST" => {
+                self.close();
+                self.close_single();
+            }
+            // A handler.
+            _ => {
+                self.close_all();
+                self.body.handlers.push(Vec::new());
+            }
+        }
+    }
+
+    fn close(&mut self) {
+        let Some(Open { head, mut parts, part, has_else, .. }) = self.open.pop() else { return };
+        let word = match &head.what {
+            NotRead::Flow { word } => word.as_str(),
+            _ => "",
+        };
+        if matches!(word, "FOR" | "WHILE") {
+            self.push(Node::Loop { head, body: part });
+        } else {
+            parts.push(part);
+            self.push(Node::Branches { head, parts, is_complete: has_else });
+        }
+    }
+
+    fn close_single(&mut self) {
+        while self.open.last().is_some_and(|open| open.is_single) {
+            self.close();
+        }
+    }
+
+    fn close_all(&mut self) {
+        while !self.open.is_empty() {
+            self.close();
+        }
+    }
+
+    fn finished(mut self) -> Body<'m> {
+        self.close_all();
+        self.body
+    }
+}
+
+/// Whether the first line of an IF has a THEN.
+fn ends_with_then(text: &str) -> bool {
+    let start = text.len().saturating_sub("THEN".len());
+    text.get(start..).is_some_and(|end| end.eq_ignore_ascii_case("THEN"))
+}

@@ -1,0 +1,228 @@
+//! Values at a place of a program: names looked up, arguments evaluated, assignments made.
+
+use alloc::string::ToString;
+use core::cell::Cell;
+
+use super::index::{DatumId, Program};
+use super::state::State;
+use crate::rapid::data::module::{Content, Storage};
+use crate::rapid::data::types::{Atoms, Record};
+use crate::rapid::data::unread::{AssignedBy, Reason, Unresolved};
+use crate::rapid::data::value::{DataType, Value};
+use crate::rapid::expression::evaluate::{Evaluator, Stop};
+use crate::rapid::expression::names::{At, Found, Names, lower, predefined};
+use crate::rapid::expression::reader::ExpressionReader;
+use crate::rapid::expression::tree::{Expression, Form};
+use crate::rapid::text::tokens::Tokens;
+
+/// The names that a place sees, with what is known there.
+pub(super) struct Scope<'s, 'm> {
+    pub(super) program: &'s Program<'m>,
+    pub(super) module: usize,
+    pub(super) state: &'s State,
+    /// Whether a PERS that the program assigns has its last value, which the text has.
+    pub(super) takes_last: bool,
+    /// Whether a last value was taken.
+    pub(super) has_taken: Cell<bool>,
+}
+
+impl Names for Scope<'_, '_> {
+    fn find(&self, _: At, name: &str) -> Found<'_> {
+        let lower = lower(name);
+        let known = |content| Found::Datum { content, can_change: false, cause: None };
+        match self.state.locals.get(&*lower).map(|local| &local.content) {
+            Some(Ok(content)) => return known(content),
+            Some(Err(why)) => return Found::Unknown(why.clone()),
+            None => {}
+        }
+        let Some((id, datum)) = self.program.datum(self.module, &lower) else {
+            if self.program.is_unread(self.module, &lower) {
+                return Found::Unknown(Unresolved::ValueNotKnown);
+            }
+            return predefined(&lower).map_or(Found::NotHere, Found::Predefined);
+        };
+        if let Some(content) = self.state.globals.get(&id) {
+            return known(content);
+        }
+        match self.cause(id, datum.storage) {
+            None => known(&datum.content),
+            Some(_) if self.takes_last && datum.storage == Storage::Pers => {
+                self.has_taken.set(true);
+                known(&datum.content)
+            }
+            Some(why) => Found::Unknown(why),
+        }
+    }
+}
+
+impl<'s> Scope<'s, '_> {
+    /// The reason why the declared content of a datum may not be what it has here.
+    fn cause(&self, id: DatumId, storage: Storage) -> Option<Unresolved> {
+        if storage == Storage::Const {
+            return None;
+        }
+        if let Some(assigned) = self.program.effects.assigned(id) {
+            // No move depends on a load.
+            let (module, line) = assigned.by;
+            let by = if module == self.module {
+                AssignedBy::Line(line)
+            } else {
+                let of = self.program.modules.get(module);
+                AssignedBy::Module(of.and_then(|it| it.name()).map(ToString::to_string))
+            };
+            return (!assigned.are_within("tload")).then_some(Unresolved::Assigned { by });
+        }
+        // It is declared by an expression of data that are assigned.
+        let home = self.program.modules.get(id.module)?;
+        home.expressions.contains_key(&id.datum).then_some(Unresolved::ValueNotKnown)
+    }
+
+    fn evaluator<'a>(&'s self, text: &'a str) -> Evaluator<'s, 'a> {
+        Evaluator {
+            text,
+            names: self,
+            at: At::default(),
+            thing: ("", ""),
+            constant: false,
+            at_move: true,
+        }
+    }
+
+    /// The record that a text is.
+    pub(super) fn record<T: Record>(&self, text: &str) -> Result<T, Reason> {
+        let invalid = |_| Reason::NoAggregate;
+        let mut tokens = Tokens::new(text).map_err(invalid)?;
+        let expression = ExpressionReader::new(&mut tokens).argument().map_err(invalid)?;
+        known(self.evaluator(text).record(&expression))
+    }
+
+    /// The value of an expression of a statement, of a type.
+    pub(super) fn value(
+        &self,
+        text: &str,
+        expression: &Expression<'_>,
+        data_type: DataType,
+    ) -> Result<Value, Reason> {
+        known(self.evaluator(text).value(expression, data_type))
+    }
+
+    /// The number that an expression of a statement is.
+    pub(super) fn number(&self, text: &str, expression: &Expression<'_>) -> Result<f64, Reason> {
+        known(self.evaluator(text).number(expression))
+    }
+
+    /// The number that a text is.
+    pub(super) fn number_of(&self, text: &str) -> Result<f64, Reason> {
+        let invalid = |_| Reason::NoAggregate;
+        let mut tokens = Tokens::new(text).map_err(invalid)?;
+        let expression = ExpressionReader::new(&mut tokens).argument().map_err(invalid)?;
+        self.number(text, &expression)
+    }
+
+    /// Whether what the declarations say of a text may not hold: it is passed to a routine that
+    /// assigns it.
+    pub(super) fn is_stale(&self, text: &str) -> bool {
+        let effects = &self.program.effects;
+        effects.has_references()
+            && text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|word| {
+                let datum = self.program.datum(self.module, &lower(word));
+                datum.is_some_and(|(id, _)| effects.is_passed_and_assigned(id))
+            })
+    }
+
+    /// The content of the datum or the local that a statement assigns, behind it; `None` if it is
+    /// not known there.
+    pub(super) fn assigned(
+        &self,
+        text: &str,
+        target: &Expression<'_>,
+        value: &Expression<'_>,
+    ) -> Option<Content> {
+        let (name, indices, components) = match &target.form {
+            Form::Name(name) => (*name, &[][..], &[][..]),
+            Form::Reference(it) => (it.name, it.indices.as_slice(), it.components.as_slice()),
+            _ => return None,
+        };
+        let lower = lower(name);
+        let of_components = components.join(".").to_lowercase();
+        let (data_type, content, is_array) = if let Some(local) = self.state.locals.get(&*lower) {
+            let content = local.content.as_ref().ok();
+            (local.data_type, content, matches!(content, Some(Content::Array { .. })))
+        } else {
+            let (id, datum) = self.program.datum(self.module, &lower)?;
+            let assigned = self.program.effects.assigned(id);
+            let is_declared =
+                indices.is_empty() && assigned.is_some_and(|it| it.are_within(&of_components));
+            let declared = Some(&datum.content).filter(|_| is_declared);
+            let is_single = match &datum.content {
+                Content::Uninitialized { sizes } => sizes.is_empty(),
+                content => matches!(content, Content::Single(_)),
+            };
+            (Some(datum.data_type), self.state.globals.get(&id).or(declared), !is_single)
+        };
+        let data_type = data_type?;
+        let part = self.part(text, value, data_type, components)?;
+        if indices.is_empty() && components.is_empty() {
+            return Value::of(data_type, part).filter(|_| !is_array).map(Content::Single);
+        }
+        let mut content = content?.clone();
+        let place = match &mut content {
+            Content::Single(value) if indices.is_empty() => value,
+            Content::Array { sizes, values } if sizes.len() == indices.len() => {
+                let mut element = 0;
+                for (index, size) in indices.iter().zip(sizes.iter()) {
+                    element = element * size + self.index(text, index, *size)?;
+                }
+                values.get_mut(element)?
+            }
+            _ => return None,
+        };
+        let (begin, _) = place_of(data_type, components)?;
+        let mut atoms = place.atoms();
+        for (own, new) in atoms.get_mut(begin..)?.iter_mut().zip(part) {
+            *own = new;
+        }
+        *place = Value::of(data_type, atoms)?;
+        Some(content)
+    }
+
+    /// An index of an array, from 0.
+    fn index(&self, text: &str, index: &Expression<'_>, size: usize) -> Option<usize> {
+        let value = self.number(text, index).ok()?;
+        #[expect(clippy::cast_precision_loss, reason = "an index")]
+        (0..size).find(|from_zero| ((from_zero + 1) as f64).total_cmp(&value).is_eq())
+    }
+
+    /// The atoms of a value for a component of a type.
+    fn part(
+        &self,
+        text: &str,
+        value: &Expression<'_>,
+        data_type: DataType,
+        components: &[&str],
+    ) -> Option<Atoms> {
+        let (_, of) = place_of(data_type, components)?;
+        known(self.evaluator(text).atoms(value, of)).ok()
+    }
+}
+
+/// The first atom of a component of a type, and the type of the component.
+fn place_of(
+    data_type: DataType,
+    components: &[&str],
+) -> Option<(usize, &'static crate::rapid::data::types::Type)> {
+    let (mut begin, mut of) = (0, data_type.described());
+    for component in components {
+        let (part, before) = of.component(component)?;
+        (begin, of) = (begin + before, part);
+    }
+    Some((begin, of))
+}
+
+/// A value, or why it is unknown; text that is not as RAPID has it is unknown, too.
+fn known<T>(value: Result<T, Stop>) -> Result<T, Reason> {
+    value.map_err(|stop| match stop {
+        Stop::Unknown(reason) => reason,
+        Stop::Fault(_) => Reason::NoAggregate,
+    })
+}

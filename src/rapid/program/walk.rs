@@ -1,0 +1,389 @@
+//! Go through the routines of a program as they call each other: moves in runs, within which each
+//! certainly follows the one before it.
+
+use alloc::borrow::Cow;
+use alloc::boxed::Box;
+use alloc::collections::BTreeSet;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::cell::Cell;
+
+use super::calls::Frame;
+use super::index::Program;
+use super::state::{Here, Local, State};
+use super::tree::{Block, Node};
+use super::values::Scope;
+use crate::rapid::data::instructions::Effect;
+use crate::rapid::data::moves::Move;
+use crate::rapid::data::settings::Setting;
+use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
+use crate::rapid::data::value::Value;
+use crate::rapid::expression::reader::ExpressionReader;
+use crate::rapid::text::tokens::Tokens;
+
+/// Most passes of a loop that are followed.
+const MOST_PASSES: usize = 1000;
+
+/// Steps that are followed beyond two for each move and call that the program has.
+const SPARE_STEPS: usize = 10_000;
+
+/// A step of a program.
+pub(in crate::rapid) enum Step<'m> {
+    /// A move.
+    Move(Box<Stepped<'m>>),
+    /// Something that may move the robot and is not followed, with the reason.
+    NotFollowed { module: usize, skipped: &'m Skipped, words: String },
+}
+
+/// A move with the values that it has here.
+pub(in crate::rapid) struct Stepped<'m> {
+    /// The module of its place, which is the call of the routine that it belongs to where it moves
+    /// to what that call passes on.
+    pub(in crate::rapid) module: usize,
+    /// The module and the index of the instruction.
+    pub(in crate::rapid) instruction: (usize, usize),
+    pub(in crate::rapid) step: Cow<'m, Move>,
+    /// Whether a value is the last one that a PERS had.
+    pub(in crate::rapid) takes_last: bool,
+    /// What the program may wait at behind it, in words.
+    pub(in crate::rapid) halt: Option<String>,
+}
+
+/// Steps that follow one another.
+#[derive(Default)]
+pub(in crate::rapid) struct Run<'m> {
+    /// Where the robot is before it: after so many moves of an earlier run.
+    pub(in crate::rapid) from: Option<(usize, usize)>,
+    pub(in crate::rapid) steps: Vec<Step<'m>>,
+}
+
+/// The runs of a program: of its main routine, then of every routine that was not called.
+///
+/// With `takes_last`, a PERS that the program assigns has the value that the text has.
+pub(in crate::rapid) fn runs<'m>(program: &Program<'m>, takes_last: bool) -> Vec<Run<'m>> {
+    let statements: usize =
+        program.modules.iter().map(|it| it.moves.len() + it.skipped.len()).sum();
+    let mut walk = Walk {
+        program,
+        takes_last,
+        runs: Vec::new(),
+        state: State::new(),
+        frame: Frame::default(),
+        followed: BTreeSet::new(),
+        steps_left: 2 * statements + SPARE_STEPS,
+    };
+    let mains = (0..program.modules.len()).map(|module| (module, "main".to_string()));
+    let all = program.routines().into_iter();
+    for (module, routine) in mains.chain(all) {
+        let name = (module, routine);
+        if program.body(module, &name.1).is_some() && !walk.followed.contains(&name) {
+            walk.root(name);
+        }
+    }
+    walk.runs
+}
+
+pub(super) struct Walk<'p, 'm> {
+    pub(super) program: &'p Program<'m>,
+    takes_last: bool,
+    runs: Vec<Run<'m>>,
+    pub(super) state: State,
+    pub(super) frame: Frame,
+    /// The routines that were followed, by module and name in lower case.
+    pub(super) followed: BTreeSet<(usize, String)>,
+    /// Steps that may still be followed in calls.
+    pub(super) steps_left: usize,
+}
+
+impl<'m> Walk<'_, 'm> {
+    /// Follow a routine that nothing is known to call.
+    fn root(&mut self, (module, routine): (usize, String)) {
+        self.state = State::new();
+        self.state.locals = self.program.locals_of(module, &routine, None);
+        self.frame = Frame::of(module, routine);
+        self.routine();
+        if self.frame.routine == "main" {
+            self.halt("the end of main");
+        }
+    }
+
+    /// Follow the routine of the frame, from its beginning to its end.
+    pub(super) fn routine(&mut self) {
+        let (module, program) = (self.frame.module, self.program);
+        let Some(body) = program.body(module, &self.frame.routine) else { return };
+        let is_first = self.followed.insert((module, self.frame.routine.clone()));
+        let entry = self.state.clone();
+        self.block(&body.main);
+        let mut ends = core::mem::take(&mut self.frame.exits);
+        ends.push(self.state.clone());
+        self.state = State::joined(entry, ends, 0);
+        if !is_first {
+            return;
+        }
+        let end = self.state.clone();
+        for handler in &body.handlers {
+            self.state = State::new();
+            self.state.settings = end.settings;
+            self.state.locals = program.locals_of(module, &self.frame.routine, None);
+            self.block(handler);
+        }
+        self.frame.exits.clear();
+        self.state = end;
+    }
+
+    fn block(&mut self, block: &Block<'m>) {
+        for node in block {
+            match node {
+                Node::Move(index, step) => self.step(*index, step),
+                Node::Setting(setting) => self.set(setting),
+                Node::Other(skipped) => self.statement(skipped),
+                Node::Branches { head, parts, is_complete } => {
+                    let entry = self.state.clone();
+                    let mut ends = Vec::from_iter((!is_complete).then(|| entry.clone()));
+                    for part in parts {
+                        self.state = entry.clone();
+                        self.block(part);
+                        ends.push(self.state.clone());
+                    }
+                    self.state = State::joined(entry, ends, head.line);
+                }
+                Node::Loop { head, body } => self.repeat(head, body),
+            }
+        }
+    }
+
+    /// What is assigned in a block is not known any more.
+    pub(super) fn forget(&mut self, block: &Block<'m>) {
+        let place = (self.frame.module, self.frame.routine.as_str());
+        let (globals, locals) = self.program.effects.of_block(self.program, place, block);
+        self.state.globals.retain(|datum, _| !globals.contains(datum));
+        for (name, local) in &mut self.state.locals {
+            if locals.contains(name) {
+                local.content = Err(Unresolved::ValueNotKnown);
+            }
+        }
+    }
+
+    /// A loop: each pass where its bounds are known and it refers to its variable, else the first.
+    fn repeat(&mut self, head: &'m Skipped, body: &Block<'m>) {
+        let counted = self.bounds(&head.text);
+        let name = counted.as_ref().map(|(name, _)| name.clone());
+        let before = name.as_ref().and_then(|name| self.state.locals.get(name).cloned());
+        if let Some((name, passes)) = &counted
+            && !passes.is_empty()
+            && passes.len().saturating_mul(size(body)) <= self.steps_left
+            && mentions(body, name)
+        {
+            for value in passes {
+                let local = Local::single(Value::Num(*value));
+                self.state.locals.insert(name.clone(), local);
+                self.block(body);
+                if self.state.here == Here::Left {
+                    break;
+                }
+            }
+        } else {
+            self.forget(body);
+            if let Some(name) = &name {
+                let content = Err(Unresolved::LoopVariable);
+                self.state.locals.insert(name.clone(), Local { data_type: None, content });
+            }
+            let entry = self.state.clone();
+            self.block(body);
+            let ends = Vec::from([entry.clone(), self.state.clone()]);
+            self.state = State::joined(entry, ends, head.line);
+        }
+        if let Some(name) = name {
+            match before {
+                Some(local) => self.state.locals.insert(name, local),
+                None => self.state.locals.remove(&name),
+            };
+        }
+    }
+
+    /// The variable of a FOR in lower case, and its values; none where a bound is not known.
+    fn bounds(&self, head: &str) -> Option<(String, Vec<f64>)> {
+        let mut tokens = Tokens::new(head).ok()?;
+        if !tokens.take_word("FOR").ok()? {
+            return None;
+        }
+        let name = tokens.take().ok()?;
+        let name = tokens.text_of(name).to_lowercase();
+        let mut bounds = [None, None, None];
+        for (bound, word) in bounds.iter_mut().zip(["FROM", "TO", "STEP"]) {
+            if tokens.take_word(word).ok()? {
+                let expression = ExpressionReader::new(&mut tokens).sum().ok()?;
+                *bound = self.scope().number(head, &expression).ok();
+            }
+        }
+        Some((name, values_of(bounds)))
+    }
+
+    /// What is known here, for looking up names.
+    pub(super) fn scope(&self) -> Scope<'_, 'm> {
+        Scope {
+            program: self.program,
+            module: self.frame.module,
+            state: &self.state,
+            takes_last: self.takes_last,
+            has_taken: Cell::new(false),
+        }
+    }
+
+    fn set(&mut self, setting: &Setting) {
+        let mut words = setting.text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        let name = words.next().unwrap_or_default();
+        self.state.settings.set(name, words.find(|word| !word.is_empty()));
+    }
+
+    /// A move, with the values that it has here.
+    fn step(&mut self, index: usize, step: &'m Move) {
+        let scope = self.scope();
+        let mut own = Cow::Borrowed(step);
+        let is_passed_on = scope.fill(&mut own, &self.frame);
+        let takes_last = scope.has_taken.get();
+        if own.settings != self.state.settings {
+            own.to_mut().settings = self.state.settings;
+        }
+        self.state.displace(&mut own);
+        let mut module = self.frame.module;
+        if is_passed_on && let Some(site) = self.frame.site.clone() {
+            module = site.module;
+            self.frame.place(&site, own.to_mut());
+        }
+        let instruction = (self.frame.module, index);
+        let halt = None;
+        let stepped = Stepped { module, instruction, step: own, takes_last, halt };
+        self.push(Step::Move(Box::new(stepped)));
+    }
+
+    pub(super) fn push(&mut self, step: Step<'m>) {
+        self.steps_left = self.steps_left.saturating_sub(1);
+        let last = self.runs.len().wrapping_sub(1);
+        if let (Here::After(run, count), Some(own)) = (self.state.here, self.runs.last_mut())
+            && run == last
+            && own.steps.len() == count
+        {
+            own.steps.push(step);
+            self.state.here = Here::After(run, count + 1);
+            return;
+        }
+        let from = match self.state.here {
+            Here::After(run, count) => Some((run, self.moves(run, count))),
+            Here::Unknown | Here::Left => None,
+        };
+        self.state.here = Here::After(self.runs.len(), 1);
+        self.runs.push(Run { from, steps: Vec::from([step]) });
+    }
+
+    /// The number of moves among the first steps of a run.
+    fn moves(&self, run: usize, count: usize) -> usize {
+        let steps = self.runs.get(run).map_or(&[][..], |run| &run.steps[..count]);
+        steps.iter().filter(|step| matches!(step, Step::Move(_))).count()
+    }
+
+    /// The program may wait here.
+    fn halt(&mut self, what: &str) {
+        let Here::After(run, count) = self.state.here else { return };
+        let steps = self.runs.get_mut(run).map(|run| &mut run.steps);
+        if let Some(Step::Move(last)) = steps.and_then(|steps| steps.get_mut(count - 1)) {
+            last.halt.get_or_insert_with(|| what.to_string());
+        }
+    }
+
+    /// Something that may move the robot and is not followed.
+    pub(super) fn not_followed(&mut self, skipped: &'m Skipped, words: String) {
+        let module = self.frame.module;
+        self.push(Step::NotFollowed { module, skipped, words });
+    }
+
+    /// Something that is no move and no branch.
+    fn statement(&mut self, skipped: &'m Skipped) {
+        match &skipped.what {
+            NotRead::Motion { .. } | NotRead::Unfinished { .. } => {
+                self.not_followed(skipped, skipped.what.to_string());
+            }
+            NotRead::Label { .. } => {
+                let body = self.program.body(self.frame.module, &self.frame.routine);
+                if let Some(body) = body {
+                    self.forget(&body.main);
+                }
+                self.state.here = Here::Unknown;
+            }
+            NotRead::Assignment { .. } => self.assign(skipped),
+            NotRead::Instruction { name } => self.instruction(skipped, name),
+            _ => {}
+        }
+    }
+
+    fn instruction(&mut self, skipped: &'m Skipped, name: &str) {
+        let is_of = |effect: Effect| effect.is_of(name);
+        if name.eq_ignore_ascii_case("RETURN") {
+            self.frame.exits.push(self.state.clone());
+            self.state.here = Here::Left;
+        } else if is_of(Effect::Leaves) || is_of(Effect::Jumps) {
+            self.state.here = Here::Left;
+        } else if is_of(Effect::Displaces)
+            || is_of(Effect::EndsDisplacement)
+            || is_of(Effect::Offsets)
+        {
+            let scope = self.scope();
+            let displacement = scope.displacement(skipped, name);
+            match displacement {
+                Ok(displacement) => self.state.displacement = displacement,
+                Err(offsets) => self.state.offsets = offsets,
+            }
+        } else if is_of(Effect::Sets) {
+            self.not_followed(skipped, skipped.what.to_string());
+        } else if is_of(Effect::Waits) || is_of(Effect::Stops) {
+            self.halt(&format!("{name} on line {}", skipped.line));
+        } else {
+            self.written(skipped, name);
+            self.call(skipped);
+        }
+    }
+}
+
+/// The values of a loop between bounds: from, to and step.
+fn values_of(bounds: [Option<f64>; 3]) -> Vec<f64> {
+    let [Some(from), Some(to), step] = bounds else { return Vec::new() };
+    let step = step.unwrap_or(if to < from { -1.0 } else { 1.0 });
+    let mut values = Vec::new();
+    let mut value = from;
+    while values.len() <= MOST_PASSES && (to - value) * step >= 0.0 && step != 0.0 {
+        values.push(value);
+        value += step;
+    }
+    if values.len() > MOST_PASSES { Vec::new() } else { values }
+}
+
+/// The number of statements in a block.
+fn size(block: &Block<'_>) -> usize {
+    let of = |node: &Node<'_>| match node {
+        Node::Branches { parts, .. } => parts.iter().map(size).sum::<usize>() + 1,
+        Node::Loop { body, .. } => size(body) + 1,
+        _ => 1,
+    };
+    block.iter().map(of).sum()
+}
+
+/// Whether a block has a word, in lower case.
+fn mentions(block: &Block<'_>, word: &str) -> bool {
+    let has = |text: &str| {
+        let words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        words.filter(|it| it.len() == word.len()).any(|it| it.to_lowercase() == word)
+    };
+    block.iter().any(|node| match node {
+        Node::Move(_, step) => {
+            let arguments = [Some(&step.target.text), Some(&step.tool.text)];
+            let optional =
+                [step.via.as_ref().map(|via| &via.text), step.wobj.as_ref().map(|wobj| &wobj.text)];
+            arguments.into_iter().chain(optional).flatten().any(|text| has(text))
+        }
+        Node::Setting(_) => false,
+        Node::Other(skipped) => has(&skipped.text),
+        Node::Branches { parts, .. } => parts.iter().any(|part| mentions(part, word)),
+        Node::Loop { head, body } => has(&head.text) || mentions(body, word),
+    })
+}
