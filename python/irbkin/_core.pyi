@@ -2075,14 +2075,18 @@ class Move(_Record):
     """A move instruction."""
 
     @property
-    def kind(self) -> Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]:
-        """The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
+    def kind(self) -> Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ", "MoveExtJ"]:
+        """How it moves: "MoveJ", "MoveL", "MoveC", "MoveAbsJ", or "MoveExtJ" for external axes
+        only.
+        """
     @property
     def routine(self) -> str | None:
         """The routine that contains it."""
     @property
     def target(self) -> Argument:
-        """The target: an `Argument` with a RobTarget, of MoveAbsJ with a JointTarget."""
+        """The target: an `Argument` with a RobTarget, of MoveAbsJ and MoveExtJ with a
+        JointTarget.
+        """
     @property
     def via(self) -> Argument | None:
         """The point on the circle of a MoveC."""
@@ -2091,7 +2095,9 @@ class Move(_Record):
         """The speed as it is written, such as "v1000"."""
     @property
     def zone(self) -> str:
-        """The zone as it is written, such as "z50"."""
+        """The zone as it is written, such as "z50"; empty for an instruction without one, which
+        meets its target.
+        """
     @property
     def tool(self) -> Argument:
         """The tool: a ToolData."""
@@ -2122,9 +2128,17 @@ class Move(_Record):
     @property
     def settings(self) -> MotionSettings:
         """The settings of ConfL, ConfJ, SingArea and CirPathMode before it."""
+    @property
+    def instruction(self) -> str:
+        """The instruction as it is written, such as "MoveL" or "ArcLStart"."""
+    @property
+    def extra(self) -> tuple[tuple[int, str], ...]:
+        """The other required arguments, of a process: the number of required arguments before
+        each, and its text.
+        """
     def __new__(
         cls,
-        kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"],
+        kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ", "MoveExtJ"],
         routine: str | None,
         target: Argument,
         via: Argument | None,
@@ -2140,6 +2154,8 @@ class Move(_Record):
         zone_data: Argument,
         time: Argument | None,
         settings: MotionSettings,
+        instruction: str,
+        extra: tuple[tuple[int, str], ...],
     ) -> Move: ...
 
 @final
@@ -2353,8 +2369,8 @@ class Module(Mapping[str, Any]):
         """Every declaration, of routines too: a tuple of `Declaration`."""
     @property
     def moves(self) -> tuple[Move, ...]:
-        """MoveJ, MoveL, MoveC and MoveAbsJ in the order of the text, whatever branch or loop
-        they are in.
+        """The instructions that move, MoveL as well as TriggL and ArcL, in the order of the text,
+        whatever branch or loop they are in.
         """
     @property
     def skipped(self) -> tuple[Skipped, ...]:

@@ -64,7 +64,7 @@ pub use self::check::checker::{CheckOptions, Checked, CheckedMove, candidates, c
 pub(crate) use self::data::class;
 pub use self::data::finding::{Code, Edit, Finding};
 pub use self::data::module::{Content, Datum, Module, Routine, RoutineKind, Scope, Storage};
-pub use self::data::moves::{Argument, Move, MoveKind, MoveOption, Target};
+pub use self::data::moves::{Argument, ExtraArgument, Move, MoveKind, MoveOption, Target};
 pub use self::data::records::{
     JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, SpeedData, ToolData, WobjData, ZoneData,
 };

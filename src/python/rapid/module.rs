@@ -93,8 +93,8 @@ impl RapidModule {
         PyTuple::new(py, declarations.collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// MoveJ, MoveL, MoveC and MoveAbsJ in the order of the text, whatever branch or loop they are
-    /// in.
+    /// The instructions that move, MoveL as well as TriggL and ArcL, in the order of the text,
+    /// whatever branch or loop they are in.
     #[getter]
     fn moves<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyTuple>> {
         let moves = self.moves.get_or_try_init(py, || {

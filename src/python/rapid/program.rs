@@ -70,17 +70,19 @@ record! {
     "irbkin.rapid";
     /// A move instruction.
     Move {
-        /// The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ".
+        /// How it moves: "MoveJ", "MoveL", "MoveC", "MoveAbsJ", or "MoveExtJ" for external axes
+        /// only.
         kind: String,
         /// The routine that contains it.
         routine: Option<String>,
-        /// The target: an `Argument` with a RobTarget, of MoveAbsJ with a JointTarget.
+        /// The target: an `Argument` with a RobTarget, of MoveAbsJ and MoveExtJ with a JointTarget.
         target: Py<Argument>,
         /// The point on the circle of a MoveC.
         via: Option<Py<Argument>>,
         /// The speed as it is written, such as "v1000".
         speed: String,
-        /// The zone as it is written, such as "z50".
+        /// The zone as it is written, such as "z50"; empty for an instruction without one, which
+        /// meets its target.
         zone: String,
         /// The tool: a ToolData.
         tool: Py<Argument>,
@@ -102,6 +104,11 @@ record! {
         time: Option<Py<Argument>>,
         /// The settings of ConfL, ConfJ, SingArea and CirPathMode before it.
         settings: Py<MotionSettings>,
+        /// The instruction as it is written, such as "MoveL" or "ArcLStart".
+        instruction: String,
+        /// The other required arguments, of a process: the number of required arguments before
+        /// each, and its text.
+        extra: Py<PyTuple>,
     }
 }
 
@@ -354,6 +361,8 @@ impl Move {
             zone_data: argument(py, &step.zone, &step.zone_data)?,
             time: time.transpose()?,
             settings: Py::new(py, MotionSettings { conf_l, conf_j, sing_area, cir_path_mode })?,
+            instruction: step.instruction.clone(),
+            extra: PyTuple::new(py, step.extra.iter().map(|it| (it.place, &it.text)))?.unbind(),
         })
     }
 }

@@ -15,7 +15,7 @@ use crate::error::{Error, FrameFault};
 use crate::kinematics::{Robot, SingularDistances, Solution};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::{Content, Module};
-use crate::rapid::data::moves::{Argument, Move, Target};
+use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::{JointTarget, RobTarget, ToolData, WobjData};
 use crate::rapid::data::value::Value;
 use crate::report::{Configuration, Explanation};
@@ -44,7 +44,7 @@ pub struct TableRow<const N: usize = 6> {
 ///
 /// Each is solved with its own tool and work object. A `MoveAbsJ` has the joint angles that it
 /// names, or none if one of them exceeds 1E6 degrees, as the 9E9 of an axis that does not exist. A
-/// displaced move has none.
+/// displaced move has none. A move of external axes only has no row.
 ///
 /// # Errors
 ///
@@ -56,7 +56,7 @@ pub fn calc_moves<const N: usize>(
     fallback: Fallback<N>,
 ) -> Result<Vec<TableRow<N>>, Error> {
     let mut table = Table::new(robot, fallback)?;
-    for step in module.moves() {
+    for step in module.moves().iter().filter(|step| step.kind != MoveKind::MoveExtJ) {
         if let Some(via) = &step.via {
             table.add_move(step, via, |via| Ok(*via));
         }

@@ -3,12 +3,14 @@
 use self::Effect::{
     Displaces, EndsDisplacement, Jumps, Leaves, Moves, Offsets, Sets, Stops, Waits, Writes,
 };
+use super::moving::MoveInstruction;
 use super::settings::MotionSettings;
 
 /// The effect of an instruction on the moves of a program.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Effect {
-    /// It moves the robot. So does every instruction whose name continues with another word.
+    /// It moves the robot and is not read. So does every instruction whose name continues with
+    /// another word, or continues the name of a move that only some controllers have.
     Moves,
     /// It writes to a required argument, by its number.
     Writes(usize),
@@ -33,10 +35,8 @@ pub(crate) enum Effect {
 #[rustfmt::skip]
 const INSTRUCTIONS: [(Effect, &[&str]); 14] = [
     (Moves, &[
-        "MoveLDO", "MoveJDO", "MoveCDO", "MoveLAO", "MoveJAO", "MoveCAO", "MoveLGO", "MoveJGO",
-        "MoveCGO", "MoveLSync", "MoveJSync", "MoveCSync", "MoveExtJ", "TriggL", "TriggJ", "TriggC",
-        "TriggAbsJ", "SearchL", "SearchC", "SearchExtJ", "ArcL", "ArcC", "ArcRepL", "SpotL",
-        "SpotJ", "PaintL", "PaintC", "DispL", "DispC", "EGMMove", "EGMRun", "FCPress",
+        "ArcRepL", "ArcAdaptRepL", "EGMMove", "EGMRun", "FCPress", "MovePnP", "PathRecMoveBwd",
+        "PathRecMoveFwd", "StepBwdPath",
     ]),
     (Writes(1), &[
         "Incr", "Decr", "Add", "Clear", "TPReadNum", "TPReadDnum", "TPReadFK", "GetSysData",
@@ -67,6 +67,7 @@ impl Effect {
             _ => name.eq_ignore_ascii_case(instruction),
         };
         INSTRUCTIONS.iter().any(|(effect, names)| *effect == self && names.iter().any(named))
+            || self == Moves && MoveInstruction::optional_names().any(|name| named(&name))
     }
 }
 

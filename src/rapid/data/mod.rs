@@ -7,6 +7,7 @@ pub(crate) mod finding;
 pub(crate) mod instructions;
 pub(crate) mod module;
 pub(crate) mod moves;
+pub(crate) mod moving;
 pub(crate) mod records;
 pub(crate) mod settings;
 pub(crate) mod types;

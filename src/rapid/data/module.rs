@@ -132,6 +132,15 @@ pub struct Routine {
     pub column: usize,
 }
 
+impl Routine {
+    /// Whether only its own module may call it.
+    #[must_use]
+    pub fn is_local(&self) -> bool {
+        let word = Scope::Local.name();
+        self.header.get(..word.len()).is_some_and(|it| it.eq_ignore_ascii_case(word))
+    }
+}
+
 /// The name of a routine by its index, from 1; `None` for 0, the module itself.
 pub(crate) fn routine_name(routines: &[Routine], index: usize) -> Option<String> {
     routines.get(index.checked_sub(1)?).map(|routine| routine.name.clone())

@@ -10,7 +10,7 @@ use super::unread::Reason;
 use crate::rapid::text::words::words;
 
 words! {
-    /// How the robot gets to the target: the name of the instruction.
+    /// How the robot gets to the target: the name of the plain instruction.
     pub enum MoveKind {
         /// Joints, to a pose.
         MoveJ = "MoveJ",
@@ -20,13 +20,8 @@ words! {
         MoveC = "MoveC",
         /// Joints, to joint angles.
         MoveAbsJ = "MoveAbsJ",
-    }
-}
-
-impl MoveKind {
-    /// How many arguments it must have.
-    pub(crate) fn arguments(self) -> usize {
-        if self == Self::MoveC { 5 } else { 4 }
+        /// External axes only, to the external axes of a joint target: the robot stays.
+        MoveExtJ = "MoveExtJ",
     }
 }
 
@@ -46,7 +41,7 @@ pub struct Argument<T> {
 pub enum Target {
     /// A pose.
     RobTarget(RobTarget),
-    /// Joint angles, for `MoveAbsJ`.
+    /// Joint angles, for `MoveAbsJ` and `MoveExtJ`.
     JointTarget(JointTarget),
 }
 
@@ -62,13 +57,24 @@ pub struct MoveOption {
     pub text: Option<String>,
 }
 
+/// A required argument of a process: a signal, trigger data, a seam.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ExtraArgument {
+    /// Number of required arguments before it.
+    pub place: usize,
+    /// Source text.
+    pub text: String,
+}
+
 /// A move instruction.
 ///
 /// Values are taken from the declarations; data that the module assigns have none here.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Move {
-    /// The kind of move.
+    /// How it moves: a line for `MoveL`, and for `MoveLDO`, `SearchL` and `ArcL` too.
     pub kind: MoveKind,
+    /// Name of the instruction, as it is written.
+    pub instruction: String,
     /// The routine that contains it; `None` outside routines.
     pub routine: Option<String>,
     /// Line, from 1; 0 if it was not read from a text.
@@ -81,14 +87,16 @@ pub struct Move {
     pub target: Argument<Target>,
     /// Source text of the speed.
     pub speed: String,
-    /// Source text of the zone.
+    /// Source text of the zone; empty for an instruction without one, which meets its target.
     pub zone: String,
-    /// The tool.
+    /// The tool; `tool0` without a text for an instruction of external axes.
     pub tool: Argument<ToolData>,
     /// The work object of `\WObj:=`; without one, `wobj0`.
     pub wobj: Option<Argument<WobjData>>,
     /// The other optional arguments, in order.
     pub options: Vec<MoveOption>,
+    /// The other required arguments, in order.
+    pub extra: Vec<ExtraArgument>,
     /// Line of the `PDispOn` or `PDispSet` that precedes it in its routine without a `PDispOff` in
     /// between: the robot does not move to `via` and `target` as written. Joint angles are not
     /// displaced.

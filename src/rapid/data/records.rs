@@ -193,6 +193,19 @@ impl WobjData {
     };
 }
 
+impl ZoneData {
+    /// RAPID's `fine`: the robot stops at the target.
+    pub(crate) const FINE: Self = Self {
+        finep: true,
+        pzone_tcp_mm: 0.0,
+        pzone_ori_mm: 0.0,
+        pzone_eax_mm: 0.0,
+        zone_ori_deg: 0.0,
+        zone_leax_mm: 0.0,
+        zone_reax_deg: 0.0,
+    };
+}
+
 impl SpeedData {
     /// RAPID's own speeddata with a speed of the tool center point [mm/s].
     pub(crate) const fn of(v_tcp_mm_s: f64) -> Self {

@@ -6,4 +6,5 @@ pub(crate) mod evaluate;
 pub(crate) mod functions;
 pub(crate) mod names;
 pub(crate) mod reader;
+pub(crate) mod references;
 pub(crate) mod tree;

@@ -14,6 +14,17 @@ pub(crate) struct Expression<'a> {
     pub(crate) form: Form<'a>,
 }
 
+impl<'a> Expression<'a> {
+    /// The name that a reference begins with.
+    pub(crate) fn name(&self) -> Option<&'a str> {
+        match &self.form {
+            Form::Name(name) => Some(name),
+            Form::Reference(reference) => Some(reference.name),
+            _ => None,
+        }
+    }
+}
+
 /// The form of an expression.
 #[derive(Debug)]
 pub(crate) enum Form<'a> {

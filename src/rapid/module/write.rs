@@ -84,6 +84,30 @@ fn write_option(f: &mut fmt::Formatter<'_>, name: &str, text: Option<&str>) -> f
 }
 
 impl Move {
+    /// The texts of the required arguments in order, each with whether it is the tool.
+    fn required(&self) -> Vec<(&str, bool)> {
+        let via = self.via.as_ref().map(|via| (via.text.as_str(), false));
+        let own = [
+            (self.target.text.as_str(), false),
+            (&self.speed, false),
+            (&self.zone, false),
+            (&self.tool.text, true),
+        ];
+        let mut own = via.into_iter().chain(own).filter(|(text, _)| !text.is_empty());
+        let mut extra = self.extra.iter().peekable();
+        let mut required = Vec::with_capacity(self.extra.len() + 5);
+        loop {
+            let next = extra.next_if(|extra| extra.place <= required.len());
+            let next = next.map(|extra| (extra.text.as_str(), false));
+            match next.or_else(|| own.next()) {
+                Some(argument) => required.push(argument),
+                None => break,
+            }
+        }
+        required.extend(extra.map(|extra| (extra.text.as_str(), false)));
+        required
+    }
+
     /// Write the options after a number of required arguments.
     fn write_options(&self, f: &mut fmt::Formatter<'_>, after: usize) -> fmt::Result {
         let mut options = self.options.iter().filter(|option| option.after == after);
@@ -94,22 +118,17 @@ impl Move {
 impl fmt::Display for Move {
     /// The instruction with its semicolon, each argument as it was written.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ", self.kind.name())?;
+        write!(f, "{} ", self.instruction)?;
         self.write_options(f, 0)?;
         if self.options.iter().any(|option| option.after == 0) {
             f.write_str(", ")?;
         }
-        let via = self.via.as_ref().map(|via| via.text.as_str());
-        let required = via.into_iter().chain([
-            self.target.text.as_str(),
-            &self.speed,
-            &self.zone,
-            &self.tool.text,
-        ]);
-        let last = if via.is_some() { 5 } else { 4 };
-        for (i, text) in required.enumerate() {
+        let required = self.required();
+        let of_wobj = required.iter().position(|(_, is_tool)| *is_tool);
+        let of_wobj = of_wobj.unwrap_or(required.len().saturating_sub(1));
+        for (i, (text, _)) in required.iter().enumerate() {
             write!(f, "{}{text}", if i == 0 { "" } else { "," })?;
-            if let (Some(wobj), true) = (&self.wobj, i + 1 == last) {
+            if let (Some(wobj), true) = (&self.wobj, i == of_wobj) {
                 write_option(f, "WObj", Some(&wobj.text))?;
             }
             self.write_options(f, i + 1)?;

@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 use crate::error::{Error, RapidFault, RapidFaultKind, RoutineFault};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Module;
-use crate::rapid::data::moves::Move;
+use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::unread::{NotRead, Skipped};
 use crate::rapid::program::walk::{Step, Stepped};
 
@@ -80,7 +80,12 @@ pub(in crate::rapid) fn items_where(
     let is_here = |routine: &Option<String>| is_wanted(routine.as_deref());
     let moves = module.moves().iter().enumerate();
     let moves = moves.filter(|(_, step)| is_here(&step.routine));
-    let moves = moves.map(|(index, step)| (step.line, step.column, Item::Move(index, step)));
+    let moves = moves.map(|(index, step)| {
+        // The robot stays.
+        let is_external = step.kind == MoveKind::MoveExtJ;
+        let item = if is_external { Item::Setting } else { Item::Move(index, step) };
+        (step.line, step.column, item)
+    });
     let skipped = module.skipped().iter().filter(|skipped| is_here(&skipped.routine));
     let skipped = skipped.map(|it| (it.line, it.column, Item::Skipped(it)));
     let settings = module.settings.iter().filter(|setting| is_here(&setting.routine));

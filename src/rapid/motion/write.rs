@@ -39,6 +39,7 @@ impl RoutineMotion {
             let tool = data.tool(&step.tool);
             moves.push(Move {
                 kind: MoveKind::MoveAbsJ,
+                instruction: MoveKind::MoveAbsJ.name().to_string(),
                 routine: Some(routine.clone()),
                 line: 0,
                 column: 0,
@@ -53,6 +54,7 @@ impl RoutineMotion {
                 tool,
                 wobj: step.wobj.as_ref().map(|wobj| data.wobj(wobj)),
                 options: time(step).into_iter().collect(),
+                extra: Vec::new(),
                 displaced: None,
                 speed_data: step.speed_data.clone(),
                 zone_data: step.zone_data.clone(),

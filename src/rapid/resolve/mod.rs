@@ -6,6 +6,7 @@ mod resolver;
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::cell::RefCell;
 use core::ops::Range;
 
 use self::resolver::{Causes, Resolver};
@@ -26,7 +27,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         declared,
         contents,
         mut moves,
-        skipped,
+        mut skipped,
         settings,
         assignments,
         scopes,
@@ -43,12 +44,12 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         context,
         contents,
         causes,
+        routines_elsewhere: RefCell::default(),
     };
     resolver.resolve_all()?;
-    let mut resolved_moves = Vec::with_capacity(moves.len());
-    for step in &mut moves {
-        resolved_moves.extend(resolver.step(step, &routines)?);
-    }
+    let (moves, not_moves) = resolver.moves(&mut moves, &routines)?;
+    skipped.extend(not_moves);
+    resolver.tell_calls(&mut skipped);
     let Resolver { contents, causes, .. } = resolver;
     let mut all = ResolvedData { skipped, ..ResolvedData::default() };
     all.data.reserve_exact(declared.len());
@@ -69,7 +70,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         attributes,
         routines,
         data,
-        moves: resolved_moves,
+        moves,
         skipped,
         settings,
         index,

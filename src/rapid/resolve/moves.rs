@@ -1,14 +1,16 @@
 //! Moves with the values of their arguments.
 
 use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 
 use super::resolver::Resolver;
 use crate::error::RapidFault;
 use crate::rapid::data::module::{Routine, routine_name};
-use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
-use crate::rapid::data::records::{SpeedData, ZoneData};
+use crate::rapid::data::moves::{Argument, ExtraArgument, Move, MoveKind, Target};
+use crate::rapid::data::moving::Places;
+use crate::rapid::data::records::{SpeedData, ToolData, ZoneData};
 use crate::rapid::data::types::Record;
-use crate::rapid::data::unread::Reason;
+use crate::rapid::data::unread::{NotRead, Reason, Skipped};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::tree::Expression;
 use crate::rapid::statements::moves::{Replacement, WrittenMove};
@@ -35,7 +37,7 @@ impl<'a> Resolver<'a> {
             text: self.text,
             names: self,
             at: step.at,
-            thing: (step.kind.name(), role),
+            thing: (step.instruction.name, role),
             constant: false,
             at_move: true,
         }
@@ -57,75 +59,162 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The speed with `\V`, and the zone with `\Z`.
-    fn speed_and_zone(
+    /// The speed with `\V`.
+    fn speed(
         &self,
         step: &WrittenMove<'a>,
-        [speed, zone]: [&Expression<'a>; 2],
-    ) -> Result<(Known<SpeedData>, Known<ZoneData>), RapidFault> {
-        let mut speed = known(self.evaluator(step, "speed").record(speed))?;
-        if let Some(velocity) = self.option(step, "\\V", step.overrides.velocity.as_ref())? {
-            speed = speed
-                .and_then(|speed| velocity.map(|v_tcp_mm_s| SpeedData { v_tcp_mm_s, ..speed }));
-        }
-        let mut zone = known(self.evaluator(step, "zone").record(zone))?;
-        if let Some(radius) = self.option(step, "\\Z", step.overrides.zone.as_ref())? {
-            zone =
-                zone.and_then(|zone| radius.map(|pzone_tcp_mm| ZoneData { pzone_tcp_mm, ..zone }));
-        }
-        Ok((speed, zone))
+        speed: &Expression<'a>,
+    ) -> Result<Known<SpeedData>, RapidFault> {
+        let speed: Known<SpeedData> = known(self.evaluator(step, "speed").record(speed))?;
+        let velocity = self.option(step, "\\V", step.overrides.velocity.as_ref())?;
+        Ok(match velocity {
+            None => speed,
+            Some(velocity) => {
+                speed.and_then(|speed| velocity.map(|v_tcp_mm_s| SpeedData { v_tcp_mm_s, ..speed }))
+            }
+        })
+    }
+
+    /// The zone with `\Z`; without one the target is met.
+    fn zone(
+        &self,
+        step: &WrittenMove<'a>,
+        zone: Option<&Expression<'a>>,
+    ) -> Result<Known<ZoneData>, RapidFault> {
+        let zone: Known<ZoneData> = match zone {
+            None => Ok(ZoneData::FINE),
+            Some(zone) => known(self.evaluator(step, "zone").record(zone))?,
+        };
+        let radius = self.option(step, "\\Z", step.overrides.zone.as_ref())?;
+        Ok(match radius {
+            None => zone,
+            Some(radius) => {
+                zone.and_then(|zone| radius.map(|pzone_tcp_mm| ZoneData { pzone_tcp_mm, ..zone }))
+            }
+        })
     }
 
     fn source(&self, expression: &Expression<'_>) -> String {
         self.text.get(expression.start..expression.end).unwrap_or_default().to_string()
     }
 
-    /// A move with the values of its arguments; `None` if their number is wrong.
-    pub(super) fn step(
+    /// The places of the arguments of a move; `None` if they are of another instruction.
+    fn places(&self, step: &WrittenMove<'a>) -> Option<Places> {
+        let evaluator = self.evaluator(step, "");
+        let of_basic = |_: &Expression<'a>| None;
+        let of_other = |argument: &Expression<'a>| evaluator.type_name(argument);
+        let required = step.required.iter();
+        let types: Vec<Option<String>> = if step.instruction.is_basic() {
+            required.map(of_basic).collect()
+        } else {
+            required.map(of_other).collect()
+        };
+        let types: Vec<Option<&str>> = types.iter().map(Option::as_deref).collect();
+        step.instruction.places(&types)
+    }
+
+    /// The moves with the values of their arguments, and the others: calls of routines that have
+    /// the name of an instruction, and instructions with arguments of another form.
+    pub(super) fn moves(
+        &self,
+        written: &mut [WrittenMove<'a>],
+        routines: &[Routine],
+    ) -> Result<(Vec<Move>, Vec<Skipped>), RapidFault> {
+        let mut moves = Vec::with_capacity(written.len());
+        let mut others = Vec::new();
+        for step in written {
+            let made = if self.is_call(step) { None } else { self.step(step, routines)? };
+            match made {
+                Some(made) => moves.push(made),
+                None => others.push(Skipped {
+                    line: step.line,
+                    column: step.column,
+                    routine: routine_name(routines, step.at.routine),
+                    what: NotRead::Motion { name: self.instruction(step) },
+                    text: self.text[step.start..step.end].to_string(),
+                }),
+            }
+        }
+        Ok((moves, others))
+    }
+
+    /// Whether a move is a call of a routine that has the name of an instruction.
+    fn is_call(&self, step: &WrittenMove<'a>) -> bool {
+        !step.instruction.is_basic() && self.is_routine(step.instruction.name)
+    }
+
+    /// The name of the instruction, as it is written.
+    fn instruction(&self, step: &WrittenMove<'a>) -> String {
+        let name = step.start..step.start + step.instruction.name.len();
+        self.text.get(name).unwrap_or_default().to_string()
+    }
+
+    /// Name the calls of routines among the instructions that move and are not read.
+    pub(super) fn tell_calls(&self, skipped: &mut [Skipped]) {
+        for part in skipped {
+            if let NotRead::Motion { name } = &part.what
+                && self.is_routine(name)
+            {
+                part.what = NotRead::Instruction { name: name.clone() };
+            }
+        }
+    }
+
+    /// A move with the values of its arguments; `None` if they are of another instruction.
+    fn step(
         &self,
         written: &mut WrittenMove<'a>,
         routines: &[Routine],
     ) -> Result<Option<Move>, RapidFault> {
+        let Some(places) = self.places(written) else { return Ok(None) };
         let options = core::mem::take(&mut written.options);
         let step = &*written;
-        let (via, rest) = match (step.kind, step.required.split_first()) {
-            (MoveKind::MoveC, Some((via, rest))) => {
-                (Some(self.argument(step, "circle point", via)?), rest)
-            }
-            _ => (None, step.required.as_slice()),
-        };
-        let [target, speed, zone, tool] = rest else { return Ok(None) };
-        let target = if step.kind == MoveKind::MoveAbsJ {
+        let Places { via, target, speed, zone, tool } = places;
+        let [target, speed] = [target, speed].map(|place| step.required.get(place));
+        let (Some(target), Some(speed)) = (target, speed) else { return Ok(None) };
+        let [via, zone, tool] = [via, zone, tool].map(|place| step.required.get(place?));
+        let way = step.instruction.way;
+        let target = if matches!(way, MoveKind::MoveAbsJ | MoveKind::MoveExtJ) {
             let Argument { text, span, value } = self.argument(step, "target", target)?;
             Argument { text, span, value: value.map(Target::JointTarget) }
         } else {
             let Argument { text, span, value } = self.argument(step, "target", target)?;
             Argument { text, span, value: value.map(Target::RobTarget) }
         };
-        let (speed_data, zone_data) = self.speed_and_zone(step, [speed, zone])?;
-        let time = self.option(step, "\\T", step.overrides.time.as_ref())?;
+        let no_tool = Argument { text: String::new(), span: 0..0, value: Ok(ToolData::TOOL0) };
+        let wobj = step.wobj.as_ref().map(|wobj| self.argument(step, "work object", wobj));
         Ok(Some(Move {
-            kind: step.kind,
+            kind: way,
+            instruction: self.instruction(step),
             routine: routine_name(routines, step.at.routine),
             line: step.line,
             column: step.column,
-            via,
+            via: via.map(|via| self.argument(step, "circle point", via)).transpose()?,
             target,
             speed: self.source(speed),
-            zone: self.source(zone),
-            tool: self.argument(step, "tool", tool)?,
-            wobj: step
-                .wobj
-                .as_ref()
-                .map(|wobj| self.argument(step, "work object", wobj))
-                .transpose()?,
+            zone: zone.map(|zone| self.source(zone)).unwrap_or_default(),
+            tool: match tool {
+                Some(tool) => self.argument(step, "tool", tool)?,
+                None => no_tool,
+            },
+            wobj: wobj.transpose()?,
             options,
+            extra: self.extra(step, places),
             displaced: step.displaced,
-            speed_data,
-            zone_data,
-            time,
+            speed_data: self.speed(step, speed)?,
+            zone_data: self.zone(step, zone)?,
+            time: self.option(step, "\\T", step.overrides.time.as_ref())?,
             settings: step.settings,
         }))
+    }
+
+    /// The required arguments that are at none of the places.
+    fn extra(&self, step: &WrittenMove<'a>, places: Places) -> Vec<ExtraArgument> {
+        let Places { via, target, speed, zone, tool } = places;
+        let own = [via, Some(target), Some(speed), zone, tool];
+        let all = step.required.iter().enumerate();
+        let extra = all.filter(|(place, _)| !own.contains(&Some(*place)));
+        extra.map(|(place, it)| ExtraArgument { place, text: self.source(it) }).collect()
     }
 }
 

@@ -5,6 +5,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::cell::RefCell;
 
 use crate::error::{Names as NamesOf, RapidFault, RapidFaultKind};
 use crate::rapid::data::module::{Datum, Module, Scope, Storage};
@@ -28,6 +29,8 @@ pub(super) struct Resolver<'a> {
     pub(super) contents: Vec<Result<Placed, Reason>>,
     /// Why data are unknown where the program moves.
     pub(super) causes: Causes<'a>,
+    /// Whether another module has a routine of a name in lower case, if that was asked before.
+    pub(super) routines_elsewhere: RefCell<BTreeMap<String, bool>>,
 }
 
 impl Names for Resolver<'_> {
@@ -53,6 +56,20 @@ impl Names for Resolver<'_> {
 }
 
 impl Resolver<'_> {
+    /// Whether a routine has a name.
+    pub(super) fn is_routine(&self, name: &str) -> bool {
+        let lower = lower(name);
+        let own = self.scopes.find(0, &lower);
+        if own.is_some() {
+            return matches!(own, Some(Named::Other(Unresolved::Routine)));
+        }
+        let mut asked = self.routines_elsewhere.borrow_mut();
+        *asked.entry(lower.into_owned()).or_insert_with(|| {
+            let mut routines = self.context.iter().flat_map(|module| module.routines());
+            routines.any(|it| it.name.eq_ignore_ascii_case(name) && !it.is_local())
+        })
+    }
+
     /// A datum of the module.
     fn datum(&self, index: usize) -> Found<'_> {
         let (Some(declared), Some(Ok(Placed { content, .. }))) =

@@ -4,19 +4,23 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use crate::error::{RapidFault, RapidFaultKind};
-use crate::rapid::data::moves::{MoveKind, MoveOption};
+use crate::rapid::data::moves::MoveOption;
+use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::expression::names::At;
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::Expression;
 use crate::rapid::text::tokens::Tokens;
 
-/// Most required arguments of a move.
-const MOST_ARGUMENTS: usize = 5;
+/// Initial capacity for the required arguments: most moves have four or five.
+const USUAL_ARGUMENTS: usize = 5;
 
 /// A move before its names are looked up.
 pub(crate) struct WrittenMove<'a> {
-    pub(crate) kind: MoveKind,
+    pub(crate) instruction: &'static MoveInstruction,
+    /// Bytes of the statement with its semicolon.
+    pub(crate) start: usize,
+    pub(crate) end: usize,
     pub(crate) at: At,
     pub(crate) line: usize,
     pub(crate) column: usize,
@@ -60,12 +64,12 @@ impl<'a> Overrides<'a> {
 /// already read. `None` for an unfinished one.
 pub(crate) fn read_move<'a>(
     tokens: &mut Tokens<'a>,
-    kind: MoveKind,
+    instruction: &'static MoveInstruction,
     start: usize,
 ) -> Result<Option<WrittenMove<'a>>, RapidFault> {
     let (line, column) = tokens.line_and_column(start);
     let (mut required, mut options, mut wobj): (Vec<Expression<'a>>, Vec<MoveOption>, _) =
-        (Vec::with_capacity(MOST_ARGUMENTS), Vec::new(), None);
+        (Vec::with_capacity(USUAL_ARGUMENTS), Vec::new(), None);
     let mut overrides = Overrides::default();
     loop {
         // A comma may precede an optional argument too.
@@ -101,16 +105,18 @@ pub(crate) fn read_move<'a>(
     if tokens.unfinished_since(start) {
         return Ok(None);
     }
-    if required.len() != kind.arguments() {
+    if instruction.is_basic() && required.len() != instruction.arguments() {
         let kind = RapidFaultKind::ArgumentCount {
-            instruction: kind.name(),
+            instruction: instruction.name,
             found: required.len(),
-            wanted: kind.arguments(),
+            wanted: instruction.arguments(),
         };
         return Err(tokens.fault(start, kind));
     }
     Ok(Some(WrittenMove {
-        kind,
+        instruction,
+        start,
+        end: tokens.last_end,
         at: At::default(),
         line,
         column,

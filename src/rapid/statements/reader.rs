@@ -224,7 +224,7 @@ pub(crate) struct DisplacedBy {
 
 impl DisplacedBy {
     pub(crate) fn line(self, kind: MoveKind) -> Option<usize> {
-        self.line.filter(|_| kind != MoveKind::MoveAbsJ)
+        self.line.filter(|_| !matches!(kind, MoveKind::MoveAbsJ | MoveKind::MoveExtJ))
     }
 
     /// Record an instruction on a line.

@@ -7,11 +7,13 @@ use alloc::string::{String, ToString};
 use super::blocks::is_flow;
 use super::declarations::{Declaration, read_declaration, read_name, storage_at};
 use super::moves::{WrittenMove, read_move};
-use super::reader::{Named, Stage, StatementReader, Written, is_placeholder};
+use super::reader::{Assignment, Named, Stage, StatementReader, Written, is_placeholder};
 use crate::error::{RapidFault, RapidFaultKind};
+use crate::rapid::data::instructions::written_argument;
 use crate::rapid::data::module::{Routine, RoutineKind, Scope};
-use crate::rapid::data::moves::MoveKind;
+use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::unread::{NotRead, Unresolved};
+use crate::rapid::expression::tree::Expression;
 use crate::rapid::text::tokens::{Token, TokenKind};
 use crate::rapid::text::words::Capitals;
 
@@ -72,9 +74,9 @@ impl<'a> StatementReader<'a> {
             "ENDTRAP" => self.end_routine(RoutineKind::Trap),
             "RECORD" => self.record(token),
             "ALIAS" => self.alias(token),
-            _ => match MoveKind::named(word) {
-                Some(kind) => self.move_instruction(kind, token),
-                None if is_flow(word) => self.flow(word, token),
+            _ if is_flow(word) => self.flow(word, token),
+            _ => match MoveInstruction::named(self.tokens.text_of(token)) {
+                Some(instruction) => self.move_instruction(instruction, token),
                 None => self.other(token),
             },
         }
@@ -200,13 +202,27 @@ impl<'a> StatementReader<'a> {
         Ok(())
     }
 
-    fn move_instruction(&mut self, kind: MoveKind, token: Token) -> Result<(), RapidFault> {
+    fn move_instruction(
+        &mut self,
+        instruction: &'static MoveInstruction,
+        token: Token,
+    ) -> Result<(), RapidFault> {
         self.tokens.take()?;
-        let Some(step) = read_move(&mut self.tokens, kind, token.start)? else {
+        let next = self.tokens.peek();
+        // A label or a datum may have the name of an instruction that only some controllers have.
+        let is_other = next.kind == TokenKind::Assign || b":.{".iter().any(|it| next.is(*it));
+        if is_other && !instruction.is_basic() {
+            return self.rest_of_other(token);
+        }
+        let Some(step) = read_move(&mut self.tokens, instruction, token.start)? else {
             self.skip_unfinished(token);
             return Ok(());
         };
-        let (at, displaced) = (self.at(), self.displaced_by.line(kind));
+        let (at, displaced) = (self.at(), self.displaced_by.line(instruction.way));
+        let written = written_argument(instruction.name).and_then(|it| step.required.get(it - 1));
+        if let Some(name) = written.and_then(Expression::name) {
+            self.written.assignments.push(Assignment { at, name, line: step.line });
+        }
         let settings = self.settings;
         self.written.moves.push(WrittenMove { at, displaced, settings, ..step });
         Ok(())

@@ -80,7 +80,7 @@ fn each_fault_has_its_code() {
         ("MoveJ [[900,0,500],[0,0,2,0],[0,0,0,0],[0,0,0,0,0,0]],v5,fine,t;", Code::InvalidFrame),
         ("MoveJ a,[0,500,1,1],fine,t;", Code::InvalidNumber),
         ("MoveJ *,v100,fine,t;", Code::UnknownValue),
-        ("MoveJ a,v100,fine,t; TriggL b,v100,x,fine,t;", Code::NotFollowed),
+        ("MoveJ a,v100,fine,t; ArcRepL b,v100,x,fine,t;", Code::NotFollowed),
     ] {
         let moves = moves.replace("v9,", "v100,");
         assert_eq!(codes(&moves), [wanted], "{moves}");

@@ -128,8 +128,8 @@ fn moves_that_cannot_be_resolved_report_the_reason() {
     let module = read(
         "MODULE M VAR robtarget q; PROC go(robtarget r, \\num T)
          MoveL *, v100, z10, tGripper\\WObj:=wTable;
-         MoveL r, v100\\T?T, z10, tool0; MoveL q, v100, z10, tool0\\WObj ?w; MoveJDO q, v1, fine, \
-             tool0, do1, 1; ENDPROC ENDMODULE",
+         MoveL r, v100\\T?T, z10, tool0; MoveL q, v100, z10, tool0\\WObj ?w; ArcRepL 5, q, v1; \
+             ENDPROC ENDMODULE",
     );
     let [taught, parameter, empty] = module.moves() else { panic!() };
     assert_eq!(
@@ -148,7 +148,7 @@ fn moves_that_cannot_be_resolved_report_the_reason() {
         words(&empty.wobj.as_ref().unwrap().value),
         "it depends on whether an optional argument is there"
     );
-    assert_eq!(not_read(&module), ["MoveJDO moves the robot, but is not read"]);
+    assert_eq!(not_read(&module), ["ArcRepL moves the robot, but is not read"]);
     again(&module, &[]);
 }
 
@@ -158,4 +158,67 @@ fn moves_without_a_module_are_read() {
     assert_eq!(module.moves()[0].routine, None);
     assert!(module.moves()[0].target.value.is_ok());
     again(&module, &[]);
+}
+
+#[test]
+fn moves_with_a_process_are_read() {
+    let steps = [
+        r"MoveLDO p,v100,z10,tool0\WObj:=w,do1,1;",
+        r"movejao \Conc, p,v100,z10,tool0,ao1,2.5;",
+        r"TriggL p,v100,trigg\T2:=trigg,z10,tool0\WObj:=w;",
+        r"SearchL \Stop, di1\PosFlank,found,p,v100,tool0\WObj:=w;",
+        r"SearchC di1,found,p,p,v100,tool0;",
+        r"ArcLStart p,v100,sm,wd\Weave:=wv,fine,tool0\WObj:=w;",
+        r"ArcC p,p,v100,sm,wd,z1,tool0;",
+        r"SpotL p,vmax,gun1,spot1,tool0;",
+        r"SpotL p,vmax,gun1,spot1,z1,tool0;",
+        r"EGMMoveL egm,p,v10,fine,tool0\WObj:=w;",
+        r"FCPress1LStart p,v50\Fz:=20,15,z5,tool0\WObj:=w;",
+        r"MoveExtJ j,v100,fine;",
+        r"TriggLIOs p,v100\TriggData1:=ios,z50,tool0;",
+    ];
+    let data = "VAR triggdata trigg; PERS seamdata sm:=[1]; VAR robtarget found;";
+    let module = module(&format!("{data} {}", steps.concat()));
+    assert_eq!(
+        not_read(&module),
+        ["trigg: type triggdata is not read", "sm: type seamdata is not read"]
+    );
+    let written = module.moves().iter().map(ToString::to_string).collect::<Vec<_>>();
+    assert_eq!(written, steps);
+    let kinds: Vec<_> = module.moves().iter().map(|it| it.kind.name()).collect();
+    assert_eq!(kinds.join(" ").replace("Move", ""), "L J L L C L C L L L L ExtJ L");
+    for step in module.moves() {
+        assert_eq!(words(&step.target.value) + &words(&step.tool.value), "", "{step}");
+        assert_eq!(words(&step.speed_data) + &words(&step.zone_data), "", "{step}");
+    }
+    let finish = |index: usize| module.moves()[index].zone_data.as_ref().unwrap().finep;
+    assert!([3, 4, 7].into_iter().all(finish) && ![0, 8].into_iter().any(finish));
+    let search = &module.moves()[3];
+    let extra: Vec<_> = search.extra.iter().map(|it| (it.place, it.text.as_str())).collect();
+    assert_eq!(
+        (search.instruction.as_str(), extra),
+        ("SearchL", [(0, "di1"), (1, "found")].into())
+    );
+    again(&module, &[]);
+}
+
+#[test]
+fn routines_with_the_name_of_an_instruction_are_called() {
+    let own = "MODULE M PROC main() ArcL p,v1,z1; ArcRepL 1; SearchL 1; ENDPROC
+         PROC arcl(robtarget a,speeddata b,zonedata c) ENDPROC PROC ArcRepL(num n) ENDPROC ENDMODULE";
+    let expected = [
+        "ArcL is not an instruction that is read",
+        "ArcRepL is not an instruction that is read",
+        "SearchL moves the robot, but is not read",
+    ];
+    assert_eq!(not_read(&again(&read(own), &[])), expected);
+    let other =
+        read("MODULE N PROC SpotL(num a) ENDPROC LOCAL PROC SpotJ(num a) ENDPROC ENDMODULE");
+    let module = parse("SpotL 1; SpotJ 1;", &[&other]).unwrap();
+    assert_eq!(
+        not_read(&module),
+        ["SpotL is not an instruction that is read", "SpotJ moves the robot, but is not read"]
+    );
+    let labels = read("PROC a() ArcL: PaintL:=1; DispL{2}:=1; ENDPROC");
+    assert_eq!(labels.skipped().len(), 3);
 }
