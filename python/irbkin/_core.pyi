@@ -2291,6 +2291,21 @@ class Skipped(_Record):
     ) -> Skipped: ...
 
 @final
+class TextFault(_Record):
+    """What is wrong with a text that was read in spite of that. `str` has the place, too."""
+
+    @property
+    def line(self) -> int:
+        """Line of the text, from 1."""
+    @property
+    def column(self) -> int:
+        """Column of the text, from 1."""
+    @property
+    def message(self) -> str:
+        """What is wrong, without the place."""
+    def __new__(cls, line: int, column: int, message: str) -> TextFault: ...
+
+@final
 class TargetTable(_Record):
     """The joint angles of m targets."""
 
@@ -2375,6 +2390,11 @@ class Module(Mapping[str, Any]):
     @property
     def skipped(self) -> tuple[Skipped, ...]:
         """The parts that were not read, in the order of the text: a tuple of `Skipped`."""
+    @property
+    def faults(self) -> tuple[TextFault, ...]:
+        """What is wrong with the text, in the order of the text: a tuple of `TextFault`, which is
+        empty for modules of `parse` and `load`; those of `load_program` may have faults.
+        """
     def rewritten(self, values: Mapping[str, Any]) -> str:
         """Return the source with other values for some data; everything else, comments included,
         stays as it is, character for character.
@@ -2427,6 +2447,14 @@ def parse(text: str | bytes, context: Iterable[Module] | None = None) -> Any:
 
 def parse_module(text: str | bytes, context: Iterable[Module] | None = None) -> Module:
     """Parse a RAPID module, as `parse`; a record is refused."""
+
+def read_module(content: str | bytes, context: Iterable[Module] | None = None) -> Module:
+    """Read a RAPID module in spite of its faults, which are `Module.faults`.
+
+    Args:
+        content: RAPID text, or the bytes of a file, as for `parse`.
+        context: Modules in which names that the text does not declare are looked for.
+    """
 
 def dump(value: Any, name: str = "Data") -> str:
     """Return the RAPID text of a record, of a module, or of a mapping of names to values.

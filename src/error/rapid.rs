@@ -55,8 +55,20 @@ pub enum RapidFaultKind {
     Unexpected { found: String, wanted: &'static str },
     #[error("the text ends inside {inside}: {missing} is missing")]
     UnexpectedEnd { inside: String, missing: &'static str },
-    #[error("{} has {}, it must have {wanted}", Part(.thing, .part), Count(*.found, "component"))]
-    ComponentCount { thing: String, part: String, found: usize, wanted: usize },
+    /// `missing`: the component that is missing, or empty.
+    #[error(
+        "{} has {}, it must have {wanted}{}",
+        Part(.thing, .part),
+        Count(*.found, "component"),
+        Lacking(.missing)
+    )]
+    ComponentCount {
+        thing: String,
+        part: String,
+        found: usize,
+        wanted: usize,
+        missing: &'static str,
+    },
     #[error("{} is {found}, it must be {wanted}", Part(.thing, .part))]
     ComponentType { thing: String, part: String, found: String, wanted: &'static str },
     #[error("{} is {value}, it must be a whole number", Part(.thing, .part))]
@@ -93,6 +105,10 @@ pub enum RapidFaultKind {
     TooDeep { bound: usize },
     #[error("a second module begins, a text must hold one")]
     SecondModule,
+    #[error("a git conflict is not resolved: the text has both sides")]
+    ConflictMarker,
+    #[error("an encoded module, which is not text, is not read")]
+    Encoded,
     #[error("{instruction} has {}, it must have {wanted}", Count(*.found, "argument"))]
     ArgumentCount { instruction: &'static str, found: usize, wanted: usize },
     #[error("{name:?} is not a RAPID identifier (a letter, then letters, digits, _)")]
@@ -171,6 +187,15 @@ impl fmt::Display for Part<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.0)?;
         if self.1.is_empty() { Ok(()) } else { write!(f, ": {}", self.1) }
+    }
+}
+
+/// ": x is missing", or nothing.
+struct Lacking<'a>(&'a str);
+
+impl fmt::Display for Lacking<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_empty() { Ok(()) } else { write!(f, ": {} is missing", self.0) }
     }
 }
 

@@ -203,7 +203,7 @@ fn messages_of_rapid() {
     let fault = |kind| RapidFault::nowhere(kind).into();
     let count = |part: &str, found| {
         let (thing, part) = (thing.clone(), part.into());
-        fault(Kind::ComponentCount { thing, part, found, wanted: 4 })
+        fault(Kind::ComponentCount { thing, part, found, wanted: 4, missing: "" })
     };
     let indices = |found, wanted| fault(Kind::IndexCount { text: "p{1}".into(), found, wanted });
     check(&[

@@ -72,7 +72,7 @@ pub use self::data::settings::{CirPathMode, MotionSettings, SingArea};
 pub use self::data::unread::Skipped;
 pub use self::data::value::{DataType, Value};
 pub use self::expression::reader::DEEPEST_NESTING;
-pub use self::module::read::{decode, parse, parse_record};
+pub use self::module::read::{decode, parse, parse_record, read};
 pub use self::module::write::{NewValue, rewrite};
 pub use self::motion::drive::MotionOptions;
 pub use self::motion::routine::{MotionMove, RoutineMotion, motion};

@@ -15,7 +15,7 @@ use pyo3::types::PyMapping;
 use self::module::RapidModule;
 use self::program::{
     Argument, Checked, CheckedMove, Declaration, Finding, MotionMove, MotionSettings, Move,
-    Skipped, TargetTable,
+    Skipped, TargetTable, TextFault,
 };
 use self::routine_motion::PyRoutineMotion;
 use crate::rapid::{
@@ -27,10 +27,10 @@ pub(super) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("NOT_THERE", NOT_THERE)?;
     add!(module: classes [
         RobTarget, JointTarget, ToolData, WobjData, RapidPose, LoadData, SpeedData, ZoneData,
-        Declaration, Argument, MotionSettings, Move, MotionMove, Finding, Skipped, TargetTable,
-        RapidModule, PyRoutineMotion, Checked, CheckedMove,
+        Declaration, Argument, MotionSettings, Move, MotionMove, Finding, Skipped, TextFault,
+        TargetTable, RapidModule, PyRoutineMotion, Checked, CheckedMove,
     ], functions [
-        text::parse, text::parse_module, text::dump, calc::calc_joint_t, calc::calc_rob_t,
+        text::parse, text::parse_module, text::read_module, text::dump, calc::calc_joint_t, calc::calc_rob_t,
         calc::calc_moves, calc::calc_targets, routine_motion::motion, checks::check,
         checks::check_program, checks::check_codes,
     ]);

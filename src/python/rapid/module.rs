@@ -5,7 +5,7 @@ use pyo3::pybacked::PyBackedStr;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyIterator, PyMappingProxy, PyTuple};
 
-use super::program::{Declaration, Move, Skipped};
+use super::program::{Declaration, Move, Skipped, TextFault};
 use super::values::{content, read_content};
 use crate::python::errors::{Fault, raised};
 use crate::rapid::{self, Content, Datum, Module, NewValue};
@@ -110,6 +110,13 @@ impl RapidModule {
         PyTuple::new(py, self.module.skipped().iter().map(Skipped::from))
     }
 
+    /// What is wrong with the text, in the order of the text: a tuple of `TextFault`, which is empty
+    /// for modules of `parse` and `load`; those of `load_program` may have faults.
+    #[getter]
+    fn faults<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.module.faults().iter().map(TextFault::from))
+    }
+
     /// Return the source with other values for some data; everything else, comments included, stays
     /// as it is, character for character.
     ///
@@ -198,7 +205,9 @@ impl RapidModule {
     /// The text and the context are read again.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Source<'_, 'py>)> {
         let context = PyTuple::new(py, &self.context)?;
-        Ok((py.import("irbkin._core")?.getattr("parse_module")?, (&self.source, context)))
+        let is_sound = self.module.faults().is_empty();
+        let reader = if is_sound { "parse_module" } else { "read_module" };
+        Ok((py.import("irbkin._core")?.getattr(reader)?, (&self.source, context)))
     }
 
     /// The module as RAPID text, as `dump` writes it.

@@ -223,6 +223,19 @@ record! {
 
 record! {
     "irbkin.rapid";
+    /// What is wrong with a text that was read in spite of that. `str` has the place, too.
+    TextFault {
+        /// Line of the text, from 1.
+        line: usize,
+        /// Column of the text, from 1.
+        column: usize,
+        /// What is wrong, without the place.
+        message: String,
+    }
+}
+
+record! {
+    "irbkin.rapid";
     /// The joint angles of m targets.
     TargetTable {
         /// The instruction of each target, or "robtarget".
@@ -288,6 +301,20 @@ impl CheckedMove {
         let rapid::CheckedMove { module, line, column, routine, target, q, is_checked } = step;
         let q = q.map(|q| column_of(py, q));
         Self { module, line, column, routine, target, q, is_checked }
+    }
+}
+
+#[pymethods]
+impl TextFault {
+    fn __str__(&self) -> String {
+        format!("line {}, column {}: {}", self.line, self.column, self.message)
+    }
+}
+
+impl From<&rapid::RapidFault> for TextFault {
+    fn from(fault: &rapid::RapidFault) -> Self {
+        let (line, column) = (fault.line, fault.column);
+        Self { line, column, message: fault.kind.to_string() }
     }
 }
 

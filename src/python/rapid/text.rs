@@ -5,6 +5,7 @@ use pyo3::types::{PyBytes, PyMapping};
 
 use super::module::RapidModule;
 use super::values::{Elements, read_content, record};
+use crate::error::Error;
 use crate::python::errors::Fault;
 use crate::rapid::{self, Content, Datum, Module, Storage, Value};
 
@@ -103,6 +104,21 @@ pub(crate) fn parse_module(
     module_of(text.py(), decoded(text)?, context)
 }
 
+/// Read a RAPID module in spite of its faults, which are `Module.faults`.
+///
+/// Args:
+///     content: RAPID text, or the bytes of a file, as for `parse`.
+///     context: Modules in which names that the text does not declare are looked for.
+#[pyfunction]
+#[pyo3(signature = (content, context=None))]
+pub(crate) fn read_module(
+    content: &Bound<'_, PyAny>,
+    context: Option<&Bound<'_, PyAny>>,
+) -> PyResult<RapidModule> {
+    let source = decoded(content)?;
+    with_context(content.py(), source, context, |source, context| Ok(rapid::read(source, context)))
+}
+
 fn module_of(
     py: Python<'_>,
     source: String,
@@ -113,6 +129,16 @@ fn module_of(
             "{source:?} is a path, parse takes the text of a module: use load"
         )));
     }
+    with_context(py, source, context, rapid::parse)
+}
+
+/// The module that `read` makes of a text and of the modules of its context.
+fn with_context(
+    py: Python<'_>,
+    source: String,
+    context: Option<&Bound<'_, PyAny>>,
+    read: fn(&str, &[&Module]) -> Result<Module, Error>,
+) -> PyResult<RapidModule> {
     let mut others = Vec::new();
     if let Some(context) = context {
         for other in context.try_iter()? {
@@ -120,7 +146,7 @@ fn module_of(
         }
     }
     let context: Vec<&Module> = others.iter().map(|other| &other.get().module).collect();
-    let module = py.detach(|| rapid::parse(&source, &context))?;
+    let module = py.detach(|| read(&source, &context))?;
     let context = others.into_iter().map(Bound::unbind).collect();
     Ok(RapidModule::new(module, source, context))
 }

@@ -91,11 +91,7 @@ impl Zones<'_, '_> {
     fn close(&self, index: usize) -> Option<Finding> {
         let goal = &self.goals[index];
         let before = self.goals.get(index.checked_sub(1)?)?;
-        if !goal.is_cartesian()
-            || goal.from_unknown
-            || goal.is_carried
-            || before.zone.is_none()
-        {
+        if !goal.is_cartesian() || goal.from_unknown || goal.is_carried || before.zone.is_none() {
             return None;
         }
         let (start, end) = (self.tool(index - 1, goal)?, self.tool(index, goal)?);

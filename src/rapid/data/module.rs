@@ -9,6 +9,7 @@ use super::moves::Move;
 use super::settings::Setting;
 use super::unread::Skipped;
 use super::value::{DataType, Value};
+use crate::error::RapidFault;
 use crate::rapid::text::words::words;
 
 words! {
@@ -155,6 +156,8 @@ pub struct Module {
     pub(crate) data: Vec<Datum>,
     pub(crate) moves: Vec<Move>,
     pub(crate) skipped: Vec<Skipped>,
+    /// What is wrong with the text that it was read from in spite of that.
+    pub(crate) faults: Vec<RapidFault>,
     /// The instructions that set how moves are made.
     pub(crate) settings: Vec<Setting>,
     /// Data of the module itself by their names in lower case.
@@ -207,6 +210,13 @@ impl Module {
         &self.skipped
     }
 
+    /// What is wrong with the text, in the order of the text: nothing, unless the module was read
+    /// by [`read`](crate::rapid::read). At most 100 faults are kept.
+    #[must_use]
+    pub fn faults(&self) -> &[RapidFault] {
+        &self.faults
+    }
+
     /// The datum of the module with a name, in any case; data of routines are not searched.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<&Datum> {
@@ -238,6 +248,9 @@ impl Module {
         }
         for setting in &mut self.settings {
             (setting.line, setting.column) = (0, 0);
+        }
+        for fault in &mut self.faults {
+            (fault.line, fault.column) = (0, 0);
         }
         self
     }

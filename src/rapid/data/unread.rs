@@ -37,6 +37,9 @@ pub enum Reason {
     NoAggregate,
     #[error("refers to {name}, {why}")]
     Reference { name: String, why: Unresolved },
+    /// Of a module that is read in spite of its faults.
+    #[error("{fault}")]
+    Invalid { fault: String },
 }
 
 /// The reason why a name has no value here.
@@ -129,6 +132,10 @@ pub enum NotRead {
     /// A statement, by its first word, with a placeholder in it.
     #[error("{statement} is not finished")]
     Unfinished { statement: String },
+    /// A statement, by its first word, that is invalid: of a module that is read in spite of its
+    /// faults.
+    #[error("{statement} is invalid: {fault}")]
+    Invalid { statement: String, fault: String },
     /// A datum of a type that is read, whose value is unknown.
     #[error("{name}: {reason}")]
     Datum { name: String, reason: Reason },

@@ -26,7 +26,7 @@ pub(crate) fn read_direct(
     let value = Value::of(data_type, atoms)?;
     let end = reader.at;
     reader.take(b';')?;
-    tokens.resume(end).ok()?;
+    tokens.resume(end);
     Some((value, start..end))
 }
 

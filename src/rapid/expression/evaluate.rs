@@ -10,7 +10,7 @@ use crate::rapid::data::types::{Atom, Atoms, NUM, Part, Record, Shape, Type};
 use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::text::literals::unquoted;
-use crate::rapid::text::place::fault_at;
+use crate::rapid::text::place::{Place, fault_at};
 
 /// Why an expression has no value.
 pub(crate) enum Stop {
@@ -55,16 +55,18 @@ pub(crate) struct Evaluator<'r, 'a> {
     pub(crate) constant: bool,
     /// Whether data that the program assigns are unknown: in moves.
     pub(crate) at_move: bool,
+    /// A place near the expression: lines are counted from it.
+    pub(crate) near: Place,
 }
 
 /// A component that a value is evaluated for: its type, and its name for messages.
-pub(super) struct Place<'p> {
+pub(super) struct Component<'p> {
     pub(super) of: &'static Type,
     name: &'static str,
-    inside: Option<&'p Place<'p>>,
+    inside: Option<&'p Component<'p>>,
 }
 
-impl core::fmt::Display for Place<'_> {
+impl core::fmt::Display for Component<'_> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self.inside {
             Some(above) if !above.name.is_empty() => write!(f, "{above}.{}", self.name),
@@ -103,7 +105,7 @@ impl Evaluator<'_, '_> {
         of: &'static Type,
     ) -> Result<Atoms, Stop> {
         let mut atoms = Atoms::new();
-        self.fill(expression, &Place { of, name: "", inside: None }, &mut atoms)?;
+        self.fill(expression, &Component { of, name: "", inside: None }, &mut atoms)?;
         Ok(atoms)
     }
 
@@ -113,13 +115,13 @@ impl Evaluator<'_, '_> {
     }
 
     pub(crate) fn fault(&self, expression: &Expression<'_>, kind: RapidFaultKind) -> Stop {
-        Stop::Fault(fault_at(self.text, expression.start, kind))
+        Stop::Fault(fault_at(self.text, self.near, expression.start, kind))
     }
 
     pub(super) fn wrong_type(
         &self,
         expression: &Expression<'_>,
-        place: &Place<'_>,
+        place: &Component<'_>,
         found: &str,
     ) -> Stop {
         let (thing, part) = (self.thing(), place.to_string());
@@ -131,7 +133,7 @@ impl Evaluator<'_, '_> {
     fn fill(
         &self,
         expression: &Expression<'_>,
-        place: &Place<'_>,
+        place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
         let wrong = |found| Err(self.wrong_type(expression, place, found));
@@ -175,7 +177,7 @@ impl Evaluator<'_, '_> {
         &self,
         expression: &Expression<'_>,
         value: f64,
-        place: &Place<'_>,
+        place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
         atoms.push(match place.of.shape {
@@ -194,17 +196,18 @@ impl Evaluator<'_, '_> {
         &self,
         expression: &Expression<'_>,
         (parts, components): (&[Expression<'_>], &[(&'static str, &'static Type)]),
-        place: &Place<'_>,
+        place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
         if components.len() != parts.len() {
             let (thing, part) = (self.thing(), place.to_string());
             let (found, wanted) = (parts.len(), components.len());
-            let kind = RapidFaultKind::ComponentCount { thing, part, found, wanted };
+            let missing = missing(parts, components).unwrap_or_default();
+            let kind = RapidFaultKind::ComponentCount { thing, part, found, wanted, missing };
             return Err(self.fault(expression, kind));
         }
         for ((name, of), part) in components.iter().zip(parts) {
-            self.fill(part, &Place { of, name, inside: Some(place) }, atoms)?;
+            self.fill(part, &Component { of, name, inside: Some(place) }, atoms)?;
         }
         Ok(())
     }
@@ -237,6 +240,31 @@ impl Evaluator<'_, '_> {
         }
         Err(self
             .fault(expression, RapidFaultKind::NotFinite { text: written(self.text, expression) }))
+    }
+}
+
+/// The component without which the others fit the parts of an aggregate; of several the last.
+fn missing(
+    parts: &[Expression<'_>],
+    components: &[(&'static str, &'static Type)],
+) -> Option<&'static str> {
+    let is_missing = |place: &usize| {
+        let others = components[..*place].iter().chain(&components[place + 1..]);
+        parts.len() + 1 == components.len()
+            && others.zip(parts).all(|((_, of), part)| may_be(part, of))
+    };
+    let place = (0..components.len()).rev().find(is_missing)?;
+    Some(components[place].0)
+}
+
+/// Whether an expression may be of a type, by its form.
+fn may_be(expression: &Expression<'_>, of: &Type) -> bool {
+    match expression.form {
+        Form::Number(_) => matches!(of.shape, Shape::Num | Shape::Whole),
+        Form::Bool(_) => matches!(of.shape, Shape::Bool),
+        Form::Text(_) => matches!(of.shape, Shape::Text),
+        Form::Aggregate(_) => matches!(of.shape, Shape::Record(_)),
+        _ => true,
     }
 }
 

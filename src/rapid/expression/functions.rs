@@ -3,7 +3,7 @@
 use alloc::format;
 use alloc::string::ToString;
 
-use super::evaluate::{Evaluator, Place, Stop};
+use super::evaluate::{Component, Evaluator, Stop};
 use super::names::Found;
 use super::tree::{Call, Expression};
 use crate::error::RapidFaultKind;
@@ -19,7 +19,7 @@ impl Evaluator<'_, '_> {
         &self,
         expression: &Expression<'_>,
         call: &Call<'_>,
-        place: &Place<'_>,
+        place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
         let name = || call.name.to_string();

@@ -4,7 +4,7 @@ use alloc::borrow::Cow;
 use alloc::format;
 use alloc::string::{String, ToString};
 
-use super::evaluate::{Evaluator, Place, Stop, positive_whole};
+use super::evaluate::{Component, Evaluator, Stop, positive_whole};
 use super::functions::Displacement;
 use super::names::Found;
 use super::tree::{Expression, Form, written};
@@ -20,7 +20,7 @@ impl Evaluator<'_, '_> {
         &self,
         expression: &Expression<'_>,
         (name, indices, components): (&str, &[Expression<'_>], &[&str]),
-        place: &Place<'_>,
+        place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
         let text = || written(self.text, expression);

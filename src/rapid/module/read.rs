@@ -13,6 +13,7 @@ use crate::rapid::data::types::are_finite;
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::resolve::resolved;
 use crate::rapid::statements::reader::StatementReader;
+use crate::rapid::statements::recovery::Faults;
 use crate::rapid::text::place::excerpt;
 use crate::rapid::text::words::is_name;
 
@@ -36,8 +37,25 @@ use crate::rapid::text::words::is_name;
 ///
 /// [`Error::Rapid`] when the text is invalid.
 pub fn parse(text: &str, context: &[&Module]) -> Result<Module, Error> {
-    let written = StatementReader::read(text)?;
+    let written = StatementReader::read(text, Faults::new(false))?;
     Ok(resolved(written, context)?)
+}
+
+/// Read the text of a module in spite of its faults, which are [`Module::faults`]. A text without
+/// faults is read as by [`parse`].
+///
+/// An invalid statement is skipped, to its semicolon or to the next line that begins as a statement
+/// does. A datum or a move with an invalid value is skipped. An end that is missing is taken to be
+/// before the next routine or the end of a block around it. The lines that git leaves in a conflict
+/// are skipped, and both sides are read: of a name that is declared twice the first declaration
+/// counts. An encoded module, which is not text, has a single fault and is empty.
+#[must_use]
+pub fn read(text: &str, context: &[&Module]) -> Module {
+    let module = StatementReader::read(text, Faults::new(true))
+        .and_then(|written| resolved(written, context));
+    // With tolerance no fault gets here.
+    module
+        .unwrap_or_else(|fault| Module { faults: Vec::from([fault]), ..Module::empty(text.len()) })
 }
 
 /// Decode the text of a file: UTF-16 with a byte order mark, UTF-8, otherwise Latin-1. The byte
@@ -111,6 +129,24 @@ fn is_of_another_type(kind: &RapidFaultKind) -> bool {
 }
 
 impl Module {
+    /// A module without content, of a text of this many bytes.
+    fn empty(text_length: usize) -> Self {
+        Self {
+            name: None,
+            attributes: Vec::new(),
+            routines: Vec::new(),
+            data: Vec::new(),
+            moves: Vec::new(),
+            skipped: Vec::new(),
+            faults: Vec::new(),
+            settings: Vec::new(),
+            index: BTreeMap::new(),
+            assigned: BTreeSet::new(),
+            expressions: BTreeMap::new(),
+            text_length,
+        }
+    }
+
     /// Build a module from data and moves, with a procedure without parameters for each routine
     /// that they name.
     ///
@@ -130,23 +166,7 @@ impl Module {
         check_names(name.as_deref(), &data, &moves)?;
         data.iter().try_for_each(check_numbers)?;
         let routines = routines(&data, &moves);
-        let (attributes, skipped, settings) = (Vec::new(), Vec::new(), Vec::new());
-        let index = BTreeMap::new();
-        let (assigned, expressions) = (BTreeSet::new(), BTreeMap::new());
-        let module = Self {
-            name,
-            attributes,
-            routines,
-            data,
-            moves,
-            skipped,
-            settings,
-            index,
-            assigned,
-            expressions,
-            text_length: 0,
-        }
-        .without_positions();
+        let module = Self { name, routines, data, moves, ..Self::empty(0) }.without_positions();
         let read = parse(&module.to_string(), context)?;
         let texts =
             |module: &Module| module.moves.iter().map(ToString::to_string).collect::<Vec<_>>();

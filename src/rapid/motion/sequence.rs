@@ -143,7 +143,7 @@ impl<'m> Walk<'m> {
                     }
                     continue;
                 }
-                NotRead::Motion { .. } | NotRead::Unfinished { .. } => {
+                NotRead::Motion { .. } | NotRead::Unfinished { .. } | NotRead::Invalid { .. } => {
                     self.check_certain()?;
                     steps.push(not_followed(skipped, skipped.what.to_string()));
                 }
@@ -212,7 +212,7 @@ pub(in crate::rapid) fn moving(module: &Module) -> BTreeSet<String> {
         module.routines().iter().map(|routine| routine.name.to_lowercase()).collect();
     moving.extend(module.skipped().iter().filter_map(|skipped| {
         let may_move = match &skipped.what {
-            NotRead::Motion { .. } | NotRead::Unfinished { .. } => true,
+            NotRead::Motion { .. } | NotRead::Unfinished { .. } | NotRead::Invalid { .. } => true,
             NotRead::Instruction { name } => routines.contains(&name.to_lowercase()),
             _ => false,
         };

@@ -14,7 +14,7 @@ use super::walk::Walk;
 use crate::rapid::data::instructions::written_argument;
 use crate::rapid::data::module::{Content, Storage};
 use crate::rapid::data::moves::Move;
-use crate::rapid::data::unread::{Reason, Skipped, Unresolved};
+use crate::rapid::data::unread::{NotRead, Reason, Skipped, Unresolved};
 use crate::rapid::expression::tree::Expression;
 
 /// Most calls within calls.
@@ -27,6 +27,8 @@ pub(super) struct Site {
     line: usize,
     column: usize,
     routine: Option<String>,
+    /// The routine that it calls, as it is written.
+    called: String,
 }
 
 /// The routine that is followed.
@@ -66,6 +68,7 @@ impl Frame {
     pub(super) fn place(&self, site: &Site, step: &mut Move) {
         (step.line, step.column) = (site.line, site.column);
         step.routine.clone_from(&site.routine);
+        step.instruction.clone_from(&site.called);
         step.target.span = 0..0;
         if let Some((text, module, span)) = self.texts.get(&step.target.text.to_lowercase()) {
             step.target.text.clone_from(text);
@@ -158,6 +161,10 @@ impl<'m> Walk<'_, 'm> {
             line: skipped.line,
             column: skipped.column,
             routine: skipped.routine.clone(),
+            called: match &skipped.what {
+                NotRead::Instruction { name } => name.clone(),
+                _ => name.clone(),
+            },
         };
         let site = self.frame.site.clone().or_else(|| Some(own_site()));
         let mut above = self.frame.above.clone();

@@ -251,8 +251,9 @@ impl<'e, 'm> Reader<'e, 'm> {
             NotRead::Motion { name } => {
                 self.acts.moves = true;
                 self.written(name, skipped);
+                self.call(skipped);
             }
-            NotRead::Unfinished { .. } => self.acts.moves = true,
+            NotRead::Unfinished { .. } | NotRead::Invalid { .. } => self.acts.moves = true,
             NotRead::Assignment { .. } => {
                 if let Ok((target, _)) = assignment(&skipped.text)
                     && let Some((name, components)) = referred(&target)

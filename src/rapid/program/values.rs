@@ -13,6 +13,7 @@ use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::names::{At, Found, Names, lower, predefined};
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Expression, Form};
+use crate::rapid::text::place::Place;
 use crate::rapid::text::tokens::Tokens;
 
 /// The names that a place sees, with what is known there.
@@ -80,6 +81,7 @@ impl<'s> Scope<'s, '_> {
     fn evaluator<'a>(&'s self, text: &'a str) -> Evaluator<'s, 'a> {
         Evaluator {
             text,
+            near: Place::BEGINNING,
             names: self,
             at: At::default(),
             thing: ("", ""),

@@ -15,7 +15,7 @@ use super::state::{Here, Local, State};
 use super::tree::{Block, Node};
 use super::values::Scope;
 use crate::rapid::data::instructions::Effect;
-use crate::rapid::data::moves::Move;
+use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::settings::Setting;
 use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
 use crate::rapid::data::value::Value;
@@ -239,6 +239,10 @@ impl<'m> Walk<'_, 'm> {
 
     /// A move, with the values that it has here.
     fn step(&mut self, index: usize, step: &'m Move) {
+        // The robot stays.
+        if step.kind == MoveKind::MoveExtJ {
+            return;
+        }
         let scope = self.scope();
         let mut own = Cow::Borrowed(step);
         let is_passed_on = scope.fill(&mut own, &self.frame);
@@ -298,10 +302,15 @@ impl<'m> Walk<'_, 'm> {
         self.push(Step::NotFollowed { module, skipped, words });
     }
 
+    fn is_procedure(&self, name: &str) -> bool {
+        self.program.procedure(self.frame.module, &name.to_lowercase()).is_some()
+    }
+
     /// Something that is no move and no branch.
     fn statement(&mut self, skipped: &'m Skipped) {
         match &skipped.what {
-            NotRead::Motion { .. } | NotRead::Unfinished { .. } => {
+            NotRead::Motion { name } if self.is_procedure(name) => self.call(skipped),
+            NotRead::Motion { .. } | NotRead::Unfinished { .. } | NotRead::Invalid { .. } => {
                 self.not_followed(skipped, skipped.what.to_string());
             }
             NotRead::Label { .. } => {

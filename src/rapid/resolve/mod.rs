@@ -28,6 +28,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         contents,
         mut moves,
         mut skipped,
+        faults,
         settings,
         assignments,
         scopes,
@@ -45,12 +46,15 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         contents,
         causes,
         routines_elsewhere: RefCell::default(),
+        faults,
     };
     resolver.resolve_all()?;
     let (moves, not_moves) = resolver.moves(&mut moves, &routines)?;
     skipped.extend(not_moves);
     resolver.tell_calls(&mut skipped);
-    let Resolver { contents, causes, .. } = resolver;
+    let Resolver { contents, causes, faults, .. } = resolver;
+    let mut faults = faults.kept;
+    faults.sort_by_key(|fault| (fault.line, fault.column));
     let mut all = ResolvedData { skipped, ..ResolvedData::default() };
     all.data.reserve_exact(declared.len());
     for (i, (datum, content)) in declared.iter().zip(contents).enumerate() {
@@ -72,6 +76,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         data,
         moves,
         skipped,
+        faults,
         settings,
         index,
         assigned,

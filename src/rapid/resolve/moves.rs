@@ -14,6 +14,7 @@ use crate::rapid::data::unread::{NotRead, Reason, Skipped};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::tree::Expression;
 use crate::rapid::statements::moves::{Replacement, WrittenMove};
+use crate::rapid::text::place::Place;
 
 /// A value, or the reason why it is unknown.
 type Known<T> = Result<T, Reason>;
@@ -40,6 +41,7 @@ impl<'a> Resolver<'a> {
             thing: (step.instruction.name, role),
             constant: false,
             at_move: true,
+            near: Place { byte: step.start, line: step.line, column: step.column },
         }
     }
 
@@ -116,24 +118,35 @@ impl<'a> Resolver<'a> {
     /// The moves with the values of their arguments, and the others: calls of routines that have
     /// the name of an instruction, and instructions with arguments of another form.
     pub(super) fn moves(
-        &self,
+        &mut self,
         written: &mut [WrittenMove<'a>],
         routines: &[Routine],
     ) -> Result<(Vec<Move>, Vec<Skipped>), RapidFault> {
         let mut moves = Vec::with_capacity(written.len());
         let mut others = Vec::new();
         for step in written {
-            let made = if self.is_call(step) { None } else { self.step(step, routines)? };
-            match made {
-                Some(made) => moves.push(made),
-                None => others.push(Skipped {
-                    line: step.line,
-                    column: step.column,
-                    routine: routine_name(routines, step.at.routine),
-                    what: NotRead::Motion { name: self.instruction(step) },
-                    text: self.text[step.start..step.end].to_string(),
-                }),
-            }
+            let name = self.instruction(step);
+            let made = if self.is_call(step) { Ok(None) } else { self.step(step, routines) };
+            let what = match made {
+                Ok(Some(made)) => {
+                    moves.push(made);
+                    continue;
+                }
+                Ok(None) => NotRead::Motion { name },
+                Err(fault) => {
+                    let words = fault.kind.to_string();
+                    self.faults.add(fault)?;
+                    NotRead::Invalid { statement: name, fault: words }
+                }
+            };
+            others.push(Skipped {
+                line: step.line,
+                column: step.column,
+                routine: routine_name(routines, step.at.routine),
+                what,
+                text: self.text[step.start..step.end].to_string(),
+                start: step.start,
+            });
         }
         Ok((moves, others))
     }

@@ -2,7 +2,7 @@
 //! differ from their declarations.
 
 use alloc::collections::{BTreeMap, BTreeSet};
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::cell::RefCell;
@@ -16,7 +16,8 @@ use crate::rapid::expression::names::{At, By, Cause, Found, Names, lower, predef
 use crate::rapid::statements::blocks::Blocks;
 use crate::rapid::statements::declarations::Declared;
 use crate::rapid::statements::reader::{Assignment, Named, Scopes};
-use crate::rapid::text::place::fault_at;
+use crate::rapid::statements::recovery::Faults;
+use crate::rapid::text::place::{Place, fault_at};
 
 /// The state of resolving the data of a module.
 pub(super) struct Resolver<'a> {
@@ -31,6 +32,7 @@ pub(super) struct Resolver<'a> {
     pub(super) causes: Causes<'a>,
     /// Whether another module has a routine of a name in lower case, if that was asked before.
     pub(super) routines_elsewhere: RefCell<BTreeMap<String, bool>>,
+    pub(super) faults: Faults,
 }
 
 impl Names for Resolver<'_> {
@@ -122,7 +124,11 @@ impl Resolver<'_> {
                         state[*other] = State::Open;
                         open.push((*other, 0));
                     }
-                    State::Open => return Err(self.circle(&open, *other)),
+                    State::Open if self.faults.is_full() => {}
+                    State::Open => {
+                        let fault = self.circle(&open, *other);
+                        self.faults.add(fault)?;
+                    }
                     State::Done => self.add_cause(current, gone_through, *other),
                 }
             }
@@ -154,7 +160,8 @@ impl Resolver<'_> {
         let from = open.iter().position(|(datum, _)| *datum == again).unwrap_or(0);
         let circle = open[from..].iter().map(|(datum, _)| *datum).chain([again]);
         let names: NamesOf = circle.map(|datum| self.declared[datum].name).collect();
-        fault_at(self.text, self.declared[again].start, RapidFaultKind::Circular { names })
+        let Declared { start: byte, line, column, .. } = self.declared[again];
+        fault_at(self.text, Place { byte, line, column }, byte, RapidFaultKind::Circular { names })
     }
 
     fn resolve(&mut self, index: usize) -> Result<(), RapidFault> {
@@ -163,7 +170,11 @@ impl Resolver<'_> {
         self.contents[index] = match written.evaluate(&declared.evaluator(self.text, self)) {
             Ok(placed) => Ok(placed),
             Err(Stop::Unknown(reason)) => Err(reason),
-            Err(Stop::Fault(fault)) => return Err(fault),
+            Err(Stop::Fault(fault)) => {
+                let reason = Reason::Invalid { fault: fault.kind.to_string() };
+                self.faults.add(fault)?;
+                Err(reason)
+            }
         };
         Ok(())
     }

@@ -1,6 +1,5 @@
 //! Control flow: blocks are recognized, conditions are not evaluated.
 
-use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::declarations::read_name;
@@ -85,10 +84,11 @@ impl<'a> Blocks<'a> {
         word: &str,
         token: Token,
     ) -> Result<(), RapidFault> {
-        if let Some(block) = BLOCKS.iter().position(|(_, end)| *end == word) {
-            return self.close(tokens, block, token);
-        }
         match word {
+            _ if BLOCKS.iter().any(|(_, end)| *end == word) => {
+                self.open.pop();
+                Ok(())
+            }
             "IF" => {
                 skip_condition(tokens)?;
                 // Without THEN it is one instruction, which follows.
@@ -151,14 +151,35 @@ impl<'a> Blocks<'a> {
         Ok(())
     }
 
-    fn close(&mut self, tokens: &Tokens<'_>, block: usize, token: Token) -> Result<(), RapidFault> {
-        let wanted = match self.open.pop() {
-            Some((open, _)) if open == block => return Ok(()),
-            Some((open, _)) => BLOCKS[open].1,
-            None => "a declaration or an instruction (no such block is open)",
+    /// The number of open blocks.
+    pub(super) fn depth(&self) -> usize {
+        self.open.len()
+    }
+
+    /// Open the block that a word begins, in any case; false if none is opened.
+    pub(super) fn open(&mut self, word: &str) -> bool {
+        let block = BLOCKS.iter().position(|(begin, _)| begin.eq_ignore_ascii_case(word));
+        let block = block.filter(|_| self.open.len() < DEEPEST_NESTING);
+        self.open.extend(block.map(|block| (block, None)));
+        block.is_some()
+    }
+
+    /// Close the innermost block; its end.
+    pub(super) fn close_innermost(&mut self) -> Option<&'static str> {
+        self.open.pop().map(|(block, _)| BLOCKS[block].1)
+    }
+
+    /// Of a word that ends a block: the number of blocks around the one that it ends, if there is
+    /// one, and the word that is expected, if that is another one. `None` for other words.
+    pub(super) fn ended_by(&self, word: &str) -> Option<(Option<usize>, Option<&'static str>)> {
+        let block = BLOCKS.iter().position(|(_, end)| *end == word)?;
+        let outer = self.open.iter().rposition(|(open, _)| *open == block);
+        let wanted = match self.open.last() {
+            Some((open, _)) if *open == block => None,
+            Some((open, _)) => Some(BLOCKS[*open].1),
+            None => Some("a declaration or an instruction (no such block is open)"),
         };
-        let found = String::from(tokens.text_of(token));
-        Err(tokens.fault(token.start, RapidFaultKind::Unexpected { found, wanted }))
+        Some((outer, wanted))
     }
 }
 

@@ -11,6 +11,7 @@ use crate::rapid::expression::direct::read_direct;
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::names::{At, Names, NoNames};
 use crate::rapid::expression::reader::ExpressionReader;
+use crate::rapid::text::place::Place;
 use crate::rapid::text::skipping::skip_balanced;
 use crate::rapid::text::tokens::{TokenKind, Tokens};
 use crate::rapid::text::words::is_name_token;
@@ -47,6 +48,7 @@ impl<'a> Declared<'a> {
             thing: (self.data_type.name(), self.name),
             constant: false,
             at_move: false,
+            near: Place { byte: self.start, line: self.line, column: self.column },
         }
     }
 }
@@ -86,11 +88,12 @@ pub(crate) fn read_name<'a>(
 }
 
 /// Read a declaration from its storage class to its semicolon; it begins, perhaps with LOCAL or
-/// TASK, at byte `start`.
+/// TASK, at byte `start`. With tolerance an invalid value is left for when names are looked up.
 pub(crate) fn read_declaration<'a>(
     tokens: &mut Tokens<'a>,
     start: usize,
     (routine, scope, storage): (usize, Scope, Storage),
+    is_tolerant: bool,
 ) -> Result<Declaration<'a>, RapidFault> {
     let from = tokens.take()?.start;
     let type_name = read_name(tokens, "a type")?;
@@ -139,7 +142,8 @@ pub(crate) fn read_declaration<'a>(
         let placed = Placed::new(Content::Single(value), span);
         return Ok(Declaration::Read(declared, Some(placed)));
     }
-    known_at_once(tokens.text, declared, WrittenContent { data_type, sizes, value, value_place })
+    let written = WrittenContent { data_type, sizes, value, value_place };
+    known_at_once(tokens.text, declared, written, is_tolerant)
 }
 
 /// A declaration with its content, if it has no names.
@@ -147,13 +151,14 @@ fn known_at_once<'a>(
     text: &'a str,
     mut declared: Declared<'a>,
     written: WrittenContent<'a>,
+    is_tolerant: bool,
 ) -> Result<Declaration<'a>, RapidFault> {
     if declared.names.is_empty() {
         match written.evaluate(&declared.evaluator(text, &NoNames)) {
             Ok(placed) => return Ok(Declaration::Read(declared, Some(placed))),
-            Err(Stop::Fault(fault)) => return Err(fault),
+            Err(Stop::Fault(fault)) if !is_tolerant => return Err(fault),
             // The reason is determined when all names are known.
-            Err(Stop::Unknown(_)) => {}
+            Err(Stop::Fault(_) | Stop::Unknown(_)) => {}
         }
     }
     declared.written = Some(Box::new(written));

@@ -5,4 +5,5 @@ pub(crate) mod declarations;
 mod instructions;
 pub(crate) mod moves;
 pub(crate) mod reader;
+pub(crate) mod recovery;
 mod statement;

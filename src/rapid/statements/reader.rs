@@ -1,12 +1,14 @@
 //! The state of the reader of statements: results, names and position.
 
 use alloc::collections::BTreeMap;
+use alloc::collections::btree_map::Entry;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::blocks::Blocks;
 use super::declarations::Declared;
 use super::moves::WrittenMove;
+use super::recovery::Faults;
 use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Routine;
@@ -28,10 +30,32 @@ pub(crate) struct Written<'a> {
     pub(crate) contents: Vec<Option<Placed>>,
     pub(crate) moves: Vec<WrittenMove<'a>>,
     pub(crate) skipped: Vec<Skipped>,
+    pub(crate) faults: Faults,
     pub(crate) settings: Vec<Setting>,
     pub(crate) assignments: Vec<Assignment<'a>>,
     pub(crate) scopes: Scopes,
     pub(crate) blocks: Blocks<'a>,
+}
+
+impl<'a> Written<'a> {
+    /// An empty module.
+    pub(crate) fn new(text: &'a str, faults: Faults) -> Self {
+        Self {
+            text,
+            name: None,
+            attributes: Vec::new(),
+            routines: Vec::new(),
+            declared: Vec::new(),
+            contents: Vec::new(),
+            moves: Vec::new(),
+            skipped: Vec::new(),
+            faults,
+            settings: Vec::new(),
+            assignments: Vec::new(),
+            scopes: Scopes::new(),
+            blocks: Blocks::new(),
+        }
+    }
 }
 
 /// A statement that gives a datum another value.
@@ -68,24 +92,10 @@ pub(crate) struct StatementReader<'a> {
 
 impl<'a> StatementReader<'a> {
     /// At the beginning of a text.
-    pub(super) fn new(text: &'a str) -> Result<Self, RapidFault> {
-        let written = Written {
-            text,
-            name: None,
-            attributes: Vec::new(),
-            routines: Vec::new(),
-            declared: Vec::new(),
-            contents: Vec::new(),
-            moves: Vec::new(),
-            skipped: Vec::new(),
-            settings: Vec::new(),
-            assignments: Vec::new(),
-            scopes: Scopes::new(),
-            blocks: Blocks::new(),
-        };
-        let (tokens, displaced_by) = (Tokens::new(text)?, DisplacedBy::default());
+    pub(super) fn new(written: Written<'a>) -> Self {
+        let (tokens, displaced_by) = (Tokens::of(written.text), DisplacedBy::default());
         let settings = MotionSettings::default();
-        Ok(Self { tokens, written, stage: Stage::Beginning, routine: 0, displaced_by, settings })
+        Self { tokens, written, stage: Stage::Beginning, routine: 0, displaced_by, settings }
     }
 
     /// The position, for looking up names.
@@ -131,10 +141,15 @@ impl<'a> StatementReader<'a> {
             what
         };
         let text = self.written.text[from.start..self.tokens.last_end].to_string();
-        let routine = self.current_routine().map(|routine| routine.name.clone());
-        let start = from.start;
-        self.written.skipped.push(Skipped { line, column, routine, what, text, start });
+        self.skip_as((line, column, from.start), what, text);
         line
+    }
+
+    /// List a text at a line, a column and a byte as not read.
+    pub(super) fn skip_as(&mut self, place: (usize, usize, usize), what: NotRead, text: String) {
+        let routine = self.current_routine().map(|routine| routine.name.clone());
+        let (line, column, start) = place;
+        self.written.skipped.push(Skipped { line, column, routine, what, text, start });
     }
 
     /// List the text from a token to here as unfinished.
@@ -186,9 +201,12 @@ impl Scopes {
         let Some(scope) = self.names.get_mut(routine).filter(|_| !is_placeholder(name)) else {
             return Ok(());
         };
-        match scope.insert(name.to_lowercase(), named) {
-            None => Ok(()),
-            Some(_) => Err(RapidFaultKind::SameName {
+        match scope.entry(name.to_lowercase()) {
+            Entry::Vacant(place) => {
+                place.insert(named);
+                Ok(())
+            }
+            Entry::Occupied(_) => Err(RapidFaultKind::SameName {
                 name: name.to_string(),
                 routine: routine_name.map(ToString::to_string),
             }),

@@ -8,6 +8,7 @@ use super::blocks::is_flow;
 use super::declarations::{Declaration, read_declaration, read_name, storage_at};
 use super::moves::{WrittenMove, read_move};
 use super::reader::{Assignment, Named, Stage, StatementReader, Written, is_placeholder};
+use super::recovery::{Faults, is_encoded, skip_to_end};
 use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::instructions::written_argument;
 use crate::rapid::data::module::{Routine, RoutineKind, Scope};
@@ -18,18 +19,27 @@ use crate::rapid::text::tokens::{Token, TokenKind};
 use crate::rapid::text::words::Capitals;
 
 impl<'a> StatementReader<'a> {
-    /// Read a whole text.
-    pub(crate) fn read(text: &'a str) -> Result<Written<'a>, RapidFault> {
-        let mut reader = Self::new(text)?;
+    /// Read a whole text; with tolerance in spite of its faults.
+    pub(crate) fn read(text: &'a str, faults: Faults) -> Result<Written<'a>, RapidFault> {
+        let mut written = Written::new(text, faults);
+        if is_encoded(text) {
+            let fault = RapidFault { line: 1, column: 1, kind: RapidFaultKind::Encoded };
+            written.faults.add(fault)?;
+            return Ok(written);
+        }
+        let mut reader = Self::new(written);
         while reader.tokens.peek().kind != TokenKind::End {
-            reader.statement()?;
+            let first = reader.tokens.peek();
+            if let Err(fault) = reader.statement() {
+                reader.recover(first, fault)?;
+            }
         }
         reader.check_end()?;
         Ok(reader.written)
     }
 
     /// Check that nothing is open where the text ends.
-    fn check_end(&self) -> Result<(), RapidFault> {
+    fn check_end(&mut self) -> Result<(), RapidFault> {
         let (inside, missing) = if let Some((word, end)) = self.written.blocks.innermost() {
             (word.to_string(), end)
         } else if let Some(routine) = self.current_routine() {
@@ -39,15 +49,19 @@ impl<'a> StatementReader<'a> {
         } else {
             return Ok(());
         };
-        Err(self
-            .tokens
-            .fault(self.written.text.len(), RapidFaultKind::UnexpectedEnd { inside, missing }))
+        let kind = RapidFaultKind::UnexpectedEnd { inside, missing };
+        self.complain(self.tokens.fault(self.written.text.len(), kind))?;
+        self.close_blocks(0, self.tokens.peek().start);
+        Ok(())
     }
 
     fn statement(&mut self) -> Result<(), RapidFault> {
         let token = self.tokens.peek();
         if token.is(b';') {
             return self.tokens.take().map(|_| ());
+        }
+        if matches!(token.kind, TokenKind::Symbol(_)) && self.conflict_marker()? {
+            return Ok(());
         }
         let capitals = match token.kind {
             TokenKind::Name => Capitals::of(self.tokens.text_of(token)),
@@ -59,7 +73,8 @@ impl<'a> StatementReader<'a> {
             return self.begin_module(token);
         }
         if self.stage == Stage::Ended {
-            return Err(self.tokens.unexpected("the end of the text"));
+            self.complain(self.tokens.unexpected("the end of the text"))?;
+            self.stage = Stage::Bare;
         }
         if self.stage == Stage::Beginning {
             self.stage = Stage::Bare;
@@ -86,17 +101,18 @@ impl<'a> StatementReader<'a> {
         match self.stage {
             Stage::Beginning => {}
             Stage::Bare => {
-                return Err(self
-                    .tokens
-                    .unexpected("a declaration or an instruction (MODULE begins a text)"));
+                let wanted = "a declaration or an instruction (MODULE begins a text)";
+                self.complain(self.tokens.unexpected(wanted))?;
             }
             Stage::Module | Stage::Ended => {
-                return Err(self.tokens.fault(token.start, RapidFaultKind::SecondModule));
+                self.complain(self.tokens.fault(token.start, RapidFaultKind::SecondModule))?;
             }
         }
+        self.close_all()?;
         self.tokens.take()?;
         self.stage = Stage::Module;
-        self.written.name = Some(read_name(&mut self.tokens, "the module's name")?);
+        let name = read_name(&mut self.tokens, "the module's name")?;
+        self.written.name.get_or_insert(name);
         if !self.tokens.take_if(b'(')? {
             return Ok(());
         }
@@ -114,13 +130,10 @@ impl<'a> StatementReader<'a> {
     }
 
     fn end_module(&mut self) -> Result<(), RapidFault> {
-        if let Some(end) = self.expected_end() {
-            return Err(self.tokens.unexpected(end));
-        }
+        self.close_all()?;
         if self.stage != Stage::Module {
-            return Err(self
-                .tokens
-                .unexpected("a declaration or an instruction (no MODULE is open)"));
+            let wanted = "a declaration or an instruction (no MODULE is open)";
+            self.complain(self.tokens.unexpected(wanted))?;
         }
         self.stage = Stage::Ended;
         self.tokens.take().map(|_| ())
@@ -135,7 +148,8 @@ impl<'a> StatementReader<'a> {
         }
         if let Some(storage) = storage_at(&self.tokens) {
             let place = (self.routine, scope, storage);
-            let declaration = read_declaration(&mut self.tokens, first.start, place)?;
+            let is_tolerant = self.written.faults.is_tolerant;
+            let declaration = read_declaration(&mut self.tokens, first.start, place, is_tolerant)?;
             return self.add_declaration(first, declaration);
         }
         match RoutineKind::named(self.tokens.text_of(self.tokens.peek())) {
@@ -155,10 +169,10 @@ impl<'a> StatementReader<'a> {
     ) -> Result<(), RapidFault> {
         let (name, named) = match declaration {
             Declaration::Read(declared, content) => {
-                let name = declared.name;
+                self.declare(first, declared.name, Named::Datum(self.written.declared.len()))?;
                 self.written.declared.push(declared);
                 self.written.contents.push(content);
-                (name, Named::Datum(self.written.declared.len() - 1))
+                return Ok(());
             }
             Declaration::Unread { name, type_name } => {
                 let type_name = type_name.to_string();
@@ -178,15 +192,8 @@ impl<'a> StatementReader<'a> {
     fn record(&mut self, first: Token) -> Result<(), RapidFault> {
         self.tokens.take()?;
         let name = read_name(&mut self.tokens, "the name of the record")?;
-        while !self.tokens.take_word("ENDRECORD")? {
-            if self.tokens.peek().kind == TokenKind::End {
-                let kind = RapidFaultKind::UnexpectedEnd {
-                    inside: format!("RECORD {name}"),
-                    missing: "ENDRECORD",
-                };
-                return Err(self.tokens.fault(self.tokens.peek().start, kind));
-            }
-            self.tokens.take()?;
+        if !skip_to_end(&mut self.tokens, "ENDRECORD")? {
+            return Err(self.not_ended(format!("RECORD {name}"), "ENDRECORD"));
         }
         self.skip(first, NotRead::Record { name: name.to_string() });
         self.declare(first, name, Named::Other(Unresolved::Type))
@@ -230,6 +237,15 @@ impl<'a> StatementReader<'a> {
 
     fn flow(&mut self, word: &str, token: Token) -> Result<(), RapidFault> {
         self.tokens.take()?;
+        if let Some((outer, wanted)) = self.written.blocks.ended_by(word) {
+            if let Some(wanted) = wanted {
+                let found = self.tokens.text_of(token).to_string();
+                let kind = RapidFaultKind::Unexpected { found, wanted };
+                self.complain(self.tokens.fault(token.start, kind))?;
+            }
+            let Some(outer) = outer else { return Ok(()) };
+            self.close_blocks(outer + 1, token.start);
+        }
         self.written.blocks.read(&mut self.tokens, word, token)?;
         self.skip(token, NotRead::Flow { word: word.to_string() });
         Ok(())
@@ -242,9 +258,7 @@ impl StatementReader<'_> {
         kind: RoutineKind,
         first: Token,
     ) -> Result<(), RapidFault> {
-        if let Some(end) = self.expected_end() {
-            return Err(self.tokens.unexpected(end));
-        }
+        self.close_all()?;
         self.tokens.take()?;
         if kind == RoutineKind::Func {
             read_name(&mut self.tokens, "the type of the function")?;
@@ -253,13 +267,15 @@ impl StatementReader<'_> {
         if is_placeholder(name) {
             return self.unfinished_routine(kind, name, first);
         }
-        self.declare(first, name, Named::Other(Unresolved::Routine))?;
+        if let Err(fault) = self.declare(first, name, Named::Other(Unresolved::Routine)) {
+            self.complain(fault)?;
+        }
         let (line, column) = self.tokens.line_and_column(first.start);
         self.written.scopes.add_routine();
         self.written.routines.push(Routine {
             kind,
             name: name.to_string(),
-            header: String::new(),
+            header: self.written.text[first.start..self.tokens.last_end].to_string(),
             line,
             column,
         });
@@ -283,18 +299,20 @@ impl StatementReader<'_> {
         name: &str,
         first: Token,
     ) -> Result<(), RapidFault> {
-        while !self.tokens.take_word(kind.end())? {
-            if self.tokens.peek().kind == TokenKind::End {
-                let kind = RapidFaultKind::UnexpectedEnd {
-                    inside: format!("{} {name}", kind.name()),
-                    missing: kind.end(),
-                };
-                return Err(self.tokens.fault(self.tokens.peek().start, kind));
-            }
-            self.tokens.take()?;
+        if !skip_to_end(&mut self.tokens, kind.end())? {
+            return Err(self.not_ended(format!("{} {name}", kind.name()), kind.end()));
         }
         self.skip_unfinished(first);
         Ok(())
+    }
+
+    /// The error that something is not ended where the text ends or something else begins.
+    fn not_ended(&self, inside: String, missing: &'static str) -> RapidFault {
+        if self.tokens.peek().kind != TokenKind::End {
+            return self.tokens.unexpected(missing);
+        }
+        let kind = RapidFaultKind::UnexpectedEnd { inside, missing };
+        self.tokens.fault(self.tokens.peek().start, kind)
     }
 
     /// Read the parameters in parentheses: the name of each is the last word before a comma, a bar
@@ -313,12 +331,11 @@ impl StatementReader<'_> {
                 TokenKind::Name => last = Some(token),
                 TokenKind::Symbol(b',' | b'|' | b'\\' | b')') => {
                     if let Some(name) = last.take() {
-                        let text = self.tokens.text_of(name);
-                        self.declare(
-                            name,
-                            text,
-                            Named::Other(Unresolved::Parameter { routine: routine.to_string() }),
-                        )?;
+                        let (text, routine) = (self.tokens.text_of(name), routine.to_string());
+                        let named = Named::Other(Unresolved::Parameter { routine });
+                        if let Err(fault) = self.declare(name, text, named) {
+                            self.complain(fault)?;
+                        }
                     }
                 }
                 TokenKind::Placeholder => last = None,
@@ -333,19 +350,23 @@ impl StatementReader<'_> {
 
     pub(crate) fn end_routine(&mut self, kind: RoutineKind) -> Result<(), RapidFault> {
         if let Some((_, end)) = self.written.blocks.innermost() {
-            return Err(self.tokens.unexpected(end));
+            self.complain(self.tokens.unexpected(end))?;
+            self.close_blocks(0, self.tokens.peek().start);
         }
-        match self.current_routine().map(|routine| routine.kind) {
-            Some(open) if open == kind => {}
-            Some(open) => return Err(self.tokens.unexpected(open.end())),
-            None => {
-                return Err(self
-                    .tokens
-                    .unexpected("a declaration or an instruction (no routine is open)"));
-            }
+        let wanted = match self.current_routine().map(|routine| routine.kind) {
+            Some(open) if open == kind => None,
+            Some(open) => Some(open.end()),
+            None => Some("a declaration or an instruction (no routine is open)"),
+        };
+        if let Some(wanted) = wanted {
+            self.complain(self.tokens.unexpected(wanted))?;
         }
+        self.leave_routine();
+        self.tokens.take().map(|_| ())
+    }
+
+    pub(super) fn leave_routine(&mut self) {
         self.routine = 0;
         (self.displaced_by, self.settings) = Default::default();
-        self.tokens.take().map(|_| ())
     }
 }

@@ -19,17 +19,38 @@ impl Place {
     /// The first byte of a text.
     pub(crate) const BEGINNING: Self = Self { byte: 0, line: 1, column: 1 };
 
+    /// The place of another byte. The time is linear in the distance, and in the length of the
+    /// line on the way back over its end.
+    pub(crate) fn moved(self, text: &str, byte: usize) -> Self {
+        if byte >= self.byte {
+            return self.advanced(text, byte);
+        }
+        let passed = text.get(byte..self.byte).unwrap_or_default();
+        let lines = newlines(passed.as_bytes());
+        let line = self.line.saturating_sub(lines);
+        if lines == 0 {
+            let column = self.column.saturating_sub(characters(passed));
+            return Self { byte, line, column };
+        }
+        let begin = text.get(..byte).and_then(|before| before.rfind('\n')).map_or(0, |at| at + 1);
+        Self { byte, line, column: 1 + characters(text.get(begin..byte).unwrap_or_default()) }
+    }
+
     /// The place of a later byte.
-    pub(crate) fn advanced(self, text: &str, byte: usize) -> Self {
+    fn advanced(self, text: &str, byte: usize) -> Self {
         let passed = text.get(self.byte..byte).unwrap_or_default();
         let lines = newlines(passed.as_bytes());
         let (column, last_line) = match passed.rfind('\n') {
             Some(at) => (1, &passed[at + 1..]),
             None => (self.column, passed),
         };
-        let characters = last_line.chars().filter(|character| *character != '\u{feff}').count();
-        Self { byte, line: self.line + lines, column: column + characters }
+        Self { byte, line: self.line + lines, column: column + characters(last_line) }
     }
+}
+
+/// The number of characters, without a byte order mark.
+fn characters(text: &str) -> usize {
+    text.chars().filter(|character| *character != '\u{feff}').count()
 }
 
 /// The number of newlines. A byte counts a chunk's, so that many bytes are compared at once.
@@ -38,9 +59,9 @@ fn newlines(bytes: &[u8]) -> usize {
     bytes.chunks(usize::from(u8::MAX)).map(|piece| usize::from(of_piece(piece))).sum()
 }
 
-/// An error at a byte of a text.
-pub(crate) fn fault_at(text: &str, byte: usize, kind: RapidFaultKind) -> RapidFault {
-    let Place { line, column, .. } = Place::BEGINNING.advanced(text, byte);
+/// An error at a byte of a text, near a known place.
+pub(crate) fn fault_at(text: &str, near: Place, byte: usize, kind: RapidFaultKind) -> RapidFault {
+    let Place { line, column, .. } = near.moved(text, byte);
     RapidFault { line, column, kind }
 }
 
@@ -51,4 +72,24 @@ pub(crate) fn excerpt(text: &str) -> String {
         short.push_str("...");
     }
     short
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_found_from_any_other() {
+        let text = "\u{feff}ab\n\nc\u{e9}d\r\n\u{e9}x\n";
+        let all: std::vec::Vec<usize> = text.char_indices().map(|(byte, _)| byte).collect();
+        for from in &all {
+            let near = Place::BEGINNING.advanced(text, *from);
+            for byte in &all {
+                let (near, direct) = (near.moved(text, *byte), Place::BEGINNING.moved(text, *byte));
+                assert_eq!((near.line, near.column), (direct.line, direct.column), "{from} {byte}");
+            }
+        }
+        let place = Place::BEGINNING.moved(text, text.len() - 2);
+        assert_eq!((place.line, place.column), (4, 2));
+    }
 }

@@ -90,3 +90,50 @@ pub(crate) fn skip_balanced(
         last = Some(tokens.take()?);
     }
 }
+
+/// The first bytes of the lines that git leaves in a conflict.
+const CONFLICT_MARKERS: [&str; 4] = ["<<<<<<<", "|||||||", "=======", ">>>>>>>"];
+
+/// Whether the line that begins at a byte is one that git leaves in a conflict.
+pub(crate) fn is_conflict_marker(text: &str, byte: usize) -> bool {
+    let is_first = matches!(text.as_bytes().get(byte.wrapping_sub(1)), None | Some(b'\n' | b'\r'));
+    is_first && CONFLICT_MARKERS.iter().any(|marker| text[byte..].starts_with(marker))
+}
+
+/// The end of the line of a byte.
+pub(crate) fn end_of_line(text: &str, byte: usize) -> usize {
+    text[byte..].find(['\n', '\r']).map_or(text.len(), |length| byte + length)
+}
+
+/// The next token, if it begins a line and may begin a statement.
+pub(crate) fn at_line(tokens: &Tokens<'_>) -> Option<usize> {
+    let next = tokens.peek();
+    let between = tokens.text.get(tokens.last_end..next.start).unwrap_or_default();
+    (next.kind == TokenKind::Name && between.contains(['\n', '\r'])).then_some(next.start)
+}
+
+/// Where a statement may begin from a byte on: behind a semicolon, or at the next line that begins
+/// as a statement does.
+pub(crate) fn next_statement(text: &str, mut at: usize) -> usize {
+    let bytes = text.as_bytes();
+    while let Some(byte) = bytes.get(at) {
+        match byte {
+            b';' => return at + 1,
+            b'!' => at = end_of_line(text, at),
+            b'"' => {
+                let line = &text[at + 1..end_of_line(text, at)];
+                at += line.find('"').map_or(line.len(), |length| length + 1) + 1;
+            }
+            b'\n' | b'\r' if begins_statement(text, at + 1) => return at + 1,
+            _ => at += 1,
+        }
+    }
+    text.len()
+}
+
+/// Whether the line that begins at a byte may begin a statement.
+fn begins_statement(text: &str, line: usize) -> bool {
+    let rest = text[line..].trim_start_matches([' ', '\t']);
+    rest.starts_with(|first: char| first.is_alphabetic() || matches!(first, '<' | '%'))
+        || is_conflict_marker(text, line)
+}

@@ -1,9 +1,10 @@
 //! RAPID text as tokens: names, numbers, strings and symbols, without blanks and comments.
 
 use alloc::string::ToString;
+use core::cell::Cell;
 
 use super::literals::{decimal, number};
-use super::place::{Place, excerpt, fault_at};
+use super::place::{Place, excerpt};
 use super::words::end_of_word;
 use crate::error::{RapidFault, RapidFaultKind};
 
@@ -34,6 +35,8 @@ pub(crate) enum TokenKind {
     Placeholder,
     /// A character of RAPID's punctuation.
     Symbol(u8),
+    /// No token: taking it is an error.
+    Invalid,
     /// After the last token.
     End,
 }
@@ -60,9 +63,12 @@ pub(crate) struct Tokens<'a> {
     pub(crate) last_end: usize,
     /// Beginning of the last placeholder that was read.
     last_placeholder: Option<usize>,
+    /// Beginning of the first token or of the header.
+    begin: usize,
     /// End of what is read: only blanks, NUL and Ctrl-Z may follow.
     end: usize,
-    place: Place,
+    /// The place that was looked up last.
+    place: Cell<Place>,
 }
 
 /// A position of the reader, to return to.
@@ -73,26 +79,28 @@ pub(crate) struct Mark {
 }
 
 impl<'a> Tokens<'a> {
-    /// Start at a text, after its `%%% ... %%%`.
+    /// Start at a text, after its `%%% ... %%%`; its first token must be valid.
     pub(crate) fn new(text: &'a str) -> Result<Self, RapidFault> {
+        let tokens = Self::of(text);
+        match tokens.next.kind {
+            TokenKind::Invalid => Err(tokens.unexpected("a token")),
+            _ => Ok(tokens),
+        }
+    }
+
+    /// Start at a text, after its `%%% ... %%%`.
+    pub(crate) fn of(text: &'a str) -> Self {
         let next = Token { kind: TokenKind::End, start: 0, end: 0 };
         let end = text.trim_end_matches(END_OF_FILE).len();
-        let mut tokens =
-            Self { text, next, last_end: 0, last_placeholder: None, end, place: Place::BEGINNING };
+        let place = Cell::new(Place::BEGINNING);
+        let last_placeholder = None;
+        let mut tokens = Self { text, next, last_end: 0, last_placeholder, begin: 0, end, place };
         let bom = text.len() - text.trim_start_matches('\u{feff}').len();
         let start = tokens.skip_blanks(bom);
-        let begin = if text[start..].starts_with("%%%") {
-            let length = text[start + 3..].find("%%%");
-            let inside = || RapidFaultKind::UnexpectedEnd {
-                inside: "the header".to_string(),
-                missing: "%%%",
-            };
-            start + 6 + length.ok_or_else(|| tokens.fault(start, inside()))?
-        } else {
-            start
-        };
-        tokens.next = tokens.read(begin)?;
-        Ok(tokens)
+        tokens.begin = start;
+        let header = text[start..].strip_prefix("%%%").and_then(|rest| rest.find("%%%"));
+        tokens.resume(header.map_or(start, |length| start + 6 + length));
+        tokens
     }
 
     /// The next token, without reading it.
@@ -103,11 +111,13 @@ impl<'a> Tokens<'a> {
     /// Read the next token.
     pub(crate) fn take(&mut self) -> Result<Token, RapidFault> {
         let token = self.next;
-        self.last_end = token.end;
+        if token.kind == TokenKind::Invalid {
+            return Err(self.unexpected("a token"));
+        }
         if token.kind == TokenKind::Placeholder {
             self.last_placeholder = Some(token.start);
         }
-        self.next = self.read(token.end)?;
+        self.resume(token.end);
         Ok(token)
     }
 
@@ -165,8 +175,11 @@ impl<'a> Tokens<'a> {
         Ok(is)
     }
 
-    /// The error that the next token is not the expected one.
+    /// The error that the next token is not the expected one, or is none.
     pub(crate) fn unexpected(&self, wanted: &'static str) -> RapidFault {
+        if let (TokenKind::Invalid, Err(fault)) = (self.next.kind, self.read(self.next.start)) {
+            return fault;
+        }
         let found = match self.next.kind {
             TokenKind::End => "the end of the text".to_string(),
             _ => excerpt(self.text_of(self.next)),
@@ -176,17 +189,16 @@ impl<'a> Tokens<'a> {
 
     /// An error at a byte.
     pub(crate) fn fault(&self, byte: usize, kind: RapidFaultKind) -> RapidFault {
-        fault_at(self.text, byte, kind)
+        let (line, column) = self.line_and_column(byte);
+        RapidFault { line, column, kind }
     }
 
     /// Line and column of a byte, from 1. Counts from the byte of the previous call, so that calls
-    /// in ascending order take linear time.
-    pub(crate) fn line_and_column(&mut self, byte: usize) -> (usize, usize) {
-        if byte < self.place.byte {
-            self.place = Place::BEGINNING;
-        }
-        self.place = self.place.advanced(self.text, byte);
-        (self.place.line, self.place.column)
+    /// for one statement after the other take linear time.
+    pub(crate) fn line_and_column(&self, byte: usize) -> (usize, usize) {
+        let place = self.place.get().moved(self.text, byte);
+        self.place.set(place);
+        (place.line, place.column)
     }
 
     /// The text that is read, without the blanks, NUL and Ctrl-Z at its end.
@@ -195,10 +207,11 @@ impl<'a> Tokens<'a> {
     }
 
     /// Continue after a byte that begins or ends a token.
-    pub(crate) fn resume(&mut self, byte: usize) -> Result<(), RapidFault> {
+    pub(crate) fn resume(&mut self, byte: usize) {
         self.last_end = byte;
-        self.next = self.read(byte)?;
-        Ok(())
+        let start = self.skip_blanks(byte);
+        let (kind, end) = self.read(start).unwrap_or((TokenKind::Invalid, start));
+        self.next = Token { kind, start, end };
     }
 
     /// The first byte after blanks and comments.
@@ -207,11 +220,11 @@ impl<'a> Tokens<'a> {
         if at < self.end { at } else { self.text.len() }
     }
 
-    fn read(&self, from: usize) -> Result<Token, RapidFault> {
-        let start = self.skip_blanks(from);
+    /// The kind and the end of the token that begins at a byte.
+    fn read(&self, start: usize) -> Result<(TokenKind, usize), RapidFault> {
         let bytes = self.text.as_bytes();
         let second = bytes.get(start + 1).copied().unwrap_or(0);
-        let (kind, end) = match bytes.get(start).copied() {
+        Ok(match bytes.get(start).copied() {
             None => (TokenKind::End, start),
             Some(b'0'..=b'9') => self.read_number(start)?,
             Some(b'.') if second.is_ascii_digit() => self.read_number(start)?,
@@ -221,10 +234,14 @@ impl<'a> Tokens<'a> {
                 Some(end) => (TokenKind::Placeholder, end),
                 None => (TokenKind::Symbol(b'<'), start + 1),
             },
+            // A header with an end is skipped.
+            Some(b'%') if start == self.begin && self.text[start..].starts_with("%%%") => {
+                let (inside, missing) = ("the header".to_string(), "%%%");
+                return Err(self.fault(start, RapidFaultKind::UnexpectedEnd { inside, missing }));
+            }
             Some(symbol) if is_symbol(symbol) => (TokenKind::Symbol(symbol), start + 1),
             Some(_) => (TokenKind::Name, self.end_of_name(start)?),
-        };
-        Ok(Token { kind, start, end })
+        })
     }
 
     fn end_of_name(&self, start: usize) -> Result<usize, RapidFault> {

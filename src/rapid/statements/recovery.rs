@@ -1,0 +1,148 @@
+//! Going on behind a fault, in a text that is read in spite of its faults.
+
+use alloc::string::ToString;
+use alloc::vec::Vec;
+
+use super::reader::StatementReader;
+use crate::error::{RapidFault, RapidFaultKind};
+use crate::rapid::data::unread::NotRead;
+use crate::rapid::text::place::excerpt;
+use crate::rapid::text::skipping::{at_line, end_of_line, is_conflict_marker, next_statement};
+use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
+use crate::rapid::text::words::Capitals;
+
+/// Most faults of a text that are kept.
+const MOST_FAULTS: usize = 100;
+
+/// The faults of a text. Without tolerance the first one ends the reading.
+pub(crate) struct Faults {
+    pub(crate) is_tolerant: bool,
+    pub(crate) kept: Vec<RapidFault>,
+}
+
+impl Faults {
+    pub(crate) fn new(is_tolerant: bool) -> Self {
+        Self { is_tolerant, kept: Vec::new() }
+    }
+
+    /// Keep a fault, to go on behind it.
+    pub(crate) fn add(&mut self, fault: RapidFault) -> Result<(), RapidFault> {
+        if !self.is_tolerant {
+            return Err(fault);
+        }
+        if !self.is_full() {
+            self.kept.push(fault);
+        }
+        Ok(())
+    }
+
+    /// Whether no further fault is kept.
+    pub(crate) fn is_full(&self) -> bool {
+        self.kept.len() >= MOST_FAULTS
+    }
+}
+
+/// Whether a text is what an encoded module looks like: control characters among its first ones.
+pub(crate) fn is_encoded(text: &str) -> bool {
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let is_control = |it: char| it.is_control() && !it.is_ascii_whitespace();
+    !text.starts_with('!')
+        && text.trim_end_matches(['\0', '\u{1a}']).chars().take(4).any(is_control)
+}
+
+impl StatementReader<'_> {
+    /// Keep a fault, to go on as if it were none.
+    pub(super) fn complain(&mut self, fault: RapidFault) -> Result<(), RapidFault> {
+        self.written.faults.add(fault)
+    }
+
+    /// Go on behind a fault in the statement that begins with a token.
+    pub(super) fn recover(&mut self, first: Token, fault: RapidFault) -> Result<(), RapidFault> {
+        let words = fault.kind.to_string();
+        // The bracket may have been meant to close on its line. Text that was read is not read
+        // again for each of many faults.
+        let is_open =
+            matches!(fault.kind, RapidFaultKind::Unclosed { .. }) && !self.written.faults.is_full();
+        self.complain(fault)?;
+        let text = self.tokens.text;
+        let from = if is_open { first.start } else { first.start.max(self.tokens.last_end) };
+        let at_line = at_line(&self.tokens).filter(|at| !is_open && *at > first.start);
+        let resumed = at_line.unwrap_or_else(|| next_statement(text, from));
+        let end = first.start + text[first.start..resumed].trim_end().len();
+        self.tokens.resume(end);
+        let word = Capitals::of(self.tokens.text_of(first));
+        let what = if self.opens(first, end) {
+            NotRead::Flow { word: word.as_str().to_string() }
+        } else {
+            let statement = excerpt(self.tokens.text_of(first));
+            NotRead::Invalid { statement, fault: words }
+        };
+        if end > first.start {
+            self.skip(first, what);
+        }
+        self.tokens.resume(resumed);
+        Ok(())
+    }
+
+    /// Open the block that an invalid statement begins, if it does.
+    fn opens(&mut self, first: Token, end: usize) -> bool {
+        let (word, text) = (self.tokens.text_of(first), &self.tokens.text[first.start..end]);
+        let ends_with = |end: &str| {
+            let start = text.len().saturating_sub(end.len());
+            text.get(start..).is_some_and(|it| it.eq_ignore_ascii_case(end))
+        };
+        let is = |other: &str| word.eq_ignore_ascii_case(other);
+        let begins = is("IF") && ends_with("THEN")
+            || (is("FOR") || is("WHILE")) && ends_with("DO")
+            || is("TEST") && !ends_with(";");
+        begins && self.written.blocks.open(word)
+    }
+
+    /// Report and close what is open where something else begins.
+    pub(super) fn close_all(&mut self) -> Result<(), RapidFault> {
+        if let Some(end) = self.expected_end() {
+            self.complain(self.tokens.unexpected(end))?;
+            self.close_blocks(0, self.tokens.peek().start);
+            self.leave_routine();
+        }
+        Ok(())
+    }
+
+    /// Close all blocks but the outer ones, as if their ends were in the text before a byte.
+    pub(super) fn close_blocks(&mut self, outer: usize, before: usize) {
+        while self.written.blocks.depth() > outer {
+            let Some(end) = self.written.blocks.close_innermost() else { return };
+            let (line, column) = self.tokens.line_and_column(before);
+            self.skip_as(
+                (line, column, before),
+                NotRead::Flow { word: end.to_string() },
+                end.to_string(),
+            );
+        }
+    }
+
+    /// Read a line that git leaves in a conflict.
+    pub(super) fn conflict_marker(&mut self) -> Result<bool, RapidFault> {
+        let start = self.tokens.peek().start;
+        if !is_conflict_marker(self.tokens.text, start) {
+            return Ok(false);
+        }
+        self.complain(self.tokens.fault(start, RapidFaultKind::ConflictMarker))?;
+        self.tokens.resume(end_of_line(self.tokens.text, start));
+        Ok(true)
+    }
+}
+
+/// Skip to a word that ends something without a name, or to where something else begins; false if
+/// it is not there.
+pub(super) fn skip_to_end(tokens: &mut Tokens<'_>, end: &str) -> Result<bool, RapidFault> {
+    let others = ["MODULE", "ENDMODULE", "PROC", "FUNC", "TRAP", "RECORD"];
+    while !tokens.take_word(end)? {
+        let is_last = tokens.peek().kind == TokenKind::End;
+        if is_last || others.iter().any(|other| tokens.at_word(other)) {
+            return Ok(false);
+        }
+        tokens.take()?;
+    }
+    Ok(true)
+}
