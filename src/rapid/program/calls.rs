@@ -195,7 +195,7 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// Give a datum or a local another content, or none that is known.
-    fn put(&mut self, lower: &str, content: Option<Content>) {
+    pub(super) fn put(&mut self, lower: &str, content: Option<Content>) {
         if let Some(local) = self.state.locals.get_mut(lower) {
             local.content = content.ok_or(Unresolved::ValueNotKnown);
             return;

@@ -9,6 +9,7 @@ use super::arguments::{Parameter, arguments, assignment, called, referred};
 use super::index::{DatumId, Program};
 use super::tree::{Block, Body, Node};
 use crate::rapid::data::instructions::{Effect, written_argument};
+use crate::rapid::data::moves::Move;
 use crate::rapid::data::unread::{NotRead, Skipped};
 
 /// How often effects are passed on from routine to routine: chains of calls are no longer.
@@ -208,6 +209,14 @@ struct Reader<'e, 'm> {
     assigned: &'e mut BTreeMap<DatumId, Assigned>,
 }
 
+/// The name in lower case that a move writes to.
+pub(super) fn written_by(step: &Move) -> Option<String> {
+    let place = written_argument(&step.instruction)?.checked_sub(1)?;
+    let argument = step.extra.iter().find(|it| it.place == place)?;
+    let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
+    Some(argument.text.split(|c| !is_of_name(c)).next()?.to_lowercase())
+}
+
 /// Add an assignment of a datum.
 fn add(
     all: &mut BTreeMap<DatumId, Assigned>,
@@ -238,7 +247,13 @@ impl<'e, 'm> Reader<'e, 'm> {
     fn block(&mut self, block: &Block<'_>) {
         for node in block {
             match node {
-                Node::Move(..) | Node::Setting(_) => self.acts.moves = true,
+                Node::Setting(_) => self.acts.moves = true,
+                Node::Move(_, step) => {
+                    self.acts.moves = true;
+                    if let Some(name) = written_by(step) {
+                        self.assign(&name, String::new(), step.line);
+                    }
+                }
                 Node::Other(skipped) => self.statement(skipped),
                 Node::Branches { parts, .. } => parts.iter().for_each(|part| self.block(part)),
                 Node::Loop { body, .. } => self.block(body),

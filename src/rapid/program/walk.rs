@@ -10,6 +10,7 @@ use alloc::vec::Vec;
 use core::cell::Cell;
 
 use super::calls::Frame;
+use super::effects::written_by;
 use super::index::Program;
 use super::state::{Here, Local, State};
 use super::tree::{Block, Node};
@@ -260,6 +261,9 @@ impl<'m> Walk<'_, 'm> {
         let halt = None;
         let stepped = Stepped { module, instruction, step: own, takes_last, halt };
         self.push(Step::Move(Box::new(stepped)));
+        if let Some(name) = written_by(step) {
+            self.put(&name, None);
+        }
     }
 
     pub(super) fn push(&mut self, step: Step<'m>) {
