@@ -2,6 +2,7 @@
 
 mod abb;
 mod confdata;
+mod designation;
 mod franka;
 mod left_out;
 mod names;
@@ -63,6 +64,28 @@ impl AngleUnit {
     }
 }
 
+/// The parallelogram linkage of an ABB arm. It couples axes 2 and 3: the controller measures axis 3
+/// from the base, q3_serial = q3 - q2, and so are its limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Linkage {
+    /// The arm has none.
+    None,
+    /// It has one; no source has the limits of the linkage.
+    LimitsUnknown,
+    /// (lower, upper) limit of q3 - q2 [deg].
+    Limits([f64; 2]),
+}
+
+impl Linkage {
+    /// The limits of q3 - q2 [rad].
+    fn limits(self) -> Option<[f64; 2]> {
+        match self {
+            Self::Limits(degrees) => Some(degrees.map(f64::to_radians)),
+            Self::None | Self::LimitsUnknown => None,
+        }
+    }
+}
+
 /// The geometry of a catalog arm.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
@@ -81,9 +104,8 @@ pub enum CatalogGeometry {
         c3: f64,
         /// Wrist center to flange.
         c4: f64,
-        /// Axes 2 and 3 are coupled by a parallelogram linkage: the controller measures axis 3 from
-        /// the base, q3_serial = q3 - q2, and so are its limits.
-        coupled: bool,
+        /// The linkage that drives axis 3.
+        linkage: Linkage,
     },
     /// Three parallel axes, in Universal Robots' standard Denavit-Hartenberg parameters [mm]:
     /// twists of 90, 0, 0, 90, -90 and 0 deg.
@@ -161,7 +183,15 @@ impl CatalogArm {
     /// Whether a parallelogram linkage couples axes 2 and 3.
     #[must_use]
     pub fn is_coupled(&self) -> bool {
-        matches!(self.geometry, CatalogGeometry::Abb { coupled: true, .. })
+        self.linkage() != Linkage::None
+    }
+
+    /// The linkage that couples its axes 2 and 3.
+    fn linkage(&self) -> Linkage {
+        match self.geometry {
+            CatalogGeometry::Abb { linkage, .. } => linkage,
+            _ => Linkage::None,
+        }
     }
 
     /// Other names that [`find`] takes for it, besides spellings that differ in what does not
@@ -222,9 +252,10 @@ impl<const N: usize> Robot<N> {
             None => None,
         };
         let robot = match arm.geometry {
-            CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, coupled } => {
+            CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, linkage } => {
                 let [a1, a2, c1, c2, c3, c4] = [a1, a2, c1, c2, c3, c4].map(|mm| mm / 1e3);
-                Self::of_opw(OpwParameters::abb(a1, a2, c1, c2, c3, c4))?.with_coupling(coupled)
+                Self::of_opw(OpwParameters::abb(a1, a2, c1, c2, c3, c4))?
+                    .with_coupling(linkage != Linkage::None)
             }
             CatalogGeometry::ThreeParallel { d1, a2, a3, d4, d5, d6 } => {
                 let rows = [
@@ -272,6 +303,8 @@ impl<const N: usize> Robot<N> {
         let limits =
             JointLimits::new(limits.map(|limit| limit.map(|angle| arm.angles.to_radians(angle))))?;
         let robot = robot.with_name(arm.name).with_limits(limits).with_max_velocity(velocity)?;
+        let linkage = arm.linkage().limits();
+        let robot = if linkage.is_some() { robot.with_linkage_limits(linkage)? } else { robot };
         let robot = robot.with_rule(arm.own_configuration_rule());
         let body = body_of(arm.name).map_or_else(|| robot.approximate_body(), Ok)?;
         robot.with_body(Some(body))

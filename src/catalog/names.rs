@@ -5,6 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::iter;
 
+use super::designation::{self, Designation};
 use super::{CatalogArm, catalog, left_out};
 use crate::error::{Error, UnknownRobot};
 #[cfg(feature = "std")]
@@ -33,7 +34,12 @@ pub(super) const ALIASES: &[(&str, &str)] = &[
 /// Finds an arm by its name or an alias, the maker's name before it or not; case, blanks, dashes,
 /// `_`, `/`, `,`, parentheses and the last zeros of a decimal (2.50, 2,5) do not matter.
 ///
-/// Names are not guessed: a name that lacks a part is unknown, even if only one arm has it.
+/// An ABB arm is also found by the type string of a controller's configuration
+/// (`ROB1_4600_2.55_40`, `ROB_L_14000_05_05`) and by the wording of a backup (`6600/2.55-175`,
+/// `IRB 4600-40/2.55 Type C`): series, payload and reach in either order, with or without `IRB`.
+/// The drive generation (`Type C`) and Foundry (`1300F`) do not matter.
+///
+/// Names are not guessed: a name that lacks a figure is unknown, even if only one arm has it.
 ///
 /// # Errors
 ///
@@ -48,11 +54,27 @@ pub fn find(name: &str) -> Result<&'static CatalogArm, Error> {
             || after_maker.is_some_and(|rest| rest == own)
             || arm.aliases().any(|alias| squeezed(alias) == wanted)
     };
-    catalog().find(is_meant).ok_or_else(|| {
-        let left_out = left_out::meant(name);
-        let close = if left_out.is_some() { Vec::new() } else { close_to(&wanted) };
+    let designation = Designation::of(name);
+    let designated = || designation.as_ref().and_then(designation::arm_of);
+    catalog().find(is_meant).or_else(designated).ok_or_else(|| {
+        let left_out = left_out::meant(name).or_else(|| designation::left_out(name));
+        let close = match &designation {
+            _ if left_out.is_some() => Vec::new(),
+            Some(designation) => close_or(designation, || close_to(&wanted)),
+            None => close_to(&wanted),
+        };
         Error::UnknownRobot(UnknownRobot { name: name.to_owned(), close, left_out })
     })
+}
+
+/// Names of the series of a designation; if there are none, others.
+fn close_or(
+    designation: &Designation,
+    others: impl FnOnce() -> Vec<&'static str>,
+) -> Vec<&'static str> {
+    let mut close = designation::close_to(designation);
+    close.truncate(MOST_CLOSE);
+    if close.is_empty() { others() } else { close }
 }
 
 /// A name without the characters that do not matter.

@@ -5,7 +5,12 @@ use super::BodyOfArm;
 #[rustfmt::skip]
 pub(super) const BODIES: &[BodyOfArm] = &[
     BodyOfArm {
-        names: &["IRB 6600-225/2.55", "IRB 6640-180/2.55", "IRB 6640ID-200/2.55"],
+        names: &[
+            "IRB 6600-175/2.55",
+            "IRB 6600-225/2.55",
+            "IRB 6640-180/2.55",
+            "IRB 6640ID-200/2.55",
+        ],
         source: "ros-industrial/abb 77db19bdb0 abb_irb6600_support/urdf/irb6600_225_255.xacro, Apache-2.0",
         excess: &[153, 73, 61, 67, 44, 25, 25],
         links: &[

@@ -1,6 +1,6 @@
 //! IRB 6700 to 8700.
 
-use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
+use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
 
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
@@ -15,7 +15,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1592.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -42,7 +42,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1592.5,
             c4: 350.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -69,7 +69,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1125.0,
             c3: 1392.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -96,7 +96,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1135.0,
             c3: 1592.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -123,7 +123,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1125.0,
             c3: 1142.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -150,7 +150,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1182.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -177,7 +177,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1135.0,
             c3: 1182.5,
             c4: 350.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -204,7 +204,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1135.0,
             c3: 1182.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -231,7 +231,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1182.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -258,7 +258,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1135.0,
             c3: 1182.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -285,7 +285,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 2012.0,
             c4: 250.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -312,7 +312,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 1556.0,
             c4: 250.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -339,7 +339,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 1306.0,
             c4: 250.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -366,7 +366,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 1056.0,
             c4: 250.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -393,7 +393,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 806.0,
             c4: 250.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -420,7 +420,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 1056.0,
             c4: 250.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -447,7 +447,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1580.0,
             c3: 2175.0,
             c4: 310.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -474,7 +474,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1580.0,
             c3: 1475.0,
             c4: 310.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[

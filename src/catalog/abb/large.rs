@@ -1,6 +1,6 @@
 //! IRB 5710 to 6660.
 
-use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
+use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
 
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
@@ -15,7 +15,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 950.0,
             c3: 1460.0,
             c4: 290.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -42,7 +42,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 950.0,
             c3: 1055.0,
             c4: 333.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -69,7 +69,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 950.0,
             c3: 1460.0,
             c4: 160.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -96,7 +96,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 950.0,
             c3: 1055.0,
             c4: 167.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -123,7 +123,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1120.0,
             c3: 1547.5,
             c4: 333.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -150,7 +150,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1120.0,
             c3: 1547.5,
             c4: 167.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -177,7 +177,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1120.0,
             c3: 1142.5,
             c4: 346.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -204,7 +204,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1120.0,
             c3: 1142.5,
             c4: 180.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -231,7 +231,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 950.0,
             c3: 1300.0,
             c4: 200.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -258,7 +258,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1050.0,
             c3: 1175.0,
             c4: 200.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -285,7 +285,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1050.0,
             c3: 1520.0,
             c4: 200.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -312,7 +312,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 1392.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -328,6 +328,33 @@ pub(super) const ARMS: &[CatalogArm] = &[
         provenance: "robotkinematicscatalogue",
     },
     CatalogArm {
+        name: "IRB 6600-175/2.55",
+        maker: "ABB",
+        payload: Some(175.0),
+        reach: Some(2.55),
+        geometry: CatalogGeometry::Abb {
+            a1: 320.0,
+            a2: -200.0,
+            c1: 780.0,
+            c2: 1075.0,
+            c3: 1142.0,
+            c4: 200.0,
+            linkage: Linkage::None,
+        },
+        angles: AngleUnit::Degrees,
+        limits: &[
+            [-180.0, 180.0],
+            [-65.0, 85.0],
+            [-180.0, 70.0],
+            [-300.0, 300.0],
+            [-120.0, 120.0],
+            [-360.0, 360.0],
+        ],
+        max_velocity: None,
+        sources: 1,
+        provenance: "a controller's backup, yrndimo/RobotStudio:progetti-riferimento/SYSPAR/MOC.cfg (limits); its jointtargets and robtargets of one pose agree within 0.023 mm and 0.0013 deg with the lengths of the IRB 6600-225/2.55, whose axes 2, 3 and 6 have other limits",
+    },
+    CatalogArm {
         name: "IRB 6600-225/2.55",
         maker: "ABB",
         payload: Some(225.0),
@@ -339,7 +366,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 1142.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -366,7 +393,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 975.0,
             c3: 887.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -393,7 +420,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1592.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -420,7 +447,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 1142.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -447,7 +474,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 1392.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -474,7 +501,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1142.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -501,7 +528,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 1142.5,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -528,7 +555,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1142.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -555,7 +582,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1075.0,
             c3: 1142.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -582,7 +609,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1592.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -609,7 +636,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1142.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -636,7 +663,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 2042.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -663,7 +690,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1592.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -690,7 +717,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1142.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -717,7 +744,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1280.0,
             c3: 1505.5,
             c4: 200.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -744,19 +771,19 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 700.0,
             c3: 893.0,
             c4: 200.0,
-            coupled: true,
+            linkage: Linkage::Limits([-70.0, 70.0]),
         },
         angles: AngleUnit::Degrees,
         limits: &[
             [-180.0, 180.0],
             [-42.0, 85.0],
-            [-20.0, 120.0],
+            [-20.0, 120.5],
             [-300.0, 300.0],
             [-120.0, 120.0],
             [-360.0, 360.0],
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalogue (lengths); a controller's configuration, SDEBEUL/Kraker1:SYSPAR/MOC.cfg (limits: axis 3 to 120.5 deg, upper_joint_coupl_bound 70 deg); axis 3 ends at 120 deg in robotkinematicscatalogue, which has no limits of the linkage",
     },
 ];

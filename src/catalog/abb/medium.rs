@@ -1,6 +1,6 @@
 //! IRB 2400 to 4600.
 
-use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
+use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
 
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
@@ -15,7 +15,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 705.0,
             c3: 755.0,
             c4: 85.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -42,7 +42,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 705.0,
             c3: 755.0,
             c4: 85.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -69,7 +69,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 705.0,
             c3: 755.0,
             c4: 85.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -96,7 +96,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 855.0,
             c3: 870.0,
             c4: 65.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -123,7 +123,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 700.0,
             c3: 795.0,
             c4: 85.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -150,7 +150,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 900.0,
             c3: 795.0,
             c4: 85.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -177,7 +177,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 700.0,
             c3: 795.0,
             c4: 85.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -204,7 +204,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 900.0,
             c3: 938.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -231,7 +231,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 900.0,
             c3: 786.0,
             c4: 135.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -258,7 +258,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 890.0,
             c3: 880.0,
             c4: 140.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -285,7 +285,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 890.0,
             c3: 880.0,
             c4: 140.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -312,7 +312,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 890.0,
             c3: 1380.0,
             c4: 140.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -339,7 +339,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1095.0,
             c3: 1230.5,
             c4: 85.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -366,7 +366,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 1095.0,
             c3: 1270.0,
             c4: 135.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -393,7 +393,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 900.0,
             c3: 960.0,
             c4: 135.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -420,7 +420,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 900.0,
             c3: 960.0,
             c4: 135.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[

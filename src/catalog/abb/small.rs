@@ -1,6 +1,6 @@
 //! IRB arms with type numbers below 2000.
 
-use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
+use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
 
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
@@ -15,7 +15,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 475.0,
             c3: 600.0,
             c4: 65.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -42,7 +42,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 700.0,
             c3: 600.0,
             c4: 65.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -69,7 +69,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 270.0,
             c3: 302.0,
             c4: 72.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -96,7 +96,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 270.0,
             c3: 302.0,
             c4: 72.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -123,7 +123,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 360.0,
             c3: 380.0,
             c4: 65.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -150,7 +150,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 185.0,
             c3: 185.0,
             c4: 45.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -177,7 +177,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 225.0,
             c3: 250.0,
             c4: 64.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -204,7 +204,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 280.0,
             c3: 300.0,
             c4: 64.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -231,7 +231,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 448.0,
             c3: 451.0,
             c4: 82.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -240,11 +240,11 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-200.0, 70.0],
             [-270.0, 270.0],
             [-130.0, 130.0],
-            [-360.0, 360.0],
+            [-400.0, 400.0],
         ],
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
         sources: 6,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents and visose/Robots: its turn limit is a software setting",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents, visose/Robots and three controllers' configurations (panin-anan/abb_SAMXL_Grinding_RAPID:SYSPAR/MOC.cfg), +-360 deg in the others",
     },
     CatalogArm {
         name: "IRB 1200-7/0.7",
@@ -258,7 +258,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 350.0,
             c3: 351.0,
             c4: 82.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -285,7 +285,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 575.0,
             c3: 675.0,
             c4: 90.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -312,7 +312,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 575.0,
             c3: 425.0,
             c4: 90.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -339,7 +339,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 425.0,
             c3: 425.0,
             c4: 90.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -366,7 +366,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 575.0,
             c3: 675.0,
             c4: 90.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -393,7 +393,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 575.0,
             c3: 425.0,
             c4: 90.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -420,7 +420,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 425.0,
             c3: 425.0,
             c4: 90.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -447,7 +447,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 600.0,
             c3: 720.0,
             c4: 85.0,
-            coupled: true,
+            linkage: Linkage::LimitsUnknown,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -474,7 +474,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 590.0,
             c3: 723.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -501,7 +501,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 475.0,
             c3: 600.0,
             c4: 65.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -528,7 +528,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 700.0,
             c3: 600.0,
             c4: 65.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -555,7 +555,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 475.0,
             c3: 600.0,
             c4: 65.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -582,7 +582,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 700.0,
             c3: 600.0,
             c4: 65.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -609,7 +609,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 475.0,
             c3: 600.0,
             c4: 65.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -636,7 +636,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 700.0,
             c3: 600.0,
             c4: 65.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -663,7 +663,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 700.0,
             c3: 640.0,
             c4: 200.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -690,7 +690,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 700.0,
             c3: 678.0,
             c4: 135.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
@@ -717,7 +717,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
             c2: 700.0,
             c3: 678.0,
             c4: 135.0,
-            coupled: false,
+            linkage: Linkage::None,
         },
         angles: AngleUnit::Degrees,
         limits: &[
