@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from types import ModuleType
 
+    from irbkin import abb as abb
     from irbkin import body as body
     from irbkin import calibration as calibration
     from irbkin import map as map
@@ -96,6 +97,7 @@ __all__ = [
     "UnknownRobotError",
     "UnreachableError",
     "__version__",
+    "abb",
     "calibrate",
     "calibration",
     "catalog",
@@ -114,6 +116,7 @@ __all__ = [
 # whose shapes are few users', and `map`,
 # which would then replace Python's own.
 _MODULES = (
+    "abb",
     "body",
     "calibration",
     "map",

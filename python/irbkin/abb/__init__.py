@@ -1,0 +1,36 @@
+"""Backups of ABB's controllers: robots, limits in force, units and tasks.
+
+    >>> import irbkin.abb
+    >>> backup = irbkin.abb.load_backup("examples/backup")  # doctest: +SKIP
+    >>> backup.robots["ROB_2"].robot  # doctest: +SKIP
+
+docs/guide/backup.md has an example.
+"""
+
+from irbkin.abb.backinfo import BackInfo, parse_backinfo
+from irbkin.abb.backup import Backup, Controller, task_files
+from irbkin.abb.cfg import CfgFile, Instance, parse_cfg
+from irbkin.abb.findings import Finding
+from irbkin.abb.load import load_backup
+from irbkin.abb.programs import TaskModule
+from irbkin.abb.tasks import Task
+from irbkin.abb.units import ExternalAxis, ExternalUnit, LimitDifference, RobotUnit
+
+__all__ = [
+    "BackInfo",
+    "Backup",
+    "CfgFile",
+    "Controller",
+    "ExternalAxis",
+    "ExternalUnit",
+    "Finding",
+    "Instance",
+    "LimitDifference",
+    "RobotUnit",
+    "Task",
+    "TaskModule",
+    "load_backup",
+    "parse_backinfo",
+    "parse_cfg",
+    "task_files",
+]

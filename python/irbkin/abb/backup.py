@@ -1,0 +1,184 @@
+"""A controller's backup as one record."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from irbkin.abb.carriers import MOST_CARRIERS
+from irbkin.abb.findings import Finding
+from irbkin.abb.folders import Folder
+from irbkin.abb.tasks import Task
+from irbkin.abb.units import NOT_THERE, ExternalUnit, RobotUnit
+from irbkin.errors import InvalidModelError
+
+if TYPE_CHECKING:
+    from irbkin import Robot
+    from irbkin.abb.units import Pose
+
+ControllerKind = Literal["S4C+", "IRC5", "OmniCore"]
+NO_AXES = (NOT_THERE,) * 6
+
+
+@dataclass(frozen=True)
+class Controller:
+    """The controller that a backup is of."""
+
+    kind: ControllerKind | None
+    """Generation, or None where the files do not say."""
+    robotware: str
+    """Version of RobotWare as backinfo.txt has it, "6.08.01.00", or empty."""
+    cfg_version: str
+    """Version of the configuration files, "6:0", or empty."""
+    system: str
+    """Name of the system, or empty."""
+    is_real: bool
+    """Whether motors have calibration offsets, which a virtual controller has not."""
+
+
+@dataclass(frozen=True, eq=False)
+class Backup:
+    """A controller's backup.
+
+    Lengths are in meters, angles in radians, poses 4x4 matrices in the world, except where a name
+    says `_mm_deg`.
+    """
+
+    path: Path
+    """Root of the backup; of an archive, a temporary folder that lives as long as this record."""
+    controller: Controller
+    """Generation and versions."""
+    robots: Mapping[str, RobotUnit]
+    """Robots by the name of their unit."""
+    units: Mapping[str, ExternalUnit]
+    """Tracks, positioners, gantries and servo axes by name."""
+    tasks: tuple[Task, ...]
+    """Tasks in the order of their folders."""
+    findings: tuple[Finding, ...]
+    """What is not determined, missing or broken, once for each unit or file."""
+    checksums: Mapping[str, str] = field(default_factory=dict)
+    """OmniCore: base64 of BACKINFO/checksum.txt by path in the backup, in lower case, with `/`."""
+    _folder: Folder | None = field(default=None, repr=False)
+
+    def task(self, name: str) -> Task:
+        """Return the task of a name, compared without case.
+
+        Raises:
+            KeyError: There is none.
+        """
+        found = next((it for it in self.tasks if it.name.lower() == name.lower()), None)
+        if found is None:
+            raise KeyError(f"no task {name!r}: {', '.join(it.name for it in self.tasks)}")
+        return found
+
+    def unit(self, name: str) -> RobotUnit | ExternalUnit | None:
+        """Return the unit of a name, or the one of a MECHANICAL_UNIT of that name, compared without
+        case; None where there is none.
+        """
+        return self._by_name.get(name.lower())
+
+    @cached_property
+    def _by_name(self) -> dict[str, RobotUnit | ExternalUnit]:
+        units: list[RobotUnit | ExternalUnit] = [*self.units.values(), *self.robots.values()]
+        named = {it.name.lower(): it for it in units}
+        of_mechanical = {it.mechanical_unit.lower(): it for it in units}
+        return {**of_mechanical, **named}
+
+    def base_at(self, name: str, external_mm_deg: Sequence[float] = NO_AXES) -> Pose:
+        """Return the base frame of a robot or unit in the world.
+
+        Args:
+            name: Name of the unit, case does not matter.
+            external_mm_deg: The six external axes of a target [mm, deg]; 9E9 for none.
+
+        Returns:
+            Pose [m], shape (4, 4).
+
+        Raises:
+            InvalidModelError: The files do not determine it, or the target lacks an axis; the
+                message names the unit.
+        """
+        unit = self._known(name)
+        pose = _base_of(unit)
+        for _ in range(MOST_CARRIERS):
+            if not unit.carried_by:
+                return pose
+            unit = self._carrier(unit)
+            pose = _base_of(unit) @ unit.moved(external_mm_deg) @ pose
+        raise InvalidModelError(f"{name}: the units that carry it carry each other")
+
+    def frame_at(self, name: str, external_mm_deg: Sequence[float] = NO_AXES) -> Pose:
+        """Return the frame that an external unit moves, in the world: base frame times motion.
+
+        A track moves along x of its base frame, a positioner turns about z of it. Arguments and
+        errors as for `base_at`.
+        """
+        unit = self._known(name)
+        if isinstance(unit, RobotUnit):
+            raise InvalidModelError(f"{unit.name} is a robot: external axes do not move it")
+        return self.base_at(unit.name, external_mm_deg) @ unit.moved(external_mm_deg)
+
+    def _known(self, name: str) -> RobotUnit | ExternalUnit:
+        unit = self.unit(name)
+        if unit is None:
+            raise InvalidModelError(f"{name}: no such unit in the backup")
+        return unit
+
+    def _carrier(self, unit: RobotUnit | ExternalUnit) -> ExternalUnit:
+        carrier = self.unit(unit.carried_by or "")
+        if not isinstance(carrier, ExternalUnit):
+            name = unit.carried_by
+            raise InvalidModelError(f"{unit.name}: {name}, which carries it, is no unit of MOC.cfg")
+        return carrier
+
+    def robot_at(self, name: str, external_mm_deg: Sequence[float] = NO_AXES) -> Robot:
+        """Return a robot with its limits in force and its base in the world.
+
+        Arguments and errors as for `base_at`; the error of an arm that is not in the catalog has
+        its type string.
+        """
+        unit = self._known(name)
+        if not isinstance(unit, RobotUnit):
+            raise InvalidModelError(f"{unit.name}: is no robot")
+        if unit.robot is None:
+            raise InvalidModelError(f"{unit.name}: its arm {unit.type!r} is not in the catalog")
+        if not unit.carried_by and unit.base is not None:
+            return unit.robot
+        return unit.robot.with_base(self.base_at(unit.name, external_mm_deg))
+
+    def has_checksum(self, path: str | PathLike[str]) -> bool:
+        """Return whether checksum.txt covers a file: changed, it no longer agrees with its line.
+
+        Args:
+            path: The file: an absolute path, or one relative to the backup.
+        """
+        path = Path(path)
+        if path.is_absolute():
+            if not path.is_relative_to(self.path):
+                return False
+            path = path.relative_to(self.path)
+        return path.as_posix().lower() in self.checksums
+
+    @cached_property
+    def programs(self) -> Mapping[str, Any]:
+        """The programs of the tasks, by name: `irbkin.rapid.load_program` of their files."""
+        from irbkin import rapid
+
+        load: Any = rapid.load_program  # type: ignore[attr-defined]
+        return {task.name: load(task_files(self, task)) for task in self.tasks if task.modules}
+
+
+def _base_of(unit: RobotUnit | ExternalUnit) -> Pose:
+    if unit.base is None:
+        raise InvalidModelError(f"{unit.name}: its base frame is not determined")
+    return unit.base
+
+
+def task_files(backup: Backup, task: Task | str) -> tuple[Path, ...]:
+    """Return the files of a task's modules, in the order of `Task.modules`."""
+    of = backup.task(task) if isinstance(task, str) else task
+    return tuple(module.path for module in of.modules)

@@ -1,0 +1,80 @@
+"""Which units carry others, and which of them move work objects."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from irbkin.abb.cfg import CfgFile
+from irbkin.abb.findings import Finding
+from irbkin.abb.units import ExternalUnit, RobotUnit
+
+MOST_CARRIERS = 8
+"""Units that carry each other in a row: more are a circle."""
+USES = ("use_robot", "use_single")
+"""Beginnings of the keys of MECHANICAL_UNIT that name its units."""
+
+
+@dataclass
+class Machine:
+    """The mechanical units of a controller."""
+
+    robots: dict[str, RobotUnit]
+    """Robots by name, in the order of the file."""
+    units: dict[str, ExternalUnit]
+    """Other units by name."""
+    findings: list[Finding]
+    """What is not determined of them."""
+
+    def all_units(self) -> list[RobotUnit | ExternalUnit]:
+        """Return robots and other units."""
+        return [*self.robots.values(), *self.units.values()]
+
+
+def related(moc: CfgFile, machine: Machine) -> Machine:
+    """Return the machine with what units carry, and what MECHANICAL_UNIT says of them."""
+    carried: dict[str, list[str]] = {}
+    for unit in machine.all_units():
+        carried.setdefault((unit.carried_by or "").lower(), []).append(unit.name)
+    mechanical: dict[str, str] = {}
+    moving: set[str] = set()
+    for it in moc.of("MECHANICAL_UNIT"):
+        used = [value.lower() for key, value in it.values.items() if key.startswith(USES)]
+        if len(used) == 1:
+            mechanical.setdefault(used[0], it.name)
+        if it.switch("allow_move_of_user_frame"):
+            moving.update(used)
+    units = {
+        name: replace(
+            unit,
+            carries=tuple(carried.get(name.lower(), ())),
+            moves_work_objects=name.lower() in moving,
+            mechanical_unit=mechanical.get(name.lower(), ""),
+        )
+        for name, unit in machine.units.items()
+    }
+    robots = {
+        name: replace(robot, mechanical_unit=mechanical.get(name.lower(), ""))
+        for name, robot in machine.robots.items()
+    }
+    return Machine(robots, units, machine.findings)
+
+
+def check_carriers(machine: Machine, file: str) -> None:
+    """Report units whose carrier is missing, or that are carried in a circle."""
+    units = {name.lower(): unit for name, unit in machine.units.items()}
+    for unit in machine.all_units():
+        carriers: list[ExternalUnit] = []
+        name = unit.carried_by
+        while name and len(carriers) <= MOST_CARRIERS:
+            carrier = units.get(name.lower())
+            if carrier is None:
+                message = f"{unit.name}: {name}, which carries it, is no unit of MOC.cfg: "
+                message += "its place is not determined"
+                machine.findings.append(Finding(file, unit.line, "carrier", "warning", message))
+                break
+            carriers.append(carrier)
+            name = carrier.carried_by
+        if len(carriers) > MOST_CARRIERS:
+            message = f"{unit.name}: the units that carry it carry each other: "
+            message += "its place is not determined"
+            machine.findings.append(Finding(file, unit.line, "carrier", "error", message))

@@ -1,0 +1,238 @@
+"""MOC.cfg as a machine: its robots with base frames and limits, its external units."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from irbkin.abb.arms import Fitted, fitted
+from irbkin.abb.carriers import Machine, check_carriers, related
+from irbkin.abb.cfg import CfgFile, Instance
+from irbkin.abb.findings import Finding, Severity
+from irbkin.abb.units import AXES, ExternalAxis, ExternalUnit, RobotUnit, UnitKind
+
+if TYPE_CHECKING:
+    from irbkin.abb.units import Pose
+
+NORM_TOLERANCE = 2e-3
+"""Distance from 1 at which the norm of a quaternion is an error, as in `irbkin.pose` [1]."""
+FIRST_LOGICAL_AXIS = 7
+"""The logical axis of eax_a."""
+
+
+class _Reader:
+    """MOC.cfg while it is read."""
+
+    def __init__(self, moc: CfgFile, wording: tuple[str, ...]) -> None:
+        self.moc = moc
+        self.wording = wording
+        self.findings: list[Finding] = []
+
+    def report(self, line: int, code: str, severity: Severity, message: str) -> None:
+        self.findings.append(Finding(self.moc.file, line, code, severity, message))
+
+    def arm_of(self, joint: str) -> Instance | None:
+        """Return the ARM of a joint: the one that JOINT names, else the one of its name."""
+        named = self.moc.named("JOINT", joint)
+        arm = named.text("use_arm", joint) if named else joint
+        return self.moc.named("ARM", arm) or self.moc.named("ARM", joint)
+
+    def bounds(self, joint: str) -> tuple[float, float]:
+        """Return the limits in force of a joint [rad or m], NaN where they are not given."""
+        arm = self.arm_of(joint)
+        if arm is None:
+            return math.nan, math.nan
+        keys = ("lower_joint_bound", "upper_joint_bound")
+        lower, upper = (arm.number(key, math.nan) for key in keys)
+        return lower, upper
+
+    def linkage(self, joints: tuple[str, ...]) -> tuple[float, float] | None:
+        """Return the limits of the linkage [rad], if an axis has them."""
+        for arm in filter(None, map(self.arm_of, joints)):
+            keys = ("lower_joint_coupl_bound", "upper_joint_coupl_bound")
+            if all(map(arm.has, keys)):
+                lower, upper = (arm.number(key, math.nan) for key in keys)
+                if lower < upper:
+                    return lower, upper
+                self.report(
+                    arm.line, "linkage-limits", "warning",
+                    f"ARM {arm.name}: the limits of the linkage are empty: not used",
+                )  # fmt: skip
+        return None
+
+    def base(self, of: Instance) -> Pose | None:
+        """Return the base frame of an instance [m]. An absent key has its default; u0 is 1."""
+        from irbkin import pose
+
+        position = [of.number(f"base_frame_pos_{axis}") for axis in "xyz"]
+        wxyz = [of.number(f"base_frame_orient_u{i}", float(i == 0)) for i in range(4)]
+        norm = math.hypot(*wxyz)
+        if abs(norm - 1.0) > NORM_TOLERANCE:
+            self.report(
+                of.line, "base-frame", "error",
+                f"{of.name}: the quaternion of its base frame has norm {norm:.6f}, it must be 1 "
+                f"within {NORM_TOLERANCE:g}: its place is not determined",
+            )  # fmt: skip
+            return None
+        try:
+            return pose(position, wxyz)
+        except ValueError as error:
+            message = f"{of.name}: its base frame is not determined: {error}"
+            self.report(of.line, "base-frame", "error", message)
+            return None
+
+    def carrier(self, of: Instance) -> str | None:
+        return of.text("base_frame_coordinated") or None
+
+    def joints_of(self, robot: Instance) -> tuple[str, ...]:
+        """Return the joints of a robot, axis 1 first; axis 7 of a YuMi is a SINGLE beside it."""
+        keys = (key for key in robot.values if key.startswith("use_joint_"))
+        ordered = sorted(keys, key=lambda key: (len(key), key))
+        joints = [robot.text(key) for key in ordered]
+        seventh = self.seventh_of(robot)
+        return (*joints, seventh.text("use_joint", seventh.name)) if seventh else tuple(joints)
+
+    def seventh_of(self, robot: Instance) -> Instance | None:
+        """Return the single that is axis 7 of a robot."""
+        return self.moc.named("SINGLE", f"{robot.name}_7")
+
+    def robot(self, of: Instance) -> RobotUnit:
+        """Return a robot."""
+        type_name = of.text("use_robot_type")
+        joints = self.joints_of(of)
+        base = self.base(of)
+        limits = [self.bounds(joint) for joint in joints]
+        # A name that lacks a side has it in the name of the unit: ROB_L.
+        names = [type_name, f"{of.name}_{type_name}"]
+        only = len(self.moc.of("ROBOT")) == 1
+        found = fitted(names, self.wording if only else (), limits, self.linkage(joints))
+        self.report_fit(of, type_name, found)
+        robot = found.robot
+        if robot is not None and base is not None:
+            try:
+                robot = robot.with_base(base)
+            except ValueError as error:
+                base = None
+                message = f"{of.name}: its base frame is not determined: {error}"
+                self.report(of.line, "base-frame", "error", message)
+        calibration = of.text("use_robot_calib").lower()
+        is_calibrated = calibration.endswith("_calib") and bool(self.errors_of(joints))
+        if is_calibrated:
+            self.report(
+                of.line, "calibrated", "note",
+                f"{of.name}: its kinematics were measured (Absolute Accuracy): the nominal ones "
+                "are used",
+            )  # fmt: skip
+        return RobotUnit(
+            of.name, type_name, found.arm, robot, base, self.carrier(of), found.differences,
+            is_calibrated, self.has_offsets(joints), joints, of.line,
+        )  # fmt: skip
+
+    def report_fit(self, of: Instance, type_name: str, found: Fitted) -> None:
+        """Report what the catalog or the limits leave open of a robot."""
+        if found.robot is None:
+            message = f"{of.name}: {found.reason}"
+            if type_name:
+                message += ": its moves are not checked"
+            self.report(of.line, "unknown-arm", "warning", message)
+        elif found.by_wording:
+            message = f"{of.name}: {type_name or 'a robot without a type'} is not in the catalog: "
+            message += f"taken as {found.arm}, the arm of backinfo.txt"
+            self.report(of.line, "arm-by-wording", "warning", message)
+        for it in found.differences:
+            own, catalog = (
+                _degrees(it.lower, it.upper),
+                _degrees(it.catalog_lower, it.catalog_upper),
+            )
+            message = f"{of.name}: {it.joint} is limited to {own} deg, {catalog} deg in the catalog"
+            self.report(of.line, "limits-differ", "note", message)
+        if found.without_limits:
+            axes = ", ".join(map(str, found.without_limits))
+            message = f"{of.name}: no limits of axis {axes} in the file: the catalog's are used"
+            self.report(of.line, "limits-missing", "warning", message)
+
+    def errors_of(self, joints: tuple[str, ...]) -> list[Instance]:
+        """Return the ARM_CALIB of joints that have measured errors."""
+        found = [self.moc.named("ARM_CALIB", joint) for joint in joints]
+        return [
+            it
+            for it in found
+            if it and any(key.startswith("error_") and it.number(key) for key in it.values)
+        ]
+
+    def has_offsets(self, joints: tuple[str, ...]) -> bool:
+        motors = filter(None, (self.moc.named("MOTOR_CALIB", joint) for joint in joints))
+        return any(motor.number("cal_offset") for motor in motors)
+
+    def axis(self, joint: str) -> ExternalAxis:
+        """Return an axis of a unit."""
+        named = self.moc.named("JOINT", joint)
+        logical = int(named.number("logical_axis")) if named else 0
+        place = logical - FIRST_LOGICAL_AXIS
+        eax = AXES[place] if 0 <= place < len(AXES) else None
+        return ExternalAxis(joint, eax, *self.bounds(joint))
+
+    def single(self, of: Instance) -> ExternalUnit:
+        """Return a unit of one axis."""
+        type_name = of.text("use_single_type")
+        single_type = self.moc.named("SINGLE_TYPE", type_name)
+        kind = _kind(type_name, single_type.text("mechanics") if single_type else "")
+        axes = (self.axis(of.text("use_joint", of.name)),)
+        return ExternalUnit(
+            of.name, type_name, kind, self.base(of), self.carrier(of), (), axes, False, of.line
+        )
+
+    def gantry(self, of: Instance) -> ExternalUnit:
+        """Return a robot whose kinematics are a gantry's or a positioner's."""
+        type_name = of.text("use_robot_type")
+        axes = tuple(self.axis(joint) for joint in self.joints_of(of))
+        kind: UnitKind = "positioner" if type_name.upper().startswith("IRBP") else "gantry"
+        return ExternalUnit(
+            of.name, type_name, kind, self.base(of), self.carrier(of), (), axes, False, of.line
+        )
+
+    def is_gantry(self, of: Instance) -> bool:
+        type_name = of.text("use_robot_type")
+        of_type = self.moc.named("ROBOT_TYPE", type_name)
+        is_general = of_type is not None and of_type.text("type").upper() == "GEN_KIN"
+        return is_general or type_name.upper().startswith("IRBP")
+
+
+def _degrees(lower: float, upper: float) -> str:
+    return f"{math.degrees(lower):.4g}..{math.degrees(upper):.4g}"
+
+
+def _kind(type_name: str, mechanics: str) -> UnitKind:
+    """Return the kind of a single: by the mechanics of its type, else by ABB's catalog names."""
+    mechanics, type_name = mechanics.upper(), type_name.upper()
+    if "TRACK" in mechanics or "LIN" in mechanics or type_name.startswith("IRBT"):
+        return "track"
+    if "ROT" in mechanics or type_name.startswith("IRBP"):
+        return "positioner"
+    return "servo"
+
+
+def read_machine(moc: CfgFile, wording: tuple[str, ...]) -> Machine:
+    """Read the mechanical units of MOC.cfg.
+
+    Args:
+        moc: The file.
+        wording: Arms as backinfo.txt lists them: for a robot whose type string is unknown.
+    """
+    reader = _Reader(moc, wording)
+    robots: dict[str, RobotUnit] = {}
+    units: dict[str, ExternalUnit] = {}
+    sevenths = {single.line for it in moc.of("ROBOT") if (single := reader.seventh_of(it))}
+    for it in moc.of("ROBOT"):
+        if it.name in robots or it.name in units:
+            continue
+        if reader.is_gantry(it):
+            units[it.name] = reader.gantry(it)
+        else:
+            robots[it.name] = reader.robot(it)
+    for it in moc.of("SINGLE"):
+        if it.line not in sevenths and it.name not in units:
+            units[it.name] = reader.single(it)
+    machine = related(moc, Machine(robots, units, reader.findings))
+    check_carriers(machine, moc.file)
+    return machine

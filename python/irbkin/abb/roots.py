@@ -1,0 +1,103 @@
+"""Where a backup begins: the root of a path that a user gives."""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from pathlib import Path
+
+from irbkin.abb.archives import archive_of, unpacked_of
+from irbkin.abb.folders import Folder
+from irbkin.errors import IrbkinError
+
+PARTS = ("BACKINFO", "RAPID", "SYSPAR")
+"""The folders of a backup beside HOME."""
+MOST_FOLDERS = 20_000
+"""Folders that are searched below a path for a backup."""
+
+
+def open_backup(path: Path) -> Folder:
+    """Find the backup of a path: its folder, a folder or file in it, one above it, or an archive.
+
+    Raises:
+        IrbkinError: There is none, or there are several; the message lists them.
+    """
+    archive = archive_of(path)
+    if archive is not None:
+        unpacked = unpacked_of(archive)
+        start = unpacked.folder / path.relative_to(archive)
+        return Folder(_root(start, archive, unpacked.folder), unpacked)
+    if not path.exists():
+        raise IrbkinError(f"{path}: no such file or folder")
+    return Folder(_root(path, None, None))
+
+
+def _root(start: Path, archive: Path | None, unpacked: Path | None) -> Path:
+    """Return the root of the backup of a path."""
+
+    def shown(path: Path) -> str:
+        return str(path if unpacked is None else archive / path.relative_to(unpacked))  # type: ignore[operator]
+
+    if start.is_file():
+        start = start.parent
+    if _parts(start):
+        return start
+    # Not above an archive, and not the root of the file system.
+    above = [it for it in start.parents if unpacked is None or it.is_relative_to(unpacked)]
+    for folder in above[:4]:
+        if _parts(folder) > 1:
+            return folder
+    if _has_cfg(start):
+        return start
+    whole, half = _below(start)
+    found = whole or half
+    if not found:
+        wanted = "BACKINFO, RAPID or SYSPAR"
+        raise IrbkinError(f"{shown(start)}: is no backup of a controller, it has no {wanted}")
+    if len(found) > 1:
+        listed = ", ".join(shown(it) for it in found[:10])
+        more = f" and {len(found) - 10} more" if len(found) > 10 else ""
+        raise IrbkinError(f"{shown(start)}: has {len(found)} backups, give one: {listed}{more}")
+    return found[0]
+
+
+def _parts(folder: Path) -> int:
+    """Return how many of the folders of a backup a folder has."""
+    try:
+        names = {entry.name.upper() for entry in os.scandir(folder) if entry.is_dir()}
+    except OSError:
+        return 0
+    return len(names.intersection(PARTS))
+
+
+def _has_cfg(folder: Path) -> bool:
+    try:
+        return any(entry.name.lower() in ("moc.cfg", "sys.cfg") for entry in os.scandir(folder))
+    except OSError:
+        return False
+
+
+def _below(start: Path) -> tuple[list[Path], list[Path]]:
+    """Return the whole backups below a folder, and the halves. A backup in the HOME of another one
+    is not looked for, nor behind links.
+    """
+    whole, half = [], []
+    queue = deque([start])
+    for _ in range(MOST_FOLDERS):
+        if not queue:
+            break
+        folder = queue.popleft()
+        parts = _parts(folder)
+        if parts > 1:
+            whole.append(folder)
+            continue
+        if parts or (_has_cfg(folder) and folder.name.upper() != "SYSPAR"):
+            half.append(folder)
+        try:
+            inside = sorted(
+                it.path for it in os.scandir(folder) if it.is_dir(follow_symlinks=False)
+            )
+        except OSError:
+            continue
+        queue.extend(map(Path, inside))
+    return whole, half
