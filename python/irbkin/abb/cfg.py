@@ -198,8 +198,6 @@ class _Reader:
         value = token["string"] if token["string"] is not None else token["word"]
         if token["open"]:
             value = token["open"][1:]
-            message = f"{self.label()}: the string {_short(value)} has no closing quote"
-            self.report(number, "cfg-line", "warning", message)
         if value is None:
             return
         if self.key is None:
@@ -208,6 +206,9 @@ class _Reader:
             return
         values[self.key] = value
         self.key = None
+        if token["open"]:
+            message = f"{self.label()}: the string {_short(value)} has no closing quote"
+            self.report(number, "cfg-line", "warning", message)
 
 
 def lines_of(text: str) -> list[str]:

@@ -103,7 +103,7 @@ class _Reader:
         base = self.base(of)
         limits = [self.bounds(joint) for joint in joints]
         # A name that lacks a side has it in the name of the unit: ROB_L.
-        names = [type_name, f"{of.name}_{type_name}"]
+        names = [type_name, f"{of.name}_{type_name}"] if type_name else []
         only = len(self.moc.of("ROBOT")) == 1
         found = fitted(names, self.wording if only else (), limits, self.linkage(joints))
         self.report_fit(of, type_name, found)
@@ -131,9 +131,7 @@ class _Reader:
     def report_fit(self, of: Instance, type_name: str, found: Fitted) -> None:
         """Report what the catalog or the limits leave open of a robot."""
         if found.robot is None:
-            message = f"{of.name}: {found.reason}"
-            if type_name:
-                message += ": its moves are not checked"
+            message = f"{of.name}: {found.reason}: its moves are not checked"
             self.report(of.line, "unknown-arm", "warning", message)
         elif found.by_wording:
             message = f"{of.name}: {type_name or 'a robot without a type'} is not in the catalog: "

@@ -61,20 +61,23 @@ def _root(start: Path, archive: Path | None, unpacked: Path | None) -> Path:
     return found[0]
 
 
+def _inside(folder: Path) -> list[os.DirEntry[str]]:
+    """Return what is in a folder, sorted by name; nothing where it cannot be listed."""
+    try:
+        with os.scandir(folder) as entries:
+            return sorted(entries, key=lambda entry: entry.name)
+    except OSError:
+        return []
+
+
 def _parts(folder: Path) -> int:
     """Return how many of the folders of a backup a folder has."""
-    try:
-        names = {entry.name.upper() for entry in os.scandir(folder) if entry.is_dir()}
-    except OSError:
-        return 0
+    names = {entry.name.upper() for entry in _inside(folder) if entry.is_dir()}
     return len(names.intersection(PARTS))
 
 
 def _has_cfg(folder: Path) -> bool:
-    try:
-        return any(entry.name.lower() in ("moc.cfg", "sys.cfg") for entry in os.scandir(folder))
-    except OSError:
-        return False
+    return any(entry.name.lower() in ("moc.cfg", "sys.cfg") for entry in _inside(folder))
 
 
 def _below(start: Path) -> tuple[list[Path], list[Path]]:
@@ -93,11 +96,6 @@ def _below(start: Path) -> tuple[list[Path], list[Path]]:
             continue
         if parts or (_has_cfg(folder) and folder.name.upper() != "SYSPAR"):
             half.append(folder)
-        try:
-            inside = sorted(
-                it.path for it in os.scandir(folder) if it.is_dir(follow_symlinks=False)
-            )
-        except OSError:
-            continue
-        queue.extend(map(Path, inside))
+        inside = _inside(folder)
+        queue.extend(Path(it.path) for it in inside if it.is_dir(follow_symlinks=False))
     return whole, half
