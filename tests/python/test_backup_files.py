@@ -10,8 +10,11 @@ import pytest
 from backups import LIMITS as ROBOT_LIMITS
 from backups import MOC, MODULE, SMALL, SYS, arms, backinfo, cfg, robot, written, zipped
 from irbkin.abb import load_backup, parse_backinfo, parse_cfg
+from irbkin.abb.folders import decoded
+from irbkin.abb.machine import read_machine
 
-INPUTS = int(os.environ.get("IRBKIN_INPUTS", "2000"))
+INPUTS = int(os.environ.get("IRBKIN_INPUTS", "5000"))
+"""Broken texts; of whole backups, a hundredth of it."""
 EXAMPLE = Path(__file__).parents[2] / "examples" / "backup"
 
 
@@ -339,7 +342,8 @@ def test_broken_files_are_findings_and_never_another_error(tmp_path):
     sound = {name: (EXAMPLE / name).read_bytes() for name in names}
     written(tmp_path, {**sound, "RAPID/TASK1/PROGMOD/Main.mod": MODULE})
     robots = tasks = 0
-    for _ in range(INPUTS):
+    count = max(INPUTS // 100, 100)
+    for _ in range(count):
         name = random_.choice(names)
         (tmp_path / name).write_bytes(mangled(random_, sound[name]))
         backup = load_backup(tmp_path)
@@ -348,8 +352,47 @@ def test_broken_files_are_findings_and_never_another_error(tmp_path):
         tasks += sum(it.robot is not None for it in backup.tasks)
         assert all(it.line >= 0 and it.message for it in backup.findings)
     # Broken lines cost little of the rest.
-    assert robots > 1.8 * INPUTS
-    assert tasks > 1.8 * INPUTS
+    assert robots > 1.8 * count
+    assert tasks > 1.8 * count
+
+
+SHORT = b"""MOC:CFG_1.0:6:0::
+ARM:
+
+      -name "r_1" -upper_joint_bound 2 -lower_joint_bound -2\\
+      -upper_joint_coupl_bound 1
+#
+JOINT:
+
+      -name "T" -logical_axis 7
+ROBOT:
+
+      -name "R" -use_robot_type "ROB1_6660_1.90_205" -use_joint_0 "r_1"\\
+      -base_frame_orient_u1 0.01 -base_frame_coordinated "T"
+SINGLE:
+
+      -name "T" -use_single_type "IRBT4004"
+MECHANICAL_UNIT:
+
+      -name "T" -use_single_0 "T"
+>>PRODUCTS_ID:
+RobotWare Version: 6.08
+>>TASK1: (T_ROB1,,)
+SYSMOD/user.sys @ user.sys
+"""
+
+
+def test_broken_texts_are_read_to_their_end():
+    random_ = random.Random(20261127)
+    robots = modules = 0
+    for _ in range(INPUTS):
+        text = decoded(mangled(random_, SHORT))
+        found = parse_cfg(text, "SYSPAR/MOC.cfg")
+        machine = read_machine(found, ())
+        robots += sum(it.robot is not None for it in machine.robots.values())
+        modules += sum(len(it.modules) for it in parse_backinfo(text).tasks)
+    assert robots > 0.8 * INPUTS
+    assert modules > 0.8 * INPUTS
 
 
 LONG = [
