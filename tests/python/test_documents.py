@@ -6,6 +6,7 @@ import contextlib
 import io
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -28,7 +29,15 @@ SHELL = re.compile(
 README_WORDS = 700
 # Packages of the group "recipes" that a page needs.
 NEEDED = {"recipes.md": ("jax", "polars", "xarray", "distributed")}
+# Folders of the checkout that a page reads, copied beside it.
+GIVEN = {"backup.md": ROOT / "examples" / "backup"}
 LINE = 100
+
+
+def given(page, folder):
+    """Copy what a page reads into a folder."""
+    if page.name in GIVEN:
+        shutil.copytree(GIVEN[page.name], folder / GIVEN[page.name].name)
 
 
 @pytest.mark.parametrize("page", RUN, ids=lambda page: page.name)
@@ -37,7 +46,8 @@ def test_the_blocks_of_a_page_run_top_to_bottom_and_print_what_it_shows(
 ):
     for package in NEEDED.get(page.name, ()):
         pytest.importorskip(package, reason=f"{package} is missing: make test-recipes installs it")
-    # An empty folder: no block reads a file of the checkout.
+    # An empty folder: no block reads another file of the checkout.
+    given(page, tmp_path)
     monkeypatch.chdir(tmp_path)
     namespace = {}
     for block, shown in BLOCK.findall(page.read_text()):
@@ -76,6 +86,7 @@ def transcript(console, folder):
 @pytest.mark.parametrize("page", TRANSCRIBED, ids=lambda page: page.name)
 def test_the_transcripts_of_a_page_are_what_a_shell_prints(page, tmp_path):
     pytest.importorskip("matplotlib", reason="a transcript draws")
+    given(page, tmp_path)
     text = page.read_text()
 
     def printed(block):
