@@ -117,7 +117,7 @@ def test_the_example_says_what_holds():
     ]
     assert all(path.is_file() for path in task_files(backup, "T_ROB2"))
     assert [str(it) for it in backup.findings] == [
-        "SYSPAR/MOC.cfg:115: note: ROB_2: J2 is limited to -75..150 deg, -90..150 deg in the "
+        "SYSPAR/MOC.cfg:116: note: ROB_2: J2 is limited to -75..150 deg, -90..150 deg in the "
         "catalog [limits-differ]",
         "SYSPAR/SYS.cfg:11: warning: the backup lacks the module HOME:/cell/Gripper.sys "
         "[module-missing]",
@@ -297,7 +297,13 @@ def test_the_only_external_axis_of_a_task_is_eax_a(tmp_path):
         tmp_path,
         SINGLE=['-name "TRACK_1" -use_single_type "IRBT4004_1" -base_frame_pos_y 2'],
         ROBOT=[
-            robot("ROB_1", "ROB1_4600_2.55_40", "rob1", more='-base_frame_coordinated "TRACK_1"')
+            robot(
+                "ROB_1",
+                "ROB1_4600_2.55_40",
+                "rob1",
+                (0, 2, 0),
+                more='-base_frame_coordinated "TRACK_1"',
+            )
         ],
     )
     assert codes(backup) == ["logical-axis"]
@@ -305,6 +311,39 @@ def test_the_only_external_axis_of_a_task_is_eax_a(tmp_path):
         "TRACK_1: its logical axis is not in MOC.cfg: taken as eax_a" in backup.findings[0].message
     )
     np.testing.assert_allclose(backup.base_at("ROB_1", [700.0] * 6)[:3, 3], [0.7, 2, 0])
+
+
+def test_the_base_of_a_carried_robot_is_in_the_world_with_the_track_at_zero(tmp_path):
+    """As two calibrated tracks have it (ebruun/ECL_robotic_cell, 4600-COMPAS_RRC_BACKUP): the base
+    of ROB_1 has the position of its track, whose x points back. Relative to the track, both robots
+    would be at one place.
+    """
+    place = (3.69928, 3.45103, 0.0175951)
+    at = " ".join(
+        f"-base_frame_pos_{axis} {value}" for axis, value in zip("xyz", place, strict=True)
+    )
+    back = "-base_frame_orient_u0 8.91218E-06 -base_frame_orient_u1 -0.000726608 "
+    back += "-base_frame_orient_u2 0.000932384 -base_frame_orient_u3 0.999999"
+    turned = (0.707061, 0.000751788, -0.000145575, -0.707152)
+    track = '-base_frame_coordinated "TRACK_1"'
+    backup = machine(
+        tmp_path,
+        SINGLE=[f'-name "TRACK_1" -use_single_type "IRBT4004_1" -use_joint "track1" {at} {back}'],
+        ARM=[
+            *arms("rob1", LIMITS),
+            '-name "T4004_3.9_1" -use_arm_type "track1" -upper_joint_bound 3.901 '
+            "-lower_joint_bound -0.001",
+        ],
+        ROBOT=[robot("ROB_1", "ROB1_4600_2.55_40", "rob1", place, turned, track)],
+    )
+    np.testing.assert_allclose(backup.robots["ROB_1"].robot.base[:3, 3], place)
+    np.testing.assert_allclose(backup.base_at("ROB_1", [0.0] * 6)[:3, 3], place)
+    moved = backup.base_at("ROB_1", [1000.0, *[NOT_THERE] * 5])
+    np.testing.assert_allclose(moved[:3, 3], [2.69928, 3.45103, 0.0175951], atol=2e-3)
+    # It faces the other track.
+    np.testing.assert_allclose(moved[:3, 0], [0, -1, 0], atol=2e-3)
+    (axis,) = backup.units["TRACK_1"].axes
+    assert (axis.eax, axis.lower, axis.upper) == ("a", -0.001, 3.901)
 
 
 def test_a_gantry_of_general_kinematics_is_a_note(tmp_path):

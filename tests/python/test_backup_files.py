@@ -76,11 +76,12 @@ def test_a_text_that_is_encoded_is_not_read():
 
 def test_backinfo_of_each_generation_is_read():
     old = parse_backinfo(
-        ">>PRODUCTS_ID:\n4.0.100\n  6600/2.55-175\n\n>>ROBOT_TYPE:\n6600/2.55-175\n"
+        "#\n# Generated backup file, do not edit.\n#\n>>PRODUCTS_ID:\n"
+        "3HAC6811-2.27 0986 System Pack 4.0\n  IRB 6600/2.55-175\n\n>>ROBOT_TYPE:\n6600/2.55-175\n"
         ">>TASK0: (MAIN)\nSYSMOD\\USER.sys @ user.sys\nPROGMOD\\X.mod @ \n"
         "SYSMOD/LINKEDM.sys @ HIDDEN\nSYSMOD/PosRec.sys @ home:/system/posrec.sys\n>>EOF:\n"
     )
-    assert (old.robotware, old.arms) == ("4.0.100", ("6600/2.55-175",))
+    assert (old.robotware, old.arms) == ("4.0", ("6600/2.55-175",))
     (task,) = old.tasks
     assert (task.number, task.name, task.program) == (0, "MAIN", "")
     assert [(it.path, it.source, it.is_hidden) for it in task.modules] == [
@@ -90,14 +91,15 @@ def test_backinfo_of_each_generation_is_read():
         ("SYSMOD/PosRec.sys", "home:/system/posrec.sys", False),
     ]
     new = parse_backinfo(
-        ">>SYSTEM_ID:\r\nCell\r\n>>PRODUCTS_ID:\r\nRobotControl Version: 7.19.1\r\n"
+        ">>SYSTEM_ID:\r\nCell\r\n>>PRODUCTS_ID:\r\nRobotOS Version: 17.1.0\r\n"
+        "RobotControl Version: 7.19.1\r\n  709-1 Master/Slave Single\r\n"
         "  IRB 4600-40/2.55 Type C\r\n  3119-1 RobotStudio Connect\r\n"
         ">>TASK1: (T_ROB1,Weld,)\r\n>>>>>>> main\r\n>>TASK2: (T_ROB2,,)\r\n"
     )
     assert (new.system, new.robotware) == ("Cell", "7.19.1")
     assert new.arms == ("IRB 4600-40/2.55 Type C",)
     assert [(it.name, it.program) for it in new.tasks] == [("T_ROB1", "Weld"), ("T_ROB2", "")]
-    assert [(it.line, it.code) for it in new.findings] == [(8, "conflict-marker")]
+    assert [(it.line, it.code) for it in new.findings] == [(10, "conflict-marker")]
 
 
 @pytest.mark.parametrize("start", ["", "SYSPAR", "SYSPAR/MOC.cfg", "RAPID/TASK1/PROGMOD", ".."])
@@ -301,7 +303,7 @@ def test_a_file_that_cannot_be_read_is_a_finding(tmp_path):
 
 
 def test_checksums_of_an_omnicore_cover_files(tmp_path):
-    sums = "RAPID/TASK1/PROGMOD/Main.mod\nq83vEjRWeJA=\n.\\SYSPAR\\SYS.cfg\nEjRWeJCrze8=\n"
+    sums = "ver:1\n/RAPID/TASK1/PROGMOD/Main.mod\nq83vEjRWeJA=\n.\\SYSPAR\\SYS.cfg\nEjRWeJCrze8=\n"
     backup = load_backup(written(tmp_path, {**SMALL, "BACKINFO/checksum.txt": sums}))
     assert backup.checksums["rapid/task1/progmod/main.mod"] == "q83vEjRWeJA="
     assert backup.has_checksum(backup.task("T_ROB1").modules[0].path)

@@ -10,7 +10,9 @@ from irbkin.abb.findings import Finding
 
 SECTION = re.compile(r">>\s*([A-Za-z_]+)(\d*)\s*:?\s*(?:\((.*)\))?")
 MODULE = re.compile(r"(?:[^@\s][^@]*[\\/])?[^@\\/]+\.\w+\s*(?:@.*)?")
-VERSION = re.compile(r"(?:RobotWare|RobotControl|BaseWare)\D*(\d+(?:\.\d+)+)", re.IGNORECASE)
+VERSION = re.compile(
+    r"(?:RobotWare|RobotControl|BaseWare|System Pack)\D*(\d+(?:\.\d+)+)", re.IGNORECASE
+)
 NUMBERS = re.compile(r"\d+(?:\.\d+)+")
 MOST_OF_A_LINE = 1000
 """Characters of a line that is looked at: longer ones are no path and no product."""
@@ -129,14 +131,18 @@ def _module(text: str, line: int) -> LoadedModule:
 
 
 def _version(products: list[str]) -> str:
-    """Return the version of RobotWare: by its name, else the first figure of the first lines."""
-    named = next((found[1] for line in products if (found := VERSION.search(line[:200]))), "")
-    if named:
-        return named
-    return next((found[0] for line in products[:3] if (found := NUMBERS.search(line[:200]))), "")
+    """Return the version of RobotWare by its name, else the first line if it is a figure alone."""
+    named = (found[1] for line in products if (found := VERSION.search(line[:200])))
+    figures = (found[0] for line in products[:1] if (found := NUMBERS.fullmatch(line[:200])))
+    return next(named, next(figures, ""))
 
 
 def _arms(types: list[str], products: list[str]) -> tuple[str, ...]:
-    """Return the lines that are the wording of an arm. RobotWare lists arms among its options."""
-    found = [line for line in [*types, *products] if len(line) < 80 and ARM.fullmatch(line)]
-    return tuple(dict.fromkeys(found))
+    """Return the lines that are the wording of an arm, a line for each: of ROBOT_TYPE, or among the
+    options of PRODUCTS_ID.
+    """
+    of_types, of_products = (
+        tuple(line for line in lines if len(line) < 80 and ARM.fullmatch(line))
+        for lines in (types, products)
+    )
+    return of_types or of_products

@@ -89,7 +89,7 @@ class Backup:
         return {**of_mechanical, **named}
 
     def base_at(self, name: str, external_mm_deg: Sequence[float] = NO_AXES) -> Pose:
-        """Return the base frame of a robot or unit in the world.
+        """Return the base frame of a robot or unit in the world, moved by the units that carry it.
 
         Args:
             name: Name of the unit, case does not matter.
@@ -102,13 +102,17 @@ class Backup:
             InvalidModelError: The files do not determine it, or the target lacks an axis; the
                 message names the unit.
         """
+        import numpy as np
+
         unit = self._known(name)
         pose = _base_of(unit)
         for _ in range(MOST_CARRIERS):
             if not unit.carried_by:
                 return pose
             unit = self._carrier(unit)
-            pose = _base_of(unit) @ unit.moved(external_mm_deg) @ pose
+            # What it carries is given in the world, with all external axes at zero.
+            base = _base_of(unit)
+            pose = base @ unit.moved(external_mm_deg) @ np.linalg.inv(base) @ pose
         raise InvalidModelError(f"{name}: the units that carry it carry each other")
 
     def frame_at(self, name: str, external_mm_deg: Sequence[float] = NO_AXES) -> Pose:

@@ -167,5 +167,7 @@ def _checksums(folder: Folder) -> dict[str, str]:
     path = folder.find("BACKINFO/checksum.txt")
     text = folder.text(path) if path and path.is_file() else None
     lines = [line.strip() for line in lines_of(text or "") if line.strip()]
+    # The first line is the version of the file.
+    lines = lines[1:] if lines and lines[0].startswith("ver:") else lines
     names = [line.replace("\\", "/").lower().lstrip("./") for line in lines[::2]]
     return dict(zip(names, lines[1::2], strict=False))

@@ -26,7 +26,8 @@ class Loads:
             elif any(map(it.switch, ("AllMotionTask", "AllMotionTasks"))):
                 tasks = [name for name, moves in moving.items() if moves is not False]
             else:
-                tasks = [it.text("Task")]
+                # S4C+ names a task only where it is not each one.
+                tasks = [it.text("Task")] if it.text("Task") else list(moving)
             for task in tasks:
                 self.by_task.setdefault(task.lower(), []).append(it)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from irbkin.abb.arms import Fitted, fitted
@@ -32,10 +33,17 @@ class _Reader:
         self.findings.append(Finding(self.moc.file, line, code, severity, message))
 
     def arm_of(self, joint: str) -> Instance | None:
-        """Return the ARM of a joint: the one that JOINT names, else the one of its name."""
+        """Return the ARM of a joint: by JOINT, by its own name, or by its arm type."""
         named = self.moc.named("JOINT", joint)
         arm = named.text("use_arm", joint) if named else joint
-        return self.moc.named("ARM", arm) or self.moc.named("ARM", joint)
+        named_arm = self.moc.named("ARM", arm) or self.moc.named("ARM", joint)
+        # Of a track: joint "track1", ARM "T4004_3.9_1" with the arm type "track1".
+        return named_arm or self.arms_by_type.get(joint.lower())
+
+    @cached_property
+    def arms_by_type(self) -> dict[str, Instance]:
+        """ARM instances by the name of their arm type."""
+        return {it.text("use_arm_type").lower(): it for it in reversed(self.moc.of("ARM"))}
 
     def bounds(self, joint: str) -> tuple[float, float]:
         """Return the limits in force of a joint [rad or m], NaN where they are not given."""

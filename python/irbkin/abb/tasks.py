@@ -126,9 +126,10 @@ class TaskReader:
         type_name = "MECHANICAL_UNIT_GROUP"
         found = self.sys.named(type_name, group) or self.moc.named(type_name, group)
         if found is None:
-            line = source.configured.line if source.configured else 0
-            message = f"{source.name}: its mechanical unit group {group} is in no file"
-            self.findings.append(Finding(self.sys.file, line, "group", "warning", message))
+            if len(robots) != 1:
+                line = source.configured.line if source.configured else 0
+                message = f"{source.name}: its mechanical unit group {group} is in no file"
+                self.findings.append(Finding(self.sys.file, line, "group", "warning", message))
             return all_of_one
         keys = sorted(key for key in found.values if key.startswith("mechanicalunit"))
         named = [it for it in (found.text("Robot"), *map(found.text, keys)) if it]

@@ -54,10 +54,11 @@ class RobotUnit:
     """Name in the catalog, or None where the type is not in it."""
     robot: Robot | None
     """The robot with the limits in force, limits of the linkage and its base; None without an arm.
-    A robot that is carried has its base relative to what carries it: `Backup.robot_at` places it.
+    A robot that is carried is where it is with the external axes at zero: `Backup.robot_at` moves
+    it.
     """
     base: Pose | None = None
-    """Base frame [m]: in the world, or relative to the unit that carries the robot; None where it
+    """Base frame in the world [m], with the axes of what carries the robot at zero; None where it
     is not determined.
     """
     carried_by: str | None = None
@@ -103,7 +104,7 @@ class ExternalUnit:
     gantry moves is not determined, and how a servo axis does neither.
     """
     base: Pose | None
-    """Base frame [m]: in the world, or relative to the unit that carries it; None where it is not
+    """Base frame in the world [m], with the axes of what carries it at zero; None where it is not
     determined.
     """
     carried_by: str | None
