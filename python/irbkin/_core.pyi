@@ -2215,6 +2215,9 @@ class Finding(_Record):
     def name(self) -> str:
         """The code in words, such as "wrong-confdata"."""
     @property
+    def severity(self) -> Literal["error", "warning", "note"]:
+        """ "error", "warning" or "note": something is not checked or undecided."""
+    @property
     def line(self) -> int:
         """Line of the instruction, from 1."""
     @property
@@ -2251,6 +2254,7 @@ class Finding(_Record):
         cls,
         code: str,
         name: str,
+        severity: str,
         line: int,
         column: int,
         routine: str | None,
@@ -2624,8 +2628,8 @@ def check(
             catalog.
     """
 
-def check_codes() -> list[tuple[str, str, bool]]:
-    """Every code of a check, with its name and whether it is shown unless codes are selected."""
+def check_codes() -> list[tuple[str, str, str, bool]]:
+    """Every code of a check: code, name, severity, and whether it is shown unless codes are selected."""
 
 def motion(
     robot: Robot,

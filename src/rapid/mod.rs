@@ -62,7 +62,7 @@ pub(crate) use self::calc::{frames::rapid_pose, target::joint_target};
 pub use self::check::checker::{CheckOptions, Checked, CheckedMove, candidates, check};
 #[cfg(feature = "python")]
 pub(crate) use self::data::class;
-pub use self::data::finding::{Code, Edit, Finding};
+pub use self::data::finding::{Code, Edit, Finding, Severity};
 pub use self::data::module::{Content, Datum, Module, Routine, RoutineKind, Scope, Storage};
 pub use self::data::moves::{Argument, ExtraArgument, Move, MoveKind, MoveOption, Target};
 pub use self::data::records::{

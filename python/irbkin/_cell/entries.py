@@ -82,12 +82,36 @@ class Entry:
             self.refuse(f"is {value!r}, it must be a text", key)
         return value
 
+    def names(self, key: str) -> list[str]:
+        """A list of texts."""
+        value = self.table.get(key)
+        if not isinstance(value, list) or not all(isinstance(it, str) for it in value):
+            self.refuse(f"is {value!r}, it must be a list of texts", key)
+        return value
+
     def truth(self, key: str, default: bool) -> bool:
         """A truth value."""
         value = self.table.get(key, default)
         if not isinstance(value, bool):
             self.refuse(f"is {value!r}, it must be true or false", key)
         return value
+
+
+def parsed(text: str) -> dict[str, Any]:
+    """The table of a TOML text."""
+    try:
+        import tomllib
+    except ImportError:
+        try:
+            import tomli as tomllib  # type: ignore[import-not-found, no-redef, unused-ignore]
+        except ImportError as missing:
+            raise ImportError(
+                "Python 3.10 reads TOML by tomli: pip install 'irbkin[mesh]'", name="tomli"
+            ) from missing
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InvalidModelError(f"is not TOML: {error}") from None
 
 
 def _is_number(value: object) -> bool:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from irbkin._cell.entries import Entry, close
+from irbkin._cell.entries import Entry, close, parsed
 from irbkin._cell.frames import Frames
 from irbkin._core import Cell, Robot, Shape
 from irbkin.errors import InvalidModelError, IrbkinError
@@ -22,7 +22,7 @@ def cell_of(content: bytes, folder: str) -> Cell:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InvalidModelError(f"is not UTF-8: {error}") from None
-    root = Entry(text, folder, (), _parsed(text))
+    root = Entry(text, folder, (), parsed(text))
     root.check("margin", "may_touch", "frames", "obstacles", "robots")
     frames = Frames(root.subs("frames"))
     obstacles = {name: _shape(entry, frames) for name, entry in root.subs("obstacles").items()}
@@ -38,22 +38,6 @@ def cell_of(content: bytes, folder: str) -> Cell:
         return Cell(cell.obstacles, margin, pairs)
     except IrbkinError as error:
         root.refuse(error, "may_touch")
-
-
-def _parsed(text: str) -> dict[str, Any]:
-    try:
-        import tomllib
-    except ImportError:
-        try:
-            import tomli as tomllib  # type: ignore[import-not-found, no-redef, unused-ignore]
-        except ImportError as missing:
-            raise ImportError(
-                "Python 3.10 reads TOML by tomli: pip install 'irbkin[mesh]'", name="tomli"
-            ) from missing
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InvalidModelError(f"is not TOML: {error}") from None
 
 
 def _pairs(root: Entry, cell: Cell) -> list[tuple[str, int]]:

@@ -18,6 +18,7 @@ VERBS = {
     "check": "find what is wrong with the moves of RAPID modules, and correct confdata",
     "path": "joints along a path of poses, on one branch",
     "plan": "the best joints along a path of poses, over branches, turns and tool angles",
+    "rule": "explain a code of check",
     "rapid": "the moves of a RAPID routine as one motion: times, joints, findings",
     "map": "what an arm reaches: a grid of positions, each with many orientations",
     "plot": "draw solutions, paths and reach",

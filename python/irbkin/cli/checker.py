@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING
+from collections import Counter
+from collections.abc import Collection, Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
+from irbkin.cli.codes import NOT_CHECKED
 from irbkin.cli.errors import complain
-from irbkin.cli.findings import Found
+from irbkin.cli.findings import REASONS, Found
 from irbkin.cli.sources import Source
 
 if TYPE_CHECKING:
     from irbkin import Cell, Robot
     from irbkin.rapid import Finding, Module
 
-UNCHECKED = ("U801", "U802")
-"""Codes of what is not checked."""
 NOQA = re.compile(r"!\s*noqa\b(?:\s*:\s*([A-Z0-9, ]+))?", re.IGNORECASE)
 PASSES = 10
 """How often corrections are looked for after corrections."""
@@ -25,49 +25,70 @@ class Checker:
     """Checks modules of one arm."""
 
     def __init__(
-        self, robot: Robot, codes: Collection[str], step: float, cell: Cell | None = None
+        self,
+        robot: Robot,
+        codes: Collection[str],
+        step: float,
+        cell: Cell | None = None,
+        *,
+        is_strict: bool = False,
     ) -> None:
         from irbkin._core import check_codes
 
         self.robot, self.codes, self.step, self.cell = robot, codes, step, cell
-        faults = (code for code, _, is_default in check_codes() if is_default)
-        self.asked = {*faults, *UNCHECKED, *codes}
+        self.is_strict = is_strict
+        known = {code: is_default for code, _, _, is_default in check_codes()}
+        self.asked = {it for it in known if known[it] or it in REASONS or it in codes}
 
-    def diagnostics(self, module: Module) -> list[Finding]:
-        """Return the findings on a module that its comments do not silence."""
+    def findings(self, module: Module) -> tuple[Finding, ...]:
+        """Return every finding on a module, of codes that are not wanted too."""
         from irbkin._core import check
 
-        found = check(self.robot, module, codes=self.asked, step=self.step, cell=self.cell)
-        if "noqa" not in module.source.lower():
-            return list(found)
-        lines = module.source.split("\n")
-        return [it for it in found if not _is_silenced(lines[it.line - 1], it.code)]
+        return check(self.robot, module, codes=self.asked, step=self.step, cell=self.cell)
 
-    def wanted(self, module: Module) -> list[Finding]:
-        """Return the findings of the wanted codes."""
-        return [it for it in self.diagnostics(module) if it.code in self.codes]
+    def wanted(self, source: Source, module: Module) -> list[Finding]:
+        """Return the findings on a text of a source that are wanted."""
+        codes = set(self.codes) - set(source.ignored)
+        return [it for it in audible(self.findings(module), module) if it.code in codes]
 
-    def found(self, source: Source) -> tuple[list[Found], int]:
-        """Return the findings on a source, and how many places could not be checked."""
+    def found(self, source: Source, findings: Sequence[Finding]) -> list[Found]:
+        """Return the wanted ones of the findings on a source."""
         if source.module is None:
-            return [], 0
-        found, unchecked = [], set()
-        for it in self.diagnostics(source.module):
-            if it.code in self.codes:
-                place = (source.shown, it.line, it.column)
-                found.append(Found(*place, it.code, it.name, it.message, it.edits))
-            elif it.code in UNCHECKED:
-                unchecked.add((it.line, it.column))
-        return found, len(unchecked)
+            return []
+        codes = set(self.codes) - set(source.ignored)
+        kept = (it for it in audible(findings, source.module) if it.code in codes)
+        return [self._found(source.shown, it) for it in kept]
+
+    def _found(self, file: str, it: Finding) -> Found:
+        is_error = self.is_strict and it.code in NOT_CHECKED
+        severity = "error" if is_error else it.severity
+        words = (it.code, it.name, severity, it.message, it.edits)
+        return Found(file, it.line, it.column, *words, it.routine, it.joint, it.value, it.bound)
 
 
-def fix(checker: Checker, sources: Sequence[Source]) -> int:
-    """Correct sources in place; how many findings that removes.
+def audible(findings: Sequence[Finding], module: Module) -> list[Finding]:
+    """Return the findings that the comments of a module do not silence."""
+    if "noqa" not in module.source.lower():
+        return list(findings)
+    lines = module.source.split("\n")
+    return [it for it in findings if not _is_silenced(lines[it.line - 1], it.code)]
+
+
+class Correction(NamedTuple):
+    """A source with the module that takes its place."""
+
+    source: Source
+    module: Module
+    fixed: Counter[str]
+    """Number of findings that it removes, by severity."""
+
+
+def corrections(checker: Checker, sources: Sequence[Source]) -> Iterator[Correction]:
+    """Yield the corrections of sources, each before the next is looked for.
 
     A source stays as it is if something else would be wrong with its corrections, or if another one
     moves to a target that they change.
     """
-    fixed = 0
     for source in sources:
         corrected = _corrected(checker, source)
         if source.module is None or corrected is None:
@@ -81,14 +102,16 @@ def fix(checker: Checker, sources: Sequence[Source]) -> int:
         if user := next(users, None):
             complain(f"{source.shown}: is not corrected, {user.shown} moves to a target of it")
             continue
-        fixed += len(checker.wanted(source.module)) - len(checker.wanted(corrected))
-        source.write(corrected)
-    return fixed
+        old, new = (
+            Counter(it.severity for it in checker.wanted(source, module))
+            for module in (source.module, corrected)
+        )
+        yield Correction(source, corrected, old - new)
 
 
 def _places(checker: Checker, module: Module) -> set[tuple[int, str]]:
     """Lines and codes of what is wrong with a module; what is undecided is not."""
-    found = checker.diagnostics(module)
+    found = audible(checker.findings(module), module)
     return {(it.line, it.code) for it in found if not it.code.startswith("U")}
 
 
@@ -100,7 +123,7 @@ def _corrected(checker: Checker, source: Source) -> Module | None:
         return None
     module = source.module
     for _ in range(PASSES):
-        edits = sorted({edit for it in checker.wanted(module) for edit in it.edits})
+        edits = sorted({edit for it in checker.wanted(source, module) for edit in it.edits})
         if not edits:
             break
         module = parse_module(edited(module.source, edits), source.context)

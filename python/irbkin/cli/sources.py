@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
+from irbkin.cli.codes import SYNTAX
 from irbkin.cli.errors import CommandError
 from irbkin.cli.files import STDIN, opened, replaced, shown
-from irbkin.cli.findings import SYNTAX, Found
+from irbkin.cli.findings import Found
 
 if TYPE_CHECKING:
     from irbkin.errors import RapidError
@@ -31,6 +32,15 @@ class Source:
         self.alone: Module | None = None
         """The module without its context."""
         self.context: Sequence[Module] = ()
+        self.ignored: Collection[str] = ()
+        """Codes that are not wanted of this file."""
+
+    @property
+    def text(self) -> str:
+        """The text, also of a file that is broken."""
+        if self.module is not None:
+            return self.module.source
+        return self.content[len(self.mark) :].decode(self.encoding, "replace")
 
     @classmethod
     def read(cls, name: str) -> Source:
@@ -54,6 +64,19 @@ class Source:
         with replaced(self.name) as file:
             file.write(content)
         self.module, self.content = module, content
+
+
+def checksum_of(name: str) -> str | None:
+    """The list of hashes of a controller's backup that has a line for a file, if there is one."""
+    path = os.path.abspath(name)
+    root = os.path.dirname(path)
+    while not os.path.isfile(file := os.path.join(root, "BACKINFO", "checksum.txt")):
+        if root == os.path.dirname(root):
+            return None
+        root = os.path.dirname(root)
+    own = f"/{os.path.relpath(path, root)}".replace("\\", "/").lower()
+    with open(file, encoding="latin-1") as lines:
+        return file if any(it.strip().replace("\\", "/").lower() == own for it in lines) else None
 
 
 def _encoding(content: bytes) -> str:
@@ -111,4 +134,4 @@ def read_modules(sources: Sequence[Source]) -> list[Found]:
 def _fault(source: Source, error: RapidError) -> Found:
     place = f"line {error.line}, column {error.column}: "
     message = str(error).removeprefix(place)
-    return Found(source.shown, error.line, error.column, SYNTAX, "syntax", message, ())
+    return Found(source.shown, error.line, error.column, SYNTAX, "syntax", "error", message)

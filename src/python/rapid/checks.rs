@@ -200,8 +200,9 @@ fn record(py: Python<'_>, mut finding: rapid::Finding, modules: &[&Module]) -> P
     Finding::of(py, &finding)
 }
 
-/// Every code of a check, with its name and whether it is shown unless codes are selected.
+/// Every code of a check: code, name, severity, and whether it is shown unless codes are selected.
 #[pyfunction]
-pub(crate) fn check_codes() -> Vec<(&'static str, &'static str, bool)> {
-    Code::ALL.iter().map(|code| (code.id(), code.name(), code.is_default())).collect()
+pub(crate) fn check_codes() -> Vec<(&'static str, &'static str, &'static str, bool)> {
+    let row = |code: Code| (code.id(), code.name(), code.severity().id(), code.is_default());
+    Code::ALL.map(row).to_vec()
 }

@@ -148,6 +148,8 @@ record! {
         name: String,
         /// Index of the module among those that are checked.
         module: usize,
+        /// "error", "warning" or "note": something is not checked or undecided.
+        severity: String,
         /// Line of the instruction, from 1.
         line: usize,
         /// Column of the instruction, from 1.
@@ -283,6 +285,7 @@ impl Finding {
             code: code.id().into(),
             name: code.name().into(),
             module,
+            severity: code.severity().id().into(),
             line,
             column,
             routine: finding.routine.clone(),

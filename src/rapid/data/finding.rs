@@ -112,7 +112,42 @@ codes! {
     LastValue "U805" "last-value";
 }
 
+/// How much a finding matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// A controller stops, refuses the program or moves elsewhere.
+    Error,
+    /// The program runs, but not as programmed, or close to a place where axes must be fast.
+    Warning,
+    /// Nothing is wrong, but something is not checked or undecided.
+    Note,
+}
+
+impl Severity {
+    /// Its name, in lower case.
+    #[must_use]
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+            Self::Note => "note",
+        }
+    }
+}
+
 impl Code {
+    /// The severity, which the letter of its group determines, with one exception: a confdata that
+    /// several joint vectors have is a warning.
+    #[must_use]
+    pub fn severity(self) -> Severity {
+        match self.id().as_bytes()[0] {
+            b'U' => Severity::Note,
+            b'S' | b'V' | b'Z' => Severity::Warning,
+            _ if self == Self::AmbiguousConfdata => Severity::Warning,
+            _ => Severity::Error,
+        }
+    }
+
     /// Whether it is shown unless codes are selected: not where nothing is wrong, but something is
     /// unknown or undecided (group U).
     #[must_use]

@@ -7,7 +7,7 @@ use std::vec::Vec;
 
 use crate::error::Error;
 use crate::kinematics::Robot;
-use crate::rapid::{CheckOptions, Checked, Code, Finding, MotionOptions, check, parse};
+use crate::rapid::{CheckOptions, Checked, Code, Finding, MotionOptions, Severity, check, parse};
 
 const DATA: &str = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
     CONST robtarget a:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
@@ -60,6 +60,19 @@ fn every_code_has_an_id_and_a_name_of_its_own() {
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), Code::ALL.len());
+}
+
+#[test]
+fn a_group_has_one_severity() {
+    for code in Code::ALL {
+        let wanted = match (code, code.id().chars().next()) {
+            (_, Some('U')) => Severity::Note,
+            (_, Some('S' | 'V' | 'Z')) | (Code::AmbiguousConfdata, _) => Severity::Warning,
+            _ => Severity::Error,
+        };
+        assert_eq!(code.severity(), wanted, "{}", code.id());
+        assert!(code.is_default() || wanted == Severity::Note, "{}", code.id());
+    }
 }
 
 #[test]

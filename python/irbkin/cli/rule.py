@@ -1,0 +1,51 @@
+"""`irbkin rule`: the codes of `irbkin check` explained."""
+
+from __future__ import annotations
+
+import argparse
+import textwrap
+
+from irbkin.cli.arguments import Parser
+from irbkin.cli.codes import close, codes, rules
+from irbkin.cli.errors import FINE, CommandError
+
+HELP = """What a code of `irbkin check` means, its cure, and an example of RAPID that has it. A name is
+taken, too. Without a code all are listed."""
+EXAMPLES = """  irbkin rule R102
+  irbkin rule wrong-confdata
+  irbkin rule"""
+
+
+def add_arguments(parser: Parser) -> None:
+    """The arguments of the verb."""
+    parser.add("codes", metavar="CODE", nargs="*", help="a code or its name")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the verb."""
+    texts = [explained(word) for word in arguments.codes]
+    print("\n".join(texts) if texts else listed(), end="")
+    return FINE
+
+
+def explained(word: str) -> str:
+    """Return the rule of a code or a name."""
+    ids = {code.name: code.id for code in codes().values()}
+    id = ids.get(word.lower(), word.upper())
+    if id not in rules():
+        raise CommandError(f"unknown code {word!r}: did you mean {close(word)}? (irbkin rule)")
+    rule = rules()[id]
+    parts = [f"{id} {rule.name} ({codes()[id].severity})", rule.meaning, f"Cure: {rule.cure}"]
+    for language, example in rule.examples:
+        label = "Example" if language == "rapid" else language.upper()
+        parts.append(f"{label}:\n{textwrap.indent(example.rstrip(), '    ')}")
+    return "\n\n".join(parts) + "\n"
+
+
+def listed() -> str:
+    """Return a line for each code."""
+    lines = [
+        f"{it.id}  {it.name:22}  {it.severity:8}{'' if it.is_default else '(only if selected)'}"
+        for it in codes().values()
+    ]
+    return "".join(f"{line.rstrip()}\n" for line in lines)
