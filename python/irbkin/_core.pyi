@@ -2216,7 +2216,7 @@ class Finding(_Record):
         """The code in words, such as "wrong-confdata"."""
     @property
     def severity(self) -> Literal["error", "warning", "note"]:
-        """ "error", "warning" or "note": something is not checked or undecided."""
+        """How much it matters: "error", "warning" or, where nothing is wrong, "note"."""
     @property
     def line(self) -> int:
         """Line of the instruction, from 1."""
@@ -2629,7 +2629,7 @@ def check(
     """
 
 def check_codes() -> list[tuple[str, str, str, bool]]:
-    """Every code of a check: code, name, severity, and whether it is shown unless codes are selected."""
+    """Every code of a check: code, name, severity, whether it is shown without a selection."""
 
 def motion(
     robot: Robot,

@@ -45,15 +45,26 @@ def add_arguments(parser: Parser) -> None:
     robot = os.environ.get("IRBKIN_ROBOT") or None
     add("--robot", metavar="ROBOT", default=robot, help="name in the catalog, or a .urdf file")
     parser.add_frames()
-    limits = {"nargs": 3, "type": number, "action": "append"}
-    shown = ("AXIS", "LOWER", "UPPER")
-    add("--limits", metavar=shown, **limits, help="limits of an axis [deg]; may be repeated")
-    words = "limits of q3 - q2 of an arm with a parallelogram linkage [deg]"
-    add("--linkage-limits", nargs=2, type=number, metavar=("LOWER", "UPPER"), help=words)
+    add(
+        "--limits",
+        nargs=3,
+        type=number,
+        action="append",
+        metavar=("AXIS", "LOWER", "UPPER"),
+        help="limits of an axis [deg]; may be repeated",
+    )
+    add(
+        "--linkage-limits",
+        nargs=2,
+        type=number,
+        metavar=("LOWER", "UPPER"),
+        help="limits of q3 - q2 of an arm with a parallelogram linkage [deg]",
+    )
     parser.add_cell()
-    codes = {"metavar": "CODES", "type": _words}
-    add("--select", **codes, help="codes or their beginnings, with commas; ALL for all")
-    add("--ignore", **codes, help="codes or their beginnings to leave out")
+    words = "codes or their beginnings, with commas; ALL for all"
+    add("--select", metavar="CODES", type=_words, help=words)
+    words = "codes or their beginnings to leave out"
+    add("--ignore", metavar="CODES", type=_words, help=words)
     strict = argparse.BooleanOptionalAction
     add("--strict", action=strict, help="moves that are not checked are errors")
     change = parser.parser.add_mutually_exclusive_group()

@@ -102,11 +102,12 @@ def corrections(checker: Checker, sources: Sequence[Source]) -> Iterator[Correct
         if user := next(users, None):
             complain(f"{source.shown}: is not corrected, {user.shown} moves to a target of it")
             continue
-        old, new = (
-            Counter(it.severity for it in checker.wanted(source, module))
-            for module in (source.module, corrected)
-        )
+        old, new = (_severities(checker.wanted(source, it)) for it in (source.module, corrected))
         yield Correction(source, corrected, old - new)
+
+
+def _severities(findings: Sequence[Finding]) -> Counter[str]:
+    return Counter(it.severity for it in findings)
 
 
 def _places(checker: Checker, module: Module) -> set[tuple[int, str]]:

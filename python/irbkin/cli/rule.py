@@ -9,8 +9,8 @@ from irbkin.cli.arguments import Parser
 from irbkin.cli.codes import close, codes, rules
 from irbkin.cli.errors import FINE, CommandError
 
-HELP = """What a code of `irbkin check` means, its cure, and an example of RAPID that has it. A name is
-taken, too. Without a code all are listed."""
+HELP = """What a code of `irbkin check` means, its cure, and an example of RAPID that has it. Names
+are taken, too. Without a code all are listed."""
 EXAMPLES = """  irbkin rule R102
   irbkin rule wrong-confdata
   irbkin rule"""

@@ -24,7 +24,7 @@ class Settings(NamedTuple):
     """Options of a file."""
 
     file: str = ""
-    options: Mapping[str, Any] = {}  # noqa: RUF012
+    options: Mapping[str, Any] = {}
 
     def fill(self, arguments: argparse.Namespace) -> None:
         """Set the arguments that are not given."""
@@ -66,7 +66,8 @@ def _table(file: str, keys: Sequence[str]) -> Entry | None:
     # Other tools read their own: without this word it is not parsed.
     if not is_own and b"irbkin" not in content:
         return None
-    return _guarded(file, _found, content, os.path.dirname(file), keys)
+    entry: Entry | None = _guarded(file, _found, content, os.path.dirname(file), keys)
+    return entry
 
 
 def _found(content: bytes, folder: str, keys: Sequence[str]) -> Entry | None:

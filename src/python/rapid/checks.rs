@@ -200,7 +200,7 @@ fn record(py: Python<'_>, mut finding: rapid::Finding, modules: &[&Module]) -> P
     Finding::of(py, &finding)
 }
 
-/// Every code of a check: code, name, severity, and whether it is shown unless codes are selected.
+/// Every code of a check: code, name, severity, whether it is shown without a selection.
 #[pyfunction]
 pub(crate) fn check_codes() -> Vec<(&'static str, &'static str, &'static str, bool)> {
     let row = |code: Code| (code.id(), code.name(), code.severity().id(), code.is_default());

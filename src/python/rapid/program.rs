@@ -148,7 +148,7 @@ record! {
         name: String,
         /// Index of the module among those that are checked.
         module: usize,
-        /// "error", "warning" or "note": something is not checked or undecided.
+        /// How much it matters: "error", "warning" or, where nothing is wrong, "note".
         severity: String,
         /// Line of the instruction, from 1.
         line: usize,
