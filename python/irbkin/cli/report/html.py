@@ -1,0 +1,109 @@
+"""A report as one HTML file, with pictures, a filter, and colors for light and dark screens."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from html import escape
+from itertools import groupby
+from pathlib import Path
+from string import Template
+
+from irbkin.cli.codes import LEVELS, rules
+from irbkin.cli.findings import Found
+from irbkin.cli.report import Report, position
+from irbkin.cli.report.pictures import bars, gauge, share
+
+AROUND = 1
+"""Lines that are shown before a finding and behind it."""
+
+
+def render(report: Report) -> str:
+    """Return the page."""
+    counts = Counter(it.severity for it in report.found)
+    fixable = sum(bool(it.edits) for it in report.found)
+    tiles = [(counts[level], f"{level}s", level) for level in LEVELS]
+    tiles += [(fixable, "fixable with --fix", "fine")]
+    pictures = {
+        "Moves": share(report.coverage),
+        "Findings by routine": bars(_tally((it.routine or it.file, it) for it in report.found)),
+        "Findings by code": bars(_tally((f"{it.code} {it.name}", it) for it in report.found)),
+    }
+    boxes = (
+        f'<label class="{it}"><input type="checkbox" value="{it}" checked> {it}s</label>'
+        for it in LEVELS
+    )
+    template = Template(Path(__file__).with_name("page.html").read_text(encoding="utf-8"))
+    return template.substitute(
+        robot=escape(report.robot),
+        conclusion=escape(report.conclusion),
+        coverage=escape(report.coverage.text()),
+        tiles="".join(
+            f'<div class="tile card"><b class="{style if count else "dim"}">{count}</b>{words}</div>'
+            for count, words, style in tiles
+        ),
+        pictures="".join(
+            f'<div class="card"><h3>{title}</h3>{svg}</div>'
+            for title, svg in pictures.items()
+            if svg
+        ),
+        levels="\n".join(boxes),
+        files="\n".join(_file(report, *it) for it in groupby(report.found, lambda it: it.file)),
+    )
+
+
+def _tally(named: Iterable[tuple[str, Found]]) -> dict[str, Counter[str]]:
+    """Numbers of findings by a name and a severity."""
+    tally: dict[str, Counter[str]] = {}
+    for name, it in named:
+        tally.setdefault(name, Counter())[it.severity] += 1
+    return tally
+
+
+def _file(report: Report, file: str, found: Iterable[Found]) -> str:
+    content = report.texts.get(file, "").encode()
+    lines = report.texts.get(file, "").split("\n")
+    cards = "\n".join(_card(it, lines, content) for it in found)
+    return f"<section>\n<h2>{escape(file)}</h2>\n{cards}\n</section>"
+
+
+def _card(found: Found, lines: list[str], content: bytes) -> str:
+    rule = rules()[found.code]
+    routine = f" in {escape(found.routine)}" if found.routine else ""
+    words = " ".join([found.code, found.name, found.routine or "", found.file, found.message])
+    parts = [
+        f'<article class="finding card {found.severity}" data-level="{found.severity}" '
+        f'data-words="{escape(words)}">',
+        f"<header><b>{found.code} {escape(found.name)}</b>"
+        f'<span class="dim">{found.severity}, line {found.line}{routine}</span></header>',
+        f"<p>{escape(found.message)}</p>",
+        gauge(found),
+        _excerpt(found, lines),
+    ]
+    for begin, end, text in found.edits:
+        line, _ = position(content, begin)
+        old, new = (escape(it) for it in (content[begin:end].decode(), text))
+        parts.append(f"<p>Fix in line {line}: <code>{old}</code> becomes <code>{new}</code></p>")
+    for it in found.related:
+        parts.append(f"<p>{escape(f'{it.file}:{it.line}:{it.column}: {it.message}')}</p>")
+    meaning, cure = (escape(" ".join(it.split())) for it in (rule.meaning, rule.cure))
+    parts.append(
+        f"<details><summary>What it means</summary><p>{meaning}</p><p>Cure: {cure}</p></details>"
+    )
+    return "\n".join(it for it in parts if it) + "\n</article>"
+
+
+def _excerpt(found: Found, lines: list[str]) -> str:
+    """The line of a finding between its neighbors."""
+    rows = []
+    for number in range(found.line - AROUND, found.line + AROUND + 1):
+        if not 0 < number <= len(lines):
+            continue
+        line = lines[number - 1].rstrip("\r")
+        text = escape(line)
+        if number == found.line:
+            begin, end = found.span(line)
+            before, own, after = (escape(it) for it in (line[:begin], line[begin:end], line[end:]))
+            text = f"{before}<mark>{own}</mark>{after}"
+        rows.append(f'<span class="number">{number:5} </span>{text}')
+    return f"<pre>{chr(10).join(rows)}</pre>" if rows else ""
