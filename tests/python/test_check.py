@@ -1,6 +1,5 @@
 """`irbkin check` and `rapid.check`: codes, places, corrections, manners of a linter."""
 
-import json
 import os
 import re
 from pathlib import Path
@@ -14,15 +13,15 @@ from hypothesis import strategies as st
 from irbkin import rapid
 from irbkin._core import check_codes
 from irbkin.body import Shape
-from irbkin.cli.check import selected
-from irbkin.cli.checker import Checker, fix
+from irbkin.cli.checker import Checker, corrections
+from irbkin.cli.codes import codes, page, rules, selected
 from irbkin.cli.sources import Source, read_modules
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "guide" / "check.md").read_text()
 NAME = "IRB 2600-12/1.65"
 ROBOT = irbkin.Robot(NAME)
-CODES = [code for code, _, _ in check_codes()]
+CODES = [code for code, *_ in check_codes()]
 BLOCKS = dict(re.findall(r"^```rapid (\S+)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL))
 DATA = BLOCKS.pop("data")
 SEAM = BLOCKS.pop("seam.mod")
@@ -51,8 +50,55 @@ def test_the_example_of_a_code_has_it(code):
 
 def test_the_page_has_every_code_with_its_name_in_order():
     headings = re.findall(r"^### (\w\d+) (.*)$", PAGE, re.MULTILINE)
-    assert headings == [("E001", "syntax"), *((code, name) for code, name, _ in check_codes())]
+    assert headings == [(it.id, it.name) for it in codes().values()]
     assert list(BLOCKS) == ["E001", *CODES]
+
+
+def test_the_page_has_the_rules_of_the_command():
+    path = ROOT / "docs" / "guide" / "check.md"
+    before, mark, own = path.read_text().partition("python/irbkin/cli/rules.md -->\n\n")
+    assert mark
+    if os.environ.get("IRBKIN_WRITE") == "1":
+        path.write_text(before + mark + page())
+        own = page()
+    assert own == page(), "IRBKIN_WRITE=1 pytest tests/python/test_check.py -k rules writes it"
+
+
+def test_every_rule_has_all_its_parts():
+    assert list(rules()) == list(codes())
+    for code, rule in rules().items():
+        assert rule.name == codes()[code].name
+        assert rule.meaning
+        assert rule.cure.endswith(".")
+        assert 10 < len(rule.title) <= 120, rule.title
+        assert "\n" not in rule.title
+        assert [language for language, _ in rule.examples][-1] == "rapid"
+
+
+def test_a_rule_is_explained_by_its_code_or_its_name():
+    done = command.run("rule", "C201")
+    assert done.returncode == 0
+    assert done.stdout == command.run("rule", "wrong-confdata").stdout
+    assert done.stdout == command.run("rule", "c201").stdout
+    text = done.stdout.decode()
+    assert text.startswith("C201 wrong-confdata (error)\n\nNo solution inside the limits ")
+    assert "\n\nCure: `--fix` writes " in text
+    assert f"\n\nExample:\n    {BLOCKS['C201']}" in text
+    assert "[obstacles.post]" in command.run("rule", "K901").stdout.decode()
+    assert "did you mean R10" in command.refused("rule", "R110")
+    assert "did you mean C201?" in command.refused("rule", "wrong-confdta")
+    assert "did you mean C, D, E, K" in command.refused("rule", "banana")
+    assert command.run("rule").stdout == run("--codes").stdout
+
+
+def test_a_code_has_a_severity():
+    severities = {code.id: code.severity for code in codes().values()}
+    assert {severities[it] for it in severities if it[0] in "RKND"} == {"error"}
+    assert {severities[it] for it in severities if it[0] in "SVZ"} == {"warning"}
+    assert {it for it in severities if severities[it] == "note"} == {"U801", "U802", "U803"}
+    assert severities["C203"] == "warning"
+    for it in rapid.check(ROBOT, rapid.parse(SEAM)):
+        assert it.severity == severities[it.code]
 
 
 def test_a_move_that_touches_something_says_when_and_what(tmp_path):
@@ -86,8 +132,11 @@ def test_a_broken_text_has_its_line_and_column(tmp_path):
     done = check(file)
     assert done.returncode == 1
     line = module(BLOCKS["E001"]).splitlines().index(BLOCKS["E001"].strip()) + 1
-    first, last = done.stdout.decode().splitlines()
+    checked, first, source, caret, _, last = done.stdout.decode().splitlines()
+    assert checked == "0 of 0 moves checked; 1 file not read."
     assert first.startswith(f"{file}:{line}:13: E001 expected ")
+    assert source == f"{line} | {BLOCKS['E001'].strip()}"
+    assert caret == f"{' ' * len(str(line))} | {' ' * 12}^ error"
     assert last == "Found 1 error."
     assert done.stderr == b""
 
@@ -127,7 +176,8 @@ def test_a_fix_changes_confdata_and_nothing_else(tmp_path):
             assert before.stdout.count(b"[*]") == 1
             assert b"Found 1 error (1 fixable with --fix)." in before.stdout
             done = check(file, "--select", "C", "--fix")
-            assert done.stdout == b"Found 1 error (1 fixed, 0 remaining).\n", done
+            last = done.stdout.splitlines()[-1]
+            assert last == b"Found 1 error (1 fixed, 0 remaining).", done
             assert done.returncode == 0
             wanted = text.replace(
                 "[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]; ! z", f"[-1,0,-1,0],{FAR}]; ! z"
@@ -154,14 +204,13 @@ def test_a_fixed_module_has_right_confdata_and_differs_in_nothing_else(data):
     text = module("".join(moves), "".join(targets))
     source = Source("unused.mod", text.encode())
     assert read_modules([source]) == []
-    written = []
-    source.write = written.append
     checker = Checker(ROBOT, ["C201", "C202"], 0.005)
-    before = checker.wanted(source.module)
+    before = checker.wanted(source, source.module)
     assert all(it.edits for it in before), "each target is its own"
-    assert fix(checker, [source]) == len(before)
-    corrected = written[0] if written else source.module
-    assert checker.wanted(corrected) == []
+    written = list(corrections(checker, [source]))
+    assert sum(it.fixed.total() for it in written) == len(before)
+    corrected = written[0].module if written else source.module
+    assert checker.wanted(source, corrected) == []
     after = corrected.source
     pattern = re.compile(r"(\[\[[^]]*\],\[[^]]*\],)\[[^]]*\]")
     assert pattern.sub(r"\1", after) == pattern.sub(r"\1", text)
@@ -201,9 +250,9 @@ def test_a_file_with_bytes_that_are_no_text_is_not_written(tmp_path):
 
 
 def test_a_code_that_does_not_exist_is_refused():
-    for codes in (["C999"], "C201"):
+    for words in (["C999"], "C201"):
         with pytest.raises(irbkin.RapidError, match="is no code; there are R101"):
-            rapid.check(ROBOT, rapid.parse(SEAM), codes=codes)
+            rapid.check(ROBOT, rapid.parse(SEAM), codes=words)
 
 
 def test_files_are_one_program(tmp_path):
@@ -212,24 +261,27 @@ def test_files_are_one_program(tmp_path):
     program.write_text(module("MoveJ pNear,v100,fine,tGun;\n", DATA.partition("\n")[2]))
     assert check(program).returncode == 1
     done = run("--robot", NAME, program, tools)
-    assert (done.returncode, done.stdout) == (0, b"All checks passed!\n")
+    passed = b"1 of 1 move checked.\nAll checks passed!\n"
+    assert (done.returncode, done.stdout) == (0, passed)
     (tmp_path / "notes.txt").write_text("no module")
     program.rename(tmp_path / "PROGRAM.MOD")
     done = check(tmp_path)
-    assert (done.returncode, done.stdout) == (0, b"All checks passed!\n")
+    assert (done.returncode, done.stdout) == (0, passed)
 
 
 def test_codes_are_selected_and_ignored(tmp_path):
-    known = check_codes()
-    default = {code for code, _, is_default in known if is_default}
-    assert selected(None, "", known) == default
+    default = {it for it, _, _, is_default in check_codes() if is_default}
+    assert selected(None, []) == {"E001", *default}
     assert {code for code in CODES if code not in default} == {"U801", "U802", "U803"}
-    assert selected("ALL", "", known) == set(CODES)
+    assert selected(["ALL"], []) == {"E001", *CODES}
     unknown = rapid.parse("PROC main() MoveJ *,v100,fine,tool0; ENDPROC")
     assert {it.code for it in rapid.check(ROBOT, unknown)} == {"U801"}
     assert rapid.check(ROBOT, unknown, codes=default) == ()
-    assert selected("c2,R101", "C202", known) == {"C201", "C203", "R101"}
-    assert selected("wrong-confdata", "", known) == {"C201"}
+    assert selected(["c2", " R101"], ["C202"]) == {"E001", "C201", "C203", "R101"}
+    assert selected(["wrong-confdata"], []) == {"E001", "C201"}
+    assert selected(["E"], []) == {"E001"}
+    assert selected(["C201"], ["E"]) == {"C201"}
+    assert selected(["C201"], [], is_strict=True) == {"E001", "C201", "U801", "U802"}
     file = tmp_path / "seam.mod"
     file.write_text(SEAM)
     done = check(file, "--select", "X1")
@@ -240,7 +292,7 @@ def test_codes_are_selected_and_ignored(tmp_path):
         assert (done.returncode, done.stdout) == (2, b"")
         assert b"leave no code to check" in done.stderr
     listed = run("--codes").stdout.decode()
-    assert [line.split()[0] for line in listed.splitlines()] == CODES
+    assert [line.split()[0] for line in listed.splitlines()] == ["E001", *CODES]
 
 
 def test_comments_silence(tmp_path):
@@ -258,28 +310,35 @@ def test_comments_silence(tmp_path):
 
 def test_what_is_not_checked_is_counted(tmp_path):
     file = tmp_path / "taught.mod"
-    file.write_text(module("MoveJ *,v100,fine,tGun;\nMoveJ pNear,v100,fine,tGun;\n"))
+    taught = "MoveJ *,v100,fine,tGun;\nMoveJ pNear,v100,fine,tGun;\n"
+    file.write_text(module(taught))
     done = check(file)
     assert done.returncode == 0
-    assert done.stdout == (b"All checks passed!\n1 place is not checked (--select U shows why).\n")
-    done = check(file, "--select", "U")
-    assert done.returncode == 1
-    assert b": U801 MoveJ *: " in done.stdout
-    assert b"not checked (" not in done.stdout
-
-
-def test_json_has_the_findings(tmp_path):
-    file = tmp_path / "seam.mod"
-    file.write_text(SEAM)
-    found = json.loads(check(file, "--json").stdout)
-    plain = check(file, "-q").stdout.decode().splitlines()
-    assert len(found) == len(plain) > 3
-    for it, line in zip(found, plain, strict=True):
-        mark = "[*] " if it["fixable"] else ""
-        place = f"{it['file']}:{it['line']}:{it['column']}"
-        assert line == f"{place}: {it['code']} {mark}{it['message']}"
-    nothing = check(file, "--json", "--select", "D")
-    assert (nothing.returncode, json.loads(nothing.stdout)) == (0, [])
+    assert done.stdout == (
+        b"1 of 2 moves checked, 1 not: 1 by unknown values.\nNo findings in the 1 move checked.\n"
+    )
+    noted = check(file, "--select", "U")
+    assert noted.returncode == 0
+    assert b": U801 MoveJ *: " in noted.stdout
+    assert noted.stdout.endswith(b"Found 2 notes.\n")
+    strict = check(file, "--strict")
+    assert strict.returncode == 1
+    assert b"^ error" in strict.stdout
+    assert strict.stdout.endswith(b"Found 1 error.\n")
+    for silenced in (["--strict", "--ignore", "U801"], ["--no-strict"]):
+        assert check(file, *silenced).returncode == 0
+    # A comment silences the finding; the move is not checked all the same.
+    file.write_text(module(taught.replace(";", "; ! noqa", 1)))
+    assert check(file, "--strict").stdout == done.stdout
+    search = "SearchL di1,pNear,pFar,v100,tGun;\nrGo;\n"
+    file.write_text(module(f"{taught}{BLOCKS['N602']}{search}"))
+    first = check(file).stdout.decode().splitlines()[0]
+    assert first == (
+        "1 of 4 moves checked, 3 not: 1 by unknown values, 1 by unknown tools, "
+        "1 by instructions that are not followed."
+    )
+    file.write_text(module(""))
+    assert check(file).stdout == b"0 of 0 moves checked.\nNo findings in the 0 moves checked.\n"
 
 
 def test_the_robot_comes_from_the_environment_and_must_be_given(tmp_path):
@@ -309,7 +368,7 @@ def test_an_arm_without_speeds_says_so(tmp_path):
 
 def test_stdin_is_checked_and_not_fixed():
     done = run("--robot", NAME, "-", stdin=SEAM.encode())
-    assert done.stdout.startswith(b"<stdin>:")
+    assert b"\n<stdin>:10:9: V401 " in done.stdout
     done = run("--robot", NAME, "--fix", "-", stdin=SEAM.encode())
     assert done.returncode == 2
     assert done.stderr.count(b"\n") == 1

@@ -39,7 +39,7 @@ class Rule(NamedTuple):
     @property
     def title(self) -> str:
         """The first sentence of the meaning."""
-        return re.split(r"(?<=\w)\. |\.$|: ", " ".join(self.meaning.split()), maxsplit=1)[0]
+        return re.split(r"(?<=\S)\. |\.$|: ", " ".join(self.meaning.split()), maxsplit=1)[0]
 
     @property
     def examples(self) -> list[tuple[str, str]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -33,8 +34,13 @@ class Report(NamedTuple):
 
     def line(self, file: str, number: int) -> str:
         """A line of a file, empty if it has none of this number."""
-        lines = self.texts.get(file, "").split("\n")
+        lines = _lines(self.texts.get(file, ""))
         return lines[number - 1].rstrip("\r") if 0 < number <= len(lines) else ""
+
+
+@functools.lru_cache(maxsize=4)
+def _lines(text: str) -> list[str]:
+    return text.split("\n")
 
 
 def rendered(report: Report, form: str) -> str:
@@ -56,6 +62,23 @@ def is_colored(choice: str, stream: IO[str]) -> bool:
     if os.environ.get("FORCE_COLOR", "0") not in ("", "0"):
         return True
     return stream.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def fixes(found: Found, text: str) -> list[tuple[int, str]]:
+    """Lines that a finding corrects, by their numbers, with its corrections."""
+    content = text.encode()
+    lines: dict[int, list[tuple[int, int, str]]] = {}
+    for edit in sorted(found.edits):
+        lines.setdefault(position(content, edit[0])[0], []).append(edit)
+    corrected = []
+    for number, edits in lines.items():
+        begin = content.rfind(b"\n", 0, edits[0][0]) + 1
+        end = content.find(b"\n", edits[-1][1])
+        line = content[: end if end >= 0 else len(content)]
+        for first, last, new in reversed(edits):
+            line = line[:first] + new.encode() + line[last:]
+        corrected.append((number, line[begin:].decode().strip()))
+    return corrected
 
 
 def position(content: bytes, byte: int) -> tuple[int, int]:

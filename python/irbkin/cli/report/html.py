@@ -11,7 +11,7 @@ from string import Template
 
 from irbkin.cli.codes import LEVELS, rules
 from irbkin.cli.findings import Found
-from irbkin.cli.report import Report, position
+from irbkin.cli.report import Report, fixes
 from irbkin.cli.report.pictures import bars, gauge, share
 
 AROUND = 1
@@ -38,10 +38,7 @@ def render(report: Report) -> str:
         robot=escape(report.robot),
         conclusion=escape(report.conclusion),
         coverage=escape(report.coverage.text()),
-        tiles="".join(
-            f'<div class="tile card"><b class="{style if count else "dim"}">{count}</b>{words}</div>'
-            for count, words, style in tiles
-        ),
+        tiles="".join(_tile(*it) for it in tiles),
         pictures="".join(
             f'<div class="card"><h3>{title}</h3>{svg}</div>'
             for title, svg in pictures.items()
@@ -50,6 +47,11 @@ def render(report: Report) -> str:
         levels="\n".join(boxes),
         files="\n".join(_file(report, *it) for it in groupby(report.found, lambda it: it.file)),
     )
+
+
+def _tile(count: int, words: str, style: str) -> str:
+    style = style if count else "dim"
+    return f'<div class="tile card"><b class="{style}">{count}</b>{words}</div>'
 
 
 def _tally(named: Iterable[tuple[str, Found]]) -> dict[str, Counter[str]]:
@@ -61,13 +63,13 @@ def _tally(named: Iterable[tuple[str, Found]]) -> dict[str, Counter[str]]:
 
 
 def _file(report: Report, file: str, found: Iterable[Found]) -> str:
-    content = report.texts.get(file, "").encode()
-    lines = report.texts.get(file, "").split("\n")
-    cards = "\n".join(_card(it, lines, content) for it in found)
+    text = report.texts.get(file, "")
+    lines = text.split("\n")
+    cards = "\n".join(_card(it, lines, text) for it in found)
     return f"<section>\n<h2>{escape(file)}</h2>\n{cards}\n</section>"
 
 
-def _card(found: Found, lines: list[str], content: bytes) -> str:
+def _card(found: Found, lines: list[str], text: str) -> str:
     rule = rules()[found.code]
     routine = f" in {escape(found.routine)}" if found.routine else ""
     words = " ".join([found.code, found.name, found.routine or "", found.file, found.message])
@@ -80,10 +82,8 @@ def _card(found: Found, lines: list[str], content: bytes) -> str:
         gauge(found),
         _excerpt(found, lines),
     ]
-    for begin, end, text in found.edits:
-        line, _ = position(content, begin)
-        old, new = (escape(it) for it in (content[begin:end].decode(), text))
-        parts.append(f"<p>Fix in line {line}: <code>{old}</code> becomes <code>{new}</code></p>")
+    for line, new in fixes(found, text):
+        parts.append(f"<p>Fix in line {line}:</p><pre>{escape(new)}</pre>")
     for it in found.related:
         parts.append(f"<p>{escape(f'{it.file}:{it.line}:{it.column}: {it.message}')}</p>")
     meaning, cure = (escape(" ".join(it.split())) for it in (rule.meaning, rule.cure))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from irbkin.cli.findings import Found
-from irbkin.cli.report import Report, position
+from irbkin.cli.report import Report, fixes
 
 STYLES = {
     "bold": "1",
@@ -63,17 +63,11 @@ def _block(found: Found, report: Report) -> str:
         source = "".join(it if it.isprintable() or it == "\t" else "\ufffd" for it in line)
         rows += [f"{margin(str(found.line))} {source}", f"{margin('')} {blank}{caret}"]
     rows += (f"{margin('', '=')} note: {it}" for it in _related(found))
-    rows += (f"{margin('', '=')} fix: {it}" for it in _fixes(found, report))
+    text = report.texts.get(found.file, "")
+    rows += (f"{margin('', '=')} fix in line {it}: {new}" for it, new in fixes(found, text))
     return "\n".join(rows)
 
 
 def _related(found: Found) -> Iterator[str]:
     for it in found.related:
         yield f"{it.file}:{it.line}:{it.column}: {it.message}"
-
-
-def _fixes(found: Found, report: Report) -> Iterator[str]:
-    content = report.texts.get(found.file, "").encode()
-    for begin, end, text in found.edits:
-        line, _ = position(content, begin)
-        yield f"line {line}: {content[begin:end].decode()} becomes {text}"

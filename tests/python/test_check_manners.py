@@ -1,0 +1,419 @@
+"""`irbkin check`: formats, colors, differences, options of files, hooks of other tools."""
+
+import json
+import re
+import subprocess
+from collections import Counter
+from pathlib import Path
+
+import command
+import irbkin
+import pytest
+from irbkin import rapid
+from irbkin.cli.codes import codes, rules
+from irbkin.cli.findings import Coverage, Found, Related, conclusion
+from irbkin.cli.report import FORMATS, Report, rendered
+from irbkin.cli.report.github import render as github
+from irbkin.cli.settings import KEYS
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "guide" / "check.md").read_text()
+NAME = "IRB 2600-12/1.65"
+SEAM = re.search(r"^```rapid seam.mod\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)[1]
+OPTIONS = re.search(r"^```toml irbkin.toml\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)[1]
+TASKS = re.search(r"^```json\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)[1]
+
+
+def run(*arguments, **options):
+    environment = {"NO_COLOR": "", "FORCE_COLOR": "", "IRBKIN_ROBOT": ""}
+    return command.run("check", *arguments, **{**environment, **options})
+
+
+def output(*arguments, **options):
+    done = run("--robot", NAME, *arguments, **options)
+    assert done.stderr == b"", done.stderr
+    return done.stdout.decode()
+
+
+@pytest.fixture
+def seam(tmp_path):
+    file = tmp_path / "seam.mod"
+    file.write_text(SEAM)
+    return file
+
+
+def test_each_finding_has_its_line_with_a_caret(seam):
+    concise = output("--output-format", "concise", seam).splitlines()
+    checked, *lines, last = output(seam).splitlines()
+    assert [checked, last] == [concise[0], concise[-1]]
+    assert [it for it in lines if it.startswith(str(seam))] == concise[1:-1]
+    source = SEAM.splitlines()
+    for at, heading in enumerate(lines):
+        if heading.startswith(str(seam)):
+            line, column = map(int, heading.removeprefix(str(seam)).split(":")[1:3])
+            assert lines[at + 1] == f"{line} | {source[line - 1]}"
+            caret = lines[at + 2].removeprefix("   | ")
+            statement = source[line - 1].strip().rstrip(";")
+            assert caret.startswith(f"{' ' * (column - 1)}{'^' * len(statement)} ")
+    (fix,) = [it for it in lines if "= fix" in it]
+    assert fix.startswith(
+        "   = fix in line 5: CONST robtarget pZero:=[[900,-200,500],[0,0,1,0],[-1,0,"
+    )
+    assert output("-q", "--output-format", "concise", seam).splitlines() == concise[1:-1]
+
+
+def test_a_caret_is_below_its_statement_behind_tabs_and_odd_characters():
+    found = Found("a.mod", 1, 4, "R101", "out-of-reach", "error", "words", related=(RELATED,))
+    text = rendered(report([found], "\t\u00e4\x1bMoveJ p,v1; MoveJ q;"), "text")
+    _, _, source, caret, note, _, _ = text.split("\n")[:7]
+    assert source == "1 | \t\u00e4\ufffdMoveJ p,v1; MoveJ q;"
+    assert caret == "  | \t  ^^^^^^^^^^ error"
+    assert note == "  = note: b.mod:7:3: declared here"
+    missing = rendered(report([found._replace(line=9)], ""), "text")
+    assert "^" not in missing
+
+
+RELATED = Related("b.mod", 7, 3, "declared here")
+
+
+def report(found, text, **fields):
+    return Report(found, {"a.mod": text}, Coverage(1, {}), Counter(), NAME, **fields)
+
+
+def test_colors_are_for_terminals_and_as_chosen(seam):
+    plain = output(seam)
+    assert "\x1b" not in plain
+    colored = output("--color", "always", seam)
+    assert re.sub(r"\x1b\[[\d;]*m", "", colored) == plain
+    assert "\x1b[1;31mR101\x1b[0m" in colored
+    assert "\x1b[1;33mV401\x1b[0m" in colored
+    assert output(seam, FORCE_COLOR="1") == colored
+    for environment in ({"FORCE_COLOR": "0"}, {"FORCE_COLOR": "1", "NO_COLOR": "1"}):
+        assert output(seam, **environment) == plain
+    assert output("--color", "always", seam, NO_COLOR="1") == colored
+    assert output("--color", "never", seam, FORCE_COLOR="1") == plain
+    assert "\x1b[32m+" in run("--robot", NAME, "--diff", "--color", "always", seam).stdout.decode()
+
+
+def test_json_has_the_findings(seam):
+    found = json.loads(output("--json", seam))
+    assert json.loads(output("--output-format", "json", seam)) == found
+    plain = output("-q", "--output-format", "concise", seam).splitlines()
+    assert len(found) == len(plain) > 3
+    for it, line in zip(found, plain, strict=True):
+        mark = "[*] " if it["fixable"] else ""
+        place = f"{it['file']}:{it['line']}:{it['column']}"
+        assert line == f"{place}: {it['code']} {mark}{it['message']}"
+        assert it["severity"] == codes()[it["code"]].severity
+        assert it["routine"] == "main"
+    (fixable,) = [it for it in found if it["fixable"]]
+    line = SEAM.splitlines()[4]
+    for edit in fixable["edits"]:
+        (row, begin), (last, end) = edit["begin"], edit["end"]
+        assert row == last == 5
+        assert (line[begin - 1 : end - 1], edit["text"]) == ("0", "-1")
+    fast = next(it for it in found if it["code"] == "V401")
+    assert (fast["joint"], round(fast["value"], 2), round(fast["bound"], 2)) == (1, 7.78, 3.05)
+    nothing = run("--robot", NAME, "--json", "--select", "D", seam)
+    assert (nothing.returncode, json.loads(nothing.stdout)) == (0, [])
+
+
+def test_github_gets_a_command_for_each_finding(seam):
+    lines = output("--output-format", "github", seam).splitlines()
+    pattern = r"::(error|warning|notice) title=irbkin (\w+) ([\w-]+),file=(.*),line=(\d+),col=(\d+)"
+    found = [re.match(pattern, line).groups() for line in lines]
+    assert [(it[0], it[1]) for it in found][:2] == [("warning", "V401"), ("error", "R103")]
+    assert {it[3] for it in found} == {str(seam)}
+    odd = Found("a,b:c%.mod", 3, 5, "U801", "unknown-value", "note", "100 %\r\n::error::x")
+    assert github(report([odd], "")) == (
+        "::notice title=irbkin U801 unknown-value,file=a%2Cb%3Ac%25.mod,line=3,col=1,endLine=3,"
+        "endColumn=2::a,b:c%25.mod:3:5: U801 100 %25%0D%0A::error::x\n"
+    )
+
+
+def test_sarif_is_valid_and_has_rules_places_and_fixes(seam):
+    jsonschema = pytest.importorskip("jsonschema")
+    schema = json.loads((ROOT / "tests" / "data" / "sarif-2.1.0.json").read_text())
+    validator = jsonschema.validators.validator_for(schema)(schema)
+    log = json.loads(output("--output-format", "sarif", "--select", "ALL", seam))
+    assert list(validator.iter_errors(log)) == []
+    (run_,) = log["runs"]
+    known = run_["tool"]["driver"]["rules"]
+    assert [it["id"] for it in known] == list(rules())
+    found = json.loads(output("--json", "--select", "ALL", seam))
+    lines = SEAM.splitlines()
+    for result, it in zip(run_["results"], found, strict=True):
+        assert known[result["ruleIndex"]]["id"] == result["ruleId"] == it["code"]
+        assert (result["level"], result["message"]["text"]) == (it["severity"], it["message"])
+        (location,) = result["locations"]
+        assert location["physicalLocation"]["artifactLocation"]["uri"] == seam.as_uri()
+        region = location["physicalLocation"]["region"]
+        assert region["startLine"] == it["line"]
+        part = lines[it["line"] - 1][region["startColumn"] - 1 : region["endColumn"] - 1]
+        assert part == lines[it["line"] - 1].strip().rstrip(";")
+        assert ("fixes" in result) == it["fixable"]
+    (fix,) = next(it["fixes"] for it in run_["results"] if "fixes" in it)
+    (change,) = fix["artifactChanges"]
+    line = lines[4]
+    for replacement in reversed(change["replacements"]):
+        region = replacement["deletedRegion"]
+        assert region["startLine"] == 5
+        begin, end = region["startColumn"] - 1, region["endColumn"] - 1
+        line = line[:begin] + replacement["insertedContent"]["text"] + line[end:]
+    assert "[-1,0,-1,0]" in line
+    odd = Found("a b.mod", 3, 5, "U801", "unknown-value", "note", "it", related=(RELATED,))
+    broken = json.loads(rendered(report([odd], ""), "sarif"))
+    assert list(validator.iter_errors(broken)) == []
+    uri = broken["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]
+    assert uri == {"uri": "a%20b.mod"}
+
+
+def test_html_is_one_file_with_every_finding_escaped(seam):
+    page = output("--output-format", "html", "--select", "ALL", seam)
+    found = json.loads(output("--json", "--select", "ALL", seam))
+    assert page.count("<article ") == len(found)
+    assert not re.search(r"(?:src|href)=|https?:|@import|url\(", page)
+    assert "prefers-color-scheme: dark" in page
+    assert page.count("<svg") >= 4
+    assert "255 % of the bound" in page
+    assert "<pre>CONST robtarget pZero:=[[900,-200,500],[0,0,1,0],[-1,0,-1,0]" in page
+    for opened in ("article", "section", "svg", "pre", "div", "p", "details", "mark"):
+        starts = len(re.findall(rf"<{opened}[ >]", page))
+        assert starts == page.count(f"</{opened}>"), opened
+    words = '<script>alert("&")</script>'
+    odd = Found(f"{words}.mod", 1, 1, "U801", "unknown-value", "note", words, routine=words)
+    texts = {f"{words}.mod": words}
+    whole = Report([odd], texts, Coverage(0, {words: 1}), Counter(), words)
+    assert words not in rendered(whole, "html")
+    empty = rendered(Report([], {}, Coverage(3, {}), Counter(), NAME), "html")
+    assert "All checks passed!" in empty
+    assert "<article" not in empty
+
+
+def test_a_report_goes_to_a_file_in_the_format_of_its_ending(seam, tmp_path):
+    for ending, begin in (
+        (".json", "["),
+        (".sarif", "{"),
+        (".html", "<!DOCTYPE"),
+        (".txt", "5 of"),
+    ):
+        target = tmp_path / f"report{ending}"
+        text = output("-o", target, seam)
+        assert text.splitlines()[0] == "5 of 6 moves checked, 1 not: 1 by unknown tools."
+        assert text.count("\n") == 2
+        assert target.read_text().startswith(begin)
+    assert output("-q", "-o", target, "--output-format", "json", seam) == ""
+    json.loads(target.read_text())
+    assert "must end in .json" in command.refused("check", "-o", "report.xml", seam)
+
+
+def test_the_last_line_is_right_about_what_was_checked():
+    def last(found=(), fixed=(), checked=4, reasons=None, unread=0):
+        whole = Coverage(checked, reasons or {}, unread)
+        words = [Found("a", 1, 1, "C201", "", it, "") for it in found]
+        return conclusion(words, Counter(fixed), whole)
+
+    assert last() == "All checks passed!"
+    for fields in ({"reasons": {"calls": 1}}, {"unread": 1}):
+        assert last(**fields) == "No findings in the 4 moves checked."
+    assert last(["error", "note", "error"]) == "Found 2 errors, 1 note."
+    assert last(["warning"], ["error"]) == "Found 1 error, 1 warning (1 fixed, 1 remaining)."
+
+
+def test_a_difference_is_what_a_fix_writes(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for text in (SEAM, SEAM.replace("\n", "\r\n"), SEAM.rstrip("\n").replace("MODULE Seam\n", "")):
+        # Declarations without a module may end without the end of a line.
+        text = text if "MODULE Seam" in text else text.removesuffix("\nENDMODULE")
+        Path("seam.mod").write_text(text, newline="")
+        done = run("--robot", NAME, "--diff", "seam.mod")
+        assert done.returncode == 1
+        assert done.stderr == b"irbkin: --fix would remove 1 finding\n"
+        assert Path("seam.mod").read_bytes() == text.encode()
+        Path("fixed.mod").write_bytes(text.encode())
+        patch = done.stdout
+        subprocess.run(["patch", "--binary", "-s", "fixed.mod"], input=patch, check=True)
+        run("--robot", NAME, "--fix", "seam.mod")
+        assert Path("seam.mod").read_bytes() == Path("fixed.mod").read_bytes() != text.encode()
+        after = run("--robot", NAME, "--diff", "seam.mod")
+        assert (after.returncode, after.stdout, after.stderr) == (0, b"", b"")
+    assert "not allowed with" in command.refused("check", "--fix", "--diff", "seam.mod")
+
+
+def test_a_fix_in_a_backup_names_the_hash_that_no_longer_agrees(tmp_path):
+    folder = tmp_path / "RAPID" / "TASK1" / "PROGMOD"
+    folder.mkdir(parents=True)
+    (tmp_path / "BACKINFO").mkdir()
+    hashes = tmp_path / "BACKINFO" / "checksum.txt"
+    for line, is_named in (
+        ("/RAPID/TASK1/PROGMOD/seam.mod", True),
+        (r"\rapid\task1\progmod\Seam.mod", True),
+        ("/RAPID/TASK2/PROGMOD/seam.mod", False),
+    ):
+        hashes.write_text(f"ver:1\n{line}\n5qgBAmT0Hng=\n")
+        (folder / "seam.mod").write_text(SEAM)
+        done = run("--robot", NAME, "--fix", folder / "seam.mod")
+        words = f"its hash in {hashes} no longer agrees with it".encode()
+        assert (words in done.stderr) == is_named
+        assert run("--robot", NAME, "--fix", folder / "seam.mod").stderr == b""
+
+
+def test_options_come_from_the_nearest_file(seam, tmp_path):
+    below = tmp_path / "cell" / "service"
+    below.mkdir(parents=True)
+    (below / "seam.mod").write_text(SEAM)
+    plain = output("--ignore", "V", "--json", below / "seam.mod")
+    own = tmp_path / "pyproject.toml"
+    own.write_text(f'[tool.other]\n[tool.irbkin.check]\nrobot = "{NAME}"\nignore = ["V"]\n')
+    assert run("--json", below / "seam.mod").stdout.decode() == plain
+    # The nearer file counts alone, and of one folder irbkin.toml.
+    (tmp_path / "cell" / "pyproject.toml").write_text("[tool.other]\n")
+    assert run("--json", below / "seam.mod").stdout.decode() == plain
+    (tmp_path / "irbkin.toml").write_text(f'[check]\nrobot = "{NAME}"\nselect = ["V4"]\n')
+    assert {it["code"] for it in json.loads(run("--json", below / "seam.mod").stdout)} == {"V401"}
+    # The command line counts more, and the environment more than the file.
+    both = run("--select", "R", "--json", seam, below / "seam.mod")
+    assert {it["code"] for it in json.loads(both.stdout)} == {"R101", "R103"}
+    assert b"IRB 9999" in run(seam, IRBKIN_ROBOT="IRB 9999").stderr
+
+
+def test_every_option_of_a_file_is_read(seam, tmp_path):
+    assert set(re.findall(r"`([a-z-]+)`", PAGE.split("| key |")[1].split("\n## ")[0])) >= set(KEYS)
+    (tmp_path / "post.toml").write_text(
+        "[obstacles.post]\nsphere = { radius = 0.1, center = [3, 0, 0] }\n"
+    )
+    (tmp_path / "old_seam.mod").write_text("broken")
+    (tmp_path / "HOME").mkdir()
+    (tmp_path / "HOME" / "seam.mod").write_text("broken")
+    (tmp_path / "service").mkdir()
+    (tmp_path / "service" / "way.mod").write_text(SEAM.replace("Seam", "Way"))
+    (tmp_path / "irbkin.toml").write_text(OPTIONS)
+    found = json.loads(run("--json", tmp_path).stdout)
+    assert {Path(it["file"]).name for it in found} == {"seam.mod", "way.mod"}
+    fast = {Path(it["file"]).name for it in found if it["code"] == "V401"}
+    assert fast == {"seam.mod"}
+    for line, wanted in (
+        ("tool = [0, 0, 100]", True),
+        ("base = [0, 0, 0, 90, 0, 0]", True),
+        ("limits = [[1, -10, 10], [6, -300, 300]]", True),
+        ('cell = "post.toml"', True),
+        ("step = 20", True),
+        ('output-format = "github"', True),
+        ('output-format = "xml"', "output-format: is 'xml', it must be one of text, concise, json"),
+        ('ouput-format = "github"', "unknown key; did you mean output-format?"),
+        ("tool = [0, 0]", "tool: has 2 numbers, it must have 3, 6 or 7"),
+        ("limits = [[1, 2]]", "limits: is [[1, 2]], it must be a list of [axis, lower, upper]"),
+        ("limits = [[7, 0, 1]]", "--limits: axis 7 must be a whole number from 1 to 6"),
+        ("linkage-limits = [-70]", "it must be a list of 2 numbers"),
+        ('select = "R"', "select: is 'R', it must be a list of texts"),
+        ('select = ["R999"]', "select: unknown code 'R999'"),
+        ("strict = 1", "strict: is 1, it must be true or false"),
+        ("step = 0", "--step must be positive"),
+        ("robot", "is not TOML"),
+    ):
+        text = f'[check]\nrobot = "{NAME}"\n{line}\n'
+        (tmp_path / "irbkin.toml").write_text(text)
+        done = run(seam)
+        if wanted is True:
+            assert done.returncode in (0, 1), done.stderr
+        else:
+            assert done.returncode == 2
+            assert wanted in done.stderr.decode(), done.stderr
+            if not wanted.startswith("--"):
+                assert done.stderr.startswith(f"irbkin: {tmp_path}/irbkin.toml: ".encode())
+    (tmp_path / "irbkin.toml").write_text("[chek]\n")
+    assert b"unknown key; did you mean check?" in run(seam).stderr
+    (tmp_path / "irbkin.toml").unlink()
+    (tmp_path / "pyproject.toml").write_text("broken [")
+    assert run("--robot", NAME, seam).returncode == 1
+    (tmp_path / "pyproject.toml").write_text("[tool.irbkin.chek]\n")
+    assert b"pyproject.toml: line 1, tool.irbkin.chek: unknown key; did you mean check?" in (
+        run(seam).stderr
+    )
+
+
+def test_everything_may_be_excluded(seam, tmp_path):
+    (tmp_path / "irbkin.toml").write_text(f'[check]\nrobot = "{NAME}"\nexclude = ["*.mod"]\n')
+    done = run(seam)
+    assert done.returncode == 0
+    assert done.stdout.startswith(b"0 of 0 moves checked.\n")
+
+
+def test_limits_of_the_machine_count(tmp_path):
+    file = tmp_path / "wide.mod"
+    far = "[9E9,9E9,9E9,9E9,9E9,9E9]"
+    file.write_text(f"PROC main() MoveAbsJ [[0,0,0,0,30,420],{far}],v100,fine,tool0; ENDPROC")
+    assert "J6" in output(file)
+    assert "All checks passed!" in output("--limits", 6, -450, 450, file)
+    assert "R102" in output("--limits", 6, -450, 450, "--limits", 5, -20, 20, file)
+    for words in (["0", "-1", "1"], ["7", "-1", "1"], ["1.5", "-1", "1"]):
+        message = command.refused("check", "--robot", NAME, "--limits", *words, file)
+        assert f"--limits: axis {words[0]} must be a whole number from 1 to 6" in message
+    assert "limit" in command.refused("check", "--robot", NAME, "--limits", 1, 20, -20, file)
+    file.write_text(f"PROC main() MoveAbsJ [[0,-40,60,0,30,0],{far}],v100,fine,tool0; ENDPROC")
+    coupled = ["--robot", "IRB 6660-205/1.9"]
+    wide = run(*coupled, "--linkage-limits", -110, 110, file)
+    assert wide.returncode == 0, wide.stdout
+    narrow = run(*coupled, "--linkage-limits", -70, 70, file).stdout.decode()
+    assert "the linkage (q3 - q2) is outside its limits by 30.0 deg" in narrow
+
+
+def test_the_problem_matcher_of_the_page_matches_every_finding(seam):
+    matchers = json.loads(TASKS)["tasks"][0]["problemMatcher"]
+    lines = output("--output-format", "concise", "--select", "ALL", seam).splitlines()
+    found = json.loads(output("--json", "--select", "ALL", seam))
+
+    def matched(line):
+        fits = []
+        for matcher in matchers:
+            pattern = matcher["pattern"]
+            if it := re.match(pattern["regexp"], line):
+                keys = ("file", "line", "column", "code", "message")
+                fits.append((matcher["severity"], *(it[pattern[key]] for key in keys)))
+        return fits
+
+    shown = {"error": "error", "warning": "warning", "note": "info"}
+    for line, it in zip(lines[1:-1], found, strict=True):
+        (fit,) = matched(line)
+        place = (it["file"], str(it["line"]), str(it["column"]), it["code"])
+        assert fit[:5] == (shown[it["severity"]], *place)
+        assert fit[5].endswith(it["message"])
+    for code in codes().values():
+        (fit,) = matched(f"a b:c.mod:1:2: {code.id} words")
+        assert fit == (shown[code.severity], "a b:c.mod", "1", "2", code.id, "words")
+    assert matched(lines[0]) == matched(lines[-1]) == []
+    # The lines of the source in the longer form match neither.
+    assert sum(map(len, map(matched, output(seam).splitlines()))) == len(
+        output("-q", "--output-format", "concise", seam).splitlines()
+    )
+
+
+def test_the_hook_for_pre_commit_runs(seam, tmp_path, monkeypatch):
+    yaml = pytest.importorskip("yaml")
+    (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
+    assert hook["id"] == "irbkin-check"
+    for name in ("a.mod", "A.MODX", "b.sys", "c.SysX", "d.prg"):
+        assert re.search(hook["files"], name)
+    assert not re.search(hook["files"], "a.model")
+    assert not hook["pass_filenames"]
+    (tmp_path / "irbkin.toml").write_text(f'[check]\nrobot = "{NAME}"\n')
+    monkeypatch.chdir(tmp_path)
+    program, verb = hook["entry"].split()
+    assert (program, verb) == ("irbkin", "check")
+    done = run(*hook["args"])
+    assert done.returncode == 1
+    assert b"R101" in done.stdout
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_every_format_takes_a_broken_file(form, tmp_path):
+    (tmp_path / "broken.mod").write_bytes(b"MODULE M\r\nCONST robtarget p:=[[\xe4;\r\nENDMODULE")
+    done = run("--robot", NAME, "--output-format", form, tmp_path / "broken.mod")
+    assert done.returncode == 1
+    assert b"E001" in done.stdout
+    assert run("--robot", NAME, "--ignore", "E", tmp_path).returncode == 0
+
+
+def test_findings_of_python_have_severities():
+    found = rapid.check(irbkin.Robot(NAME), rapid.parse(SEAM))
+    assert {it.severity for it in found} == {"error", "warning", "note"}
