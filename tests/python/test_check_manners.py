@@ -279,9 +279,7 @@ def test_options_come_from_the_nearest_file(seam, tmp_path):
 
 def test_every_option_of_a_file_is_read(seam, tmp_path):
     assert set(re.findall(r"`([a-z-]+)`", PAGE.split("| key |")[1].split("\n## ")[0])) >= set(KEYS)
-    (tmp_path / "post.toml").write_text(
-        "[obstacles.post]\nsphere = { radius = 0.1, center = [3, 0, 0] }\n"
-    )
+    (tmp_path / "post.toml").write_text("[obstacles.post]\nsphere = 0.1\n")
     (tmp_path / "old_seam.mod").write_text("broken")
     (tmp_path / "HOME").mkdir()
     (tmp_path / "HOME" / "seam.mod").write_text("broken")

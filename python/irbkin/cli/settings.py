@@ -78,13 +78,11 @@ def _found(content: bytes, folder: str, keys: Sequence[str]) -> Entry | None:
     except UnicodeDecodeError as error:
         raise InvalidModelError(f"is not UTF-8: {error}") from None
     entry = Entry(text, folder, (), parsed(text))
-    if len(keys) == 1:
-        entry.check(*keys)
     for key in keys:
-        if key not in entry.table:
-            return None
         if key == "check":
             entry.check(key)
+        if key not in entry.table:
+            return None
         entry = entry.sub(key)
     return entry
 
