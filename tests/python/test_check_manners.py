@@ -14,6 +14,7 @@ from irbkin.cli.codes import codes, rules
 from irbkin.cli.findings import Coverage, Found, Related, conclusion
 from irbkin.cli.report import FORMATS, Report, rendered
 from irbkin.cli.report.github import render as github
+from irbkin.cli.report.places import places_of, views
 from irbkin.cli.settings import KEYS
 
 ROOT = Path(__file__).parents[2]
@@ -162,7 +163,7 @@ def test_sarif_is_valid_and_has_rules_places_and_fixes(seam):
         line = line[:begin] + replacement["insertedContent"]["text"] + line[end:]
     assert "[-1,0,-1,0]" in line
     odd = Found("a b.mod", 3, 5, "U801", "unknown-value", "note", "it", related=(RELATED,))
-    broken = json.loads(rendered(report([odd], ""), "sarif"))
+    broken = json.loads(rendered(report([odd, odd._replace(line=0, column=0)], ""), "sarif"))
     assert list(validator.iter_errors(broken)) == []
     uri = broken["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]
     assert uri == {"uri": "a%20b.mod"}
@@ -188,6 +189,27 @@ def test_html_is_one_file_with_every_finding_escaped(seam):
     empty = rendered(Report([], {}, Coverage(3, {}), Counter(), NAME), "html")
     assert "All checks passed!" in empty
     assert "<article" not in empty
+
+
+def test_the_picture_of_targets_has_each_place_once_and_the_worst_severity(tmp_path):
+    record = "[[{}],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+    places = ("900,-300,500", "2900,0,500", "9E9,0,0")
+    file = tmp_path / "places.mod"
+    text = 'PERS wobjdata w:=[FALSE,TRUE,"",[[100,0,0],[1,0,0,0]],[[0,50,0],[1,0,0,0]]];\n'
+    moves = [f"MoveJ {record.format(it)},v100,fine,tool0;\n" for it in places]
+    moves += [moves[0], moves[0].replace("tool0", "tool0\\WObj:=w")]
+    file.write_text(f"{text}PROC main()\n{''.join(moves)}ENDPROC\n")
+    module = rapid.load(file)
+    robot = irbkin.Robot(NAME).with_base(irbkin.pose([0.1, 0, 0]))
+    found = [Found("a", 4, 1, "R101", "", it, "") for it in ("error", "note")]
+    points, reach = places_of(robot, {"a": module}, found)
+    wanted = [(800, -300, "fine"), (2800, 0, "error"), (800, -300, "fine"), (900, -250, "fine")]
+    assert [(round(x), round(y), style) for x, y, _, style in points] == wanted
+    assert reach == 1650
+    assert views(places_of(robot, {"a": module}, found)).count("<circle") == 3 + 1 + 3
+    assert views(places_of(robot, {}, [])) == ""
+    page = output("--base", 100, 0, 0, "--output-format", "html", file)
+    assert page.count('<circle class="error"') >= 2
 
 
 def test_a_report_goes_to_a_file_in_the_format_of_its_ending(seam, tmp_path):

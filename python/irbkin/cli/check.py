@@ -8,6 +8,7 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from irbkin.cli.arguments import Parser, read_cell, read_robot
@@ -115,7 +116,12 @@ def run(arguments: argparse.Namespace) -> int:
     report = _checked(checker, sources, fixed)
     kept = {it.shown: codes - set(it.ignored) for it in sources}
     found = [*(it for it in broken if it.code in kept[it.file]), *report.found]
-    report = report._replace(found=found, is_quiet=arguments.quiet)
+    report = replace(report, found=found, is_quiet=arguments.quiet)
+    if form == "html":
+        from irbkin.cli.report.places import places_of
+
+        modules = {it.shown: it.module for it in sources if it.module is not None}
+        report = replace(report, places=places_of(robot, modules, found))
     if robot.max_velocity is None and "V401" in codes:
         complain(f"the speeds of the joints of {robot.name} are unknown: V401 is not checked")
     _write(report, form, arguments)
@@ -174,7 +180,7 @@ def _sources(arguments: argparse.Namespace, settings: Settings) -> list[Source]:
         source.ignored = set().union(*(ignores[it] for it in patterns))
         sources.append(source)
     if (arguments.fix or arguments.diff) and any(source.is_stdin for source in sources):
-        raise CommandError("--fix and --diff correct files, stdin is none")
+        raise CommandError("--fix and --diff take files, not stdin")
     return sources
 
 
@@ -226,12 +232,12 @@ def _write(report: Report, form: str, arguments: argparse.Namespace) -> None:
     """Write the report to stdout, or to a file with its first and last sentence on stdout."""
     if arguments.output_file is None:
         is_shown = is_colored(arguments.color, sys.stdout)
-        _print(rendered(report._replace(is_colored=is_shown), form))
+        _print(rendered(replace(report, is_colored=is_shown), form))
         return
     from irbkin.cli.files import replaced
 
     is_shown = arguments.color == "always"
-    text = rendered(report._replace(is_colored=is_shown), form)
+    text = rendered(replace(report, is_colored=is_shown), form)
     with replaced(arguments.output_file) as file:
         file.write(text.encode("utf-8", "backslashreplace"))
     if not report.is_quiet:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import re
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -47,18 +46,28 @@ class Rule(NamedTuple):
         return re.findall(r"^```(\w+)[^\n]*\n(.*?)^```$", self.blocks, re.MULTILINE | re.DOTALL)
 
 
-@functools.cache
+_codes: dict[str, Code] = {}
+_rules: dict[str, Rule] = {}
+
+
 def codes() -> dict[str, Code]:
     """Every code, with `SYNTAX` first."""
-    from irbkin._core import check_codes
+    if not _codes:
+        from irbkin._core import check_codes
 
-    known = [Code(SYNTAX, "syntax", "error", True), *(Code(*row) for row in check_codes())]
-    return {code.id: code for code in known}
+        known = [Code(SYNTAX, "syntax", "error", True), *(Code(*row) for row in check_codes())]
+        _codes.update({code.id: code for code in known})
+    return _codes
 
 
-@functools.cache
 def rules() -> dict[str, Rule]:
     """The rule of every code."""
+    if not _rules:
+        _rules.update(_read_rules())
+    return _rules
+
+
+def _read_rules() -> dict[str, Rule]:
     from pathlib import Path
 
     text = Path(__file__).with_name("rules.md").read_text(encoding="utf-8")

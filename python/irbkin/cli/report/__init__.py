@@ -6,16 +6,21 @@ import functools
 import os
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import IO, NamedTuple
+from dataclasses import dataclass
+from typing import IO, TYPE_CHECKING
 
 from irbkin.cli.findings import Coverage, Found, conclusion
+
+if TYPE_CHECKING:
+    from irbkin.cli.report.places import Places
 
 FORMATS = ("text", "concise", "json", "github", "sarif", "html")
 ENDINGS = {".json": "json", ".sarif": "sarif", ".html": "html", ".htm": "html", ".txt": "text"}
 """The format of a file by its ending."""
 
 
-class Report(NamedTuple):
+@dataclass(frozen=True)
+class Report:
     """Everything that a format may show."""
 
     found: Sequence[Found]
@@ -24,6 +29,8 @@ class Report(NamedTuple):
     coverage: Coverage
     fixed: Counter[str]
     robot: str
+    places: Places | None = None
+    """Where the targets are, for formats with pictures."""
     is_quiet: bool = False
     is_colored: bool = False
 
@@ -32,15 +39,14 @@ class Report(NamedTuple):
         """The last sentence."""
         return conclusion(self.found, self.fixed, self.coverage)
 
+    @functools.cached_property
+    def _lines(self) -> dict[str, list[str]]:
+        return {file: text.split("\n") for file, text in self.texts.items()}
+
     def line(self, file: str, number: int) -> str:
         """A line of a file, empty if it has none of this number."""
-        lines = _lines(self.texts.get(file, ""))
+        lines = self._lines.get(file, [])
         return lines[number - 1].rstrip("\r") if 0 < number <= len(lines) else ""
-
-
-@functools.lru_cache(maxsize=4)
-def _lines(text: str) -> list[str]:
-    return text.split("\n")
 
 
 def rendered(report: Report, form: str) -> str:

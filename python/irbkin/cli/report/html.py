@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
 from collections.abc import Iterable
 from html import escape
@@ -13,6 +14,7 @@ from irbkin.cli.codes import LEVELS, rules
 from irbkin.cli.findings import Found
 from irbkin.cli.report import Report, fixes
 from irbkin.cli.report.pictures import bars, gauge, share
+from irbkin.cli.report.places import views
 
 AROUND = 1
 """Lines that are shown before a finding and behind it."""
@@ -26,7 +28,8 @@ def render(report: Report) -> str:
     tiles += [(fixable, "fixable with --fix", "fine")]
     pictures = {
         "Moves": share(report.coverage),
-        "Findings by routine": bars(_tally((it.routine or it.file, it) for it in report.found)),
+        "Targets in the base frame": views(report.places) if report.places else "",
+        "Findings by routine": bars(_tally((_routine(it, report), it) for it in report.found)),
         "Findings by code": bars(_tally((f"{it.code} {it.name}", it) for it in report.found)),
     }
     boxes = (
@@ -52,6 +55,12 @@ def render(report: Report) -> str:
 def _tile(count: int, words: str, style: str) -> str:
     style = style if count else "dim"
     return f'<div class="tile card"><b class="{style}">{count}</b>{words}</div>'
+
+
+def _routine(found: Found, report: Report) -> str:
+    """The routine of a finding; of several files, with the name of its own."""
+    names = [os.path.basename(found.file)] if len(report.texts) > 1 or not found.routine else []
+    return " ".join([*names, found.routine or ""])
 
 
 def _tally(named: Iterable[tuple[str, Found]]) -> dict[str, Counter[str]]:

@@ -28,9 +28,9 @@ def share(coverage: Coverage) -> str:
         width = WIDTH * count / total
         drawn.append(_bar(x, 4, max(width - 1, 0.5), style, 16))
         y = 40 + 20 * index
-        drawn.append(_bar(0, y - 10, 10, style, 10) + _text(16, y, f"{count} {words}"))
+        drawn.append(_bar(0, y - 10, 10, style, 10) + text(16, y, f"{count} {words}"))
         x += width
-    return _svg(drawn, 30 + 20 * len(parts))
+    return svg(drawn, 30 + 20 * len(parts))
 
 
 def bars(tally: Mapping[str, Counter[str]]) -> str:
@@ -43,17 +43,17 @@ def bars(tally: Mapping[str, Counter[str]]) -> str:
     drawn = []
     for row, (name, counts) in enumerate(ranked[:MOST]):
         y, x = 34 * row, 0.0
-        drawn.append(_text(0, y + 12, name if len(name) < 48 else f"...{name[-44:]}"))
+        drawn.append(text(0, y + 12, name if len(name) < 48 else f"...{name[-44:]}"))
         for level in LEVELS:
             width = room * counts[level] / most
             if width:
                 drawn.append(_bar(x, y + 17, width, level, 9))
             x += width
-        drawn.append(_text(x + 6, y + 26, str(counts.total()), "dim"))
+        drawn.append(text(x + 6, y + 26, str(counts.total()), "dim"))
     left = len(ranked) - MOST
     if left > 0:
-        drawn.append(_text(0, 34 * MOST + 12, f"and {left} more", "dim"))
-    return _svg(drawn, 34 * min(len(ranked), MOST) + (20 if left > 0 else 0))
+        drawn.append(text(0, 34 * MOST + 12, f"and {left} more", "dim"))
+    return svg(drawn, 34 * min(len(ranked), MOST) + (20 if left > 0 else 0))
 
 
 def gauge(found: Found) -> str:
@@ -67,12 +67,13 @@ def gauge(found: Found) -> str:
         _bar(0, 4, WIDTH - 110, "rest", 10),
         _bar(0, 4, scale * value, found.severity, 10),
         f'<path d="M{tick:.1f} 0V18" stroke="currentColor" stroke-width="2"/>',
-        _text(WIDTH - 102, 13, f"{100 * value / bound:.0f} % of the bound"),
+        text(WIDTH - 102, 13, f"{100 * value / bound:.0f} % of the bound"),
     ]
-    return re.sub("<svg", '<svg class="gauge"', _svg(drawn, 18), count=1)
+    return re.sub("<svg", '<svg class="gauge"', svg(drawn, 18), count=1)
 
 
-def _svg(drawn: list[str], height: float) -> str:
+def svg(drawn: list[str], height: float) -> str:
+    """Return a picture of drawn parts."""
     return f'<svg viewBox="0 0 {WIDTH} {height:g}" role="img">{"".join(drawn)}</svg>'
 
 
@@ -81,5 +82,6 @@ def _bar(x: float, y: float, width: float, style: str, height: float) -> str:
     return f'<rect class="{style}" {place} rx="2"/>'
 
 
-def _text(x: float, y: float, words: str, style: str = "") -> str:
+def text(x: float, y: float, words: str, style: str = "") -> str:
+    """Draw words."""
     return f'<text class="{style}" x="{x:.1f}" y="{y:g}">{escape(words)}</text>'

@@ -48,7 +48,8 @@ def _rule(code: str) -> dict[str, Any]:
 
 def _result(found: Found, report: Report, contents: dict[str, bytes]) -> dict[str, Any]:
     begin, end = found.span(report.line(found.file, found.line))
-    region = _region((found.line, begin + 1), (found.line, end + 1))
+    # A finding on a whole file has no line.
+    region = _region((found.line, begin + 1), (found.line, end + 1)) if found.line else None
     location: dict[str, Any] = {"physicalLocation": _physical(found.file, region)}
     if found.routine:
         location["logicalLocations"] = [{"name": found.routine, "kind": "function"}]
@@ -89,8 +90,9 @@ def _fix(found: Found, content: bytes) -> dict[str, Any]:
     return {"description": {"text": "Correct the confdata."}, "artifactChanges": [change]}
 
 
-def _physical(file: str, region: dict[str, int]) -> dict[str, Any]:
-    return {"artifactLocation": {"uri": _uri(file)}, "region": region}
+def _physical(file: str, region: dict[str, int] | None) -> dict[str, Any]:
+    location: dict[str, Any] = {"artifactLocation": {"uri": _uri(file)}}
+    return location if region is None else {**location, "region": region}
 
 
 def _region(begin: tuple[int, int], end: tuple[int, int]) -> dict[str, int]:
