@@ -9,12 +9,15 @@ from pathlib import Path
 import command
 import irbkin
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from irbkin import rapid
 from irbkin.cli.codes import codes, rules
 from irbkin.cli.findings import Coverage, Found, Related, conclusion
 from irbkin.cli.report import FORMATS, Report, rendered
 from irbkin.cli.report.github import render as github
 from irbkin.cli.report.places import places_of, views
+from irbkin.cli.report.source_text import SourceText
 from irbkin.cli.settings import KEYS
 
 ROOT = Path(__file__).parents[2]
@@ -78,7 +81,21 @@ RELATED = Related("b.mod", 7, 3, "declared here")
 
 
 def report(found, text, **fields):
-    return Report(found, {"a.mod": text}, Coverage(1, {}), Counter(), NAME, **fields)
+    return Report(found, {"a.mod": SourceText(text)}, Coverage(1, {}), Counter(), NAME, **fields)
+
+
+@given(st.text("a\u00e4\u20ac\r\n", max_size=30), st.data())
+def test_places_of_bytes_are_lines_and_columns_in_characters(text, data):
+    index = data.draw(st.integers(0, len(text)))
+    own = SourceText(text)
+    before = text[:index]
+    wanted = (before.count("\n") + 1, len(before) - before.rfind("\n"))
+    assert own.position(len(before.encode())) == wanted
+    assert own.line(0) == own.line(text.count("\n") + 2) == ""
+    end = index + len(text[index:].split("\n")[0])
+    edit = (len(before.encode()), len(text[:end].encode()), "new")
+    whole = f"{before}new{text[end:]}".split("\n")[wanted[0] - 1]
+    assert own.corrected((edit,)) == {wanted[0]: whole.strip()}
 
 
 def test_colors_are_for_terminals_and_as_chosen(seam):
@@ -183,7 +200,7 @@ def test_html_is_one_file_with_every_finding_escaped(seam):
         assert starts == page.count(f"</{opened}>"), opened
     words = '<script>alert("&")</script>'
     odd = Found(f"{words}.mod", 1, 1, "U801", "unknown-value", "note", words, routine=words)
-    texts = {f"{words}.mod": words}
+    texts = {f"{words}.mod": SourceText(words)}
     whole = Report([odd], texts, Coverage(0, {words: 1}), Counter(), words)
     assert words not in rendered(whole, "html")
     empty = rendered(Report([], {}, Coverage(3, {}), Counter(), NAME), "html")

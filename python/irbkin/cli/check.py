@@ -17,6 +17,7 @@ from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.findings import coverage
 from irbkin.cli.numbers import number
 from irbkin.cli.report import ENDINGS, FORMATS, Report, is_colored, rendered
+from irbkin.cli.report.source_text import SourceText
 from irbkin.cli.settings import Settings, settings_of
 from irbkin.cli.sources import Source, checksum_of, expanded, read_modules
 
@@ -195,7 +196,7 @@ def _checked(checker: Checker, sources: Sequence[Source], fixed: Counter[str]) -
             found += checker.found(source, findings)
             checked.append((source.module, findings))
             progress.add(1)
-    texts = {source.shown: source.text for source in sources}
+    texts = {source.shown: SourceText(source.text) for source in sources}
     return Report(found, texts, coverage(checked), fixed, checker.robot.name)
 
 

@@ -11,7 +11,7 @@ def render(report: Report) -> str:
     """Return one command for each finding."""
     lines = []
     for it in report.found:
-        begin, end = it.span(report.line(it.file, it.line))
+        begin, end = it.span(report.text_of(it.file).line(it.line))
         properties = {
             "title": f"irbkin {it.code} {it.name}",
             "file": it.file.replace("\\", "/"),

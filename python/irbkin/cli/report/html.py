@@ -12,9 +12,10 @@ from string import Template
 
 from irbkin.cli.codes import LEVELS, rules
 from irbkin.cli.findings import Found
-from irbkin.cli.report import Report, fixes
+from irbkin.cli.report import Report
 from irbkin.cli.report.pictures import bars, gauge, share
 from irbkin.cli.report.places import views
+from irbkin.cli.report.source_text import SourceText
 
 AROUND = 1
 """Lines that are shown before a finding and behind it."""
@@ -72,13 +73,12 @@ def _tally(named: Iterable[tuple[str, Found]]) -> dict[str, Counter[str]]:
 
 
 def _file(report: Report, file: str, found: Iterable[Found]) -> str:
-    text = report.texts.get(file, "")
-    lines = text.split("\n")
-    cards = "\n".join(_card(it, lines, text) for it in found)
+    text = report.text_of(file)
+    cards = "\n".join(_card(it, text) for it in found)
     return f"<section>\n<h2>{escape(file)}</h2>\n{cards}\n</section>"
 
 
-def _card(found: Found, lines: list[str], text: str) -> str:
+def _card(found: Found, text: SourceText) -> str:
     rule = rules()[found.code]
     routine = f" in {escape(found.routine)}" if found.routine else ""
     words = " ".join([found.code, found.name, found.routine or "", found.file, found.message])
@@ -89,9 +89,9 @@ def _card(found: Found, lines: list[str], text: str) -> str:
         f'<span class="dim">{found.severity}, line {found.line}{routine}</span></header>',
         f"<p>{escape(found.message)}</p>",
         gauge(found),
-        _excerpt(found, lines),
+        _excerpt(found, text.lines),
     ]
-    for line, new in fixes(found, text):
+    for line, new in text.corrected(found.edits).items():
         parts.append(f"<p>Fix in line {line}:</p><pre>{escape(new)}</pre>")
     for it in found.related:
         parts.append(f"<p>{escape(f'{it.file}:{it.line}:{it.column}: {it.message}')}</p>")
@@ -108,7 +108,7 @@ def _excerpt(found: Found, lines: list[str]) -> str:
     for number in range(found.line - AROUND, found.line + AROUND + 1):
         if not 0 < number <= len(lines):
             continue
-        line = lines[number - 1].rstrip("\r")
+        line = lines[number - 1]
         text = escape(line)
         if number == found.line:
             begin, end = found.span(line)

@@ -109,7 +109,7 @@ def _view(
 def _dots(points: Dots, origin: tuple[float, float], scale: float) -> list[str]:
     """Draw points, those with errors last; many at one place are one."""
     places = {
-        (STYLES.index(style), round(origin[0] + scale * x, 1), round(origin[1] - scale * y, 1))
+        (STYLES.index(style), round(origin[0] + scale * x), round(origin[1] - scale * y))
         for x, y, style in points
     }
     return [_circle(x, y, 3, STYLES[style]) for style, x, y in sorted(places, reverse=True)]

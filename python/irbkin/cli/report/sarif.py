@@ -10,7 +10,8 @@ from urllib.parse import quote
 
 from irbkin.cli.codes import codes, rules
 from irbkin.cli.findings import Found
-from irbkin.cli.report import Report, position
+from irbkin.cli.report import Report
+from irbkin.cli.report.source_text import SourceText
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 
@@ -19,12 +20,11 @@ def render(report: Report) -> str:
     """Return the log."""
     from irbkin import __version__
 
-    contents = {file: text.encode() for file, text in report.texts.items()}
     driver = {"name": "irbkin", "version": __version__, "rules": [_rule(it) for it in rules()]}
     run = {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
-        "results": [_result(it, report, contents) for it in report.found],
+        "results": [_result(it, report) for it in report.found],
         "properties": {"robot": report.robot, "moves": report.coverage._asdict()},
     }
     return json.dumps({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}, indent=1) + "\n"
@@ -46,8 +46,8 @@ def _rule(code: str) -> dict[str, Any]:
     }
 
 
-def _result(found: Found, report: Report, contents: dict[str, bytes]) -> dict[str, Any]:
-    begin, end = found.span(report.line(found.file, found.line))
+def _result(found: Found, report: Report) -> dict[str, Any]:
+    begin, end = found.span(report.text_of(found.file).line(found.line))
     # A finding on a whole file has no line.
     region = _region((found.line, begin + 1), (found.line, end + 1)) if found.line else None
     location: dict[str, Any] = {"physicalLocation": _physical(found.file, region)}
@@ -74,17 +74,17 @@ def _result(found: Found, report: Report, contents: dict[str, bytes]) -> dict[st
     if known := {key: it for key, it in numbers.items() if it is not None}:
         result["properties"] = known
     if found.edits:
-        result["fixes"] = [_fix(found, contents[found.file])]
+        result["fixes"] = [_fix(found, report.text_of(found.file))]
     return result
 
 
-def _fix(found: Found, content: bytes) -> dict[str, Any]:
+def _fix(found: Found, text: SourceText) -> dict[str, Any]:
     replacements = [
         {
-            "deletedRegion": _region(position(content, begin), position(content, end)),
-            "insertedContent": {"text": text},
+            "deletedRegion": _region(text.position(begin), text.position(end)),
+            "insertedContent": {"text": new},
         }
-        for begin, end, text in found.edits
+        for begin, end, new in found.edits
     ]
     change = {"artifactLocation": {"uri": _uri(found.file)}, "replacements": replacements}
     return {"description": {"text": "Correct the confdata."}, "artifactChanges": [change]}

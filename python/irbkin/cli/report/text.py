@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from irbkin.cli.findings import Found
-from irbkin.cli.report import Report, fixes
+from irbkin.cli.report import Report
 
 STYLES = {
     "bold": "1",
@@ -49,7 +49,8 @@ def _heading(found: Found, is_colored: bool) -> str:
 
 def _block(found: Found, report: Report) -> str:
     is_colored = report.is_colored
-    line = report.line(found.file, found.line)
+    text = report.text_of(found.file)
+    line = text.line(found.line)
     begin, end = found.span(line)
     width = len(str(found.line))
 
@@ -63,8 +64,10 @@ def _block(found: Found, report: Report) -> str:
         source = "".join(it if it.isprintable() or it == "\t" else "\ufffd" for it in line)
         rows += [f"{margin(str(found.line))} {source}", f"{margin('')} {blank}{caret}"]
     rows += (f"{margin('', '=')} note: {it}" for it in _related(found))
-    text = report.texts.get(found.file, "")
-    rows += (f"{margin('', '=')} fix in line {it}: {new}" for it, new in fixes(found, text))
+    rows += (
+        f"{margin('', '=')} fix in line {number}: {new}"
+        for number, new in text.corrected(found.edits).items()
+    )
     return "\n".join(rows)
 
 
