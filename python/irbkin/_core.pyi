@@ -2218,6 +2218,9 @@ class Finding(_Record):
     def severity(self) -> Literal["error", "warning", "note"]:
         """How much it matters: "error", "warning" or, where nothing is wrong, "note"."""
     @property
+    def module(self) -> int:
+        """Index of the module among those that are checked."""
+    @property
     def line(self) -> int:
         """Line of the instruction, from 1."""
     @property
@@ -2246,15 +2249,16 @@ class Finding(_Record):
     def bound(self) -> float | None:
         """The bound that the value must not exceed or, of a singularity, must not be below."""
     @property
-    def edits(self) -> tuple[tuple[int, int, str], ...]:
-        """The corrections: first byte and end in `Module.source` as UTF-8, and the text that
-        takes their place. Empty if nothing corrects it.
+    def edits(self) -> tuple[tuple[int, int, int, str], ...]:
+        """The corrections: index of the module, first byte and end in its `source` as UTF-8, and
+        the text that takes their place. Empty if nothing corrects it.
         """
     def __new__(
         cls,
         code: str,
         name: str,
         severity: str,
+        module: int,
         line: int,
         column: int,
         routine: str | None,
@@ -2263,7 +2267,7 @@ class Finding(_Record):
         joint: int | None,
         value: float | None,
         bound: float | None,
-        edits: tuple[tuple[int, int, str], ...],
+        edits: tuple[tuple[int, int, int, str], ...],
     ) -> Finding: ...
 
 @final
@@ -2293,6 +2297,60 @@ class Skipped(_Record):
         what: str,
         text: str,
     ) -> Skipped: ...
+
+@final
+class CheckedMove(_Record):
+    """A place at which a program moves, checked."""
+
+    @property
+    def module(self) -> int:
+        """Index of the module among those that are checked."""
+    @property
+    def line(self) -> int:
+        """Line of the instruction, or of the call that its target is an argument of, from 1."""
+    @property
+    def column(self) -> int:
+        """Column of it, from 1."""
+    @property
+    def routine(self) -> str | None:
+        """The routine that contains it."""
+    @property
+    def target(self) -> str:
+        """The target as it is written."""
+    @property
+    def q(self) -> _Floats | None:
+        """The joints at its target [rad], shape (6,); None if it has none or is not checked."""
+    @property
+    def unchecked(self) -> str | None:
+        """The code of the finding for which it is not checked; None if its target, tool and work
+        object are known.
+        """
+    def __new__(
+        cls,
+        module: int,
+        line: int,
+        column: int,
+        routine: str | None,
+        target: str,
+        q: _Floats | None,
+        unchecked: str | None,
+    ) -> CheckedMove: ...
+
+@final
+class Checked(_Record):
+    """What a check finds: findings on moves, and the moves."""
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong, in the order of the modules and of their texts: a tuple of `Finding`."""
+    @property
+    def moves(self) -> tuple[CheckedMove, ...]:
+        """The moves in the same order, each place once: a tuple of `CheckedMove`."""
+    def __new__(
+        cls,
+        findings: tuple[Finding, ...],
+        moves: tuple[CheckedMove, ...],
+    ) -> Checked: ...
 
 @final
 class TextFault(_Record):
@@ -2388,16 +2446,16 @@ class Module(Mapping[str, Any]):
         """Every declaration, of routines too: a tuple of `Declaration`."""
     @property
     def moves(self) -> tuple[Move, ...]:
-        """The instructions that move, MoveL as well as TriggL and ArcL, in the order of the text,
-        whatever branch or loop they are in.
+        """The instructions that move, MoveL as well as TriggL and ArcL, in the order of the
+        text, whatever branch or loop they are in.
         """
     @property
     def skipped(self) -> tuple[Skipped, ...]:
         """The parts that were not read, in the order of the text: a tuple of `Skipped`."""
     @property
     def faults(self) -> tuple[TextFault, ...]:
-        """What is wrong with the text, in the order of the text: a tuple of `TextFault`, which is
-        empty for modules of `parse` and `load`; those of `load_program` may have faults.
+        """What is wrong with the text, in the order of the text: a tuple of `TextFault`, which
+        is empty for modules of `parse` and `load`; those of `load_program` may have faults.
         """
     def rewritten(self, values: Mapping[str, Any]) -> str:
         """Return the source with other values for some data; everything else, comments included,
@@ -2451,6 +2509,16 @@ def parse(text: str | bytes, context: Iterable[Module] | None = None) -> Any:
 
 def parse_module(text: str | bytes, context: Iterable[Module] | None = None) -> Module:
     """Parse a RAPID module, as `parse`; a record is refused."""
+
+def read_modules(contents: Iterable[str | bytes]) -> list[Module]:
+    """Read the modules of a program in spite of their faults: each knows the data of the others.
+
+    Args:
+        contents: Texts, or bytes of files, as for `parse`.
+
+    Returns:
+        A list of Module.
+    """
 
 def read_module(content: str | bytes, context: Iterable[Module] | None = None) -> Module:
     """Read a RAPID module in spite of its faults, which are `Module.faults`.
@@ -2603,12 +2671,14 @@ def check(
 ) -> tuple[Finding, ...]:
     """Check every move of a module, of all routines.
 
-    A branch or a loop is checked from where the robot is before it. Behind one that moves, behind
-    a label and in a handler, the next move is checked as a target only.
+    Routines are followed from `main` through calls, with their arguments; those that nothing calls,
+    by themselves. A branch is checked from where the robot is before it, a loop in each pass if its
+    bounds are known and else in the first. Behind a branch that moves, behind a label and in a
+    handler, the next move is checked as a target only.
 
     Args:
         robot: The arm. Work objects are given in the world, in which the robot's base is.
-        module: Module.
+        module: Module; calls of routines of its context are followed, too.
         codes: The codes that are wanted, such as "C201"; without it all.
         max_velocity: Limits [rad/s], a number or shape (6,); without it the robot's own. Without
             either no joint is found to be too fast.
@@ -2626,6 +2696,44 @@ def check(
             million samples.
         InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
             catalog.
+    """
+
+def check_program(
+    robot: Robot,
+    modules: Sequence[Module],
+    *,
+    codes: Collection[str] | None = None,
+    max_velocity: npt.ArrayLike | None = None,
+    step: float = 0.005,
+    turn: float | None = None,
+    cell: Cell | None = None,
+    units: Sequence[tuple[str, bool, bool, Sequence[tuple[int, npt.ArrayLike, bool]]]]
+    | None = None,
+    last_values: bool = False,
+) -> Checked:
+    """Check every move of a program: modules that know each other.
+
+    Args:
+        robot: The arm. Work objects are given in the world, in which the robot's base is.
+        modules: Module of the task; each is parsed with the others as its context.
+        codes: As of `check`.
+        max_velocity: As of `check`.
+        step: As of `check`.
+        turn: As of `check`.
+        cell: As of `check`.
+        units: The mechanical units of the controller: tuples of a name, whether it carries the
+            robot, whether its axes are determined, and its axes: tuples of the external axis from
+            0, the frame of shape (4, 4) [m], and whether it turns about its z axis or else moves
+            along its x axis. An external axis of no unit, which is not at zero, is not checked.
+        last_values: Whether a PERS that the program assigns has the value of its declaration.
+
+    Returns:
+        `Checked`.
+
+    Raises:
+        RapidError: A code that does not exist.
+        InvalidMotionError: As of `check`.
+        InvalidModelError: As of `check`.
     """
 
 def check_codes() -> list[tuple[str, str, str, bool]]:

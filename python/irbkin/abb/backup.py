@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from irbkin.abb.carriers import MOST_CARRIERS
 from irbkin.abb.findings import Finding
@@ -19,6 +19,7 @@ from irbkin.errors import InvalidModelError
 if TYPE_CHECKING:
     from irbkin import Robot
     from irbkin.abb.units import Pose
+    from irbkin.rapid import Program
 
 ControllerKind = Literal["S4C+", "IRC5", "OmniCore"]
 NO_AXES = (NOT_THERE,) * 6
@@ -168,11 +169,11 @@ class Backup:
         return path.as_posix().lower() in self.checksums
 
     @cached_property
-    def programs(self) -> Mapping[str, Any]:
+    def programs(self) -> Mapping[str, Program]:
         """The programs of the tasks, by name: `irbkin.rapid.load_program` of their files."""
         from irbkin import rapid
 
-        load: Any = rapid.load_program  # type: ignore[attr-defined]
+        load = rapid.load_program
         return {task.name: load(task_files(self, task)) for task in self.tasks if task.modules}
 
 

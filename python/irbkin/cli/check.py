@@ -14,12 +14,14 @@ from typing import TYPE_CHECKING
 from irbkin.cli.arguments import Parser, read_cell, read_robot
 from irbkin.cli.codes import meant, selected
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.findings import coverage
+from irbkin.cli.files import STDIN, shown
+from irbkin.cli.findings import Found, coverage
+from irbkin.cli.jobs import Job, is_backup, job_of_files, jobs_of_backup
 from irbkin.cli.numbers import number
 from irbkin.cli.report import ENDINGS, FORMATS, Report, is_colored, rendered
 from irbkin.cli.report.source_text import SourceText
 from irbkin.cli.settings import Settings, settings_of
-from irbkin.cli.sources import Source, checksum_of, expanded, read_modules
+from irbkin.cli.sources import checksum_of, write
 
 if TYPE_CHECKING:
     from irbkin import Robot
@@ -27,12 +29,14 @@ if TYPE_CHECKING:
 
 HELP = """Every MoveJ, MoveL, MoveC and MoveAbsJ of every routine is checked: reach, limits, flips,
 confdata, singularities, joint speeds, zones, names and, with --cell, collisions (--codes lists the
-codes, `irbkin rule CODE` explains one). The files are one program: names that a file does not
-declare are looked for in the others. A comment `! noqa` on the line of a move, or
+codes, `irbkin rule CODE` explains one). Calls are followed with their arguments. The files are one
+program: names that a file does not declare are looked for in the others. A backup of a controller
+needs no --robot: each task is checked with its own, its limits and its base. A comment `! noqa` on the line of a move, or
 `! noqa: C201,S301`, silences it. Options that are not given are taken from irbkin.toml or
 pyproject.toml, the robot from IRBKIN_ROBOT, too. --fix corrects confdata in place and changes
 nothing else. Exit codes: 0 nothing but notes, 1 errors or warnings, 2 wrong usage."""
-EXAMPLES = """  irbkin check --robot "IRB 2600-12/1.65" program.mod
+EXAMPLES = """  irbkin check backups/cell_3
+  irbkin check --robot "IRB 2600-12/1.65" program.mod
   irbkin check --robot "IRB 2600-12/1.65" --cell cell.toml program.mod
   irbkin check --robot "IRB 2600-12/1.65" --diff programs/
   irbkin check --robot "IRB 2600-12/1.65" --limits 6 -360 360 --strict programs/
@@ -43,7 +47,7 @@ EXAMPLES = """  irbkin check --robot "IRB 2600-12/1.65" program.mod
 def add_arguments(parser: Parser) -> None:
     """The arguments of the verb."""
     add = parser.add
-    add("files", metavar="FILE", nargs="*", help="RAPID modules, folders of them, - for stdin")
+    add("files", metavar="FILE", nargs="*", help="RAPID modules, folders of them, a backup, - for stdin")
     robot = os.environ.get("IRBKIN_ROBOT") or None
     add("--robot", metavar="ROBOT", default=robot, help="name in the catalog, or a .urdf file")
     parser.add_frames()
@@ -62,6 +66,8 @@ def add_arguments(parser: Parser) -> None:
         metavar=("LOWER", "UPPER"),
         help="limits of q3 - q2 of an arm with a parallelogram linkage [deg]",
     )
+    words = "a PERS that the program assigns has the value in its text"
+    add("--last-values", action="store_true", help=words)
     parser.add_cell()
     words = "codes or their beginnings, with commas; ALL for all"
     add("--select", metavar="CODES", type=_words, help=words)
@@ -101,32 +107,63 @@ def run(arguments: argparse.Namespace) -> int:
     settings.fill(arguments)
     form = form or arguments.output_format or "text"
     codes = selected(arguments.select, arguments.ignore or (), is_strict=bool(arguments.strict))
-    robot = _robot(arguments)
     step = 5.0 if arguments.step is None else arguments.step
     if not 0.0 < step < float("inf"):
         raise CommandError(f"--step must be positive and finite [mm], got {step}")
-    sources = _sources(arguments, settings)
+    jobs, left_open = _jobs(arguments, settings)
     from irbkin.cli.checker import Checker
 
-    broken = read_modules(sources)
-    cell = read_cell(arguments)
-    checker = Checker(robot, codes, step / 1e3, cell, is_strict=bool(arguments.strict))
+    strict = {"is_strict": bool(arguments.strict), "takes_last": arguments.last_values}
+    checker = Checker(codes, step / 1e3, read_cell(arguments), **strict)
+    checker.ignored = _ignored(jobs, settings)
     if arguments.diff:
-        return _diff(checker, sources, arguments.color)
-    fixed = _fix(checker, sources) if arguments.fix else Counter()
-    report = _checked(checker, sources, fixed)
-    kept = {it.shown: codes - set(it.ignored) for it in sources}
-    found = [*(it for it in broken if it.code in kept[it.file]), *report.found]
-    report = replace(report, found=found, is_quiet=arguments.quiet)
+        return _diff(checker, jobs, arguments.color)
+    fixed = _fix(checker, jobs) if arguments.fix else Counter()
+    report = _report(checker, jobs, fixed, left_open)
+    report = replace(report, is_quiet=arguments.quiet)
     if form == "html":
         from irbkin.cli.report.places import places_of
 
-        modules = {it.shown: it.module for it in sources if it.module is not None}
-        report = replace(report, places=places_of(robot, modules, found))
-    if robot.max_velocity is None and "V401" in codes:
-        complain(f"the speeds of the joints of {robot.name} are unknown: V401 is not checked")
+        modules = {
+            shown(file.path): module
+            for job in jobs
+            for file, module in zip(job.program.files, job.program.modules, strict=True)
+        }
+        report = replace(report, places=places_of(jobs[0].robot, modules, report.found))
+    for job in jobs:
+        if job.robot.max_velocity is None and "V401" in codes:
+            name = job.robot.name
+            complain(f"the speeds of the joints of {name} are unknown: V401 is not checked")
     _write(report, form, arguments)
-    return FOUND if any(it.severity != "note" for it in found) else FINE
+    return FOUND if any(it.severity != "note" for it in report.found) else FINE
+
+
+def _jobs(arguments: argparse.Namespace, settings: Settings) -> tuple[list[Job], list[Found]]:
+    """The programs of the arguments, and what a backup leaves open."""
+    names = arguments.files
+    if (arguments.fix or arguments.diff) and STDIN in names:
+        raise CommandError("--fix and --diff take files, not stdin")
+    if arguments.robot is None and len(names) == 1 and is_backup(names[0]):
+        jobs, left_open = jobs_of_backup(names[0])
+        if not jobs:
+            reasons = "; ".join(it.message for it in left_open[:3])
+            raise CommandError(f"{names[0]}: has no task whose robot is known: {reasons}")
+        return jobs, left_open
+    return [job_of_files(_robot(arguments), names, settings)], []
+
+
+def _ignored(jobs: Sequence[Job], settings: Settings) -> dict[str, set[str]]:
+    """The codes that are not wanted of files."""
+    ignores = {
+        pattern: meant(words)
+        for pattern, words in settings.options.get("per_file_ignores", {}).items()
+    }
+    ignored: dict[str, set[str]] = {}
+    for job in jobs if ignores else ():
+        for file in job.program.files:
+            patterns = (it for it in ignores if settings.matches(file.path, [it]))
+            ignored[file.path] = set().union(*(ignores[it] for it in patterns))
+    return ignored
 
 
 def _format(arguments: argparse.Namespace) -> str | None:
@@ -165,64 +202,56 @@ def _robot(arguments: argparse.Namespace) -> Robot:
     return robot
 
 
-def _sources(arguments: argparse.Namespace, settings: Settings) -> list[Source]:
-    """The files that are not excluded, with the codes that are not wanted of them."""
-    excluded = settings.options.get("exclude", ())
-    ignores = {
-        pattern: meant(words)
-        for pattern, words in settings.options.get("per_file_ignores", {}).items()
-    }
-    sources = []
-    for name in expanded(arguments.files):
-        source = Source.read(name) if not settings.matches(name, excluded) else None
-        if source is None:
-            continue
-        patterns = (it for it in ignores if not source.is_stdin and settings.matches(name, [it]))
-        source.ignored = set().union(*(ignores[it] for it in patterns))
-        sources.append(source)
-    if (arguments.fix or arguments.diff) and any(source.is_stdin for source in sources):
-        raise CommandError("--fix and --diff take files, not stdin")
-    return sources
-
-
-def _checked(checker: Checker, sources: Sequence[Source], fixed: Counter[str]) -> Report:
-    """The report on sources that are read."""
+def _report(
+    checker: Checker, jobs: Sequence[Job], fixed: Counter[str], left_open: Sequence[Found]
+) -> Report:
+    """The report on programs."""
     from irbkin.cli.progress import Progress
 
-    found, checked = [], []
-    with Progress("files", len(sources)) as progress:
-        for source in sources:
-            findings = () if source.module is None else checker.findings(source.module)
-            found += checker.found(source, findings)
-            checked.append((source.module, findings))
+    found, texts, programs = [*left_open], {}, []
+    with Progress("programs", len(jobs)) as progress:
+        for job in jobs:
+            checked = checker.checked(job)
+            kept = (it for it in job.found if it.code in checker.codes)
+            found += (it for it in kept if it.code not in checker.ignored.get(it.file, ()))
+            found += checker.found(job, checked)
+            programs.append((checked, job.unread))
+            for file, module in zip(job.program.files, job.program.modules, strict=True):
+                texts[shown(file.path)] = SourceText(module.source)
             progress.add(1)
-    texts = {source.shown: SourceText(source.text) for source in sources}
-    return Report(found, texts, coverage(checked), fixed, checker.robot.name)
+    title = ", ".join(job.title for job in jobs)
+    # Shared modules are in several programs.
+    return Report(list(dict.fromkeys(found)), texts, coverage(programs), fixed, title)
 
 
-def _fix(checker: Checker, sources: Sequence[Source]) -> Counter[str]:
-    """Write the corrections of sources; count the findings that they remove."""
-    from irbkin.cli.checker import corrections
+def _fix(checker: Checker, jobs: Sequence[Job]) -> Counter[str]:
+    """Write the corrections of programs; count the findings that they remove."""
+    from irbkin.cli.checker import correction
 
     fixed: Counter[str] = Counter()
-    for source, module, removed in corrections(checker, sources):
-        source.write(module)
-        fixed += removed
-        if file := checksum_of(source.name):
-            complain(f"{source.shown}: is changed, its hash in {file} no longer agrees with it")
+    for job in jobs:
+        corrected = correction(checker, job)
+        for file, before, after in corrected.texts:
+            write(file, before, after)
+            if hashes := checksum_of(file.path):
+                complain(f"{file.path}: is changed, its hash in {hashes} no longer agrees with it")
+        fixed += corrected.fixed
+        job.program = corrected.program
     return fixed
 
 
-def _diff(checker: Checker, sources: Sequence[Source], color: str) -> int:
-    """Print the corrections of sources."""
-    from irbkin.cli.checker import corrections
+def _diff(checker: Checker, jobs: Sequence[Job], color: str) -> int:
+    """Print the corrections of programs."""
+    from irbkin.cli.checker import correction
     from irbkin.cli.report.diff import render
 
     is_shown = is_colored(color, sys.stdout)
     fixed: Counter[str] = Counter()
-    for source, module, removed in corrections(checker, sources):
-        _print(render(source.shown, source.text, module.source, is_shown))
-        fixed += removed
+    for job in jobs:
+        corrected = correction(checker, job)
+        for file, before, after in corrected.texts:
+            _print(render(shown(file.path), before, after, is_shown))
+        fixed += corrected.fixed
     count = fixed.total()
     if count:
         complain(f"--fix would remove {count} {'finding' if count == 1 else 'findings'}")

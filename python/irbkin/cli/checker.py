@@ -1,20 +1,22 @@
-"""Sources of RAPID checked and corrected."""
+"""Programs checked and corrected."""
 
 from __future__ import annotations
 
 import re
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from irbkin.cli.codes import NOT_CHECKED
 from irbkin.cli.errors import complain
+from irbkin.cli.files import shown
 from irbkin.cli.findings import REASONS, Found
-from irbkin.cli.sources import Source
+from irbkin.cli.jobs import Job
 
 if TYPE_CHECKING:
-    from irbkin import Cell, Robot
-    from irbkin.rapid import Finding, Module
+    from irbkin import Cell
+    from irbkin.rapid import Checked, Finding, ModuleFile, Program
 
 NOQA = re.compile(r"!\s*noqa\b(?:\s*:\s*([A-Z0-9, ]+))?", re.IGNORECASE)
 PASSES = 10
@@ -22,129 +24,149 @@ PASSES = 10
 
 
 class Checker:
-    """Checks modules of one arm."""
+    """Checks programs."""
 
     def __init__(
         self,
-        robot: Robot,
         codes: Collection[str],
         step: float,
         cell: Cell | None = None,
         *,
         is_strict: bool = False,
+        takes_last: bool = False,
     ) -> None:
         from irbkin._core import check_codes
 
-        self.robot, self.codes, self.step, self.cell = robot, codes, step, cell
-        self.is_strict = is_strict
+        self.codes, self.step, self.cell = set(codes), step, cell
+        self.is_strict, self.takes_last = is_strict, takes_last
+        self.ignored: dict[str, set[str]] = {}
+        """Codes that are not wanted of a file."""
         known = {code: is_default for code, _, _, is_default in check_codes()}
         self.asked = {it for it in known if known[it] or it in REASONS or it in codes}
 
-    def findings(self, module: Module) -> tuple[Finding, ...]:
-        """Return every finding on a module, of codes that are not wanted too."""
-        from irbkin._core import check
+    def checked(self, job: Job, program: Program | None = None) -> Checked:
+        """Return what is found in the program of a job, or in a corrected one."""
+        return (program or job.program).check(
+            job.robot,
+            codes=self.asked,
+            step=self.step,
+            cell=self.cell,
+            units=job.units,
+            last_values=self.takes_last,
+        )
 
-        return check(self.robot, module, codes=self.asked, step=self.step, cell=self.cell)
+    def found(self, job: Job, checked: Checked, program: Program | None = None) -> list[Found]:
+        """Return the findings that are wanted."""
+        program = program or job.program
+        silencer = _Silencer(program)
+        return [
+            self._found(program, it)
+            for it in checked.findings
+            if it.code in self.codes - self.ignored.get(program.files[it.module].path, set())
+            and not silencer.silences(it)
+        ]
 
-    def wanted(self, source: Source, module: Module) -> list[Finding]:
-        """Return the findings on a text of a source that are wanted."""
-        codes = set(self.codes) - set(source.ignored)
-        return [it for it in audible(self.findings(module), module) if it.code in codes]
-
-    def found(self, source: Source, findings: Sequence[Finding]) -> list[Found]:
-        """Return the wanted ones of the findings on a source."""
-        if source.module is None:
-            return []
-        codes = set(self.codes) - set(source.ignored)
-        kept = (it for it in audible(findings, source.module) if it.code in codes)
-        return [self._found(source.shown, it) for it in kept]
-
-    def _found(self, file: str, it: Finding) -> Found:
+    def _found(self, program: Program, it: Finding) -> Found:
         is_error = self.is_strict and it.code in NOT_CHECKED
         severity = "error" if is_error else it.severity
-        words = (it.code, it.name, severity, it.message, it.edits)
-        return Found(file, it.line, it.column, *words, it.routine, it.joint, it.value, it.bound)
+        files = [shown(file.path) for file in program.files]
+        edits = tuple((files[module], *edit) for module, *edit in it.edits)
+        words = (it.code, it.name, severity, it.message, edits)
+        place = (files[it.module], it.line, it.column)
+        return Found(*place, *words, it.routine, it.joint, it.value, it.bound)  # type: ignore[arg-type]
 
 
-def audible(findings: Sequence[Finding], module: Module) -> list[Finding]:
-    """Return the findings that the comments of a module do not silence."""
-    if "noqa" not in module.source.lower():
-        return list(findings)
-    lines = module.source.split("\n")
-    return [it for it in findings if not _is_silenced(lines[it.line - 1], it.code)]
+class _Silencer:
+    """The comments of a program that silence findings."""
+
+    def __init__(self, program: Program) -> None:
+        sources = (module.source for module in program.modules)
+        self.lines = [it.split("\n") if "noqa" in it.lower() else None for it in sources]
+
+    def silences(self, finding: Finding) -> bool:
+        lines = self.lines[finding.module]
+        match = NOQA.search(lines[finding.line - 1]) if lines else None
+        if match is None:
+            return False
+        codes = match[1]
+        return codes is None or any(
+            finding.code.startswith(it.strip().upper()) for it in codes.split(",") if it.strip()
+        )
 
 
 class Correction(NamedTuple):
-    """A source with the module that takes its place."""
+    """Files of a program with the texts that take their place."""
 
-    source: Source
-    module: Module
+    texts: Sequence[tuple[ModuleFile, str, str]]
+    """Each file with its text before and after."""
     fixed: Counter[str]
-    """Number of findings that it removes, by severity."""
+    """Number of findings that they remove, by severity."""
+    program: Program
+    """The corrected program."""
 
 
-def corrections(checker: Checker, sources: Sequence[Source]) -> Iterator[Correction]:
-    """Yield the corrections of sources, each before the next is looked for.
+def correction(checker: Checker, job: Job) -> Correction:
+    """Return the corrections of a program.
 
-    A source stays as it is if something else would be wrong with its corrections, or if another one
-    moves to a target that they change.
+    A file stays as it is if something else would be wrong with its corrections.
     """
-    for source in sources:
-        corrected = _corrected(checker, source)
-        if source.module is None or corrected is None:
-            continue
-        before, after = (_places(checker, it) for it in (source.module, corrected))
-        if worse := sorted(after - before):
-            line, code = worse[0]
-            complain(f"{source.shown}: is not corrected, line {line} would have {code}")
-            continue
-        users = (it for it in sources if it is not source and _uses(checker, it, source, corrected))
-        if user := next(users, None):
-            complain(f"{source.shown}: is not corrected, {user.shown} moves to a target of it")
-            continue
-        old, new = (_severities(checker.wanted(source, it)) for it in (source.module, corrected))
-        yield Correction(source, corrected, old - new)
-
-
-def _severities(findings: Sequence[Finding]) -> Counter[str]:
-    return Counter(it.severity for it in findings)
-
-
-def _places(checker: Checker, module: Module) -> set[tuple[int, str]]:
-    """Lines and codes of what is wrong with a module; what is undecided is not."""
-    found = audible(checker.findings(module), module)
-    return {(it.line, it.code) for it in found if not it.code.startswith("U")}
-
-
-def _corrected(checker: Checker, source: Source) -> Module | None:
-    """The module of a source with corrections; corrections may show another one to make."""
-    from irbkin._core import parse_module
-
-    if source.module is None:
-        return None
-    module = source.module
-    for _ in range(PASSES):
-        edits = sorted({edit for it in checker.wanted(source, module) for edit in it.edits})
-        if not edits:
+    program, refused = job.program, set[int]()
+    checked = checker.checked(job)
+    before = checker.found(job, checked)
+    for _ in range(PASSES + len(program.files)):
+        edited = _edited(program, checker, checked, refused)
+        if edited is None:
             break
-        module = parse_module(edited(module.source, edits), source.context)
-    return None if module is source.module else module
+        after = checker.checked(job, edited)
+        worse = sorted(_places(after) - _places(checked))
+        if worse:
+            module, line, code = worse[0]
+            changed = {
+                index
+                for index, (old, new) in enumerate(
+                    zip(program.modules, edited.modules, strict=True)
+                )
+                if old.source != new.source
+            }
+            for index in changed:
+                name = shown(program.files[index].path)
+                where = "" if index == module else f" of {shown(program.files[module].path)}"
+                complain(f"{name}: is not corrected, line {line}{where} would have {code}")
+            refused |= changed
+            continue
+        program, checked = edited, after
+    after_found = checker.found(job, checked, program)
+    fixed = Counter(it.severity for it in before) - Counter(it.severity for it in after_found)
+    pairs = zip(job.program.files, job.program.modules, program.modules, strict=True)
+    texts = [(file, old.source, new.source) for file, old, new in pairs if old.source != new.source]
+    return Correction(texts, fixed, program)
 
 
-def _uses(checker: Checker, other: Source, source: Source, corrected: Module) -> bool:
-    """Whether moves of another source go elsewhere with the corrections of a source."""
-    import numpy as np
+def _places(checked: Checked) -> set[tuple[int, int, str]]:
+    """Modules, lines and codes of what is wrong; what is undecided is not."""
+    return {(it.module, it.line, it.code) for it in checked.findings if it.severity != "note"}
 
-    from irbkin._core import calc_moves, parse_module
 
-    if other.module is None:
-        return False
-    context = [corrected if it is source.alone else it for it in other.context]
-    before, after = (
-        calc_moves(checker.robot, module).q
-        for module in (other.module, parse_module(other.content, context))
-    )
-    return not np.array_equal(before, after, equal_nan=True)
+def _edited(
+    program: Program, checker: Checker, checked: Checked, refused: Collection[int]
+) -> Program | None:
+    """The program with the edits of wanted findings, but for modules that are refused."""
+    from irbkin.rapid.program import program_of
+
+    silencer = _Silencer(program)
+    edits: dict[int, set[tuple[int, int, str]]] = {}
+    for it in checked.findings:
+        if it.code in checker.codes and not silencer.silences(it):
+            for module, begin, end, text in it.edits:
+                edits.setdefault(module, set()).add((begin, end, text))
+    edits = {module: own for module, own in edits.items() if module not in refused}
+    if not edits:
+        return None
+    files = [
+        replace(file, content=file.encoded(edited(module.source, sorted(edits.get(index, ())))))
+        for index, (file, module) in enumerate(zip(program.files, program.modules, strict=True))
+    ]
+    return program_of(files)
 
 
 def edited(source: str, edits: Sequence[tuple[int, int, str]]) -> str:
@@ -156,11 +178,7 @@ def edited(source: str, edits: Sequence[tuple[int, int, str]]) -> str:
     return b"".join([*parts, content[copied:]]).decode()
 
 
-def _is_silenced(line: str, code: str) -> bool:
-    match = NOQA.search(line)
-    if match is None:
-        return False
-    codes = match[1]
-    return codes is None or any(
-        code.startswith(it.strip().upper()) for it in codes.split(",") if it.strip()
-    )
+def changed_files(correction: Correction) -> Iterator[tuple[ModuleFile, bytes]]:
+    """Yield the files that a correction changes, with their new bytes."""
+    for file, _, text in correction.texts:
+        yield file, file.encoded(text)

@@ -10,7 +10,16 @@ from irbkin.cli.errors import CommandError
 
 SYNTAX = "E001"
 """The code of a text that is broken. It is found while modules are read."""
-NOT_CHECKED = ("U801", "U802")
+BACKUP = "B001"
+"""The code of what the files of a backup leave open."""
+FILES = (
+    (SYNTAX, "syntax", "error", True),
+    ("E002", "unread-file", "error", True),
+    ("E003", "doubled-module", "warning", True),
+    (BACKUP, "backup", "warning", True),
+)
+"""Codes of files, which are found while they are read."""
+NOT_CHECKED = ("U801", "U802", "U804")
 """Codes of moves that are not checked: errors with --strict."""
 LEVELS = ("error", "warning", "note")
 """Severities, the worst first."""
@@ -51,11 +60,11 @@ _rules: dict[str, Rule] = {}
 
 
 def codes() -> dict[str, Code]:
-    """Every code, with `SYNTAX` first."""
+    """Every code, with the codes of files first."""
     if not _codes:
         from irbkin._core import check_codes
 
-        known = [Code(SYNTAX, "syntax", "error", True), *(Code(*row) for row in check_codes())]
+        known = [Code(*row) for row in (*FILES, *check_codes())]
         _codes.update({code.id: code for code in known})
     return _codes
 
@@ -121,7 +130,7 @@ def close(word: str) -> str:
 def selected(
     select: Iterable[str] | None, ignore: Iterable[str], *, is_strict: bool = False
 ) -> set[str]:
-    """Return the codes that are wanted. A broken text is found whatever is selected."""
+    """Return the codes that are wanted. Files that cannot be read are found whatever is selected."""
     wanted = {code.id for code in codes().values() if code.is_default}
     if select is not None:
         wanted = meant(select)
@@ -133,4 +142,4 @@ def selected(
             "--select and --ignore leave no code to check: select codes or their beginnings, or "
             "ALL (--codes lists them)"
         )
-    return (wanted | {SYNTAX}) - ignored
+    return (wanted | {code for code, *_ in FILES}) - ignored

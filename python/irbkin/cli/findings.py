@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING, NamedTuple
 from irbkin.cli.codes import LEVELS
 
 if TYPE_CHECKING:
-    from irbkin.rapid import Finding, Module
+    from irbkin.rapid import Checked
 
 REASONS = {
     "U801": "unknown values",
-    "U802": "instructions that are not followed",
+    "U802": "instructions or calls that are not followed",
+    "U804": "unknown units",
     "N601": "unknown targets",
     "N602": "unknown tools",
     "N603": "unknown work objects",
+    "R106": "absent axes",
     "D701": "invalid frames",
 }
 """Why a move is not checked, by the code of the finding on it."""
-MOVING = "moves the robot"
-"""Words of the finding on an instruction that is a move itself, but is not read."""
 
 
 class Related(NamedTuple):
@@ -43,7 +43,8 @@ class Found(NamedTuple):
     name: str
     severity: str
     message: str
-    edits: tuple[tuple[int, int, str], ...] = ()
+    edits: tuple[tuple[str, int, int, str], ...] = ()
+    """File, first byte, end, and the text that takes their place."""
     routine: str | None = None
     joint: int | None = None
     value: float | None = None
@@ -54,6 +55,11 @@ class Found(NamedTuple):
     def place(self) -> str:
         """File, line and column."""
         return f"{self.file}:{self.line}:{self.column}"
+
+    @property
+    def own_edits(self) -> tuple[tuple[int, int, str], ...]:
+        """The edits of the file that it is in."""
+        return tuple(edit[1:] for edit in self.edits if edit[0] == self.file)
 
     def text(self) -> str:
         """A line as linters print it."""
@@ -101,23 +107,15 @@ class Coverage(NamedTuple):
         return f"{words}."
 
 
-def coverage(checked: Iterable[tuple[Module | None, Sequence[Finding]]]) -> Coverage:
-    """Return what was checked of modules with their findings, the silenced ones included."""
+def coverage(programs: Iterable[tuple[Checked, int]]) -> Coverage:
+    """Return what was checked of programs, each with how many of its files were not read."""
     moves, unread = 0, 0
     reasons: Counter[str] = Counter()
-    for module, findings in checked:
-        if module is None:
-            unread += 1
-            continue
-        # The column is of the instruction: a MoveC is one move.
-        places = {(it.line, it.column) for it in module.moves}
-        left: dict[tuple[int, int], str] = {}
-        for it in findings:
-            place = (it.line, it.column)
-            if it.code in REASONS and (place in places or MOVING in it.message):
-                left.setdefault(place, REASONS[it.code])
-        reasons.update(left.values())
-        moves += len(places - left.keys())
+    for checked, count in programs:
+        unread += count
+        left = [it.unchecked for it in checked.moves if it.unchecked is not None]
+        reasons.update(REASONS.get(code, code) for code in left)
+        moves += len(checked.moves) - len(left)
     return Coverage(moves, dict(reasons.most_common()), unread)
 
 

@@ -21,6 +21,8 @@ from pathlib import Path
 from irbkin._core import (
     NOT_THERE,
     Argument,
+    Checked,
+    CheckedMove,
     Declaration,
     Finding,
     JointTarget,
@@ -51,19 +53,25 @@ from irbkin._core import (
 )
 from irbkin.errors import RapidError
 from irbkin.rapid.plans import plan_module, plan_targets
+from irbkin.rapid.program import FileFinding, ModuleFile, Program, load_program
 
 __all__ = [
     "NOT_THERE",
     "Argument",
+    "Checked",
+    "CheckedMove",
     "Declaration",
+    "FileFinding",
     "Finding",
     "JointTarget",
     "LoadData",
     "Module",
+    "ModuleFile",
     "MotionMove",
     "MotionSettings",
     "Move",
     "Pose",
+    "Program",
     "RobTarget",
     "RoutineMotion",
     "Skipped",
@@ -80,6 +88,7 @@ __all__ = [
     "check",
     "dump",
     "load",
+    "load_program",
     "motion",
     "parse",
     "plan_module",
@@ -108,4 +117,4 @@ def load(path: str | PathLike[str], context: Iterable[Module] = ()) -> Module:
 
 def __dir__() -> list[str]:
     """List what the module offers."""
-    return sorted({*__all__, "plans", *(n for n in globals() if n.startswith("__"))})
+    return sorted({*__all__, "plans", "program", *(n for n in globals() if n.startswith("__"))})

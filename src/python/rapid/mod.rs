@@ -30,7 +30,7 @@ pub(super) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
         Declaration, Argument, MotionSettings, Move, MotionMove, Finding, Skipped, TextFault,
         TargetTable, RapidModule, PyRoutineMotion, Checked, CheckedMove,
     ], functions [
-        text::parse, text::parse_module, text::read_module, text::dump, calc::calc_joint_t, calc::calc_rob_t,
+        text::parse, text::parse_module, text::read_module, text::read_modules, text::dump, calc::calc_joint_t, calc::calc_rob_t,
         calc::calc_moves, calc::calc_targets, routine_motion::motion, checks::check,
         checks::check_program, checks::check_codes,
     ]);

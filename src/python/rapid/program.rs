@@ -146,10 +146,10 @@ record! {
         code: String,
         /// The code in words, such as "wrong-confdata".
         name: String,
-        /// Index of the module among those that are checked.
-        module: usize,
         /// How much it matters: "error", "warning" or, where nothing is wrong, "note".
         severity: String,
+        /// Index of the module among those that are checked.
+        module: usize,
         /// Line of the instruction, from 1.
         line: usize,
         /// Column of the instruction, from 1.
@@ -190,8 +190,9 @@ record! {
         target: String,
         /// The joints at its target [rad], shape (6,); None if it has none or is not checked.
         q: Option<Array>,
-        /// Whether its target, tool and work object are known.
-        is_checked: bool,
+        /// The code of the finding for which it is not checked; None if its target, tool and work
+        /// object are known.
+        unchecked: Option<String>,
     }
 }
 
@@ -301,9 +302,10 @@ impl Finding {
 
 impl CheckedMove {
     pub(super) fn of(py: Python<'_>, step: rapid::CheckedMove) -> Self {
-        let rapid::CheckedMove { module, line, column, routine, target, q, is_checked } = step;
+        let rapid::CheckedMove { module, line, column, routine, target, q, unchecked } = step;
         let q = q.map(|q| column_of(py, q));
-        Self { module, line, column, routine, target, q, is_checked }
+        let unchecked = unchecked.map(|code| code.id().into());
+        Self { module, line, column, routine, target, q, unchecked }
     }
 }
 

@@ -119,6 +119,38 @@ pub(crate) fn read_module(
     with_context(content.py(), source, context, |source, context| Ok(rapid::read(source, context)))
 }
 
+/// Read the modules of a program in spite of their faults: each knows the data of the others.
+///
+/// Args:
+///     contents: Texts, or bytes of files, as for `parse`.
+///
+/// Returns:
+///     A list of Module.
+#[pyfunction]
+pub(crate) fn read_modules(contents: &Bound<'_, PyAny>) -> PyResult<Vec<Py<RapidModule>>> {
+    let py = contents.py();
+    let sources: Vec<String> =
+        contents.try_iter()?.map(|content| decoded(&content?)).collect::<PyResult<_>>()?;
+    let (alone, modules) = py.detach(|| {
+        let alone: Vec<Module> = sources.iter().map(|source| rapid::read(source, &[])).collect();
+        let all: Vec<&Module> = alone.iter().collect();
+        let modules = sources.iter().map(|source| rapid::read(source, &all));
+        let modules: Vec<Module> = modules.collect();
+        (alone, modules)
+    });
+    let alone = sources
+        .iter()
+        .zip(alone)
+        .map(|(source, module)| Py::new(py, RapidModule::new(module, source.clone(), Vec::new())));
+    let alone = alone.collect::<PyResult<Vec<_>>>()?;
+    let made = sources.into_iter().zip(modules).enumerate().map(|(own, (source, module))| {
+        let others = alone.iter().enumerate().filter(|(other, _)| *other != own);
+        let context = others.map(|(_, it)| it.clone_ref(py)).collect();
+        Py::new(py, RapidModule::new(module, source, context))
+    });
+    made.collect()
+}
+
 fn module_of(
     py: Python<'_>,
     source: String,

@@ -63,7 +63,7 @@ impl Units {
         let Some(carrier) = self.0.iter().find(|unit| unit.is_carrier) else {
             return Some(Pose::identity());
         };
-        let zero = carrier.frame(&[0.0; 6])?;
+        let zero = carrier.frame(&[0.0; 6]).filter(|_| carrier.is_determined)?;
         Some(carrier.frame(extax)? * zero.inverse())
     }
 

@@ -53,8 +53,8 @@ pub struct CheckedMove {
     pub target: String,
     /// The joints at its target [rad]; `None` if it has none, or is not checked.
     pub q: Option<[f64; 6]>,
-    /// Whether its target, tool and work object are known.
-    pub is_checked: bool,
+    /// Why it is not checked; `None` if its target, tool and work object are known.
+    pub unchecked: Option<Code>,
 }
 
 /// What a check finds.
@@ -109,9 +109,11 @@ pub fn check(
         demands: Vec::new(),
         moves: Vec::new(),
     };
-    for run in runs(&program, options.takes_last) {
-        checker.add(&run)?;
+    let (runs, notes) = runs(&program, options.takes_last);
+    for run in &runs {
+        checker.add(run)?;
     }
+    checker.found.extend(notes);
     let Checker { found, demands, moves, .. } = checker;
     Ok(Checked { findings: sorted(found, &demands), moves: places(moves) })
 }
@@ -143,7 +145,7 @@ fn sorted(mut found: Vec<Finding>, demands: &[Demand]) -> Vec<Finding> {
 
 /// Moves in the order of the text, each place once: checked if it is in one of its passes.
 fn places(mut moves: Vec<CheckedMove>) -> Vec<CheckedMove> {
-    moves.sort_by_key(|it| (it.module, it.line, it.column, !it.is_checked));
+    moves.sort_by_key(|it| (it.module, it.line, it.column, it.unchecked));
     moves.dedup_by_key(|it| (it.module, it.line, it.column));
     moves
 }
@@ -171,12 +173,26 @@ impl Checker<'_, '_> {
         let mut followed = Followed::new(self.robots, &run.steps, &options, Some(self.units))?;
         followed.check_speeds(&self.max_velocity);
         let Followed { goals, made, findings, unfollowed, .. } = &followed;
+        self.moves.extend(unfollowed.iter().map(|finding| CheckedMove {
+            module: finding.module,
+            line: finding.line,
+            column: finding.column,
+            routine: finding.routine.clone(),
+            target: finding.message.split(": ").next().unwrap_or_default().into(),
+            q: None,
+            unchecked: Some(finding.code),
+        }));
         self.found.extend(unfollowed.iter().cloned());
         // Where the confdata of a move is wrong.
         let mut wrong: Vec<Option<usize>> = goals.iter().map(|_| None).collect();
+        // Why a move is not checked.
+        let mut unchecked: Vec<Option<Code>> = goals.iter().map(|_| None).collect();
         for finding in findings {
             let (index, mut finding) = (finding.move_index, finding.clone());
             let (Some(goal), Some(made)) = (goals.get(index), made.get(index)) else { continue };
+            if goal.place.is_none() {
+                unchecked[index].get_or_insert(finding.code);
+            }
             let is_wrong = matches!(
                 finding.code,
                 Code::WrongConfdata | Code::OtherConfiguration | Code::NearConfdata
@@ -189,31 +205,34 @@ impl Checker<'_, '_> {
                 let words = format!("{name} is not declared");
                 finding.message = Finding::new(finding.code, words).at(goal.step, index).message;
             }
-            self.found.push(finding.in_module(goal.module));
+            if let Some(line) = goal.stepped.displaced_on {
+                finding.message = format!("{} (displaced on line {line})", finding.message);
+            }
+            self.found.push(finding.in_module(goal.stepped.module));
         }
         for (index, goal) in
             goals.iter().enumerate().filter(|(index, _)| made[*index].as_programmed)
         {
             let finding = self.collision(followed.along(index));
-            let placed = finding.map(|it| it.at(goal.step, index).in_module(goal.module));
+            let placed = finding.map(|it| it.at(goal.step, index).in_module(goal.stepped.module));
             self.found.extend(placed);
         }
         let zones = Zones { flange: self.robots[1], goals, made };
         for (index, goal) in goals.iter().enumerate() {
             self.moves.push(CheckedMove {
-                module: goal.module,
+                module: goal.stepped.module,
                 line: goal.step.line,
                 column: goal.step.column,
                 routine: goal.step.routine.clone(),
                 target: goal.step.target.text.clone(),
                 q: made[index].q,
-                is_checked: goal.place.is_some(),
+                unchecked: unchecked[index],
             });
             let mut found = |finding: Finding| {
-                self.found.push(finding.at(goal.step, index).in_module(goal.module));
+                self.found.push(finding.at(goal.step, index).in_module(goal.stepped.module));
             };
             zones.checked(index).for_each(&mut found);
-            if goal.takes_last {
+            if goal.stepped.takes_last {
                 let words = "a PERS that the program assigns has its last value here";
                 found(Finding::new(Code::LastValue, words));
             }
@@ -229,7 +248,7 @@ impl Checker<'_, '_> {
             }
             on_edges(&q).for_each(found);
             let to = self.robots[1].configuration(&q)?;
-            let written = self.finder.of(goal.module, goal.step);
+            let written = self.finder.of(goal.stepped.module, goal.step);
             self.demands.push(Demand { written, from, to, finding: wrong[index] });
         }
         self.ends.push(made.iter().map(|made| made.q).collect());

@@ -57,7 +57,7 @@ impl Zones<'_, '_> {
     /// A zone behind which the program waits.
     fn halted(&self, index: usize) -> Option<Finding> {
         let goal = &self.goals[index];
-        let (zone, halt) = (goal.zone?, goal.halt?);
+        let (zone, halt) = (goal.zone?, goal.stepped.halt.as_deref()?);
         let words = format!(
             "zone {} ({:.1} mm) is followed by {halt}: a controller stops at the target (event \
              50024, corner path failure); program fine",

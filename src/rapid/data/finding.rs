@@ -23,7 +23,7 @@ macro_rules! codes {
 
         impl Code {
             /// Every code.
-            pub const ALL: [Self; 31] = [$(Self::$Code),*];
+            pub const ALL: [Self; 32] = [$(Self::$Code),*];
 
             /// The code: a letter for its group and three digits.
             #[must_use]
@@ -110,6 +110,8 @@ codes! {
     UnknownUnit "U804" "unknown-unit";
     /// A PERS that the program assigns is taken to have its last value.
     LastValue "U805" "last-value";
+    /// Statements that are never executed.
+    NeverRun "U806" "never-run";
 }
 
 /// How much a finding matters.
@@ -136,29 +138,26 @@ impl Severity {
 }
 
 impl Code {
-    /// The severity, which the letter of its group determines, with one exception: a confdata that
-    /// several joint vectors have is a warning.
+    /// The severity, which the letter of its group determines, with exceptions for what a controller
+    /// may take.
     #[must_use]
     pub fn severity(self) -> Severity {
-        match self.id().as_bytes()[0] {
-            b'U' => Severity::Note,
-            b'S' | b'V' | b'Z' => Severity::Warning,
-            _ if self == Self::AmbiguousConfdata => Severity::Warning,
+        match (self, self.id().as_bytes()[0]) {
+            (Self::NearConfdata, _) | (_, b'U') => Severity::Note,
+            (Self::AmbiguousConfdata | Self::ExternalAxes, _) | (_, b'S' | b'V' | b'Z') => {
+                Severity::Warning
+            }
             _ => Severity::Error,
         }
     }
 
-    /// Whether it is shown unless codes are selected: not where nothing is wrong, but something is
-    /// unknown or undecided (group U).
+    /// Whether it is shown unless codes are selected: not where something is unknown or undecided, of
+    /// which the number of moves that are not checked tells.
     #[must_use]
     pub fn is_default(self) -> bool {
         !matches!(
             self,
-            Self::UnknownValue
-                | Self::NotFollowed
-                | Self::ConfdataEdge
-                | Self::UnknownUnit
-                | Self::LastValue
+            Self::UnknownValue | Self::NotFollowed | Self::ConfdataEdge | Self::LastValue
         )
     }
 
@@ -275,7 +274,7 @@ impl Finding {
 
     /// At a move.
     pub(crate) fn at(self, step: &Move, move_index: usize) -> Self {
-        let what = format!("{} {}", step.kind.name(), step.target.text);
+        let what = format!("{} {}", step.instruction, step.target.text);
         let routine = step.routine.clone();
         self.placed((step.line, step.column), routine, move_index, &what)
     }

@@ -30,14 +30,8 @@ pub(in crate::rapid) enum Place {
 #[expect(clippy::struct_excessive_bools, reason = "each says another thing of the move")]
 pub(in crate::rapid) struct Goal<'m> {
     pub(in crate::rapid) step: &'m Move,
-    /// The module of its place.
-    pub(in crate::rapid) module: usize,
-    /// The module and the index of the instruction.
-    pub(in crate::rapid) instruction: (usize, usize),
-    /// What the program waits at behind it.
-    pub(in crate::rapid) halt: Option<&'m str>,
-    /// Whether a value is the last one that a PERS had.
-    pub(in crate::rapid) takes_last: bool,
+    /// Where it is made, and what is known of that.
+    pub(in crate::rapid) stepped: &'m Stepped<'m>,
     /// Where it is known, with its tool and its work object.
     pub(in crate::rapid) place: Option<Place>,
     pub(in crate::rapid) frames: Frames,
@@ -68,12 +62,11 @@ impl<'m> Goal<'m> {
     /// A move; report what is wrong with it.
     pub(in crate::rapid) fn new(
         robot: &Robot<6>,
-        stepped: &'m Stepped<'_>,
+        stepped: &'m Stepped<'m>,
         units: Option<&Units>,
         move_index: usize,
         findings: &mut Vec<Finding>,
     ) -> Self {
-        let &Stepped { module, instruction, takes_last, .. } = stepped;
         let step = &*stepped.step;
         let mut found = |finding: Finding| findings.push(finding.at(step, move_index));
         let frames = frames_of(robot, step, units);
@@ -113,10 +106,7 @@ impl<'m> Goal<'m> {
         let frames = frames.unwrap_or(flange);
         Self {
             step,
-            module,
-            instruction,
-            halt: stepped.halt.as_deref(),
-            takes_last,
+            stepped,
             place,
             frames,
             via,

@@ -134,7 +134,7 @@ impl<'m> Followed<'m> {
     /// do not matter.
     pub(in crate::rapid) fn new(
         robots: [&Robot<6>; 2],
-        steps: &'m [Step<'_>],
+        steps: &'m [Step<'m>],
         options: &MotionOptions,
         units: Option<&Units>,
     ) -> Result<Self, Error> {
@@ -200,7 +200,7 @@ fn check_limits(field: &'static str, limits: Option<&[f64; 6]>) -> Result<(), Er
 /// The moves as goals; what is wrong with them, and what is not followed, is found.
 fn goals<'m>(
     robot: &Robot<6>,
-    steps: &'m [Step<'_>],
+    steps: &'m [Step<'m>],
     units: Option<&Units>,
     [findings, unfollowed]: [&mut Vec<Finding>; 2],
 ) -> Vec<Goal<'m>> {
@@ -246,7 +246,7 @@ fn moves(goals: &[Goal<'_>], samples: &Samples, made: &[Made], t: &[f64]) -> Vec
         let ways = &samples.ways[samples.intervals(index)];
         MotionMove {
             kind: goal.step.kind,
-            module_index: goal.instruction.1,
+            module_index: goal.stepped.instruction.1,
             line: goal.step.line,
             start: t.get(begin).copied().unwrap_or(0.0),
             end: t.get(own.end.saturating_sub(1)).copied().unwrap_or(0.0),

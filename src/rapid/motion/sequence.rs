@@ -97,8 +97,14 @@ pub(in crate::rapid) fn items_where(
 
 fn move_of(index: usize, step: &Move) -> Step<'_> {
     let step = Cow::Borrowed(step);
-    let stepped =
-        Stepped { module: 0, instruction: (0, index), step, takes_last: false, halt: None };
+    let stepped = Stepped {
+        module: 0,
+        instruction: (0, index),
+        step,
+        takes_last: false,
+        halt: None,
+        displaced_on: None,
+    };
     Step::Move(Box::new(stepped))
 }
 

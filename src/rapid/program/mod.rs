@@ -9,6 +9,7 @@ mod arguments;
 mod calls;
 mod effects;
 pub(super) mod index;
+mod loops;
 mod moves;
 mod state;
 mod tree;

@@ -146,7 +146,8 @@ impl Scope<'_, '_> {
                 _ => None,
             }
         });
-        Ok(pose.map_or(Displacement::Unknown(skipped.line), Displacement::Known))
+        let line = skipped.line;
+        Ok(pose.map_or(Displacement::Unknown(line), |pose| Displacement::Known(pose, line)))
     }
 
     /// The displacement of PDispOn from a programmed position to the one that is executed, which is
@@ -181,7 +182,7 @@ impl State {
         if own.displaced != displaced {
             own.to_mut().displaced = displaced;
         }
-        if let (Displacement::Known(pose), false) = (self.displacement, is_joints) {
+        if let (Displacement::Known(pose, _), false) = (self.displacement, is_joints) {
             let step = own.to_mut();
             let targets = [
                 match &mut step.target.value {

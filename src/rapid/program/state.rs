@@ -25,8 +25,8 @@ pub(super) enum Here {
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Displacement {
     Nothing,
-    /// A pose in the work object, of which the targets are seen.
-    Known(RapidPose),
+    /// A pose in the work object, from which the targets are seen, set on a line.
+    Known(RapidPose, usize),
     /// Set by the instruction on a line, with values that are not known.
     Unknown(usize),
 }

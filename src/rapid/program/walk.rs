@@ -12,19 +12,15 @@ use core::cell::Cell;
 use super::calls::Frame;
 use super::effects::written_by;
 use super::index::Program;
-use super::state::{Here, Local, State};
+use super::loops::never_holds;
+use super::state::{Displacement, Here, State};
 use super::tree::{Block, Node};
 use super::values::Scope;
+use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::settings::Setting;
 use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
-use crate::rapid::data::value::Value;
-use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::text::tokens::Tokens;
-
-/// Most passes of a loop that are followed.
-const MOST_PASSES: usize = 1000;
 
 /// Steps that are followed beyond two for each move and call that the program has.
 const SPARE_STEPS: usize = 10_000;
@@ -49,6 +45,8 @@ pub(in crate::rapid) struct Stepped<'m> {
     pub(in crate::rapid) takes_last: bool,
     /// What the program may wait at behind it, in words.
     pub(in crate::rapid) halt: Option<String>,
+    /// The line of what displaces its target by a known pose.
+    pub(in crate::rapid) displaced_on: Option<usize>,
 }
 
 /// Steps that follow one another.
@@ -59,16 +57,21 @@ pub(in crate::rapid) struct Run<'m> {
     pub(in crate::rapid) steps: Vec<Step<'m>>,
 }
 
-/// The runs of a program: of its main routine, then of every routine that was not called.
+/// The runs of a program: of its main routine, then of every routine that was not called; and what
+/// is never executed.
 ///
 /// With `takes_last`, a PERS that the program assigns has the value that the text has.
-pub(in crate::rapid) fn runs<'m>(program: &Program<'m>, takes_last: bool) -> Vec<Run<'m>> {
+pub(in crate::rapid) fn runs<'m>(
+    program: &Program<'m>,
+    takes_last: bool,
+) -> (Vec<Run<'m>>, Vec<Finding>) {
     let statements: usize =
         program.modules.iter().map(|it| it.moves.len() + it.skipped.len()).sum();
     let mut walk = Walk {
         program,
         takes_last,
         runs: Vec::new(),
+        notes: Vec::new(),
         state: State::new(),
         frame: Frame::default(),
         followed: BTreeSet::new(),
@@ -82,13 +85,14 @@ pub(in crate::rapid) fn runs<'m>(program: &Program<'m>, takes_last: bool) -> Vec
             walk.root(name);
         }
     }
-    walk.runs
+    (walk.runs, walk.notes)
 }
 
 pub(super) struct Walk<'p, 'm> {
     pub(super) program: &'p Program<'m>,
     takes_last: bool,
     runs: Vec<Run<'m>>,
+    notes: Vec<Finding>,
     pub(super) state: State,
     pub(super) frame: Frame,
     /// The routines that were followed, by module and name in lower case.
@@ -133,8 +137,12 @@ impl<'m> Walk<'_, 'm> {
         self.state = end;
     }
 
-    fn block(&mut self, block: &Block<'m>) {
+    pub(super) fn block(&mut self, block: &Block<'m>) {
+        let mut is_dead = false;
         for node in block {
+            if self.state.here == Here::Left && !is_dead {
+                is_dead = self.note_dead(node);
+            }
             match node {
                 Node::Move(index, step) => self.step(*index, step),
                 Node::Setting(setting) => self.set(setting),
@@ -142,6 +150,12 @@ impl<'m> Walk<'_, 'm> {
                 Node::Branches { head, parts, is_complete } => {
                     let entry = self.state.clone();
                     let mut ends = Vec::from_iter((!is_complete).then(|| entry.clone()));
+                    let mut parts = parts.iter();
+                    if never_holds(&head.text)
+                        && let Some(never) = parts.next()
+                    {
+                        self.never_run(head, never);
+                    }
                     for part in parts {
                         self.state = entry.clone();
                         self.block(part);
@@ -149,9 +163,26 @@ impl<'m> Walk<'_, 'm> {
                     }
                     self.state = State::joined(entry, ends, head.line);
                 }
+                Node::Loop { head, body } if never_holds(&head.text) => self.never_run(head, body),
                 Node::Loop { head, body } => self.repeat(head, body),
             }
         }
+    }
+
+    /// A block that is never executed.
+    fn never_run(&mut self, head: &Skipped, block: &Block<'m>) {
+        if block.iter().any(|node| matches!(node, Node::Move(..) | Node::Loop { .. })) {
+            let finding = Finding::new(Code::NeverRun, "what follows is never executed");
+            self.notes.push(finding.in_module(self.frame.module).at_skipped(head, 0));
+        }
+    }
+
+    /// Report a move behind a statement that leaves the routine; true if it is one.
+    fn note_dead(&mut self, node: &Node<'m>) -> bool {
+        let Node::Move(_, step) = node else { return false };
+        let finding = Finding::new(Code::NeverRun, "is never executed: the routine is left before");
+        self.notes.push(finding.at(step, 0).in_module(self.frame.module));
+        true
     }
 
     /// What is assigned in a block is not known any more.
@@ -164,61 +195,6 @@ impl<'m> Walk<'_, 'm> {
                 local.content = Err(Unresolved::ValueNotKnown);
             }
         }
-    }
-
-    /// A loop: each pass where its bounds are known and it refers to its variable, else the first.
-    fn repeat(&mut self, head: &'m Skipped, body: &Block<'m>) {
-        let counted = self.bounds(&head.text);
-        let name = counted.as_ref().map(|(name, _)| name.clone());
-        let before = name.as_ref().and_then(|name| self.state.locals.get(name).cloned());
-        if let Some((name, passes)) = &counted
-            && !passes.is_empty()
-            && passes.len().saturating_mul(size(body)) <= self.steps_left
-            && mentions(body, name)
-        {
-            for value in passes {
-                let local = Local::single(Value::Num(*value));
-                self.state.locals.insert(name.clone(), local);
-                self.block(body);
-                if self.state.here == Here::Left {
-                    break;
-                }
-            }
-        } else {
-            self.forget(body);
-            if let Some(name) = &name {
-                let content = Err(Unresolved::LoopVariable);
-                self.state.locals.insert(name.clone(), Local { data_type: None, content });
-            }
-            let entry = self.state.clone();
-            self.block(body);
-            let ends = Vec::from([entry.clone(), self.state.clone()]);
-            self.state = State::joined(entry, ends, head.line);
-        }
-        if let Some(name) = name {
-            match before {
-                Some(local) => self.state.locals.insert(name, local),
-                None => self.state.locals.remove(&name),
-            };
-        }
-    }
-
-    /// The variable of a FOR in lower case, and its values; none where a bound is not known.
-    fn bounds(&self, head: &str) -> Option<(String, Vec<f64>)> {
-        let mut tokens = Tokens::new(head).ok()?;
-        if !tokens.take_word("FOR").ok()? {
-            return None;
-        }
-        let name = tokens.take().ok()?;
-        let name = tokens.text_of(name).to_lowercase();
-        let mut bounds = [None, None, None];
-        for (bound, word) in bounds.iter_mut().zip(["FROM", "TO", "STEP"]) {
-            if tokens.take_word(word).ok()? {
-                let expression = ExpressionReader::new(&mut tokens).sum().ok()?;
-                *bound = self.scope().number(head, &expression).ok();
-            }
-        }
-        Some((name, values_of(bounds)))
     }
 
     /// What is known here, for looking up names.
@@ -258,8 +234,12 @@ impl<'m> Walk<'_, 'm> {
             self.frame.place(&site, own.to_mut());
         }
         let instruction = (self.frame.module, index);
+        let displaced_on = match self.state.displacement {
+            Displacement::Known(_, line) if own.kind != MoveKind::MoveAbsJ => Some(line),
+            _ => None,
+        };
         let halt = None;
-        let stepped = Stepped { module, instruction, step: own, takes_last, halt };
+        let stepped = Stepped { module, instruction, step: own, takes_last, halt, displaced_on };
         self.push(Step::Move(Box::new(stepped)));
         if let Some(name) = written_by(step) {
             self.put(&name, None);
@@ -356,47 +336,4 @@ impl<'m> Walk<'_, 'm> {
             self.call(skipped);
         }
     }
-}
-
-/// The values of a loop between bounds: from, to and step.
-fn values_of(bounds: [Option<f64>; 3]) -> Vec<f64> {
-    let [Some(from), Some(to), step] = bounds else { return Vec::new() };
-    let step = step.unwrap_or(if to < from { -1.0 } else { 1.0 });
-    let mut values = Vec::new();
-    let mut value = from;
-    while values.len() <= MOST_PASSES && (to - value) * step >= 0.0 && step != 0.0 {
-        values.push(value);
-        value += step;
-    }
-    if values.len() > MOST_PASSES { Vec::new() } else { values }
-}
-
-/// The number of statements in a block.
-fn size(block: &Block<'_>) -> usize {
-    let of = |node: &Node<'_>| match node {
-        Node::Branches { parts, .. } => parts.iter().map(size).sum::<usize>() + 1,
-        Node::Loop { body, .. } => size(body) + 1,
-        _ => 1,
-    };
-    block.iter().map(of).sum()
-}
-
-/// Whether a block has a word, in lower case.
-fn mentions(block: &Block<'_>, word: &str) -> bool {
-    let has = |text: &str| {
-        let words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        words.filter(|it| it.len() == word.len()).any(|it| it.to_lowercase() == word)
-    };
-    block.iter().any(|node| match node {
-        Node::Move(_, step) => {
-            let arguments = [Some(&step.target.text), Some(&step.tool.text)];
-            let optional =
-                [step.via.as_ref().map(|via| &via.text), step.wobj.as_ref().map(|wobj| &wobj.text)];
-            arguments.into_iter().chain(optional).flatten().any(|text| has(text))
-        }
-        Node::Setting(_) => false,
-        Node::Other(skipped) => has(&skipped.text),
-        Node::Branches { parts, .. } => parts.iter().any(|part| mentions(part, word)),
-        Node::Loop { head, body } => has(&head.text) || mentions(body, word),
-    })
 }

@@ -91,7 +91,7 @@ def _card(found: Found, text: SourceText) -> str:
         gauge(found),
         _excerpt(found, text.lines),
     ]
-    for line, new in text.corrected(found.edits).items():
+    for line, new in text.corrected(found.own_edits).items():
         parts.append(f"<p>Fix in line {line}:</p><pre>{escape(new)}</pre>")
     for it in found.related:
         parts.append(f"<p>{escape(f'{it.file}:{it.line}:{it.column}: {it.message}')}</p>")

@@ -22,7 +22,7 @@ def render(report: Report) -> str:
                 "end": position(end),
                 "text": text,
             }
-            for begin, end, text in it.edits
+            for begin, end, text in it.own_edits
         ]
         records.append(record)
     return json.dumps(records, indent=1) + "\n"

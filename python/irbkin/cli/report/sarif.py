@@ -11,7 +11,6 @@ from urllib.parse import quote
 from irbkin.cli.codes import codes, rules
 from irbkin.cli.findings import Found
 from irbkin.cli.report import Report
-from irbkin.cli.report.source_text import SourceText
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 
@@ -74,20 +73,22 @@ def _result(found: Found, report: Report) -> dict[str, Any]:
     if known := {key: it for key, it in numbers.items() if it is not None}:
         result["properties"] = known
     if found.edits:
-        result["fixes"] = [_fix(found, report.text_of(found.file))]
+        result["fixes"] = [_fix(found, report)]
     return result
 
 
-def _fix(found: Found, text: SourceText) -> dict[str, Any]:
-    replacements = [
-        {
-            "deletedRegion": _region(text.position(begin), text.position(end)),
-            "insertedContent": {"text": new},
-        }
-        for begin, end, new in found.edits
+def _fix(found: Found, report: Report) -> dict[str, Any]:
+    changes: dict[str, list[dict[str, Any]]] = {}
+    for file, begin, end, new in found.edits:
+        text = report.text_of(file)
+        region = _region(text.position(begin), text.position(end))
+        replacement = {"deletedRegion": region, "insertedContent": {"text": new}}
+        changes.setdefault(file, []).append(replacement)
+    artifacts = [
+        {"artifactLocation": {"uri": _uri(file)}, "replacements": replacements}
+        for file, replacements in changes.items()
     ]
-    change = {"artifactLocation": {"uri": _uri(found.file)}, "replacements": replacements}
-    return {"description": {"text": "Correct the confdata."}, "artifactChanges": [change]}
+    return {"description": {"text": "Correct the confdata."}, "artifactChanges": artifacts}
 
 
 def _physical(file: str, region: dict[str, int] | None) -> dict[str, Any]:

@@ -66,7 +66,7 @@ def _block(found: Found, report: Report) -> str:
     rows += (f"{margin('', '=')} note: {it}" for it in _related(found))
     rows += (
         f"{margin('', '=')} fix in line {number}: {new}"
-        for number, new in text.corrected(found.edits).items()
+        for number, new in text.corrected(found.own_edits).items()
     )
     return "\n".join(rows)
 

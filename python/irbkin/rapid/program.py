@@ -1,0 +1,221 @@
+"""Programs: modules of files that know each other, written back as they were."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from irbkin._core import check_program, read_modules
+
+if TYPE_CHECKING:
+    from irbkin import Robot
+    from irbkin._core import Checked, Module
+
+ENDINGS = (".mod", ".modx", ".sys", ".sysx", ".prg")
+"""Endings of files of modules."""
+LIST = ".pgf"
+"""Ending of a list of modules."""
+MARKS = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be", b"\xef\xbb\xbf": "utf-8"}
+FOLDERS = ("PROGMOD", "SYSMOD")
+"""Folders of a task in a backup. HOME has older copies beside them."""
+LISTED = re.compile(r"<Module>([^<]*)</Module>", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class FileFinding:
+    """Something wrong with a file of a program."""
+
+    file: str
+    """Path as it was given or found."""
+    line: int
+    """Line, from 1; 0 for the file."""
+    column: int
+    """Column, from 1; 0 for the file."""
+    code: str
+    """E001 for broken text, E002 for a file that is not read, E003 for a doubled name."""
+    message: str
+    """What is wrong, in one line."""
+
+
+@dataclass(frozen=True, eq=False)
+class ModuleFile:
+    """A file with the text of a module."""
+
+    path: str
+    """Path as it was given or found."""
+    content: bytes = field(repr=False)
+    """Its bytes."""
+
+    @property
+    def mark(self) -> bytes:
+        """Its byte order mark, perhaps empty."""
+        return next((mark for mark in MARKS if self.content.startswith(mark)), b"")
+
+    @property
+    def encoding(self) -> str:
+        """Its encoding: UTF-16 or UTF-8, else Latin-1, which keeps the bytes of any code page."""
+        try:
+            self.content.decode("utf-8")
+        except UnicodeDecodeError:
+            return MARKS.get(self.mark, "latin-1")
+        return MARKS.get(self.mark, "utf-8")
+
+    def encoded(self, text: str) -> bytes:
+        """Return a text as bytes of this file.
+
+        Raises:
+            UnicodeEncodeError: The encoding lacks a character.
+        """
+        return self.mark + text.encode(self.encoding)
+
+
+@dataclass(frozen=True, eq=False)
+class Program:
+    """Modules of one task: global data and routines of each are known in all."""
+
+    modules: tuple[Module, ...]
+    """The modules that could be read."""
+    files: tuple[ModuleFile, ...]
+    """The file of each module."""
+    findings: tuple[FileFinding, ...] = ()
+    """What could not be read, and names that are doubled."""
+
+    def check(self, robot: Robot, **options: Any) -> Checked:
+        """Check every move: routines are followed from `main` through their calls.
+
+        Args:
+            robot: The arm. Work objects are given in the world, in which the robot's base is.
+            options: As of `rapid.check`, and `units` and `last_values`: see docs/guide/check.md.
+
+        Returns:
+            `Checked`, whose `module` numbers are indices of `modules`.
+
+        Raises:
+            IrbkinError: As `rapid.check`.
+        """
+        return check_program(robot, list(self.modules), **options)
+
+    def __repr__(self) -> str:
+        """Return the numbers of modules, moves and findings."""
+        moves = sum(len(module.moves) for module in self.modules)
+        return f"Program({len(self.modules)} modules, {moves} moves, {len(self.findings)} findings)"
+
+
+def load_program(path: str | PathLike[str] | Iterable[str | PathLike[str]]) -> Program:
+    """Read the modules of a task, which know each other.
+
+    What is broken is a finding, and the rest is read: statements, modules, missing files.
+
+    Args:
+        path: A module (.mod, .modx, .sys, .sysx, .prg), a list of modules (.pgf), a folder of
+            modules, or several of these. Of a task's folder PROGMOD and SYSMOD are read. Links
+            that lead out of a folder are not followed.
+
+    Returns:
+        Program.
+
+    Raises:
+        OSError: A path that is given does not exist or cannot be read.
+    """
+    given = [path] if isinstance(path, str | PathLike) else list(path)
+    findings: list[FileFinding] = []
+    files = [
+        ModuleFile(name, content)
+        for it in given
+        for name, content in _contents(os.fspath(it), findings)
+    ]
+    return program_of(files, findings)
+
+
+def program_of(files: Iterable[ModuleFile], findings: Iterable[FileFinding] = ()) -> Program:
+    """Return the program of files that are read.
+
+    Args:
+        files: The files.
+        findings: What is known to be wrong with them.
+    """
+    files, found = list(files), list(findings)
+    modules = read_modules([file.content for file in files])
+    for file, module in zip(files, modules, strict=True):
+        for fault in module.faults:
+            place = (file.path, fault.line, fault.column)
+            found.append(FileFinding(*place, "E001", fault.message))
+    found += _doubled(files, modules)
+    return Program(tuple(modules), tuple(files), tuple(found))
+
+
+def _contents(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, bytes]]:
+    """Yield the files of a path with their bytes."""
+    if os.path.isdir(path):
+        for name in _modules_in(path):
+            try:
+                with open(name, "rb") as file:
+                    content = file.read()
+            except OSError as error:
+                message = f"cannot be read: {error.strerror}"
+                findings.append(FileFinding(name, 0, 0, "E002", message))
+                continue
+            yield name, content
+    elif path.lower().endswith(LIST):
+        yield from _listed(path, findings)
+    else:
+        with open(path, "rb") as file:
+            yield path, file.read()
+
+
+def _modules_in(folder: str) -> list[str]:
+    """The files of modules in a folder: of a task's only those that a controller has loaded."""
+    inside = {name.upper(): name for name in os.listdir(folder)}
+    tops = [os.path.join(folder, inside[name]) for name in FOLDERS if name in inside] or [folder]
+    root = os.path.realpath(folder)
+    found = (
+        os.path.join(at, name) for top in tops for at, _, names in os.walk(top) for name in names
+    )
+    return sorted(
+        path
+        for path in found
+        if path.lower().endswith(ENDINGS) and _is_inside(os.path.realpath(path), root)
+    )
+
+
+def _is_inside(path: str, root: str) -> bool:
+    return os.path.commonpath([path, root]) == root
+
+
+def _listed(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, bytes]]:
+    """Yield the files that a .pgf lists."""
+    with open(path, "rb") as file:
+        text = file.read().decode("utf-8", "replace")
+    folder = os.path.dirname(path)
+    for match in LISTED.finditer(text):
+        name = match[1].strip().replace("\\", "/")
+        line = text.count("\n", 0, match.start()) + 1
+        target = os.path.join(folder, name)
+        wrong = ""
+        if os.path.isabs(name) or ".." in name.split("/"):
+            wrong = "leads out of the folder: it is not read"
+        elif not name.lower().endswith(ENDINGS):
+            wrong = f"is no module ({', '.join(ENDINGS)})"
+        elif not os.path.isfile(target):
+            wrong = "does not exist"
+        if wrong:
+            findings.append(FileFinding(path, line, 1, "E002", f"{name}: {wrong}"))
+            continue
+        with open(target, "rb") as file:
+            yield target, file.read()
+
+
+def _doubled(files: list[ModuleFile], modules: list[Module]) -> Iterator[FileFinding]:
+    """Yield modules of a name that another one has."""
+    first: dict[str, str] = {}
+    for file, module in zip(files, modules, strict=True):
+        name = (module.name or "").lower()
+        if name and name in first:
+            message = f"module {module.name} is in {first[name]}, too: which one counts is unknown"
+            yield FileFinding(file.path, 1, 1, "E003", message)
+        elif name:
+            first[name] = file.path

@@ -1,0 +1,123 @@
+//! Loops: each pass is followed where its bounds are known.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::state::{Here, Local, State};
+use super::tree::{Block, Node};
+use super::walk::Walk;
+use crate::rapid::data::unread::{Skipped, Unresolved};
+use crate::rapid::data::value::Value;
+use crate::rapid::expression::reader::ExpressionReader;
+use crate::rapid::text::tokens::Tokens;
+
+/// Most passes of a loop that are followed.
+const MOST_PASSES: usize = 1000;
+
+impl<'m> Walk<'_, 'm> {
+    /// A loop: each pass where its bounds are known and it refers to its variable, else the first.
+    pub(super) fn repeat(&mut self, head: &'m Skipped, body: &Block<'m>) {
+        let counted = self.bounds(&head.text);
+        let name = counted.as_ref().map(|(name, _)| name.clone());
+        let before = name.as_ref().and_then(|name| self.state.locals.get(name).cloned());
+        if let Some((name, passes)) = &counted
+            && !passes.is_empty()
+            && passes.len().saturating_mul(size(body)) <= self.steps_left
+            && mentions(body, name)
+        {
+            for value in passes {
+                let local = Local::single(Value::Num(*value));
+                self.state.locals.insert(name.clone(), local);
+                self.block(body);
+                if self.state.here == Here::Left {
+                    break;
+                }
+            }
+        } else {
+            self.forget(body);
+            if let Some(name) = &name {
+                let content = Err(Unresolved::LoopVariable);
+                self.state.locals.insert(name.clone(), Local { data_type: None, content });
+            }
+            let entry = self.state.clone();
+            self.block(body);
+            let ends = Vec::from([entry.clone(), self.state.clone()]);
+            self.state = State::joined(entry, ends, head.line);
+        }
+        if let Some(name) = name {
+            match before {
+                Some(local) => self.state.locals.insert(name, local),
+                None => self.state.locals.remove(&name),
+            };
+        }
+    }
+
+    /// The variable of a FOR in lower case, and its values; none where a bound is not known.
+    fn bounds(&self, head: &str) -> Option<(String, Vec<f64>)> {
+        let mut tokens = Tokens::new(head).ok()?;
+        if !tokens.take_word("FOR").ok()? {
+            return None;
+        }
+        let name = tokens.take().ok()?;
+        let name = tokens.text_of(name).to_lowercase();
+        let mut bounds = [None, None, None];
+        for (bound, word) in bounds.iter_mut().zip(["FROM", "TO", "STEP"]) {
+            if tokens.take_word(word).ok()? {
+                let expression = ExpressionReader::new(&mut tokens).sum().ok()?;
+                *bound = self.scope().number(head, &expression).ok();
+            }
+        }
+        Some((name, values_of(bounds)))
+    }
+}
+
+/// Whether the first line of a branch or a loop has a condition that never holds.
+pub(super) fn never_holds(head: &str) -> bool {
+    let words = head.split_whitespace().skip(1).map(str::to_ascii_uppercase);
+    let words: Vec<String> = words.collect();
+    words.first().is_some_and(|word| word == "FALSE")
+        && words.get(1).is_none_or(|word| word == "THEN" || word == "DO")
+}
+
+/// The values of a loop between bounds: from, to and step.
+fn values_of(bounds: [Option<f64>; 3]) -> Vec<f64> {
+    let [Some(from), Some(to), step] = bounds else { return Vec::new() };
+    let step = step.unwrap_or(if to < from { -1.0 } else { 1.0 });
+    let mut values = Vec::new();
+    let mut value = from;
+    while values.len() <= MOST_PASSES && (to - value) * step >= 0.0 && step != 0.0 {
+        values.push(value);
+        value += step;
+    }
+    if values.len() > MOST_PASSES { Vec::new() } else { values }
+}
+
+/// The number of statements in a block.
+fn size(block: &Block<'_>) -> usize {
+    let of = |node: &Node<'_>| match node {
+        Node::Branches { parts, .. } => parts.iter().map(size).sum::<usize>() + 1,
+        Node::Loop { body, .. } => size(body) + 1,
+        _ => 1,
+    };
+    block.iter().map(of).sum()
+}
+
+/// Whether a block has a word, in lower case.
+fn mentions(block: &Block<'_>, word: &str) -> bool {
+    let has = |text: &str| {
+        let words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        words.filter(|it| it.len() == word.len()).any(|it| it.to_lowercase() == word)
+    };
+    block.iter().any(|node| match node {
+        Node::Move(_, step) => {
+            let arguments = [Some(&step.target.text), Some(&step.tool.text)];
+            let optional =
+                [step.via.as_ref().map(|via| &via.text), step.wobj.as_ref().map(|wobj| &wobj.text)];
+            arguments.into_iter().chain(optional).flatten().any(|text| has(text))
+        }
+        Node::Setting(_) => false,
+        Node::Other(skipped) => has(&skipped.text),
+        Node::Branches { parts, .. } => parts.iter().any(|part| mentions(part, word)),
+        Node::Loop { head, body } => has(&head.text) || mentions(body, word),
+    })
+}
