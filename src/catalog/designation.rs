@@ -73,7 +73,8 @@ impl Designation {
     /// not matter, nor does the family if it is not given.
     fn is_of(&self, arm: &Self) -> bool {
         self.is_of_series(arm)
-            && (self.figures == arm.figures || self.figures == [arm.figures[1], arm.figures[0]])
+            && (are_equal(self.figures, arm.figures)
+                || are_equal(self.figures, [arm.figures[1], arm.figures[0]]))
             && self.words == arm.words
     }
 
@@ -165,7 +166,7 @@ fn runs_of(name: &str) -> Vec<Run> {
         let is_number = is_point || c.is_ascii_digit();
         match runs.last_mut() {
             Some(run) if is_joined && run.is_number == is_number => {
-                run.text.extend(c.to_uppercase())
+                run.text.extend(c.to_uppercase());
             }
             _ => runs.push(Run { text: c.to_uppercase().collect(), is_number, is_joined }),
         }

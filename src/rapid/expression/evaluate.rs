@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 
 use super::names::{At, Names};
-use super::tree::{Expression, Form, Operator, Unread, written};
+use super::tree::{Expression, Form, Unread, written};
 use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::types::{Atom, Atoms, NUM, Part, Record, Shape, Type};
 use crate::rapid::data::unread::Reason;
@@ -161,11 +161,8 @@ impl Evaluator<'_, '_> {
                 self.fill_reference(expression, whole, place, atoms)
             }
             (Form::Call(call), _) => self.fill_call(expression, call, place, atoms),
-            (Form::Negated(_) | Form::Chain(..), Shape::Num | Shape::Whole) => {
-                self.fill_number(expression, self.arithmetic(expression)?, place, atoms)
-            }
             (Form::Negated(_) | Form::Chain(..), _) => {
-                Err(Reason::Arithmetic { type_name: place.of.name }.into())
+                self.fill_operators(expression, place, atoms)
             }
             (Form::Star, _) => Err(Reason::Taught.into()),
             (Form::Unread(unread), _) => Err(Reason::from(*unread).into()),
@@ -212,28 +209,7 @@ impl Evaluator<'_, '_> {
         Ok(())
     }
 
-    /// A sum, a product or a negated number.
-    fn arithmetic(&self, expression: &Expression<'_>) -> Result<f64, Stop> {
-        let result = match &expression.form {
-            Form::Negated(operand) => -self.number(operand)?,
-            Form::Chain(first, rest) => {
-                let mut result = self.number(first)?;
-                for (operator, operand) in rest {
-                    let operand = self.number(operand)?;
-                    match operator {
-                        Operator::Plus => result += operand,
-                        Operator::Minus => result -= operand,
-                        Operator::Times => result *= operand,
-                        Operator::Over => result /= operand,
-                    }
-                }
-                result
-            }
-            _ => self.number(expression)?,
-        };
-        self.finite(expression, result)
-    }
-
+    /// A number, which must be finite.
     pub(super) fn finite(&self, expression: &Expression<'_>, value: f64) -> Result<f64, Stop> {
         if value.is_finite() {
             return Ok(value);

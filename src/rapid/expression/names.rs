@@ -5,6 +5,7 @@ use alloc::borrow::Cow;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use crate::paths::polyline::PREDEFINED as ZONES;
 use crate::rapid::data::module::Content;
@@ -16,6 +17,14 @@ use crate::rapid::data::value::{DataType, Value};
 pub(crate) trait Names {
     /// Find what a name refers to at a place.
     fn find(&self, at: At, name: &str) -> Found<'_>;
+
+    /// Why some of these atoms of a datum may be different where the program moves.
+    fn cause_of(&self, at: At, name: &str, _atoms: Range<usize>) -> Option<Cause<'_>> {
+        match self.find(at, name) {
+            Found::Datum { cause, .. } => cause,
+            _ => None,
+        }
+    }
 }
 
 /// Where a name is used.
@@ -32,7 +41,7 @@ pub(crate) enum Found<'r> {
     Datum {
         content: &'r Content,
         can_change: bool,
-        /// Why its value may be different where the program moves.
+        /// Why its value, or a part of it, may be different where the program moves.
         cause: Option<Cause<'r>>,
     },
     /// Of RAPID's own data.
@@ -134,6 +143,7 @@ pub(crate) fn predefined_names(data_type: DataType) -> Vec<String> {
 /// The datum of RAPID's own with a name in lower case.
 pub(crate) fn predefined(lower: &str) -> Option<Value> {
     match lower.as_bytes().first()? {
+        b'p' if lower == "pi" => Some(Value::Num(core::f64::consts::PI)),
         b't' if lower == "tool0" => Some(Value::ToolData(ToolData::TOOL0)),
         b'w' if lower == "wobj0" => Some(Value::WobjData(WobjData::WOBJ0)),
         b'l' if lower == "load0" => Some(Value::LoadData(LoadData::LOAD0)),

@@ -134,25 +134,35 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
     }
 
     pub(crate) fn sum(&mut self) -> Result<Expression<'a>, RapidFault> {
-        self.chain([(b'+', Operator::Plus), (b'-', Operator::Minus)], Self::product)
+        let operator = |tokens: &Tokens<'_>| match tokens.peek().kind {
+            TokenKind::Symbol(b'+') => Some(Operator::Plus),
+            TokenKind::Symbol(b'-') => Some(Operator::Minus),
+            _ => None,
+        };
+        self.chain(operator, Self::product)
     }
 
     fn product(&mut self) -> Result<Expression<'a>, RapidFault> {
-        self.chain([(b'*', Operator::Times), (b'/', Operator::Over)], Self::factor)
+        let operator = |tokens: &Tokens<'_>| match tokens.peek().kind {
+            TokenKind::Symbol(b'*') => Some(Operator::Times),
+            TokenKind::Symbol(b'/') => Some(Operator::Over),
+            TokenKind::Name if tokens.at_word("DIV") => Some(Operator::Div),
+            TokenKind::Name if tokens.at_word("MOD") => Some(Operator::Mod),
+            _ => None,
+        };
+        self.chain(operator, Self::factor)
     }
 
     fn chain(
         &mut self,
-        operators: [(u8, Operator); 2],
+        operator: fn(&Tokens<'_>) -> Option<Operator>,
         operand: fn(&mut Self) -> Result<Expression<'a>, RapidFault>,
     ) -> Result<Expression<'a>, RapidFault> {
         let first = operand(self)?;
         let mut rest = Vec::new();
-        while let Some((_, operator)) =
-            operators.iter().find(|(symbol, _)| self.tokens.peek().is(*symbol))
-        {
+        while let Some(operator) = operator(self.tokens) {
             self.tokens.take()?;
-            rest.push((*operator, operand(self)?));
+            rest.push((operator, operand(self)?));
         }
         if rest.is_empty() {
             return Ok(first);
@@ -252,6 +262,12 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         } else {
             Vec::new()
         };
+        let components = self.components()?;
+        Ok(Form::Reference(Box::new(Reference { name, indices, components })))
+    }
+
+    /// The names of components, each after its point.
+    fn components(&mut self) -> Result<Vec<&'a str>, RapidFault> {
         let mut components = Vec::new();
         while self.tokens.take_if(b'.')? {
             if self.tokens.peek().kind != TokenKind::Name {
@@ -260,7 +276,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             let component = self.tokens.take()?;
             components.push(self.tokens.text_of(component));
         }
-        Ok(Form::Reference(Box::new(Reference { name, indices, components })))
+        Ok(components)
     }
 
     fn call(&mut self, name: &'a str, open: Token) -> Result<Call<'a>, RapidFault> {
@@ -270,7 +286,8 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
                 .tokens
                 .fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
         }
-        let mut call = Call { name, required: Vec::new(), optional: Vec::new() };
+        let mut call =
+            Call { name, required: Vec::new(), optional: Vec::new(), components: Vec::new() };
         while !self.tokens.peek().is(b')') {
             if self.tokens.take_if(b'\\')? {
                 call.optional.push(self.optional()?);
@@ -283,6 +300,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             }
         }
         self.close(open, b')')?;
+        call.components = self.components()?;
         Ok(call)
     }
 

@@ -3,14 +3,14 @@
 use alloc::borrow::Cow;
 use alloc::format;
 use alloc::string::{String, ToString};
+use core::ops::Range;
 
 use super::evaluate::{Component, Evaluator, Stop, positive_whole};
-use super::functions::Displacement;
 use super::names::Found;
 use super::tree::{Expression, Form, written};
 use crate::error::RapidFaultKind;
 use crate::rapid::data::module::Content;
-use crate::rapid::data::types::{Atom, Atoms, ROBTARGET, Shape};
+use crate::rapid::data::types::{Atom, Atoms, LOADDATA, Shape, TOOLDATA, Type};
 use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::Value;
 
@@ -24,16 +24,8 @@ impl Evaluator<'_, '_> {
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
         let text = || written(self.text, expression);
-        let value = self.referred(expression, name, indices)?;
-        let (mut of, mut begin) = (value.data_type().described(), 0);
-        for component in components {
-            let (part, before) = of.component(component).ok_or_else(|| {
-                let (text, component) = (text(), (*component).to_string());
-                let of = of.name;
-                self.fault(expression, RapidFaultKind::NoSuchComponent { text, of, component })
-            })?;
-            (of, begin) = (part, begin + before);
-        }
+        let value = self.referred(expression, name, indices, components)?;
+        let (of, begin) = self.part(expression, value.data_type().described(), components)?;
         let mut source = value.atoms().into_iter();
         if begin > 0 {
             source.nth(begin - 1);
@@ -55,12 +47,32 @@ impl Evaluator<'_, '_> {
         Ok(())
     }
 
+    /// The type of a component of a type, and the atoms before it.
+    pub(super) fn part(
+        &self,
+        expression: &Expression<'_>,
+        mut of: &'static Type,
+        components: &[&str],
+    ) -> Result<(&'static Type, usize), Stop> {
+        let mut begin = 0;
+        for component in components {
+            let (part, before) = of.component(component).ok_or_else(|| {
+                let (text, component) = (written(self.text, expression), (*component).to_string());
+                let of = of.name;
+                self.fault(expression, RapidFaultKind::NoSuchComponent { text, of, component })
+            })?;
+            (of, begin) = (part, begin + before);
+        }
+        Ok((of, begin))
+    }
+
     /// The datum or the element that a reference begins with.
     fn referred(
         &self,
         expression: &Expression<'_>,
         name: &str,
         indices: &[Expression<'_>],
+        components: &[&str],
     ) -> Result<Cow<'_, Value>, Stop> {
         let unknown = |why| Err(Stop::Unknown(Reason::Reference { name: name.to_string(), why }));
         let count = |wanted| {
@@ -75,8 +87,12 @@ impl Evaluator<'_, '_> {
             Found::Datum { can_change: true, .. } if self.constant => {
                 return unknown(Unresolved::CanChange);
             }
-            Found::Datum { cause: Some(cause), .. } if self.at_move => {
-                return unknown(cause.of(name));
+            Found::Datum { content, cause: Some(_), .. } if self.at_move => {
+                let atoms = self.used_atoms(expression, content, components)?;
+                if let Some(cause) = self.names.cause_of(self.at, name, atoms) {
+                    return unknown(cause.of(name));
+                }
+                content
             }
             Found::Datum { content, .. } => content,
         };
@@ -100,9 +116,9 @@ impl Evaluator<'_, '_> {
             Form::Text(_) => return Some("string".to_string()),
             Form::Bool(_) => return Some("bool".to_string()),
             Form::Call(call) => {
-                Displacement::named(call.name)?;
-                let is_own = matches!(self.names.find(self.at, call.name), Found::NotHere);
-                return is_own.then(|| ROBTARGET.name.to_string());
+                let result = self.function(call.name).ok()?.result;
+                let (of, _) = self.part(expression, result, &call.components).ok()?;
+                return Some(of.name.to_string());
             }
             Form::Name(name) => (*name, &[][..]),
             Form::Reference(reference) => (reference.name, reference.components.as_slice()),
@@ -124,6 +140,24 @@ impl Evaluator<'_, '_> {
             of.component(component).map(|(component, _)| component)
         })?;
         Some(of.name.to_string())
+    }
+
+    /// The atoms of a component that count in a move: of a tool, its load does not.
+    fn used_atoms(
+        &self,
+        expression: &Expression<'_>,
+        content: &Content,
+        components: &[&str],
+    ) -> Result<Range<usize>, Stop> {
+        let value = match content {
+            Content::Single(value) => Some(value),
+            Content::Array { values, .. } => values.first(),
+            Content::Uninitialized { .. } => None,
+        };
+        let Some(value) = value else { return Ok(0..usize::MAX) };
+        let (of, begin) = self.part(expression, value.data_type().described(), components)?;
+        let unused = if of.name == TOOLDATA.name { LOADDATA.size() } else { 0 };
+        Ok(begin..begin + of.size() - unused)
     }
 
     /// The place of an element in its array.

@@ -60,6 +60,8 @@ pub(crate) struct Call<'a> {
     pub(crate) name: &'a str,
     pub(crate) required: Vec<Expression<'a>>,
     pub(crate) optional: Vec<(&'a str, Option<Expression<'a>>)>,
+    /// Components of the result.
+    pub(crate) components: Vec<&'a str>,
 }
 
 /// The reason why an expression is not evaluated, whatever its names refer to.
@@ -77,6 +79,8 @@ pub(crate) enum Operator {
     Minus,
     Times,
     Over,
+    Div,
+    Mod,
 }
 
 /// The text of an expression, shortened.

@@ -27,7 +27,6 @@ pub(in crate::rapid) enum Place {
 }
 
 /// A move.
-#[expect(clippy::struct_excessive_bools, reason = "each says another thing of the move")]
 pub(in crate::rapid) struct Goal<'m> {
     pub(in crate::rapid) step: &'m Move,
     /// Where it is made, and what is known of that.

@@ -6,10 +6,13 @@ use alloc::string::{String, ToString};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::cell::RefCell;
+use core::ops::Range;
 
 use crate::error::{Names as NamesOf, RapidFault, RapidFaultKind};
 use crate::rapid::data::module::{Datum, Module, Scope, Storage};
+use crate::rapid::data::types::{LOADDATA, TOOLDATA, Type};
 use crate::rapid::data::unread::{Reason, Unresolved};
+use crate::rapid::data::value::DataType;
 use crate::rapid::expression::content::Placed;
 use crate::rapid::expression::evaluate::Stop;
 use crate::rapid::expression::names::{At, By, Cause, Found, Names, lower, predefined};
@@ -53,6 +56,16 @@ impl Names for Resolver<'_> {
                 cause: self.causes.of_other(&lower, home, self.context),
             },
             None => predefined(&lower).map_or(Found::NotHere, Found::Predefined),
+        }
+    }
+
+    fn cause_of(&self, at: At, name: &str, atoms: Range<usize>) -> Option<Cause<'_>> {
+        match self.scopes.find(at.routine, &lower(name)) {
+            Some(Named::Datum(index)) => self.causes.of_atoms(*index, &atoms),
+            _ => match self.find(at, name) {
+                Found::Datum { cause, .. } => cause,
+                _ => None,
+            },
         }
     }
 }
@@ -139,10 +152,9 @@ impl Resolver<'_> {
     /// Record that a datum changes with what one of its names refers to; sizes, whose names come
     /// first, do not change.
     fn add_cause(&mut self, datum: usize, gone_through: usize, other: usize) {
-        if let Some(cause) =
-            self.causes.of_datum(other).filter(|_| gone_through > self.declared[datum].size_names)
-        {
-            self.causes.add(datum, cause);
+        let of_other = self.causes.of_used_atoms(other, self.declared);
+        if let Some(cause) = of_other.filter(|_| gone_through > self.declared[datum].size_names) {
+            self.causes.add(datum, ALL, cause);
         }
     }
 
@@ -152,7 +164,7 @@ impl Resolver<'_> {
         if let Some(cause) =
             found.and_then(|(_, home)| self.causes.of_other(lower, home, self.context))
         {
-            self.causes.add(datum, cause);
+            self.causes.add(datum, ALL, cause);
         }
     }
 
@@ -189,8 +201,8 @@ enum State {
 
 /// The assigned data, with causes.
 pub(crate) struct Causes<'a> {
-    /// By the index of the datum.
-    of_data: BTreeMap<usize, Cause<'a>>,
+    /// By the index of the datum, for ranges of its atoms.
+    of_data: BTreeMap<usize, Vec<(Range<usize>, Cause<'a>)>>,
     /// Names in lower case that are not declared in the module.
     of_others: BTreeMap<String, Cause<'a>>,
 }
@@ -209,7 +221,7 @@ impl<'a> Causes<'a> {
         blocks: &Blocks<'_>,
     ) -> Self {
         let mut causes = Self::none();
-        for Assignment { at, name, line } in assignments {
+        for Assignment { at, name, components, line } in assignments {
             let lower = lower(name);
             if blocks.is_variable(at.inside_loop, &lower) {
                 continue;
@@ -219,9 +231,12 @@ impl<'a> Causes<'a> {
                 Some(Named::Datum(datum))
                     if declared.get(*datum).is_some_and(|it| it.storage != Storage::Const) =>
                 {
-                    causes.add(*datum, cause);
+                    let atoms = atoms_of(declared[*datum].data_type.described(), components);
+                    causes.add(*datum, atoms, cause);
                 }
                 Some(_) => {}
+                // The load of a tool does not count.
+                None if components.first().is_some_and(|it| it.eq_ignore_ascii_case("tload")) => {}
                 None => {
                     causes.of_others.entry(lower.into_owned()).or_insert(cause);
                 }
@@ -230,12 +245,32 @@ impl<'a> Causes<'a> {
         causes
     }
 
-    pub(crate) fn add(&mut self, datum: usize, cause: Cause<'a>) {
-        self.of_data.entry(datum).or_insert(cause);
+    fn add(&mut self, datum: usize, atoms: Range<usize>, cause: Cause<'a>) {
+        let causes = self.of_data.entry(datum).or_default();
+        let is_known =
+            |(own, _): &(Range<usize>, _)| own.start <= atoms.start && atoms.end <= own.end;
+        if !causes.iter().any(is_known) {
+            causes.push((atoms, cause));
+        }
     }
 
+    /// The cause for some part of a datum.
     pub(crate) fn of_datum(&self, datum: usize) -> Option<Cause<'a>> {
-        self.of_data.get(&datum).copied()
+        self.of_atoms(datum, &ALL)
+    }
+
+    /// The cause for some of these atoms of a datum.
+    fn of_atoms(&self, datum: usize, atoms: &Range<usize>) -> Option<Cause<'a>> {
+        let mut causes = self.of_data.get(&datum)?.iter();
+        let meets = |own: &Range<usize>| own.start < atoms.end && atoms.start < own.end;
+        causes.find(|(own, _)| meets(own)).map(|(_, cause)| *cause)
+    }
+
+    /// The cause for what counts in moves: of a tool, its load does not.
+    fn of_used_atoms(&self, datum: usize, declared: &[Declared<'_>]) -> Option<Cause<'a>> {
+        let is_tool = declared.get(datum).is_some_and(|it| it.data_type == DataType::ToolData);
+        let load = if is_tool { TOOLDATA.size() - LOADDATA.size() } else { ALL.end };
+        self.of_atoms(datum, &(0..load))
     }
 
     /// The cause for a datum of another module, by its name in lower case: this module assigns it,
@@ -263,10 +298,25 @@ impl<'a> Causes<'a> {
         let data = self
             .of_data
             .keys()
+            .filter(|datum| self.of_used_atoms(**datum, declared).is_some())
             .filter_map(|datum| declared.get(*datum))
             .filter(|datum| datum.routine == 0);
-        data.map(|datum| datum.name.to_lowercase()).chain(self.of_others.into_keys()).collect()
+        let data = data.map(|datum| datum.name.to_lowercase());
+        data.chain(self.of_others.keys().cloned()).collect()
     }
+}
+
+/// All atoms of a datum.
+const ALL: Range<usize> = 0..usize::MAX;
+
+/// The atoms of a component; all if there is no such component.
+fn atoms_of(mut of: &'static Type, components: &[&str]) -> Range<usize> {
+    let mut begin = 0;
+    for component in components {
+        let Some((part, before)) = of.component(component) else { return ALL };
+        (of, begin) = (part, begin + before);
+    }
+    if components.is_empty() { ALL } else { begin..begin + of.size() }
 }
 
 /// The datum of other modules that a name in lower case refers to, with its module.

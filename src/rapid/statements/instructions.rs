@@ -2,6 +2,7 @@
 //! their arguments.
 
 use alloc::string::ToString;
+use alloc::vec::Vec;
 
 use super::blocks::begins_another;
 use super::reader::{Assignment, StatementReader};
@@ -41,6 +42,7 @@ impl<'a> StatementReader<'a> {
         if !is_assignment && self.setting(first)? {
             return Ok(());
         }
+        let components = if is_assignment { self.assigned_components()? } else { Vec::new() };
         let assigned =
             if is_assignment { Some(name) } else { self.name_in_written_argument(name)? };
         skip_balanced(&mut self.tokens, |tokens, _| begins_another(tokens))?;
@@ -58,7 +60,7 @@ impl<'a> StatementReader<'a> {
             self.displaced_by.see(name, line);
         }
         if let Some(name) = assigned {
-            self.written.assignments.push(Assignment { at: self.at(), name, line });
+            self.written.assignments.push(Assignment { at: self.at(), name, components, line });
         }
         Ok(())
     }
@@ -86,6 +88,19 @@ impl<'a> StatementReader<'a> {
         let routine = self.current_routine().map(|routine| routine.name.clone());
         self.written.settings.push(Setting { line, column, routine, text });
         Ok(true)
+    }
+
+    /// The names of the component that an assignment is to, behind the name and its indices.
+    fn assigned_components(&mut self) -> Result<Vec<&'a str>, RapidFault> {
+        if self.tokens.peek().is(b'{') {
+            skip_balanced(&mut self.tokens, |_, last| last.is_some_and(|last| last.is(b'}')))?;
+        }
+        let mut components = Vec::new();
+        while self.tokens.take_if(b'.')? && self.tokens.peek().kind == TokenKind::Name {
+            let component = self.tokens.take()?;
+            components.push(self.tokens.text_of(component));
+        }
+        Ok(components)
     }
 
     /// The name in the argument that an instruction writes to; reads up to it.

@@ -62,6 +62,8 @@ impl<'a> Written<'a> {
 pub(crate) struct Assignment<'a> {
     pub(crate) at: At,
     pub(crate) name: &'a str,
+    /// The component that gets the value; none for the whole datum.
+    pub(crate) components: Vec<&'a str>,
     pub(crate) line: usize,
 }
 

@@ -3,6 +3,7 @@
 
 use alloc::format;
 use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 
 use super::blocks::is_flow;
 use super::declarations::{Declaration, read_declaration, read_name, storage_at};
@@ -228,7 +229,12 @@ impl<'a> StatementReader<'a> {
         let (at, displaced) = (self.at(), self.displaced_by.line(instruction.way));
         let written = written_argument(instruction.name).and_then(|it| step.required.get(it - 1));
         if let Some(name) = written.and_then(Expression::name) {
-            self.written.assignments.push(Assignment { at, name, line: step.line });
+            self.written.assignments.push(Assignment {
+                at,
+                name,
+                components: Vec::new(),
+                line: step.line,
+            });
         }
         let settings = self.settings;
         self.written.moves.push(WrittenMove { at, displaced, settings, ..step });

@@ -35,6 +35,7 @@ fn line_4(statement: &str) -> String {
 fn assigned_data_have_no_value_in_moves() {
     assert_eq!(line_4("x:=-100;"), "refers to x, which line 4 assigns");
     assert_eq!(line_4("P.trans.z:=1000;"), "refers to p, which line 4 assigns");
+    assert_eq!(line_4("p.nothing:=1000;"), "refers to p, which line 4 assigns");
     assert_eq!(line_4("a{2}:=1;"), "refers to a, which line 4 assigns");
     assert_eq!(line_4("p:=CRobT();"), "refers to p, which line 4 assigns");
     assert_eq!(line_4("IF TRUE x:=x+1;"), "refers to x, which line 4 assigns");
@@ -163,4 +164,38 @@ fn displaced_moves_report_the_line() {
         [Some(1), None, Some(1)]
     );
     again(&two, &[]);
+}
+
+#[test]
+fn only_the_components_that_are_assigned_have_no_value() {
+    let data = format!(
+        "PERS tooldata t:=[TRUE,[[0,0,1],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]]; \
+        PERS tooldata t2:=t; VAR robtarget p:={TARGET}; VAR robtarget a{{2}}:=[p,p];"
+    );
+    let tool = |statements: &str, tool: &str| {
+        let module = module(&data, &format!("{statements} MoveL c,v,z,{tool};"));
+        words(&module.moves()[0].tool.value)
+    };
+    for statement in ["t.tload.mass:=5;", "T.TLOAD := load0;", "t.tload.cog.x:=1;"] {
+        assert_eq!(tool(statement, "t") + &tool(statement, "t2"), "", "{statement}");
+    }
+    for statement in ["t:=tool0;", "t.tframe.trans.z:=5;", "t.robhold:=FALSE;", "t.tframe:=x;"] {
+        assert_eq!(tool(statement, "t"), "refers to t, which line 4 assigns", "{statement}");
+        let through = "refers to t2, which depends on t, which line 4 assigns";
+        assert_eq!(tool(statement, "t2"), through, "{statement}");
+    }
+    let target = |statement: &str, target: &str| {
+        why(&data, &format!("{statement} MoveL {target},v,z,tool0;"))
+    };
+    assert_eq!(target("p.trans.z:=5;", "Offs(c,p.trans.x,p.rot.q1,p.trans.y)"), "");
+    assert_eq!(
+        target("p.trans.z:=5;", "Offs(c,0,0,p.trans.z)"),
+        "refers to p, which line 4 assigns"
+    );
+    assert_eq!(target("p.extax:=x;", "p"), "refers to p, which line 4 assigns");
+    assert_eq!(target("a{1}.trans.z:=5;", "Offs(c,a{2}.trans.x,0,0)"), "");
+    assert_eq!(target("a{1}.trans.z:=5;", "a{2}"), "refers to a, which line 4 assigns");
+    let other = read("MODULE Other PROC b() t.tload:=load0; ENDPROC ENDMODULE");
+    let own = parse(&format!("{} MoveL c,v,z,t;", data.replace(TARGET, "*")), &[&other]).unwrap();
+    assert_eq!(words(&own.moves()[0].tool.value), "");
 }

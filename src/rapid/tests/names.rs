@@ -85,8 +85,11 @@ fn unknown_values_report_the_reason() {
         "a: refers to i, which can change"
     );
     assert_eq!(why("VAR num n:=2; CONST num b{n}:=[1,2];"), "b: refers to n, which can change");
-    assert_eq!(why("CONST num a:=1 DIV 2;"), "a: this operator is not evaluated");
-    assert_eq!(why("CONST pos a:=[1,2,3]+[1,2,3];"), "a: arithmetic of pos is not evaluated");
+    assert_eq!(why("CONST num a:=1 XOR 2;"), "a: this operator is not evaluated");
+    assert_eq!(
+        why("CONST pose a:=-[[1,2,3],[1,0,0,0]];"),
+        "a: arithmetic of pose is not evaluated"
+    );
     assert_eq!(why("CONST num a:=NOT TRUE;"), "a: NOT is not evaluated");
     assert_eq!(why("CONST num b{2}:=1+1;"), "b: the value of the array is not an aggregate");
     assert_eq!(

@@ -34,7 +34,7 @@ pub(crate) fn not_closed(tokens: &Tokens<'_>, open: Token, close: u8) -> RapidFa
 pub(crate) fn is_unread_operator(tokens: &Tokens<'_>) -> bool {
     let word = |word: &&str| tokens.at_word(word);
     matches!(tokens.peek().kind, TokenKind::Symbol(b'=' | b'<' | b'>') | TokenKind::Placeholder)
-        || ["AND", "OR", "XOR", "DIV", "MOD"].iter().any(word)
+        || ["AND", "OR", "XOR"].iter().any(word)
 }
 
 /// Words that end a statement at any place: one that is not closed before them is invalid.
