@@ -32,6 +32,11 @@ struct Run {
     is_joined: bool,
 }
 
+/// Whether figures that were read are equal.
+fn is_same(a: [f64; 2], b: [f64; 2]) -> bool {
+    a.iter().zip(b).all(|(a, b)| a.total_cmp(&b).is_eq())
+}
+
 impl Designation {
     /// The parts of a name; `None` if it has no series and two figures.
     pub(super) fn of(name: &str) -> Option<Self> {
@@ -73,8 +78,8 @@ impl Designation {
     /// not matter, nor does the family if it is not given.
     fn is_of(&self, arm: &Self) -> bool {
         self.is_of_series(arm)
-            && (are_equal(self.figures, arm.figures)
-                || are_equal(self.figures, [arm.figures[1], arm.figures[0]]))
+            && (is_same(self.figures, arm.figures)
+                || is_same(self.figures, [arm.figures[1], arm.figures[0]]))
             && self.words == arm.words
     }
 
