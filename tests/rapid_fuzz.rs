@@ -283,7 +283,7 @@ fn check(text: &str, module: &Module) {
 /// Its moves are a motion with findings, or an error says why not.
 fn check_motion(module: &Module) {
     let robot = irbkin::Robot::named("IRB 2600-12/1.65").unwrap();
-    match irbkin::rapid::motion(&robot, module, None, &MotionOptions::default()) {
+    match irbkin::rapid::motion(&robot, &[module], None, &MotionOptions::default()) {
         Ok(motion) => {
             assert!(motion.t.iter().all(|time| time.is_finite()) && motion.t.is_sorted());
             assert!(motion.q.as_flattened().iter().all(|angle| angle.is_finite()));

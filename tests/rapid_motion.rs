@@ -28,7 +28,7 @@ fn module(moves: &str) -> Module {
 }
 
 fn moved(moves: &str, options: &MotionOptions) -> RoutineMotion {
-    motion(&robot(), &module(moves), None, options)
+    motion(&robot(), &[&module(moves)], None, options)
         .unwrap_or_else(|error| panic!("{error}\n{moves}"))
 }
 

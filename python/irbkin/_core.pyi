@@ -2166,6 +2166,9 @@ class MotionMove(_Record):
     def kind(self) -> Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"]:
         """The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
     @property
+    def module(self) -> int:
+        """x"""
+    @property
     def module_index(self) -> int:
         """Its index in `Module.moves`."""
     @property
@@ -2193,6 +2196,7 @@ class MotionMove(_Record):
     def __new__(
         cls,
         kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"],
+        module: int,
         module_index: int,
         line: int,
         start: float,

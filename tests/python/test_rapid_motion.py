@@ -283,7 +283,7 @@ def test_instructions_and_calls_that_may_move_are_found():
     [
         ("IF a=1 THEN\n{}\nENDIF", "IF"),
         ("IF a=1 {}", "IF"),
-        ("FOR i FROM 1 TO 3 DO\n{}\nENDFOR", "FOR"),
+        ("FOR i FROM 1 TO n DO\n{}\nENDFOR", "FOR"),
         ("WHILE TRUE DO\nSetDO a,1;\n{}\nENDWHILE", "WHILE"),
         ("TEST a\nCASE 1:\n{}\nENDTEST", "TEST"),
         ("IF a=1 THEN\nConfL\\Off;\nENDIF\n{}", "IF"),
@@ -304,6 +304,17 @@ def test_a_branch_without_moves_and_moves_after_return_do_not_matter():
     )
     assert len(motion.moves) == 2
     assert motion.findings == ()
+
+
+def test_calls_and_loops_with_known_bounds_are_followed():
+    there = f"MoveL {target(A)},v100,fine,t;"
+    loop = moved(f"FOR i FROM 1 TO 3 DO\nMoveL Offs({target(A)},0,0,-10*i),v100,fine,t;\nENDFOR")
+    assert [step.line for step in loop.moves] == [4, 6, 6, 6]
+    assert loop.findings == ()
+    called = moved(f"go {target(A)};\nENDPROC\nPROC go(robtarget p)\nMoveL p,v100,fine,t;")
+    alone = moved(there)
+    np.testing.assert_array_equal(called.q, alone.q)
+    assert called.findings == alone.findings == ()
 
 
 def test_the_routine_is_named_main_or_the_only_one():

@@ -83,10 +83,10 @@ def _read_rules() -> dict[str, Rule]:
     found = {}
     for chapter in re.split(r"^### ", text, flags=re.MULTILINE)[1:]:
         heading, _, body = chapter.partition("\n\n")
-        prose, _, blocks = body.partition("```")
+        prose, fence, blocks = body.partition("```")
         meaning, _, cure = prose.partition("Cure: ")
         code, name = heading.split()
-        found[code] = Rule(code, name, meaning.strip(), cure.strip(), f"```{blocks.strip()}\n")
+        found[code] = Rule(code, name, meaning.strip(), cure.strip(), f"{fence}{blocks.strip()}\n")
     return found
 
 
@@ -98,7 +98,7 @@ def page() -> str:
         shown = "" if it.is_default else ", only if selected"
         parts.append(
             f"### {code} {rule.name}\n\n*{it.severity}{shown}*\n\n{rule.meaning}\n\n"
-            f"Cure: {rule.cure}\n\n{rule.blocks}"
+            f"Cure: {rule.cure}\n\n{rule.blocks}".rstrip() + "\n"
         )
     return "\n".join(parts)
 

@@ -118,6 +118,8 @@ record! {
     MotionMove {
         /// The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ".
         kind: String,
+        /// 0 for the module, else 1 and the index in its context.
+        module: usize,
         /// Its index in `Module.moves`.
         module_index: usize,
         /// Line of the instruction.

@@ -65,7 +65,8 @@ pub(crate) struct PyRoutineMotion {
 /// Args:
 ///     robot: The arm. Work objects are given in the world, in which the robot's base is.
 ///     module: Module.
-///     routine: Name of the routine; without it main, or the only one that moves. Its branches and
+///     routine: Name of the routine; without it main, or the only one that moves. Calls are
+///         followed, into the module's context too, and loops with known bounds; other branches and
 ///         loops must not contain moves.
 ///     start: Joint angles [rad], shape (6,), or a JointTarget, from which the first move begins.
 ///         Without it the motion begins at the first target.
@@ -110,10 +111,12 @@ pub(crate) fn motion(
         turn: turn.unwrap_or(MotionOptions::default().turn),
     };
     let py = robot.py();
-    let (arm, own) = (robot.get().arm(), &module.get().module);
+    let (arm, own) = (robot.get().arm(), module.get());
     arm.check_rule()?;
     let arm = arm.six_joints("motion")?;
-    let motion = py.detach(|| rapid::motion(arm, own, routine, &options))?;
+    let context = own.context.iter().map(|other| &other.get().module);
+    let modules: Vec<_> = core::iter::once(&own.module).chain(context).collect();
+    let motion = py.detach(|| rapid::motion(arm, &modules, routine, &options))?;
     let index = |number: usize| i64::try_from(number).unwrap_or(-1);
     let line = |of: &usize| index(motion.moves.get(*of).map_or(0, |step| step.line));
     let trajectory = PyTrajectory::new(py, motion.trajectory.clone(), motion.t.clone())?;
@@ -209,9 +212,19 @@ impl PyRoutineMotion {
 
 impl MotionMove {
     fn of(py: Python<'_>, step: &rapid::MotionMove) -> Self {
-        let rapid::MotionMove { kind, module_index, line, start, end, .. } = *step;
+        let rapid::MotionMove { kind, module, module_index, line, start, end, .. } = *step;
         let q = step.q.map(|q| column(py, q));
         let (length, as_programmed) = (step.length, step.as_programmed);
-        Self { kind: kind.name().into(), module_index, line, start, end, length, q, as_programmed }
+        Self {
+            kind: kind.name().into(),
+            module,
+            module_index,
+            line,
+            start,
+            end,
+            length,
+            q,
+            as_programmed,
+        }
     }
 }

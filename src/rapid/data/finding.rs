@@ -64,10 +64,10 @@ codes! {
     WrongConfdata "C201" "wrong-confdata";
     /// A line or an arc arrives with another configuration than its target has.
     OtherConfiguration "C202" "other-configuration";
-    /// A target is a few degrees over the edge of a quarter of its confdata.
-    NearConfdata "C204" "near-confdata";
     /// More than one joint vector has the confdata of a target.
     AmbiguousConfdata "C203" "ambiguous-confdata";
+    /// A target is a few degrees over the edge of a quarter of its confdata.
+    NearConfdata "C204" "near-confdata";
     /// A line or an arc passes the wrist singularity.
     WristSingularity "S301" "wrist-singularity";
     /// A line or an arc passes the elbow singularity.

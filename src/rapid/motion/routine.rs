@@ -17,6 +17,7 @@ use crate::rapid::calc::units::Units;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::{Move, MoveKind};
+use crate::rapid::program::index::Program;
 use crate::rapid::program::walk::Step;
 use crate::trajectory::Trajectory;
 
@@ -45,6 +46,8 @@ pub struct RoutineMotion {
 pub struct MotionMove {
     /// The instruction.
     pub kind: MoveKind,
+    /// The module among those that are given, from 0.
+    pub module: usize,
     /// Its index in [`Module::moves`].
     pub module_index: usize,
     /// Line of the instruction.
@@ -67,7 +70,8 @@ pub struct MotionMove {
 /// The moves of a routine as one motion: `MoveAbsJ`, `MoveJ`, `MoveL` and `MoveC` in order, each
 /// followed, timed and checked (docs/guide/motion.md).
 ///
-/// Without a name, the routine is `main` or else the only one that moves. Everything that is wrong
+/// The routine is one of the first module: without a name, `main` or else the only one that moves.
+/// Calls of procedures of all modules are followed, loops with known bounds in each pass. Everything that is wrong
 /// with a move is a finding: an unknown value, a target that cannot be reached, a flip, a
 /// singularity, another configuration than the target's, a joint too fast at the programmed speed.
 /// A line or an arc that cannot be followed is replaced by a joint move to its target; a move whose
@@ -82,14 +86,15 @@ pub struct MotionMove {
 /// [`Error::InvalidJoints`] for a start that is not finite.
 pub fn motion(
     robot: &Robot<6>,
-    module: &Module,
+    modules: &[&Module],
     routine: Option<&str>,
     options: &MotionOptions,
 ) -> Result<RoutineMotion, Error> {
     robot.configuration_rule()?;
     check(options)?;
     let max_velocity = velocities(robot, options)?.ok_or(MotionFault::NoMaxVelocity)?;
-    let (routine, steps) = sequence(module, routine)?;
+    let program = Program::new(modules);
+    let (routine, steps) = sequence(&program, routine)?;
     let flange = with_flange(robot)?;
     let followed = Followed::new([robot, &flange], &steps, options, None)?;
     let Followed { goals, samples, made, mut findings, unfollowed } = followed;
@@ -246,6 +251,7 @@ fn moves(goals: &[Goal<'_>], samples: &Samples, made: &[Made], t: &[f64]) -> Vec
         let ways = &samples.ways[samples.intervals(index)];
         MotionMove {
             kind: goal.step.kind,
+            module: goal.stepped.instruction.0,
             module_index: goal.stepped.instruction.1,
             line: goal.step.line,
             start: t.get(begin).copied().unwrap_or(0.0),

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::state::{Here, Local, State};
 use super::tree::{Block, Node};
-use super::walk::Walk;
+use super::walk::{Walk, word_of};
 use crate::rapid::data::unread::{Skipped, Unresolved};
 use crate::rapid::data::value::Value;
 use crate::rapid::expression::reader::ExpressionReader;
@@ -23,7 +23,7 @@ impl<'m> Walk<'_, 'm> {
         if let Some((name, passes)) = &counted
             && !passes.is_empty()
             && passes.len().saturating_mul(size(body)) <= self.steps_left
-            && mentions(body, name)
+            && (self.is_one || mentions(body, name))
         {
             for value in passes {
                 let local = Local::single(Value::Num(*value));
@@ -34,6 +34,9 @@ impl<'m> Walk<'_, 'm> {
                 }
             }
         } else {
+            if self.acts(body) {
+                self.decides(head.line, word_of(head));
+            }
             self.forget(body);
             if let Some(name) = &name {
                 let content = Err(Unresolved::LoopVariable);

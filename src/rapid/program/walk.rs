@@ -65,18 +65,7 @@ pub(in crate::rapid) fn runs<'m>(
     program: &Program<'m>,
     takes_last: bool,
 ) -> (Vec<Run<'m>>, Vec<Finding>) {
-    let statements: usize =
-        program.modules.iter().map(|it| it.moves.len() + it.skipped.len()).sum();
-    let mut walk = Walk {
-        program,
-        takes_last,
-        runs: Vec::new(),
-        notes: Vec::new(),
-        state: State::new(),
-        frame: Frame::default(),
-        followed: BTreeSet::new(),
-        steps_left: 2 * statements + SPARE_STEPS,
-    };
+    let mut walk = Walk::new(program, takes_last);
     let mains = (0..program.modules.len()).map(|module| (module, "main".to_string()));
     let all = program.routines().into_iter();
     for (module, routine) in mains.chain(all) {
@@ -88,8 +77,27 @@ pub(in crate::rapid) fn runs<'m>(
     (walk.runs, walk.notes)
 }
 
+/// A branch, a loop or a jump that decides on moves: its line and its word.
+pub(in crate::rapid) type Uncertain = (usize, String);
+
+/// The steps of a routine of the first module, in the order of execution, up to what ends it; and
+/// the first branch, loop or jump that decides on them.
+pub(in crate::rapid) fn steps<'m>(
+    program: &Program<'m>,
+    routine: &str,
+) -> (Vec<Step<'m>>, Option<Uncertain>) {
+    let mut walk = Walk { is_one: true, ..Walk::new(program, false) };
+    walk.root((0, routine.to_lowercase()));
+    let steps = walk.runs.into_iter().flat_map(|run| run.steps);
+    (steps.collect(), walk.uncertain)
+}
+
 pub(super) struct Walk<'p, 'm> {
     pub(super) program: &'p Program<'m>,
+    /// Whether a single routine is followed, whose steps must be certain.
+    pub(super) is_one: bool,
+    /// The first place that decides on steps.
+    uncertain: Option<Uncertain>,
     takes_last: bool,
     runs: Vec<Run<'m>>,
     notes: Vec<Finding>,
@@ -101,7 +109,29 @@ pub(super) struct Walk<'p, 'm> {
     pub(super) steps_left: usize,
 }
 
-impl<'m> Walk<'_, 'm> {
+impl<'p, 'm> Walk<'p, 'm> {
+    fn new(program: &'p Program<'m>, takes_last: bool) -> Self {
+        let statements: usize =
+            program.modules.iter().map(|it| it.moves.len() + it.skipped.len()).sum();
+        Self {
+            program,
+            is_one: false,
+            uncertain: None,
+            takes_last,
+            runs: Vec::new(),
+            notes: Vec::new(),
+            state: State::new(),
+            frame: Frame::default(),
+            followed: BTreeSet::new(),
+            steps_left: 2 * statements + SPARE_STEPS,
+        }
+    }
+
+    /// Record a place that decides on steps.
+    pub(super) fn decides(&mut self, line: usize, word: &str) {
+        self.uncertain.get_or_insert_with(|| (line, word.to_string()));
+    }
+
     /// Follow a routine that nothing is known to call.
     fn root(&mut self, (module, routine): (usize, String)) {
         self.state = State::new();
@@ -123,7 +153,7 @@ impl<'m> Walk<'_, 'm> {
         let mut ends = core::mem::take(&mut self.frame.exits);
         ends.push(self.state.clone());
         self.state = State::joined(entry, ends, 0);
-        if !is_first {
+        if !is_first || self.is_one {
             return;
         }
         let end = self.state.clone();
@@ -148,6 +178,9 @@ impl<'m> Walk<'_, 'm> {
                 Node::Setting(setting) => self.set(setting),
                 Node::Other(skipped) => self.statement(skipped),
                 Node::Branches { head, parts, is_complete } => {
+                    if parts.iter().any(|part| self.acts(part)) {
+                        self.decides(head.line, word_of(head));
+                    }
                     let entry = self.state.clone();
                     let mut ends = Vec::from_iter((!is_complete).then(|| entry.clone()));
                     let mut parts = parts.iter();
@@ -247,6 +280,9 @@ impl<'m> Walk<'_, 'm> {
     }
 
     pub(super) fn push(&mut self, step: Step<'m>) {
+        if self.is_one && self.state.here == Here::Left {
+            return;
+        }
         self.steps_left = self.steps_left.saturating_sub(1);
         let last = self.runs.len().wrapping_sub(1);
         if let (Here::After(run, count), Some(own)) = (self.state.here, self.runs.last_mut())
@@ -290,6 +326,28 @@ impl<'m> Walk<'_, 'm> {
         self.program.procedure(self.frame.module, &name.to_lowercase()).is_some()
     }
 
+    /// Whether a block moves the robot, sets how it moves, or leaves the routine.
+    pub(super) fn acts(&self, block: &Block<'m>) -> bool {
+        block.iter().any(|node| match node {
+            Node::Move(_, step) => step.kind != MoveKind::MoveExtJ,
+            Node::Setting(_) => true,
+            Node::Branches { parts, .. } => parts.iter().any(|part| self.acts(part)),
+            Node::Loop { body, .. } => self.acts(body),
+            Node::Other(skipped) => match &skipped.what {
+                NotRead::Motion { .. } | NotRead::Unfinished { .. } | NotRead::Invalid { .. } => {
+                    true
+                }
+                NotRead::Instruction { name } => {
+                    let lower = name.to_lowercase();
+                    let home = self.program.procedure(self.frame.module, &lower);
+                    let of = home.and_then(|it| self.program.effects.of_routine(it, &lower));
+                    Effect::Leaves.is_of(name) || of.is_some_and(|of| of.moves)
+                }
+                _ => false,
+            },
+        })
+    }
+
     /// Something that is no move and no branch.
     fn statement(&mut self, skipped: &'m Skipped) {
         match &skipped.what {
@@ -316,6 +374,9 @@ impl<'m> Walk<'_, 'm> {
             self.frame.exits.push(self.state.clone());
             self.state.here = Here::Left;
         } else if is_of(Effect::Leaves) || is_of(Effect::Jumps) {
+            if is_of(Effect::Jumps) {
+                self.decides(skipped.line, "GOTO");
+            }
             self.state.here = Here::Left;
         } else if is_of(Effect::Displaces)
             || is_of(Effect::EndsDisplacement)
@@ -329,11 +390,21 @@ impl<'m> Walk<'_, 'm> {
             }
         } else if is_of(Effect::Sets) {
             self.not_followed(skipped, skipped.what.to_string());
+        } else if self.is_one && is_of(Effect::Stops) {
+            self.state.here = Here::Left;
         } else if is_of(Effect::Waits) || is_of(Effect::Stops) {
             self.halt(&format!("{name} on line {}", skipped.line));
         } else {
             self.written(skipped, name);
             self.call(skipped);
         }
+    }
+}
+
+/// The first word of a branch or a loop, in capitals.
+pub(super) fn word_of(head: &Skipped) -> &str {
+    match &head.what {
+        NotRead::Flow { word } => word,
+        _ => "",
     }
 }
