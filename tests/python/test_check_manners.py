@@ -312,7 +312,7 @@ def test_options_come_from_the_nearest_file(seam, tmp_path):
     assert {it["code"] for it in json.loads(run("--json", below / "seam.mod").stdout)} == {"V401"}
     # The command line counts more, and the environment more than the file.
     both = run("--select", "R", "--json", seam, below / "seam.mod")
-    assert {it["code"] for it in json.loads(both.stdout)} == {"R101", "R103"}
+    assert {it["code"] for it in json.loads(both.stdout)} == {"E003", "R101", "R103"}
     assert b"IRB 9999" in run(seam, IRBKIN_ROBOT="IRB 9999").stderr
 
 

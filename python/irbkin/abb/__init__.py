@@ -10,6 +10,7 @@ docs/guide/backup.md has an example.
 from irbkin.abb.backinfo import BackInfo, parse_backinfo
 from irbkin.abb.backup import Backup, Controller, task_files
 from irbkin.abb.cfg import CfgFile, Instance, parse_cfg
+from irbkin.abb.differences import Difference, TargetChange, diff
 from irbkin.abb.findings import Finding
 from irbkin.abb.load import load_backup
 from irbkin.abb.programs import TaskModule
@@ -21,14 +22,17 @@ __all__ = [
     "Backup",
     "CfgFile",
     "Controller",
+    "Difference",
     "ExternalAxis",
     "ExternalUnit",
     "Finding",
     "Instance",
     "LimitDifference",
     "RobotUnit",
+    "TargetChange",
     "Task",
     "TaskModule",
+    "diff",
     "load_backup",
     "parse_backinfo",
     "parse_cfg",

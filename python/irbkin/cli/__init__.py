@@ -19,6 +19,7 @@ VERBS = {
     "path": "joints along a path of poses, on one branch",
     "plan": "the best joints along a path of poses, over branches, turns and tool angles",
     "rule": "explain a code of check",
+    "diff": "find which targets moved between two backups, and what else differs",
     "rapid": "the moves of a RAPID routine as one motion: times, joints, findings",
     "map": "what an arm reaches: a grid of positions, each with many orientations",
     "plot": "draw solutions, paths and reach",

@@ -47,7 +47,12 @@ EXAMPLES = """  irbkin check backups/cell_3
 def add_arguments(parser: Parser) -> None:
     """The arguments of the verb."""
     add = parser.add
-    add("files", metavar="FILE", nargs="*", help="RAPID modules, folders of them, a backup, - for stdin")
+    add(
+        "files",
+        metavar="FILE",
+        nargs="*",
+        help="RAPID modules, folders of them, a backup, - for stdin",
+    )
     robot = os.environ.get("IRBKIN_ROBOT") or None
     add("--robot", metavar="ROBOT", default=robot, help="name in the catalog, or a .urdf file")
     parser.add_frames()

@@ -98,7 +98,8 @@ def page() -> str:
         shown = "" if it.is_default else ", only if selected"
         parts.append(
             f"### {code} {rule.name}\n\n*{it.severity}{shown}*\n\n{rule.meaning}\n\n"
-            f"Cure: {rule.cure}\n\n{rule.blocks}".rstrip() + "\n"
+            f"Cure: {rule.cure}\n\n{rule.blocks}".rstrip()
+            + "\n"
         )
     return "\n".join(parts)
 

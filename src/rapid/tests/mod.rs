@@ -8,6 +8,7 @@ mod functions;
 mod motion;
 mod moves;
 mod names;
+mod program;
 mod recovery;
 mod texts;
 mod unfinished;
