@@ -97,7 +97,6 @@ __all__ = [
     "UnknownRobotError",
     "UnreachableError",
     "__version__",
-    "abb",
     "calibrate",
     "calibration",
     "catalog",
@@ -112,9 +111,8 @@ __all__ = [
     "trajectory",
 ]
 
-# `plot` needs an extra: it is not in `__all__`, which a star import takes in whole. Nor are `body`,
-# whose shapes are few users', and `map`,
-# which would then replace Python's own.
+# `plot` needs an extra: it is not in `__all__`, which a star import takes in whole. Nor are `abb`
+# and `body`, which few users need, and `map`, which would then replace Python's own.
 _MODULES = (
     "abb",
     "body",

@@ -109,6 +109,16 @@ def _number(value: float | None) -> float:
     return float("nan") if value is None else value
 
 
+def _linkage(name: str) -> str:
+    """The limits of the linkage in words, if they are known."""
+    import numpy as np
+
+    import irbkin
+
+    limits = irbkin.Robot(name).linkage_limits
+    return "" if limits is None else " (q3 - q2 {:g}..{:g} deg)".format(*np.degrees(limits))
+
+
 def _show_one(arguments: argparse.Namespace, entry: CatalogEntry) -> None:
     import numpy as np
 
@@ -130,7 +140,7 @@ def _show_one(arguments: argparse.Namespace, entry: CatalogEntry) -> None:
     if entry.reach is not None:
         facts.append(f"reach {entry.reach * 1e3:g} mm")
     if entry.is_coupled:
-        facts.append("axes 2 and 3 coupled")
+        facts.append("axes 2 and 3 coupled" + _linkage(entry.name))
     with table(arguments, columns, f"{entry.name}: {', '.join(facts)}") as rows:
         names = [f"J{number + 1}" for number in range(entry.dof)]
         rows.write([names, limits[:, 0], limits[:, 1], speeds], entry.limits)
