@@ -193,7 +193,7 @@ evidence-fuzz: | toolchains ## Four million invalid RAPID texts: no panic, linea
 	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test suite -- rapid_fuzz:: --nocapture --test-threads=1
 
 evidence-backups: $(BUILT) $(VENV)/.groups ## INPUTS (1,000,000) broken .cfg and backinfo texts: no other error
-	IRBKIN_INPUTS=$(or $(INPUTS),1000000) $(BIN)/python -m pytest --quiet tests/python/test_backup_files.py -k broken
+	IRBKIN_INPUTS=$(or $(INPUTS),1000000) $(BIN)/python -m pytest --quiet tests/python/test_backup_fuzz.py -k broken
 
 evidence-ulp: | toolchains ## Arc tangent, sine and cosine against correctly rounded ones
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
