@@ -506,8 +506,8 @@ fn an_unknown_name_lists_close_ones_and_is_never_guessed() {
     assert_eq!(close("2600"), all_2600);
     assert_eq!(close("IRB 1600-6"), ["IRB 1600-6/1.2", "IRB 1600-6/1.45"]);
     assert_eq!(close("IRB 140")[0], "IRB 140-6/0.81");
-    assert_eq!(close("2600-12/1.66"), ["IRB 2600-12/1.65", "IRB 2600-12/1.85", "IRB 2600-20/1.65"]);
-    assert_eq!(close("IRB 4600-40/2.5 Type C")[..2], ["IRB 4600-20/2.5", "IRB 4600-40/2.55"]);
+    assert_eq!(close("2600-12/1.66"), ["IRB 2600-12/1.65", "IRB 2600-12/1.85"]);
+    assert_eq!(close("IRB 4600-40/2.5 Type C"), ["IRB 4600-20/2.5", "IRB 4600-40/2.55"]);
     assert_eq!(close("14000_05_05"), ["IRB 14000-0.5/0.5 (left)", "IRB 14000-0.5/0.5 (right)"]);
     assert_eq!(close("irb2600-12-165")[0], "IRB 2600-12/1.65");
     assert_eq!(close("IRB 6700-220/2.65"), ["IRB 6700-220/2.65 (MH6, LeanID)"]);

@@ -51,6 +51,10 @@ fn every_joint_vector_is_found_by_its_configuration() {
         let (mut rng, mut eights, mut behind) = (Rng::new(11), 0, 0);
         for _ in 0..poses() {
             let q = rng.inside(robot.limits());
+            if !robot.limits().contains(&q) {
+                // The linkage does not permit it.
+                continue;
+            }
             let (pose, wanted) = (robot.fk(&q), robot.configuration(&q).unwrap());
             let solutions = robot.ik(&pose).unwrap();
             eights += usize::from(solutions.len() == SLOTS);

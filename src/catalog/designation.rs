@@ -191,13 +191,14 @@ pub(super) fn arm_of(wanted: &Designation) -> Option<&'static CatalogArm> {
     designated().find(|(_, arm)| wanted.is_of(arm)).map(|(arm, _)| arm)
 }
 
-/// Names of arms of this series, the ones with most of its figures first.
+/// Names of arms of this series: the ones with most of its figures, the same words first.
 pub(super) fn close_to(wanted: &Designation) -> Vec<&'static str> {
-    let mut of_series: Vec<_> = designated().filter(|(_, arm)| wanted.is_of_series(arm)).collect();
-    of_series.sort_by_key(|(_, arm)| {
-        (usize::MAX - wanted.shared_figures(arm), usize::from(wanted.words != arm.words))
-    });
-    of_series.into_iter().map(|(arm, _)| arm.name).collect()
+    let of_series = || designated().filter(|(_, arm)| wanted.is_of_series(arm));
+    let most = of_series().map(|(_, arm)| wanted.shared_figures(&arm)).max();
+    let mut close: Vec<_> =
+        of_series().filter(|(_, arm)| Some(wanted.shared_figures(arm)) == most).collect();
+    close.sort_by_key(|(_, arm)| wanted.words != arm.words);
+    close.into_iter().map(|(arm, _)| arm.name).collect()
 }
 
 /// The arm that is left out of the catalog with this name, as printed or as a controller
