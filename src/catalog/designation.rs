@@ -18,8 +18,8 @@ pub(super) struct Designation {
     family: Option<String>,
     /// "4600", "2600ID".
     series: String,
-    /// Payload [kg] and reach [m], in either order.
-    figures: [f64; 2],
+    /// Payload [kg] and reach [m], in either order, without last zeros of decimals.
+    figures: [String; 2],
     /// What else distinguishes an arm, sorted: "LID", "LEFT".
     words: Vec<String>,
 }
@@ -30,11 +30,6 @@ struct Run {
     text: String,
     is_number: bool,
     is_joined: bool,
-}
-
-/// Whether figures that were read are equal.
-fn is_same(a: [f64; 2], b: [f64; 2]) -> bool {
-    a.iter().zip(b).all(|(a, b)| a.total_cmp(&b).is_eq())
 }
 
 impl Designation {
@@ -60,7 +55,7 @@ impl Designation {
         let mut figures = Vec::new();
         for run in rest {
             if run.is_number && figures.len() < 2 {
-                figures.push(figure(&run.text)?);
+                figures.push(figure(&run.text));
             } else if run.is_number && run.is_joined {
                 // The number of a word: MH6.
                 words.last_mut()?.push_str(&run.text);
@@ -78,8 +73,8 @@ impl Designation {
     /// not matter, nor does the family if it is not given.
     fn is_of(&self, arm: &Self) -> bool {
         self.is_of_series(arm)
-            && (is_same(self.figures, arm.figures)
-                || is_same(self.figures, [arm.figures[1], arm.figures[0]]))
+            && self.shared_figures(arm) == 2
+            && arm.shared_figures(self) == 2
             && self.words == arm.words
     }
 
@@ -124,13 +119,27 @@ fn series_of(runs: &[Run]) -> Option<(String, &[Run])> {
     }
 }
 
-/// A figure; "05" is 0.5.
-fn figure(text: &str) -> Option<f64> {
-    match text.strip_prefix('0') {
+/// A figure without last zeros of its decimals; "05" is 0.5.
+fn figure(text: &str) -> String {
+    let mut figure = match text.strip_prefix('0') {
         Some(decimals) if decimals.starts_with(|c: char| c.is_ascii_digit()) => {
-            format!("0.{decimals}").parse().ok()
+            format!("0.{decimals}")
         }
-        _ => text.parse().ok(),
+        _ => text.to_string(),
+    };
+    let point = figure.find('.');
+    trim_decimals(&mut figure, point);
+    figure
+}
+
+/// Remove the trailing zeros of a number, and its decimal point if nothing follows it.
+pub(super) fn trim_decimals(text: &mut String, point: Option<usize>) {
+    if let Some(point) = point {
+        let zeros = text[point..].len() - text[point..].trim_end_matches('0').len();
+        text.truncate(text.len() - zeros);
+        if text.len() == point + 1 {
+            text.truncate(point);
+        }
     }
 }
 
@@ -280,7 +289,7 @@ mod tests {
     fn every_arm_is_found_by_its_own_name_with_figures_in_either_order() {
         for (arm, designation) in designated() {
             assert_eq!(arm_of(&designation).unwrap().name, arm.name);
-            let [first, second] = designation.figures;
+            let [first, second] = designation.figures.clone();
             let turned = Designation { figures: [second, first], ..designation };
             assert_eq!(arm_of(&turned).unwrap().name, arm.name);
         }

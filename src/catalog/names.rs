@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::iter;
 
-use super::designation::{self, Designation};
+use super::designation::{self, Designation, trim_decimals};
 use super::{CatalogArm, catalog, left_out};
 use crate::error::{Error, UnknownRobot};
 #[cfg(feature = "std")]
@@ -111,17 +111,6 @@ fn squeezed(name: &str) -> String {
     }
     trim_decimals(&mut squeezed, point);
     squeezed
-}
-
-/// Remove the trailing zeros of a number, and its decimal point if nothing follows it.
-fn trim_decimals(text: &mut String, point: Option<usize>) {
-    if let Some(point) = point {
-        let zeros = text[point..].len() - text[point..].trim_end_matches('0').len();
-        text.truncate(text.len() - zeros);
-        if text.len() == point + 1 {
-            text.truncate(point);
-        }
-    }
 }
 
 /// Names and aliases that contain the wanted one, one of an arm, the earlier in the name the closer;
