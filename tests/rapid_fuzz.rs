@@ -193,7 +193,7 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
         let name = ["a", "b", "c", "p", "q", "r"][below(rng, 6)];
         let other =
             ["a", "b", "c", "p", "q", "r", "tool0", "1", "p.trans.x", "c{2}"][below(rng, 10)];
-        let statement = match below(rng, 15) {
+        let statement = match below(rng, 21) {
             0 => format!("CONST num {name}:=-({other}+2)*.5;\n"),
             1 => format!("VAR num {name}{{2}}:=[{other},7];\n"),
             2 => format!(
@@ -214,6 +214,16 @@ fn statements(rng: &mut Rng) -> Vec<u8> {
             11 => format!("VAR <TYP> {name}; IF <EXP> <SMT> {other}:=<EXP>; VAR num <ID>;\n"),
             12 => format!("PERS robtarget {name}:={other};\n"),
             13 => format!("VAR string {name}; {other}:={name};\n"),
+            14 => format!("CONST num n:=2; VAR dnum {name}{{n}}:=[{other},n]; {name}{{1}}:=5;\n"),
+            15 => format!("LOCAL PERS tooldata {name}:={other}; {name}.tload.mass:={other};\n"),
+            16 => {
+                format!("RECORD {name} robtarget p; num n; ENDRECORD VAR {name} x:=[{other},3];\n")
+            }
+            17 => {
+                format!("ALIAS robtarget {name}; CONST {name} y:={other}; MoveJ y,v1,z1,tool0;\n")
+            }
+            18 => format!("CONST pos {name}:=[1,2,3]*{other}-{name}; VAR num z{{1+1}};\n"),
+            19 => format!("TRAP {name} ArcL {other},v1,sm,wd\\Weave:={name},z1,tool0; ENDTRAP\n"),
             _ => format!("IF {name} MoveJ Offs({name},0,{other},0),v1,z1,{other};\n"),
         };
         text.push_str(&statement);

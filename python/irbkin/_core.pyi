@@ -2467,7 +2467,7 @@ class Module(Mapping[str, Any]):
 
         Args:
             values: Names of the module's data to records of their type, to nested lists of as many
-                for arrays.
+                for arrays. None leaves a declaration without a value as it is.
 
         Returns:
             The text.

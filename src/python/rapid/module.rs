@@ -122,7 +122,7 @@ impl RapidModule {
     ///
     /// Args:
     ///     values: Names of the module's data to records of their type, to nested lists of as many
-    ///         for arrays.
+    ///         for arrays. None leaves a declaration without a value as it is.
     ///
     /// Returns:
     ///     The text.
@@ -134,6 +134,9 @@ impl RapidModule {
         for item in values.call_method0("items")?.try_iter()? {
             let (name, value): (String, Bound<'_, PyAny>) = item?.extract()?;
             let (index, datum) = self.found(&name)?;
+            if value.is_none() && matches!(datum.content, Content::Uninitialized { .. }) {
+                continue;
+            }
             let given = read_content(&value, &name)?;
             let sizes = match &datum.content {
                 Content::Single(_) => &[][..],
@@ -147,6 +150,7 @@ impl RapidModule {
             }
             let single = sizes.is_empty();
             new_values.extend(given.values.into_iter().enumerate().map(|(number, value)| {
+                let value = value.as_type(datum.data_type);
                 NewValue { datum: index, element: (!single).then_some(number), value }
             }));
         }

@@ -28,7 +28,7 @@ pub(super) fn record<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py,
         Value::Pos(numbers) => PyTuple::new(py, numbers)?.into_any(),
         Value::Orient(numbers) => PyTuple::new(py, numbers)?.into_any(),
         Value::ExtJoint(numbers) => PyTuple::new(py, numbers)?.into_any(),
-        Value::Num(number) => PyFloat::new(py, *number).into_any(),
+        Value::Num(number) | Value::Dnum(number) => PyFloat::new(py, *number).into_any(),
     })
 }
 

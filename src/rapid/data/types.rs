@@ -32,6 +32,7 @@ const fn record(name: &'static str, components: &'static [(&'static str, &'stati
 }
 
 pub(crate) static NUM: Type = Type { name: "num", shape: Shape::Num };
+pub(crate) static DNUM: Type = Type { name: "dnum", shape: Shape::Num };
 static WHOLE: Type = Type { name: "num", shape: Shape::Whole };
 static BOOL: Type = Type { name: "bool", shape: Shape::Bool };
 static STRING: Type = Type { name: "string", shape: Shape::Text };

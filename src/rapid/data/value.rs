@@ -6,8 +6,8 @@ use super::records::{
     JointTarget, LoadData, RapidPose, RobTarget, SpeedData, ToolData, WobjData, ZoneData,
 };
 use super::types::{
-    Atoms, CONFDATA, EXTJOINT, JOINTTARGET, LOADDATA, NUM, ORIENT, POS, POSE, Part, ROBTARGET,
-    SPEEDDATA, TOOLDATA, Type, WOBJDATA, ZONEDATA, write,
+    Atoms, CONFDATA, DNUM, EXTJOINT, JOINTTARGET, LOADDATA, NUM, ORIENT, POS, POSE, Part,
+    ROBTARGET, SPEEDDATA, TOOLDATA, Type, WOBJDATA, ZONEDATA, write,
 };
 use crate::report::Configuration;
 
@@ -21,7 +21,7 @@ macro_rules! values {
 
         impl DataType {
             /// Every type, in the order of the enum.
-            pub const ALL: [Self; 13] = [$(Self::$Name),*];
+            pub const ALL: [Self; 14] = [$(Self::$Name),*];
 
             /// Its name and its components.
             pub(crate) fn described(self) -> &'static Type {
@@ -80,10 +80,10 @@ values! {
     Pose(RapidPose): POSE;
     /// `pos` [mm].
     Pos([f64; 3]): POS;
-    /// `orient`, a quaternion w, x, y, z.
-    Orient([f64; 4]): ORIENT;
     /// `confdata`.
     ConfData(Configuration): CONFDATA;
+    /// `orient`, a quaternion w, x, y, z.
+    Orient([f64; 4]): ORIENT;
     /// `extjoint` [deg or mm].
     ExtJoint([f64; 6]): EXTJOINT;
     /// `loaddata`.
@@ -92,8 +92,10 @@ values! {
     SpeedData(SpeedData): SPEEDDATA;
     /// `zonedata`.
     ZoneData(ZoneData): ZONEDATA;
-    /// `num`, and `dnum`, which is read as `num`.
+    /// `num`.
     Num(f64): NUM;
+    /// `dnum`, whose values are read as numbers of the same precision as a `num`.
+    Dnum(f64): DNUM;
 }
 
 impl DataType {
@@ -106,14 +108,20 @@ impl DataType {
     /// The type with a name, in any case; `None` if it is not read.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        if name.eq_ignore_ascii_case("dnum") {
-            return Some(Self::Num);
-        }
         Self::ALL.into_iter().find(|data_type| data_type.name().eq_ignore_ascii_case(name))
     }
 }
 
 impl Value {
+    /// The value as one of a type, which a number may be too: a `num` becomes a `dnum`.
+    #[cfg(feature = "python")]
+    pub(crate) fn as_type(self, data_type: DataType) -> Self {
+        match self {
+            Self::Num(number) if data_type == DataType::Dnum => Self::Dnum(number),
+            other => other,
+        }
+    }
+
     /// The name of its type in RAPID.
     #[must_use]
     pub fn type_name(&self) -> &'static str {
@@ -137,7 +145,6 @@ mod tests {
         for data_type in DataType::ALL {
             assert_eq!(DataType::named(&data_type.name().to_uppercase()), Some(data_type));
         }
-        assert_eq!(DataType::named("DNUM"), Some(DataType::Num));
         assert_eq!(DataType::named("bool"), None);
     }
 }

@@ -120,7 +120,8 @@ impl ResolvedData {
                 return;
             }
         };
-        if is_assigned && !declared.names.is_empty() {
+        // Names of the sizes do not count: they are constants.
+        if is_assigned && declared.names.len() > declared.size_names {
             self.expressions.insert(self.data.len(), source(value_span.clone()));
         }
         self.data.push(Datum {

@@ -137,3 +137,22 @@ fn names_are_found_in_other_modules() {
     );
     again(&module, &[&tools, &more]);
 }
+
+#[test]
+fn modules_are_equal_to_what_they_write() {
+    for text in [
+        "CONST num n:=2; VAR num a{n}:=[1,2]; PROC b() a{1}:=5; ENDPROC",
+        "CONST num n:=2; VAR num x:=1; VAR num a{n}:=[x,2]; PROC b() x:=5; ENDPROC",
+        "CONST dnum n:=2; VAR dnum a{n,1+1}; CONST dnum b:=4294967295; LOCAL PERS dnum c:=-b;",
+        "PROC b() foo; VAR num a:=1; MoveL *,v1,z1,tool0; CONST num c{1}:=[a]; ENDPROC",
+        "MODULE M(NOSTEPIN) TASK PERS tooldata t:=tool0; ALIAS num l; VAR l k; ENDMODULE",
+    ] {
+        again(&read(text), &[]);
+    }
+    let module = read("VAR DNUM d:=0x1F; CONST num e:=d;");
+    let (Value::Dnum(d), Value::Num(e)) = (single(&module, "d"), single(&module, "e")) else {
+        panic!()
+    };
+    assert_eq!((d, e), (31.0, 31.0));
+    assert!(module.to_string().starts_with("VAR dnum d:=31;\n"));
+}
