@@ -150,7 +150,7 @@ impl RapidModule {
             }
             let single = sizes.is_empty();
             new_values.extend(given.values.into_iter().enumerate().map(|(number, value)| {
-                let value = value.as_type(datum.data_type);
+                let value = value.into_type(datum.data_type);
                 NewValue { datum: index, element: (!single).then_some(number), value }
             }));
         }

@@ -115,7 +115,7 @@ impl DataType {
 impl Value {
     /// The value as one of a type, which a number may be too: a `num` becomes a `dnum`.
     #[cfg(feature = "python")]
-    pub(crate) fn as_type(self, data_type: DataType) -> Self {
+    pub(crate) fn into_type(self, data_type: DataType) -> Self {
         match self {
             Self::Num(number) if data_type == DataType::Dnum => Self::Dnum(number),
             other => other,
