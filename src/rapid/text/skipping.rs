@@ -121,8 +121,8 @@ pub(crate) fn next_statement(text: &str, mut at: usize) -> usize {
             b';' => return at + 1,
             b'!' => at = end_of_line(text, at),
             b'"' => {
-                let line = &text[at + 1..end_of_line(text, at)];
-                at += line.find('"').map_or(line.len(), |length| length + 1) + 1;
+                at += 1 + text[at + 1..].find(['"', '\n', '\r']).unwrap_or(text.len() - at - 1);
+                at += usize::from(bytes.get(at) == Some(&b'"'));
             }
             b'\n' | b'\r' if begins_statement(text, at + 1) => return at + 1,
             _ => at += 1,
