@@ -20,8 +20,9 @@ use crate::rapid::motion::drive::MotionOptions;
 use crate::rapid::motion::goal::Place;
 use crate::rapid::motion::joints::Conf;
 use crate::rapid::motion::routine::{Followed, check as check_options, velocities};
-use crate::rapid::program::index::Program;
-use crate::rapid::program::walk::{Run, runs};
+use crate::rapid::program::walk::runs;
+use crate::rapid::program::walker::Run;
+use crate::rapid::program::whole::Program;
 
 /// Options of [`check`].
 #[derive(Clone, Copy, Debug, Default)]

@@ -12,7 +12,7 @@ use crate::rapid::data::moves::Move;
 use crate::rapid::expression::functions::Displacement;
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Expression, Form};
-use crate::rapid::program::index::Program;
+use crate::rapid::program::whole::Program;
 use crate::rapid::text::tokens::Tokens;
 use crate::report::Configuration;
 

@@ -15,7 +15,7 @@ use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::RobTarget;
 use crate::rapid::data::settings::CirPathMode;
-use crate::rapid::program::walk::Stepped;
+use crate::rapid::program::walker::Stepped;
 use crate::report::Configuration;
 
 /// The destination of a move.

@@ -17,8 +17,8 @@ use crate::rapid::calc::units::Units;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::{Move, MoveKind};
-use crate::rapid::program::index::Program;
-use crate::rapid::program::walk::Step;
+use crate::rapid::program::walker::Step;
+use crate::rapid::program::whole::Program;
 use crate::trajectory::Trajectory;
 
 /// The moves of a routine as one motion of the joints, checked.

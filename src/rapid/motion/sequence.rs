@@ -6,8 +6,9 @@ use alloc::vec::Vec;
 
 use crate::error::{Error, RapidFault, RapidFaultKind, RoutineFault};
 use crate::rapid::data::module::Module;
-use crate::rapid::program::index::Program;
-use crate::rapid::program::walk::{Step, steps};
+use crate::rapid::program::walk::steps;
+use crate::rapid::program::walker::Step;
+use crate::rapid::program::whole::Program;
 
 /// The steps of a routine of the first module of a program, and its name; `None` for moves outside
 /// routines.

@@ -8,76 +8,17 @@ use core::mem;
 use core::ops::Range;
 
 use super::arguments::{Parameter, arguments, assignment, called, referred};
-use super::index::Program;
-use super::state::{Local, Locals, State};
-use super::walk::Walk;
+use super::frame::{Frame, Site};
+use super::state::{Local, Locals};
+use super::walker::Walk;
+use super::whole::Program;
 use crate::rapid::data::instructions::written_argument;
 use crate::rapid::data::module::{Content, Storage};
-use crate::rapid::data::moves::Move;
 use crate::rapid::data::unread::{NotRead, Reason, Skipped, Unresolved};
 use crate::rapid::expression::tree::Expression;
 
 /// Most calls within calls.
 const DEEPEST_CALLS: usize = 32;
-
-/// The call that a routine's moves are placed at where they depend on its arguments.
-#[derive(Clone)]
-pub(super) struct Site {
-    pub(super) module: usize,
-    line: usize,
-    column: usize,
-    routine: Option<String>,
-    /// The routine that it calls, as it is written.
-    called: String,
-}
-
-/// The routine that is followed.
-#[derive(Clone, Default)]
-pub(super) struct Frame {
-    pub(super) module: usize,
-    /// Its name in lower case.
-    pub(super) routine: String,
-    pub(super) site: Option<Site>,
-    /// What was known where it was left.
-    pub(super) exits: Vec<State>,
-    /// Its optional parameters that no argument was given for.
-    pub(super) absent: BTreeSet<String>,
-    /// The text of its arguments, with their modules and bytes, by the names of its parameters.
-    texts: BTreeMap<String, (String, usize, Range<usize>)>,
-    /// The routines that are being followed.
-    above: Vec<(usize, String)>,
-}
-
-impl Frame {
-    pub(super) fn of(module: usize, routine: String) -> Self {
-        Self { module, routine, ..Self::default() }
-    }
-
-    /// A reason with the text of an argument in the place of its parameter.
-    pub(super) fn named(&self, reason: Reason) -> Reason {
-        match reason {
-            Reason::Reference { name, why } => {
-                let text = self.texts.get(&name.to_lowercase()).map(|(text, ..)| text.clone());
-                Reason::Reference { name: text.unwrap_or(name), why }
-            }
-            reason => reason,
-        }
-    }
-
-    /// Place a move at the call that it depends on.
-    pub(super) fn place(&self, site: &Site, step: &mut Move) {
-        (step.line, step.column) = (site.line, site.column);
-        step.routine.clone_from(&site.routine);
-        step.instruction.clone_from(&site.called);
-        step.target.span = 0..0;
-        if let Some((text, module, span)) = self.texts.get(&step.target.text.to_lowercase()) {
-            step.target.text.clone_from(text);
-            if *module == site.module {
-                step.target.span = span.clone();
-            }
-        }
-    }
-}
 
 impl Program<'_> {
     /// The data and the parameters of a routine at its beginning: parameters are unknown unless

@@ -6,7 +6,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::arguments::{Parameter, arguments, assignment, called, referred};
-use super::index::{DatumId, Program};
+use super::index::{DatumId, Names};
 use super::tree::{Block, Body, Node};
 use crate::rapid::data::instructions::{Effect, written_argument};
 use crate::rapid::data::moves::Move;
@@ -62,7 +62,7 @@ struct Call {
     optional: Vec<(String, Option<String>)>,
 }
 
-/// What the routines of a program may do.
+/// What the routines of a names may do.
 #[derive(Default)]
 pub(super) struct Effects {
     of_routines: BTreeMap<Name, Acts>,
@@ -72,20 +72,20 @@ pub(super) struct Effects {
 }
 
 impl Effects {
-    pub(super) fn of(program: &Program<'_>) -> Self {
+    pub(super) fn of(names: &Names<'_>) -> Self {
         let mut effects = Self::default();
         let mut calls: BTreeMap<Name, Vec<Call>> = BTreeMap::new();
-        for (module, bodies) in program.bodies.iter().enumerate() {
+        for (module, bodies) in names.bodies.iter().enumerate() {
             for (routine, body) in bodies {
                 let name = (module, routine.clone());
-                let mut reader = Reader::new(program, (module, routine), &mut effects.assigned);
+                let mut reader = Reader::new(names, (module, routine), &mut effects.assigned);
                 reader.body(body);
                 let Reader { acts, calls: own, .. } = reader;
                 effects.of_routines.insert(name.clone(), acts);
                 calls.insert(name, own);
             }
         }
-        effects.pass_on(program, &calls);
+        effects.pass_on(names, &calls);
         effects
     }
 
@@ -112,20 +112,20 @@ impl Effects {
     /// The data and the names of locals that a block of a routine assigns.
     pub(super) fn of_block(
         &self,
-        program: &Program<'_>,
+        names: &Names<'_>,
         (module, routine): (usize, &str),
         block: &Block<'_>,
     ) -> (BTreeSet<DatumId>, BTreeSet<String>) {
         let mut assigned = BTreeMap::new();
-        let mut reader = Reader::new(program, (module, routine), &mut assigned);
+        let mut reader = Reader::new(names, (module, routine), &mut assigned);
         reader.block(block);
         let Reader { mut acts, calls, mut locals, .. } = reader;
         for call in calls {
             let Some(of) = self.of_routines.get(&call.to) else { continue };
             acts.assigns.extend(of.assigns.iter().copied());
-            let parameters = program.parameters(call.to.0, &call.to.1);
+            let parameters = names.parameters(call.to.0, &call.to.1);
             for passed in call.assigned(parameters, of) {
-                acts.assigns.extend(program.datum(module, passed).map(|(datum, _)| datum));
+                acts.assigns.extend(names.datum(module, passed).map(|(datum, _)| datum));
                 locals.insert(passed.into());
             }
         }
@@ -134,7 +134,7 @@ impl Effects {
     }
 
     /// Add what called routines do to those that call them.
-    fn pass_on(&mut self, program: &Program<'_>, calls: &BTreeMap<Name, Vec<Call>>) {
+    fn pass_on(&mut self, names: &Names<'_>, calls: &BTreeMap<Name, Vec<Call>>) {
         for _ in 0..PASSES {
             let mut has_changed = false;
             for (name, own) in calls {
@@ -143,16 +143,16 @@ impl Effects {
                     let Some(of) = self.of_routines.get(&call.to) else { continue };
                     acts.moves |= of.moves;
                     acts.assigns.extend(of.assigns.iter().copied());
-                    let parameters = program.parameters(call.to.0, &call.to.1);
+                    let parameters = names.parameters(call.to.0, &call.to.1);
                     for passed in call.assigned(parameters, of) {
                         let (module, routine) = name;
-                        let is_local = is_local(program, *module, routine, passed);
-                        let own = program.parameters(*module, routine);
+                        let is_local = is_local(names, *module, routine, passed);
+                        let own = names.parameters(*module, routine);
                         let is_parameter = own.iter().any(|it| it.name == passed);
                         if is_parameter {
                             acts.assigned_parameters.insert(passed.into());
                         } else if let Some((datum, _)) =
-                            program.datum(*module, passed).filter(|_| !is_local)
+                            names.datum(*module, passed).filter(|_| !is_local)
                         {
                             acts.assigns.insert(datum);
                             self.by_reference.insert(datum);
@@ -192,13 +192,13 @@ impl Call {
 }
 
 /// Whether a routine declares a name in lower case.
-fn is_local(program: &Program<'_>, module: usize, routine: &str, lower: &str) -> bool {
-    program.locals(module, routine).any(|datum| datum.name.to_lowercase() == lower)
+fn is_local(names: &Names<'_>, module: usize, routine: &str, lower: &str) -> bool {
+    names.locals(module, routine).any(|datum| datum.name.to_lowercase() == lower)
 }
 
 /// A reader of what one routine does by itself.
 struct Reader<'e, 'm> {
-    program: &'e Program<'m>,
+    names: &'e Names<'m>,
     module: usize,
     routine: &'e str,
     parameters: &'e [Parameter],
@@ -230,13 +230,13 @@ fn add(
 
 impl<'e, 'm> Reader<'e, 'm> {
     fn new(
-        program: &'e Program<'m>,
+        names: &'e Names<'m>,
         (module, routine): (usize, &'e str),
         assigned: &'e mut BTreeMap<DatumId, Assigned>,
     ) -> Self {
-        let parameters = program.parameters(module, routine);
+        let parameters = names.parameters(module, routine);
         let (acts, calls, locals) = (Acts::default(), Vec::new(), BTreeSet::new());
-        Self { program, module, routine, parameters, acts, calls, locals, assigned }
+        Self { names, module, routine, parameters, acts, calls, locals, assigned }
     }
 
     fn body(&mut self, body: &Body<'_>) {
@@ -301,13 +301,13 @@ impl<'e, 'm> Reader<'e, 'm> {
     }
 
     fn assign(&mut self, name: &str, components: String, line: usize) {
-        if is_local(self.program, self.module, self.routine, name) {
+        if is_local(self.names, self.module, self.routine, name) {
             self.locals.insert(name.into());
             return;
         }
         if self.parameters.iter().any(|it| it.name == name) {
             self.acts.assigned_parameters.insert(name.into());
-        } else if let Some((datum, _)) = self.program.datum(self.module, name) {
+        } else if let Some((datum, _)) = self.names.datum(self.module, name) {
             self.acts.assigns.insert(datum);
             add(self.assigned, datum, (self.module, line), components);
         }
@@ -320,7 +320,7 @@ impl<'e, 'm> Reader<'e, 'm> {
             self.acts.moves = true;
             return;
         };
-        let Some(home) = self.program.procedure(self.module, &name) else { return };
+        let Some(home) = self.names.procedure(self.module, &name) else { return };
         let to = (home, name);
         let Ok(arguments) = arguments(text) else { return };
         let name_of = |it| referred(it).map(|(name, _)| name);

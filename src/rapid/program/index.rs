@@ -5,7 +5,6 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::arguments::{Parameter, parameters};
-use super::effects::Effects;
 use super::tree::{Body, bodies};
 use crate::rapid::data::module::{Datum, Module, RoutineKind, Scope};
 use crate::rapid::data::unread::NotRead;
@@ -17,8 +16,8 @@ pub(in crate::rapid) struct DatumId {
     pub(super) datum: usize,
 }
 
-/// Modules that know each other.
-pub(in crate::rapid) struct Program<'m> {
+/// The names of modules that know each other.
+pub(in crate::rapid) struct Names<'m> {
     pub(in crate::rapid) modules: Vec<&'m Module>,
     /// The parameters of the routines of each module by their names in lower case.
     parameters: Vec<BTreeMap<String, Vec<Parameter>>>,
@@ -34,12 +33,11 @@ pub(in crate::rapid) struct Program<'m> {
     unread: Vec<BTreeSet<String>>,
     /// The statements of the routines of each module by their names in lower case.
     pub(super) bodies: Vec<BTreeMap<String, Body<'m>>>,
-    pub(super) effects: Effects,
 }
 
-impl<'m> Program<'m> {
-    pub(in crate::rapid) fn new(modules: &[&'m Module]) -> Self {
-        let mut program = Self {
+impl<'m> Names<'m> {
+    pub(super) fn new(modules: &[&'m Module]) -> Self {
+        let mut names = Self {
             modules: modules.to_vec(),
             parameters: Vec::with_capacity(modules.len()),
             procedures: Vec::with_capacity(modules.len()),
@@ -48,7 +46,6 @@ impl<'m> Program<'m> {
             locals: modules.iter().map(|module| locals(module)).collect(),
             unread: modules.iter().map(|module| unread(module)).collect(),
             bodies: modules.iter().map(|module| bodies(module)).collect(),
-            effects: Effects::default(),
         };
         for (index, module) in modules.iter().enumerate() {
             let (mut all, mut own) = (BTreeMap::new(), BTreeSet::new());
@@ -59,20 +56,19 @@ impl<'m> Program<'m> {
                     continue;
                 }
                 if !is_local(&routine.header) {
-                    program.global_procedures.entry(name.clone()).or_insert(index);
+                    names.global_procedures.entry(name.clone()).or_insert(index);
                 }
                 own.insert(name);
             }
-            program.parameters.push(all);
-            program.procedures.push(own);
+            names.parameters.push(all);
+            names.procedures.push(own);
             for (name, datum) in &module.index {
                 if module.data.get(*datum).is_some_and(|it| it.scope != Scope::Local) {
-                    program.global_data.entry(name.clone()).or_insert(index);
+                    names.global_data.entry(name.clone()).or_insert(index);
                 }
             }
         }
-        program.effects = Effects::of(&program);
-        program
+        names
     }
 
     /// The module of the procedure that a name in lower case refers to in a module.

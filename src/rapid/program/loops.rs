@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::state::{Here, Local, State};
 use super::tree::{Block, Node};
-use super::walk::{Walk, word_of};
+use super::walker::{Walk, word_of};
 use crate::rapid::data::unread::{Skipped, Unresolved};
 use crate::rapid::data::value::Value;
 use crate::rapid::expression::reader::ExpressionReader;

@@ -8,10 +8,13 @@
 mod arguments;
 mod calls;
 mod effects;
-pub(super) mod index;
+mod frame;
+mod index;
 mod loops;
 mod moves;
 mod state;
 mod tree;
 mod values;
 pub(super) mod walk;
+pub(super) mod walker;
+pub(super) mod whole;

@@ -3,7 +3,7 @@
 use alloc::borrow::Cow;
 
 use super::arguments::{Arguments, arguments};
-use super::calls::Frame;
+use super::frame::Frame;
 use super::state::{Displacement, Offsets, State};
 use super::values::Scope;
 use crate::error::Error;

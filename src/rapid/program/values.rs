@@ -3,8 +3,9 @@
 use alloc::string::ToString;
 use core::cell::Cell;
 
-use super::index::{DatumId, Program};
+use super::index::DatumId;
 use super::state::State;
+use super::whole::Program;
 use crate::rapid::data::module::{Content, Storage};
 use crate::rapid::data::types::{Atoms, Record};
 use crate::rapid::data::unread::{AssignedBy, Reason, Unresolved};

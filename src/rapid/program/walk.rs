@@ -3,59 +3,22 @@
 
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
-use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::cell::Cell;
 
-use super::calls::Frame;
 use super::effects::written_by;
-use super::index::Program;
+use super::frame::Frame;
 use super::loops::never_holds;
 use super::state::{Displacement, Here, State};
 use super::tree::{Block, Node};
-use super::values::Scope;
+use super::walker::{Run, Step, Stepped, Uncertain, Walk, word_of};
+use super::whole::Program;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::settings::Setting;
-use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
-
-/// Steps that are followed beyond two for each move and call that the program has.
-const SPARE_STEPS: usize = 10_000;
-
-/// A step of a program.
-pub(in crate::rapid) enum Step<'m> {
-    /// A move.
-    Move(Box<Stepped<'m>>),
-    /// Something that may move the robot and is not followed, with the reason.
-    NotFollowed { module: usize, skipped: &'m Skipped, words: String },
-}
-
-/// A move with the values that it has here.
-pub(in crate::rapid) struct Stepped<'m> {
-    /// The module of its place, which is the call of the routine that it belongs to where it moves
-    /// to what that call passes on.
-    pub(in crate::rapid) module: usize,
-    /// The module and the index of the instruction.
-    pub(in crate::rapid) instruction: (usize, usize),
-    pub(in crate::rapid) step: Cow<'m, Move>,
-    /// Whether a value is the last one that a PERS had.
-    pub(in crate::rapid) takes_last: bool,
-    /// What the program may wait at behind it, in words.
-    pub(in crate::rapid) halt: Option<String>,
-    /// The line of what displaces its target by a known pose.
-    pub(in crate::rapid) displaced_on: Option<usize>,
-}
-
-/// Steps that follow one another.
-#[derive(Default)]
-pub(in crate::rapid) struct Run<'m> {
-    /// Where the robot is before it: after so many moves of an earlier run.
-    pub(in crate::rapid) from: Option<(usize, usize)>,
-    pub(in crate::rapid) steps: Vec<Step<'m>>,
-}
+use crate::rapid::data::unread::{NotRead, Skipped};
 
 /// The runs of a program: of its main routine, then of every routine that was not called; and what
 /// is never executed.
@@ -77,9 +40,6 @@ pub(in crate::rapid) fn runs<'m>(
     (walk.runs, walk.notes)
 }
 
-/// A branch, a loop or a jump that decides on moves: its line and its word.
-pub(in crate::rapid) type Uncertain = (usize, String);
-
 /// The steps of a routine of the first module, in the order of execution, up to what ends it; and
 /// the first branch, loop or jump that decides on them.
 pub(in crate::rapid) fn steps<'m>(
@@ -92,46 +52,7 @@ pub(in crate::rapid) fn steps<'m>(
     (steps.collect(), walk.uncertain)
 }
 
-pub(super) struct Walk<'p, 'm> {
-    pub(super) program: &'p Program<'m>,
-    /// Whether a single routine is followed, whose steps must be certain.
-    pub(super) is_one: bool,
-    /// The first place that decides on steps.
-    uncertain: Option<Uncertain>,
-    takes_last: bool,
-    runs: Vec<Run<'m>>,
-    notes: Vec<Finding>,
-    pub(super) state: State,
-    pub(super) frame: Frame,
-    /// The routines that were followed, by module and name in lower case.
-    pub(super) followed: BTreeSet<(usize, String)>,
-    /// Steps that may still be followed in calls.
-    pub(super) steps_left: usize,
-}
-
-impl<'p, 'm> Walk<'p, 'm> {
-    fn new(program: &'p Program<'m>, takes_last: bool) -> Self {
-        let statements: usize =
-            program.modules.iter().map(|it| it.moves.len() + it.skipped.len()).sum();
-        Self {
-            program,
-            is_one: false,
-            uncertain: None,
-            takes_last,
-            runs: Vec::new(),
-            notes: Vec::new(),
-            state: State::new(),
-            frame: Frame::default(),
-            followed: BTreeSet::new(),
-            steps_left: 2 * statements + SPARE_STEPS,
-        }
-    }
-
-    /// Record a place that decides on steps.
-    pub(super) fn decides(&mut self, line: usize, word: &str) {
-        self.uncertain.get_or_insert_with(|| (line, word.to_string()));
-    }
-
+impl<'m> Walk<'_, 'm> {
     /// Follow a routine that nothing is known to call.
     fn root(&mut self, (module, routine): (usize, String)) {
         self.state = State::new();
@@ -218,29 +139,6 @@ impl<'p, 'm> Walk<'p, 'm> {
         true
     }
 
-    /// What is assigned in a block is not known any more.
-    pub(super) fn forget(&mut self, block: &Block<'m>) {
-        let place = (self.frame.module, self.frame.routine.as_str());
-        let (globals, locals) = self.program.effects.of_block(self.program, place, block);
-        self.state.globals.retain(|datum, _| !globals.contains(datum));
-        for (name, local) in &mut self.state.locals {
-            if locals.contains(name) {
-                local.content = Err(Unresolved::ValueNotKnown);
-            }
-        }
-    }
-
-    /// What is known here, for looking up names.
-    pub(super) fn scope(&self) -> Scope<'_, 'm> {
-        Scope {
-            program: self.program,
-            module: self.frame.module,
-            state: &self.state,
-            takes_last: self.takes_last,
-            has_taken: Cell::new(false),
-        }
-    }
-
     fn set(&mut self, setting: &Setting) {
         let mut words = setting.text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
         let name = words.next().unwrap_or_default();
@@ -279,73 +177,8 @@ impl<'p, 'm> Walk<'p, 'm> {
         }
     }
 
-    pub(super) fn push(&mut self, step: Step<'m>) {
-        if self.is_one && self.state.here == Here::Left {
-            return;
-        }
-        self.steps_left = self.steps_left.saturating_sub(1);
-        let last = self.runs.len().wrapping_sub(1);
-        if let (Here::After(run, count), Some(own)) = (self.state.here, self.runs.last_mut())
-            && run == last
-            && own.steps.len() == count
-        {
-            own.steps.push(step);
-            self.state.here = Here::After(run, count + 1);
-            return;
-        }
-        let from = match self.state.here {
-            Here::After(run, count) => Some((run, self.moves(run, count))),
-            Here::Unknown | Here::Left => None,
-        };
-        self.state.here = Here::After(self.runs.len(), 1);
-        self.runs.push(Run { from, steps: Vec::from([step]) });
-    }
-
-    /// The number of moves among the first steps of a run.
-    fn moves(&self, run: usize, count: usize) -> usize {
-        let steps = self.runs.get(run).map_or(&[][..], |run| &run.steps[..count]);
-        steps.iter().filter(|step| matches!(step, Step::Move(_))).count()
-    }
-
-    /// The program may wait here.
-    fn halt(&mut self, what: &str) {
-        let Here::After(run, count) = self.state.here else { return };
-        let steps = self.runs.get_mut(run).map(|run| &mut run.steps);
-        if let Some(Step::Move(last)) = steps.and_then(|steps| steps.get_mut(count - 1)) {
-            last.halt.get_or_insert_with(|| what.to_string());
-        }
-    }
-
-    /// Something that may move the robot and is not followed.
-    pub(super) fn not_followed(&mut self, skipped: &'m Skipped, words: String) {
-        let module = self.frame.module;
-        self.push(Step::NotFollowed { module, skipped, words });
-    }
-
     fn is_procedure(&self, name: &str) -> bool {
         self.program.procedure(self.frame.module, &name.to_lowercase()).is_some()
-    }
-
-    /// Whether a block moves the robot, sets how it moves, or leaves the routine.
-    pub(super) fn acts(&self, block: &Block<'m>) -> bool {
-        block.iter().any(|node| match node {
-            Node::Move(_, step) => step.kind != MoveKind::MoveExtJ,
-            Node::Setting(_) => true,
-            Node::Branches { parts, .. } => parts.iter().any(|part| self.acts(part)),
-            Node::Loop { body, .. } => self.acts(body),
-            Node::Other(skipped) => match &skipped.what {
-                NotRead::Motion { .. } | NotRead::Unfinished { .. } | NotRead::Invalid { .. } => {
-                    true
-                }
-                NotRead::Instruction { name } => {
-                    let lower = name.to_lowercase();
-                    let home = self.program.procedure(self.frame.module, &lower);
-                    let of = home.and_then(|it| self.program.effects.of_routine(it, &lower));
-                    Effect::Leaves.is_of(name) || of.is_some_and(|of| of.moves)
-                }
-                _ => false,
-            },
-        })
     }
 
     /// Something that is no move and no branch.
@@ -398,13 +231,5 @@ impl<'p, 'm> Walk<'p, 'm> {
             self.written(skipped, name);
             self.call(skipped);
         }
-    }
-}
-
-/// The first word of a branch or a loop, in capitals.
-pub(super) fn word_of(head: &Skipped) -> &str {
-    match &head.what {
-        NotRead::Flow { word } => word,
-        _ => "",
     }
 }
