@@ -1,6 +1,7 @@
 //! `irbkin.rapid`: modules read, solved, timed, checked and written.
 
 mod calc;
+mod checked;
 mod checks;
 mod module;
 mod program;
@@ -12,10 +13,11 @@ mod values;
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 
+use self::checked::{Checked, CheckedMove};
 use self::module::RapidModule;
 use self::program::{
-    Argument, Checked, CheckedMove, Declaration, Finding, MotionMove, MotionSettings, Move,
-    Skipped, TargetTable, TextFault,
+    Argument, Declaration, Finding, MotionMove, MotionSettings, Move, Skipped, TargetTable,
+    TextFault,
 };
 use self::routine_motion::PyRoutineMotion;
 use crate::rapid::{

@@ -6,9 +6,7 @@ use alloc::vec::Vec;
 use super::goal::{Goal, Place};
 use super::joints::{Conf, Path, Samples, joint_line, round_joints, solved, way};
 use crate::error::Error;
-use crate::kinematics::thresholds::{
-    ELBOW_ZONE, JOINED_MOVES, MOST_REACH, MOST_SAMPLES, NEAR_CONFDATA, SHOULDER_ZONE, WRIST_ZONE,
-};
+use crate::kinematics::thresholds::{JOINED_MOVES, MOST_REACH, MOST_SAMPLES, NEAR_CONFDATA};
 use crate::kinematics::{
     BreakReason, ConfigurationRequest, FollowOptions, Pose, Robot, SingularityKind,
     SingularityMode, largest_step,
@@ -18,7 +16,7 @@ use crate::paths::polyline::{Corner, Leg, Rounded};
 use crate::paths::{ArcOrientation, Spacing};
 use crate::rapid::calc::confdata::{near, over_quarters};
 use crate::rapid::calc::frames::Frames;
-use crate::rapid::calc::wrong::{Found, broken, no_path, passes};
+use crate::rapid::calc::wrong::{Found, broken, no_path};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::settings::{CirPathMode, SingArea};
 
@@ -74,8 +72,8 @@ struct Entry {
 }
 
 /// Where the robot is.
-struct Here {
-    q: [f64; 6],
+pub(super) struct Here {
+    pub(super) q: [f64; 6],
     flange: Pose,
 }
 
@@ -126,7 +124,7 @@ impl<'a, 'm> Drive<'a, 'm> {
         Ok((drive.samples, drive.made))
     }
 
-    fn found(&mut self, index: usize, finding: Finding) {
+    pub(super) fn found(&mut self, index: usize, finding: Finding) {
         self.findings.push(finding.at(self.goals[index].step, index));
     }
 
@@ -356,37 +354,6 @@ impl<'a, 'm> Drive<'a, 'm> {
             self.found(index, Finding::new(Code::OtherConfiguration, words));
         }
         q
-    }
-
-    /// Report the singularities that a line or an arc passes: of each kind the nearest place.
-    fn check_singularities(&mut self, index: usize, here: &Here, path: &Path) {
-        let is_off = self.goals[index].step.settings.sing_area == SingArea::Off;
-        let kinds = [
-            (SingularityKind::WRIST, 1, WRIST_ZONE),
-            (SingularityKind::ELBOW, 2, ELBOW_ZONE),
-            (SingularityKind::SHOULDER, 4, SHOULDER_ZONE),
-        ];
-        let mut nearest = [(f64::INFINITY, 0); 3];
-        let mut last = self.robot.slot_of(&here.q).map(crate::kinematics::Slot::index);
-        for (sample, q) in path.q.iter().enumerate() {
-            let Some(at) = self.robot.singular_distances(q) else { return };
-            let slot = self.robot.slot_of(q).map(crate::kinematics::Slot::index);
-            let crossed = slot.zip(last).map_or(0, |(slot, last)| slot ^ last);
-            last = slot;
-            let distances = [at.wrist, at.elbow, at.shoulder];
-            for ((kind, distance), near) in kinds.iter().zip(distances).zip(&mut nearest) {
-                let distance = if crossed & kind.1 == 0 { distance } else { 0.0 };
-                if distance < near.0 {
-                    *near = (distance, sample + 1);
-                }
-            }
-        }
-        for ((kind, _, bound), (distance, sample)) in kinds.into_iter().zip(nearest) {
-            if distance < bound && (is_off || kind != SingularityKind::WRIST) {
-                let part = part(sample, path.q.len());
-                self.found(index, passes(kind, part, distance).with_value(distance, bound));
-            }
-        }
     }
 }
 

@@ -4,6 +4,7 @@ pub(super) mod drive;
 pub(super) mod goal;
 pub(super) mod joints;
 mod pace;
+mod passing;
 pub(super) mod routine;
 pub(super) mod sequence;
 mod write;

@@ -1,0 +1,42 @@
+//! Singularities that a line or an arc passes.
+
+use super::drive::{Drive, Here};
+use super::joints::Path;
+use crate::kinematics::thresholds::{ELBOW_ZONE, SHOULDER_ZONE, WRIST_ZONE};
+use crate::kinematics::{SingularityKind, Slot};
+use crate::paths::line::part;
+use crate::rapid::calc::wrong::passes;
+use crate::rapid::data::settings::SingArea;
+
+impl Drive<'_, '_> {
+    /// Report the singularities that a line or an arc passes: of each kind the nearest place.
+    pub(super) fn check_singularities(&mut self, index: usize, here: &Here, path: &Path) {
+        let is_off = self.goals[index].step.settings.sing_area == SingArea::Off;
+        let kinds = [
+            (SingularityKind::WRIST, 1, WRIST_ZONE),
+            (SingularityKind::ELBOW, 2, ELBOW_ZONE),
+            (SingularityKind::SHOULDER, 4, SHOULDER_ZONE),
+        ];
+        let mut nearest = [(f64::INFINITY, 0); 3];
+        let mut last = self.robot.slot_of(&here.q).map(Slot::index);
+        for (sample, q) in path.q.iter().enumerate() {
+            let Some(at) = self.robot.singular_distances(q) else { return };
+            let slot = self.robot.slot_of(q).map(Slot::index);
+            let crossed = slot.zip(last).map_or(0, |(slot, last)| slot ^ last);
+            last = slot;
+            let distances = [at.wrist, at.elbow, at.shoulder];
+            for ((kind, distance), near) in kinds.iter().zip(distances).zip(&mut nearest) {
+                let distance = if crossed & kind.1 == 0 { distance } else { 0.0 };
+                if distance < near.0 {
+                    *near = (distance, sample + 1);
+                }
+            }
+        }
+        for ((kind, _, bound), (distance, sample)) in kinds.into_iter().zip(nearest) {
+            if distance < bound && (is_off || kind != SingularityKind::WRIST) {
+                let part = part(sample, path.q.len());
+                self.found(index, passes(kind, part, distance).with_value(distance, bound));
+            }
+        }
+    }
+}
