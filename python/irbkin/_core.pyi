@@ -2167,7 +2167,7 @@ class MotionMove(_Record):
         """The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
     @property
     def module(self) -> int:
-        """x"""
+        """0 for the module, else 1 and the index in its context."""
     @property
     def module_index(self) -> int:
         """Its index in `Module.moves`."""
@@ -2765,7 +2765,8 @@ def motion(
     Args:
         robot: The arm. Work objects are given in the world, in which the robot's base is.
         module: Module.
-        routine: Name of the routine; without it main, or the only one that moves. Its branches and
+        routine: Name of the routine; without it main, or the only one that moves. Calls are
+            followed, into the module's context too, and loops with known bounds; other branches and
             loops must not contain moves.
         start: Joint angles [rad], shape (6,), or a JointTarget, from which the first move begins.
             Without it the motion begins at the first target.

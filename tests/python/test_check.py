@@ -90,8 +90,8 @@ def test_a_rule_is_explained_by_its_code_or_its_name():
     assert f"\n\nExample:\n    {BLOCKS['C201']}" in text
     assert "[obstacles.post]" in command.run("rule", "K901").stdout.decode()
     assert "did you mean R10" in command.refused("rule", "R110")
-    assert "did you mean C201?" in command.refused("rule", "wrong-confdta")
-    assert "did you mean C, D, E, K" in command.refused("rule", "banana")
+    assert "did you mean C201, C204?" in command.refused("rule", "wrong-confdta")
+    assert "did you mean B, C, D, E, K" in command.refused("rule", "banana")
     assert command.run("rule").stdout == run("--codes").stdout
 
 
@@ -275,17 +275,19 @@ def test_files_are_one_program(tmp_path):
 
 def test_codes_are_selected_and_ignored(tmp_path):
     default = {it for it, _, _, is_default in check_codes() if is_default}
-    assert selected(None, []) == {"E001", *default}
-    assert {code for code in CODES if code not in default} == {"U801", "U802", "U803"}
-    assert selected(["ALL"], []) == {"E001", *CODES}
+    files = {"E001", "E002", "E003", "B001"}
+    assert selected(None, []) == {*files, *default}
+    assert {code for code in CODES if code not in default} == {"U801", "U802", "U803", "U805"}
+    assert selected(["ALL"], []) == {*files, *CODES}
     unknown = rapid.parse("PROC main() MoveJ *,v100,fine,tool0; ENDPROC")
     assert {it.code for it in rapid.check(ROBOT, unknown)} == {"U801"}
     assert rapid.check(ROBOT, unknown, codes=default) == ()
-    assert selected(["c2", " R101"], ["C202"]) == {"E001", "C201", "C203", "R101"}
-    assert selected(["wrong-confdata"], []) == {"E001", "C201"}
-    assert selected(["E"], []) == {"E001"}
-    assert selected(["C201"], ["E"]) == {"C201"}
-    assert selected(["C201"], [], is_strict=True) == {"E001", "C201", "U801", "U802"}
+    assert selected(["c2", " R101"], ["C202", "C204"]) == {*files, "C201", "C203", "R101"}
+    assert selected(["wrong-confdata"], []) == {*files, "C201"}
+    assert selected(["E"], []) == files
+    assert selected(["C201"], ["E", "B"]) == {"C201"}
+    strict = selected(["C201"], [], is_strict=True)
+    assert strict == {*files, "C201", "U801", "U802", "U804"}
     file = tmp_path / "seam.mod"
     file.write_text(SEAM)
     done = check(file, "--select", "X1")
@@ -296,7 +298,7 @@ def test_codes_are_selected_and_ignored(tmp_path):
         assert (done.returncode, done.stdout) == (2, b"")
         assert b"leave no code to check" in done.stderr
     listed = run("--codes").stdout.decode()
-    assert [line.split()[0] for line in listed.splitlines()] == ["E001", *CODES]
+    assert [line.split()[0] for line in listed.splitlines()] == [*codes()]
 
 
 def test_comments_silence(tmp_path):

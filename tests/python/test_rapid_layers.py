@@ -10,7 +10,7 @@ RAPID = Path(__file__).parents[2] / "src" / "rapid"
 
 def layers() -> list[str]:
     """The layers, lowest first, as the module's own documentation lists them."""
-    return re.findall(r"^//! \d\. `(\w+)`", (RAPID / "mod.rs").read_text(), re.MULTILINE)
+    return re.findall(r"^//! \d+\. `(\w+)`", (RAPID / "mod.rs").read_text(), re.MULTILINE)
 
 
 def uses(path: Path) -> set[str]:

@@ -15,7 +15,7 @@ from irbkin.abb.load import load_backup
 if TYPE_CHECKING:
     from irbkin import Robot
     from irbkin.abb.external import UnitRow
-    from irbkin.rapid import Checked, Program
+    from irbkin.rapid import Program
 
 LEAST_DISTANCE = 1e-3
 """Distance from which a target has moved [mm]: the last digit that RAPID writes."""

@@ -131,7 +131,7 @@ def close(word: str) -> str:
 def selected(
     select: Iterable[str] | None, ignore: Iterable[str], *, is_strict: bool = False
 ) -> set[str]:
-    """Return the codes that are wanted. Files that cannot be read are found whatever is selected."""
+    """Return the codes that are wanted. Codes of files are found whatever is selected."""
     wanted = {code.id for code in codes().values() if code.is_default}
     if select is not None:
         wanted = meant(select)

@@ -117,7 +117,7 @@ record! {
     MotionMove {
         /// The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ".
         kind: String,
-        /// 0 for the module, else 1 and the index in its context.
+        /// Index of its module: 0 for the module itself, from 1 for modules of its context.
         module: usize,
         /// Its index in `Module.moves`.
         module_index: usize,

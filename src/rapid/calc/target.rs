@@ -5,6 +5,7 @@
 //! axis 7, `eax_a` of its robtarget the arm angle. Of other arms it is a track or a positioner.
 
 use super::frames::{Frames, pose_in, rapid_pose};
+use super::units::MOST_DEGREES;
 use crate::error::{Error, JointFault};
 use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 use crate::kinematics::{ConfigurationRequest, Pose, Robot};
@@ -98,13 +99,6 @@ pub(in crate::rapid) fn with_flange<const N: usize>(robot: &Robot<N>) -> Result<
 pub(in crate::rapid) fn target_pose(target: &RobTarget) -> Result<Pose, Error> {
     pose_in(&RapidPose { trans_mm: target.trans_mm, rot: target.rot }, "robtarget")
 }
-
-/// Angle above which an axis does not exist [deg]: no joint turns so far, and RAPID writes 9E9.
-pub(in crate::rapid) const MOST_DEGREES: f64 = 1e6;
-
-/// The components of extjoint.
-pub(in crate::rapid) const EXTERNAL_AXES: [&str; 6] =
-    ["eax_a", "eax_b", "eax_c", "eax_d", "eax_e", "eax_f"];
 
 /// The joint angles of a jointtarget [rad].
 pub(in crate::rapid) fn joint_vector<const N: usize>(joints: &JointTarget) -> [f64; N] {

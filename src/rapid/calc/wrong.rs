@@ -7,7 +7,7 @@ use alloc::string::{String, ToString};
 use crate::error::{Error, RapidFault};
 use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 use crate::kinematics::{BreakReason, Robot, SingularityKind};
-use crate::rapid::calc::target::EXTERNAL_AXES;
+use crate::rapid::calc::units::EXTERNAL_AXES;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::records::NOT_THERE;
 use crate::rapid::data::value::Value;

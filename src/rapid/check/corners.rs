@@ -9,7 +9,7 @@ use crate::kinematics::{Pose, Robot};
 use crate::paths::ArcOrientation;
 use crate::paths::polyline::Leg;
 use crate::rapid::calc::table::external_axes;
-use crate::rapid::calc::target::{EXTERNAL_AXES, MOST_DEGREES};
+use crate::rapid::calc::units::{EXTERNAL_AXES, MOST_DEGREES};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::motion::drive::Made;
 use crate::rapid::motion::goal::{Goal, Place};
