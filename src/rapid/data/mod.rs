@@ -8,6 +8,7 @@ pub(crate) mod instructions;
 pub(crate) mod module;
 pub(crate) mod moves;
 pub(crate) mod moving;
+pub(crate) mod own_types;
 pub(crate) mod records;
 pub(crate) mod settings;
 pub(crate) mod types;

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::moves::Move;
+use super::own_types::OwnTypes;
 use super::settings::Setting;
 use super::unread::Skipped;
 use super::value::{DataType, Value};
@@ -168,6 +169,11 @@ pub struct Module {
     /// Values that refer to assigned data, as they are written, by the index of the datum: as
     /// numbers they would no longer refer to them.
     pub(crate) expressions: BTreeMap<usize, String>,
+    /// The types that it defines.
+    pub(crate) types: OwnTypes,
+    /// The components of its own data of records that a program defines, by their names in lower
+    /// case, such as `station.p`.
+    pub(crate) parts: BTreeMap<String, Datum>,
     /// Bytes of the text that it was read from.
     pub(crate) text_length: usize,
 }
@@ -233,7 +239,7 @@ impl Module {
     #[must_use]
     pub fn without_positions(mut self) -> Self {
         self.text_length = 0;
-        for datum in &mut self.data {
+        for datum in self.data.iter_mut().chain(self.parts.values_mut()) {
             (datum.line, datum.column, datum.value_span) = (0, 0, 0..0);
             datum.element_spans.clear();
         }

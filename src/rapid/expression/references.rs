@@ -10,6 +10,7 @@ use super::names::Found;
 use super::tree::{Expression, Form, written};
 use crate::error::RapidFaultKind;
 use crate::rapid::data::module::Content;
+use crate::rapid::data::own_types::DEEPEST_TYPE;
 use crate::rapid::data::types::{Atom, Atoms, LOADDATA, Shape, TOOLDATA, Type};
 use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::Value;
@@ -24,7 +25,8 @@ impl Evaluator<'_, '_> {
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
         let text = || written(self.text, expression);
-        let value = self.referred(expression, name, indices, components)?;
+        let (name, components) = self.whole_name(name, components);
+        let value = self.referred(expression, &name, indices, components)?;
         let (of, begin) = self.part(expression, value.data_type().described(), components)?;
         let mut source = value.atoms().into_iter();
         if begin > 0 {
@@ -45,6 +47,33 @@ impl Evaluator<'_, '_> {
         }
         atoms.extend(source.take(of.size()));
         Ok(())
+    }
+
+    /// The name of a datum, and the components in it: a component of a record that the program
+    /// defines is a datum of its own.
+    fn whole_name<'n>(
+        &self,
+        name: &'n str,
+        components: &'n [&'n str],
+    ) -> (Cow<'n, str>, &'n [&'n str]) {
+        let own = (Cow::Borrowed(name), components);
+        if components.is_empty()
+            || !matches!(
+                self.names.find(self.at, name),
+                Found::NotHere | Found::Unknown(Unresolved::OtherType { .. })
+            )
+        {
+            return own;
+        }
+        let mut joined = name.to_string();
+        for (index, component) in components.iter().take(DEEPEST_TYPE).enumerate() {
+            joined.push('.');
+            joined.push_str(component);
+            if let Found::Datum { .. } = self.names.find(self.at, &joined) {
+                return (Cow::Owned(joined), &components[index + 1..]);
+            }
+        }
+        own
     }
 
     /// The type of a component of a type, and the atoms before it.
@@ -124,7 +153,8 @@ impl Evaluator<'_, '_> {
             Form::Reference(reference) => (reference.name, reference.components.as_slice()),
             _ => return None,
         };
-        let value = match self.names.find(self.at, name) {
+        let (name, components) = self.whole_name(name, components);
+        let value = match self.names.find(self.at, &name) {
             Found::Predefined(value) => Cow::Owned(value),
             Found::Datum { content: Content::Single(value), .. } => Cow::Borrowed(value),
             Found::Datum { content: Content::Array { values, .. }, .. } => {

@@ -25,6 +25,34 @@ impl<'a> Expression<'a> {
     }
 }
 
+impl<'a> Expression<'a> {
+    /// Add the names that it refers to, of functions too.
+    pub(crate) fn collect_names(&self, names: &mut Vec<&'a str>) {
+        match &self.form {
+            Form::Name(name) => names.push(name),
+            Form::Reference(it) => {
+                names.push(it.name);
+                it.indices.iter().for_each(|index| index.collect_names(names));
+            }
+            Form::Call(call) => {
+                names.push(call.name);
+                call.required.iter().for_each(|it| it.collect_names(names));
+                let optional = call.optional.iter().filter_map(|(_, value)| value.as_ref());
+                optional.for_each(|it| it.collect_names(names));
+            }
+            Form::Aggregate(parts) => parts.iter().for_each(|it| it.collect_names(names)),
+            Form::Negated(operand) => operand.collect_names(names),
+            Form::Chain(first, rest) => {
+                first.collect_names(names);
+                for (_, operand) in rest {
+                    operand.collect_names(names);
+                }
+            }
+            Form::Number(_) | Form::Text(_) | Form::Bool(_) | Form::Star | Form::Unread(_) => {}
+        }
+    }
+}
+
 /// The form of an expression.
 #[derive(Debug)]
 pub(crate) enum Form<'a> {

@@ -37,7 +37,7 @@ use crate::rapid::text::words::is_name;
 ///
 /// [`Error::Rapid`] when the text is invalid.
 pub fn parse(text: &str, context: &[&Module]) -> Result<Module, Error> {
-    let written = StatementReader::read(text, Faults::new(false))?;
+    let written = StatementReader::read(text, context, Faults::new(false))?;
     Ok(resolved(written, context)?)
 }
 
@@ -51,7 +51,7 @@ pub fn parse(text: &str, context: &[&Module]) -> Result<Module, Error> {
 /// counts. An encoded module, which is not text, has a single fault and is empty.
 #[must_use]
 pub fn read(text: &str, context: &[&Module]) -> Module {
-    let module = StatementReader::read(text, Faults::new(true))
+    let module = StatementReader::read(text, context, Faults::new(true))
         .and_then(|written| resolved(written, context));
     // With tolerance no fault gets here.
     module
@@ -143,6 +143,8 @@ impl Module {
             index: BTreeMap::new(),
             assigned: BTreeSet::new(),
             expressions: BTreeMap::new(),
+            types: BTreeMap::new(),
+            parts: BTreeMap::new(),
             text_length,
         }
     }

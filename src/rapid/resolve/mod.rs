@@ -26,6 +26,8 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         routines,
         declared,
         contents,
+        parts,
+        types,
         mut moves,
         mut skipped,
         faults,
@@ -37,6 +39,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
     // Data with unknown parts are not resolved yet: none of their reasons is used before.
     let contents = contents.into_iter().map(|known| known.ok_or(Reason::Unfinished)).collect();
     let causes = Causes::new(&assignments, &declared, &scopes, &blocks);
+    let parts = &parts;
     let mut resolver = Resolver {
         text,
         declared: &declared,
@@ -44,6 +47,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         blocks: &blocks,
         context,
         contents,
+        parts,
         causes,
         routines_elsewhere: RefCell::default(),
         faults,
@@ -59,11 +63,18 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
     all.data.reserve_exact(declared.len());
     for (i, (datum, content)) in declared.iter().zip(contents).enumerate() {
         let routine = routine_name(&routines, datum.routine);
+        let content = match parts.get(&i) {
+            Some(name) => {
+                all.add_part(name, datum, routine, content);
+                continue;
+            }
+            None => content,
+        };
         all.add(text, datum, routine, content, causes.of_datum(i).is_some());
     }
-    let ResolvedData { data, places, mut skipped, expressions } = all;
+    let ResolvedData { data, parts: of_records, places, mut skipped, expressions } = all;
     skipped.sort_by_key(|skipped| (skipped.line, skipped.column));
-    let assigned = causes.names(&declared);
+    let assigned = causes.names(&declared, parts);
     let index = scopes
         .module_data()
         .filter_map(|(name, declared)| Some((name, places.get(declared).copied()??)))
@@ -81,6 +92,8 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         index,
         assigned,
         expressions,
+        types,
+        parts: of_records,
         text_length: text.len(),
     })
 }
@@ -89,6 +102,8 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
 #[derive(Default)]
 struct ResolvedData {
     data: Vec<Datum>,
+    /// Components of data of records.
+    parts: BTreeMap<String, Datum>,
     /// The place of each declaration among the data.
     places: Vec<Option<usize>>,
     skipped: Vec<Skipped>,
@@ -97,6 +112,34 @@ struct ResolvedData {
 }
 
 impl ResolvedData {
+    /// Add a component of a datum, if it is known and not of a routine.
+    fn add_part(
+        &mut self,
+        name: &str,
+        declared: &Declared<'_>,
+        routine: Option<String>,
+        content: Result<Placed, Reason>,
+    ) {
+        self.places.push(None);
+        let (Ok(Placed { content, value_span, element_spans }), None) = (content, &routine) else {
+            return;
+        };
+        let Declared { data_type, scope, storage, line, column, .. } = *declared;
+        let datum = Datum {
+            name: name.to_string(),
+            data_type,
+            scope,
+            storage,
+            routine,
+            content,
+            line,
+            column,
+            value_span,
+            element_spans,
+        };
+        self.parts.insert(name.to_string(), datum);
+    }
+
     /// Add a declaration, which may refer to assigned data.
     fn add(
         &mut self,

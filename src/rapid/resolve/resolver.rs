@@ -31,6 +31,8 @@ pub(super) struct Resolver<'a> {
     pub(super) context: &'a [&'a Module],
     /// The content of each datum, or the reason why it is unknown, or not resolved yet.
     pub(super) contents: Vec<Result<Placed, Reason>>,
+    /// The names in lower case of the declarations that are components of data of records.
+    pub(super) parts: &'a BTreeMap<usize, String>,
     /// Why data are unknown where the program moves.
     pub(super) causes: Causes<'a>,
     /// Whether another module has a routine of a name in lower case, if that was asked before.
@@ -184,7 +186,10 @@ impl Resolver<'_> {
             Err(Stop::Unknown(reason)) => Err(reason),
             Err(Stop::Fault(fault)) => {
                 let reason = Reason::Invalid { fault: fault.kind.to_string() };
-                self.faults.add(fault)?;
+                // Records that a program defines are not read but for their components.
+                if !self.parts.contains_key(&index) {
+                    self.faults.add(fault)?;
+                }
                 Err(reason)
             }
         };
@@ -234,7 +239,15 @@ impl<'a> Causes<'a> {
                     let atoms = atoms_of(declared[*datum].data_type.described(), components);
                     causes.add(*datum, atoms, cause);
                 }
-                Some(_) => {}
+                Some(Named::Datum(_)) => {}
+                Some(Named::Other(_)) => {
+                    for (part, inside) in scopes.parts(at.routine, &lower, components) {
+                        let of = declared.get(part).filter(|it| it.storage != Storage::Const);
+                        let Some(of) = of else { continue };
+                        let atoms = atoms_of(of.data_type.described(), inside);
+                        causes.add(part, atoms, cause);
+                    }
+                }
                 // The load of a tool does not count.
                 None if components.first().is_some_and(|it| it.eq_ignore_ascii_case("tload")) => {}
                 None => {
@@ -281,27 +294,36 @@ impl<'a> Causes<'a> {
         home: &'a Module,
         context: &[&'a Module],
     ) -> Option<Cause<'a>> {
+        // Of a component of a record, another module may assign the whole.
+        let whole = lower.split('.').next().unwrap_or(lower);
         let assigns = |module: &&&Module| {
-            module.assigned.contains(lower)
+            [lower, whole].into_iter().any(|name| module.assigned.contains(name))
                 && (core::ptr::eq(**module, home) || module.find(lower).is_none())
         };
         let of_context = || {
             let module = context.iter().find(assigns)?;
-            let name = home.find(lower)?.name.as_str();
+            let name = home.find(lower).or_else(|| home.parts.get(lower))?.name.as_str();
             Some(Cause { name, by: By::Module(module.name()) })
         };
-        self.of_others.get(lower).copied().or_else(of_context)
+        let own = self.of_others.get(lower).or_else(|| self.of_others.get(whole));
+        own.copied().or_else(of_context)
     }
 
     /// The names in lower case of assigned data that are visible to other modules.
-    pub(crate) fn names(self, declared: &[Declared<'_>]) -> BTreeSet<String> {
+    pub(crate) fn names(
+        self,
+        declared: &[Declared<'_>],
+        parts: &BTreeMap<usize, String>,
+    ) -> BTreeSet<String> {
         let data = self
             .of_data
             .keys()
             .filter(|datum| self.of_used_atoms(**datum, declared).is_some())
-            .filter_map(|datum| declared.get(*datum))
-            .filter(|datum| datum.routine == 0);
-        let data = data.map(|datum| datum.name.to_lowercase());
+            .filter_map(|index| Some((index, declared.get(*index)?)))
+            .filter(|(_, datum)| datum.routine == 0);
+        let data = data.map(|(index, datum)| {
+            parts.get(index).cloned().unwrap_or_else(|| datum.name.to_lowercase())
+        });
         data.chain(self.of_others.keys().cloned()).collect()
     }
 }
@@ -324,6 +346,7 @@ pub(crate) fn found_elsewhere<'a>(
     lower: &str,
     context: &[&'a Module],
 ) -> Option<(&'a Datum, &'a Module)> {
-    let mut found = context.iter().filter_map(|module| Some((module.find(lower)?, *module)));
+    let find = |module: &'a Module| module.find(lower).or_else(|| module.parts.get(lower));
+    let mut found = context.iter().filter_map(|module| Some((find(module)?, *module)));
     found.find(|(datum, _)| datum.scope != Scope::Local)
 }

@@ -3,8 +3,10 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+use super::parts::{DatumPart, read_parts};
 use crate::error::RapidFault;
 use crate::rapid::data::module::{Content, Scope, Storage};
+use crate::rapid::data::own_types::{TypeKind, Types};
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::content::{Placed, WrittenContent};
 use crate::rapid::expression::direct::read_direct;
@@ -58,8 +60,8 @@ impl<'a> Declared<'a> {
 pub(crate) enum Declaration<'a> {
     /// With its content, if that is known without looking up a name.
     Read(Declared<'a>, Option<Placed>),
-    /// Of a data type that is not read.
-    Unread { name: &'a str, type_name: &'a str },
+    /// Of a data type that is not read, with components that are.
+    Unread { name: &'a str, type_name: &'a str, parts: Vec<DatumPart<'a>> },
     /// With a placeholder, perhaps for its name.
     Unfinished { name: &'a str },
 }
@@ -93,20 +95,29 @@ pub(crate) fn read_declaration<'a>(
     tokens: &mut Tokens<'a>,
     start: usize,
     (routine, scope, storage): (usize, Scope, Storage),
-    is_tolerant: bool,
+    (types, is_tolerant): (&Types<'_>, bool),
 ) -> Result<Declaration<'a>, RapidFault> {
     let from = tokens.take()?.start;
     let type_name = read_name(tokens, "a type")?;
     let name = read_name(tokens, "a name")?;
-    let Some(data_type) = DataType::named(type_name) else {
-        skip_balanced(tokens, |_, _| false)?;
-        tokens.demand(b';', "a semicolon")?;
-        let unfinished = tokens.unfinished_since(from);
-        return Ok(if unfinished {
-            Declaration::Unfinished { name }
-        } else {
-            Declaration::Unread { name, type_name }
-        });
+    let data_type = match types.kind(type_name) {
+        TypeKind::Read(data_type) => data_type,
+        kind => {
+            let place = (routine, scope, storage);
+            let mut parts = Vec::new();
+            if let TypeKind::Record(components) = kind {
+                parts = read_parts(tokens, (types, components), start, place, name)?;
+            } else {
+                skip_balanced(tokens, |_, _| false)?;
+                tokens.demand(b';', "a semicolon")?;
+            }
+            let unfinished = tokens.unfinished_since(from);
+            return Ok(if unfinished {
+                Declaration::Unfinished { name }
+            } else {
+                Declaration::Unread { name, type_name, parts }
+            });
+        }
     };
     let (line, column) = tokens.line_and_column(start);
     let mut names = Vec::new();
@@ -147,7 +158,7 @@ pub(crate) fn read_declaration<'a>(
 }
 
 /// A declaration with its content, if it has no names.
-fn known_at_once<'a>(
+pub(super) fn known_at_once<'a>(
     text: &'a str,
     mut declared: Declared<'a>,
     written: WrittenContent<'a>,

@@ -4,6 +4,8 @@ pub(crate) mod blocks;
 pub(crate) mod declarations;
 mod instructions;
 pub(crate) mod moves;
+mod own_types;
+pub(crate) mod parts;
 pub(crate) mod reader;
 pub(crate) mod recovery;
 mod statement;

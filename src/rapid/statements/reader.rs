@@ -2,6 +2,7 @@
 
 use alloc::collections::BTreeMap;
 use alloc::collections::btree_map::Entry;
+use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -11,8 +12,9 @@ use super::moves::WrittenMove;
 use super::recovery::Faults;
 use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::instructions::Effect;
-use crate::rapid::data::module::Routine;
+use crate::rapid::data::module::{Module, Routine};
 use crate::rapid::data::moves::MoveKind;
+use crate::rapid::data::own_types::{OwnTypes, Types};
 use crate::rapid::data::settings::{MotionSettings, Setting};
 use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
 use crate::rapid::expression::content::Placed;
@@ -28,6 +30,9 @@ pub(crate) struct Written<'a> {
     pub(crate) declared: Vec<Declared<'a>>,
     /// The content of each declaration, if it is known without looking up a name.
     pub(crate) contents: Vec<Option<Placed>>,
+    /// The names in lower case of the declarations that are components of data of records.
+    pub(crate) parts: BTreeMap<usize, String>,
+    pub(crate) types: OwnTypes,
     pub(crate) moves: Vec<WrittenMove<'a>>,
     pub(crate) skipped: Vec<Skipped>,
     pub(crate) faults: Faults,
@@ -47,6 +52,8 @@ impl<'a> Written<'a> {
             routines: Vec::new(),
             declared: Vec::new(),
             contents: Vec::new(),
+            parts: BTreeMap::new(),
+            types: OwnTypes::new(),
             moves: Vec::new(),
             skipped: Vec::new(),
             faults,
@@ -83,6 +90,7 @@ pub(super) enum Stage {
 /// A reader of the statements of a text.
 pub(crate) struct StatementReader<'a> {
     pub(super) tokens: Tokens<'a>,
+    pub(super) types: Types<'a>,
     pub(super) written: Written<'a>,
     pub(super) stage: Stage,
     /// Index of the routine, from 1; 0 outside routines.
@@ -94,10 +102,11 @@ pub(crate) struct StatementReader<'a> {
 
 impl<'a> StatementReader<'a> {
     /// At the beginning of a text.
-    pub(super) fn new(written: Written<'a>) -> Self {
+    pub(super) fn new(written: Written<'a>, context: &'a [&'a Module]) -> Self {
         let (tokens, displaced_by) = (Tokens::of(written.text), DisplacedBy::default());
         let settings = MotionSettings::default();
-        Self { tokens, written, stage: Stage::Beginning, routine: 0, displaced_by, settings }
+        let types = Types { own: OwnTypes::new(), context };
+        Self { tokens, types, written, stage: Stage::Beginning, routine: 0, displaced_by, settings }
     }
 
     /// The position, for looking up names.
@@ -223,6 +232,30 @@ impl Scopes {
             None
         };
         local.or_else(|| self.names.first().and_then(|scope| scope.get(lower)))
+    }
+
+    /// The components of data of records that a name in lower case and components refer to, with
+    /// the components in them.
+    pub(crate) fn parts<'s>(
+        &'s self,
+        routine: usize,
+        lower: &str,
+        components: &'s [&'s str],
+    ) -> Vec<(usize, &'s [&'s str])> {
+        let is_local = self.names.get(routine).is_some_and(|scope| scope.contains_key(lower));
+        let scope = self.names.get(if is_local { routine } else { 0 });
+        let prefix = format!("{lower}.");
+        let all = scope.into_iter().flat_map(|scope| scope.range(prefix.clone()..));
+        let all = all.take_while(|(name, _)| name.starts_with(&prefix));
+        all.filter_map(|(name, named)| {
+            let Named::Datum(index) = named else { return None };
+            let path = name[prefix.len()..].split('.');
+            let depth = path.clone().count();
+            let mut pairs = path.zip(components);
+            let meets = pairs.all(|(own, component)| own.eq_ignore_ascii_case(component));
+            meets.then_some((*index, components.get(depth..).unwrap_or_default()))
+        })
+        .collect()
     }
 
     /// Data of the module by their names in lower case.

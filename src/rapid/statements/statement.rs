@@ -8,11 +8,12 @@ use alloc::vec::Vec;
 use super::blocks::is_flow;
 use super::declarations::{Declaration, read_declaration, read_name, storage_at};
 use super::moves::{WrittenMove, read_move};
+use super::parts::DatumPart;
 use super::reader::{Assignment, Named, Stage, StatementReader, Written, is_placeholder};
 use super::recovery::{Faults, is_encoded, skip_to_end};
 use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::instructions::written_argument;
-use crate::rapid::data::module::{Routine, RoutineKind, Scope};
+use crate::rapid::data::module::{Module, Routine, RoutineKind, Scope};
 use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::unread::{NotRead, Unresolved};
 use crate::rapid::expression::tree::Expression;
@@ -21,14 +22,18 @@ use crate::rapid::text::words::Capitals;
 
 impl<'a> StatementReader<'a> {
     /// Read a whole text; with tolerance in spite of its faults.
-    pub(crate) fn read(text: &'a str, faults: Faults) -> Result<Written<'a>, RapidFault> {
+    pub(crate) fn read(
+        text: &'a str,
+        context: &'a [&'a Module],
+        faults: Faults,
+    ) -> Result<Written<'a>, RapidFault> {
         let mut written = Written::new(text, faults);
         if is_encoded(text) {
             let fault = RapidFault { line: 1, column: 1, kind: RapidFaultKind::Encoded };
             written.faults.add(fault)?;
             return Ok(written);
         }
-        let mut reader = Self::new(written);
+        let mut reader = Self::new(written, context);
         while reader.tokens.peek().kind != TokenKind::End {
             let first = reader.tokens.peek();
             if let Err(fault) = reader.statement() {
@@ -36,6 +41,7 @@ impl<'a> StatementReader<'a> {
             }
         }
         reader.check_end()?;
+        reader.written.types = reader.types.own;
         Ok(reader.written)
     }
 
@@ -150,7 +156,8 @@ impl<'a> StatementReader<'a> {
         if let Some(storage) = storage_at(&self.tokens) {
             let place = (self.routine, scope, storage);
             let is_tolerant = self.written.faults.is_tolerant;
-            let declaration = read_declaration(&mut self.tokens, first.start, place, is_tolerant)?;
+            let how = (&self.types, is_tolerant);
+            let declaration = read_declaration(&mut self.tokens, first.start, place, how)?;
             return self.add_declaration(first, declaration);
         }
         match RoutineKind::named(self.tokens.text_of(self.tokens.peek())) {
@@ -175,12 +182,14 @@ impl<'a> StatementReader<'a> {
                 self.written.contents.push(content);
                 return Ok(());
             }
-            Declaration::Unread { name, type_name } => {
+            Declaration::Unread { name, type_name, parts } => {
                 let type_name = type_name.to_string();
                 let what =
                     NotRead::DatumOfType { name: name.to_string(), type_name: type_name.clone() };
                 self.skip(first, what);
-                (name, Named::Other(Unresolved::OtherType { type_name }))
+                self.declare(first, name, Named::Other(Unresolved::OtherType { type_name }))?;
+                self.add_parts(name, parts);
+                return Ok(());
             }
             Declaration::Unfinished { name } => {
                 self.skip_unfinished(first);
@@ -190,24 +199,17 @@ impl<'a> StatementReader<'a> {
         self.declare(first, name, named)
     }
 
-    fn record(&mut self, first: Token) -> Result<(), RapidFault> {
-        self.tokens.take()?;
-        let name = read_name(&mut self.tokens, "the name of the record")?;
-        if !skip_to_end(&mut self.tokens, "ENDRECORD")? {
-            return Err(self.not_ended(format!("RECORD {name}"), "ENDRECORD"));
+    /// Declare the components of a datum.
+    fn add_parts(&mut self, name: &str, parts: Vec<DatumPart<'a>>) {
+        for DatumPart { path, declared, content } in parts {
+            let (name, index) = (format!("{name}.{path}"), self.written.declared.len());
+            let named = Named::Datum(index);
+            if self.written.scopes.declare(self.routine, None, &name, named).is_ok() {
+                self.written.declared.push(declared);
+                self.written.contents.push(content);
+                self.written.parts.insert(index, name.to_lowercase());
+            }
         }
-        self.skip(first, NotRead::Record { name: name.to_string() });
-        self.declare(first, name, Named::Other(Unresolved::Type))
-    }
-
-    /// An alias of a type, which does not hide a name of data.
-    fn alias(&mut self, first: Token) -> Result<(), RapidFault> {
-        self.tokens.take()?;
-        read_name(&mut self.tokens, "a type")?;
-        let name = read_name(&mut self.tokens, "the name of the type")?;
-        self.tokens.demand(b';', "a semicolon")?;
-        self.skip(first, NotRead::Alias { name: name.to_string() });
-        Ok(())
     }
 
     fn move_instruction(
@@ -313,7 +315,7 @@ impl StatementReader<'_> {
     }
 
     /// The error that something is not ended where the text ends or something else begins.
-    fn not_ended(&self, inside: String, missing: &'static str) -> RapidFault {
+    pub(super) fn not_ended(&self, inside: String, missing: &'static str) -> RapidFault {
         if self.tokens.peek().kind != TokenKind::End {
             return self.tokens.unexpected(missing);
         }

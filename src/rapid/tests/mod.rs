@@ -9,6 +9,7 @@ mod motion;
 mod moves;
 mod names;
 mod program;
+mod records;
 mod recovery;
 mod texts;
 mod unfinished;
