@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use super::arguments::{Parameter, parameters};
 use super::tree::{Body, bodies};
 use crate::rapid::data::module::{Datum, Module, RoutineKind, Scope};
-use crate::rapid::data::unread::NotRead;
+use crate::rapid::data::unread::{NotRead, Unresolved};
 
 /// A datum: its module and its index there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,7 +30,7 @@ pub(in crate::rapid) struct Names<'m> {
     /// The data of the routines of each module by the names of the routines in lower case.
     locals: Vec<BTreeMap<String, Vec<usize>>>,
     /// Names in lower case of the data of each module that are not read.
-    unread: Vec<BTreeSet<String>>,
+    unread: Vec<BTreeMap<String, Unresolved>>,
     /// The statements of the routines of each module by their names in lower case.
     pub(super) bodies: Vec<BTreeMap<String, Body<'m>>>,
 }
@@ -104,10 +104,24 @@ impl<'m> Names<'m> {
         own.into_iter().flatten().filter_map(|datum| of.get(*datum))
     }
 
-    /// Whether a name in lower case may refer to a datum that is not read.
-    pub(super) fn is_unread(&self, module: usize, lower: &str) -> bool {
-        let own = self.unread.get(module).is_some_and(|names| names.contains(lower));
-        own || self.unread.iter().any(|names| names.contains(lower))
+    /// Why a name in lower case has no value, if it refers to a datum that is not read.
+    pub(super) fn unread(&self, module: usize, lower: &str) -> Option<&Unresolved> {
+        let own = self.unread.get(module).and_then(|names| names.get(lower));
+        own.or_else(|| self.unread.iter().find_map(|names| names.get(lower)))
+    }
+
+    /// A component of a datum of a record that the program defines, by its whole name in lower case;
+    /// `None` if the program assigns it.
+    pub(super) fn part(&self, module: usize, lower: &str) -> Option<&'m Datum> {
+        let whole = lower.split('.').next().unwrap_or(lower);
+        let is_assigned =
+            |it: &&'m Module| it.assigned.contains(lower) || it.assigned.contains(whole);
+        let own = self.modules.get(module).and_then(|it| it.parts.get(lower));
+        let global = || {
+            let mut all = self.modules.iter().filter_map(|it| it.parts.get(lower));
+            all.find(|datum| datum.scope != Scope::Local)
+        };
+        own.or_else(global).filter(|_| !self.modules.iter().any(is_assigned))
     }
 
     /// The statements of a routine, by its name in lower case.
@@ -143,11 +157,13 @@ fn locals(module: &Module) -> BTreeMap<String, Vec<usize>> {
     found
 }
 
-/// The names in lower case of data that are not read.
-fn unread(module: &Module) -> BTreeSet<String> {
+/// The names in lower case of data that are not read, with the reasons.
+fn unread(module: &Module) -> BTreeMap<String, Unresolved> {
     let names = module.skipped.iter().filter_map(|skipped| match &skipped.what {
-        NotRead::Datum { name, .. } | NotRead::DatumOfType { name, .. } => {
-            Some(name.to_lowercase())
+        NotRead::Datum { name, .. } => Some((name.to_lowercase(), Unresolved::ValueNotKnown)),
+        NotRead::DatumOfType { name, type_name } => {
+            let type_name = type_name.clone();
+            Some((name.to_lowercase(), Unresolved::OtherType { type_name }))
         }
         _ => None,
     });

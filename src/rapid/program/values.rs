@@ -38,8 +38,11 @@ impl Names for Scope<'_, '_> {
             None => {}
         }
         let Some((id, datum)) = self.program.datum(self.module, &lower) else {
-            if self.program.is_unread(self.module, &lower) {
-                return Found::Unknown(Unresolved::ValueNotKnown);
+            if let Some(part) = self.program.part(self.module, &lower) {
+                return known(&part.content);
+            }
+            if let Some(why) = self.program.unread(self.module, &lower) {
+                return Found::Unknown(why.clone());
             }
             return predefined(&lower).map_or(Found::NotHere, Found::Predefined);
         };

@@ -49,6 +49,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         contents,
         parts,
         causes,
+        elsewhere: RefCell::default(),
         routines_elsewhere: RefCell::default(),
         faults,
     };

@@ -35,6 +35,8 @@ pub(super) struct Resolver<'a> {
     pub(super) parts: &'a BTreeMap<usize, String>,
     /// Why data are unknown where the program moves.
     pub(super) causes: Causes<'a>,
+    /// The data of other modules by names in lower case that were asked before.
+    pub(super) elsewhere: RefCell<BTreeMap<String, Option<Elsewhere<'a>>>>,
     /// Whether another module has a routine of a name in lower case, if that was asked before.
     pub(super) routines_elsewhere: RefCell<BTreeMap<String, bool>>,
     pub(super) faults: Faults,
@@ -51,11 +53,11 @@ impl Names for Resolver<'_> {
             Some(Named::Datum(index)) => return self.datum(*index),
             None => {}
         }
-        match found_elsewhere(&lower, self.context) {
-            Some((datum, home)) => Found::Datum {
+        match self.elsewhere(&lower) {
+            Some((datum, cause)) => Found::Datum {
                 content: &datum.content,
                 can_change: datum.storage != Storage::Const,
-                cause: self.causes.of_other(&lower, home, self.context),
+                cause,
             },
             None => predefined(&lower).map_or(Found::NotHere, Found::Predefined),
         }
@@ -72,7 +74,21 @@ impl Names for Resolver<'_> {
     }
 }
 
-impl Resolver<'_> {
+/// A datum of another module, and why its value may be another one where the program moves.
+type Elsewhere<'a> = (&'a Datum, Option<Cause<'a>>);
+
+impl<'a> Resolver<'a> {
+    /// The datum of another module that a name in lower case refers to.
+    fn elsewhere(&self, lower: &str) -> Option<Elsewhere<'a>> {
+        if let Some(known) = self.elsewhere.borrow().get(lower) {
+            return *known;
+        }
+        let found = found_elsewhere(lower, self.context)
+            .map(|(datum, home)| (datum, self.causes.of_other(lower, home, self.context)));
+        self.elsewhere.borrow_mut().insert(lower.to_string(), found);
+        found
+    }
+
     /// Whether a routine has a name.
     pub(super) fn is_routine(&self, name: &str) -> bool {
         let lower = lower(name);
@@ -162,10 +178,7 @@ impl Resolver<'_> {
 
     /// Record that a datum changes with one of another module, if that changes.
     fn add_cause_elsewhere(&mut self, datum: usize, lower: &str) {
-        let found = found_elsewhere(lower, self.context);
-        if let Some(cause) =
-            found.and_then(|(_, home)| self.causes.of_other(lower, home, self.context))
-        {
+        if let Some((_, Some(cause))) = self.elsewhere(lower) {
             self.causes.add(datum, ALL, cause);
         }
     }

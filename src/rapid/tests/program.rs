@@ -131,6 +131,18 @@ fn assigned_values_are_known_behind_their_assignments() {
 }
 
 #[test]
+fn components_of_records_are_passed_on() {
+    let record = "RECORD station robtarget p; num n; ENDRECORD\n\
+        CONST station s:=[[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]],3];";
+    let text = text("go s.p; ENDPROC PROC go(robtarget x) MoveJ x,v100,fine,t;");
+    let found = checked(
+        &[&text.replacen("MODULE M\n", &format!("MODULE M\n{record}\n"), 1)],
+        &CheckOptions::default(),
+    );
+    assert_eq!((codes(&found.findings), found.moves[0].unchecked), (Vec::new(), None));
+}
+
+#[test]
 fn the_last_value_of_a_pers_is_taken_on_request_and_said() {
     let body = text("MoveJ a,v100,fine,v; v:=u;");
     let options = CheckOptions { takes_last: true, ..CheckOptions::default() };
