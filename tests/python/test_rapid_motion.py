@@ -264,7 +264,7 @@ def test_what_is_not_known_is_found():
 def test_instructions_and_calls_that_may_move_are_found():
     text = (
         f"MODULE M\nPERS tooldata t:={rapid.dump(TOOL)};\nPROC main()\n{joints(HOME)}\n"
-        f"TriggL *,v1,a,fine,t;\nMoveL {target(A)},v100,fine,t;\npick;\n"
+        f"ArcRepL *,v1,a,fine,t;\nMoveL {target(A)},v100,fine,t;\npick;\n"
         f"MoveL {target(B)},v100,fine,t;\nSetDO a,1;\ncount;\nMoveL {target(A)},v100,fine,t;\n"
         f"ConfL\\Perhaps;\nMoveL {target(B)},v100,fine,t;\nERROR\nMoveL *,v1,fine,t;\nENDPROC\n"
         f"PROC pick()\n{joints(HOME)}\nENDPROC\nPROC count()\nn:=n+1;\nENDPROC\nENDMODULE"

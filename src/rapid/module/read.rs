@@ -12,8 +12,8 @@ use crate::rapid::data::moves::Move;
 use crate::rapid::data::types::are_finite;
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::resolve::resolved;
+use crate::rapid::statements::faults::Faults;
 use crate::rapid::statements::reader::StatementReader;
-use crate::rapid::statements::recovery::Faults;
 use crate::rapid::text::place::excerpt;
 use crate::rapid::text::words::is_name;
 

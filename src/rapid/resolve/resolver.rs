@@ -18,8 +18,8 @@ use crate::rapid::expression::evaluate::Stop;
 use crate::rapid::expression::names::{At, By, Cause, Found, Names, lower, predefined};
 use crate::rapid::statements::blocks::Blocks;
 use crate::rapid::statements::declarations::Declared;
+use crate::rapid::statements::faults::Faults;
 use crate::rapid::statements::reader::{Assignment, Named, Scopes};
-use crate::rapid::statements::recovery::Faults;
 use crate::rapid::text::place::{Place, fault_at};
 
 /// The state of resolving the data of a module.

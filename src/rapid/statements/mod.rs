@@ -2,6 +2,8 @@
 
 pub(crate) mod blocks;
 pub(crate) mod declarations;
+pub(crate) mod declared;
+pub(crate) mod faults;
 mod instructions;
 pub(crate) mod moves;
 mod own_types;
@@ -9,3 +11,4 @@ pub(crate) mod parts;
 pub(crate) mod reader;
 pub(crate) mod recovery;
 mod statement;
+mod types;

@@ -5,10 +5,11 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::declarations::{Declaration, Declared, known_at_once};
+use super::declared::{Declared, known_at_once};
+use super::types::{TypeKind, Types};
 use crate::error::RapidFault;
 use crate::rapid::data::module::{Scope, Storage};
-use crate::rapid::data::own_types::{DEEPEST_TYPE, TypeKind, Types};
+use crate::rapid::data::own_types::DEEPEST_TYPE;
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::content::{Placed, WrittenContent};
 use crate::rapid::expression::reader::ExpressionReader;
@@ -78,11 +79,8 @@ pub(super) fn read_parts<'a>(
             written: None,
         };
         let written = WrittenContent { data_type, sizes, value, value_place };
-        if let Declaration::Read(declared, content) =
-            known_at_once(tokens.text, declared, written, true)?
-        {
-            parts.push(DatumPart { path, declared, content });
-        }
+        let (declared, content) = known_at_once(tokens.text, declared, written, true)?;
+        parts.push(DatumPart { path, declared, content });
     }
     tokens.resume(end);
     Ok(parts)

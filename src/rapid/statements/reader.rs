@@ -8,13 +8,14 @@ use alloc::vec::Vec;
 
 use super::blocks::Blocks;
 use super::declarations::Declared;
+use super::faults::Faults;
 use super::moves::WrittenMove;
-use super::recovery::Faults;
+use super::types::Types;
 use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::{Module, Routine};
 use crate::rapid::data::moves::MoveKind;
-use crate::rapid::data::own_types::{OwnTypes, Types};
+use crate::rapid::data::own_types::OwnTypes;
 use crate::rapid::data::settings::{MotionSettings, Setting};
 use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
 use crate::rapid::expression::content::Placed;

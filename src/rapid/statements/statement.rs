@@ -7,10 +7,11 @@ use alloc::vec::Vec;
 
 use super::blocks::is_flow;
 use super::declarations::{Declaration, read_declaration, read_name, storage_at};
+use super::faults::{Faults, is_encoded};
 use super::moves::{WrittenMove, read_move};
 use super::parts::DatumPart;
 use super::reader::{Assignment, Named, Stage, StatementReader, Written, is_placeholder};
-use super::recovery::{Faults, is_encoded, skip_to_end};
+use super::recovery::skip_to_end;
 use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::instructions::written_argument;
 use crate::rapid::data::module::{Module, Routine, RoutineKind, Scope};

@@ -1,0 +1,44 @@
+//! The faults of a text, and texts that are none.
+
+use alloc::vec::Vec;
+
+use crate::error::RapidFault;
+
+/// Most faults of a text that are kept.
+const MOST_FAULTS: usize = 100;
+
+/// The faults of a text. Without tolerance the first one ends the reading.
+pub(crate) struct Faults {
+    pub(crate) is_tolerant: bool,
+    pub(crate) kept: Vec<RapidFault>,
+}
+
+impl Faults {
+    pub(crate) fn new(is_tolerant: bool) -> Self {
+        Self { is_tolerant, kept: Vec::new() }
+    }
+
+    /// Keep a fault, to go on behind it.
+    pub(crate) fn add(&mut self, fault: RapidFault) -> Result<(), RapidFault> {
+        if !self.is_tolerant {
+            return Err(fault);
+        }
+        if !self.is_full() {
+            self.kept.push(fault);
+        }
+        Ok(())
+    }
+
+    /// Whether no further fault is kept.
+    pub(crate) fn is_full(&self) -> bool {
+        self.kept.len() >= MOST_FAULTS
+    }
+}
+
+/// Whether a text is what an encoded module looks like: control characters among its first ones.
+pub(crate) fn is_encoded(text: &str) -> bool {
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let is_control = |it: char| it.is_control() && !it.is_ascii_whitespace();
+    !text.starts_with('!')
+        && text.trim_end_matches(['\0', '\u{1a}']).chars().take(4).any(is_control)
+}
