@@ -219,7 +219,8 @@ impl Evaluator<'_, '_> {
     }
 }
 
-/// The component without which the others fit the parts of an aggregate; of several the last.
+/// The component without which the others fit the parts of an aggregate; of several the last. Of
+/// numbers any may be missing.
 fn missing(
     parts: &[Expression<'_>],
     components: &[(&'static str, &'static Type)],
@@ -229,7 +230,9 @@ fn missing(
         parts.len() + 1 == components.len()
             && others.zip(parts).all(|((_, of), part)| may_be(part, of))
     };
-    let place = (0..components.len()).rev().find(is_missing)?;
+    let are_numbers =
+        components.iter().all(|(_, of)| matches!(of.shape, Shape::Num | Shape::Whole));
+    let place = (0..components.len()).rev().find(is_missing).filter(|_| !are_numbers)?;
     Some(components[place].0)
 }
 

@@ -88,7 +88,7 @@ fn data_and_moves_with_invalid_values_are_skipped() {
             "line 3, column 16: num a is an aggregate, it must be a number",
             "line 3, column 38: a2 is declared twice in main",
             "line 4, column 25: 1e999 is not finite, every number must be",
-            "line 4, column 47: pos c has 2 components, it must have 3: z is missing",
+            "line 4, column 47: pos c has 2 components, it must have 3",
             "line 4, column 54: values refer to one another in a circle: d, e, d",
             "line 5, column 29: wobjdata w has 4 components, it must have 5: ufprog is missing",
             "line 6, column 18: MoveL speed is p, of type robtarget, it must be speeddata",
