@@ -33,7 +33,7 @@
 //! 4. `statements`: declarations, moves, routines and blocks as they are written, and what is not
 //!    read.
 //! 5. `resolve`: names resolved, data in the order of their references, then moves.
-//! 6. `module`: whole modules read, made, written, and rewritten in place.
+//! 6. `module`: whole modules read, compared, made, written, and rewritten in place.
 //! 7. `calc`: joint angles of targets and back, one by one and in tables.
 //! 8. `program`: modules that know each other, and their moves in the order of calls, with the
 //!    values that arguments, assignments and loops give them.
@@ -72,6 +72,7 @@ pub use self::data::settings::{CirPathMode, MotionSettings, SingArea};
 pub use self::data::unread::Skipped;
 pub use self::data::value::{DataType, Value};
 pub use self::expression::reader::DEEPEST_NESTING;
+pub use self::module::differences::differing_names;
 pub use self::module::read::{decode, parse, parse_record, read};
 pub use self::module::write::{NewValue, rewrite};
 pub use self::motion::drive::MotionOptions;

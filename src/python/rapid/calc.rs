@@ -3,8 +3,9 @@
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
+use super::checked::Finding;
 use super::module::RapidModule;
-use super::program::{Finding, TargetTable};
+use super::program::TargetTable;
 use super::values::{read, read_joint_target};
 use crate::error::Error;
 use crate::kinematics::SingularDistances;

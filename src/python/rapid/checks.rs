@@ -4,9 +4,8 @@ use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedStr;
 use pyo3::types::PyTuple;
 
-use super::checked::{Checked, CheckedMove};
+use super::checked::{Checked, CheckedMove, Finding};
 use super::module::{RapidModule, close_names};
-use super::program::Finding;
 use crate::python::cell::PyCell;
 use crate::python::errors::Fault;
 use crate::python::robot::PyRobot;

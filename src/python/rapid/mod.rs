@@ -13,10 +13,10 @@ mod values;
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 
-use self::checked::{Checked, CheckedMove};
+use self::checked::{Checked, CheckedMove, Finding};
 use self::module::RapidModule;
 use self::program::{
-    Argument, Declaration, Finding, MotionMove, MotionSettings, Move, Skipped, TargetTable,
+    Argument, Declaration, MotionMove, MotionSettings, Move, Routine, Skipped, TargetTable,
     TextFault,
 };
 use self::routine_motion::PyRoutineMotion;
@@ -30,9 +30,10 @@ pub(super) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add!(module: classes [
         RobTarget, JointTarget, ToolData, WobjData, RapidPose, LoadData, SpeedData, ZoneData,
         Declaration, Argument, MotionSettings, Move, MotionMove, Finding, Skipped, TextFault,
-        TargetTable, RapidModule, PyRoutineMotion, Checked, CheckedMove,
+        TargetTable, RapidModule, PyRoutineMotion, Checked, CheckedMove, Routine,
     ], functions [
-        text::parse, text::parse_module, text::read_module, text::read_modules, text::dump, calc::calc_joint_t, calc::calc_rob_t,
+        text::parse, text::parse_module, text::read_module, text::read_modules,
+        text::differing_names, text::dump, calc::calc_joint_t, calc::calc_rob_t,
         calc::calc_moves, calc::calc_targets, routine_motion::motion, checks::check,
         checks::check_program, checks::check_codes,
     ]);

@@ -5,7 +5,7 @@ use pyo3::pybacked::PyBackedStr;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyIterator, PyMappingProxy, PyTuple};
 
-use super::program::{Declaration, Move, Skipped, TextFault};
+use super::program::{Declaration, Move, Routine, Skipped, TextFault};
 use super::values::{content, read_content};
 use crate::python::errors::{Fault, raised};
 use crate::rapid::{self, Content, Datum, Module, NewValue};
@@ -91,6 +91,12 @@ impl RapidModule {
     fn declarations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let declarations = self.module.data().iter().map(|datum| Declaration::of(py, datum));
         PyTuple::new(py, declarations.collect::<PyResult<Vec<_>>>()?)
+    }
+
+    /// Its procedures, functions and traps, in the order of the text: a tuple of `Routine`.
+    #[getter]
+    fn routines<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.module.routines().iter().map(Routine::from))
     }
 
     /// The instructions that move, MoveL as well as TriggL and ArcL, in the order of the text,

@@ -35,6 +35,23 @@ record! {
 
 record! {
     "irbkin.rapid";
+    /// A routine of a module.
+    Routine {
+        /// Its kind: "PROC", "FUNC" or "TRAP".
+        kind: String,
+        /// Its name, as it is written.
+        name: String,
+        /// Its first line, from `LOCAL` or `PROC` to the parameters.
+        header: String,
+        /// Line of the text, from 1.
+        line: usize,
+        /// Column of the text, from 1.
+        column: usize,
+    }
+}
+
+record! {
+    "irbkin.rapid";
     /// An argument as it is written, without its name, and its value by the declarations.
     ///
     /// Data that the module assigns have no value.
@@ -140,43 +157,6 @@ record! {
 
 record! {
     "irbkin.rapid";
-    /// Something wrong with a move, in a table, a motion or a check. `str` has the line, too.
-    Finding {
-        /// A letter for the group and three digits, such as "C201"; docs/guide/check.md has the
-        /// codes.
-        code: String,
-        /// The code in words, such as "wrong-confdata".
-        name: String,
-        /// How much it matters: "error", "warning" or, where nothing is wrong, "note".
-        severity: String,
-        /// Index of the module among those that are checked.
-        module: usize,
-        /// Line of the instruction, from 1.
-        line: usize,
-        /// Column of the instruction, from 1.
-        column: usize,
-        /// The routine that contains it.
-        routine: Option<String>,
-        /// Index of the move in `RoutineMotion.moves`, or of the row in a TargetTable; for an
-        /// instruction that is not read, of the next move.
-        move_index: usize,
-        /// The instruction and what is wrong with it, in one line.
-        message: String,
-        /// The joint that it is about, from 1.
-        joint: Option<usize>,
-        /// The value that was found, in SI units: the speed of a joint, its step in a flip, how far
-        /// outside limits or reach, the distance from a singularity, a duration.
-        value: Option<f64>,
-        /// The bound that the value must not exceed or, of a singularity, must not be below.
-        bound: Option<f64>,
-        /// The corrections: index of the module, first byte and end in its `source` as UTF-8, and
-        /// the text that takes their place. Empty if nothing corrects it.
-        edits: Py<PyTuple>,
-    }
-}
-
-record! {
-    "irbkin.rapid";
     /// A part of the text that is not read.
     Skipped {
         /// Line of the text, from 1.
@@ -233,42 +213,6 @@ record! {
 }
 
 #[pymethods]
-impl Finding {
-    fn __str__(&self) -> String {
-        if self.line > 0 {
-            format!("line {}: {}", self.line, self.message)
-        } else {
-            self.message.clone()
-        }
-    }
-}
-
-impl Finding {
-    pub(super) fn of(py: Python<'_>, finding: &rapid::Finding) -> PyResult<Self> {
-        let rapid::Finding { code, module, line, column, move_index, joint, value, bound, .. } =
-            *finding;
-        let edit =
-            |edit: &rapid::Edit| (edit.module, edit.span.start, edit.span.end, edit.text.clone());
-        let edits = finding.edits.iter().map(edit);
-        Ok(Self {
-            code: code.id().into(),
-            name: code.name().into(),
-            module,
-            severity: code.severity().id().into(),
-            line,
-            column,
-            routine: finding.routine.clone(),
-            move_index,
-            message: finding.message.clone(),
-            joint,
-            value,
-            bound,
-            edits: PyTuple::new(py, edits)?.unbind(),
-        })
-    }
-}
-
-#[pymethods]
 impl TextFault {
     fn __str__(&self) -> String {
         format!("line {}, column {}: {}", self.line, self.column, self.message)
@@ -279,6 +223,13 @@ impl From<&rapid::RapidFault> for TextFault {
     fn from(fault: &rapid::RapidFault) -> Self {
         let (line, column) = (fault.line, fault.column);
         Self { line, column, message: fault.kind.to_string() }
+    }
+}
+
+impl From<&rapid::Routine> for Routine {
+    fn from(routine: &rapid::Routine) -> Self {
+        let rapid::Routine { kind, name, header, line, column } = routine.clone();
+        Self { kind: kind.name().into(), name, header, line, column }
     }
 }
 

@@ -4,8 +4,9 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
+use super::checked::Finding;
 use super::module::{RapidModule, counted};
-use super::program::{Finding, MotionMove};
+use super::program::MotionMove;
 use crate::python::arrays::vector;
 use crate::python::errors::Fault;
 use crate::python::outputs::{column, read_only};

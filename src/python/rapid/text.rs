@@ -1,5 +1,7 @@
 //! RAPID text read and written.
 
+use std::collections::BTreeSet;
+
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyMapping};
 
@@ -149,6 +151,22 @@ pub(crate) fn read_modules(contents: &Bound<'_, PyAny>) -> PyResult<Vec<Py<Rapid
         Py::new(py, RapidModule::new(module, source, context))
     });
     made.collect()
+}
+
+/// Return the names in lower case by which two versions of a module differ to other modules.
+///
+/// A module that has none of them in its text is read as before.
+///
+/// Args:
+///     before: Module.
+///     after: Module.
+#[pyfunction]
+pub(crate) fn differing_names(
+    before: &Bound<'_, RapidModule>,
+    after: &Bound<'_, RapidModule>,
+) -> BTreeSet<String> {
+    let (before, after) = (&before.get().module, &after.get().module);
+    rapid::differing_names(before, after)
 }
 
 fn module_of(

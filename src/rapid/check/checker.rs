@@ -23,6 +23,7 @@ use crate::rapid::motion::routine::{Followed, check as check_options, velocities
 use crate::rapid::program::walk::runs;
 use crate::rapid::program::walker::Run;
 use crate::rapid::program::whole::Program;
+use crate::report::Configuration;
 
 /// Options of [`check`].
 #[derive(Clone, Copy, Debug, Default)]
@@ -54,6 +55,8 @@ pub struct CheckedMove {
     pub target: String,
     /// The joints at its target [rad]; `None` if it has none, or is not checked.
     pub q: Option<[f64; 6]>,
+    /// The confdata of its target; `None` for joint angles, or if the target is not known.
+    pub confdata: Option<Configuration>,
     /// Why it is not checked; `None` if its target, tool and work object are known.
     pub unchecked: Option<Code>,
 }
@@ -181,6 +184,7 @@ impl Checker<'_, '_> {
             routine: finding.routine.clone(),
             target: finding.message.split(": ").next().unwrap_or_default().into(),
             q: None,
+            confdata: None,
             unchecked: Some(finding.code),
         }));
         self.found.extend(unfollowed.iter().cloned());
@@ -227,6 +231,10 @@ impl Checker<'_, '_> {
                 routine: goal.step.routine.clone(),
                 target: goal.step.target.text.clone(),
                 q: made[index].q,
+                confdata: match goal.place {
+                    Some(Place::Tool(_, confdata)) => Some(confdata),
+                    _ => None,
+                },
                 unchecked: unchecked[index],
             });
             let mut found = |finding: Finding| {
