@@ -61,6 +61,11 @@ def _root(start: Path, archive: Path | None, unpacked: Path | None) -> Path:
     return found[0]
 
 
+def backup_above(path: Path) -> Path | None:
+    """Return the root of the backup that a file is in; None if it is in no backup."""
+    return next((it for it in path.parents[:5] if _parts(it) > 1), None)
+
+
 def _inside(folder: Path) -> list[os.DirEntry[str]]:
     """Return what is in a folder, sorted by name; nothing where it cannot be listed."""
     try:

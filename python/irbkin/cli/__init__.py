@@ -18,6 +18,7 @@ VERBS = {
     "check": "find what is wrong with the moves of RAPID modules, and correct confdata",
     "path": "joints along a path of poses, on one branch",
     "plan": "the best joints along a path of poses, over branches, turns and tool angles",
+    "lsp": "serve findings, hovers and corrections to an editor, while one types",
     "rule": "explain a code of check",
     "diff": "find which targets moved between two backups, and what else differs",
     "rapid": "the moves of a RAPID routine as one motion: times, joints, findings",

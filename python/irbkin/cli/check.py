@@ -7,7 +7,7 @@ import io
 import os
 import sys
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -111,16 +111,9 @@ def run(arguments: argparse.Namespace) -> int:
     settings = settings_of(arguments.files)
     settings.fill(arguments)
     form = form or arguments.output_format or "text"
-    codes = selected(arguments.select, arguments.ignore or (), is_strict=bool(arguments.strict))
-    step = 5.0 if arguments.step is None else arguments.step
-    if not 0.0 < step < float("inf"):
-        raise CommandError(f"--step must be positive and finite [mm], got {step}")
+    checker = checker_of(arguments)
     jobs, left_open = _jobs(arguments, settings)
-    from irbkin.cli.checker import Checker
-
-    strict = {"is_strict": bool(arguments.strict), "takes_last": arguments.last_values}
-    checker = Checker(codes, step / 1e3, read_cell(arguments), **strict)
-    checker.ignored = _ignored(jobs, settings)
+    checker.ignored = ignored_of((it.path for job in jobs for it in job.program.files), settings)
     if arguments.diff:
         return _diff(checker, jobs, arguments.color)
     fixed = _fix(checker, jobs) if arguments.fix else Counter()
@@ -136,11 +129,24 @@ def run(arguments: argparse.Namespace) -> int:
         }
         report = replace(report, places=places_of(jobs[0].robot, modules, report.found))
     for job in jobs:
-        if job.robot.max_velocity is None and "V401" in codes:
+        if job.robot.max_velocity is None and "V401" in checker.codes:
             name = job.robot.name
             complain(f"the speeds of the joints of {name} are unknown: V401 is not checked")
     _write(report, form, arguments)
     return FOUND if any(it.severity != "note" for it in report.found) else FINE
+
+
+def checker_of(arguments: argparse.Namespace) -> Checker:
+    """Return the checker of the arguments."""
+    from irbkin.cli.checker import Checker
+
+    is_strict = bool(arguments.strict)
+    codes = selected(arguments.select, arguments.ignore or (), is_strict=is_strict)
+    step = 5.0 if arguments.step is None else arguments.step
+    if not 0.0 < step < float("inf"):
+        raise CommandError(f"--step must be positive and finite [mm], got {step}")
+    cell, takes_last = read_cell(arguments), arguments.last_values
+    return Checker(codes, step / 1e3, cell, is_strict=is_strict, takes_last=takes_last)
 
 
 def _jobs(arguments: argparse.Namespace, settings: Settings) -> tuple[list[Job], list[Found]]:
@@ -154,20 +160,19 @@ def _jobs(arguments: argparse.Namespace, settings: Settings) -> tuple[list[Job],
             reasons = "; ".join(it.message for it in left_open[:3])
             raise CommandError(f"{names[0]}: has no task whose robot is known: {reasons}")
         return jobs, left_open
-    return [job_of_files(_robot(arguments), names, settings)], []
+    return [job_of_files(robot_of(arguments), names, settings)], []
 
 
-def _ignored(jobs: Sequence[Job], settings: Settings) -> dict[str, set[str]]:
-    """The codes that are not wanted of files."""
+def ignored_of(paths: Iterable[str], settings: Settings) -> dict[str, set[str]]:
+    """Return the codes that are not wanted of files."""
     ignores = {
         pattern: meant(words)
         for pattern, words in settings.options.get("per_file_ignores", {}).items()
     }
     ignored: dict[str, set[str]] = {}
-    for job in jobs if ignores else ():
-        for file in job.program.files:
-            patterns = (it for it in ignores if settings.matches(file.path, [it]))
-            ignored[file.path] = set().union(*(ignores[it] for it in patterns))
+    for path in paths if ignores else ():
+        patterns = (it for it in ignores if settings.matches(path, [it]))
+        ignored[path] = set().union(*(ignores[it] for it in patterns))
     return ignored
 
 
@@ -185,8 +190,8 @@ def _format(arguments: argparse.Namespace) -> str | None:
     return form
 
 
-def _robot(arguments: argparse.Namespace) -> Robot:
-    """The robot of the arguments, with its limits."""
+def robot_of(arguments: argparse.Namespace) -> Robot:
+    """Return the robot of the arguments, with its limits."""
     import math
 
     if arguments.robot is None:

@@ -59,17 +59,17 @@ class Checker:
         """Return the findings that are wanted."""
         program = program or job.program
         silencer = _Silencer(program)
+        files = [shown(file.path) for file in program.files]
         return [
-            self._found(program, it)
+            self._found(files, it)
             for it in checked.findings
             if it.code in self.codes - self.ignored.get(program.files[it.module].path, set())
             and not silencer.silences(it)
         ]
 
-    def _found(self, program: Program, it: Finding) -> Found:
+    def _found(self, files: Sequence[str], it: Finding) -> Found:
         is_error = self.is_strict and it.code in NOT_CHECKED
         severity = "error" if is_error else it.severity
-        files = [shown(file.path) for file in program.files]
         edits = tuple((files[module], *edit) for module, *edit in it.edits)
         words = (it.code, it.name, severity, it.message, edits)
         place = (files[it.module], it.line, it.column)

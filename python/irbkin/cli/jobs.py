@@ -14,7 +14,7 @@ from irbkin.cli.findings import Found
 
 if TYPE_CHECKING:
     from irbkin import Robot
-    from irbkin.abb import Backup
+    from irbkin.abb import Backup, RobotUnit, Task
     from irbkin.abb.external import UnitRow
     from irbkin.cli.settings import Settings
     from irbkin.rapid import FileFinding, ModuleFile, Program
@@ -73,20 +73,31 @@ def jobs_of_backup(path: str) -> tuple[list[Job], list[Found]]:
     backup = load_backup(path)
     jobs = []
     for task in backup.tasks:
-        unit = backup.robots.get(task.robot or "")
-        if task.moves is False or unit is None or unit.robot is None or not task.modules:
-            continue
-        if unit.robot.dof != 6:
+        unit = unit_of(backup, task)
+        if unit is None or unit.robot is None or not task.modules:
             continue
         program = backup.programs[task.name]
-        title = f"{task.name}: {unit.name}, {unit.arm}"
         rows = unit_rows(backup, unit.name)
+        title = title_of(task, unit)
         jobs.append(Job(unit.robot, program, title, rows, found_in(program), backup))
     left_open = []
     for it in backup.findings:
         file = os.path.join(str(backup.path), it.file) if it.file else str(backup.path)
         left_open.append(Found(file, it.line, 1, BACKUP, it.code, it.severity, it.message))
     return jobs, left_open
+
+
+def unit_of(backup: Backup, task: Task) -> RobotUnit | None:
+    """Return the robot that a task moves, if its moves can be checked."""
+    unit = backup.robots.get(task.robot or "")
+    if task.moves is False or unit is None or unit.robot is None or unit.robot.dof != 6:
+        return None
+    return unit
+
+
+def title_of(task: Task, unit: RobotUnit) -> str:
+    """Return how reports name a task and its arm."""
+    return f"{task.name}: {unit.name}, {unit.arm}"
 
 
 def is_backup(name: str) -> bool:

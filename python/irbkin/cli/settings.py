@@ -95,6 +95,17 @@ def _guarded(file: str, read: Callable[..., Any], *arguments: Any) -> Any:
         raise CommandError(f"{file}: {error}") from None
 
 
+def options_of(table: Mapping[str, Any], folder: str) -> dict[str, Any]:
+    """Read options from a table that is in no file, with paths relative to a folder.
+
+    Raises:
+        InvalidModelError: A key or a value is wrong.
+    """
+    from irbkin._cell.entries import Entry
+
+    return _options(Entry("", folder, (), table))
+
+
 def _options(entry: Entry) -> dict[str, Any]:
     entry.check(*KEYS)
     return {key.replace("-", "_"): KEYS[key](entry, key) for key in entry.table}

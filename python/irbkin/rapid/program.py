@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -138,8 +138,17 @@ def program_of(files: Iterable[ModuleFile], findings: Iterable[FileFinding] = ()
         files: The files.
         findings: What is known to be wrong with them.
     """
-    files, found = list(files), list(findings)
-    modules = read_modules([file.content for file in files])
+    files = list(files)
+    return program_from(files, read_modules([file.content for file in files]), findings)
+
+
+def program_from(
+    files: Sequence[ModuleFile],
+    modules: Sequence[Module],
+    findings: Iterable[FileFinding] = (),
+) -> Program:
+    """Return the program of modules that are read, each with its file; findings as before."""
+    found = list(findings)
     for file, module in zip(files, modules, strict=True):
         for fault in module.faults:
             place = (file.path, fault.line, fault.column)
@@ -151,7 +160,7 @@ def program_of(files: Iterable[ModuleFile], findings: Iterable[FileFinding] = ()
 def _contents(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, bytes]]:
     """Yield the files of a path with their bytes."""
     if os.path.isdir(path):
-        for name in _modules_in(path):
+        for name in modules_in(path):
             try:
                 with open(name, "rb") as file:
                     content = file.read()
@@ -167,8 +176,9 @@ def _contents(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, byt
             yield path, file.read()
 
 
-def _modules_in(folder: str) -> list[str]:
-    """The files of modules in a folder: of a task's only those that a controller has loaded."""
+def modules_in(folder: str) -> list[str]:
+    """Return the files of modules in a folder: of a task's only those that a controller has loaded.
+    """
     inside = {name.upper(): name for name in os.listdir(folder)}
     tops = [os.path.join(folder, inside[name]) for name in FOLDERS if name in inside] or [folder]
     root = os.path.realpath(folder)
@@ -209,7 +219,7 @@ def _listed(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, bytes
             yield target, file.read()
 
 
-def _doubled(files: list[ModuleFile], modules: list[Module]) -> Iterator[FileFinding]:
+def _doubled(files: Sequence[ModuleFile], modules: Sequence[Module]) -> Iterator[FileFinding]:
     """Yield modules of a name that another one has."""
     first: dict[str, str] = {}
     for file, module in zip(files, modules, strict=True):

@@ -3,31 +3,39 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 
-use crate::rapid::data::module::{Datum, Module};
+use crate::rapid::data::module::{Datum, Module, Scope};
 
-/// The names in lower case by which two versions of a module differ to other modules: data with
-/// another declaration or value, data that are assigned in one version, routines of one version.
+/// The names in lower case by which two versions of a module differ to other modules: data that are
+/// not LOCAL with another declaration or value, data that are assigned in one version, routines of
+/// one version.
 ///
 /// A module that has none of them in its text is read as before.
 #[must_use]
 pub fn differing_names(before: &Module, after: &Module) -> BTreeSet<String> {
     let (old, new) = (data(before), data(after));
-    let is_other = |of: &BTreeMap<&String, &Datum>, name: &String, datum: &Datum| {
-        of.get(name).is_none_or(|other| !is_same(datum, other))
+    let is_other = |name: &&String| match (old.get(*name), new.get(*name)) {
+        (Some(old), Some(new)) => !is_same(old, new),
+        _ => true,
     };
-    let gone = old.iter().filter(|(name, datum)| is_other(&new, name, datum));
-    let come = new.keys().filter(|name| !old.contains_key(*name));
-    let data = gone.map(|(name, _)| *name).chain(come.copied()).cloned();
-    let assigned = before.assigned.symmetric_difference(&after.assigned).cloned();
-    let routines = routines(before).symmetric_difference(&routines(after)).cloned().collect();
-    let routines: BTreeSet<(String, bool)> = routines;
-    data.chain(assigned).chain(routines.into_iter().map(|(name, _)| name)).collect()
+    let data = old.keys().chain(new.keys()).copied().filter(is_other).cloned();
+    let (old, new) = (assigned(before), assigned(after));
+    let assigned = old.symmetric_difference(&new).map(|name| String::clone(name));
+    let (old, new) = (routines(before), routines(after));
+    let routines = old.symmetric_difference(&new).map(|(name, _)| name.clone());
+    data.chain(assigned).chain(routines).collect()
 }
 
-/// The data of a module itself by their names in lower case.
+/// The data of a module that others see, by their names in lower case.
 fn data(module: &Module) -> BTreeMap<&String, &Datum> {
     let own = module.index.iter();
-    own.filter_map(|(name, datum)| Some((name, module.data.get(*datum)?))).collect()
+    let own = own.filter_map(|(name, datum)| Some((name, module.data.get(*datum)?)));
+    own.filter(|(_, datum)| datum.scope != Scope::Local).collect()
+}
+
+/// The names in lower case that a module assigns, but for its LOCAL data.
+fn assigned(module: &Module) -> BTreeSet<&String> {
+    let is_local = |name: &str| module.find(name).is_some_and(|it| it.scope == Scope::Local);
+    module.assigned.iter().filter(|name| !is_local(name)).collect()
 }
 
 /// Whether data are the same but for their places.
@@ -68,17 +76,23 @@ ENDMODULE";
     }
 
     #[test]
+    fn local_data_are_not_seen() {
+        assert_eq!(names(&TEXT.replace("b:=2", "b:=7").replace("b:=a", "")), [] as [&str; 0]);
+        assert_eq!(names(&TEXT.replace("LOCAL PERS num b:=2;", "")), ["b"]);
+    }
+
+    #[test]
     fn data_that_change_come_or_go_are_named() {
         assert_eq!(names(&TEXT.replace("a:=1", "a:=1.5")), ["a"]);
         assert_eq!(names(&TEXT.replace("CONST num c", "LOCAL CONST num c")), ["c"]);
         assert_eq!(names(&TEXT.replace("num c", "num d")), ["c", "d"]);
         assert_eq!(names(&TEXT.replace("CONST num c:=3;", "")), ["c"]);
-        assert_eq!(names(&TEXT.replace("CONST num a", "CONST dnum a")), ["a"]);
+        assert_eq!(names(&TEXT.replace("CONST num a", "PERS num a")), ["a"]);
     }
 
     #[test]
     fn assignments_and_routines_are_named() {
-        assert_eq!(names(&TEXT.replace("b:=a;", "other:=a;")), ["b", "other"]);
+        assert_eq!(names(&TEXT.replace("b:=a;", "other:=a;")), ["other"]);
         assert_eq!(names(&TEXT.replace("PROC main", "LOCAL PROC main")), ["main"]);
         assert_eq!(names(&TEXT.replace("PROC main", "PROC Other")), ["main", "other"]);
     }

@@ -1,0 +1,113 @@
+"""The text of a document, with its places as editors, modules and edits count them."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect
+from functools import cached_property
+
+from lsprotocol import types
+
+END_OF_LINE = re.compile(r"\r\n|\n|\r")
+"""Ends of lines, as the protocol defines them."""
+
+
+class Text:
+    """A text. Offsets count characters, positions of the protocol units of UTF-16."""
+
+    def __init__(self, source: str) -> None:
+        self.source = _sound(source)
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        """The offset of each line."""
+        return [0, *(match.end() for match in END_OF_LINE.finditer(self.source))]
+
+    @cached_property
+    def _rows(self) -> list[int]:
+        """The offset of each line as modules count them, which end with `\\n` alone."""
+        return [0, *(match.end() for match in re.finditer("\n", self.source))]
+
+    @cached_property
+    def _is_ascii(self) -> bool:
+        return self.source.isascii()
+
+    @cached_property
+    def _bytes(self) -> bytes:
+        return self.source.encode()
+
+    def position(self, offset: int) -> types.Position:
+        """Return the position of an offset."""
+        line = bisect(self._starts, offset) - 1
+        return types.Position(line, _units(self.source[self._starts[line] : offset]))
+
+    def offset(self, position: types.Position) -> int:
+        """Return the offset of a position; beyond the end of a line or of the text, that end."""
+        if position.line >= len(self._starts):
+            return len(self.source)
+        begin = self._starts[position.line]
+        end = self._starts[position.line + 1] if position.line + 1 < len(self._starts) else None
+        line = self.source[begin:end].rstrip("\r\n")
+        if self._is_ascii:
+            return begin + min(position.character, len(line))
+        units = line.encode("utf-16-le")[: 2 * position.character]
+        # Half a character is none.
+        return begin + len(units.decode("utf-16-le", "ignore"))
+
+    def at(self, line: int, column: int) -> int:
+        """Return the offset of a line and a column of a module, both from 1."""
+        if not 0 < line <= len(self._rows):
+            return len(self.source) if line > 0 else 0
+        return min(self._rows[line - 1] + max(column - 1, 0), len(self.source))
+
+    def place(self, offset: int) -> tuple[int, int]:
+        """Return the line and the column of an offset, both from 1, as modules count them."""
+        line = bisect(self._rows, offset)
+        return line, offset - self._rows[line - 1] + 1
+
+    def row(self, line: int) -> str:
+        """Return a line by its number from 1, without its end; empty if there is none."""
+        if not 0 < line <= len(self._rows):
+            return ""
+        end = self._rows[line] - 1 if line < len(self._rows) else None
+        return self.source[self._rows[line - 1] : end].rstrip("\r")
+
+    def range(self, begin: int, end: int) -> types.Range:
+        """Return the range between two offsets."""
+        return types.Range(self.position(begin), self.position(end))
+
+    def range_of_bytes(self, begin: int, end: int) -> types.Range:
+        """Return the range between two bytes of the text in UTF-8."""
+        if not self._is_ascii:
+            begin, end = (len(self._bytes[:it].decode(errors="ignore")) for it in (begin, end))
+        return self.range(begin, end)
+
+    def changed(self, change: types.TextDocumentContentChangeEvent) -> Text:
+        """Return the text after a change."""
+        if isinstance(change, types.TextDocumentContentChangeWholeDocument):
+            return Text(change.text)
+        begin, end = self.offset(change.range.start), self.offset(change.range.end)
+        return Text(self.source[:begin] + change.text + self.source[max(begin, end) :])
+
+    def word(self, offset: int) -> tuple[int, int]:
+        """Return the begin and the end of the name at an offset; equal if there is none."""
+        line, column = self.place(offset)
+        for match in re.finditer(r"[^\W\d]\w*", self.row(line)):
+            if match.start() < column <= match.end() + 1:
+                begin = self._rows[line - 1]
+                return begin + match.start(), begin + match.end()
+        return offset, offset
+
+
+def _units(text: str) -> int:
+    """The number of units of a text in UTF-16."""
+    return len(text) if text.isascii() else len(text.encode("utf-16-le")) // 2
+
+
+def _sound(text: str) -> str:
+    """A text without halves of characters, which no file can have."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "replace")
+    return text
