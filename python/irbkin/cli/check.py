@@ -27,14 +27,14 @@ if TYPE_CHECKING:
     from irbkin import Robot
     from irbkin.cli.checker import Checker
 
-HELP = """Every MoveJ, MoveL, MoveC and MoveAbsJ of every routine is checked: reach, limits, flips,
+HELP = """Every instruction that moves, of every routine, is checked: reach, limits, flips,
 confdata, singularities, joint speeds, zones, names and, with --cell, collisions (--codes lists the
 codes, `irbkin rule CODE` explains one). Calls are followed with their arguments. The files are one
 program: names that a file does not declare are looked for in the others. A backup of a controller
 needs no --robot: each task is checked with its own, its limits and its base. A comment `! noqa` on
-the line of a move, or `! noqa: C201,S301`, silences it. Options that are not given are taken from irbkin.toml or
-pyproject.toml, the robot from IRBKIN_ROBOT, too. --fix corrects confdata in place and changes
-nothing else. Exit codes: 0 nothing but notes, 1 errors or warnings, 2 wrong usage."""
+the line of a move, or `! noqa: C201,S301`, silences it. Options that are not given are taken from
+irbkin.toml or pyproject.toml, the robot from IRBKIN_ROBOT, too. --fix corrects confdata in place
+and changes nothing else. Exit codes: 0 nothing but notes, 1 errors or warnings, 2 wrong usage."""
 EXAMPLES = """  irbkin check backups/cell_3
   irbkin check --robot "IRB 2600-12/1.65" program.mod
   irbkin check --robot "IRB 2600-12/1.65" --cell cell.toml program.mod
