@@ -19,7 +19,7 @@ pub fn differing_names(before: &Module, after: &Module) -> BTreeSet<String> {
     };
     let data = old.keys().chain(new.keys()).copied().filter(is_other).cloned();
     let (old, new) = (assigned(before), assigned(after));
-    let assigned = old.symmetric_difference(&new).map(|name| String::clone(name));
+    let assigned = old.symmetric_difference(&new).copied().cloned();
     let (old, new) = (routines(before), routines(after));
     let routines = old.symmetric_difference(&new).map(|(name, _)| name.clone());
     data.chain(assigned).chain(routines).collect()
