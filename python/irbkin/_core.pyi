@@ -2167,7 +2167,7 @@ class MotionMove(_Record):
         """The instruction: "MoveJ", "MoveL", "MoveC" or "MoveAbsJ"."""
     @property
     def module(self) -> int:
-        """0 for the module, else 1 and the index in its context."""
+        """Index of its module: 0 for the module itself, from 1 for modules of its context."""
     @property
     def module_index(self) -> int:
         """Its index in `Module.moves`."""

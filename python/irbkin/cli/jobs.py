@@ -45,7 +45,7 @@ class Job:
 
 def job_of_files(robot: Robot, names: Sequence[str], settings: Settings) -> Job:
     """Return the job of files and folders, those that are excluded left out."""
-    from irbkin.rapid.program import ENDINGS, ModuleFile, load_program, program_of
+    from irbkin.rapid.program import ENDINGS, ModuleFile, files_of, program_of
 
     files: list[ModuleFile] = []
     findings: list[FileFinding] = []
@@ -54,11 +54,12 @@ def job_of_files(robot: Robot, names: Sequence[str], settings: Settings) -> Job:
             with opened(name) as stream:
                 files.append(ModuleFile(SHOWN_STDIN, stream.read()))
             continue
-        program = load_program(name)
-        if not program.files and not program.findings:
+        wrong: list[FileFinding] = []
+        own = files_of(name, wrong)
+        if not own and not wrong:
             raise CommandError(f"{name}: has no RAPID modules ({', '.join(ENDINGS)})")
-        files += program.files
-        findings += (it for it in program.findings if it.code == "E002")
+        files += own
+        findings += wrong
     excluded = settings.options.get("exclude", ())
     kept = [it for it in files if not (excluded and settings.matches(it.path, excluded))]
     program = program_of(kept, findings)

@@ -123,12 +123,13 @@ def load_program(path: str | PathLike[str] | Iterable[str | PathLike[str]]) -> P
     """
     given = [path] if isinstance(path, str | PathLike) else list(path)
     findings: list[FileFinding] = []
-    files = [
-        ModuleFile(name, content)
-        for it in given
-        for name, content in _contents(os.fspath(it), findings)
-    ]
+    files = [file for it in given for file in files_of(os.fspath(it), findings)]
     return program_of(files, findings)
+
+
+def files_of(path: str, findings: list[FileFinding]) -> list[ModuleFile]:
+    """Return the files of a module, a list or a folder; add what is wrong with them to findings."""
+    return [ModuleFile(name, content) for name, content in _contents(path, findings)]
 
 
 def program_of(files: Iterable[ModuleFile], findings: Iterable[FileFinding] = ()) -> Program:

@@ -135,6 +135,9 @@ pub(crate) fn read_modules(contents: &Bound<'_, PyAny>) -> PyResult<Vec<Py<Rapid
         contents.try_iter()?.map(|content| decoded(&content?)).collect::<PyResult<_>>()?;
     let (alone, modules) = py.detach(|| {
         let alone: Vec<Module> = sources.iter().map(|source| rapid::read(source, &[])).collect();
+        if alone.len() == 1 {
+            return (Vec::new(), alone);
+        }
         let all: Vec<&Module> = alone.iter().collect();
         let modules = sources.iter().map(|source| rapid::read(source, &all));
         let modules: Vec<Module> = modules.collect();
