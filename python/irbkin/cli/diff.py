@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import argparse
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
 from irbkin.cli.arguments import Parser, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError
+from irbkin.cli.files import shown
 from irbkin.cli.jobs import is_backup
 
 if TYPE_CHECKING:
@@ -38,7 +39,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print(json.dumps(asdict(difference), indent=1))
     else:
-        lines = [*difference.robots, *difference.modules, *map(str, difference.targets)]
+        targets = (replace(it, file=shown(it.file)) for it in difference.targets)
+        lines = [*difference.robots, *difference.modules, *map(str, targets)]
         print("".join(f"{line}\n" for line in lines), end="")
         print(_last(difference))
     is_same = not (difference.robots or difference.modules or difference.targets)

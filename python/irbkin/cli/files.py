@@ -27,8 +27,11 @@ def opened(name: str) -> Iterator[BinaryIO]:
 
 
 def shown(name: str) -> str:
-    """How messages name an input."""
-    return "stdin" if name == STDIN else name
+    """How messages name an input: a path in the working folder is relative."""
+    if name == STDIN:
+        return "stdin"
+    here = os.path.join(os.getcwd(), "")
+    return name[len(here) :] if os.path.isabs(name) and name.startswith(here) else name
 
 
 @contextlib.contextmanager

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from irbkin.cli.codes import BACKUP, SYNTAX, codes
+from irbkin.cli.codes import BACKUP, codes
 from irbkin.cli.errors import CommandError
-from irbkin.cli.files import STDIN, opened
+from irbkin.cli.files import STDIN, opened, shown
 from irbkin.cli.findings import Found
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def jobs_of_backup(path: str) -> tuple[list[Job], list[Found]]:
         jobs.append(Job(unit.robot, program, title, rows, found_in(program), backup))
     left_open = []
     for it in backup.findings:
-        file = os.path.join(str(backup.path), it.file) if it.file else str(backup.path)
+        file = shown(os.path.join(str(backup.path), it.file) if it.file else str(backup.path))
         left_open.append(Found(file, it.line, 1, BACKUP, it.code, it.severity, it.message))
     return jobs, left_open
 
@@ -121,12 +121,9 @@ def is_backup(name: str) -> bool:
 def found_in(program: Program) -> list[Found]:
     """Return what is wrong with the files of a program."""
     return [
-        Found(it.file, it.line, it.column, it.code, codes()[it.code].name, severity, it.message)
+        Found(
+            shown(it.file), it.line, it.column, it.code, codes()[it.code].name, it.severity,
+            it.message,
+        )
         for it in program.findings
-        if (severity := codes()[it.code].severity)
-    ]
-
-
-def broken_files(jobs: Sequence[Job]) -> int:
-    """Return the number of files with text that is broken."""
-    return len({it.file for job in jobs for it in job.found if it.code == SYNTAX})
+    ]  # fmt: skip

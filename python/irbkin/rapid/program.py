@@ -22,6 +22,8 @@ LIST = ".pgf"
 MARKS = {b"\xff\xfe": "utf-16-le", b"\xfe\xff": "utf-16-be", b"\xef\xbb\xbf": "utf-8"}
 FOLDERS = ("PROGMOD", "SYSMOD")
 """Folders of a task in a backup. HOME has older copies beside them."""
+ENCODED = "encoded module"
+"""Words of the fault of a module that is no text."""
 LISTED = re.compile(r"<Module>([^<]*)</Module>", re.IGNORECASE)
 
 
@@ -39,6 +41,8 @@ class FileFinding:
     """E001 for broken text, E002 for a file that is not read, E003 for a doubled name."""
     message: str
     """What is wrong, in one line."""
+    severity: str = "error"
+    """"error", "warning" or "note"."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,7 +157,11 @@ def program_from(
     for file, module in zip(files, modules, strict=True):
         for fault in module.faults:
             place = (file.path, fault.line, fault.column)
-            found.append(FileFinding(*place, "E001", fault.message))
+            if ENCODED in fault.message:
+                # Options of a controller are so.
+                found.append(FileFinding(file.path, 1, 1, "E002", fault.message, "note"))
+            else:
+                found.append(FileFinding(*place, "E001", fault.message))
     found += _doubled(files, modules)
     return Program(tuple(modules), tuple(files), tuple(found))
 
@@ -227,6 +235,6 @@ def _doubled(files: Sequence[ModuleFile], modules: Sequence[Module]) -> Iterator
         name = (module.name or "").lower()
         if name and name in first:
             message = f"module {module.name} is in {first[name]}, too: which one counts is unknown"
-            yield FileFinding(file.path, 1, 1, "E003", message)
+            yield FileFinding(file.path, 1, 1, "E003", message, "warning")
         elif name:
             first[name] = file.path

@@ -133,11 +133,13 @@ fn sorted(mut found: Vec<Finding>, demands: &[Demand]) -> Vec<Finding> {
     // A unit is named once, and nothing is said of the way to a target that cannot be met.
     let mut units = BTreeSet::new();
     let what = |it: &Finding| it.message.split_once(": ").map(|(_, words)| String::from(words));
-    let mut unmet = None;
+    let (mut unmet, mut without_path) = (None, None);
     found.retain(|it| {
         let place = (it.module, it.line, it.column);
         match it.code {
             Code::OutOfReach | Code::OutsideLimits => unmet = Some(place),
+            Code::NoPath => without_path = Some(place),
+            Code::UncertainCircle => return without_path != Some(place),
             Code::PathBlocked | Code::Flip => return unmet != Some(place),
             Code::UnknownUnit => return units.insert(what(it)),
             _ => {}

@@ -137,10 +137,8 @@ impl Zones<'_, '_> {
                 LEAST_ARC_TURN.to_degrees()
             ));
         }
-        let arc = Leg::arc([&start, &via, &end], ArcOrientation::Path).ok()?;
-        // The angle at a point of a circle is half of the one at its center.
-        let radius = 0.5 * (to_end - to_via).norm() / angle.sin();
-        let turn = arc.length() / radius;
+        // An arc is twice the angle that it is seen under from the third point.
+        let turn = 2.0 * (angle + (-to_end).angle(&(to_via - to_end)));
         (turn > MOST_ARC).then(|| {
             let words = format!(
                 "its arc is {:.0} deg long, more than {:.0} deg: program two",

@@ -45,7 +45,7 @@ MODULE MainModule
     PROC rSeam()
         GoPos pApp1,v1000,z20,tGun,wFix;
         GoPos pSeam1,v200,fine,tGun,wFix;
-        MoveL pSeam2,v20,fine,tGun\WObj:=wFix;
+        MoveL pSeam2,v20,z0,tGun\WObj:=wFix;
         ! 0.02 mm from the target before.
         MoveL pNear,v20,fine,tGun\WObj:=wFix;
     ENDPROC
