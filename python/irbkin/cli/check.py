@@ -119,15 +119,13 @@ def run(arguments: argparse.Namespace) -> int:
     fixed = _fix(checker, jobs) if arguments.fix else Counter()
     report = _report(checker, jobs, fixed, left_open)
     report = replace(report, is_quiet=arguments.quiet)
-    if form == "html":
+    if form == "html" and len(jobs) == 1:
         from irbkin.cli.report.places import places_of
 
-        modules = {
-            shown(file.path): module
-            for job in jobs
-            for file, module in zip(job.program.files, job.program.modules, strict=True)
-        }
-        report = replace(report, places=places_of(jobs[0].robot, modules, report.found))
+        (job,) = jobs
+        names = (shown(file.path) for file in job.program.files)
+        modules = dict(zip(names, job.program.modules, strict=True))
+        report = replace(report, places=places_of(job.robot, modules, report.found))
     for job in jobs:
         if job.robot.max_velocity is None and "V401" in checker.codes:
             name = job.robot.name
