@@ -1,0 +1,28 @@
+"""A language server for RAPID with an arm behind it: `pip install 'irbkin[lsp]'`.
+
+`irbkin lsp` starts it; docs/guide/lsp.md says how editors do.
+"""
+
+from __future__ import annotations
+
+try:
+    import pygls as _pygls  # noqa: F401
+except ImportError as _missing:
+    raise ImportError("irbkin.lsp needs pygls: pip install 'irbkin[lsp]'", name="pygls") from _missing
+
+from irbkin.lsp.handlers import register
+from irbkin.lsp.server import Server
+from irbkin.lsp.work import Desk, Task
+
+__all__ = ["Desk", "Server", "Task", "serve"]
+
+
+def serve(desk: Desk) -> None:
+    """Serve an editor over stdin and stdout until it ends.
+
+    Args:
+        desk: Gives files their programs and arms.
+    """
+    server = Server(desk)
+    register(server)
+    server.start_io()
