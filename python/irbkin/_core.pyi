@@ -2016,6 +2016,34 @@ class Declaration(_Record):
     ) -> Declaration: ...
 
 @final
+class Routine(_Record):
+    """A routine of a module."""
+
+    @property
+    def kind(self) -> Literal["PROC", "FUNC", "TRAP"]:
+        """Its kind: "PROC", "FUNC" or "TRAP"."""
+    @property
+    def name(self) -> str:
+        """Its name, as it is written."""
+    @property
+    def header(self) -> str:
+        """Its first line, from `LOCAL` or `PROC` to the parameters."""
+    @property
+    def line(self) -> int:
+        """Line of the text, from 1."""
+    @property
+    def column(self) -> int:
+        """Column of the text, from 1."""
+    def __new__(
+        cls,
+        kind: Literal["PROC", "FUNC", "TRAP"],
+        name: str,
+        header: str,
+        line: int,
+        column: int,
+    ) -> Routine: ...
+
+@final
 class Argument(_Record):
     """An argument as it is written, without its name, and its value by the declarations.
 
@@ -2325,6 +2353,9 @@ class CheckedMove(_Record):
     def q(self) -> _Floats | None:
         """The joints at its target [rad], shape (6,); None if it has none or is not checked."""
     @property
+    def confdata(self) -> Configuration | None:
+        """The confdata of its target; None for joint angles, or if the target is not known."""
+    @property
     def unchecked(self) -> str | None:
         """The code of the finding for which it is not checked; None if its target, tool and work
         object are known.
@@ -2337,6 +2368,7 @@ class CheckedMove(_Record):
         routine: str | None,
         target: str,
         q: _Floats | None,
+        confdata: Configuration | None,
         unchecked: str | None,
     ) -> CheckedMove: ...
 
@@ -2449,6 +2481,9 @@ class Module(Mapping[str, Any]):
     def declarations(self) -> tuple[Declaration, ...]:
         """Every declaration, of routines too: a tuple of `Declaration`."""
     @property
+    def routines(self) -> tuple[Routine, ...]:
+        """Its procedures, functions and traps, in the order of the text: a tuple of `Routine`."""
+    @property
     def moves(self) -> tuple[Move, ...]:
         """The instructions that move, MoveL as well as TriggL and ArcL, in the order of the
         text, whatever branch or loop they are in.
@@ -2530,6 +2565,16 @@ def read_module(content: str | bytes, context: Iterable[Module] | None = None) -
     Args:
         content: RAPID text, or the bytes of a file, as for `parse`.
         context: Modules in which names that the text does not declare are looked for.
+    """
+
+def differing_names(before: Module, after: Module) -> set[str]:
+    """Return the names in lower case by which two versions of a module differ to other modules.
+
+    A module that has none of them in its text is read as before.
+
+    Args:
+        before: Module.
+        after: Module.
     """
 
 def dump(value: Any, name: str = "Data") -> str:

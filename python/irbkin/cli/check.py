@@ -47,12 +47,30 @@ EXAMPLES = """  irbkin check backups/cell_3
 def add_arguments(parser: Parser) -> None:
     """The arguments of the verb."""
     add = parser.add
-    add(
-        "files",
-        metavar="FILE",
-        nargs="*",
-        help="RAPID modules, folders of them, a backup, - for stdin",
-    )
+    add("files", metavar="FILE", nargs="*", help="modules, folders, a backup, - for stdin")
+    add_arm(parser)
+    change = parser.parser.add_mutually_exclusive_group()
+    change.add_argument("--fix", action="store_true", help="correct confdata in the files")
+    change.add_argument("--diff", action="store_true", help="show what --fix would write")
+    form = parser.parser.add_mutually_exclusive_group()
+    form.add_argument("--output-format", choices=FORMATS, help="text if not given")
+    form.add_argument("--json", action="store_const", const="json", dest="output_format")
+    words = "write the report to a file, its format by its ending: .json, .sarif, .html, .txt"
+    add("-o", "--output-file", metavar="FILE", help=words)
+    add("--color", choices=("auto", "always", "never"), default="auto", help="colors: auto")
+    add("-q", "--quiet", action="store_true", help="write no summary")
+    add_step(parser)
+    add("--codes", action="store_true", help="list the codes")
+
+
+def add_step(parser: Parser) -> None:
+    """The distance of samples."""
+    parser.add("--step", type=float, metavar="MM", help="distance of samples on a line: 5")
+
+
+def add_arm(parser: Parser) -> None:
+    """The arm, and the codes that are wanted."""
+    add = parser.add
     robot = os.environ.get("IRBKIN_ROBOT") or None
     add("--robot", metavar="ROBOT", default=robot, help="name in the catalog, or a .urdf file")
     parser.add_frames()
@@ -80,18 +98,6 @@ def add_arguments(parser: Parser) -> None:
     add("--ignore", metavar="CODES", type=_words, help=words)
     strict = argparse.BooleanOptionalAction
     add("--strict", action=strict, help="moves that are not checked are errors")
-    change = parser.parser.add_mutually_exclusive_group()
-    change.add_argument("--fix", action="store_true", help="correct confdata in the files")
-    change.add_argument("--diff", action="store_true", help="show what --fix would write")
-    form = parser.parser.add_mutually_exclusive_group()
-    form.add_argument("--output-format", choices=FORMATS, help="text if not given")
-    form.add_argument("--json", action="store_const", const="json", dest="output_format")
-    words = "write the report to a file, its format by its ending: .json, .sarif, .html, .txt"
-    add("-o", "--output-file", metavar="FILE", help=words)
-    add("--color", choices=("auto", "always", "never"), default="auto", help="colors: auto")
-    add("-q", "--quiet", action="store_true", help="write no summary")
-    add("--step", type=float, metavar="MM", help="distance of samples on a line: 5")
-    add("--codes", action="store_true", help="list the codes")
 
 
 def _words(text: str) -> list[str]:

@@ -8,7 +8,9 @@ from __future__ import annotations
 try:
     import pygls as _pygls  # noqa: F401
 except ImportError as _missing:
-    raise ImportError("irbkin.lsp needs pygls: pip install 'irbkin[lsp]'", name="pygls") from _missing
+    raise ImportError(
+        "irbkin.lsp needs pygls: pip install 'irbkin[lsp]'", name="pygls"
+    ) from _missing
 
 from irbkin.lsp.handlers import register
 from irbkin.lsp.server import Server

@@ -6,7 +6,7 @@ from lsprotocol import types
 
 from irbkin.lsp.hover import hover
 from irbkin.lsp.marks import FIX_ALL, actions, location, symbols
-from irbkin.lsp.server import WAIT, Server, path_of
+from irbkin.lsp.server import WAIT, Server, Spot, path_of
 from irbkin.lsp.text import Text
 
 CODE_ACTIONS = types.CodeActionOptions([types.CodeActionKind.QuickFix, FIX_ALL])
@@ -104,7 +104,7 @@ def _of_questions(server: Server) -> None:
     async def declared(params: types.DeclarationParams) -> types.Location | None:
         return await _declared(params)
 
-    async def _declared(params: types.TextDocumentPositionParams) -> types.Location | None:
+    async def _declared(params: Spot) -> types.Location | None:
         found = await server.place(params)
         if found is None:
             return None

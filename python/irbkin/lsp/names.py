@@ -114,20 +114,20 @@ def declarations(module: Module, index: int) -> list[Declared]:
         words = " ".join(filter(None, (it.scope, it.storage, it.data_type, it.name)))
         place = (it.routine, it.scope == "LOCAL", it.line, it.column)
         found.append(Declared(index, it.name, it.data_type, words, *place, it.value))
-    for it in module.routines:
-        words = " ".join(it.header.split())
+    for of in module.routines:
+        words = " ".join(of.header.split())
         is_local = words[:6].upper() == "LOCAL "
-        found.append(Declared(index, it.name, it.kind, words, None, is_local, it.line, it.column))
-    for it in module.skipped:
-        if match := UNREAD.match(it.text):
+        found.append(Declared(index, of.name, of.kind, words, None, is_local, of.line, of.column))
+    for part in module.skipped:
+        if match := UNREAD.match(part.text):
             name, kind, scope = match[4], match[3], match[1]
-        elif match := RECORD.match(it.text):
+        elif match := RECORD.match(part.text):
             name, kind, scope = match[3], match[2].upper(), match[1]
         else:
             continue
         is_local = (scope or "").strip().upper() == "LOCAL"
-        words = " ".join(match[0].split())
-        found.append(Declared(index, name, kind, words, it.routine, is_local, it.line, it.column))
+        place = (part.routine, is_local, part.line, part.column)
+        found.append(Declared(index, name, kind, " ".join(match[0].split()), *place))
     return sorted(found, key=lambda it: (it.line, it.column))
 
 

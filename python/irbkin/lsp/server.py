@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
@@ -23,6 +23,13 @@ WATCHED = ("**/*.{mod,modx,sys,sysx,prg,cfg}", "**/irbkin.toml", "**/pyproject.t
 """Files whose changes count although they are not open."""
 
 
+class Spot(Protocol):
+    """A question about a position in a document."""
+
+    text_document: types.TextDocumentIdentifier
+    position: types.Position
+
+
 class Server(LanguageServer):
     """Findings, hovers, corrections and declarations of RAPID modules."""
 
@@ -32,7 +39,7 @@ class Server(LanguageServer):
         self.options: Mapping[str, Any] = {}
         """What the editor sets: options as in irbkin.toml."""
         self.documents: dict[str, tuple[str, int, Text | None]] = {}
-        """Address, version and text of open documents by path; None for a text that is too large."""
+        """Address, version and text of open documents by path; no text if it is too large."""
         self.queue = Queue(desk, self.texts, self.publish, self.fail)
         self._said: set[str] = set()
 
@@ -54,6 +61,7 @@ class Server(LanguageServer):
             size = f"{len(text.source) / 1e6:.1f} MB, more than {MOST_BYTES / 1e6:g} MB"
             self.say(f"{path} has {size}: it is not checked while it is open (irbkin check does)")
             self.documents[path] = (uri, version, None)
+            self.queue.close(path)
             self.show(path, [])
             return
         is_new = path not in self.documents or self.documents[path][2] is None
@@ -75,17 +83,13 @@ class Server(LanguageServer):
     def show(self, path: str, marks: Sequence[types.Diagnostic]) -> None:
         """Show findings in a document."""
         uri, version, _ = self.documents[path]
-        self.text_document_publish_diagnostics(
-            types.PublishDiagnosticsParams(uri, marks, version)
-        )
+        self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, marks, version))
 
     def results(self, path: str) -> list[Result]:
         """Return the last checks of a document, of all its tasks."""
         return [it.result for it in self.queue.sessions(path) if it.result is not None]
 
-    async def place(
-        self, params: types.TextDocumentPositionParams
-    ) -> tuple[Result, int, int] | None:
+    async def place(self, params: Spot) -> tuple[Result, int, int] | None:
         """Return a check of a document as it is, the module, and the offset of a position."""
         path = path_of(params.text_document.uri)
         await self.queue.rest(path, WAIT)
@@ -138,4 +142,3 @@ def path_of(uri: str) -> str:
     """Return the path of a document; of one that is no file, its address."""
     path = to_fs_path(uri) if uri.startswith("file:") else None
     return path or uri
-

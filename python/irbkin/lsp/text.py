@@ -25,7 +25,7 @@ class Text:
 
     @cached_property
     def _rows(self) -> list[int]:
-        """The offset of each line as modules count them, which end with `\\n` alone."""
+        """The offset of each line as modules count them: a line feed ends one, nothing else."""
         return [0, *(match.end() for match in re.finditer("\n", self.source))]
 
     @cached_property

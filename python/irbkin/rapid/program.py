@@ -186,8 +186,7 @@ def _contents(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, byt
 
 
 def modules_in(folder: str) -> list[str]:
-    """Return the files of modules in a folder: of a task's only those that a controller has loaded.
-    """
+    """Return the files of modules in a folder; of a task's those that a controller has loaded."""
     inside = {name.upper(): name for name in os.listdir(folder)}
     tops = [os.path.join(folder, inside[name]) for name in FOLDERS if name in inside] or [folder]
     root = os.path.realpath(folder)
