@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from irbkin.cli.arguments import Parser
 from irbkin.cli.check import add_arm, add_step, checker_of, ignored_of, robot_of
-from irbkin.cli.codes import rules
+from irbkin.cli.codes import codes, rules
 from irbkin.cli.errors import FINE, CommandError
 from irbkin.cli.jobs import Job, found_in, title_of, unit_of
 from irbkin.cli.settings import Settings, options_of, settings_of
@@ -156,7 +156,9 @@ class Desk:
     @lru_cache  # noqa: B019
     def rule(self, code: str) -> tuple[str, str]:
         """Return the address and the words of the rule of a code."""
-        rule = rules()[code]
+        rule = rules().get(code)
+        if rule is None:
+            return RULES.as_uri(), codes()[code].name
         words = " ".join(f"{rule.meaning}\n\nCure: {rule.cure}".split())
         return f"{RULES.as_uri()}#{code.lower()}-{rule.name}", f"{rule.name}: {words}"
 

@@ -5,6 +5,9 @@
 
 from __future__ import annotations
 
+import os
+import sys
+
 try:
     import pygls as _pygls  # noqa: F401
 except ImportError as _missing:
@@ -27,4 +30,8 @@ def serve(desk: Desk) -> None:
     """
     server = Server(desk)
     register(server)
-    server.start_io()
+    # What is printed would be read as a message: it goes to stderr.
+    sys.stdout.flush()
+    stream = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+    server.start_io(stdout=stream)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import traceback
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
+from pygls.exceptions import JsonRpcException
 from pygls.uris import to_fs_path
 
 from irbkin import __version__
@@ -122,9 +124,10 @@ class Server(LanguageServer):
         workspace = self.client_capabilities.workspace
         if workspace and workspace.configuration:
             items = [types.ConfigurationItem(section=SOURCE)]
-            found = await self.workspace_configuration_async(types.ConfigurationParams(items))
-            if found and found[0]:
-                self.set_options(found[0])
+            with contextlib.suppress(JsonRpcException):
+                params = types.ConfigurationParams(items)
+                found = await self.workspace_configuration_async(params)
+                self.set_options(found[0] if found else None)
 
     async def watch(self) -> None:
         """Ask the editor to report changes of files, if it can."""
@@ -134,8 +137,9 @@ class Server(LanguageServer):
             globs = [types.FileSystemWatcher(it) for it in WATCHED]
             options = types.DidChangeWatchedFilesRegistrationOptions(globs)
             method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
-            asked = types.Registration("irbkin-files", method, options)
-            await self.client_register_capability_async(types.RegistrationParams([asked]))
+            asked = types.RegistrationParams([types.Registration("irbkin", method, options)])
+            with contextlib.suppress(JsonRpcException):
+                await self.client_register_capability_async(asked)
 
 
 def path_of(uri: str) -> str:
