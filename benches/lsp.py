@@ -107,10 +107,11 @@ def others(folder: Path) -> None:
 def main() -> None:
     """Print a table, alone and with other modules."""
     robot, text = irbkin.Robot(ROBOT), rapid_check.program(MOVES, 20.0)
+    module = rapid.parse(text)
     parts = rapid_check.least(
         {
             "rapid.parse": lambda: rapid.parse(text),
-            "rapid.check": lambda module=rapid.parse(text): rapid.check(robot, module),
+            "rapid.check": lambda: rapid.check(robot, module),
         }
     )
     print(f"{MOVES} moves, {len(text) / 1e3:.0f} kB, {KEYS} keystrokes [ms]")

@@ -64,7 +64,9 @@ class Editor:
         async with asyncio.timeout(SECONDS) if hasattr(asyncio, "timeout") else _forever():
             while not any((it.uri, it.version) == (uri, wanted) for it in self.published):
                 await asyncio.sleep(0.002)
-        return [it for it in self.published if (it.uri, it.version) == (uri, wanted)][-1].diagnostics
+        return [it for it in self.published if (it.uri, it.version) == (uri, wanted)][
+            -1
+        ].diagnostics
 
     async def codes(self, uri):
         return [it.code for it in await self.marks(uri)]
@@ -123,7 +125,9 @@ async def _forever():
 
 
 @contextlib.asynccontextmanager
-async def editing(folder=None, *arguments, options=None, client="visual-studio-code", settings=None):
+async def editing(
+    folder=None, *arguments, options=None, client="visual-studio-code", settings=None
+):
     """An editor, with the options that it gives the server."""
     environment = {**os.environ, "IRBKIN_ROBOT": ""}
     command = [sys.executable, "-m", "irbkin", "lsp", *arguments]

@@ -97,7 +97,7 @@ def actions(
             begin, end = it.span(text.row(it.line))
             if _meets(text.range(start + begin, start + end), params.range):
                 at = [mark for mark in params.context.diagnostics if _is_of(mark, it, text)]
-                title = f"Correct the confdata: {_new(it)} ({it.code})"
+                title = f"Correct the confdata: {it.message.partition(':')[0]} ({it.code})"
                 kind = types.CodeActionKind.QuickFix
                 edit = _edit(edits)
                 quick[title] = types.CodeAction(title, kind, at, is_preferred=True, edit=edit)
@@ -127,10 +127,6 @@ def _edits(result: Result, it: Found) -> dict[str, dict[tuple[int, int], types.T
 
 def _edit(edits: dict[str, dict[tuple[int, int], types.TextEdit]]) -> types.WorkspaceEdit:
     return types.WorkspaceEdit({uri: list(own.values()) for uri, own in edits.items()})
-
-
-def _new(it: Found) -> str:
-    return ", ".join(dict.fromkeys(new for *_, new in it.edits))
 
 
 def _is_of(mark: types.Diagnostic, it: Found, text: Text) -> bool:
