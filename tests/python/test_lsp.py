@@ -6,15 +6,21 @@ import subprocess
 import sys
 from pathlib import Path
 
+import irbkin
 import pytest
 from editor import WHOLE, editing, offset, part_of, position
 from hypothesis import given
 from hypothesis import strategies as st
+from irbkin.lsp import reading as reading_module
+from irbkin.lsp.queue import Queue
+from irbkin.lsp.reading import Reading
 from irbkin.lsp.text import Text
+from irbkin.rapid.program import ModuleFile, program_of
 from lsprotocol import types
 
 ROOT = Path(__file__).parents[2]
 NAME = "IRB 2600-12/1.65"
+ROBOT = irbkin.Robot(NAME)
 FAR = "[9E9,9E9,9E9,9E9,9E9,9E9]"
 SEAM = f"""MODULE Seam
     PERS tooldata tGun:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
@@ -23,7 +29,7 @@ SEAM = f"""MODULE Seam
     CONST robtarget pAway:=[[2900,0,500],[0,0,1,0],[0,0,0,0],{FAR}];
     PROC main()
         MoveJ pNear,v1000,z20,tGun;
-        MoveL pZero,v200,fine,tGun;
+        MoveJ pZero,v200,fine,tGun;
         MoveJ pAway,v1000,fine,tGun;
     ENDPROC
 ENDMODULE
@@ -54,7 +60,7 @@ async def test_findings_come_with_their_statement_and_go(seam):
         wrong, away = await editor.marks(uri)
         assert (wrong.code, wrong.source) == ("C201", "irbkin")
         assert wrong.severity == types.DiagnosticSeverity.Error
-        assert part_of(SEAM, wrong.range) == "MoveL pZero,v200,fine,tGun"
+        assert part_of(SEAM, wrong.range) == "MoveJ pZero,v200,fine,tGun"
         assert "[-1, 0, -1, 0]" in wrong.message
         address, _, anchor = wrong.code_description.href.partition("#")
         assert anchor == "c201-wrong-confdata"
@@ -188,7 +194,7 @@ async def test_a_backup_gives_the_arm_and_the_other_modules(backup):
 async def test_hovers_show_joints_confdata_and_distances(seam):
     async with editing(options=OPTIONS) as editor:
         uri = editor.open(seam)
-        text = await editor.hover(uri, "MoveL pZero")
+        text = await editor.hover(uri, "MoveJ pZero")
         assert f"**pZero** ({NAME})" in text
         joints = [float(it) for it in re.findall(r"-?\d+\.\d\d(?=\|)", text)]
         assert len(joints) == 6
@@ -214,8 +220,8 @@ async def test_a_correction_leaves_no_finding(seam):
     async with editing(options=OPTIONS) as editor:
         uri = editor.open(seam)
         assert await editor.actions(uri, "MoveJ pNear", [types.CodeActionKind.QuickFix]) == ()
-        quick, everything = await editor.actions(uri, "MoveL pZero")
-        assert quick.title == "Correct the confdata: MoveL pZero (C201)"
+        quick, everything = await editor.actions(uri, "MoveJ pZero")
+        assert quick.title == "Correct the confdata: MoveJ pZero (C201)"
         assert [it.code for it in quick.diagnostics] == ["C201"]
         assert everything.kind == "source.fixAll.irbkin"
         only = await editor.actions(uri, "MODULE", [types.CodeActionKind.SourceFixAll])
@@ -234,7 +240,7 @@ async def test_a_correction_may_be_in_another_file(tmp_path):
     async with editing(options=OPTIONS) as editor:
         uri = editor.open(tmp_path / "moves.mod")
         assert await editor.codes(uri) == ["C201", "R101"]
-        _, everything = await editor.actions(uri, "MoveL pZero")
+        _, everything = await editor.actions(uri, "MoveJ pZero")
         (text,) = editor.apply(everything).values()
         assert text == data.replace("],[0,0,0,0],", "],[-1,0,-1,0],", 1)
         assert await editor.definition(uri, "pZero", 2) == ("data.sys", 5, "pZero")
@@ -247,7 +253,7 @@ async def test_a_correction_may_be_in_another_file(tmp_path):
         # A file that vanishes takes its data with it.
         (tmp_path / "data.sys").unlink()
         editor.change(uri, "fine", "z10")
-        assert set(await editor.codes(uri)) >= {"N601", "N602"}
+        assert await editor.codes(uri) == ["N601"] * 3
 
 
 @pytest.mark.asyncio
@@ -298,20 +304,22 @@ async def test_symbols_have_data_inside_their_routines(seam):
 @pytest.mark.parametrize("ends", ["\n", "\r\n"])
 @pytest.mark.asyncio
 async def test_places_count_units_of_utf_16(tmp_path, ends):
-    lines = SEAM.replace("        MoveL", "    ; ! 😀 größe \x0c\x85\n        MoveL")
+    lines = SEAM.replace("        MoveJ pZero", "    ; ! 😀 größe \x0c\x85\n        MoveJ pZero")
     text = lines.replace("MoveJ pNear", "; MoveJ pNear").replace("\n", ends)
-    text = text.replace("    PROC", f"    ! 😀😀{ends}    PROC")
+    text = text.replace("MoveJ pAway", 'TPWrite "😀ß"; MoveJ pAway')
     async with editing(options=OPTIONS) as editor:
         uri = editor.open(tmp_path / "new.mod", text)
-        wrong, _ = await editor.marks(uri)
-        assert part_of(text, wrong.range) == "MoveL pZero,v200,fine,tGun"
+        wrong, away = await editor.marks(uri)
+        assert part_of(text, wrong.range) == "MoveJ pZero,v200,fine,tGun"
+        assert part_of(text, away.range) == "MoveJ pAway,v1000,fine,tGun"
         # Behind characters that only some take for ends of lines, edits are at their places.
         editor.change(uri, "pZero,v200", "pNone,v200")
         (wrong, _) = await editor.marks(uri)
         assert wrong.code == "N601"
         assert "pNone" in wrong.message
-        assert part_of(editor.texts[uri][1], wrong.range) == "MoveL pNone,v200,fine,tGun"
-        assert await editor.definition(uri, "tGun;") == ("new.mod", 2, "tGun") or True
+        assert part_of(editor.texts[uri][1], wrong.range) == "MoveJ pNone,v200,fine,tGun"
+        hover = await editor.hover(uri, "MoveJ pAway")
+        assert "wrist center" in hover
 
 
 @pytest.mark.asyncio
@@ -370,13 +378,120 @@ async def test_nothing_that_a_client_sends_ends_the_server(seam):
 
 
 @pytest.mark.asyncio
-async def test_an_error_of_a_check_is_logged_and_the_server_lives(seam, tmp_path):
-    (seam.parent / "irbkin.toml").write_text('[check]\nexclude = ["out.mod"]\n')
-    async with editing(options={**OPTIONS, "base": [0, 0, 0]}) as editor:
+async def test_a_file_that_is_excluded_has_no_findings(seam):
+    seam.with_name("irbkin.toml").write_text('[check]\nexclude = ["out.mod"]\n')
+    async with editing(options=OPTIONS) as editor:
         shutil.copy(seam, excluded := seam.with_name("out.mod"))
         out, uri = editor.open(excluded), editor.open(seam)
         assert await editor.codes(uri) == ["C201", "R101"]
         assert out not in editor.client.diagnostics
+
+
+class Desk:
+    """Tasks of one file that fail as often as is wanted."""
+
+    title, robot, notes = "", None, ()
+
+    def __init__(self, fails):
+        self.fails, self.paths = fails, ["a.mod"]
+
+    def tasks(self, path, options):
+        self.fail()
+        return [self]
+
+    def check(self, program):
+        self.fail()
+        return None, ()
+
+    def fail(self):
+        if self.fails:
+            self.fails -= 1
+            raise ValueError(self.fails)
+
+
+@pytest.mark.asyncio
+@pytest.mark.parametrize("fails", range(3))
+async def test_an_error_ends_nothing_but_what_it_is_about(fails):
+    errors, done, texts = [], [], {"a.mod": "MODULE a\nENDMODULE"}
+    queue = Queue(Desk(fails), lambda: texts, done.append, errors.append)
+    for _ in range(3):
+        queue.open("a.mod", {})
+        await queue.rest("a.mod", 10)
+    queue.change("a.mod")
+    await queue.rest("a.mod", 10)
+    queue.stop()
+    assert [str(it) for it in errors] == [str(it) for it in reversed(range(fails))]
+    assert done[-1].result.program.modules[0].name == "a"
+
+
+def module(name, *lines):
+    return "\n".join([f"MODULE {name}", *lines, "ENDMODULE", ""])
+
+
+TARGET = "robtarget p1:=[[900,{},500],[0,0,1,0],[0,0,0,0],{}];"
+MOVE = ["PROC r{0}()", "MoveJ p1,v100,fine,tGun;", "MoveJ p2,v100,fine,tGun;", "ENDPROC"]
+PARTS = {
+    "a.mod": [
+        None,
+        module("a", *(f"CONST {TARGET.format(100, FAR)}", "CONST num n:=3;")),
+        module("a", *(f"PERS {TARGET.format(200, FAR)}", "CONST num n:=4;")),
+        module("a", *(f"LOCAL CONST {TARGET.format(200, FAR)}", "CONST num n:=4;")),
+        module("a", f"CONST {TARGET.format(100, FAR)}", "PROC q()", "p2:=p1;", "ENDPROC"),
+    ],
+    "b.mod": [
+        None,
+        module("b", "PERS robtarget p2:=p1;", *(it.format("b") for it in MOVE)),
+        module("b", "PERS robtarget p2:=Offs(p1,n,0,0);", *(it.format("b") for it in MOVE)),
+        module("b", "CONST num n:=1", *(it.format("b") for it in MOVE)),
+    ],
+    "c.mod": [
+        None,
+        module("c", "PERS tooldata tGun:=[TRUE,[[0,0,9],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];"),
+        module("c", "TASK PERS tooldata tGun;", *(it.format("c") for it in MOVE)),
+        module("c", "PROC rC()", "q;", "p1:=p2;", "tGun.tload.mass:=2;", "ENDPROC"),
+    ],
+}
+VERSIONS = st.fixed_dictionaries({name: st.sampled_from(it) for name, it in PARTS.items()})
+
+
+def seen(program):
+    """All that a program shows of itself."""
+    checked = program.check(ROBOT)
+    faults = [(it.file, it.line, it.code, it.message) for it in program.findings]
+    modules = [(it.source, it, [str(part) for part in it.skipped]) for it in program.modules]
+    return faults, modules, [str(it) for it in checked.findings], list(checked.moves)
+
+
+@given(st.lists(VERSIONS, min_size=2, max_size=5))
+def test_a_program_read_in_parts_is_the_one_read_at_once(versions):
+    reading = Reading(PARTS)
+    for texts in versions:
+        texts = {name: texts[name] for name in PARTS if texts[name] is not None}
+        whole = program_of([ModuleFile(name, text.encode()) for name, text in texts.items()])
+        assert seen(reading.program(texts)) == seen(whole)
+
+
+def test_only_what_a_change_affects_is_read_again(monkeypatch):
+    read, texts = [], {name: versions[1] for name, versions in PARTS.items()}
+    reader = reading_module.read_module
+
+    def counted(content, context=None):
+        read.append((content.split()[1], context is not None))
+        return reader(content, context)
+
+    monkeypatch.setattr(reading_module, "read_module", counted)
+    reading = Reading(PARTS)
+    first = reading.program(texts)
+    read.clear()
+    assert reading.program(texts).modules == first.modules
+    assert read == []
+    texts["a.mod"] = texts["a.mod"].replace("num n", "! comment\nnum n")
+    reading.program(texts)
+    assert read == [("a", False), ("a", True)]
+    read.clear()
+    texts["a.mod"] = texts["a.mod"].replace("100", "101")
+    reading.program(texts)
+    assert read == [("a", False), ("a", True), ("b", True)]
 
 
 def places():
@@ -415,7 +530,8 @@ def test_halves_of_characters_are_replaced():
 
 
 def test_the_missing_extra_is_named():
-    code = "import sys; sys.modules['pygls'] = None; from irbkin.cli import main; sys.exit(main(['lsp']))"
+    code = "import sys; sys.modules['pygls'] = None; from irbkin.cli import main; "
+    code += "sys.exit(main(['lsp']))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 2
     assert done.stderr == "irbkin: irbkin.lsp needs pygls: pip install 'irbkin[lsp]'\n"

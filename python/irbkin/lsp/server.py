@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import traceback
-from collections.abc import Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from typing import Any, Protocol
 
 from lsprotocol import types
-from pygls.lsp.server import LanguageServer
 from pygls.exceptions import JsonRpcException
+from pygls.lsp.server import LanguageServer
+from pygls.protocol.language_server import LanguageServerProtocol, lsp_method
 from pygls.uris import to_fs_path
 
 from irbkin import __version__
@@ -25,6 +26,21 @@ WATCHED = ("**/*.{mod,modx,sys,sysx,prg,cfg}", "**/irbkin.toml", "**/pyproject.t
 """Files whose changes count although they are not open."""
 
 
+class _Messages(LanguageServerProtocol):
+    """The messages of the protocol, without the copies of documents that pygls keeps.
+
+    pygls ends a line at characters that editors do not, such as a form feed, and moves the
+    positions of a change to where it believes that the line ends.
+    """
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
+    def lsp_text_document__did_change(
+        self, params: types.DidChangeTextDocumentParams
+    ) -> Generator[Any, Any, None]:
+        """Pass a change on."""
+        yield self.fm.features[types.TEXT_DOCUMENT_DID_CHANGE], (params,), None
+
+
 class Spot(Protocol):
     """A question about a position in a document."""
 
@@ -36,7 +52,7 @@ class Server(LanguageServer):
     """Findings, hovers, corrections and declarations of RAPID modules."""
 
     def __init__(self, desk: Desk) -> None:
-        super().__init__(SOURCE, __version__)
+        super().__init__(SOURCE, __version__, protocol_cls=_Messages)
         self.desk = desk
         self.options: Mapping[str, Any] = {}
         """What the editor sets: options as in irbkin.toml."""
