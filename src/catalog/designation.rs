@@ -20,7 +20,7 @@ pub(super) struct Designation {
     series: String,
     /// Payload [kg] and reach [m], in either order, without last zeros of decimals.
     figures: [String; 2],
-    /// What else distinguishes an arm, sorted: "LID", "LEFT".
+    /// Other words that distinguish an arm, sorted: "LID", "LEFT".
     words: Vec<String>,
 }
 

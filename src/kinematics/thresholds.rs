@@ -223,6 +223,7 @@ pub const CONFIGURATION_EDGE: f64 = 0.01 * core::f64::consts::PI / 180.0;
 /// is meant: tools and work objects are measured again, targets are not. Of 640 targets of public
 /// programs 24 are over a quarter; those of running cells by 8.7 deg at most, a target that was
 /// never configured by 12 deg or more.
+#[cfg(feature = "rapid")]
 pub(crate) const NEAR_CONFDATA: f64 = 10.0 * core::f64::consts::PI / 180.0;
 
 /// How far beyond its limits a joint of a GoFa or YuMi may be in a taught target [rad]: arms that

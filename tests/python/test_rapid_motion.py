@@ -271,10 +271,10 @@ def test_instructions_and_calls_that_may_move_are_found():
     )
     motion = rapid.motion(ROBOT, rapid.parse(text))
     assert [(finding.code, finding.line) for finding in motion.findings] == [
-        ("U801", 5),
+        ("U802", 5),
         ("U802", 12),
     ]
-    made = [True, False, False, True, True, True, False]
+    made = [True, False, True, True, True, False]
     assert [step.as_programmed for step in motion.moves] == made
 
 

@@ -32,7 +32,7 @@ class Fitted:
     robot: Robot | None = None
     """The robot with the limits in force."""
     reason: str = ""
-    """Why there is none."""
+    """The reason if no robot was found."""
     by_wording: bool = False
     """Whether the arm is known by the wording of backinfo.txt alone."""
     differences: tuple[LimitDifference, ...] = ()
@@ -75,7 +75,7 @@ def fitted(
 
 
 def _named(names: Sequence[str]) -> tuple[Robot | None, str]:
-    """Return the robot of the first name of the catalog, or the reason why there is none."""
+    """Return the robot of the first name of the catalog, or the reason if no name is in it."""
     from irbkin import Robot
 
     reason = "its type is not given"

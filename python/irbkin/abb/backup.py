@@ -60,7 +60,7 @@ class Backup:
     tasks: tuple[Task, ...]
     """Tasks in the order of their folders."""
     findings: tuple[Finding, ...]
-    """What is not determined, missing or broken, once for each unit or file."""
+    """Findings on what is not determined, missing or broken, once for each unit or file."""
     checksums: Mapping[str, str] = field(default_factory=dict)
     """OmniCore: base64 of BACKINFO/checksum.txt by path in the backup, in lower case, with `/`."""
     _folder: Folder | None = field(default=None, repr=False)
@@ -69,7 +69,7 @@ class Backup:
         """Return the task of a name, compared without case.
 
         Raises:
-            KeyError: There is none.
+            KeyError: No task has the name.
         """
         found = next((it for it in self.tasks if it.name.lower() == name.lower()), None)
         if found is None:
@@ -78,7 +78,7 @@ class Backup:
 
     def unit(self, name: str) -> RobotUnit | ExternalUnit | None:
         """Return the unit of a name, or the one of a MECHANICAL_UNIT of that name, compared without
-        case; None where there is none.
+        case; None without one.
         """
         return self._by_name.get(name.lower())
 
@@ -111,7 +111,7 @@ class Backup:
             if not unit.carried_by:
                 return pose
             unit = self._carrier(unit)
-            # What it carries is given in the world, with all external axes at zero.
+            # A unit that it carries is given in the world, with all external axes at zero.
             base = _base_of(unit)
             pose = base @ unit.moved(external_mm_deg) @ np.linalg.inv(base) @ pose
         raise InvalidModelError(f"{name}: the units that carry it carry each other")

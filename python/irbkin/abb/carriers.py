@@ -23,7 +23,7 @@ class Machine:
     units: dict[str, ExternalUnit]
     """Other units by name."""
     findings: list[Finding]
-    """What is not determined of them."""
+    """Properties of them that the files leave open."""
 
     def all_units(self) -> list[RobotUnit | ExternalUnit]:
         """Return robots and other units."""

@@ -1,4 +1,4 @@
-"""What differs between two backups: targets in space and in joints, reach, robots, modules."""
+"""Differences of two backups: targets in space and in joints, reach, robots, modules."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class TargetChange:
 
 @dataclass(frozen=True)
 class Difference:
-    """What differs between two backups."""
+    """The differences of two backups."""
 
     targets: tuple[TargetChange, ...]
     """Targets, in the order of tasks and modules."""

@@ -1,4 +1,4 @@
-"""What a backup's files do not determine, contradict, or have broken: one record each."""
+"""Findings: what the files of a backup leave open, contradict, or have broken."""
 
 from __future__ import annotations
 

@@ -100,7 +100,7 @@ class ExternalUnit:
     type: str
     """Type string of the configuration: "IRBT4004_1"."""
     kind: UnitKind
-    """What it is. A track moves along x of its base frame, a positioner turns about z of it; how a
+    """Its kind. A track moves along x of its base frame, a positioner turns about z of it; how a
     gantry moves is not determined, and how a servo axis does neither.
     """
     base: Pose | None
@@ -127,7 +127,7 @@ class ExternalUnit:
 
     @property
     def missing(self) -> str | None:
-        """What the configuration does not determine of its motion, or None."""
+        """The part of its motion that the configuration leaves open, or None."""
         if self.kind not in ("track", "positioner"):
             return f"how a {self.kind} moves is not determined by the configuration"
         if len(self.axes) != 1:

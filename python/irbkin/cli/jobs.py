@@ -34,7 +34,7 @@ class Job:
     units: Sequence[UnitRow] = ()
     """The units that external axes belong to, as `rapid.check_program` takes them."""
     found: Sequence[Found] = ()
-    """What is wrong with its files."""
+    """Findings on its files."""
     backup: Backup | None = field(default=None, repr=False)
 
     @property

@@ -1,4 +1,4 @@
-"""What the server does at each message."""
+"""Handlers of the messages that the server gets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an editor shows of a name or a move."""
+"""Texts that an editor shows at a name or a move."""
 
 from __future__ import annotations
 

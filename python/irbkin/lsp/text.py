@@ -51,7 +51,7 @@ class Text:
         if self._is_ascii:
             return begin + min(position.character, len(line))
         units = line.encode("utf-16-le")[: 2 * position.character]
-        # Half a character is none.
+        # Half a character counts as missing.
         return begin + len(units.decode("utf-16-le", "ignore"))
 
     def at(self, line: int, column: int) -> int:

@@ -1,4 +1,4 @@
-"""What is checked for an editor: programs with their arms, and what is found in them."""
+"""Work for an editor: programs with their arms, and what is found in them."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Task(Protocol):
     paths: Sequence[str]
     """The files of its modules."""
     notes: Sequence[str]
-    """What is not determined, for the user."""
+    """Messages to the user about what is not determined."""
 
     def check(self, program: Program) -> tuple[Checked | None, Sequence[Found]]:
         """Return what is wrong with the program; without an arm, with its text."""
@@ -107,7 +107,7 @@ class Result:
 
     @cached_property
     def found_in(self) -> dict[str, list[Found]]:
-        """What is found in each file."""
+        """The findings in each file."""
         of: dict[str, list[Found]] = {}
         for it in self.found:
             of.setdefault(it.file, []).append(it)

@@ -40,7 +40,7 @@ class FileFinding:
     code: str
     """E001 for broken text, E002 for a file that is not read, E003 for a doubled name."""
     message: str
-    """What is wrong, in one line."""
+    """The finding in words, in one line."""
     severity: str = "error"
     """"error", "warning" or "note"."""
 
@@ -86,7 +86,7 @@ class Program:
     files: tuple[ModuleFile, ...]
     """The file of each module."""
     findings: tuple[FileFinding, ...] = ()
-    """What could not be read, and names that are doubled."""
+    """Findings on files that could not be read, and on names that are doubled."""
 
     def check(self, robot: Robot, **options: Any) -> Checked:
         """Check every move: routines are followed from `main` through their calls.

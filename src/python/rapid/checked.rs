@@ -73,9 +73,9 @@ record! {
 
 record! {
     "irbkin.rapid";
-    /// What a check finds: findings on moves, and the moves.
+    /// The result of a check: findings on moves, and the moves.
     Checked {
-        /// What is wrong, in the order of the modules and of their texts: a tuple of `Finding`.
+        /// The findings, in the order of the modules and of their texts: a tuple of `Finding`.
         findings: Py<PyTuple>,
         /// The moves in the same order, each place once: a tuple of `CheckedMove`.
         moves: Py<PyTuple>,

@@ -128,7 +128,7 @@ fn read_unit((name, is_carrier, is_determined, axes): GivenUnit<'_>) -> PyResult
     Ok(Unit { name: name.clone(), axes, is_carrier, is_determined })
 }
 
-/// What a check takes into account beside the moves.
+/// The surroundings that a check takes into account.
 #[derive(Default)]
 struct Extent {
     units: Units,

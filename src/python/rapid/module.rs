@@ -116,8 +116,8 @@ impl RapidModule {
         PyTuple::new(py, self.module.skipped().iter().map(Skipped::from))
     }
 
-    /// What is wrong with the text, in the order of the text: a tuple of `TextFault`, which is empty
-    /// for modules of `parse` and `load`; those of `load_program` may have faults.
+    /// The faults of the text, in its order: a tuple of `TextFault`, which is empty
+    /// for modules of `parse` and `load`; modules of `load_program` may have faults.
     #[getter]
     fn faults<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.module.faults().iter().map(TextFault::from))

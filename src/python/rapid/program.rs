@@ -174,13 +174,13 @@ record! {
 
 record! {
     "irbkin.rapid";
-    /// What is wrong with a text that was read in spite of that. `str` has the place, too.
+    /// A fault of a text that was read in spite of it. `str` has the place, too.
     TextFault {
         /// Line of the text, from 1.
         line: usize,
         /// Column of the text, from 1.
         column: usize,
-        /// What is wrong, without the place.
+        /// The fault in words, without the place.
         message: String,
     }
 }

@@ -40,7 +40,7 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// What it moves, seen from the world, at external axes [deg or mm].
+    /// The frame that it moves, seen from the world, at external axes [deg or mm].
     fn frame(&self, extax: &[f64; 6]) -> Option<Pose> {
         self.axes.iter().try_fold(Pose::identity(), |frame, axis| {
             let value = *extax.get(axis.external)?;
@@ -63,7 +63,7 @@ impl Unit {
 pub struct Units(pub Vec<Unit>);
 
 impl Units {
-    /// What the robot's base is displaced by in the world at external axes, from where it is with
+    /// The displacement of the robot's base in the world at external axes, from where it is with
     /// all of them at zero; nothing if it is not carried.
     pub(in crate::rapid) fn carried(&self, extax: &[f64; 6]) -> Option<Pose> {
         let Some(carrier) = self.0.iter().find(|unit| unit.is_carrier) else {
@@ -105,7 +105,7 @@ impl Units {
     }
 }
 
-/// What units do between two targets.
+/// The motion of units between two targets.
 #[derive(Clone, Copy, Default)]
 pub(in crate::rapid) struct Between {
     pub(in crate::rapid) moves: bool,

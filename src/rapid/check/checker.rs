@@ -61,10 +61,10 @@ pub struct CheckedMove {
     pub unchecked: Option<Code>,
 }
 
-/// What a check finds.
+/// The result of a check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checked {
-    /// What is wrong, in the order of the modules and of their texts.
+    /// The findings, in the order of the modules and of their texts.
     pub findings: Vec<Finding>,
     /// The moves, in the same order, each place once.
     pub moves: Vec<CheckedMove>,
@@ -81,8 +81,8 @@ pub struct Checked {
 /// # Errors
 ///
 /// [`Error::InvalidModel`] for an arm without configurations; [`Error::InvalidMotion`] for limits
-/// or steps that are not positive, or for too many samples; [`Error::Rapid`] if a text is not that
-/// of its module; [`Error::InvalidBody`] for a robot without a body in a cell.
+/// or steps that are not positive, or for too many samples; [`Error::Rapid`] if a text is not its
+/// module's; [`Error::InvalidBody`] for a robot without a body in a cell.
 pub fn check(
     robot: &Robot<6>,
     modules: &[(&Module, &str)],

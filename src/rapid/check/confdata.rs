@@ -2,6 +2,8 @@
 
 use alloc::format;
 use alloc::string::ToString;
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
 
 use crate::error::Error;
 use crate::kinematics::thresholds::CONFIGURATION_EDGE;

@@ -41,7 +41,7 @@ pub(super) struct Zones<'a, 'm> {
 }
 
 impl Zones<'_, '_> {
-    /// What is wrong with a move and those next to it.
+    /// The findings on a move and its neighbors.
     pub(super) fn checked(&self, index: usize) -> impl Iterator<Item = Finding> {
         [
             self.too_large(index),

@@ -157,7 +157,7 @@ pub struct Module {
     pub(crate) data: Vec<Datum>,
     pub(crate) moves: Vec<Move>,
     pub(crate) skipped: Vec<Skipped>,
-    /// What is wrong with the text that it was read from in spite of that.
+    /// The faults of the text that it was read from.
     pub(crate) faults: Vec<RapidFault>,
     /// The instructions that set how moves are made.
     pub(crate) settings: Vec<Setting>,
@@ -216,7 +216,7 @@ impl Module {
         &self.skipped
     }
 
-    /// What is wrong with the text, in the order of the text: nothing, unless the module was read
+    /// The faults of the text, in its order: none, unless the module was read
     /// by [`read`](crate::rapid::read). At most 100 faults are kept.
     #[must_use]
     pub fn faults(&self) -> &[RapidFault] {

@@ -164,7 +164,7 @@ impl MoveInstruction {
         self.name == self.way.name()
     }
 
-    /// How many required arguments it must have, besides those of a process.
+    /// How many required arguments it must have, besides the ones of a process.
     pub(crate) fn arguments(&self) -> usize {
         let own = self.layout.iter().filter(|role| **role != Others).count();
         own + usize::from(self.way == MoveC)

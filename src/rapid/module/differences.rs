@@ -1,4 +1,4 @@
-//! What other modules see of a module, compared: which of them must be read again after a change.
+//! The parts of a module that others see, compared: which of them must be read again after a change.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;

@@ -1,4 +1,4 @@
-//! What routines may do, with those that they call: whether they move the robot or set how it
+//! Effects of routines, with the ones that they call: whether they move the robot or set how it
 //! moves, and the data that they assign.
 
 use alloc::collections::{BTreeMap, BTreeSet};
@@ -18,7 +18,7 @@ const PASSES: usize = 64;
 /// A routine by its module and its name in lower case.
 type Name = (usize, String);
 
-/// What a routine may do, with the routines that it calls.
+/// The effects of a routine, with the routines that it calls.
 #[derive(Clone, Default, PartialEq)]
 pub(super) struct Acts {
     /// Whether it moves the robot, displaces targets or sets how moves are made.
@@ -62,7 +62,7 @@ struct Call {
     optional: Vec<(String, Option<String>)>,
 }
 
-/// What the routines of a names may do.
+/// The effects of the routines of a program.
 #[derive(Default)]
 pub(super) struct Effects {
     of_routines: BTreeMap<Name, Acts>,
@@ -89,7 +89,7 @@ impl Effects {
         effects
     }
 
-    /// What a routine may do.
+    /// The effects of a routine.
     pub(super) fn of_routine(&self, module: usize, lower: &str) -> Option<&Acts> {
         self.of_routines.get(&(module, String::from(lower)))
     }

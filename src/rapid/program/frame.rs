@@ -27,7 +27,7 @@ pub(super) struct Frame {
     /// Its name in lower case.
     pub(super) routine: String,
     pub(super) site: Option<Site>,
-    /// What was known where it was left.
+    /// The knowledge at each place where it was left.
     pub(super) exits: Vec<State>,
     /// Its optional parameters that no argument was given for.
     pub(super) absent: BTreeSet<String>,

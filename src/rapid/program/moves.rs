@@ -115,7 +115,7 @@ impl Scope<'_, '_> {
         }
     }
 
-    /// What an instruction displaces targets by, or external axes.
+    /// The displacement of targets, or of external axes, by an instruction.
     pub(super) fn displacement(
         &self,
         skipped: &Skipped,

@@ -1,4 +1,4 @@
-//! What is known at a place of a program.
+//! The knowledge at a place of a program: values, settings, displacements, where the robot is.
 
 use alloc::collections::BTreeMap;
 use alloc::string::String;
@@ -21,7 +21,7 @@ pub(super) enum Here {
     Left,
 }
 
-/// What displaces the targets of moves.
+/// The displacement of the targets of moves.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Displacement {
     Nothing,
@@ -31,8 +31,7 @@ pub(super) enum Displacement {
     Unknown(usize),
 }
 
-/// What is added to external axes [deg or mm], or the line of the instruction that adds something
-/// that is not known.
+/// The offsets of external axes [deg or mm], or the line of the instruction that sets unknown ones.
 pub(super) type Offsets = Result<[f64; 6], usize>;
 
 /// A datum or a parameter of a routine.
@@ -53,7 +52,7 @@ impl Local {
 /// The data and the parameters of a routine by their names in lower case.
 pub(super) type Locals = BTreeMap<String, Local>;
 
-/// What is known at a place.
+/// The knowledge at a place.
 #[derive(Clone, PartialEq)]
 pub(super) struct State {
     pub(super) here: Here,
@@ -78,7 +77,7 @@ impl State {
         }
     }
 
-    /// What is known behind parts that begin with `entry` and end with `ends`; `line` is theirs.
+    /// The knowledge behind parts that begin with `entry` and end with `ends`; `line` is theirs.
     pub(super) fn joined(entry: Self, ends: Vec<Self>, line: usize) -> Self {
         let mut ends = ends.into_iter().filter(|end| end.here != Here::Left);
         let Some(mut all) = ends.next() else {

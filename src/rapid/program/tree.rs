@@ -38,7 +38,7 @@ pub(super) enum Node<'m> {
 #[derive(Default)]
 pub(super) struct Body<'m> {
     pub(super) main: Block<'m>,
-    /// Those behind ERROR, UNDO and BACKWARD.
+    /// The statements behind ERROR, UNDO and BACKWARD.
     pub(super) handlers: Vec<Block<'m>>,
 }
 
@@ -84,7 +84,7 @@ struct Open<'m> {
     parts: Vec<Block<'m>>,
     /// The part that is open.
     part: Block<'m>,
-    /// Whether a part has begun: that of a TEST begins at its first CASE.
+    /// Whether a part has begun: a TEST's begins at its first CASE.
     has_begun: bool,
     has_else: bool,
     /// Whether it is an IF without THEN, of one instruction.

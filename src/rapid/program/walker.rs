@@ -38,7 +38,7 @@ pub(in crate::rapid) struct Stepped<'m> {
     pub(in crate::rapid) step: Cow<'m, Move>,
     /// Whether a value is the last one that a PERS had.
     pub(in crate::rapid) takes_last: bool,
-    /// What the program may wait at behind it, in words.
+    /// The statement behind it at which the program may wait, in words.
     pub(in crate::rapid) halt: Option<String>,
     /// The line of what displaces its target by a known pose.
     pub(in crate::rapid) displaced_on: Option<usize>,
@@ -95,7 +95,7 @@ impl<'p, 'm> Walk<'p, 'm> {
         self.uncertain.get_or_insert_with(|| (line, word.to_string()));
     }
 
-    /// What is assigned in a block is not known any more.
+    /// Forget the data that a block assigns.
     pub(super) fn forget(&mut self, block: &Block<'m>) {
         let place = (self.frame.module, self.frame.routine.as_str());
         let (globals, locals) = self.program.effects.of_block(self.program, place, block);
@@ -107,7 +107,7 @@ impl<'p, 'm> Walk<'p, 'm> {
         }
     }
 
-    /// What is known here, for looking up names.
+    /// The names and values that are known here.
     pub(super) fn scope(&self) -> Scope<'_, 'm> {
         Scope {
             program: self.program,

@@ -100,7 +100,7 @@ fn sizes_and_value<'a>(
     Ok((dimensions, place, value))
 }
 
-/// Add the components of a record that are read, with those of records in it.
+/// Add the components of a record that are read, with the components of records in it.
 fn flatten<'a>(
     (types, components): (&Types<'_>, &[(String, String)]),
     prefix: &str,

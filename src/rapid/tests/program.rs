@@ -27,7 +27,7 @@ fn data() -> String {
     )
 }
 
-/// What is found in modules that know each other, but for edges of quarters.
+/// The findings in modules that know each other, but for edges of quarters.
 fn checked(texts: &[&str], options: &CheckOptions<'_>) -> Checked {
     let robot = Robot::named("IRB 2600-12/1.65").unwrap();
     let alone: Vec<Module> = texts.iter().map(|text| read(text, &[])).collect();

@@ -81,13 +81,13 @@ def _file(report: Report, file: str, found: Iterable[Found]) -> str:
 def _card(found: Found, text: SourceText) -> str:
     rule = rules()[found.code]
     routine = f" in {escape(found.routine)}" if found.routine else ""
-    line = f", line {found.line}" if found.line else ""
+    place = f", line {found.line}" if found.line else ""
     words = " ".join([found.code, found.name, found.routine or "", found.file, found.message])
     parts = [
         f'<article class="finding card {found.severity}" data-level="{found.severity}" '
         f'data-words="{escape(words)}">',
         f"<header><b>{found.code} {escape(found.name)}</b>"
-        f'<span class="dim">{found.severity}{line}{routine}</span></header>',
+        f'<span class="dim">{found.severity}{place}{routine}</span></header>',
         f"<p>{escape(found.message)}</p>",
         gauge(found),
         _excerpt(found, text.lines),
