@@ -113,6 +113,7 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
 	$(STEP) "the bench of a check runs" env MOVES=1000 $(BIN)/python benches/rapid_check.py >/dev/null
 	$(STEP) "the bench of the command runs" env CALLS=1 $(BIN)/python benches/command.py >/dev/null
+	$(STEP) "the bench of the language server runs" env MOVES=200 KEYS=3 OTHERS=3 $(BIN)/python benches/lsp.py >/dev/null
 	$(STEP) "the tails compile" cargo check --quiet --manifest-path benches/tails/Cargo.toml --target-dir target/tails
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
 	$(BIN)/ruff check --quiet .
@@ -134,6 +135,7 @@ bench: $(RELEASED) ## Time single poses, batches, Python's calls and a RAPID mod
 	$(BIN)/python benches/rapid_module.py
 	$(BIN)/python benches/rapid_check.py
 	$(BIN)/python benches/command.py
+	$(BIN)/python benches/lsp.py
 
 # One at a time: a peer without a wheel for this Python does not exclude the others.
 $(PEERS)/.made: benches/peers/requirements.txt | toolchains

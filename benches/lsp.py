@@ -72,7 +72,7 @@ class Client:
 
 
 def keystrokes(folder: Path, file: Path) -> list[float]:
-    """The times from a keystroke to its findings [s], after those of the opened file."""
+    """The times from a keystroke to its findings [s]; the file is opened before."""
     client, uri, text = Client(folder), file.as_uri(), file.read_text()
     document = {"uri": uri, "languageId": "rapid", "version": 0, "text": text}
     client.send("textDocument/didOpen", {"textDocument": document})

@@ -7,7 +7,6 @@ import copy
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -139,12 +138,10 @@ class Desk:
 
     def _tasks_in(self, backup: Backup, path: str, checker: Checker) -> list[Task]:
         """The tasks of a backup that have a file."""
-        own = os.path.normcase(path)
         found = []
         for task in backup.tasks:
-            paths = [os.path.join(backup.path, it.path) for it in task.modules]
-            if own in map(os.path.normcase, paths):
-                paths = [path if os.path.normcase(it) == own else it for it in paths]
+            paths = _with([os.path.join(backup.path, it.path) for it in task.modules], path)
+            if path in paths:
                 found.append(_task_of(backup, task, paths, checker))
         note = f"{path} is in no task of its backup, only its text is checked"
         return found or [Task(path, [path], checker, notes=[note])]
@@ -153,7 +150,6 @@ class Desk:
         """Read options and backups again."""
         self._backups.clear()
 
-    @lru_cache  # noqa: B019
     def rule(self, code: str) -> tuple[str, str]:
         """Return the address and the words of the rule of a code."""
         rule = rules().get(code)
@@ -179,6 +175,12 @@ def _task_of(backup: Backup, task: BackupTask, paths: Sequence[str], checker: Ch
     return Task(task.name, paths, checker, notes=notes)
 
 
+def _with(paths: Sequence[str], path: str) -> list[str]:
+    """Paths, one of them as an editor writes it: a drive or a name perhaps in another case."""
+    own = os.path.normcase(path)
+    return [path if os.path.normcase(it) == own else it for it in paths]
+
+
 def _paths(path: str, settings: Settings) -> tuple[list[str], list[str]]:
     """The files of the program of a file that is in no backup, and what is wrong with them."""
     from irbkin.rapid.program import ENDINGS, FOLDERS, modules_in
@@ -195,6 +197,7 @@ def _paths(path: str, settings: Settings) -> tuple[list[str], list[str]]:
         paths = [os.path.join(folder, it) for it in names]
     excluded = settings.options.get("exclude", ())
     paths = [it for it in paths if not (excluded and settings.matches(it, excluded))]
+    paths = _with(paths, path)
     if path not in paths:
         paths.append(path)
     if len(paths) <= MOST_FILES:

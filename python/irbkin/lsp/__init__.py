@@ -30,7 +30,7 @@ def serve(desk: Desk) -> None:
     """
     server = Server(desk)
     register(server)
-    # Printed text would be read as a message: it goes to stderr.
+    # A printed line would be read as a message: it goes to stderr.
     sys.stdout.flush()
     stream = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())

@@ -1,4 +1,4 @@
-"""Handlers of the messages that the server gets."""
+"""The handlers of messages."""
 
 from __future__ import annotations
 

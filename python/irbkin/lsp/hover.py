@@ -1,4 +1,4 @@
-"""Texts that an editor shows at a name or a move."""
+"""Hovers: values of data; joints, confdata and distances of moves."""
 
 from __future__ import annotations
 

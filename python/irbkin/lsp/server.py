@@ -55,7 +55,7 @@ class Server(LanguageServer):
         super().__init__(SOURCE, __version__, protocol_cls=_Messages)
         self.desk = desk
         self.options: Mapping[str, Any] = {}
-        """Options of the editor, with names as in irbkin.toml."""
+        """The settings of the editor: options as in irbkin.toml."""
         self.documents: dict[str, tuple[str, int, Text | None]] = {}
         """Address, version and text of open documents by path; no text if it is too large."""
         self.queue = Queue(desk, self.texts, self.publish, self.fail)

@@ -51,7 +51,7 @@ class Text:
         if self._is_ascii:
             return begin + min(position.character, len(line))
         units = line.encode("utf-16-le")[: 2 * position.character]
-        # Half a character counts as missing.
+        # The half of a character is dropped.
         return begin + len(units.decode("utf-16-le", "ignore"))
 
     def at(self, line: int, column: int) -> int:
@@ -66,7 +66,7 @@ class Text:
         return line, offset - self._rows[line - 1] + 1
 
     def row(self, line: int) -> str:
-        """Return a line by its number from 1, without its end; empty if there is none."""
+        """Return a line by its number from 1, without its end; empty beyond the last."""
         if not 0 < line <= len(self._rows):
             return ""
         end = self._rows[line] - 1 if line < len(self._rows) else None
@@ -90,7 +90,7 @@ class Text:
         return Text(self.source[:begin] + change.text + self.source[max(begin, end) :])
 
     def word(self, offset: int) -> tuple[int, int]:
-        """Return the begin and the end of the name at an offset; equal if there is none."""
+        """Return the begin and the end of the name at an offset, equal without a name."""
         line, column = self.place(offset)
         for match in re.finditer(r"[^\W\d]\w*", self.row(line)):
             if match.start() < column <= match.end() + 1:

@@ -1,4 +1,4 @@
-"""Work for an editor: programs with their arms, and what is found in them."""
+"""Programs with their arms, as an editor has them checked, and the results."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Task(Protocol):
     paths: Sequence[str]
     """The files of its modules."""
     notes: Sequence[str]
-    """Messages to the user about what is not determined."""
+    """Messages on undetermined things, for the user."""
 
     def check(self, program: Program) -> tuple[Checked | None, Sequence[Found]]:
         """Return what is wrong with the program; without an arm, with its text."""

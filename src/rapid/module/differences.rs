@@ -1,4 +1,4 @@
-//! The parts of a module that others see, compared: which of them must be read again after a change.
+//! Two versions of a module compared as other modules see it, to read no others again.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
