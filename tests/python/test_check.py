@@ -91,7 +91,7 @@ def test_a_rule_is_explained_by_its_code_or_its_name():
     assert "[obstacles.post]" in command.run("rule", "K901").stdout.decode()
     assert "did you mean R10" in command.refused("rule", "R110")
     assert "did you mean C201, C204?" in command.refused("rule", "wrong-confdta")
-    assert "did you mean B, C, D, E, K" in command.refused("rule", "banana")
+    assert "did you mean B, C, D, E, K" in command.refused("rule", "mango")
     assert command.run("rule").stdout == run("--codes").stdout
 
 
