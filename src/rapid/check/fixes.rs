@@ -175,8 +175,7 @@ impl<'a, 'm> Finder<'a, 'm> {
         let names = names.checked_sub(1)?;
         let lower = name.to_lowercase();
         let routine = routine.map(str::to_lowercase).unwrap_or_default();
-        let mut own = self.program.locals(module, &routine);
-        let local = own.find(|datum| datum.name.to_lowercase() == lower);
+        let local = self.program.local(module, &routine, &lower);
         let (module, datum) = if let Some(datum) = local {
             (module, datum)
         } else {

@@ -2,6 +2,7 @@
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
+use alloc::rc::Rc;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::mem;
@@ -9,7 +10,7 @@ use core::ops::Range;
 
 use super::arguments::{Parameter, arguments, assignment, called, referred};
 use super::frame::{Frame, Site};
-use super::state::{Local, Locals};
+use super::state::{Local, Locals, MOST_KNOWN};
 use super::walker::Walk;
 use super::whole::Program;
 use crate::rapid::data::instructions::written_argument;
@@ -28,7 +29,7 @@ impl Program<'_> {
         module: usize,
         routine: &str,
         given: Option<Vec<(String, Local)>>,
-    ) -> Locals {
+    ) -> Rc<Locals> {
         let data = self.locals(module, routine).map(|datum| {
             let content = match (&datum.content, datum.storage) {
                 (Content::Uninitialized { .. }, _) => Err(Unresolved::NoValue),
@@ -43,7 +44,12 @@ impl Program<'_> {
         };
         let parameters =
             given.unwrap_or_else(|| self.parameters(module, routine).iter().map(unknown).collect());
-        data.chain(parameters).collect()
+        let mut locals: Locals = data.chain(parameters).collect();
+        if locals.len() > MOST_KNOWN {
+            let unknown = |local: &mut Local| local.content = Err(Unresolved::ValueNotKnown);
+            locals.values_mut().for_each(unknown);
+        }
+        Rc::new(locals)
     }
 }
 
@@ -77,7 +83,8 @@ impl<'m> Walk<'_, 'm> {
                 self.bound(skipped, parameters, arguments.required, arguments.optional)
             }
             (why, _) => {
-                self.state.globals.retain(|datum, _| !acts.assigns.contains(datum));
+                let assigned = program.effects.assigned_by(Vec::from([(home, name)]));
+                self.state.forget_globals(assigned.as_ref());
                 if acts.moves {
                     let words = why.unwrap_or_else(|| "its arguments are not read".to_string());
                     self.not_followed(skipped, words);
@@ -112,6 +119,7 @@ impl<'m> Walk<'_, 'm> {
         above.push((self.frame.module, self.frame.routine.clone()));
         let before: Locals = given.iter().cloned().collect();
         let locals = self.program.locals_of(home, &name, Some(given));
+        self.steps_left = self.steps_left.saturating_sub(locals.len());
         let frame = Frame {
             module: home,
             routine: name,
@@ -137,15 +145,17 @@ impl<'m> Walk<'_, 'm> {
 
     /// Give a datum or a local another content, or none that is known.
     pub(super) fn put(&mut self, lower: &str, content: Option<Content>) {
-        if let Some(local) = self.state.locals.get_mut(lower) {
-            local.content = content.ok_or(Unresolved::ValueNotKnown);
+        if self.state.locals.contains_key(lower) {
+            if self.state.locals.len() <= MOST_KNOWN
+                && let Some(local) = Rc::make_mut(&mut self.state.locals).get_mut(lower)
+            {
+                local.content = content.ok_or(Unresolved::ValueNotKnown);
+            }
             return;
         }
-        let Some((datum, _)) = self.program.datum(self.frame.module, lower) else { return };
-        match content {
-            Some(content) => self.state.globals.insert(datum, content),
-            None => self.state.globals.remove(&datum),
-        };
+        if let Some((datum, _)) = self.program.datum(self.frame.module, lower) {
+            self.state.set_global(datum, content);
+        }
     }
 
     /// An assignment.

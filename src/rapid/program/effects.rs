@@ -15,6 +15,9 @@ use crate::rapid::data::unread::{NotRead, Skipped};
 /// How often effects are passed on from routine to routine: chains of calls are no longer.
 const PASSES: usize = 64;
 
+/// Most routines whose assignments are told apart.
+const MOST_CALLED: usize = 1000;
+
 /// A routine by its module and its name in lower case.
 type Name = (usize, String);
 
@@ -23,8 +26,10 @@ type Name = (usize, String);
 pub(super) struct Acts {
     /// Whether it moves the robot, displaces targets or sets how moves are made.
     pub(super) moves: bool,
-    /// The data that it assigns.
-    pub(super) assigns: BTreeSet<DatumId>,
+    /// Whether it assigns data.
+    assigns: bool,
+    /// The data that it assigns by itself.
+    own: BTreeSet<DatumId>,
     /// The parameters that it assigns, by their names.
     assigned_parameters: BTreeSet<String>,
 }
@@ -32,7 +37,7 @@ pub(super) struct Acts {
 impl Acts {
     /// Whether following it changes what is known.
     pub(super) fn matters(&self) -> bool {
-        self.moves || !self.assigns.is_empty() || !self.assigned_parameters.is_empty()
+        self.moves || self.assigns || !self.assigned_parameters.is_empty()
     }
 }
 
@@ -66,6 +71,8 @@ struct Call {
 #[derive(Default)]
 pub(super) struct Effects {
     of_routines: BTreeMap<Name, Acts>,
+    /// The calls of each routine.
+    calls: BTreeMap<Name, Vec<Call>>,
     assigned: BTreeMap<DatumId, Assigned>,
     /// The data that a routine assigns to which they are passed.
     by_reference: BTreeSet<DatumId>,
@@ -74,7 +81,7 @@ pub(super) struct Effects {
 impl Effects {
     pub(super) fn of(names: &Names<'_>) -> Self {
         let mut effects = Self::default();
-        let mut calls: BTreeMap<Name, Vec<Call>> = BTreeMap::new();
+        let mut calls = BTreeMap::new();
         for (module, bodies) in names.bodies.iter().enumerate() {
             for (routine, body) in bodies {
                 let name = (module, routine.clone());
@@ -86,6 +93,7 @@ impl Effects {
             }
         }
         effects.pass_on(names, &calls);
+        effects.calls = calls;
         effects
     }
 
@@ -109,28 +117,49 @@ impl Effects {
         !self.by_reference.is_empty()
     }
 
-    /// The data and the names of locals that a block of a routine assigns.
+    /// The data, perhaps any, and the names of locals that a block of a routine assigns.
     pub(super) fn of_block(
         &self,
         names: &Names<'_>,
         (module, routine): (usize, &str),
         block: &Block<'_>,
-    ) -> (BTreeSet<DatumId>, BTreeSet<String>) {
+    ) -> (Option<BTreeSet<DatumId>>, BTreeSet<String>) {
         let mut assigned = BTreeMap::new();
         let mut reader = Reader::new(names, (module, routine), &mut assigned);
         reader.block(block);
         let Reader { mut acts, calls, mut locals, .. } = reader;
+        let mut called = Vec::new();
         for call in calls {
             let Some(of) = self.of_routines.get(&call.to) else { continue };
-            acts.assigns.extend(of.assigns.iter().copied());
             let parameters = names.parameters(call.to.0, &call.to.1);
             for passed in call.assigned(parameters, of) {
-                acts.assigns.extend(names.datum(module, passed).map(|(datum, _)| datum));
+                acts.own.extend(names.datum(module, passed).map(|(datum, _)| datum));
                 locals.insert(passed.into());
             }
+            called.push(call.to);
         }
         locals.extend(acts.assigned_parameters);
-        (acts.assigns, locals)
+        let others = self.assigned_by(called);
+        (others.map(|others| acts.own.into_iter().chain(others).collect()), locals)
+    }
+
+    /// The data that routines assign, with the ones that they call; `None` if these are many.
+    pub(super) fn assigned_by(&self, mut open: Vec<Name>) -> Option<BTreeSet<DatumId>> {
+        let (mut found, mut seen) = (BTreeSet::new(), BTreeSet::new());
+        while let Some(name) = open.pop() {
+            if seen.len() + open.len() > MOST_CALLED {
+                return None;
+            }
+            let Some(acts) = self.of_routines.get(&name).filter(|acts| acts.assigns) else {
+                continue;
+            };
+            found.extend(acts.own.iter().copied());
+            let called = self.calls.get(&name).into_iter().flatten().map(|call| call.to.clone());
+            let called: Vec<Name> = called.filter(|it| !seen.contains(it)).collect();
+            seen.insert(name);
+            open.extend(called);
+        }
+        Some(found)
     }
 
     /// Add what called routines do to those that call them.
@@ -142,11 +171,11 @@ impl Effects {
                 for call in own {
                     let Some(of) = self.of_routines.get(&call.to) else { continue };
                     acts.moves |= of.moves;
-                    acts.assigns.extend(of.assigns.iter().copied());
+                    acts.assigns |= of.assigns;
                     let parameters = names.parameters(call.to.0, &call.to.1);
                     for passed in call.assigned(parameters, of) {
                         let (module, routine) = name;
-                        let is_local = is_local(names, *module, routine, passed);
+                        let is_local = names.local(*module, routine, passed).is_some();
                         let own = names.parameters(*module, routine);
                         let is_parameter = own.iter().any(|it| it.name == passed);
                         if is_parameter {
@@ -154,7 +183,8 @@ impl Effects {
                         } else if let Some((datum, _)) =
                             names.datum(*module, passed).filter(|_| !is_local)
                         {
-                            acts.assigns.insert(datum);
+                            acts.assigns = true;
+                            acts.own.insert(datum);
                             self.by_reference.insert(datum);
                             add(&mut self.assigned, datum, (*module, call.line), String::new());
                         }
@@ -189,11 +219,6 @@ impl Call {
             passed.as_deref().filter(|_| is_assigned)
         })
     }
-}
-
-/// Whether a routine declares a name in lower case.
-fn is_local(names: &Names<'_>, module: usize, routine: &str, lower: &str) -> bool {
-    names.locals(module, routine).any(|datum| datum.name.to_lowercase() == lower)
 }
 
 /// A reader of what one routine does by itself.
@@ -301,14 +326,15 @@ impl<'e, 'm> Reader<'e, 'm> {
     }
 
     fn assign(&mut self, name: &str, components: String, line: usize) {
-        if is_local(self.names, self.module, self.routine, name) {
+        if self.names.local(self.module, self.routine, name).is_some() {
             self.locals.insert(name.into());
             return;
         }
         if self.parameters.iter().any(|it| it.name == name) {
             self.acts.assigned_parameters.insert(name.into());
         } else if let Some((datum, _)) = self.names.datum(self.module, name) {
-            self.acts.assigns.insert(datum);
+            self.acts.assigns = true;
+            self.acts.own.insert(datum);
             add(self.assigned, datum, (self.module, line), components);
         }
     }

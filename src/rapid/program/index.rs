@@ -27,8 +27,8 @@ pub(in crate::rapid) struct Names<'m> {
     global_procedures: BTreeMap<String, usize>,
     /// The first module that has a global datum, by its name in lower case.
     global_data: BTreeMap<String, usize>,
-    /// The data of the routines of each module by the names of the routines in lower case.
-    locals: Vec<BTreeMap<String, Vec<usize>>>,
+    /// The data of the routines of each module by the names of routines and data in lower case.
+    locals: Vec<BTreeMap<String, BTreeMap<String, usize>>>,
     /// Names in lower case of the data of each module that are not read.
     unread: Vec<BTreeMap<String, Unresolved>>,
     /// The statements of the routines of each module by their names in lower case.
@@ -101,7 +101,18 @@ impl<'m> Names<'m> {
     ) -> impl Iterator<Item = &'m Datum> {
         let of = self.modules.get(module).map_or(&[][..], |it| &it.data);
         let own = self.locals.get(module).and_then(|it| it.get(lower));
-        own.into_iter().flatten().filter_map(|datum| of.get(*datum))
+        own.into_iter().flat_map(BTreeMap::values).filter_map(|datum| of.get(*datum))
+    }
+
+    /// The datum of a routine, by both names in lower case.
+    pub(in crate::rapid) fn local(
+        &self,
+        module: usize,
+        routine: &str,
+        lower: &str,
+    ) -> Option<&'m Datum> {
+        let datum = *self.locals.get(module)?.get(routine)?.get(lower)?;
+        self.modules.get(module)?.data.get(datum)
     }
 
     /// Why a name in lower case has no value, if it refers to a datum that is not read.
@@ -147,11 +158,14 @@ impl<'m> Names<'m> {
 }
 
 /// The data of each routine, by its name in lower case.
-fn locals(module: &Module) -> BTreeMap<String, Vec<usize>> {
-    let mut found: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+fn locals(module: &Module) -> BTreeMap<String, BTreeMap<String, usize>> {
+    let mut found: BTreeMap<String, BTreeMap<String, usize>> = BTreeMap::new();
     for (index, datum) in module.data.iter().enumerate() {
         if let Some(routine) = &datum.routine {
-            found.entry(routine.to_lowercase()).or_default().push(index);
+            found
+                .entry(routine.to_lowercase())
+                .or_default()
+                .insert(datum.name.to_lowercase(), index);
         }
     }
     found

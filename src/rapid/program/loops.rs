@@ -1,5 +1,6 @@
 //! Loops: each pass is followed where its bounds are known.
 
+use alloc::rc::Rc;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -27,7 +28,7 @@ impl<'m> Walk<'_, 'm> {
         {
             for value in passes {
                 let local = Local::single(Value::Num(*value));
-                self.state.locals.insert(name.clone(), local);
+                Rc::make_mut(&mut self.state.locals).insert(name.clone(), local);
                 self.block(body);
                 if self.state.here == Here::Left {
                     break;
@@ -40,7 +41,8 @@ impl<'m> Walk<'_, 'm> {
             self.forget(body);
             if let Some(name) = &name {
                 let content = Err(Unresolved::LoopVariable);
-                self.state.locals.insert(name.clone(), Local { data_type: None, content });
+                let local = Local { data_type: None, content };
+                Rc::make_mut(&mut self.state.locals).insert(name.clone(), local);
             }
             let entry = self.state.clone();
             self.block(body);
@@ -48,9 +50,10 @@ impl<'m> Walk<'_, 'm> {
             self.state = State::joined(entry, ends, head.line);
         }
         if let Some(name) = name {
+            let locals = Rc::make_mut(&mut self.state.locals);
             match before {
-                Some(local) => self.state.locals.insert(name, local),
-                None => self.state.locals.remove(&name),
+                Some(local) => locals.insert(name, local),
+                None => locals.remove(&name),
             };
         }
     }

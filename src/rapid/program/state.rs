@@ -1,6 +1,7 @@
 //! The knowledge at a place of a program: values, settings, displacements, where the robot is.
 
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::rc::Rc;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -10,6 +11,10 @@ use crate::rapid::data::records::RapidPose;
 use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::data::unread::Unresolved;
 use crate::rapid::data::value::{DataType, Value};
+
+/// Most assigned data, and most names of a routine, whose contents are followed: copies at branches
+/// stay small.
+pub(super) const MOST_KNOWN: usize = 1000;
 
 /// Where the robot is.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -60,8 +65,8 @@ pub(super) struct State {
     pub(super) displacement: Displacement,
     pub(super) offsets: Offsets,
     /// Assigned data with the contents that they have here; all others are unknown.
-    pub(super) globals: BTreeMap<DatumId, Content>,
-    pub(super) locals: Locals,
+    globals: Rc<BTreeMap<DatumId, Content>>,
+    pub(super) locals: Rc<Locals>,
 }
 
 impl State {
@@ -72,8 +77,53 @@ impl State {
             settings: MotionSettings::default(),
             displacement: Displacement::Nothing,
             offsets: Ok([0.0; 6]),
-            globals: BTreeMap::new(),
-            locals: Locals::new(),
+            globals: Rc::default(),
+            locals: Rc::default(),
+        }
+    }
+
+    /// The content of an assigned datum; `None` if it is not known.
+    pub(super) fn global(&self, datum: DatumId) -> Option<&Content> {
+        self.globals.get(&datum)
+    }
+
+    /// Give a datum another content, or none that is known.
+    pub(super) fn set_global(&mut self, datum: DatumId, content: Option<Content>) {
+        let content = content
+            .filter(|_| self.globals.len() < MOST_KNOWN || self.globals.contains_key(&datum));
+        if content.is_none() && !self.globals.contains_key(&datum) {
+            return;
+        }
+        let globals = Rc::make_mut(&mut self.globals);
+        match content {
+            Some(content) => globals.insert(datum, content),
+            None => globals.remove(&datum),
+        };
+    }
+
+    /// Forget assigned data; all of them without a set.
+    pub(super) fn forget_globals(&mut self, assigned: Option<&BTreeSet<DatumId>>) {
+        match assigned {
+            None => self.globals = Rc::default(),
+            Some(assigned) if self.globals.keys().any(|datum| assigned.contains(datum)) => {
+                Rc::make_mut(&mut self.globals).retain(|datum, _| !assigned.contains(datum));
+            }
+            Some(_) => {}
+        }
+    }
+
+    /// Forget the contents of some names of the routine.
+    pub(super) fn forget_locals(&mut self, is_forgotten: impl Fn(&String, &Local) -> bool) {
+        if self
+            .locals
+            .iter()
+            .any(|(name, local)| local.content.is_ok() && is_forgotten(name, local))
+        {
+            for (name, local) in Rc::make_mut(&mut self.locals) {
+                if local.content.is_ok() && is_forgotten(name, local) {
+                    local.content = Err(Unresolved::ValueNotKnown);
+                }
+            }
         }
     }
 
@@ -94,11 +144,14 @@ impl State {
             if end.offsets != all.offsets {
                 all.offsets = Err(line);
             }
-            all.globals.retain(|datum, content| end.globals.get(datum) == Some(content));
-            for (name, local) in &mut all.locals {
-                if end.locals.get(name) != Some(local) {
-                    local.content = Err(Unresolved::ValueNotKnown);
-                }
+            if !Rc::ptr_eq(&all.globals, &end.globals) {
+                let is_same = |datum: &DatumId, content: &mut Content| {
+                    end.globals.get(datum) == Some(content)
+                };
+                Rc::make_mut(&mut all.globals).retain(is_same);
+            }
+            if !Rc::ptr_eq(&all.locals, &end.locals) {
+                all.forget_locals(|name, local| end.locals.get(name) != Some(local));
             }
         }
         all

@@ -46,7 +46,7 @@ impl Names for Scope<'_, '_> {
             }
             return predefined(&lower).map_or(Found::NotHere, Found::Predefined);
         };
-        if let Some(content) = self.state.globals.get(&id) {
+        if let Some(content) = self.state.global(id) {
             return known(content);
         }
         match self.cause(id, datum.storage) {
@@ -164,7 +164,7 @@ impl<'s> Scope<'s, '_> {
                 Content::Uninitialized { sizes } => sizes.is_empty(),
                 content => matches!(content, Content::Single(_)),
             };
-            (Some(datum.data_type), self.state.globals.get(&id).or(declared), !is_single)
+            (Some(datum.data_type), self.state.global(id).or(declared), !is_single)
         };
         let data_type = data_type?;
         let part = self.part(text, value, data_type, components)?;

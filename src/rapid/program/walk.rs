@@ -91,6 +91,7 @@ impl<'m> Walk<'_, 'm> {
     pub(super) fn block(&mut self, block: &Block<'m>) {
         let mut is_dead = false;
         for node in block {
+            self.steps_left = self.steps_left.saturating_sub(1);
             if self.state.here == Here::Left && !is_dead {
                 is_dead = self.note_dead(node);
             }

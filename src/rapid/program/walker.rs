@@ -15,9 +15,9 @@ use super::whole::Program;
 use crate::rapid::data::finding::Finding;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind};
-use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
+use crate::rapid::data::unread::{NotRead, Skipped};
 
-/// Steps that are followed beyond two for each move and call that the program has.
+/// Statements that are followed beyond four for each one that the program has.
 const SPARE_STEPS: usize = 10_000;
 
 /// A step of a program.
@@ -68,7 +68,7 @@ pub(super) struct Walk<'p, 'm> {
     pub(super) frame: Frame,
     /// The routines that were followed, by module and name in lower case.
     pub(super) followed: BTreeSet<(usize, String)>,
-    /// Steps that may still be followed in calls.
+    /// Statements that may still be followed in calls and loops.
     pub(super) steps_left: usize,
 }
 
@@ -86,7 +86,7 @@ impl<'p, 'm> Walk<'p, 'm> {
             state: State::new(),
             frame: Frame::default(),
             followed: BTreeSet::new(),
-            steps_left: 2 * statements + SPARE_STEPS,
+            steps_left: 4 * statements + SPARE_STEPS,
         }
     }
 
@@ -99,12 +99,8 @@ impl<'p, 'm> Walk<'p, 'm> {
     pub(super) fn forget(&mut self, block: &Block<'m>) {
         let place = (self.frame.module, self.frame.routine.as_str());
         let (globals, locals) = self.program.effects.of_block(self.program, place, block);
-        self.state.globals.retain(|datum, _| !globals.contains(datum));
-        for (name, local) in &mut self.state.locals {
-            if locals.contains(name) {
-                local.content = Err(Unresolved::ValueNotKnown);
-            }
-        }
+        self.state.forget_globals(globals.as_ref());
+        self.state.forget_locals(|name, _| locals.contains(name));
     }
 
     /// The names and values that are known here.
@@ -122,7 +118,6 @@ impl<'p, 'm> Walk<'p, 'm> {
         if self.is_one && self.state.here == Here::Left {
             return;
         }
-        self.steps_left = self.steps_left.saturating_sub(1);
         let last = self.runs.len().wrapping_sub(1);
         if let (Here::After(run, count), Some(own)) = (self.state.here, self.runs.last_mut())
             && run == last
