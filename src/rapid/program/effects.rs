@@ -15,7 +15,7 @@ use crate::rapid::data::unread::{NotRead, Skipped};
 /// How often effects are passed on from routine to routine: chains of calls are no longer.
 const PASSES: usize = 64;
 
-/// Most routines whose assignments are told apart.
+/// Most routines with the data that they assign that are told apart: many assign any.
 const MOST_CALLED: usize = 1000;
 
 /// A routine by its module and its name in lower case.
@@ -147,12 +147,12 @@ impl Effects {
     pub(super) fn assigned_by(&self, mut open: Vec<Name>) -> Option<BTreeSet<DatumId>> {
         let (mut found, mut seen) = (BTreeSet::new(), BTreeSet::new());
         while let Some(name) = open.pop() {
-            if seen.len() + open.len() > MOST_CALLED {
-                return None;
-            }
             let Some(acts) = self.of_routines.get(&name).filter(|acts| acts.assigns) else {
                 continue;
             };
+            if seen.len() + open.len() + found.len() + acts.own.len() > MOST_CALLED {
+                return None;
+            }
             found.extend(acts.own.iter().copied());
             let called = self.calls.get(&name).into_iter().flatten().map(|call| call.to.clone());
             let called: Vec<Name> = called.filter(|it| !seen.contains(it)).collect();
