@@ -2382,11 +2382,11 @@ class CheckedMove(_Record):
 
 @final
 class Checked(_Record):
-    """What a check finds: findings on moves, and the moves."""
+    """The result of a check: findings on moves, and the moves."""
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """What is wrong, in the order of the modules and of their texts: a tuple of `Finding`."""
+        """The findings, in the order of the modules and of their texts: a tuple of `Finding`."""
     @property
     def moves(self) -> tuple[CheckedMove, ...]:
         """The moves in the same order, each place once: a tuple of `CheckedMove`."""
@@ -2398,7 +2398,7 @@ class Checked(_Record):
 
 @final
 class TextFault(_Record):
-    """What is wrong with a text that was read in spite of that. `str` has the place, too."""
+    """A fault of a text that was read in spite of it. `str` has the place, too."""
 
     @property
     def line(self) -> int:
@@ -2408,7 +2408,7 @@ class TextFault(_Record):
         """Column of the text, from 1."""
     @property
     def message(self) -> str:
-        """What is wrong, without the place."""
+        """The fault in words, without the place."""
     def __new__(cls, line: int, column: int, message: str) -> TextFault: ...
 
 @final
@@ -2501,8 +2501,8 @@ class Module(Mapping[str, Any]):
         """The parts that were not read, in the order of the text: a tuple of `Skipped`."""
     @property
     def faults(self) -> tuple[TextFault, ...]:
-        """What is wrong with the text, in the order of the text: a tuple of `TextFault`, which
-        is empty for modules of `parse` and `load`; those of `load_program` may have faults.
+        """The faults of the text, in its order: a tuple of `TextFault`, which is empty for
+        modules of `parse` and `load`; modules of `load_program` may have faults.
         """
     def rewritten(self, values: Mapping[str, Any]) -> str:
         """Return the source with other values for some data; everything else, comments included,
