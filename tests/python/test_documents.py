@@ -21,7 +21,7 @@ BLOCK = re.compile(r"^```python\n(.*?)^```$(?:\n\n```text\n(.*?)^```$)?", re.MUL
 FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 RUN = [page for page in PAGES if BLOCK.search(page.read_text())]
 # Transcripts of a shell, and the files that they read: their names stand behind the fence.
-TRANSCRIBED = [ROOT / "docs" / "guide" / "cli.md", ROOT / "docs" / "guide" / "check.md"]
+TRANSCRIBED = [ROOT / "docs" / "guide" / f"{name}.md" for name in ("cli", "check", "backup")]
 SHELL = re.compile(
     r"^```(?:console\n(?P<console>.*?)|\w+ (?P<file>[\w-]+\.\w+)\n(?P<content>.*?))^```$",
     re.MULTILINE | re.DOTALL,

@@ -222,7 +222,8 @@ def _report(
     """The report on programs."""
     from irbkin.cli.progress import Progress
 
-    found, texts, programs = [*left_open], {}, []
+    found = [it for it in left_open if it.code in checker.codes]
+    texts, programs = {}, []
     with Progress("programs", len(jobs)) as progress:
         for job in jobs:
             checked = checker.checked(job)
