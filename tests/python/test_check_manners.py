@@ -5,6 +5,7 @@ import re
 import subprocess
 from collections import Counter
 from pathlib import Path
+from shutil import make_archive
 
 import command
 import irbkin
@@ -295,6 +296,19 @@ def test_a_fix_in_a_backup_names_the_hash_that_no_longer_agrees(tmp_path):
         words = f"its hash in {hashes} no longer agrees with it".encode()
         assert (words in done.stderr) == is_named
         assert run("--robot", NAME, "--fix", folder / "seam.mod").stderr == b""
+
+
+def test_an_archive_of_a_backup_is_checked_and_not_corrected(tmp_path):
+    archive = Path(make_archive(tmp_path / "cell", "zip", ROOT / "examples" / "backup"))
+    done = run("--json", archive)
+    files = {it["file"] for it in json.loads(done.stdout)}
+    assert done.returncode == 1
+    assert f"{archive}/RAPID/TASK1/PROGMOD/MainModule.mod" in files
+    assert f"{archive}/SYSPAR/SYS.cfg" in files
+    assert all(it.startswith(str(archive)) for it in files)
+    before = archive.read_bytes()
+    assert "is an archive: unpack it" in command.refused("check", "--fix", archive)
+    assert archive.read_bytes() == before
 
 
 def test_options_come_from_the_nearest_file(seam, tmp_path):

@@ -51,6 +51,8 @@ class Backup:
 
     path: Path
     """Root of the backup; of an archive, a temporary folder that lives as long as this record."""
+    origin: Path
+    """Root as it was given: of an archive, the path in it, which messages have."""
     controller: Controller
     """Generation and versions."""
     robots: Mapping[str, RobotUnit]
@@ -170,11 +172,16 @@ class Backup:
 
     @cached_property
     def programs(self) -> Mapping[str, Program]:
-        """The programs of the tasks, by name: `irbkin.rapid.load_program` of their files."""
-        from irbkin import rapid
+        """The programs of the tasks that have modules, by name. A file of an archive has its path
+        in it.
+        """
+        return {task.name: self._program(task) for task in self.tasks if task.modules}
 
-        load = rapid.load_program
-        return {task.name: load(task_files(self, task)) for task in self.tasks if task.modules}
+    def _program(self, task: Task) -> Program:
+        from irbkin.rapid.program import ModuleFile, program_of
+
+        named = ((str(self.origin / it.file), it.path) for it in task.modules)
+        return program_of(ModuleFile(name, path.read_bytes()) for name, path in named)
 
 
 def _base_of(unit: RobotUnit | ExternalUnit) -> Pose:

@@ -36,6 +36,8 @@ class Folder:
 
     root: Path
     """Folder that has BACKINFO, RAPID, SYSPAR and HOME, or some of them."""
+    origin: Path
+    """The root; of an archive, the path in it."""
     unpacked: Unpacked | None = None
     """Where an archive was unpacked; it lives as long as this record."""
     findings: list[Finding] = field(default_factory=list)

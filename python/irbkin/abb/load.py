@@ -59,6 +59,7 @@ def load_backup(path: str | PathLike[str]) -> Backup:
     ]
     return Backup(
         folder.root,
+        folder.origin,
         _controller(moc, sys, info, machine),
         machine.robots,
         machine.units,

@@ -26,10 +26,12 @@ def open_backup(path: Path) -> Folder:
     if archive is not None:
         unpacked = unpacked_of(archive)
         start = unpacked.folder / path.relative_to(archive)
-        return Folder(_root(start, archive, unpacked.folder), unpacked)
+        root = _root(start, archive, unpacked.folder)
+        return Folder(root, archive / root.relative_to(unpacked.folder), unpacked)
     if not path.exists():
         raise IrbkinError(f"{path}: no such file or folder")
-    return Folder(_root(path, None, None))
+    root = _root(path, None, None)
+    return Folder(root, root)
 
 
 def _root(start: Path, archive: Path | None, unpacked: Path | None) -> Path:

@@ -159,6 +159,8 @@ def _jobs(arguments: argparse.Namespace, settings: Settings) -> tuple[list[Job],
     if (arguments.fix or arguments.diff) and STDIN in names:
         raise CommandError("--fix and --diff take files, not stdin")
     if arguments.robot is None and len(names) == 1 and is_backup(names[0]):
+        if arguments.fix and not os.path.isdir(names[0]):
+            raise CommandError(f"{names[0]}: is an archive: unpack it, --fix corrects its folder")
         jobs, left_open = jobs_of_backup(names[0])
         if not jobs:
             reasons = "; ".join(it.message for it in left_open[:3])

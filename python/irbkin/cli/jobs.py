@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from irbkin.cli.codes import BACKUP, codes
@@ -35,7 +35,6 @@ class Job:
     """The units that external axes belong to, as `rapid.check_program` takes them."""
     found: Sequence[Found] = ()
     """Findings on its files."""
-    backup: Backup | None = field(default=None, repr=False)
 
     @property
     def unread(self) -> int:
@@ -80,10 +79,10 @@ def jobs_of_backup(path: str) -> tuple[list[Job], list[Found]]:
         program = backup.programs[task.name]
         rows = unit_rows(backup, unit.name)
         title = title_of(task, unit)
-        jobs.append(Job(unit.robot, program, title, rows, found_in(program), backup))
+        jobs.append(Job(unit.robot, program, title, rows, found_in(program)))
     left_open = []
     for it in backup.findings:
-        file = shown(os.path.join(str(backup.path), it.file) if it.file else str(backup.path))
+        file = shown(str(backup.origin / it.file))
         left_open.append(Found(file, it.line, 1, BACKUP, it.code, it.severity, it.message))
     return jobs, left_open
 
