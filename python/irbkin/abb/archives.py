@@ -9,10 +9,10 @@ import zipfile
 from pathlib import Path, PurePosixPath
 
 from irbkin.errors import IrbkinError
+from irbkin.rapid.program import ENDINGS
 
 ARCHIVE_ENDINGS = (".zip", ".rspag")
-MODULE_ENDINGS = (".mod", ".modx", ".sys", ".sysx", ".prg")
-READ_ENDINGS = (*MODULE_ENDINGS, ".pgf", ".cfg", ".txt", ".xml")
+READ_ENDINGS = (*ENDINGS, ".pgf", ".cfg", ".txt", ".xml")
 MOST_BYTES = 2**30
 """Bytes that are unpacked of an archive: one that has more is no backup."""
 

@@ -2,32 +2,22 @@
 
 from __future__ import annotations
 
-import codecs
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
-from irbkin.abb.archives import MODULE_ENDINGS, Unpacked
+from irbkin.abb.archives import Unpacked
 from irbkin.abb.findings import Finding
+from irbkin.rapid.program import ENDINGS, ModuleFile
 
 TASK = re.compile(r"TASK(\d{1,6})", re.IGNORECASE)
-BYTE_ORDER_MARKS = {
-    codecs.BOM_UTF8: "utf-8",
-    codecs.BOM_UTF16_LE: "utf-16-le",
-    codecs.BOM_UTF16_BE: "utf-16-be",
-}
 
 
 def decoded(content: bytes) -> str:
     """Decode a text: by its byte order mark, else as UTF-8, else as Latin-1."""
-    for mark, encoding in BYTE_ORDER_MARKS.items():
-        if content.startswith(mark):
-            return content[len(mark) :].decode(encoding, "replace")
-    try:
-        return content.decode("utf-8")
-    except UnicodeDecodeError:
-        return content.decode("latin-1")
+    file = ModuleFile("", content)
+    return content[len(file.mark) :].decode(file.encoding, "replace")
 
 
 @dataclass
@@ -124,5 +114,5 @@ class Folder:
         return [
             path
             for name, path in self.entries(folder).items()
-            if name.endswith(MODULE_ENDINGS) and path.is_file()
+            if name.endswith(ENDINGS) and path.is_file()
         ]

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from irbkin.abb.archives import MODULE_ENDINGS
 from irbkin.abb.backinfo import LoadedModule, LoadedTask
 from irbkin.abb.findings import Finding, Severity
 from irbkin.abb.folders import Folder
+from irbkin.rapid.program import ENDINGS
 
 ModuleKind = Literal["program", "system", "configured"]
 FOLDERS: tuple[tuple[str, ModuleKind], ...] = (("PROGMOD", "program"), ("SYSMOD", "system"))
@@ -62,7 +62,7 @@ def modules_in(
     missing = [
         _missing(loaded.name, entry, backinfo)
         for entry in listed.values()
-        if loaded and entry.path.lower().endswith(MODULE_ENDINGS)
+        if loaded and entry.path.lower().endswith(ENDINGS)
     ]
     return [module for *_, module in sorted(found, key=lambda it: it[:3])], missing
 
