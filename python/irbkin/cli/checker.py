@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -176,9 +176,3 @@ def edited(source: str, edits: Sequence[tuple[int, int, str]]) -> str:
         parts += [content[copied:begin], text.encode()]
         copied = end
     return b"".join([*parts, content[copied:]]).decode()
-
-
-def changed_files(correction: Correction) -> Iterator[tuple[ModuleFile, bytes]]:
-    """Yield the files that a correction changes, with their new bytes."""
-    for file, _, text in correction.texts:
-        yield file, file.encoded(text)
