@@ -63,14 +63,11 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
     let mut all = ResolvedData { skipped, ..ResolvedData::default() };
     all.data.reserve_exact(declared.len());
     for (i, (datum, content)) in declared.iter().zip(contents).enumerate() {
+        if let Some(name) = parts.get(&i) {
+            all.add_part(name, datum, content);
+            continue;
+        }
         let routine = routine_name(&routines, datum.routine);
-        let content = match parts.get(&i) {
-            Some(name) => {
-                all.add_part(name, datum, routine, content);
-                continue;
-            }
-            None => content,
-        };
         all.add(text, datum, routine, content, causes.of_datum(i).is_some());
     }
     let ResolvedData { data, parts: of_records, places, mut skipped, expressions } = all;
@@ -114,31 +111,11 @@ struct ResolvedData {
 
 impl ResolvedData {
     /// Add a component of a datum, if it is known and not of a routine.
-    fn add_part(
-        &mut self,
-        name: &str,
-        declared: &Declared<'_>,
-        routine: Option<String>,
-        content: Result<Placed, Reason>,
-    ) {
+    fn add_part(&mut self, name: &str, declared: &Declared<'_>, content: Result<Placed, Reason>) {
         self.places.push(None);
-        let (Ok(Placed { content, value_span, element_spans }), None) = (content, &routine) else {
-            return;
-        };
-        let Declared { data_type, scope, storage, line, column, .. } = *declared;
-        let datum = Datum {
-            name: name.to_string(),
-            data_type,
-            scope,
-            storage,
-            routine,
-            content,
-            line,
-            column,
-            value_span,
-            element_spans,
-        };
-        self.parts.insert(name.to_string(), datum);
+        if let (Ok(placed), 0) = (content, declared.routine) {
+            self.parts.insert(name.to_string(), datum_of(name.to_string(), declared, None, placed));
+        }
     }
 
     /// Add a declaration, which may refer to assigned data.
@@ -151,34 +128,45 @@ impl ResolvedData {
         is_assigned: bool,
     ) {
         let source = |span: Range<usize>| text.get(span).unwrap_or_default().to_string();
-        let Declared { data_type, scope, storage, line, column, .. } = *declared;
         let name = declared.name.to_string();
         self.places.push(content.is_ok().then_some(self.data.len()));
-        let Placed { content, value_span, element_spans } = match content {
+        let placed = match content {
             Ok(placed) => placed,
             Err(reason) => {
                 let what = NotRead::Datum { name, reason };
                 let text = source(declared.start..declared.end);
-                let start = declared.start;
+                let Declared { line, column, start, .. } = *declared;
                 self.skipped.push(Skipped { line, column, routine, what, text, start });
                 return;
             }
         };
         // Names of the sizes do not count: they are constants.
         if is_assigned && declared.names.len() > declared.size_names {
-            self.expressions.insert(self.data.len(), source(value_span.clone()));
+            self.expressions.insert(self.data.len(), source(placed.value_span.clone()));
         }
-        self.data.push(Datum {
-            name,
-            data_type,
-            scope,
-            storage,
-            routine,
-            content,
-            line,
-            column,
-            value_span,
-            element_spans,
-        });
+        self.data.push(datum_of(name, declared, routine, placed));
+    }
+}
+
+/// The datum of a declaration and its content.
+fn datum_of(
+    name: String,
+    declared: &Declared<'_>,
+    routine: Option<String>,
+    placed: Placed,
+) -> Datum {
+    let Declared { data_type, scope, storage, line, column, .. } = *declared;
+    let Placed { content, value_span, element_spans } = placed;
+    Datum {
+        name,
+        data_type,
+        scope,
+        storage,
+        routine,
+        content,
+        line,
+        column,
+        value_span,
+        element_spans,
     }
 }
