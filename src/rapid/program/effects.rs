@@ -6,7 +6,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::arguments::{Parameter, arguments, assignment, called, referred};
-use super::index::{DatumId, Names};
+use super::index::{DatumId, Index};
 use super::tree::{Block, Body, Node};
 use crate::rapid::data::instructions::{Effect, written_argument};
 use crate::rapid::data::moves::Move;
@@ -79,7 +79,7 @@ pub(super) struct Effects {
 }
 
 impl Effects {
-    pub(super) fn of(names: &Names<'_>) -> Self {
+    pub(super) fn of(names: &Index<'_>) -> Self {
         let mut effects = Self::default();
         let mut calls = BTreeMap::new();
         for (module, bodies) in names.bodies.iter().enumerate() {
@@ -120,7 +120,7 @@ impl Effects {
     /// The data, perhaps any, and the names of locals that a block of a routine assigns.
     pub(super) fn of_block(
         &self,
-        names: &Names<'_>,
+        names: &Index<'_>,
         (module, routine): (usize, &str),
         block: &Block<'_>,
     ) -> (Option<BTreeSet<DatumId>>, BTreeSet<String>) {
@@ -163,7 +163,7 @@ impl Effects {
     }
 
     /// Add what called routines do to those that call them.
-    fn pass_on(&mut self, names: &Names<'_>, calls: &BTreeMap<Name, Vec<Call>>) {
+    fn pass_on(&mut self, names: &Index<'_>, calls: &BTreeMap<Name, Vec<Call>>) {
         for _ in 0..PASSES {
             let mut has_changed = false;
             for (name, own) in calls {
@@ -223,7 +223,7 @@ impl Call {
 
 /// A reader of what one routine does by itself.
 struct Reader<'e, 'm> {
-    names: &'e Names<'m>,
+    names: &'e Index<'m>,
     module: usize,
     routine: &'e str,
     parameters: &'e [Parameter],
@@ -255,7 +255,7 @@ fn add(
 
 impl<'e, 'm> Reader<'e, 'm> {
     fn new(
-        names: &'e Names<'m>,
+        names: &'e Index<'m>,
         (module, routine): (usize, &'e str),
         assigned: &'e mut BTreeMap<DatumId, Assigned>,
     ) -> Self {

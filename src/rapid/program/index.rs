@@ -17,7 +17,7 @@ pub(in crate::rapid) struct DatumId {
 }
 
 /// The names of modules that know each other.
-pub(in crate::rapid) struct Names<'m> {
+pub(in crate::rapid) struct Index<'m> {
     pub(in crate::rapid) modules: Vec<&'m Module>,
     /// The parameters of the routines of each module by their names in lower case.
     parameters: Vec<BTreeMap<String, Vec<Parameter>>>,
@@ -35,7 +35,7 @@ pub(in crate::rapid) struct Names<'m> {
     pub(super) bodies: Vec<BTreeMap<String, Body<'m>>>,
 }
 
-impl<'m> Names<'m> {
+impl<'m> Index<'m> {
     pub(super) fn new(modules: &[&'m Module]) -> Self {
         let mut names = Self {
             modules: modules.to_vec(),

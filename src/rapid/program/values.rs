@@ -96,10 +96,7 @@ impl<'s> Scope<'s, '_> {
 
     /// The record that a text is.
     pub(super) fn record<T: Record>(&self, text: &str) -> Result<T, Reason> {
-        let invalid = |_| Reason::NoAggregate;
-        let mut tokens = Tokens::new(text).map_err(invalid)?;
-        let expression = ExpressionReader::new(&mut tokens).argument().map_err(invalid)?;
-        known(self.evaluator(text).record(&expression))
+        known(self.evaluator(text).record(&argument(text)?))
     }
 
     /// The value of an expression of a statement, of a type.
@@ -119,10 +116,7 @@ impl<'s> Scope<'s, '_> {
 
     /// The number that a text is.
     pub(super) fn number_of(&self, text: &str) -> Result<f64, Reason> {
-        let invalid = |_| Reason::NoAggregate;
-        let mut tokens = Tokens::new(text).map_err(invalid)?;
-        let expression = ExpressionReader::new(&mut tokens).argument().map_err(invalid)?;
-        self.number(text, &expression)
+        self.number(text, &argument(text)?)
     }
 
     /// Whether what the declarations say of a text may not hold: it is passed to a routine that
@@ -210,6 +204,13 @@ impl<'s> Scope<'s, '_> {
         let (_, of) = place_of(data_type, components)?;
         known(self.evaluator(text).atoms(value, of)).ok()
     }
+}
+
+/// The expression that a text is.
+fn argument(text: &str) -> Result<Expression<'_>, Reason> {
+    let invalid = |_| Reason::NoAggregate;
+    let mut tokens = Tokens::new(text).map_err(invalid)?;
+    ExpressionReader::new(&mut tokens).argument().map_err(invalid)
 }
 
 /// The first atom of a component of a type, and the type of the component.

@@ -3,27 +3,27 @@
 use core::ops::Deref;
 
 use super::effects::Effects;
-use super::index::Names;
+use super::index::Index;
 use crate::rapid::data::module::Module;
 
 /// Modules that know each other.
 pub(in crate::rapid) struct Program<'m> {
-    names: Names<'m>,
+    index: Index<'m>,
     pub(super) effects: Effects,
 }
 
 impl<'m> Program<'m> {
     pub(in crate::rapid) fn new(modules: &[&'m Module]) -> Self {
-        let names = Names::new(modules);
-        let effects = Effects::of(&names);
-        Self { names, effects }
+        let index = Index::new(modules);
+        let effects = Effects::of(&index);
+        Self { index, effects }
     }
 }
 
 impl<'m> Deref for Program<'m> {
-    type Target = Names<'m>;
+    type Target = Index<'m>;
 
-    fn deref(&self) -> &Names<'m> {
-        &self.names
+    fn deref(&self) -> &Index<'m> {
+        &self.index
     }
 }
