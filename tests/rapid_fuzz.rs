@@ -314,7 +314,7 @@ fn check_in_spite(text: &str, module: &Module) {
 
 /// Its moves are a motion with findings, or an error says why not.
 fn check_motion(module: &Module) {
-    let robot = irbkin::Robot::named("IRB 2600-12/1.65").unwrap();
+    let robot = irbkin::Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     match irbkin::rapid::motion(&robot, &[module], None, &MotionOptions::default()) {
         Ok(motion) => {
             assert!(motion.t.iter().all(|time| time.is_finite()) && motion.t.is_sorted());

@@ -2359,7 +2359,7 @@ class CheckedMove(_Record):
         """The target as it is written."""
     @property
     def q(self) -> _Floats | None:
-        """The joints at its target [rad], shape (6,); None if it has none or is not checked."""
+        """The joints at its target [rad], one an axis; None if it has none or is not checked."""
     @property
     def confdata(self) -> Configuration | None:
         """The confdata of its target; None for joint angles, or if the target is not known."""
@@ -2737,7 +2737,7 @@ def check(
         robot: The arm. Work objects are given in the world, in which the robot's base is.
         module: Module; calls of routines of its context are followed, too.
         codes: The codes that are wanted, such as "C201"; without it all.
-        max_velocity: Limits [rad/s], a number or shape (6,); without it the robot's own. Without
+        max_velocity: Limits [rad/s], a number or one an axis; without it the robot's own. Without
             either no joint is found to be too fast.
         step: Largest distance of the tool between two samples of a MoveL or MoveC [m].
         turn: Largest turn of the tool between two samples [rad]; 5 deg without it.
@@ -2751,8 +2751,8 @@ def check(
         RapidError: A code that does not exist.
         InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
             million samples.
-        InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
-            catalog.
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa
+            or YuMi of the catalog.
     """
 
 def check_program(
@@ -2839,8 +2839,8 @@ def motion(
         InvalidMotionError: A limit or a step that is not positive and finite, a robot without
             velocities, or more than ten million samples.
         InvalidJointsError: A start that is not finite or has a wrong shape.
-        InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
-            catalog.
+        InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa
+            or YuMi of the catalog.
     """
 
 @final
@@ -2867,7 +2867,7 @@ class RoutineMotion:
         """Times of the samples [s], shape (m,)."""
     @property
     def q(self) -> _Floats:
-        """Joint angles of the samples [rad], shape (m, 6)."""
+        """Joint angles of the samples [rad], shape (m, 6), of a YuMi (m, 7)."""
     @property
     def move_index(self) -> npt.NDArray[np.int64]:
         """The move, by its index in `moves`, that each sample belongs to, shape (m,). A corner

@@ -63,20 +63,6 @@ impl Arm {
         }
     }
 
-    /// The robot of a call that is for six joints.
-    pub(super) fn six_joints(&self, call: &str) -> PyResult<&Arc<Robot<6>>> {
-        match self {
-            Self::Six(robot) => Ok(robot),
-            Self::Seven(robot) => Err(match robot.unknown_structure() {
-                Some(reason) => Error::from(ModelFault::UnknownStructure(reason)).into(),
-                None => Fault::Model.error(format_args!(
-                    "{call} is for arms of six joints: lock one of the seven, as \
-                     locked({{3: 0.2}}).six_joints"
-                )),
-            }),
-        }
-    }
-
     /// The robot of a call for a YuMi.
     pub(super) fn seven_joints(&self) -> PyResult<&Arc<Robot<7>>> {
         match self {

@@ -11,7 +11,7 @@ use super::errors::{Fault, raised, with_attributes};
 use super::robot::PyRobot;
 use super::signals::detached_while;
 use super::targets::shape_of;
-use super::trajectories::read_each;
+use super::trajectories::read_limits;
 use super::trajectory::PyTrajectory;
 use crate::cell::Cell;
 use crate::error::{Error, GoFault, MotionFault};
@@ -127,14 +127,4 @@ fn read_end<const N: usize>(value: &Bound<'_, PyAny>, field: &'static str) -> Py
         return Ok(End::Pose(pose_from_rows(&matrix4(value, field, Fault::Pose)?)?));
     }
     Ok(End::Joints(vector(value, field, Fault::Joints)?))
-}
-
-/// Limits of each joint.
-fn read_limits<const N: usize>(
-    value: Option<&Bound<'_, PyAny>>,
-    field: &'static str,
-) -> PyResult<Option<[f64; N]>> {
-    let Some(_) = value else { return Ok(None) };
-    let limits = read_each(value, field, N, f64::INFINITY)?;
-    Ok(limits.try_into().ok())
 }

@@ -56,12 +56,12 @@ pub(super) fn read_each(
 }
 
 /// A limit of each of six joints, if it is given.
-pub(super) fn read_limits(
+pub(super) fn read_limits<const N: usize>(
     given: Option<&Bound<'_, PyAny>>,
     field: &'static str,
-) -> PyResult<Option<[f64; 6]>> {
+) -> PyResult<Option<[f64; N]>> {
     Ok(given
-        .map(|_| read_each(given, field, 6, 0.0))
+        .map(|_| read_each(given, field, N, 0.0))
         .transpose()?
         .and_then(|all| all.try_into().ok()))
 }

@@ -58,7 +58,10 @@ pub use self::calc::target::{Fallback, calc_joint_t, calc_joint_t_or, calc_rob_t
 pub use self::calc::units::{Unit, UnitAxis, Units};
 pub use self::calc::wrong::error_name;
 #[cfg(feature = "python")]
-pub(crate) use self::calc::{frames::rapid_pose, target::joint_target};
+pub(crate) use self::calc::{
+    frames::rapid_pose,
+    target::{joint_target, joint_vector},
+};
 pub use self::check::checker::{CheckOptions, Checked, CheckedMove, candidates, check};
 #[cfg(feature = "python")]
 pub(crate) use self::data::class;

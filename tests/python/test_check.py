@@ -22,6 +22,7 @@ ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "guide" / "check.md").read_text()
 NAME = "IRB 2600-12/1.65"
 ROBOT = irbkin.Robot(NAME)
+YUMI = irbkin.Robot("IRB 14050")
 CODES = [code for code, *_ in check_codes()]
 BLOCKS = dict(re.findall(r"^```rapid (\S+)\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL))
 DATA = BLOCKS.pop("data")
@@ -45,9 +46,9 @@ def check(file, *arguments):
 
 @pytest.mark.parametrize("code", [code for code in BLOCKS if code != "E001"])
 def test_the_example_of_a_code_has_it(code):
-    last_values = code == "U805"
+    robot, last_values = YUMI if code == "C205" else ROBOT, code == "U805"
     modules = [rapid.parse(module(BLOCKS[code]))]
-    checked = check_program(ROBOT, modules, cell=CELL, last_values=last_values)
+    checked = check_program(robot, modules, cell=CELL, last_values=last_values)
     assert code in {it.code for it in checked.findings}, checked.findings
 
 
@@ -90,7 +91,7 @@ def test_a_rule_is_explained_by_its_code_or_its_name():
     assert f"\n\nExample:\n    {BLOCKS['C201']}" in text
     assert "[obstacles.post]" in command.run("rule", "K901").stdout.decode()
     assert "did you mean R10" in command.refused("rule", "R110")
-    assert "did you mean C201, C204?" in command.refused("rule", "wrong-confdta")
+    assert "did you mean C201, C205, C204?" in command.refused("rule", "wrong-confdta")
     assert "did you mean B, C, D, E, K" in command.refused("rule", "mango")
     assert command.run("rule").stdout == run("--codes").stdout
 
@@ -282,7 +283,7 @@ def test_codes_are_selected_and_ignored(tmp_path):
     unknown = rapid.parse("PROC main() MoveJ *,v100,fine,tool0; ENDPROC")
     assert {it.code for it in rapid.check(ROBOT, unknown)} == {"U801"}
     assert rapid.check(ROBOT, unknown, codes=default) == ()
-    assert selected(["c2", " R101"], ["C202", "C204"]) == {*files, "C201", "C203", "R101"}
+    assert selected(["c2", " R101"], ["C202", "C204", "C205"]) == {*files, "C201", "C203", "R101"}
     assert selected(["wrong-confdata"], []) == {*files, "C201"}
     assert selected(["E"], []) == files
     assert selected(["C201"], ["E", "B"]) == {"C201"}

@@ -191,7 +191,7 @@ def _elements(name: str, value: Any, index: tuple[int, ...] = ()) -> Iterator[tu
 
 def _met(side: Side) -> dict[Key, _Met]:
     """The targets of the moves of a program, by the module that declares or else moves."""
-    if side.robot is None or side.robot.dof != 6:
+    if side.robot is None:
         return {}
     checked = side.program.check(side.robot, codes=UNMET, units=side.units)
     unmet = {(it.module, it.line, it.column) for it in checked.findings}

@@ -90,7 +90,7 @@ def jobs_of_backup(path: str) -> tuple[list[Job], list[Found]]:
 def unit_of(backup: Backup, task: Task) -> RobotUnit | None:
     """Return the robot that a task moves, if its moves can be checked."""
     unit = backup.robots.get(task.robot or "")
-    if task.moves is False or unit is None or unit.robot is None or unit.robot.dof != 6:
+    if task.moves is False or unit is None or unit.robot is None:
         return None
     return unit
 

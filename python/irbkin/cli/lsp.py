@@ -116,8 +116,6 @@ class Desk:
             robot = None if arguments.robot is None else robot_of(arguments)
             if robot is None:
                 notes = [*notes, NO_ARM.format(os.path.basename(path))]
-            elif robot.dof != 6:
-                notes, robot = [*notes, f"{robot.name} has {robot.dof} axes: not checked"], None
             title = robot.name if robot else os.path.dirname(path)
             tasks = [Task(title, paths, checker, robot, notes)]
         checker.ignored = ignored_of({it for task in tasks for it in task.paths}, settings)

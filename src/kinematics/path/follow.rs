@@ -261,7 +261,7 @@ pub struct Followed<const N: usize = 6> {
 
 /// The pose at a fraction of the way from one pose to another: straight, at a constant rate of
 /// rotation.
-fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
+pub(super) fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
     let turn = (from.rotation.inverse() * to.rotation).scaled_axis() * part;
     let position = from.translation.vector.lerp(&to.translation.vector, part);
     IsometryMatrix3::from_parts(Translation3::from(position), from.rotation * Rotation3::new(turn))

@@ -61,7 +61,7 @@ record! {
         routine: Option<String>,
         /// The target as it is written.
         target: String,
-        /// The joints at its target [rad], shape (6,); None if it has none or is not checked.
+        /// The joints at its target [rad], one an axis; None if it has none or is not checked.
         q: Option<Array>,
         /// The confdata of its target; None for joint angles, or if the target is not known.
         confdata: Option<Configuration>,
@@ -119,7 +119,7 @@ impl Finding {
 }
 
 impl CheckedMove {
-    pub(super) fn of(py: Python<'_>, step: rapid::CheckedMove) -> Self {
+    pub(super) fn of<const N: usize>(py: Python<'_>, step: rapid::CheckedMove<N>) -> Self {
         let rapid::CheckedMove { module, line, column, routine, target, q, confdata, unchecked } =
             step;
         let q = q.map(|q| column_of(py, q));

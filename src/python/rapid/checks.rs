@@ -6,6 +6,8 @@ use pyo3::types::PyTuple;
 
 use super::checked::{Checked, CheckedMove, Finding};
 use super::module::{RapidModule, close_names};
+use crate::kinematics::Robot;
+use crate::python::arm::on;
 use crate::python::cell::PyCell;
 use crate::python::errors::Fault;
 use crate::python::robot::PyRobot;
@@ -24,7 +26,7 @@ use crate::rapid::{self, CheckOptions, Code, Module, MotionOptions, Unit, UnitAx
 ///     robot: The arm. Work objects are given in the world, in which the robot's base is.
 ///     module: Module; calls of routines of its context are followed, too.
 ///     codes: The codes that are wanted, such as "C201"; without it all.
-///     max_velocity: Limits [rad/s], a number or shape (6,); without it the robot's own. Without
+///     max_velocity: Limits [rad/s], a number or one an axis; without it the robot's own. Without
 ///         either no joint is found to be too fast.
 ///     step: Largest distance of the tool between two samples of a MoveL or MoveC [m].
 ///     turn: Largest turn of the tool between two samples [rad]; 5 deg without it.
@@ -38,8 +40,8 @@ use crate::rapid::{self, CheckOptions, Code, Module, MotionOptions, Unit, UnitAx
 ///     RapidError: A code that does not exist.
 ///     InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
 ///         million samples.
-///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
-///         catalog.
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa
+///         or YuMi of the catalog.
 #[pyfunction]
 #[pyo3(signature = (robot, module, *, codes=None, max_velocity=None, step=0.005, turn=None, cell=None))]
 pub(crate) fn check<'py>(
@@ -54,9 +56,9 @@ pub(crate) fn check<'py>(
     let py = robot.py();
     let context = module.get().context.iter().map(|other| other.bind(py).clone());
     let modules: Vec<_> = core::iter::once(module.clone()).chain(context).collect();
-    let options = (read_limits(max_velocity, "max_velocity")?, step, turn);
-    let checked = checked(robot, &modules, options, cell, &Extent::default())?;
-    let own = checked.findings.into_iter().filter(|finding| finding.module == 0);
+    let options = (max_velocity, step, turn);
+    let (findings, _) = checked(robot, &modules, options, cell, &Extent::default())?;
+    let own = findings.into_iter().filter(|finding| finding.module == 0);
     records(py, own, &modules, codes)
 }
 
@@ -102,13 +104,12 @@ pub(crate) fn check_program<'py>(
     let py = robot.py();
     let units = units.unwrap_or_default().into_iter().map(read_unit);
     let units = Units(units.collect::<PyResult<Vec<_>>>()?);
-    let options = (read_limits(max_velocity, "max_velocity")?, step, turn);
+    let options = (max_velocity, step, turn);
     let extent = Extent { units, takes_last: last_values };
-    let rapid::Checked { findings, moves } = checked(robot, &modules, options, cell, &extent)?;
-    let moves = moves.into_iter().map(|step| CheckedMove::of(py, step));
+    let (findings, moves) = checked(robot, &modules, options, cell, &extent)?;
     Ok(Checked {
         findings: records(py, findings.into_iter(), &modules, codes)?.unbind(),
-        moves: PyTuple::new(py, moves.collect::<Vec<_>>())?.unbind(),
+        moves: PyTuple::new(py, moves)?.unbind(),
     })
 }
 
@@ -135,18 +136,29 @@ struct Extent {
     takes_last: bool,
 }
 
-/// The result of a check.
+/// Findings and moves of a check.
 fn checked(
     robot: &Bound<'_, PyRobot>,
     modules: &[Bound<'_, RapidModule>],
-    (max_velocity, step, turn): (Option<[f64; 6]>, f64, Option<f64>),
+    options: (Option<&Bound<'_, PyAny>>, f64, Option<f64>),
     cell: Option<&Bound<'_, PyCell>>,
     extent: &Extent,
-) -> PyResult<rapid::Checked> {
-    let arm = robot.get().arm();
+) -> PyResult<(Vec<rapid::Finding>, Vec<CheckedMove>)> {
+    let (py, arm) = (robot.py(), robot.get().arm());
     arm.check_rule()?;
-    let arm = arm.six_joints("check")?;
-    let turn = turn.unwrap_or(MotionOptions::default().turn);
+    on!(arm, arm => checked_arm(py, arm, modules, options, cell, extent))
+}
+
+fn checked_arm<const N: usize>(
+    py: Python<'_>,
+    arm: &Robot<N>,
+    modules: &[Bound<'_, RapidModule>],
+    (max_velocity, step, turn): (Option<&Bound<'_, PyAny>>, f64, Option<f64>),
+    cell: Option<&Bound<'_, PyCell>>,
+    extent: &Extent,
+) -> PyResult<(Vec<rapid::Finding>, Vec<CheckedMove>)> {
+    let max_velocity = read_limits(max_velocity, "max_velocity")?;
+    let turn = turn.unwrap_or(MotionOptions::<N>::default().turn);
     let options = CheckOptions {
         motion: MotionOptions { max_velocity, step, turn, ..MotionOptions::default() },
         cell: cell.map(|cell| &*cell.get().0),
@@ -155,7 +167,9 @@ fn checked(
     };
     let own: Vec<&RapidModule> = modules.iter().map(Bound::get).collect();
     let texts: Vec<_> = own.iter().map(|it| (&it.module, it.source.as_str())).collect();
-    Ok(robot.py().detach(|| rapid::check(arm, &texts, &options))?)
+    let rapid::Checked { findings, moves } = py.detach(|| rapid::check(arm, &texts, &options))?;
+    let moves = moves.into_iter().map(|step| CheckedMove::of(py, step));
+    Ok((findings, moves.collect()))
 }
 
 /// Findings of the wanted codes.

@@ -7,6 +7,8 @@ use pyo3::types::{PyDict, PyTuple};
 use super::checked::Finding;
 use super::module::{RapidModule, counted};
 use super::program::MotionMove;
+use crate::kinematics::Robot;
+use crate::python::arm::{Arm, ByJoints, on};
 use crate::python::arrays::vector;
 use crate::python::errors::Fault;
 use crate::python::outputs::{column, read_only};
@@ -33,7 +35,7 @@ pub(crate) struct PyRoutineMotion {
     /// Times of the samples [s], shape (m,).
     #[pyo3(get)]
     t: Py<PyArray1<f64>>,
-    /// Joint angles of the samples [rad], shape (m, 6).
+    /// Joint angles of the samples [rad], shape (m, 6), of a YuMi (m, 7).
     #[pyo3(get)]
     q: Py<PyArray2<f64>>,
     /// The move, by its index in `moves`, that each sample belongs to, shape (m,). A corner is
@@ -49,10 +51,10 @@ pub(crate) struct PyRoutineMotion {
     /// The findings on moves, in order: a tuple of `Finding`.
     #[pyo3(get)]
     findings: Py<PyTuple>,
-    motion: RoutineMotion,
+    motion: ByJoints<RoutineMotion, RoutineMotion<7>>,
     robot: Py<PyRobot>,
     module: Py<RapidModule>,
-    options: MotionOptions,
+    options: Py<PyDict>,
 }
 
 /// Make one motion of the moves of a routine: MoveAbsJ, MoveJ, MoveL and MoveC in order, each
@@ -87,8 +89,8 @@ pub(crate) struct PyRoutineMotion {
 ///     InvalidMotionError: A limit or a step that is not positive and finite, a robot without
 ///         velocities, or more than ten million samples.
 ///     InvalidJointsError: A start that is not finite or has a wrong shape.
-///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
-///         catalog.
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa
+///         or YuMi of the catalog.
 #[pyfunction]
 #[pyo3(signature = (robot, module, routine=None, *, start=None, max_velocity=None,
     max_acceleration=None, step=0.005, turn=None))]
@@ -103,25 +105,47 @@ pub(crate) fn motion(
     step: f64,
     turn: Option<f64>,
 ) -> PyResult<PyRoutineMotion> {
-    let start = start.map(read_start).transpose()?;
-    let options = MotionOptions {
-        start,
-        max_velocity: read_limits(max_velocity, "max_velocity")?,
-        max_acceleration: read_limits(max_acceleration, "max_acceleration")?,
-        step,
-        turn: turn.unwrap_or(MotionOptions::default().turn),
-    };
-    let py = robot.py();
-    let (arm, own) = (robot.get().arm(), module.get());
+    let arm = robot.get().arm();
     arm.check_rule()?;
-    let arm = arm.six_joints("motion")?;
+    let given = Given { start, max_velocity, max_acceleration, step, turn };
+    match arm {
+        Arm::Six(arm) => made(robot, arm, module, routine, &given, ByJoints::Six),
+        Arm::Seven(arm) => made(robot, arm, module, routine, &given, ByJoints::Seven),
+    }
+}
+
+/// Options as Python gives them.
+struct Given<'a, 'py> {
+    start: Option<&'a Bound<'py, PyAny>>,
+    max_velocity: Option<&'a Bound<'py, PyAny>>,
+    max_acceleration: Option<&'a Bound<'py, PyAny>>,
+    step: f64,
+    turn: Option<f64>,
+}
+
+fn made<'py, const N: usize>(
+    robot: &Bound<'py, PyRobot>,
+    arm: &Robot<N>,
+    module: &Bound<'py, RapidModule>,
+    routine: Option<&str>,
+    given: &Given<'_, 'py>,
+    of_joints: impl Fn(RoutineMotion<N>) -> ByJoints<RoutineMotion, RoutineMotion<7>>,
+) -> PyResult<PyRoutineMotion> {
+    let options = MotionOptions {
+        start: given.start.map(read_start).transpose()?,
+        max_velocity: read_limits(given.max_velocity, "max_velocity")?,
+        max_acceleration: read_limits(given.max_acceleration, "max_acceleration")?,
+        step: given.step,
+        turn: given.turn.unwrap_or(MotionOptions::<N>::default().turn),
+    };
+    let (py, own) = (robot.py(), module.get());
     let context = own.context.iter().map(|other| &other.get().module);
     let modules: Vec<_> = core::iter::once(&own.module).chain(context).collect();
     let motion = py.detach(|| rapid::motion(arm, &modules, routine, &options))?;
     let index = |number: usize| i64::try_from(number).unwrap_or(-1);
     let line = |of: &usize| index(motion.moves.get(*of).map_or(0, |step| step.line));
     let trajectory = PyTrajectory::new(py, motion.trajectory.clone(), motion.t.clone())?;
-    let q = PyArray1::from_slice(py, motion.q.as_flattened()).reshape([motion.q.len(), 6])?;
+    let q = PyArray1::from_slice(py, motion.q.as_flattened()).reshape([motion.q.len(), N])?;
     let moves = motion.moves.iter().map(|step| MotionMove::of(py, step));
     let findings = motion.findings.iter().map(|finding| Finding::of(py, finding));
     let findings = findings.collect::<PyResult<Vec<_>>>()?;
@@ -135,19 +159,32 @@ pub(crate) fn motion(
         lines: PyArray1::from_iter(py, motion.move_index.iter().map(line)).unbind(),
         moves: PyTuple::new(py, moves)?.unbind(),
         findings: PyTuple::new(py, findings)?.unbind(),
-        motion,
+        motion: of_joints(motion),
         robot: robot.clone().unbind(),
         module: module.clone().unbind(),
-        options,
+        options: keywords(py, &options)?,
     })
 }
 
+/// Options as keywords of a call that makes the motion again.
+fn keywords<const N: usize>(py: Python<'_>, options: &MotionOptions<N>) -> PyResult<Py<PyDict>> {
+    let MotionOptions { start, max_velocity, max_acceleration, step, turn } = options;
+    let keywords = PyDict::new(py);
+    keywords.set_item("start", start.map(Vec::from))?;
+    keywords.set_item("max_velocity", max_velocity.map(Vec::from))?;
+    keywords.set_item("max_acceleration", max_acceleration.map(Vec::from))?;
+    keywords.set_item("step", step)?;
+    keywords.set_item("turn", turn)?;
+    Ok(keywords.unbind())
+}
+
 /// Joint angles [rad], or the joints of a JointTarget.
-fn read_start(given: &Bound<'_, PyAny>) -> PyResult<[f64; 6]> {
+fn read_start<const N: usize>(given: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     if let Ok(joints) = given.cast::<JointTarget>() {
-        return Ok(joints.get().robax_deg.map(f64::to_radians));
+        let JointTarget { robax_deg, extax } = *joints.get();
+        return Ok(rapid::joint_vector(&rapid::JointTarget { robax_deg, extax }));
     }
-    vector::<6>(given, "start", Fault::Joints)
+    vector::<N>(given, "start", Fault::Joints)
 }
 
 impl PartialEq for PyRoutineMotion {
@@ -177,42 +214,36 @@ impl PyRoutineMotion {
     ///     RapidError: The name is not a RAPID identifier.
     #[pyo3(signature = (name="Motion"))]
     fn to_module(&self, name: &str) -> PyResult<RapidModule> {
-        let source = self.motion.to_module(name)?.to_string();
+        let source = on!(&self.motion, motion => motion.to_module(name))?.to_string();
         // The module of its own text, as one that is read.
         Ok(RapidModule::new(rapid::parse(&source, &[])?, source, Vec::new()))
     }
 
     fn __len__(&self) -> usize {
-        self.motion.t.len()
+        on!(&self.motion, motion => motion.t.len())
     }
 
     fn __repr__(&self) -> String {
-        format!(
+        on!(&self.motion, motion => format!(
             "RoutineMotion({:?}: {}, {}, {:.3} s, {})",
-            self.motion.routine.as_deref().unwrap_or(""),
-            counted(self.motion.moves.len(), "move"),
-            counted(self.motion.t.len(), "sample"),
+            motion.routine.as_deref().unwrap_or(""),
+            counted(motion.moves.len(), "move"),
+            counted(motion.t.len(), "sample"),
             self.duration,
-            counted(self.motion.findings.len(), "finding"),
-        )
+            counted(motion.findings.len(), "finding"),
+        ))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Made<'_>)> {
-        let MotionOptions { start, max_velocity, max_acceleration, step, turn } = self.options;
-        let options = PyDict::new(py);
-        options.set_item("start", start)?;
-        options.set_item("max_velocity", max_velocity)?;
-        options.set_item("max_acceleration", max_acceleration)?;
-        options.set_item("step", step)?;
-        options.set_item("turn", turn)?;
+        let options = self.options.bind(py);
         let motion = py.import("irbkin._core")?.getattr("motion")?;
-        let again = py.import("functools")?.getattr("partial")?.call((motion,), Some(&options))?;
-        Ok((again, (&self.robot, &self.module, self.motion.routine.as_deref())))
+        let again = py.import("functools")?.getattr("partial")?.call((motion,), Some(options))?;
+        Ok((again, (&self.robot, &self.module, self.routine.as_deref())))
     }
 }
 
 impl MotionMove {
-    fn of(py: Python<'_>, step: &rapid::MotionMove) -> Self {
+    fn of<const N: usize>(py: Python<'_>, step: &rapid::MotionMove<N>) -> Self {
         let rapid::MotionMove { kind, module, module_index, line, start, end, .. } = *step;
         let q = step.q.map(|q| column(py, q));
         let (length, as_programmed) = (step.length, step.as_programmed);

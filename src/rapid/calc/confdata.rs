@@ -8,14 +8,16 @@ use crate::kinematics::Robot;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::report::Configuration;
 
-/// Axes of a configuration, from 0, and their names in it.
-pub(in crate::rapid) const AXES: [(usize, &str); 3] = [(0, "cf1"), (3, "cf4"), (5, "cf6")];
+/// Axes that a configuration counts, by ABB's numbers.
+pub(in crate::rapid) const AXES: [usize; 3] = [1, 4, 6];
 
 /// The axis that is farthest over the edge of its quarter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::rapid) struct Over {
-    /// From 0.
+    /// By ABB's number.
     pub(in crate::rapid) axis: usize,
+    /// From 1.
+    pub(in crate::rapid) joint: usize,
     /// Its angle [rad].
     pub(in crate::rapid) angle: f64,
     /// How far it is over the edge [rad].
@@ -24,22 +26,33 @@ pub(in crate::rapid) struct Over {
 
 /// How far joints [rad] are over the quarters of a configuration; `None` if they are on another
 /// branch.
-pub(in crate::rapid) fn over_quarters(
-    robot: &Robot<6>,
-    q: &[f64; 6],
+pub(in crate::rapid) fn over_quarters<const N: usize>(
+    robot: &Robot<N>,
+    q: &[f64; N],
     wanted: Configuration,
 ) -> Option<Over> {
     let found = robot.configuration(q).ok()?;
     if found.cfx != wanted.cfx {
         return None;
     }
-    let over = AXES.into_iter().zip([wanted.cf1, wanted.cf4, wanted.cf6]).map(|((axis, _), cf)| {
+    let (joints, zero) = robot.counted_joints().ok()?;
+    let quarters = [wanted.cf1, wanted.cf4, wanted.cf6];
+    let over = AXES.into_iter().zip(joints).zip(quarters).map(|((axis, joint), cf)| {
         let quarter = core::f64::consts::FRAC_PI_2;
-        let begin = f64::from(cf) * quarter;
-        let by = (begin - q[axis]).max(q[axis] - begin - quarter).max(0.0);
-        Over { axis, angle: q[axis], by }
+        let (begin, angle) = (zero + f64::from(cf) * quarter, q[joint]);
+        let by = (begin - angle).max(angle - begin - quarter).max(0.0);
+        Over { axis, joint: joint + 1, angle, by }
     });
     over.max_by(|a, b| a.by.total_cmp(&b.by))
+}
+
+/// The confdata that is meant by an old one of a `YuMi`, whose cfx has digits that are bits, as 11:
+/// docs/guide/abb.md has the evidence.
+pub(in crate::rapid) fn of_old_form<const N: usize>(old: Configuration) -> Option<Configuration> {
+    let digits = [100, 10, 1].map(|place| old.cfx / place % 10);
+    let is_old = N == 7 && (10..=111).contains(&old.cfx) && digits.iter().all(|it| *it <= 1);
+    let cfx = digits.iter().fold(0, |bits, digit| 2 * bits + digit);
+    is_old.then_some(Configuration { cfx, ..old })
 }
 
 /// A target that is a little over the edge of a quarter.
@@ -47,9 +60,9 @@ pub(in crate::rapid) fn near(over: &Over, wanted: Configuration, found: Configur
     let words = format!(
         "axis {} is at {:.2} deg, {:.2} deg over the quarter of its confdata {wanted}; it is met \
          with {found}",
-        over.axis + 1,
+        over.axis,
         over.angle.to_degrees(),
         over.by.to_degrees(),
     );
-    Finding::new(Code::NearConfdata, words).of_joint(over.axis + 1).with_value(over.by, 0.0)
+    Finding::new(Code::NearConfdata, words).of_joint(over.joint).with_value(over.by, 0.0)
 }

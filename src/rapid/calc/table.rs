@@ -16,7 +16,7 @@ use crate::kinematics::{Robot, SingularDistances, Solution};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::{Content, Module};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
-use crate::rapid::data::records::{JointTarget, RobTarget, ToolData, WobjData};
+use crate::rapid::data::records::{JointTarget, NOT_THERE, RobTarget, ToolData, WobjData};
 use crate::rapid::data::value::Value;
 use crate::report::{Configuration, Explanation};
 
@@ -109,7 +109,7 @@ pub(in crate::rapid) fn frames_of<const N: usize>(
 ) -> Found<Frames> {
     let tool = known(&step.tool, Code::UnknownTool, "tool ")?;
     let wobj = step.wobj.as_ref().map(|wobj| known(wobj, Code::UnknownWorkObject, "work object "));
-    let extax = external_axes(step);
+    let extax = external_axes::<N>(step);
     let wobj = wobj.transpose()?;
     let Some(units) = units else {
         return Frames::new(robot, Some(tool), wobj).map_err(|error| not_solved(&error).into());
@@ -128,13 +128,18 @@ pub(in crate::rapid) fn frames_of<const N: usize>(
     })
 }
 
-/// The external axes of a move's target [deg or mm]; zero where its value is not known.
-pub(in crate::rapid) fn external_axes(step: &Move) -> [f64; 6] {
-    match &step.target.value {
+/// The external axes of a move's target [deg or mm]; zero where its value is not known. The first
+/// number of a seven-axis arm is none.
+pub(in crate::rapid) fn external_axes<const N: usize>(step: &Move) -> [f64; 6] {
+    let mut extax = match &step.target.value {
         Ok(Target::RobTarget(target)) => target.extax,
         Ok(Target::JointTarget(target)) => target.extax,
         Err(_) => [0.0; 6],
+    };
+    if N == 7 {
+        extax[0] = NOT_THERE;
     }
+    extax
 }
 
 /// The value of an argument, which messages name after what it is.

@@ -101,7 +101,7 @@ pub(in crate::rapid) fn target_pose(target: &RobTarget) -> Result<Pose, Error> {
 }
 
 /// The joint angles of a jointtarget [rad].
-pub(in crate::rapid) fn joint_vector<const N: usize>(joints: &JointTarget) -> [f64; N] {
+pub(crate) fn joint_vector<const N: usize>(joints: &JointTarget) -> [f64; N] {
     let [one, two, three, four, five, six] = joints.robax_deg;
     let [seven, ..] = joints.extax;
     let from_base = [one, two, seven, three, four, five, six];

@@ -5,7 +5,7 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::confdata::{ambiguous, on_edges, with_nearest};
+use super::confdata::{in_wrist_singularity, on_edges, with_nearest};
 use super::corners::Zones;
 use super::fixes::{Demand, Finder, correct};
 use crate::cell::{Cell, Placed};
@@ -27,9 +27,9 @@ use crate::report::Configuration;
 
 /// Options of [`check`].
 #[derive(Clone, Copy, Debug, Default)]
-pub struct CheckOptions<'a> {
+pub struct CheckOptions<'a, const N: usize = 6> {
     /// How moves are followed. The start and the accelerations do not count.
-    pub motion: MotionOptions,
+    pub motion: MotionOptions<N>,
     /// The cell in which each move is proven to touch nothing, each joint moving evenly between two
     /// samples; without it collisions are not looked for.
     pub cell: Option<&'a Cell>,
@@ -42,7 +42,7 @@ pub struct CheckOptions<'a> {
 
 /// A place at which the program moves.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CheckedMove {
+pub struct CheckedMove<const N: usize = 6> {
     /// The module among those that are checked, from 0.
     pub module: usize,
     /// Line, from 1.
@@ -54,7 +54,7 @@ pub struct CheckedMove {
     /// The target as it is written.
     pub target: String,
     /// The joints at its target [rad]; `None` if it has none, or is not checked.
-    pub q: Option<[f64; 6]>,
+    pub q: Option<[f64; N]>,
     /// The confdata of its target; `None` for joint angles, or if the target is not known.
     pub confdata: Option<Configuration>,
     /// Why it is not checked; `None` if its target, tool and work object are known.
@@ -63,11 +63,11 @@ pub struct CheckedMove {
 
 /// The result of a check.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Checked {
+pub struct Checked<const N: usize = 6> {
     /// The findings, in the order of the modules and of their texts.
     pub findings: Vec<Finding>,
     /// The moves, in the same order, each place once.
-    pub moves: Vec<CheckedMove>,
+    pub moves: Vec<CheckedMove<N>>,
 }
 
 /// Check every move of a program: modules that know each other, with the texts that they were read
@@ -83,11 +83,11 @@ pub struct Checked {
 /// [`Error::InvalidModel`] for an arm without configurations; [`Error::InvalidMotion`] for limits
 /// or steps that are not positive, or for too many samples; [`Error::Rapid`] if a text is not its
 /// module's; [`Error::InvalidBody`] for a robot without a body in a cell.
-pub fn check(
-    robot: &Robot<6>,
+pub fn check<const N: usize>(
+    robot: &Robot<N>,
     modules: &[(&Module, &str)],
-    options: &CheckOptions<'_>,
-) -> Result<Checked, Error> {
+    options: &CheckOptions<'_, N>,
+) -> Result<Checked<N>, Error> {
     robot.configuration_rule()?;
     check_options(&options.motion)?;
     for (module, source) in modules {
@@ -96,7 +96,7 @@ pub fn check(
             return Err(RapidFault::nowhere(RapidFaultKind::OtherText { found, wanted }).into());
         }
     }
-    let max_velocity = velocities(robot, &options.motion)?.unwrap_or([f64::INFINITY; 6]);
+    let max_velocity = velocities(robot, &options.motion)?.unwrap_or([f64::INFINITY; N]);
     let flange = with_flange(robot)?;
     let (modules, sources): (Vec<&Module>, Vec<&str>) = modules.iter().copied().unzip();
     let program = Program::new(&modules);
@@ -150,28 +150,28 @@ fn sorted(mut found: Vec<Finding>, demands: &[Demand]) -> Vec<Finding> {
 }
 
 /// Moves in the order of the text, each place once: checked if it is in one of its passes.
-fn places(mut moves: Vec<CheckedMove>) -> Vec<CheckedMove> {
+fn places<const N: usize>(mut moves: Vec<CheckedMove<N>>) -> Vec<CheckedMove<N>> {
     moves.sort_by_key(|it| (it.module, it.line, it.column, it.unchecked));
     moves.dedup_by_key(|it| (it.module, it.line, it.column));
     moves
 }
 
-struct Checker<'a, 'm> {
+struct Checker<'a, 'm, const N: usize> {
     /// The robot, and the same with the flange as its tool.
-    robots: [&'a Robot<6>; 2],
-    options: MotionOptions,
+    robots: [&'a Robot<N>; 2],
+    options: MotionOptions<N>,
     units: &'a Units,
-    max_velocity: [f64; 6],
-    cell: Option<(&'a Cell, Placed<'a, 6>)>,
+    max_velocity: [f64; N],
+    cell: Option<(&'a Cell, Placed<'a, N>)>,
     finder: Finder<'a, 'm>,
     /// The joints at the targets of the moves of each run.
-    ends: Vec<Vec<Option<[f64; 6]>>>,
+    ends: Vec<Vec<Option<[f64; N]>>>,
     found: Vec<Finding>,
     demands: Vec<Demand>,
-    moves: Vec<CheckedMove>,
+    moves: Vec<CheckedMove<N>>,
 }
 
-impl Checker<'_, '_> {
+impl<const N: usize> Checker<'_, '_, N> {
     fn add(&mut self, run: &Run<'_>) -> Result<(), Error> {
         let start =
             run.from.and_then(|(run, moves)| *self.ends.get(run)?.get(moves.checked_sub(1)?)?);
@@ -234,7 +234,7 @@ impl Checker<'_, '_> {
                 target: goal.step.target.text.clone(),
                 q: made[index].q,
                 confdata: match goal.place {
-                    Some(Place::Tool(_, confdata)) => Some(confdata),
+                    Some(Place::Tool(_, wanted)) => Some(wanted.configuration),
                     _ => None,
                 },
                 unchecked: unchecked[index],
@@ -247,27 +247,31 @@ impl Checker<'_, '_> {
                 let words = "a PERS that the program assigns has its last value here";
                 found(Finding::new(Code::LastValue, words));
             }
-            let (Some(Place::Tool(pose, from)), Some(q)) = (goal.place, made[index].q) else {
+            let (Some(Place::Tool(_, wanted)), Some(q)) = (goal.place, made[index].q) else {
                 continue;
             };
             if goal.conf() == Conf::Off {
                 continue;
             }
-            let flange = goal.frames.flange(&pose);
             if !goal.is_cartesian() {
-                ambiguous(self.robots[1], &flange, from, &q).into_iter().for_each(&mut found);
+                in_wrist_singularity(self.robots[1], &q).into_iter().for_each(&mut found);
             }
-            on_edges(&q).for_each(found);
+            on_edges(self.robots[1], &q)?.for_each(found);
             let to = self.robots[1].configuration(&q)?;
             let written = self.finder.of(goal.stepped.module, goal.step);
-            self.demands.push(Demand { written, from, to, finding: wrong[index] });
+            self.demands.push(Demand {
+                written,
+                from: wanted.configuration,
+                to,
+                finding: wrong[index],
+            });
         }
         self.ends.push(made.iter().map(|made| made.q).collect());
         Ok(())
     }
 
     /// A move that touches something in the cell.
-    fn collision(&mut self, along: &[[f64; 6]]) -> Option<Finding> {
+    fn collision(&mut self, along: &[[f64; N]]) -> Option<Finding> {
         let (cell, placed) = self.cell.as_mut()?;
         let contact = cell.contact(placed, along)?;
         #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 samples")]

@@ -33,14 +33,14 @@ const MOST_ARC: f64 = 240.0 * core::f64::consts::PI / 180.0;
 const ROUNDING: f64 = 1e-6;
 
 /// Goals that follow one another, and what became of them.
-pub(super) struct Zones<'a, 'm> {
+pub(super) struct Zones<'a, 'm, const N: usize> {
     /// The robot with the flange as its tool.
-    pub(super) flange: &'a Robot<6>,
-    pub(super) goals: &'a [Goal<'m>],
-    pub(super) made: &'a [Made],
+    pub(super) flange: &'a Robot<N>,
+    pub(super) goals: &'a [Goal<'m, N>],
+    pub(super) made: &'a [Made<N>],
 }
 
-impl Zones<'_, '_> {
+impl<const N: usize> Zones<'_, '_, N> {
     /// The findings on a move and its neighbors.
     pub(super) fn checked(&self, index: usize) -> impl Iterator<Item = Finding> {
         [
@@ -74,8 +74,8 @@ impl Zones<'_, '_> {
         if goal.from_unknown || goal.place.is_none() || before.place.is_none() {
             return None;
         }
-        let [own, other] =
-            [goal.step, before.step].map(|step| external_axes(step).map(|it| it < MOST_DEGREES));
+        let [own, other] = [goal.step, before.step]
+            .map(|step| external_axes::<N>(step).map(|it| it < MOST_DEGREES));
         let axis = own.iter().zip(other).position(|(own, other)| *own != other)?;
         let name = EXTERNAL_AXES[axis];
         let (has, has_not) = if own[axis] {
@@ -190,7 +190,7 @@ impl Zones<'_, '_> {
     }
 
     /// The tool at the target of a move, in the work object of another one.
-    fn tool(&self, index: usize, within: &Goal<'_>) -> Option<Pose> {
+    fn tool(&self, index: usize, within: &Goal<'_, N>) -> Option<Pose> {
         let goal = &self.goals[index];
         match goal.place? {
             Place::Tool(pose, _) if goal.frames == within.frames => Some(pose),

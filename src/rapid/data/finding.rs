@@ -23,7 +23,7 @@ macro_rules! codes {
 
         impl Code {
             /// Every code.
-            pub const ALL: [Self; 32] = [$(Self::$Code),*];
+            pub const ALL: [Self; 33] = [$(Self::$Code),*];
 
             /// The code: a letter for its group and three digits.
             #[must_use]
@@ -68,6 +68,8 @@ codes! {
     AmbiguousConfdata "C203" "ambiguous-confdata";
     /// A target is a few degrees over the edge of a quarter of its confdata.
     NearConfdata "C204" "near-confdata";
+    /// The cfx of a YuMi's target has an old form, which controllers with the new one refuse.
+    OldConfdata "C205" "old-confdata";
     /// A line or an arc passes the wrist singularity.
     WristSingularity "S301" "wrist-singularity";
     /// A line or an arc passes the elbow singularity.

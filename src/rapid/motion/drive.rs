@@ -7,10 +7,7 @@ use super::goal::{Goal, Place};
 use super::joints::{Conf, Path, Samples, joint_line, round_joints, solved, way};
 use crate::error::Error;
 use crate::kinematics::thresholds::{JOINED_MOVES, MOST_REACH, MOST_SAMPLES, NEAR_CONFDATA};
-use crate::kinematics::{
-    BreakReason, ConfigurationRequest, FollowOptions, Pose, Robot, SingularityKind,
-    SingularityMode, largest_step,
-};
+use crate::kinematics::{BreakReason, Pose, Robot, SingularityKind, SingularityMode, largest_step};
 use crate::paths::line::part;
 use crate::paths::polyline::{Corner, Leg, Rounded};
 use crate::paths::{ArcOrientation, Spacing};
@@ -25,15 +22,15 @@ const LEAST_STEPS: usize = 4;
 
 /// Options of [`motion`](crate::rapid::motion).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MotionOptions {
+pub struct MotionOptions<const N: usize = 6> {
     /// Joint angles from which the first move begins [rad]; without them the motion begins at the
     /// first target.
-    pub start: Option<[f64; 6]>,
+    pub start: Option<[f64; N]>,
     /// Limits of the joints [rad/s]; by default the robot's.
-    pub max_velocity: Option<[f64; 6]>,
+    pub max_velocity: Option<[f64; N]>,
     /// Accelerations that the joints may have [rad/s^2]; no catalog has them. Without them the
     /// duration is a kinematic lower bound: speeds change at once.
-    pub max_acceleration: Option<[f64; 6]>,
+    pub max_acceleration: Option<[f64; N]>,
     /// Largest distance of the tool between two samples [m].
     pub step: f64,
     /// Largest turn of the tool, and of a joint of a `MoveJ` or `MoveAbsJ`, between two samples
@@ -41,7 +38,7 @@ pub struct MotionOptions {
     pub turn: f64,
 }
 
-impl Default for MotionOptions {
+impl<const N: usize> Default for MotionOptions<N> {
     fn default() -> Self {
         Self {
             start: None,
@@ -55,9 +52,9 @@ impl Default for MotionOptions {
 
 /// The outcome of a move.
 #[derive(Clone, Copy, Default)]
-pub(in crate::rapid) struct Made {
+pub(in crate::rapid) struct Made<const N: usize> {
     /// The joints at its target, if it is met or passed.
-    pub(in crate::rapid) q: Option<[f64; 6]>,
+    pub(in crate::rapid) q: Option<[f64; N]>,
     /// Whether it is made as it is programmed.
     pub(in crate::rapid) as_programmed: bool,
     /// Whether the corner at its end is rounded.
@@ -72,34 +69,34 @@ struct Entry {
 }
 
 /// Where the robot is.
-pub(super) struct Here {
-    pub(super) q: [f64; 6],
+pub(super) struct Here<const N: usize> {
+    pub(super) q: [f64; N],
     flange: Pose,
 }
 
-pub(super) struct Drive<'a, 'm> {
-    pub(super) robot: &'a Robot<6>,
+pub(super) struct Drive<'a, 'm, const N: usize> {
+    pub(super) robot: &'a Robot<N>,
     /// The robot with the flange as its tool.
-    pub(super) flange: &'a Robot<6>,
-    pub(super) goals: &'a [Goal<'m>],
+    pub(super) flange: &'a Robot<N>,
+    pub(super) goals: &'a [Goal<'m, N>],
     spacing: Spacing,
     pub(super) findings: &'a mut Vec<Finding>,
-    pub(super) samples: Samples,
-    pub(super) made: Vec<Made>,
-    here: Option<Here>,
+    pub(super) samples: Samples<N>,
+    pub(super) made: Vec<Made<N>>,
+    here: Option<Here<N>>,
     entry: Option<Entry>,
     /// Whether the last target was not reached.
     is_lost: bool,
 }
 
-impl<'a, 'm> Drive<'a, 'm> {
+impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
     /// Go through the moves.
     pub(super) fn through(
-        [robot, flange]: [&'a Robot<6>; 2],
-        goals: &'a [Goal<'m>],
-        options: &MotionOptions,
+        [robot, flange]: [&'a Robot<N>; 2],
+        goals: &'a [Goal<'m, N>],
+        options: &MotionOptions<N>,
         findings: &'a mut Vec<Finding>,
-    ) -> Result<(Samples, Vec<Made>), Error> {
+    ) -> Result<(Samples<N>, Vec<Made<N>>), Error> {
         let (samples, made) = (Samples::default(), Vec::with_capacity(goals.len()));
         let (here, entry, is_lost) = (None, None, false);
         let spacing = Spacing::step(options.step, options.turn)?;
@@ -129,7 +126,7 @@ impl<'a, 'm> Drive<'a, 'm> {
     }
 
     /// The joints at the target of a move; what is wrong with them is found.
-    fn solved(&mut self, index: usize, seed: Option<&[f64; 6]>, conf: Conf) -> Option<[f64; 6]> {
+    fn solved(&mut self, index: usize, seed: Option<&[f64; N]>, conf: Conf) -> Option<[f64; N]> {
         let (q, finding) = solved(self.flange, &self.goals[index], seed, conf);
         if let Some(finding) = finding {
             self.found(index, finding);
@@ -138,7 +135,7 @@ impl<'a, 'm> Drive<'a, 'm> {
     }
 
     /// Make a move.
-    fn make(&mut self, index: usize) -> Result<Made, Error> {
+    fn make(&mut self, index: usize) -> Result<Made<N>, Error> {
         let goal = &self.goals[index];
         let entry = self.entry.take();
         let is_lost = core::mem::replace(&mut self.is_lost, false) || goal.from_unknown;
@@ -166,7 +163,7 @@ impl<'a, 'm> Drive<'a, 'm> {
     }
 
     /// The motion begins at the target of a move.
-    fn begin(&mut self, index: usize) -> Made {
+    fn begin(&mut self, index: usize) -> Made<N> {
         let conf = match self.goals[index].conf() {
             Conf::Off => Conf::Quiet,
             conf => conf,
@@ -181,7 +178,7 @@ impl<'a, 'm> Drive<'a, 'm> {
 
     /// Add the samples of a move, with the corner before it rounded in joint space if the last move
     /// has a zone and its corner is not rounded yet.
-    fn append(&mut self, index: usize, mut path: Path, as_programmed: bool) {
+    fn append(&mut self, index: usize, mut path: Path<N>, as_programmed: bool) {
         if let Some(before) = index.checked_sub(1)
             && let Some(last) = self.made.get(before).copied()
             && as_programmed
@@ -233,9 +230,9 @@ impl<'a, 'm> Drive<'a, 'm> {
         &mut self,
         index: usize,
         end: &Pose,
-        here: &Here,
+        here: &Here<N>,
         entry: Option<Entry>,
-    ) -> Result<Found<Made>, Error> {
+    ) -> Result<Found<Made<N>>, Error> {
         let goal = &self.goals[index];
         let (before, leg) = match entry {
             Some(Entry { before, corner, leg }) => (Some((before, corner)), leg),
@@ -288,9 +285,9 @@ impl<'a, 'm> Drive<'a, 'm> {
     fn followed(
         &mut self,
         index: usize,
-        here: &Here,
+        here: &Here<N>,
         poses: &[Pose],
-    ) -> Result<Found<Path>, Error> {
+    ) -> Result<Found<Path<N>>, Error> {
         let goal = &self.goals[index];
         if poses.len() < 2 {
             return Ok(Ok(Path::default()));
@@ -301,8 +298,8 @@ impl<'a, 'm> Drive<'a, 'm> {
             SingArea::Wrist => SingularityMode::Wrist,
             SingArea::LockAxis4 => SingularityMode::LockAxis4,
         };
-        let options = FollowOptions { singularity_mode, ..FollowOptions::default() };
-        let followed = self.flange.follow(&flanges, &here.q, &options)?;
+        let arm_angle = goal.arm_angle();
+        let followed = self.flange.follow_at(&flanges, &here.q, arm_angle, singularity_mode)?;
         let steps = poses.len() - 1;
         if let Some(first) = followed.breaks.first() {
             return Ok(Err(broken(part(first.pose_index, steps), first.reason)));
@@ -323,32 +320,33 @@ impl<'a, 'm> Drive<'a, 'm> {
     }
 
     /// The joints at the target of a line or an arc, and whether they have its configuration.
-    fn arrived(&mut self, index: usize, end: &[f64; 6], is_rounded: bool) -> [f64; 6] {
+    fn arrived(&mut self, index: usize, end: &[f64; N], is_rounded: bool) -> [f64; N] {
         let goal = &self.goals[index];
         let Some(Place::Tool(pose, wanted)) = goal.place else { return *end };
         let pose = goal.frames.flange(&pose);
         let mut q = *end;
-        if is_rounded && let Ok(nearest) = self.flange.ik_nearest(&pose, end, &[1.0; 6]) {
-            q = nearest.q;
+        if is_rounded && let Ok(nearest) = self.flange.ik_nearest_at(&pose, end, wanted.arm_angle) {
+            q = nearest;
         }
         if !goal.step.settings.conf_l {
             return q;
         }
         let found = self.flange.configuration(&q).unwrap_or_default();
+        let confdata = wanted.configuration;
         let is_met = || {
             self.flange
-                .ik_configured(&pose, ConfigurationRequest::from(wanted).near(q))
+                .ik_configured(&pose, wanted.near(q))
                 .is_ok_and(|solution| apart(&solution.q, &q, SingularityMode::Through).is_none())
         };
-        if found == wanted || is_met() {
+        if found == confdata || is_met() {
             return q;
         }
-        let over = over_quarters(self.flange, &q, wanted);
+        let over = over_quarters(self.flange, &q, confdata);
         if let Some(over) = over.filter(|over| over.by <= NEAR_CONFDATA) {
-            self.found(index, near(&over, wanted, found));
+            self.found(index, near(&over, confdata, found));
         } else {
             let words = format!(
-                "arrives with the configuration {found}, its target has {wanted}: correct its \
+                "arrives with the configuration {found}, its target has {confdata}: correct its \
                  confdata, or program ConfL\\Off"
             );
             self.found(index, Finding::new(Code::OtherConfiguration, words));
@@ -358,7 +356,11 @@ impl<'a, 'm> Drive<'a, 'm> {
 }
 
 /// The reason if a path does not begin with the joints that the robot has.
-fn apart(from: &[f64; 6], to: &[f64; 6], mode: SingularityMode) -> Option<BreakReason> {
+fn apart<const N: usize>(
+    from: &[f64; N],
+    to: &[f64; N],
+    mode: SingularityMode,
+) -> Option<BreakReason> {
     let (joint, by) = largest_step(from, to);
     if by.abs() <= JOINED_MOVES {
         return None;

@@ -2,13 +2,16 @@
 //! written.
 
 use alloc::format;
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
-use crate::kinematics::{Pose, Robot};
+use crate::error::Error;
+use crate::kinematics::{ConfigurationRequest, Pose, Robot};
 use crate::paths::Zone;
+use crate::rapid::calc::confdata::of_old_form;
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::table::{frames_of, target_of};
-use crate::rapid::calc::target::{absent_axis, joint_vector, target_pose};
+use crate::rapid::calc::target::{absent_axis, joint_vector, request, target_pose};
 use crate::rapid::calc::units::Units;
 use crate::rapid::calc::wrong::{Found, absent, displaced, not_solved, outside};
 use crate::rapid::data::finding::{Code, Finding};
@@ -16,23 +19,22 @@ use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::RobTarget;
 use crate::rapid::data::settings::CirPathMode;
 use crate::rapid::program::walker::Stepped;
-use crate::report::Configuration;
 
 /// The destination of a move.
 #[derive(Clone, Copy)]
-pub(in crate::rapid) enum Place {
+pub(in crate::rapid) enum Place<const N: usize> {
     /// The tool in the work object.
-    Tool(Pose, Configuration),
-    Joints([f64; 6]),
+    Tool(Pose, ConfigurationRequest<N>),
+    Joints([f64; N]),
 }
 
 /// A move.
-pub(in crate::rapid) struct Goal<'m> {
+pub(in crate::rapid) struct Goal<'m, const N: usize> {
     pub(in crate::rapid) step: &'m Move,
     /// Where it is made, and what is known of that.
     pub(in crate::rapid) stepped: &'m Stepped<'m>,
     /// Where it is known, with its tool and its work object.
-    pub(in crate::rapid) place: Option<Place>,
+    pub(in crate::rapid) place: Option<Place<N>>,
     pub(in crate::rapid) frames: Frames,
     /// The point on the circle.
     pub(in crate::rapid) via: Option<Pose>,
@@ -50,17 +52,25 @@ pub(in crate::rapid) struct Goal<'m> {
     pub(in crate::rapid) from_unknown: bool,
 }
 
-impl Goal<'_> {
+impl<const N: usize> Goal<'_, N> {
     /// Whether the tool goes on a line or an arc.
     pub(in crate::rapid) fn is_cartesian(&self) -> bool {
         matches!(self.step.kind, MoveKind::MoveL | MoveKind::MoveC)
     }
+
+    /// The arm angle at its end [rad], of an arm that has one.
+    pub(in crate::rapid) fn arm_angle(&self) -> Option<f64> {
+        match self.place {
+            Some(Place::Tool(_, wanted)) => wanted.arm_angle,
+            _ => None,
+        }
+    }
 }
 
-impl<'m> Goal<'m> {
+impl<'m, const N: usize> Goal<'m, N> {
     /// A move; report what is wrong with it.
     pub(in crate::rapid) fn new(
-        robot: &Robot<6>,
+        robot: &Robot<N>,
         stepped: &'m Stepped<'m>,
         units: Option<&Units>,
         move_index: usize,
@@ -69,7 +79,17 @@ impl<'m> Goal<'m> {
         let step = &*stepped.step;
         let mut found = |finding: Finding| findings.push(finding.at(step, move_index));
         let frames = frames_of(robot, step, units);
-        let mut place = placed(step, &frames).map_err(|finding| found(*finding)).ok();
+        let mut place = placed(robot, step, &frames).map_err(|finding| found(*finding)).ok();
+        if let Some(Place::Tool(_, wanted)) = &mut place
+            && let Some(now) = of_old_form::<N>(wanted.configuration)
+        {
+            let words = format!(
+                "cfx {} is an old form of {}: controllers with the new one refuse it (event 50488)",
+                wanted.configuration.cfx, now.cfx,
+            );
+            found(Finding::new(Code::OldConfdata, words));
+            wanted.configuration = now;
+        }
         if let Some(Place::Joints(q)) = &place {
             outside(robot, q).into_iter().for_each(&mut found);
             if let Err(finding) = &frames
@@ -120,19 +140,25 @@ impl<'m> Goal<'m> {
 }
 
 /// The destination of a move.
-fn placed(step: &Move, frames: &Found<Frames>) -> Found<Place> {
+fn placed<const N: usize>(
+    robot: &Robot<N>,
+    step: &Move,
+    frames: &Found<Frames>,
+) -> Found<Place<N>> {
     if let Some(line) = step.displaced {
         return Err(displaced(line).into());
     }
     match target_of(&step.target)? {
-        Target::JointTarget(joints) => match absent_axis::<6>(joints) {
+        Target::JointTarget(joints) => match absent_axis::<N>(joints) {
             Some((axis, degrees)) => Err(absent(axis, degrees).into()),
             None => Ok(Place::Joints(joint_vector(joints))),
         },
         Target::RobTarget(target) => {
             frames.as_ref().map_err(Clone::clone)?;
             let pose = target_pose(target).map_err(|error| not_solved(&error))?;
-            Ok(Place::Tool(pose, target.robconf))
+            let unknown = |error: Error| Finding::new(Code::UnknownValue, error.to_string());
+            let wanted = request(robot, target).map_err(unknown)?;
+            Ok(Place::Tool(pose, wanted))
         }
     }
 }

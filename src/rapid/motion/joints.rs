@@ -14,17 +14,17 @@ use crate::paths::Spacing;
 use crate::paths::line::part;
 use crate::rapid::calc::confdata::{near, over_quarters};
 use crate::rapid::calc::frames::Frames;
-use crate::rapid::calc::wrong::{nearest_taken, not_solved};
+use crate::rapid::calc::wrong::{ambiguous, nearest_taken, not_solved};
 use crate::rapid::data::finding::Finding;
-use crate::report::Configuration;
+use crate::report::{ConfigurationRule, Explanation};
 
 /// The way of the tool between two samples: a length [m] and an angle [rad].
 pub(in crate::rapid) type Way = [f64; 2];
 
 /// Samples in order, grouped by moves.
 #[derive(Default)]
-pub(in crate::rapid) struct Samples {
-    pub(in crate::rapid) q: Vec<[f64; 6]>,
+pub(in crate::rapid) struct Samples<const N: usize> {
+    pub(in crate::rapid) q: Vec<[f64; N]>,
     /// The way from the sample before.
     pub(in crate::rapid) ways: Vec<Way>,
     /// How many samples there are after each move.
@@ -33,8 +33,8 @@ pub(in crate::rapid) struct Samples {
     pub(in crate::rapid) first: usize,
 }
 
-impl Samples {
-    pub(in crate::rapid) fn push(&mut self, q: [f64; 6], way: Way) {
+impl<const N: usize> Samples<N> {
+    pub(in crate::rapid) fn push(&mut self, q: [f64; N], way: Way) {
         self.q.push(q);
         self.ways.push(way);
     }
@@ -54,13 +54,13 @@ impl Samples {
 
 /// The joints of a move after those that it begins with, and the way of the tool to each.
 #[derive(Default)]
-pub(in crate::rapid) struct Path {
-    pub(in crate::rapid) q: Vec<[f64; 6]>,
+pub(in crate::rapid) struct Path<const N: usize> {
+    pub(in crate::rapid) q: Vec<[f64; N]>,
     pub(in crate::rapid) ways: Vec<Way>,
 }
 
-impl Path {
-    pub(in crate::rapid) fn push(&mut self, q: [f64; 6], way: Way) {
+impl<const N: usize> Path<N> {
+    pub(in crate::rapid) fn push(&mut self, q: [f64; N], way: Way) {
         self.q.push(q);
         self.ways.push(way);
     }
@@ -81,14 +81,14 @@ pub(in crate::rapid) fn way(from: &Pose, to: &Pose) -> Way {
 }
 
 /// The joint (from 1) that takes longest between two samples at its limit, and how long [s].
-pub(in crate::rapid) fn slowest(
-    from: &[f64; 6],
-    to: &[f64; 6],
-    max_velocity: &[f64; 6],
+pub(in crate::rapid) fn slowest<const N: usize>(
+    from: &[f64; N],
+    to: &[f64; N],
+    max_velocity: &[f64; N],
 ) -> (usize, f64) {
     let time = |joint: usize| (to[joint] - from[joint]).abs() / max_velocity[joint];
     let (mut slowest, mut longest) = (0, time(0));
-    for joint in 1..6 {
+    for joint in 1..N {
         if time(joint) > longest {
             (slowest, longest) = (joint, time(joint));
         }
@@ -109,24 +109,27 @@ pub(in crate::rapid) enum Conf {
 
 /// The joints at the target of a move, from `seed`, with what is wrong with them; `None` if it has
 /// none. `flange` is the robot with the flange as its tool.
-pub(super) fn solved(
-    flange: &Robot<6>,
-    goal: &Goal<'_>,
-    seed: Option<&[f64; 6]>,
+pub(super) fn solved<const N: usize>(
+    flange: &Robot<N>,
+    goal: &Goal<'_, N>,
+    seed: Option<&[f64; N]>,
     conf: Conf,
-) -> (Option<[f64; 6]>, Option<Finding>) {
-    let (pose, robconf) = match goal.place {
+) -> (Option<[f64; N]>, Option<Finding>) {
+    let (pose, wanted) = match goal.place {
         None => return (None, None),
         Some(Place::Joints(q)) => return (Some(q), None),
-        Some(Place::Tool(pose, robconf)) => (goal.frames.flange(&pose), robconf),
+        Some(Place::Tool(pose, wanted)) => (goal.frames.flange(&pose), wanted),
     };
     let mut missed = None;
     if conf != Conf::Off || seed.is_none() {
-        let request = ConfigurationRequest { seed: seed.copied(), ..robconf.into() };
-        match flange.ik_configured(&pose, request) {
-            Ok(solution) => return (Some(solution.q), None),
+        let request = ConfigurationRequest { seed: seed.copied(), ..wanted };
+        match named(flange, &pose, &request) {
+            Ok((q, count)) => {
+                let is_one = count == 1 || conf != Conf::On || goal.is_cartesian();
+                return (Some(q), (!is_one).then(|| ambiguous(count)));
+            }
             Err(error @ (Error::NoConfiguration(_) | Error::InvalidJoints(_))) => {
-                if let Some((q, finding)) = nearly(flange, &pose, robconf) {
+                if let Some((q, finding)) = nearly(flange, &pose, &wanted) {
                     return (Some(q), Some(finding).filter(|_| conf == Conf::On));
                 }
                 missed = Some(error).filter(|_| conf == Conf::On);
@@ -134,20 +137,38 @@ pub(super) fn solved(
             Err(error) => return (None, Some(not_solved(&error))),
         }
     }
-    match flange.ik_nearest(&pose, seed.unwrap_or(&[0.0; 6]), &[1.0; 6]) {
-        Ok(solution) => (Some(solution.q), missed.as_ref().map(nearest_taken)),
+    match flange.ik_nearest_at(&pose, seed.unwrap_or(&[0.0; N]), wanted.arm_angle) {
+        Ok(q) => (Some(q), missed.as_ref().map(nearest_taken)),
         Err(error) => (None, Some(not_solved(&error))),
     }
 }
 
+/// The joints that a configuration names, the nearest to a seed, and how many it names.
+fn named<const N: usize>(
+    flange: &Robot<N>,
+    pose: &Pose,
+    request: &ConfigurationRequest<N>,
+) -> Result<([f64; N], usize), Error> {
+    if flange.configuration_rule()? == ConfigurationRule::SphericalWrist {
+        return Ok((flange.ik_configured(pose, *request)?.q, 1));
+    }
+    let all = flange.ik_configured_all(pose, *request)?;
+    let first = all.first().ok_or(Error::Unreachable(Explanation::FilteredOut))?;
+    Ok((first.q, all.len()))
+}
+
 /// Of a target whose configuration no solution has, the solution that is nearest to it, if that is
 /// near: running cells keep targets whose tool or work object was measured again.
-fn nearly(flange: &Robot<6>, pose: &Pose, wanted: Configuration) -> Option<([f64; 6], Finding)> {
-    let solutions = flange.ik(pose).ok()?;
-    let turns = solutions.turns().filter(|it| flange.limits().contains(&it.q));
-    let over = turns.filter_map(|it| {
-        let over = over_quarters(flange, &it.q, wanted)?;
-        Some((it.q, over))
+fn nearly<const N: usize>(
+    flange: &Robot<N>,
+    pose: &Pose,
+    request: &ConfigurationRequest<N>,
+) -> Option<([f64; N], Finding)> {
+    let wanted = request.configuration;
+    let inside = flange.ik_inside_at(pose, request.arm_angle).ok()?;
+    let over = inside.into_iter().filter_map(|q| {
+        let over = over_quarters(flange, &q, wanted)?;
+        Some((q, over))
     });
     let (q, over) = over.min_by(|a, b| a.1.by.total_cmp(&b.1.by))?;
     let found = flange.configuration(&q).ok()?;
@@ -156,12 +177,12 @@ fn nearly(flange: &Robot<6>, pose: &Pose, wanted: Configuration) -> Option<([f64
 
 /// The straight line in joint space between joints [rad]; `spacing` bounds the steps of a joint as
 /// it does turns of the tool.
-pub(super) fn joint_line(
-    flange: &Robot<6>,
+pub(super) fn joint_line<const N: usize>(
+    flange: &Robot<N>,
     spacing: Spacing,
     frames: &Frames,
-    [from, to]: [&[f64; 6]; 2],
-) -> Result<Path, Error> {
+    [from, to]: [&[f64; N]; 2],
+) -> Result<Path<N>, Error> {
     let longest = from.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
     let count = spacing.steps_of_one([0.0, longest])?;
     let mut path = Path::default();
@@ -176,11 +197,11 @@ pub(super) fn joint_line(
 }
 
 /// Joints between two others.
-pub(super) fn mixed(from: &[f64; 6], to: &[f64; 6], part: f64) -> [f64; 6] {
+pub(super) fn mixed<const N: usize>(from: &[f64; N], to: &[f64; N], part: f64) -> [f64; N] {
     core::array::from_fn(|joint| from[joint] + (to[joint] - from[joint]) * part)
 }
 
-impl Goal<'_> {
+impl<const N: usize> Goal<'_, N> {
     /// How its target is met by a joint move.
     pub(in crate::rapid) fn conf(&self) -> Conf {
         let settings = self.step.settings;
@@ -193,15 +214,15 @@ impl Goal<'_> {
 const HALF: usize = 6;
 
 /// Joints along the way of the tool from a corner: the first are those at the corner.
-struct Side<'a> {
+struct Side<'a, const N: usize> {
     /// The joints of sample `index`, from 0 at the corner.
-    q: &'a dyn Fn(usize) -> [f64; 6],
+    q: &'a dyn Fn(usize) -> [f64; N],
     /// The way of the tool from sample `index - 1` to `index`.
     way: &'a dyn Fn(usize) -> Way,
     count: usize,
 }
 
-impl Side<'_> {
+impl<const N: usize> Side<'_, N> {
     /// The first sample at a distance or more, and how far into the interval before it the distance
     /// is, 0 to 1.
     fn place(&self, distance: f64) -> (usize, f64) {
@@ -214,7 +235,7 @@ impl Side<'_> {
         (index, if length > 0.0 { (left / length).min(1.0) } else { 1.0 })
     }
 
-    fn at(&self, distance: f64) -> [f64; 6] {
+    fn at(&self, distance: f64) -> [f64; N] {
         let (index, part) = self.place(distance);
         mixed(&(self.q)(index - 1), &(self.q)(index), part)
     }
@@ -222,12 +243,12 @@ impl Side<'_> {
 
 /// Round the corner between the last move and `path`, which begins at its end, with a zone [m]
 /// (eq. 34). Returns whether it is rounded; `path` then begins halfway through the corner.
-pub(super) fn round_joints(
-    flange: &Robot<6>,
-    samples: &mut Samples,
+pub(super) fn round_joints<const N: usize>(
+    flange: &Robot<N>,
+    samples: &mut Samples<N>,
     zone: f64,
     [before, after]: [&Frames; 2],
-    path: &mut Path,
+    path: &mut Path<N>,
 ) -> bool {
     let Some(last) = samples.ends.len().checked_sub(1) else { return false };
     let own = samples.own(last);
@@ -256,7 +277,7 @@ pub(super) fn round_joints(
     let entry = behind.at(radius);
     let entry_way = ways[end - kept].map(|size| size * (1.0 - entry_part));
     let (left, exit_part) = ahead.place(radius);
-    let mut halves = [[[0.0; 6]; HALF]; 2];
+    let mut halves = [[[0.0; N]; HALF]; 2];
     for (half, rows) in halves.iter_mut().enumerate() {
         for (step, row) in rows.iter_mut().enumerate() {
             let half = if half == 0 { 0.0 } else { 0.5 };

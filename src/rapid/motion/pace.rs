@@ -13,11 +13,11 @@ use crate::rapid::data::finding::{Code, Finding};
 use crate::trajectory::{Trajectory, evenly, within_times};
 
 /// A motion to be timed.
-pub(super) struct Pace<'a, 'm> {
-    pub(super) samples: &'a Samples,
-    pub(super) goals: &'a [Goal<'m>],
-    pub(super) made: &'a [Made],
-    pub(super) max_velocity: &'a [f64; 6],
+pub(super) struct Pace<'a, 'm, const N: usize> {
+    pub(super) samples: &'a Samples<N>,
+    pub(super) goals: &'a [Goal<'m, N>],
+    pub(super) made: &'a [Made<N>],
+    pub(super) max_velocity: &'a [f64; N],
     pub(super) findings: &'a mut Vec<Finding>,
 }
 
@@ -29,11 +29,11 @@ struct TooFast {
     excess: f64,
 }
 
-impl Pace<'_, '_> {
+impl<const N: usize> Pace<'_, '_, N> {
     /// The trajectory, and the time of each sample [s].
     pub(super) fn timed(
         mut self,
-        max_acceleration: Option<&[f64; 6]>,
+        max_acceleration: Option<&[f64; N]>,
     ) -> Result<(Trajectory, Vec<f64>), Error> {
         let least = self.least_times();
         let timed = if let Some(max_acceleration) = max_acceleration {
@@ -176,7 +176,7 @@ impl Pace<'_, '_> {
     fn between_rests(
         &self,
         least: &[f64],
-        max_acceleration: &[f64; 6],
+        max_acceleration: &[f64; N],
     ) -> Result<(Trajectory, Vec<f64>), Error> {
         let q = &self.samples.q;
         let mut times = vec![0.0];

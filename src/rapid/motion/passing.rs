@@ -8,9 +8,9 @@ use crate::paths::line::part;
 use crate::rapid::calc::wrong::passes;
 use crate::rapid::data::settings::SingArea;
 
-impl Drive<'_, '_> {
+impl<const N: usize> Drive<'_, '_, N> {
     /// Report the singularities that a line or an arc passes: of each kind the nearest place.
-    pub(super) fn check_singularities(&mut self, index: usize, here: &Here, path: &Path) {
+    pub(super) fn check_singularities(&mut self, index: usize, here: &Here<N>, path: &Path<N>) {
         let is_off = self.goals[index].step.settings.sing_area == SingArea::Off;
         let kinds = [
             (SingularityKind::WRIST, 1, WRIST_ZONE),

@@ -23,7 +23,7 @@ use crate::trajectory::Trajectory;
 
 /// The moves of a routine as one motion of the joints, checked.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RoutineMotion {
+pub struct RoutineMotion<const N: usize = 6> {
     /// The routine; `None` for moves outside routines.
     pub routine: Option<String>,
     /// The joints over time. Without accelerations they go evenly from sample to sample, and the
@@ -32,18 +32,18 @@ pub struct RoutineMotion {
     /// Times of the samples [s].
     pub t: Vec<f64>,
     /// Joint angles of the samples [rad].
-    pub q: Vec<[f64; 6]>,
+    pub q: Vec<[f64; N]>,
     /// The move, by its index in `moves`, that each sample belongs to.
     pub move_index: Vec<usize>,
     /// The moves of the routine, in order.
-    pub moves: Vec<MotionMove>,
+    pub moves: Vec<MotionMove<N>>,
     /// Findings on moves, in order.
     pub findings: Vec<Finding>,
 }
 
 /// A move of a motion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MotionMove {
+pub struct MotionMove<const N: usize = 6> {
     /// The instruction.
     pub kind: MoveKind,
     /// The module among those that are given, from 0.
@@ -59,7 +59,7 @@ pub struct MotionMove {
     /// The length of the tool's way in the work object [m].
     pub length: f64,
     /// The joints at its target [rad], which is met or passed; `None` if it is left out.
-    pub q: Option<[f64; 6]>,
+    pub q: Option<[f64; N]>,
     /// Whether it is made as it is programmed; otherwise the joints go straight to its target at
     /// their limits or, without `q`, it is left out.
     pub as_programmed: bool,
@@ -84,12 +84,12 @@ pub struct MotionMove {
 /// for an arm without configurations; [`Error::InvalidMotion`] for limits or steps that are not
 /// positive, for a robot without velocities if none are given, or for too many samples;
 /// [`Error::InvalidJoints`] for a start that is not finite.
-pub fn motion(
-    robot: &Robot<6>,
+pub fn motion<const N: usize>(
+    robot: &Robot<N>,
     modules: &[&Module],
     routine: Option<&str>,
-    options: &MotionOptions,
-) -> Result<RoutineMotion, Error> {
+    options: &MotionOptions<N>,
+) -> Result<RoutineMotion<N>, Error> {
     robot.configuration_rule()?;
     check(options)?;
     let max_velocity = velocities(robot, options)?.ok_or(MotionFault::NoMaxVelocity)?;
@@ -124,23 +124,23 @@ pub fn motion(
 }
 
 /// Steps that follow one another, gone through.
-pub(in crate::rapid) struct Followed<'m> {
-    pub(in crate::rapid) goals: Vec<Goal<'m>>,
-    samples: Samples,
-    pub(in crate::rapid) made: Vec<Made>,
+pub(in crate::rapid) struct Followed<'m, const N: usize> {
+    pub(in crate::rapid) goals: Vec<Goal<'m, N>>,
+    samples: Samples<N>,
+    pub(in crate::rapid) made: Vec<Made<N>>,
     /// Findings on goals.
     pub(in crate::rapid) findings: Vec<Finding>,
     /// Findings on what is not followed.
     pub(in crate::rapid) unfollowed: Vec<Finding>,
 }
 
-impl<'m> Followed<'m> {
+impl<'m, const N: usize> Followed<'m, N> {
     /// The second robot is the first one with the flange as its tool. Without units, external axes
     /// do not matter.
     pub(in crate::rapid) fn new(
-        robots: [&Robot<6>; 2],
+        robots: [&Robot<N>; 2],
         steps: &'m [Step<'m>],
-        options: &MotionOptions,
+        options: &MotionOptions<N>,
         units: Option<&Units>,
     ) -> Result<Self, Error> {
         let (mut findings, mut unfollowed) = (Vec::new(), Vec::new());
@@ -150,20 +150,20 @@ impl<'m> Followed<'m> {
     }
 
     /// The joints along a move, from where it begins.
-    pub(in crate::rapid) fn along(&self, index: usize) -> &[[f64; 6]] {
+    pub(in crate::rapid) fn along(&self, index: usize) -> &[[f64; N]] {
         let intervals = self.samples.intervals(index);
         &self.samples.q[intervals.start.saturating_sub(1)..intervals.end]
     }
 
     /// Find the joints that are too fast at the programmed speeds.
-    pub(in crate::rapid) fn check_speeds(&mut self, max_velocity: &[f64; 6]) {
+    pub(in crate::rapid) fn check_speeds(&mut self, max_velocity: &[f64; N]) {
         let Self { goals, samples, made, findings, .. } = self;
         Pace { samples, goals, made, max_velocity, findings }.least_times();
     }
 }
 
 /// Check the options.
-pub(in crate::rapid) fn check(options: &MotionOptions) -> Result<(), Error> {
+pub(in crate::rapid) fn check<const N: usize>(options: &MotionOptions<N>) -> Result<(), Error> {
     if let Some(start) = &options.start {
         check_seed("start", start)?;
     }
@@ -182,16 +182,19 @@ pub(in crate::rapid) fn check(options: &MotionOptions) -> Result<(), Error> {
 }
 
 /// The velocities of the joints [rad/s], the robot's unless the options have them.
-pub(in crate::rapid) fn velocities(
-    robot: &Robot<6>,
-    options: &MotionOptions,
-) -> Result<Option<[f64; 6]>, Error> {
+pub(in crate::rapid) fn velocities<const N: usize>(
+    robot: &Robot<N>,
+    options: &MotionOptions<N>,
+) -> Result<Option<[f64; N]>, Error> {
     let max_velocity = options.max_velocity.or(robot.max_velocity().copied());
     check_limits("max_velocity", max_velocity.as_ref())?;
     Ok(max_velocity)
 }
 
-fn check_limits(field: &'static str, limits: Option<&[f64; 6]>) -> Result<(), Error> {
+fn check_limits<const N: usize>(
+    field: &'static str,
+    limits: Option<&[f64; N]>,
+) -> Result<(), Error> {
     let is_wrong = |limit: &f64| !(*limit > 0.0 && limit.is_finite());
     if let Some(limits) = limits
         && let Some(index) = limits.iter().position(is_wrong)
@@ -203,13 +206,13 @@ fn check_limits(field: &'static str, limits: Option<&[f64; 6]>) -> Result<(), Er
 }
 
 /// The moves as goals; what is wrong with them, and what is not followed, is found.
-fn goals<'m>(
-    robot: &Robot<6>,
+fn goals<'m, const N: usize>(
+    robot: &Robot<N>,
     steps: &'m [Step<'m>],
     units: Option<&Units>,
     [findings, unfollowed]: [&mut Vec<Finding>; 2],
-) -> Vec<Goal<'m>> {
-    let mut goals: Vec<Goal<'m>> = Vec::with_capacity(steps.len());
+) -> Vec<Goal<'m, N>> {
+    let mut goals: Vec<Goal<'m, N>> = Vec::with_capacity(steps.len());
     let mut from_unknown = false;
     for step in steps {
         let move_index = goals.len();
@@ -218,7 +221,7 @@ fn goals<'m>(
                 let mut goal = Goal::new(robot, stepped, units, move_index, findings);
                 goal.from_unknown = core::mem::take(&mut from_unknown);
                 if let (Some(units), Some(before)) = (units, goals.last()) {
-                    let [from, to] = [before.step, goal.step].map(external_axes);
+                    let [from, to] = [before.step, goal.step].map(external_axes::<N>);
                     let between = units.between(&from, &to);
                     goal.from_unknown |= goal.is_cartesian() && between.turns;
                     if between.moves {
@@ -243,8 +246,13 @@ fn goals<'m>(
 }
 
 /// The moves with their times.
-fn moves(goals: &[Goal<'_>], samples: &Samples, made: &[Made], t: &[f64]) -> Vec<MotionMove> {
-    let one = |(index, (goal, made)): (usize, (&Goal<'_>, &Made))| {
+fn moves<const N: usize>(
+    goals: &[Goal<'_, N>],
+    samples: &Samples<N>,
+    made: &[Made<N>],
+    t: &[f64],
+) -> Vec<MotionMove<N>> {
+    let one = |(index, (goal, made)): (usize, (&Goal<'_, N>, &Made<N>))| {
         let own = samples.own(index);
         // It begins at the last sample of the move before it.
         let begin = own.start.saturating_sub(1);

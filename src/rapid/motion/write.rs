@@ -15,7 +15,7 @@ use crate::rapid::data::value::Value;
 use crate::rapid::expression::names::predefined;
 use crate::rapid::text::words::is_name;
 
-impl RoutineMotion {
+impl<const N: usize> RoutineMotion<N> {
     /// The motion as a module: a `MoveAbsJ` to the joints of each target that is met or passed,
     /// with its external axes, speed, zone, `\T`, tool and work object. Between the targets the
     /// joints move evenly. Tools and work objects are declared as `PERS`; speeds and zones that are

@@ -22,7 +22,7 @@ fn text(moves: &str) -> String {
 
 /// The findings of a check, without the edges of quarters: these targets have axis 4 at zero.
 fn checked(text: &str) -> Vec<Finding> {
-    let robot = Robot::named("IRB 2600-12/1.65").unwrap();
+    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     let module = parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let mut found = check(&robot, &[(&module, text)], &CheckOptions::default()).unwrap().findings;
     found.retain(|it| it.code != Code::ConfdataEdge);
@@ -218,7 +218,7 @@ fn settings_hold_across_calls() {
 #[test]
 fn what_cannot_be_checked_is_an_error() {
     let (module, options) = (parse(&text(""), &[]).unwrap(), CheckOptions::default());
-    let robot = Robot::named("IRB 2600-12/1.65").unwrap();
+    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     assert_eq!(check(&robot, &[(&module, &text(""))], &options).unwrap(), Checked::default());
     let other = check(&robot, &[(&module, "MODULE")], &options).unwrap_err();
     assert!(matches!(other, Error::Rapid(_)), "{other}");

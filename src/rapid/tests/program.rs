@@ -29,7 +29,7 @@ fn data() -> String {
 
 /// The findings in modules that know each other, but for edges of quarters.
 fn checked(texts: &[&str], options: &CheckOptions<'_>) -> Checked {
-    let robot = Robot::named("IRB 2600-12/1.65").unwrap();
+    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     let alone: Vec<Module> = texts.iter().map(|text| read(text, &[])).collect();
     let all: Vec<&Module> = alone.iter().collect();
     let modules: Vec<Module> = texts.iter().map(|text| read(text, &all)).collect();

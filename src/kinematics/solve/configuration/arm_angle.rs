@@ -45,6 +45,14 @@ impl<'a> ArmAngle<'a> {
         self.at(q).map(|(angle, _)| wrap(angle - wanted))
     }
 
+    /// The gradient of the arm angle, and how far it is from a wanted one [rad], for Newton's method.
+    pub(super) fn seventh(&self, q: &Joints, wanted: f64) -> (Joints, f64) {
+        match self.at(&(*q).into()) {
+            Some((angle, gradient)) => (gradient, wrap(wanted - angle)),
+            None => (Joints::zeros(), f64::NAN),
+        }
+    }
+
     /// Whether a joint vector has a wanted arm angle.
     pub(super) fn is_of(&self, q: &[f64; 7], wanted: f64) -> bool {
         self.off(q, wanted).is_some_and(|off| off.abs() <= ARM_ANGLE_OFF)

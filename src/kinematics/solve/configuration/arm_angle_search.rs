@@ -183,10 +183,7 @@ impl Search<'_> {
 
     /// Find the wanted arm angle near joint angles of the pose.
     fn refine(&mut self, near: &[f64; 7]) {
-        let seventh = |q: &Joints| match self.angle.at(&(*q).into()) {
-            Some((angle, gradient)) => (gradient, wrap(self.wanted - angle)),
-            None => (Joints::zeros(), f64::NAN),
-        };
+        let seventh = |q: &Joints| self.angle.seventh(q, self.wanted);
         let Some(point) = self.curve.newton(Joints::from(*near), seventh) else { return };
         let q = self.curve.robot.limits().wrap(point.joints().map(wrap));
         if self.has_wanted(&q) {

@@ -5,6 +5,8 @@ mod arm_angle;
 mod arm_angle_search;
 mod coaxial;
 mod having;
+#[cfg(feature = "rapid")]
+mod near_arm_angle;
 mod request;
 mod rule;
 mod six_axes;

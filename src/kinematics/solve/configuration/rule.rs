@@ -114,6 +114,13 @@ impl<const N: usize> Robot<N> {
         Ok(self.counted_by(&rule, q))
     }
 
+    /// The joints of ABB's axes 1, 4 and 6, from 0, and where their quarter 0 begins [rad].
+    #[cfg(feature = "rapid")]
+    pub(crate) fn counted_joints(&self) -> Result<([usize; 3], f64), Error> {
+        let Quarters { joints, begin } = Quarters::of(&self.configuration_rule()?);
+        Ok((joints, begin * FRAC_PI_2))
+    }
+
     pub(super) fn counted_by(&self, rule: &ConfigurationRule, q: &[f64; N]) -> Configuration {
         let quarters = Quarters::of(rule);
         let [cf1, cf4, cf6] = quarters.joints.map(|joint| quarters.quarter(q[joint]));

@@ -177,7 +177,7 @@ impl Robot<7> {
         Ok(())
     }
 
-    fn arm_angle_reference(&self) -> Result<[f64; 3], Error> {
+    pub(super) fn arm_angle_reference(&self) -> Result<[f64; 3], Error> {
         match self.own_rule() {
             Some(ConfigurationRule::ArmAngle { reference }) => Ok(reference),
             _ => Err(ModelFault::NoArmAngle.into()),
