@@ -2736,7 +2736,7 @@ def check(
     Args:
         robot: The arm. Work objects are given in the world, in which the robot's base is.
         module: Module; calls of routines of its context are followed, too.
-        codes: The codes that are wanted, such as "C201"; without it all.
+        codes: The codes that are wanted, such as "C201"; without it all but U807: unused names.
         max_velocity: Limits [rad/s], a number or one an axis; without it the robot's own. Without
             either no joint is found to be too fast.
         step: Largest distance of the tool between two samples of a MoveL or MoveC [m].

@@ -63,6 +63,7 @@ pub(crate) use self::calc::{
     target::{joint_target, joint_vector},
 };
 pub use self::check::checker::{CheckOptions, Checked, CheckedMove, candidates, check};
+pub use self::check::unused::unused;
 #[cfg(feature = "python")]
 pub(crate) use self::data::class;
 pub use self::data::finding::{Code, Edit, Finding, Severity};

@@ -48,7 +48,7 @@ def check(file, *arguments):
 def test_the_example_of_a_code_has_it(code):
     robot, last_values = YUMI if code == "C205" else ROBOT, code == "U805"
     modules = [rapid.parse(module(BLOCKS[code]))]
-    checked = check_program(robot, modules, cell=CELL, last_values=last_values)
+    checked = check_program(robot, modules, codes=[code], cell=CELL, last_values=last_values)
     assert code in {it.code for it in checked.findings}, checked.findings
 
 
@@ -278,7 +278,13 @@ def test_codes_are_selected_and_ignored(tmp_path):
     default = {it for it, _, _, is_default in check_codes() if is_default}
     files = {"E001", "E002", "E003", "B001"}
     assert selected(None, []) == {*files, *default}
-    assert {code for code in CODES if code not in default} == {"U801", "U802", "U803", "U805"}
+    assert {code for code in CODES if code not in default} == {
+        "U801",
+        "U802",
+        "U803",
+        "U805",
+        "U807",
+    }
     assert selected(["ALL"], []) == {*files, *CODES}
     unknown = rapid.parse("PROC main() MoveJ *,v100,fine,tool0; ENDPROC")
     assert {it.code for it in rapid.check(ROBOT, unknown)} == {"U801"}
@@ -324,7 +330,7 @@ def test_what_is_not_checked_is_counted(tmp_path):
     assert done.stdout == (
         b"1 of 2 moves checked, 1 not: 1 by unknown values.\nNo findings in the 1 move checked.\n"
     )
-    noted = check(file, "--select", "U")
+    noted = check(file, "--select", "U801,U803")
     assert noted.returncode == 0
     assert b": U801 MoveJ *: " in noted.stdout
     assert noted.stdout.endswith(b"Found 2 notes.\n")
@@ -407,7 +413,7 @@ def test_what_is_no_file_is_one_line(tmp_path):
 
 def test_a_routine_has_the_findings_of_its_motion():
     before = "MoveJ pNear,v100,fine,tGun;\n"
-    codes = set(CODES) - {"Z501", "Z502", "C203", "U803", "U806", "R107", "D703"}
+    codes = set(CODES) - {"Z501", "Z502", "C203", "U803", "U806", "U807", "R107", "D703"}
     examples = [f"{before}{BLOCKS[code]}" for code in BLOCKS if code[0] in "SRV"]
     for text in (
         SEAM.replace("tGum", "tGun"),
@@ -458,3 +464,70 @@ def test_no_text_breaks_the_check(data):
             confdata = rb"[-+]?\s*[\d.]+(?:[eE]\d+)?|\[[^]]*\]|\w+"
             assert re.fullmatch(confdata, source[begin:end])
             assert text
+
+
+def test_what_nothing_names_is_unused():
+    text = """MODULE M
+    CONST robtarget pUsed:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST robtarget pOld:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST num nOld:=1; ! pOld, rOld
+    PERS tooldata tOld:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
+    PROC main() rPart1; %"rPart2"%; TPWrite "no ! comment"; rLocal; ENDPROC
+    PROC rPart1() MoveJ PUSED,v100,fine,tool0; ENDPROC
+    PROC rPart2() ENDPROC
+    PROC rLocal() VAR jointtarget jOld; ENDPROC
+    PROC rOld() ENDPROC
+    FUNC num fOld() RETURN 1; ENDFUNC
+    ENDMODULE"""
+    found = rapid.check(ROBOT, rapid.parse(text), codes=["U807"])
+    words = [(it.line, it.message.partition(":")[0]) for it in found]
+    assert words == [
+        (3, "robtarget pOld"), (5, "tooldata tOld"), (9, "jointtarget jOld"), (10, "PROC rOld"),
+        (11, "FUNC fOld"),
+    ]  # fmt: skip
+    other = rapid.parse(
+        "MODULE Other\nPROC rGo() MoveJ pOld,v100,fine,tOld; rOld; ENDPROC\nENDMODULE"
+    )
+    both = check_program(ROBOT, [rapid.parse(text, [other]), other], codes=["U807"]).findings
+    assert {it.message.partition(":")[0] for it in both} == {
+        "jointtarget jOld", "FUNC fOld", "PROC rGo"
+    }  # fmt: skip
+
+
+def test_the_verdict_has_the_nearest_limit_and_singularity_of_each_routine(tmp_path):
+    moves = "MoveJ pNear,v1000,fine,tGun;\nMoveL pFar,v200,fine,tGun;\nMoveJ pOut,v5,fine,tNone;\n"
+    file = tmp_path / "two.mod"
+    file.write_text(module(moves, DATA) + "")
+    checked = check_program(ROBOT, [rapid.parse(file.read_text())]).moves
+    q = np.array([it.q for it in checked if it.q is not None])
+    assert len(checked) == 3
+    assert len(q) == 2
+    lower, upper = ROBOT.limits.T
+    rooms = np.degrees(np.minimum(q - lower, upper - q))
+    at = ROBOT.singularity(q)
+    angles = np.degrees([at.wrist, at.elbow])
+    lines = check(file, "--verdict").stdout.decode().splitlines()
+    begin = lines.index(f"{file} ({NAME})")
+    assert lines[begin + 1].split() == (
+        [
+            "routine",
+            "moves",
+            "not",
+            "checked",
+            "errors",
+            "warnings",
+            "nearest",
+            "limit",
+            "nearest",
+            "singularity",
+        ]
+    )
+    words = lines[begin + 2]
+    joint = rooms.min(axis=0).argmin() + 1
+    kind = ("wrist", "elbow")[angles.min(axis=1).argmin()]
+    assert re.match(rf"main +3 +1 +\d+ .*J{joint} {rooms.min():.1f} deg, line \d+", words), words
+    assert re.search(rf"{kind} {angles.min():.1f} deg, line \d+$", words), words
+    assert lines[-1].startswith("Nothing in the program names: ")
+    page = tmp_path / "report.html"
+    check(file, "-o", page)
+    assert f"<td>J{joint} {rooms.min():.1f} deg" in page.read_text()

@@ -59,6 +59,8 @@ def add_arguments(parser: Parser) -> None:
     add("-o", "--output-file", metavar="FILE", help=words)
     add("--color", choices=("auto", "always", "never"), default="auto", help="colors: auto")
     add("-q", "--quiet", action="store_true", help="write no summary")
+    words = "the routines at a glance: nearest limits, singularities, unused names"
+    add("--verdict", action="store_true", help=words)
     add_step(parser)
     add("--codes", action="store_true", help="list the codes")
 
@@ -123,7 +125,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.diff:
         return _diff(checker, jobs, arguments.color)
     fixed = _fix(checker, jobs) if arguments.fix else Counter()
-    report = _report(checker, jobs, fixed, left_open)
+    is_judged = arguments.verdict or form == "html"
+    report = _report(checker, jobs, fixed, left_open, is_judged=is_judged)
     report = replace(report, is_quiet=arguments.quiet)
     if form == "html" and len(jobs) == 1:
         from irbkin.cli.report.places import places_of
@@ -219,10 +222,19 @@ def robot_of(arguments: argparse.Namespace) -> Robot:
 
 
 def _report(
-    checker: Checker, jobs: Sequence[Job], fixed: Counter[str], left_open: Sequence[Found]
+    checker: Checker,
+    jobs: Sequence[Job],
+    fixed: Counter[str],
+    left_open: Sequence[Found],
+    *,
+    is_judged: bool,
 ) -> Report:
     """The report on programs."""
     from irbkin.cli.progress import Progress
+    from irbkin.cli.verdict import UNUSED, verdict_of
+
+    if is_judged:
+        checker.asked.add(UNUSED)
 
     found = [it for it in left_open if it.code in checker.codes]
     texts, programs = {}, []
@@ -232,13 +244,16 @@ def _report(
             kept = (it for it in job.found if it.code in checker.codes)
             found += (it for it in kept if it.code not in checker.ignored.get(it.file, ()))
             found += checker.found(job, checked)
-            programs.append((checked, job.unread))
+            programs.append((job, checked))
             for file, module in zip(job.program.files, job.program.modules, strict=True):
                 texts[shown(file.path)] = SourceText(module.source)
             progress.add(1)
     title = ", ".join(job.title for job in jobs)
     # Shared modules are in several programs.
-    return Report(list(dict.fromkeys(found)), texts, coverage(programs), fixed, title)
+    found = list(dict.fromkeys(found))
+    whole = coverage((checked, job.unread) for job, checked in programs)
+    verdict = verdict_of(programs, found) if is_judged else None
+    return Report(found, texts, whole, fixed, title, verdict=verdict)
 
 
 def _fix(checker: Checker, jobs: Sequence[Job]) -> Counter[str]:

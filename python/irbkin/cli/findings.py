@@ -103,7 +103,7 @@ class Coverage(NamedTuple):
             parts = [f"{count} by {reason}" for reason, count in self.reasons.items()]
             words += f", {self.unchecked} not: {', '.join(parts)}"
         if self.unread:
-            words += f"; {_counted(self.unread, 'file')} not read"
+            words += f"; {counted(self.unread, 'file')} not read"
         return f"{words}."
 
 
@@ -125,8 +125,8 @@ def conclusion(found: Sequence[Found], fixed: Counter[str], whole: Coverage) -> 
     if not total:
         if whole.is_whole:
             return "All checks passed!"
-        return f"No findings in the {_counted(whole.checked, 'move')} checked."
-    counts = [_counted(total[level], level) for level in LEVELS if total[level]]
+        return f"No findings in the {counted(whole.checked, 'move')} checked."
+    counts = [counted(total[level], level) for level in LEVELS if total[level]]
     hint = ""
     if fixed:
         hint = f" ({fixed.total()} fixed, {len(found)} remaining)"
@@ -135,5 +135,6 @@ def conclusion(found: Sequence[Found], fixed: Counter[str], whole: Coverage) -> 
     return f"Found {', '.join(counts)}{hint}."
 
 
-def _counted(count: int, word: str) -> str:
+def counted(count: int, word: str) -> str:
+    """A number with its word."""
     return f"{count} {word}" if count == 1 else f"{count} {word}s"

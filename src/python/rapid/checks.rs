@@ -25,7 +25,7 @@ use crate::rapid::{self, CheckOptions, Code, Module, MotionOptions, Unit, UnitAx
 /// Args:
 ///     robot: The arm. Work objects are given in the world, in which the robot's base is.
 ///     module: Module; calls of routines of its context are followed, too.
-///     codes: The codes that are wanted, such as "C201"; without it all.
+///     codes: The codes that are wanted, such as "C201"; without it all but U807: unused names.
 ///     max_velocity: Limits [rad/s], a number or one an axis; without it the robot's own. Without
 ///         either no joint is found to be too fast.
 ///     step: Largest distance of the tool between two samples of a MoveL or MoveC [m].
@@ -57,9 +57,11 @@ pub(crate) fn check<'py>(
     let context = module.get().context.iter().map(|other| other.bind(py).clone());
     let modules: Vec<_> = core::iter::once(module.clone()).chain(context).collect();
     let options = (max_velocity, step, turn);
-    let (findings, _) = checked(robot, &modules, options, cell, &Extent::default())?;
+    let codes = codes.map(read_codes).transpose()?;
+    let (mut findings, _) = checked(robot, &modules, options, cell, &Extent::default())?;
+    add_unused(&mut findings, &modules, codes.as_deref());
     let own = findings.into_iter().filter(|finding| finding.module == 0);
-    records(py, own, &modules, codes)
+    records(py, own, &modules, codes.as_deref())
 }
 
 /// Check every move of a program: modules that know each other.
@@ -106,9 +108,11 @@ pub(crate) fn check_program<'py>(
     let units = Units(units.collect::<PyResult<Vec<_>>>()?);
     let options = (max_velocity, step, turn);
     let extent = Extent { units, takes_last: last_values };
-    let (findings, moves) = checked(robot, &modules, options, cell, &extent)?;
+    let codes = codes.map(read_codes).transpose()?;
+    let (mut findings, moves) = checked(robot, &modules, options, cell, &extent)?;
+    add_unused(&mut findings, &modules, codes.as_deref());
     Ok(Checked {
-        findings: records(py, findings.into_iter(), &modules, codes)?.unbind(),
+        findings: records(py, findings.into_iter(), &modules, codes.as_deref())?.unbind(),
         moves: PyTuple::new(py, moves)?.unbind(),
     })
 }
@@ -172,16 +176,30 @@ fn checked_arm<const N: usize>(
     Ok((findings, moves.collect()))
 }
 
+/// Add what nothing in the program names, if that is asked for.
+fn add_unused(
+    findings: &mut Vec<rapid::Finding>,
+    modules: &[Bound<'_, RapidModule>],
+    codes: Option<&[Code]>,
+) {
+    if codes.is_none_or(|codes| !codes.contains(&Code::Unused)) {
+        return;
+    }
+    let own = modules.iter().map(Bound::get);
+    let texts: Vec<_> = own.map(|it| (&it.module, it.source.as_str())).collect();
+    findings.extend(rapid::unused(&texts));
+    findings.sort_by_key(|it| (it.module, it.line, it.column));
+}
+
 /// Findings of the wanted codes.
 fn records<'py>(
     py: Python<'py>,
     found: impl Iterator<Item = rapid::Finding>,
     modules: &[Bound<'py, RapidModule>],
-    codes: Option<&Bound<'py, PyAny>>,
+    codes: Option<&[Code]>,
 ) -> PyResult<Bound<'py, PyTuple>> {
     let modules: Vec<&Module> = modules.iter().map(|it| &it.get().module).collect();
-    let codes = codes.map(read_codes).transpose()?;
-    let is_wanted = |code: Code| codes.as_ref().is_none_or(|codes| codes.contains(&code));
+    let is_wanted = |code: Code| codes.is_none_or(|codes| codes.contains(&code));
     let wanted = found.filter(|finding| is_wanted(finding.code));
     let records = wanted.map(|finding| record(py, finding, &modules));
     PyTuple::new(py, records.collect::<PyResult<Vec<_>>>()?)

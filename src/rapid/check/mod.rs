@@ -4,3 +4,4 @@ pub(super) mod checker;
 mod confdata;
 mod corners;
 mod fixes;
+pub(super) mod unused;

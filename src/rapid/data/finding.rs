@@ -23,7 +23,7 @@ macro_rules! codes {
 
         impl Code {
             /// Every code.
-            pub const ALL: [Self; 33] = [$(Self::$Code),*];
+            pub const ALL: [Self; 34] = [$(Self::$Code),*];
 
             /// The code: a letter for its group and three digits.
             #[must_use]
@@ -114,6 +114,8 @@ codes! {
     LastValue "U805" "last-value";
     /// Statements that are never executed.
     NeverRun "U806" "never-run";
+    /// Nothing in a program names a target, a tool, a work object or a routine of it.
+    Unused "U807" "unused";
 }
 
 /// How much a finding matters.
@@ -159,7 +161,11 @@ impl Code {
     pub fn is_default(self) -> bool {
         !matches!(
             self,
-            Self::UnknownValue | Self::NotFollowed | Self::ConfdataEdge | Self::LastValue
+            Self::UnknownValue
+                | Self::NotFollowed
+                | Self::ConfdataEdge
+                | Self::LastValue
+                | Self::Unused
         )
     }
 

@@ -13,6 +13,7 @@ from irbkin.cli.report.source_text import SourceText
 
 if TYPE_CHECKING:
     from irbkin.cli.report.places import Places
+    from irbkin.cli.verdict import Verdict
 
 FORMATS = ("text", "concise", "json", "github", "sarif", "html")
 ENDINGS = {".json": "json", ".sarif": "sarif", ".html": "html", ".htm": "html", ".txt": "text"}
@@ -31,6 +32,8 @@ class Report:
     robot: str
     places: Places | None = None
     """Where the targets are, for formats with pictures."""
+    verdict: Verdict | None = None
+    """The routines at a glance, for formats that show them."""
     is_quiet: bool = False
     is_colored: bool = False
 

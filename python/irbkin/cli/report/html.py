@@ -16,6 +16,7 @@ from irbkin.cli.report import Report
 from irbkin.cli.report.pictures import bars, gauge, share
 from irbkin.cli.report.places import views
 from irbkin.cli.report.source_text import SourceText
+from irbkin.cli.verdict import HEADINGS, Verdict, cells
 
 AROUND = 1
 """Lines that are shown before a finding and behind it."""
@@ -49,8 +50,23 @@ def render(report: Report) -> str:
             if svg
         ),
         levels="\n".join(boxes),
+        verdict=_routines(report.verdict) if report.verdict else "",
         files="\n".join(_file(report, *it) for it in groupby(report.found, lambda it: it.file)),
     )
+
+
+def _routines(verdict: Verdict) -> str:
+    """The routines as a table."""
+    head = "".join(f"<th>{escape(it)}</th>" for it in HEADINGS)
+    rows = []
+    for place, group in groupby(verdict.routines, lambda it: f"{it.file} ({it.robot})"):
+        rows.append(f'<tr><th colspan="{len(HEADINGS)}" class="place">{escape(place)}</th></tr>')
+        rows += (
+            f"<tr>{''.join(f'<td>{escape(it)}</td>' for it in cells(row))}</tr>" for row in group
+        )
+    unused = f'<p class="dim">{escape(verdict.unused_words())}</p>'
+    table = f"<table><tr>{head}</tr>{''.join(rows)}</table>"
+    return f'<div class="card wide"><h3>Routines</h3>{table}{unused}</div>'
 
 
 def _tile(count: int, words: str, style: str) -> str:
@@ -105,6 +121,8 @@ def _card(found: Found, text: SourceText) -> str:
 
 def _excerpt(found: Found, lines: list[str]) -> str:
     """The line of a finding between its neighbors."""
+    if not found.line:
+        return ""
     rows = []
     for number in range(found.line - AROUND, found.line + AROUND + 1):
         if not 0 < number <= len(lines):

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from irbkin.cli.findings import Found
 from irbkin.cli.report import Report
+from irbkin.cli.verdict import COUNTS, HEADINGS, Verdict, cells
 
 STYLES = {
     "bold": "1",
@@ -38,7 +39,31 @@ def concise(report: Report) -> str:
 def _whole(report: Report, lines: Sequence[str]) -> str:
     if report.is_quiet:
         return "".join(f"{it}\n" for it in lines)
-    return "".join(f"{it}\n" for it in (report.coverage.text(), *lines, report.conclusion))
+    rows = (report.coverage.text(), *lines, report.conclusion, *_verdict(report.verdict))
+    return "".join(f"{it}\n" for it in rows)
+
+
+def _verdict(verdict: Verdict | None) -> Iterator[str]:
+    """The routines as a table."""
+    if verdict is None:
+        return
+    table = [HEADINGS, *map(cells, verdict.routines)]
+    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+    lines = [
+        "  ".join(
+            f"{cell:>{width}}" if 0 < column < COUNTS else f"{cell:<{width}}"
+            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in table
+    ]
+    place = None
+    for row, line in zip(verdict.routines, lines[1:], strict=True):
+        if (row.robot, row.file) != place:
+            place = (row.robot, row.file)
+            yield from ("", f"{row.file} ({row.robot})", lines[0])
+        yield line
+    if words := verdict.unused_words():
+        yield from ("", words)
 
 
 def _heading(found: Found, is_colored: bool) -> str:
