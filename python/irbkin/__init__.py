@@ -64,6 +64,7 @@ if TYPE_CHECKING:
     from irbkin import plot as plot
     from irbkin import rapid as rapid
     from irbkin import ros as ros
+    from irbkin import scene as scene
     from irbkin import trajectory as trajectory
     from irbkin.calibration import calibrate as calibrate
 
@@ -123,6 +124,7 @@ _MODULES = (
     "plot",
     "rapid",
     "ros",
+    "scene",
     "trajectory",
 )
 

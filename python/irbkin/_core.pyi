@@ -3028,6 +3028,13 @@ class Shape:
         Raises:
             InvalidModelError: No shape.
         """
+    def data(self) -> dict[str, Any]:
+        """Return the shape as plain data, which JSON takes: the name of its constructor as `kind`,
+        and the arguments that make it again.
+
+        Returns:
+            A dict of numbers and nested lists; lengths in meters, a pose as four rows.
+        """
     def moved(self, T: npt.ArrayLike) -> Shape:
         """Return the shape moved from a frame, whose pose is given, into the frame of the pose.
 

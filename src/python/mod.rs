@@ -35,6 +35,7 @@ mod records;
 mod redundancy;
 mod retiming;
 mod robot;
+mod shape_data;
 mod shapes;
 mod signals;
 mod solution;

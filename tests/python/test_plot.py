@@ -1,15 +1,20 @@
 """What the pictures of `irbkin.plot` show: data, labels, limits; and what they refuse."""
 
+import os
+import re
 import subprocess
 import sys
+from importlib.util import find_spec
 
 import irbkin
 import matplotlib as mpl
 import numpy as np
 import pytest
-from irbkin import plot, trajectory
+from irbkin import plot, rapid, trajectory
+from irbkin.plot._camera import UPWARD
 from matplotlib.figure import Figure
 from pictures import MAP, PLACED, PLAN, SEAM, curves, shaded
+from PIL import Image
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
@@ -23,6 +28,7 @@ def every_picture():
     """A picture of each function."""
     q = MOVE.q
     return {
+        "arm": plot.arm(ROBOT, q[:3]),
         "trajectory": plot.trajectory(MOVE),
         "solutions": plot.solutions(ROBOT, T),
         "path": plot.path(ROBOT.fk(q)),
@@ -37,7 +43,7 @@ def every_picture():
 def test_every_function_returns_a_figure_and_leaves_no_state(tmp_path):
     before = dict(mpl.rcParams)
     pictures = every_picture()
-    assert set(pictures) == set(plot.__all__)
+    assert {*pictures, "motion"} == set(plot.__all__)
     for name, figure in pictures.items():
         assert isinstance(figure, Figure), name
         figure.savefig(tmp_path / f"{name}.svg")
@@ -74,6 +80,94 @@ def test_without_matplotlib_the_error_names_the_extra(monkeypatch):
     exec("from irbkin import *", namespace)
     assert "plot" not in namespace
     assert "trajectory" in namespace
+
+
+@pytest.mark.parametrize("name", irbkin.catalog())
+def test_every_arm_of_the_catalog_is_drawn(name):
+    robot = irbkin.Robot(name)
+    q = np.clip(0.3 * np.arange(1, robot.dof + 1), *robot.limits.T)
+    figure = plot.arm(robot, [0.5 * q, q])
+    assert figure.axes[0].get_title().startswith(name)
+    ghost, own = figure.axes[0].collections
+    assert len(own.get_paths()) == 3 * len(ghost.get_paths()) == 3 * len(robot.body.capsules)
+
+
+ONE_OF_EACH = {irbkin.Robot(name).structure: name for name in irbkin.catalog()}
+
+
+@pytest.mark.parametrize("name", [*ONE_OF_EACH.values(), "CRX-10iA", "xArm6", "IRB 14000 left"])
+def test_the_solutions_of_every_structure_are_drawn(name):
+    robot = irbkin.Robot(name)
+    q = np.clip(0.3 * np.arange(1, robot.dof + 1), *robot.limits.T)
+    q7 = None if robot.dof == 6 else q[6]
+    found = robot.ik(robot.fk(q)) if q7 is None else robot.ik(robot.fk(q), q7=q7)
+    drawn = plot.solutions(robot, robot.fk(q), q7=q7)
+    titles = [axes.get_title() for axes in drawn.axes]
+    assert titles == [f"slot {it.slot}" for it in found] != []
+    assert drawn.texts[-1].get_text() == robot.name
+
+
+def test_a_body_is_where_its_capsules_are():
+    figure = plot.arm(ROBOT, frames=False)
+    (own,) = figure.axes[0].collections
+    paper = np.vstack([path.vertices for path in own.get_paths()])
+    body, frames = ROBOT.body, np.vstack([np.eye(4)[None], ROBOT.link_frames(np.zeros(6))])
+    ends = [
+        frames[link, :3, :3] @ row[i : i + 3] + frames[link, :3, 3]
+        for link, row in zip(body.links, body.capsules, strict=True)
+        for i in (0, 3)
+    ]
+    height = max(
+        end @ UPWARD + radius
+        for end, radius in zip(ends, np.repeat(body.capsules[:, 6], 2), strict=True)
+    )
+    # The outline has corners on the circle.
+    assert 0.0 <= height - paper[:, 1].max() < 5e-3
+
+
+def test_a_movie_has_its_pictures_and_shows_itself(tmp_path):
+    move = trajectory.joint(np.zeros(6), np.full(6, 0.2), duration=0.5)
+    movie = plot.motion(move, ROBOT, fps=8.0)
+    assert repr(movie) == "<Movie: 5 frames, 0.6 s>"
+    movie.save(tmp_path / "move.gif")
+    with Image.open(tmp_path / "move.gif") as image:
+        assert image.n_frames == 5
+    text = movie._repr_html_()
+    assert text.count("data:image/png;base64") >= 5
+    assert "http" not in re.sub(r"https?://www\.w3\.org\S*|https?://maxcdn\S*", "", text)
+    movie.save(tmp_path / "move.html")
+    assert (tmp_path / "move.html").stat().st_size > 10_000
+    away = "[9E9,9E9,9E9,9E9,9E9,9E9]"
+    moves = [f"MoveAbsJ [[{angle},0,0,0,30,0],{away}],v100,fine,tool0;" for angle in (0, 9)]
+    module = rapid.parse("\n".join(["PROC main()", *moves, "ENDPROC"]))
+    assert plot.motion(rapid.motion(ROBOT, module), ROBOT, speed=0.5).count > 1
+    with pytest.raises(ValueError, match=r"must end in \.gif or \.html"):
+        movie.save("move.mp4")
+    with pytest.raises(irbkin.InvalidMotionError, match="at most 2000 are drawn"):
+        plot.motion(move, ROBOT, fps=1e5)
+    with pytest.raises(irbkin.InvalidMotionError, match="speed is 0"):
+        plot.motion(move, ROBOT, speed=0)
+
+
+def test_a_picture_shows_itself_in_a_notebook_and_says_if_there_is_no_screen():
+    figure = plot.arm(ROBOT)
+    text = figure._repr_svg_()
+    assert text.startswith("<svg")
+    assert text.count("<path") > 40
+    with pytest.raises(RuntimeError, match="opens no window here"):
+        figure.show()
+    code = """
+import matplotlib, irbkin
+matplotlib.use("tkagg")
+figure = irbkin.plot.arm(irbkin.Robot("UR5e"))
+import matplotlib.pyplot as plt
+shown = []
+plt.show = lambda: shown.append(plt.gcf() is figure)
+figure.show()
+assert shown == [True]
+"""
+    if find_spec("tkinter") and os.environ.get("DISPLAY"):
+        subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_a_motion_is_drawn_in_degrees_over_seconds():

@@ -1,8 +1,9 @@
 """Pictures of arms and motions, with matplotlib: `pip install 'irbkin[plot]'`.
 
-Each function returns a `matplotlib.figure.Figure`; none opens a window or touches pyplot. Angles
-are in degrees, as engineers read them, lengths in meters. `figure=` takes a figure to draw into,
-of `pyplot.figure()` for instance, or a subfigure.
+Each function returns a `matplotlib.figure.Figure` that a notebook shows as its last line, and
+`.show()` in a window; none touches pyplot before. Angles are in degrees, as engineers read them,
+lengths in meters. `figure=` takes a figure to draw into, of `pyplot.figure()` for instance, or a
+subfigure. `motion` returns a movie.
 
 >>> import irbkin.plot
 >>> move = irbkin.trajectory.joint([0, 0], [1, -2], duration=2.0)
@@ -20,6 +21,8 @@ except ImportError as _missing:
         "irbkin.plot needs matplotlib: pip install 'irbkin[plot]'", name="matplotlib"
     ) from _missing
 
+from irbkin.plot._animation import motion
+from irbkin.plot._bodies import arm
 from irbkin.plot._joint_motion import trajectory
 from irbkin.plot._placement import placement
 from irbkin.plot._plan import plan
@@ -30,6 +33,8 @@ from irbkin.plot._skeletons import solutions
 from irbkin.plot._tool_path import path
 
 __all__ = [
+    "arm",
+    "motion",
     "path",
     "placement",
     "plan",

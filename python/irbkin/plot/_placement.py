@@ -11,7 +11,7 @@ from matplotlib.colors import ListedColormap
 from irbkin._arrays import as_array
 from irbkin._grids import Placement
 from irbkin.errors import InvalidPoseError
-from irbkin.plot._style import BLACK, FONT, VERMILION, canvas, edges_of, tidy, whole
+from irbkin.plot._style import BLACK, FONT, MANY, VERMILION, canvas, edges_of, tidy, whole
 
 if TYPE_CHECKING:
     from typing import Any, Literal
@@ -67,7 +67,7 @@ def placement(
     short = np.ma.masked_array(share, mask=~np.isnan(margin))
     missed = axes.pcolormesh(*edges, short.T, cmap=gray, vmin=0.0, vmax=1.0, rasterized=True)
     colored = np.ma.masked_invalid(margin)
-    room = axes.pcolormesh(*edges, colored.T, cmap="viridis", vmin=0.0, rasterized=True)
+    room = axes.pcolormesh(*edges, colored.T, cmap=MANY, vmin=0.0, rasterized=True)
     if not np.isnan(margin).all():
         bar = drawn.colorbar(room, ax=axes, shrink=0.9)
         bar.set_label("margin", fontsize=FONT)

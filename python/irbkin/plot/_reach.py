@@ -11,7 +11,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidPoseError, UnreachableError
-from irbkin.plot._style import BLACK, FONT, canvas, whole
+from irbkin.plot._style import BLACK, FONT, MANY, canvas, whole
 from irbkin.records import Status
 
 if TYPE_CHECKING:
@@ -87,9 +87,7 @@ def reach(
     drawn = canvas(figure, 5.6, 4.8)
     axes = drawn.subplots()
     most = max(int(found.max()), 1)
-    colors = ListedColormap(
-        ["#ffffff", *colormaps["viridis_r"](np.linspace(0.08, 1.0, most)).tolist()]
-    )
+    colors = ListedColormap(["#ffffff", *colormaps[MANY](np.linspace(0.08, 1.0, most)).tolist()])
     image = axes.imshow(
         found,
         origin="lower",

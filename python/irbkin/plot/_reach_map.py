@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib import colormaps
 
 from irbkin._grids import ReachMap
-from irbkin.plot._style import FONT, canvas, edges_of, tidy, whole
+from irbkin.plot._style import FONT, MANY, canvas, edges_of, tidy, whole
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -78,7 +78,7 @@ def reach_map(
         edges_of(places[first]),
         edges_of(places[second]),
         np.ma.masked_invalid(cut),
-        cmap=colormaps["viridis"],
+        cmap=colormaps[MANY],
         vmin=0.0,
         vmax=100.0 if quantity == "share" else None,
         rasterized=True,

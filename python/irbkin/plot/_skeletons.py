@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 
 from irbkin._arguments import check_robot
 from irbkin.errors import UnreachableError
+from irbkin.plot._camera import on_paper
 from irbkin.plot._style import BLACK, BLUE, ORANGE, VERMILION, canvas, whole
 
 if TYPE_CHECKING:
@@ -21,22 +22,14 @@ if TYPE_CHECKING:
     from irbkin._arrays import Floats
     from irbkin.plot._style import Canvas
 
-# Seen from the front on the right, from above.
-AZIMUTH, ELEVATION = np.radians([-29.0, 20.0])
-SIDEWAYS = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
-UPWARD = np.array(
-    [
-        -np.sin(ELEVATION) * np.cos(AZIMUTH),
-        -np.sin(ELEVATION) * np.sin(AZIMUTH),
-        np.cos(ELEVATION),
-    ]
-)
 # Which link frames are shoulder, elbow and wrist.
 JOINTS = {
     "spherical wrist": (1, 2, 4),
     "three parallel axes": (1, 2, 3),
     "spherical shoulder": (1, 3, 5),
 }
+OTHERS = {6: (1, 2, 4), 7: (1, 3, 5)}
+"""Of other structures, by the number of joints."""
 PARTS = (
     ("base", "#555555", 6.0),
     ("upper arm", BLUE, 4.0),
@@ -62,7 +55,7 @@ class Skeleton:
 
     @classmethod
     def of(cls, robot: Robot, q: npt.ArrayLike) -> Skeleton:
-        """The skeleton of an arm of known structure at joint angles [rad]."""
+        """The skeleton of an arm at joint angles [rad]."""
         frames = robot.link_frames(q)
         # Between two frames a link goes along x of the first, then along z of the second.
         links = [np.array([robot.base[:3, 3], frames[0, :3, 3]])]
@@ -70,8 +63,8 @@ class Skeleton:
             corner = before[:3, 3] + row[1] * before[:3, 0]
             links.append(np.array([before[:3, 3], corner, frame[:3, 3]]))
         links.append(frames[-2:, :3, 3])
-        assert robot.structure is not None
-        shoulder, elbow, wrist = (joint + 1 for joint in JOINTS[robot.structure])
+        places = JOINTS.get(robot.structure or "", OTHERS[robot.dof])
+        shoulder, elbow, wrist = (joint + 1 for joint in places)
         parts = [links[:shoulder], links[shoulder:elbow], links[elbow:wrist], links[wrist:]]
         return cls([np.vstack(part) for part in parts], frames[4, :3, [3, 2]])
 
@@ -133,6 +126,7 @@ def solutions(
         axes.set_title(f"slot {solution.slot}", fontsize=9)
         _angles(axes, robot, solution)
     _legend(drawn, has_axis_5)
+    drawn.text(0.01, 0.005, robot.name or f"{robot.dof} joints", fontsize=8, va="bottom")
     return whole(drawn)
 
 
@@ -148,12 +142,6 @@ def _panels(drawn: Canvas, count: int, columns: int) -> list[Axes]:
         )
         for row, column in places
     ]
-
-
-def on_paper(points: Floats) -> Floats:
-    """Project points of the base frame, shape (..., 3), to the paper, (..., 2)."""
-    drawn: Floats = points @ np.column_stack([SIDEWAYS, UPWARD])
-    return drawn
 
 
 def _foot(robot: Robot, radius: float) -> Floats:

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
+from irbkin.plot._picture import Picture
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from irbkin import Robot
     from irbkin._arrays import Floats
 
 Canvas = Figure | SubFigure
@@ -27,6 +30,10 @@ BLUE, ORANGE, GREEN, PURPLE, VERMILION, SKY, BLACK = COLORS = (
 # With them, so that black and white does: solid, dashed, dash-dot, dotted, ...
 DASHES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (2, 1)), (0, (9, 2)))
 SHADE = "#f6d5c5"
+AXIS_COLORS = ("#d62728", "#2ca02c", "#1f77b4")
+"""x, y and z of a frame."""
+MANY = "viridis_r"
+"""Colors of a quantity in all pictures: the darker, the more."""
 FONT = 9
 # Half the width of a cell that has no neighbors.
 ALONE = 0.05
@@ -45,7 +52,7 @@ def canvas(
     layout: Literal["constrained"] | None = "constrained",
 ) -> Canvas:
     """The figure that is given, or a new one of a size [inch]."""
-    return Figure(figsize=(width, height), layout=layout) if figure is None else figure
+    return Picture(figsize=(width, height), layout=layout) if figure is None else figure
 
 
 def whole(figure: Canvas) -> Figure:
@@ -53,6 +60,12 @@ def whole(figure: Canvas) -> Figure:
     top = figure.get_figure(root=True)
     assert isinstance(top, Figure)
     return top
+
+
+def title(axes: Axes, robot: Robot, words: str = "") -> None:
+    """Give axes the name of an arm, and words behind it."""
+    name = robot.name or f"{robot.dof} joints"
+    axes.set_title(f"{name}, {words}" if words else name, fontsize=FONT)
 
 
 def tidy(axes: Axes) -> None:

@@ -9,11 +9,9 @@ import numpy as np
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidPoseError
 from irbkin.plot._style import (
+    AXIS_COLORS,
     BLACK,
-    BLUE,
     FONT,
-    GREEN,
-    VERMILION,
     canvas,
     whole,
 )
@@ -27,9 +25,9 @@ if TYPE_CHECKING:
 
 # x, y and z of a frame: a color and dashes each.
 AXES: tuple[tuple[str, str, Any], ...] = (
-    ("tool x", VERMILION, "-"),
-    ("tool y", GREEN, "--"),
-    ("tool z", BLUE, ":"),
+    ("tool x", AXIS_COLORS[0], "-"),
+    ("tool y", AXIS_COLORS[1], "--"),
+    ("tool z", AXIS_COLORS[2], ":"),
 )
 # Parts of the longest extent: the arrows of a frame, and the least extent of an axis that is shown.
 FRAME, LEAST = 0.12, 0.3

@@ -1,0 +1,34 @@
+"""The parallel projection of the pictures of arms."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from irbkin._arrays import Floats
+
+# Seen from the front on the right, from above.
+AZIMUTH, ELEVATION = np.radians([-29.0, 20.0])
+SIDEWAYS = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
+UPWARD = np.array(
+    [
+        -np.sin(ELEVATION) * np.cos(AZIMUTH),
+        -np.sin(ELEVATION) * np.sin(AZIMUTH),
+        np.cos(ELEVATION),
+    ]
+)
+TOWARD = np.cross(SIDEWAYS, UPWARD)
+
+
+def on_paper(points: Floats) -> Floats:
+    """Project points of the world, shape (..., 3), to the paper, (..., 2)."""
+    drawn: Floats = points @ np.column_stack([SIDEWAYS, UPWARD])
+    return drawn
+
+
+def nearness(points: Floats) -> Floats:
+    """Return how near points are to the eye [m], shape (...): far ones are drawn first."""
+    near: Floats = points @ TOWARD
+    return near

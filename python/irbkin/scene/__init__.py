@@ -1,0 +1,47 @@
+"""Scenes: everything that can be looked at, as plain data that every face draws.
+
+A scene has arms with their bodies, postures and a motion, frames, paths, clouds of points,
+obstacles and marks with texts. `of` makes one of a robot, of solutions, plans, trajectories, RAPID
+motions, cells and maps; scenes add up. Lengths are in meters, angles in radians, times in seconds;
+all is in the world frame.
+
+>>> import irbkin
+>>> robot = irbkin.Robot("IRB 2600-12/1.65")
+>>> scene = irbkin.scene.of(robot, q=[0, 0.2, 0.1, 0, 0.5, 0])
+>>> scene.arms[0].name, len(scene.arms[0].joints)
+('IRB 2600-12/1.65', 6)
+>>> irbkin.scene.Scene.from_json(scene.to_json()) == scene
+True
+"""
+
+from __future__ import annotations
+
+from irbkin.scene._arms import arm_of
+from irbkin.scene._data import (
+    Arm,
+    Cloud,
+    Frame,
+    LinkShape,
+    Mark,
+    Motion,
+    Obstacle,
+    Path,
+    Posture,
+    Scene,
+)
+from irbkin.scene._makers import of
+
+__all__ = [
+    "Arm",
+    "Cloud",
+    "Frame",
+    "LinkShape",
+    "Mark",
+    "Motion",
+    "Obstacle",
+    "Path",
+    "Posture",
+    "Scene",
+    "arm_of",
+    "of",
+]

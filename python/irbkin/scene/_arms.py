@@ -1,0 +1,129 @@
+"""Arms of scenes: the chain of a robot, its body, its postures and its motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from irbkin._arguments import check_robot
+from irbkin._arrays import as_array
+from irbkin.errors import InvalidJointsError
+from irbkin.scene._data import Arm, LinkShape, Motion, Posture
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from irbkin import Robot
+
+MOST_SAMPLES = 2000
+"""Samples of a motion; more are thinned."""
+UNLIMITED = 1e9
+"""Limits of a joint without any [rad]."""
+
+
+def rows(values: npt.ArrayLike) -> Any:
+    """Return an array as nested tuples."""
+
+    def tupled(it: Any) -> Any:
+        return tuple(map(tupled, it)) if isinstance(it, list) else it
+
+    return tupled(np.asarray(values, dtype=float).tolist())
+
+
+def rest(robot: Robot) -> npt.NDArray[np.float64]:
+    """Joint angles of zero, or those inside the limits that are nearest to it [rad]."""
+    lower, upper = robot.limits.T
+    return np.clip(np.zeros(robot.dof), lower, upper)
+
+
+def arm_of(
+    robot: Robot,
+    postures: Iterable[Posture] | None = None,
+    motion: Motion | None = None,
+    name: str | None = None,
+) -> Arm:
+    """Return the arm of a robot.
+
+    Args:
+        robot: The arm, with its tool, base and body.
+        postures: Where it is drawn; at rest when neither they nor a motion are given.
+        motion: How it moves.
+        name: Another name than the robot's.
+
+    Raises:
+        TypeError: `robot` is not a Robot.
+    """
+    check_robot(robot)
+    if postures is None:
+        postures = () if motion else (Posture(rows(rest(robot))),)
+    base = np.asarray(robot.base)
+    frames = [base, *robot.link_frames(np.zeros(robot.dof))]
+    between = [np.linalg.solve(one, other) for one, other in pairwise(frames)]
+    body = robot.body
+    shapes = () if body is None else zip(body.links.tolist(), body.capsules, strict=True)
+    return Arm(
+        robot.name if name is None else name,
+        rows(base),
+        tuple(rows(it) for it in between[:-1]),
+        rows(between[-1]),
+        _coupling(robot),
+        rows(np.clip(robot.limits, -UNLIMITED, UNLIMITED)),
+        tuple(LinkShape(link, rows(c[:3]), rows(c[3:6]), float(c[6])) for link, c in shapes),
+        bool(body is not None and body.is_approximate),
+        tuple(postures),
+        motion,
+    )
+
+
+def _coupling(robot: Robot) -> float:
+    """The factor of joint 2 in the turn of joint 3 against the link before it."""
+    if not robot.is_coupled:
+        return 0.0
+    q = np.zeros(robot.dof)
+    q[1] = 0.5
+    frames = robot.link_frames(np.array([np.zeros(robot.dof), q]))
+    turns = [np.linalg.solve(it[1], it[2]) for it in frames]
+    turned = np.linalg.solve(turns[0], turns[1])
+    return float(round(np.arctan2(turned[1, 0], turned[0, 0]) / q[1]))
+
+
+def motion_of(
+    t: npt.ArrayLike, q: npt.ArrayLike, lines: npt.ArrayLike = (), source: str = ""
+) -> Motion:
+    """Return a motion of samples, thinned evenly to a number that a face can draw.
+
+    Raises:
+        InvalidJointsError: The joint angles are not finite.
+    """
+    times, angles = np.asarray(t, dtype=float), as_array(q, "q", (None, None), InvalidJointsError)
+    kept = np.arange(len(times))
+    if len(kept) > MOST_SAMPLES:
+        kept = np.unique(np.linspace(0, len(times) - 1, MOST_SAMPLES).round().astype(int))
+    numbers = np.asarray(lines, dtype=int)
+    own = tuple(numbers[kept].tolist()) if len(numbers) else ()
+    return Motion(rows(times[kept]), rows(angles[kept]), own, source)
+
+
+def link_frames(arm: Arm, q: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return the frame of each link and of the tool in the world, as faces calculate them.
+
+    Args:
+        arm: The arm.
+        q: Joint angles [rad], shape (n,).
+
+    Returns:
+        Frames, shape (n + 2, 4, 4): the base, links 1 to n, the tool.
+    """
+    angles = np.array(q, dtype=float)
+    if arm.coupling:
+        angles[2] += arm.coupling * angles[1]
+    frames = [np.array(arm.base)]
+    for fixed, angle in zip(arm.joints, angles, strict=True):
+        turn = np.eye(4)
+        turn[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+        frames.append(frames[-1] @ np.array(fixed) @ turn)
+    frames.append(frames[-1] @ np.array(arm.tool))
+    return np.array(frames)

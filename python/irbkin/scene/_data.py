@@ -1,0 +1,218 @@
+"""What a scene is made of, and its JSON."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, fields
+from typing import Any
+
+from irbkin.scene._plain import plain, read
+
+FORMAT, VERSION = "irbkin scene", 1
+Vector = tuple[float, ...]
+Rows = tuple[Vector, ...]
+
+
+@dataclass(frozen=True)
+class LinkShape:
+    """A part of an arm's body."""
+
+    link: int
+    """The link that it moves with: 0 is the base, link i moves with joint i, and the flange carries
+    the link behind the last."""
+    a: Vector
+    """One end of a capsule's axis in the frame of the link [m]."""
+    b: Vector
+    """The other end [m]."""
+    radius: float
+    """Its radius [m]."""
+
+
+@dataclass(frozen=True)
+class Posture:
+    """Joint angles at which an arm is drawn."""
+
+    q: Vector
+    """Joint angles [rad]."""
+    label: str = ""
+    """Words for it: "slot 3"."""
+    is_ghost: bool = False
+    """Whether it is drawn faintly, behind the others."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Joint angles over time, even between two times."""
+
+    t: Vector
+    """Times [s], ascending."""
+    q: Rows
+    """Joint angles at them [rad]."""
+    lines: tuple[int, ...] = ()
+    """The line of the program that each belongs to, from 1; empty without a program."""
+    source: str = ""
+    """The text of the program."""
+
+
+@dataclass(frozen=True)
+class Arm:
+    """An arm: enough to draw it at any joint angles.
+
+    The frame of link i in the world is `base @ joints[0] @ Rz(q[0]) @ .. @ joints[i - 1] @ Rz(q[i -
+    1])`, the tool's is that of the last link times `tool`; joint 3 turns by `q[2] + coupling *
+    q[1]`.
+    """
+
+    name: str
+    base: Rows
+    """Pose of the base, four rows."""
+    joints: tuple[Rows, ...]
+    """The frame of each joint at zero, in the frame of the joint before it or of the base."""
+    tool: Rows
+    """Pose of the tool in the frame of the last joint."""
+    coupling: float = 0.0
+    """Factor of joint 2 in the turn of joint 3: -1 of a parallelogram linkage."""
+    limits: Rows = ()
+    """Least and greatest angle of each joint [rad]; 1e9 of a joint without limits."""
+    body: tuple[LinkShape, ...] = ()
+    """Its capsules."""
+    is_approximate: bool = False
+    """Whether the capsules are made of the lengths of the kinematic table alone."""
+    postures: tuple[Posture, ...] = ()
+    """Where it is drawn."""
+    motion: Motion | None = None
+    """How it moves."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A frame, drawn as axes: x red, y green, z blue."""
+
+    name: str
+    pose: Rows
+    """Four rows."""
+
+
+@dataclass(frozen=True)
+class Path:
+    """A way of the tool."""
+
+    name: str
+    points: Rows
+    """Positions [m]."""
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """Points with a value each: a map."""
+
+    name: str
+    points: Rows
+    """Positions [m]."""
+    values: Vector
+    """A number for each."""
+    unit: str = ""
+    """What the numbers are, in words."""
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """A shape that stands still."""
+
+    name: str
+    shape: dict[str, Any]
+    """As `irbkin.body.Shape.data` has it."""
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A finding with its place."""
+
+    point: Vector
+    """Position [m]."""
+    text: str
+    severity: str = "note"
+    """"error", "warning" or "note"."""
+    place: str = ""
+    """File and line, as "cell.mod:12"."""
+    t: float | None = None
+    """When it happens [s]."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Everything that is looked at."""
+
+    title: str = ""
+    arms: tuple[Arm, ...] = ()
+    frames: tuple[Frame, ...] = ()
+    paths: tuple[Path, ...] = ()
+    clouds: tuple[Cloud, ...] = ()
+    obstacles: tuple[Obstacle, ...] = ()
+    marks: tuple[Mark, ...] = ()
+
+    def __add__(self, other: Scene) -> Scene:
+        """Return both in one, with the title of the first that has one."""
+        if not isinstance(other, Scene):
+            return NotImplemented
+        parts = {
+            field.name: getattr(self, field.name) + getattr(other, field.name)
+            for field in fields(self)
+            if field.name != "title"
+        }
+        return Scene(self.title or other.title, **parts)
+
+    @property
+    def duration(self) -> float:
+        """The time at which the last motion ends [s]; 0 without one."""
+        ends = (arm.motion.t[-1] for arm in self.arms if arm.motion and arm.motion.t)
+        return max(ends, default=0.0)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the scene as dicts, lists, numbers and texts."""
+        return {"format": FORMAT, "version": VERSION, **plain(self)}
+
+    def to_json(self) -> str:
+        """Return the scene as JSON."""
+        return json.dumps(self.to_dict(), allow_nan=False, separators=(",", ":"))
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Scene:
+        """Make a scene of dicts and lists.
+
+        Raises:
+            ValueError: A field is missing, unknown or of another type: the message has its place.
+        """
+        if not isinstance(data, dict) or data.get("format") != FORMAT:
+            raise ValueError(f'not a scene: it has no "format": "{FORMAT}"')
+        if data.get("version") != VERSION:
+            raise ValueError(f"version is {data.get('version')!r}, this irbkin reads {VERSION}")
+        own = {key: value for key, value in data.items() if key not in ("format", "version")}
+        scene: Scene = read(cls, own, "scene")
+        return scene
+
+    @classmethod
+    def from_json(cls, text: str | bytes) -> Scene:
+        """Make a scene of JSON.
+
+        Raises:
+            ValueError: The text is not JSON, or as `from_dict`.
+        """
+        return cls.from_dict(json.loads(text))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the scene to a file, as JSON."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.to_json())
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Scene:
+        """Read a scene from a file.
+
+        Raises:
+            ValueError: As `from_json`.
+            OSError: The file cannot be read.
+        """
+        with open(path, encoding="utf-8") as file:
+            return cls.from_json(file.read())

@@ -1,0 +1,132 @@
+"""Scenes of what irbkin answers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from irbkin._core import Cell, Robot, RoutineMotion, Solutions, Trajectory
+from irbkin._grids import ReachMap
+from irbkin.records import FollowResult, Plan
+from irbkin.scene._arms import arm_of, motion_of, rest, rows
+from irbkin.scene._data import Cloud, Frame, Mark, Motion, Obstacle, Path, Posture, Scene
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from irbkin.rapid import Finding
+
+MOST_POINTS = 500
+"""Points of a path, and positions of a map in thousands: more are thinned."""
+EACH = 0.02
+"""Time from one pose of a path without times to the next [s]."""
+
+
+def of(
+    thing: Any, robot: Robot | None = None, *, q: npt.ArrayLike | None = None, title: str = ""
+) -> Scene:
+    """Return the scene of something that irbkin answers.
+
+    Args:
+        thing: A Robot; Solutions (the first is drawn, the others are ghosts), a Trajectory, Plan or
+            FollowResult, a `rapid.RoutineMotion` with its findings, a Cell, a `ReachMap`; or a
+            sequence of these.
+        robot: The arm of anything but a Robot; of a cell and a map it may be left out.
+        q: Joint angles of a Robot [rad], shape (n,) or (k, n): several are drawn.
+        title: Words above the scene; the robot's name when not given.
+
+    Returns:
+        The scene.
+
+    Raises:
+        TypeError: Something else, or `robot` is missing.
+    """
+    if isinstance(thing, list | tuple) and not isinstance(thing, Plan | FollowResult | ReachMap):
+        whole = Scene(title)
+        for it in thing:
+            whole += of(it, robot)
+        return whole
+    scene = _scene(thing, robot, q)
+    name = scene.arms[0].name if scene.arms else ""
+    return Scene(title or name) + scene
+
+
+def _scene(thing: Any, robot: Robot | None, q: npt.ArrayLike | None) -> Scene:
+    if isinstance(thing, Scene):
+        return thing
+    if isinstance(thing, Robot):
+        return _of_robot(thing, q)
+    if isinstance(thing, Cell):
+        obstacles = tuple(Obstacle(name, it.data()) for name, it in thing.obstacles.items())
+        own = Scene(obstacles=obstacles)
+        return own if robot is None else own + _of_robot(robot, q)
+    if isinstance(thing, ReachMap):
+        own = _of_map(thing)
+        return own if robot is None else own + _of_robot(robot, q)
+    if not isinstance(thing, Solutions | Trajectory | Plan | FollowResult | RoutineMotion):
+        raise TypeError(
+            "thing must be a Robot, Solutions, Trajectory, Plan, FollowResult, RoutineMotion, Cell "
+            f"or ReachMap, got {type(thing).__name__}"
+        )
+    if robot is None:
+        raise TypeError(f"robot is missing: a {type(thing).__name__} does not know its arm")
+    if isinstance(thing, Solutions):
+        return _of_solutions(robot, thing)
+    if isinstance(thing, RoutineMotion):
+        return _of_routine(robot, thing)
+    if isinstance(thing, Trajectory):
+        return _of_motion(robot, motion_of(thing.t, thing.q))
+    reached = np.asarray(thing.q)[np.isfinite(thing.q).all(axis=1)]
+    return _of_motion(robot, motion_of(EACH * np.arange(len(reached)), reached))
+
+
+def _of_robot(robot: Robot, q: npt.ArrayLike | None) -> Scene:
+    angles = np.atleast_2d(rest(robot) if q is None else np.asarray(q, dtype=float))
+    # A wrong shape is refused by `fk`.
+    robot.fk(angles)
+    return Scene(arms=(arm_of(robot, [Posture(it) for it in rows(angles)]),))
+
+
+def _of_solutions(robot: Robot, solutions: Solutions) -> Scene:
+    postures = [
+        Posture(rows(it.q), f"slot {it.slot}", is_ghost=index > 0)
+        for index, it in enumerate(solutions)
+    ]
+    frames = (Frame("pose", rows(robot.fk(solutions[0].q))),) if len(solutions) else ()
+    return Scene(arms=(arm_of(robot, postures),), frames=frames)
+
+
+def _of_motion(robot: Robot, motion: Motion, marks: tuple[Mark, ...] = ()) -> Scene:
+    arm = arm_of(robot, motion=motion)
+    paths: tuple[Path, ...] = ()
+    if motion.q:
+        points = robot.fk(np.array(motion.q))[:, :3, 3]
+        kept = np.unique(np.linspace(0, len(points) - 1, MOST_POINTS).round().astype(int))
+        paths = (Path("tool", rows(points[kept])),)
+    return Scene(arms=(arm,), paths=paths, marks=marks)
+
+
+def _of_routine(robot: Robot, made: RoutineMotion) -> Scene:
+    motion = motion_of(made.t, made.q, made.lines)
+    marks = tuple(_mark(robot, made, it) for it in made.findings)
+    return _of_motion(robot, motion, marks)
+
+
+def _mark(robot: Robot, made: RoutineMotion, finding: Finding) -> Mark:
+    """A finding at the target of its move, or where the motion is if that has no joints."""
+    before = np.flatnonzero(np.asarray(made.move_index) <= finding.move_index)
+    sample = int(before[-1]) if len(before) else 0
+    q = made.moves[finding.move_index].q
+    point = rows(robot.fk(made.q[sample] if q is None else q)[:3, 3])
+    text = f"{finding.code} {finding.message}"
+    return Mark(point, text, finding.severity, f"line {finding.line}", float(made.t[sample]))
+
+
+def _of_map(found: ReachMap) -> Scene:
+    places = np.stack(np.meshgrid(found.x, found.y, found.z, indexing="ij"), axis=-1)
+    is_reached = found.reached > 0
+    points, values = places[is_reached], found.share[is_reached]
+    step = max(1, len(points) // (1000 * MOST_POINTS // 10))
+    cloud = Cloud("reach", rows(points[::step]), rows(values[::step]), "share of orientations")
+    return Scene(clouds=(cloud,))

@@ -1,0 +1,142 @@
+"""Scenes: plain data of everything that can be looked at, the same arm in every face."""
+
+import json
+
+import irbkin
+import numpy as np
+import pytest
+from irbkin import rapid, scene, trajectory
+from irbkin.body import Shape
+from irbkin.scene._arms import link_frames
+from pictures import MAP
+
+ROBOT = irbkin.Robot("IRB 2600-12/1.65")
+T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
+RNG = np.random.default_rng(41)
+MOVE = trajectory.joint(np.zeros(6), np.full(6, 0.4), steps=50)
+MODULE = rapid.parse("""MODULE M
+CONST robtarget a:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+CONST robtarget far:=[[2900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+PROC main() MoveJ a,v100,fine,tool0; MoveL far,v100,fine,tool0; ENDPROC
+ENDMODULE""")
+SHAPES = {
+    "box": Shape.box([1, 2, 3], irbkin.pose([1, 0, 0], wxyz=[0.6, 0.8, 0, 0])),
+    "ball": Shape.sphere(0.2, [0, 1, 0]),
+    "pin": Shape.capsule([0, 0, 0], [0, 0, 1], 0.1),
+    "post": Shape.cylinder(0.1, 0.8, irbkin.pose([1, 1, 1], wxyz=[0.6, 0, 0.8, 0])),
+    "floor": Shape.half_space([0, 0, 1], [0, 0, -0.1]),
+    "hull": Shape.convex(np.eye(4, 3) + 0.1),
+    "sheet": Shape.mesh(np.eye(3)[None], solid=False),
+    "scan": Shape.points(np.eye(3), 0.01),
+    "two": Shape.union([Shape.sphere(0.2, [0, 1, 0]), Shape.sphere(0.2, [0, 2, 0])]),
+}
+
+
+def every_scene():
+    """A scene of everything that one can be made of."""
+    return {
+        "robot": scene.of(ROBOT),
+        "postures": scene.of(ROBOT, q=np.zeros((3, 6))),
+        "solutions": scene.of(ROBOT.ik(T), ROBOT),
+        "trajectory": scene.of(MOVE, ROBOT),
+        "follow": scene.of(ROBOT.follow(ROBOT.fk(MOVE.q), MOVE.q[0]), ROBOT),
+        "plan": scene.of(ROBOT.plan(ROBOT.fk(MOVE.q)), ROBOT),
+        "routine": scene.of(rapid.motion(ROBOT, MODULE), ROBOT),
+        "cell": scene.of(irbkin.Cell(SHAPES), ROBOT),
+        "map": scene.of(MAP),
+        "several": scene.of([ROBOT, irbkin.Cell(SHAPES)]),
+    }
+
+
+@pytest.mark.parametrize("name", irbkin.catalog())
+def test_a_face_draws_the_arm_where_the_robot_is(name):
+    base = irbkin.pose([0.3, -0.2, 0.7], wxyz=[0.6, 0, 0.8, 0])
+    tool = irbkin.pose([0.1, 0.2, 0.3], wxyz=[0, 1, 0, 0])
+    robot = irbkin.Robot(name).with_base(base).with_tool(tool)
+    arm = scene.arm_of(robot)
+    bound = 1e-12 * max(1.0, np.abs(robot.fk(np.zeros(robot.dof))).max())
+    for q in RNG.uniform(-3, 3, (3, robot.dof)):
+        frames = link_frames(arm, q)
+        np.testing.assert_allclose(frames[0], base, atol=bound)
+        np.testing.assert_allclose(frames[1:], robot.link_frames(q), atol=bound)
+    assert len(arm.body) == len(robot.body.capsules) > 0
+
+
+@pytest.mark.parametrize("name", every_scene())
+def test_a_scene_is_the_same_after_json(name, tmp_path):
+    own = every_scene()[name]
+    assert scene.Scene.from_json(own.to_json()) == own
+    own.save(tmp_path / "own.json")
+    assert scene.Scene.load(tmp_path / "own.json") == own
+    assert json.loads(own.to_json())["format"] == "irbkin scene"
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_a_shape_is_made_again_of_its_data(name):
+    def made(data):
+        kind = data.pop("kind")
+        if kind == "union":
+            data["shapes"] = [made(it) for it in data["shapes"]]
+        return getattr(Shape, kind)(**data)
+
+    data = json.loads(json.dumps(SHAPES[name].data()))
+    again = made(data).data()
+    for key, value in SHAPES[name].data().items():
+        if key not in ("kind", "solid", "shapes"):
+            np.testing.assert_allclose(again[key], value, atol=1e-15)
+    assert again["kind"] == SHAPES[name].data()["kind"]
+
+
+def test_the_first_solution_is_drawn_and_the_others_are_ghosts():
+    solutions = ROBOT.ik(T)
+    (arm,) = every_scene()["solutions"].arms
+    assert [it.is_ghost for it in arm.postures] == [False] + [True] * 7
+    assert [it.label for it in arm.postures] == [f"slot {it.slot}" for it in solutions]
+    np.testing.assert_allclose([it.q for it in arm.postures], solutions.q)
+    (frame,) = every_scene()["solutions"].frames
+    np.testing.assert_allclose(frame.pose, T, atol=1e-12)
+
+
+def test_a_motion_has_its_times_lines_and_findings():
+    own = every_scene()["routine"]
+    made = rapid.motion(ROBOT, MODULE)
+    motion = own.arms[0].motion
+    assert motion.lines == tuple(made.lines)
+    assert own.duration == motion.t[-1] == made.duration
+    assert [it.severity for it in own.marks] == [it.severity for it in made.findings]
+    assert own.marks[0].text.startswith("R103 MoveL far: ")
+    long = scene.of(trajectory.joint(np.zeros(6), np.full(6, 0.4), steps=9000), ROBOT)
+    assert len(long.arms[0].motion.t) == 2000
+    assert long.duration == MOVE.duration
+    assert len(long.paths[0].points) == 500
+
+
+def test_scenes_add_up():
+    both = every_scene()["map"] + every_scene()["cell"]
+    assert len(both.clouds) == len(both.arms) == 1
+    assert len(both.obstacles) == len(SHAPES)
+    assert both.title == ROBOT.name
+    with pytest.raises(TypeError):
+        both + 1
+
+
+def test_what_is_no_scene_is_refused_with_its_place():
+    data = every_scene()["robot"].to_dict()
+    arm = data["arms"][0]
+    for change, words in (
+        ({"version": 2}, "version is 2, this irbkin reads 1"),
+        ({"format": "x"}, 'not a scene: it has no "format"'),
+        ({"arms": 1}, "scene.arms is 1, it must be a list"),
+        ({"robots": []}, "scene: has no field 'robots'"),
+        ({"arms": [{**arm, "coupling": "a"}]}, r"arms\[0\].coupling is 'a', it must be a finite"),
+        ({"arms": [{**arm, "name": 3}]}, r"scene.arms\[0\].name is 3, it must be a text"),
+        ({"arms": [{}]}, r"scene.arms\[0\]: lacks the field 'name'"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            scene.Scene.from_dict({**data, **change})
+    with pytest.raises(TypeError, match="robot is missing: a Trajectory does not know its arm"):
+        scene.of(MOVE)
+    with pytest.raises(TypeError, match=r"thing must be a Robot, .* got int"):
+        scene.of(1, ROBOT)
+    with pytest.raises(irbkin.InvalidJointsError):
+        scene.of(ROBOT, q=[1, 2])
