@@ -25,6 +25,7 @@ mod go;
 mod inverse;
 mod meshes;
 mod models;
+mod notebook;
 mod outputs;
 mod plans;
 mod poses;

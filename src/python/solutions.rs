@@ -1,16 +1,19 @@
 //! `irbkin.Solutions`: the answer of a solve.
 
+use std::sync::Arc;
+
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PySlice, PyTuple};
 
-use super::arm::{ByJoints, on};
+use super::arm::{Arm, ByJoints, on};
 use super::cell::PyCell;
 use super::found::Found;
 use super::outputs::matrix;
 use super::records;
+use super::robot::PyRobot;
 use super::solution::{PySolution, as_array};
 use super::state::{Reduced, hash_of, reduced};
 use super::table;
@@ -228,6 +231,14 @@ impl PySolutions {
 }
 
 impl PySolutions {
+    /// The robot that they are of.
+    pub(super) fn robot(&self) -> PyRobot {
+        match &self.found {
+            ByJoints::Six(found) => Arm::Six(Arc::clone(&found.robot)).into(),
+            ByJoints::Seven(found) => Arm::Seven(Arc::clone(&found.robot)).into(),
+        }
+    }
+
     fn outcome(&self) -> String {
         on!(&self.found, found => format!("{}{}", found.explain(), found.solutions.reservation()))
     }

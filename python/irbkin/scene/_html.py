@@ -1,0 +1,122 @@
+"""What notebooks show of robots, solutions, plans and trajectories: a table and a small picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from irbkin._core import Robot, Solutions, Trajectory, catalog, catalog_entry
+from irbkin.scene._arms import arm_of, rest
+from irbkin.scene._svg import curves, drawn
+
+if TYPE_CHECKING:
+    from irbkin.records import Plan
+
+MOST_ROWS = 16
+CURVES = 120
+"""Points of a curve."""
+
+
+def html(thing: Robot | Solutions | Trajectory | Plan, robot: Robot | None = None) -> str:
+    """Return the HTML of something, which has no style of its own but widths.
+
+    Args:
+        thing: A Robot, Solutions, a Trajectory or a Plan.
+        robot: The arm of Solutions.
+    """
+    if isinstance(thing, Robot):
+        return _of_robot(thing)
+    if isinstance(thing, Solutions):
+        assert robot is not None
+        return _of_solutions(thing, robot)
+    if isinstance(thing, Trajectory):
+        return _of_trajectory(thing)
+    return _of_plan(thing)
+
+
+def _of_robot(robot: Robot) -> str:
+    limits = np.degrees(robot.limits)
+    head = ["", *(f"J{joint + 1}" for joint in range(robot.dof))]
+    rows = [
+        ["from [deg]", *(f"{it:.4g}" for it in limits[:, 0])],
+        ["to [deg]", *(f"{it:.4g}" for it in limits[:, 1])],
+    ]
+    speeds = robot.max_velocity
+    if speeds is not None:
+        rows.append(["speed [deg/s]", *(f"{it:.4g}" for it in np.degrees(speeds))])
+    words = [f"{robot.dof} joints", robot.structure or "general"]
+    if robot.name in catalog():
+        entry = catalog_entry(robot.name)
+        words += [f"reach {entry.reach:g} m"] if entry.reach else []
+        words += [f"payload {entry.payload:g} kg"] if entry.payload else []
+    for name, frame in (("tool", robot.tool), ("base", robot.base)):
+        if not np.array_equal(frame, np.eye(4)):
+            place = ", ".join(f"{1e3 * it:.1f}" for it in frame[:3, 3])
+            words.append(f"{name} at ({place}) mm")
+    picture = drawn(arm_of(robot), rest(robot))
+    return _beside(picture, f"<b>{escape(robot.name or 'Robot')}</b>", words, _table(head, rows))
+
+
+def _of_solutions(solutions: Solutions, robot: Robot) -> str:
+    head = ["slot", *(f"q{joint + 1} [deg]" for joint in range(robot.dof)), "limits"]
+    rows = []
+    for it in list(solutions)[:MOST_ROWS]:
+        inside = "inside" if it.is_within_limits else "outside"
+        rows.append([str(it.slot), *(f"{angle:.2f}" for angle in it.q_deg), inside])
+    more = len(solutions) - len(rows)
+    words = [solutions.explain(), *([f"{more} more"] if more > 0 else [])]
+    if not rows:
+        return _beside("", f"<b>{escape(robot.name)}</b>", words, "")
+    q = [it.q for it in solutions]
+    picture = drawn(arm_of(robot), q[0], q[1:])
+    return _beside(picture, f"<b>{escape(robot.name)}</b>", words, _table(head, rows))
+
+
+def _of_trajectory(move: Trajectory) -> str:
+    peaks = move.peaks()
+    head = ["", *(f"J{joint + 1}" for joint in range(move.dof))]
+    rows = [
+        ["fastest [deg/s]", *(f"{it:.1f}" for it in np.degrees(peaks.velocity))],
+        ["hardest [deg/s^2]", *(f"{it:.0f}" for it in np.degrees(peaks.acceleration))],
+    ]
+    times = np.linspace(0.0, move.duration, CURVES)
+    picture = curves(times, np.degrees(move.sample(times).q), "s", "deg")
+    words = [f"{move.duration:.3f} s", f"{len(move.t)} samples"]
+    return _beside(picture, "<b>Trajectory</b>", words, _table(head, rows))
+
+
+def _of_plan(plan: Plan) -> str:
+    q = np.degrees(np.asarray(plan.q))
+    known = q[np.isfinite(q).all(axis=1)]
+    head = ["", *(f"J{joint + 1}" for joint in range(q.shape[1]))]
+    rows: list[Sequence[str]] = []
+    if len(known):
+        rows = [
+            [name, *(f"{it:.1f}" for it in extreme)]
+            for name, extreme in (
+                ("least [deg]", known.min(axis=0)),
+                ("most [deg]", known.max(axis=0)),
+            )
+        ]
+    words = [f"{len(q)} poses", f"{len(plan.breaks)} breaks" if plan.breaks else "without a break"]
+    words += ["certified"] if plan.certified else []
+    picture = ""
+    if len(known):
+        kept = np.unique(np.linspace(0, len(known) - 1, CURVES).round().astype(int))
+        picture = curves(kept.astype(float), known[kept], "pose", "deg")
+    return _beside(picture, "<b>Plan</b>", words, _table(head, rows))
+
+
+def _beside(picture: str, title: str, words: Iterable[str], table: str) -> str:
+    line = escape(", ".join(words))
+    text = f"<div>{title}<br>{line}{table}</div>"
+    return f'<div style="display:flex;gap:1rem;align-items:center">{picture}{text}</div>'
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    cells = "".join(f"<th>{escape(it)}</th>" for it in head)
+    body = "".join(f"<tr>{''.join(f'<td>{escape(it)}</td>' for it in row)}</tr>" for row in rows)
+    return f"<table><thead><tr>{cells}</tr></thead><tbody>{body}</tbody></table>"

@@ -1,0 +1,112 @@
+"""Small pictures of arms and curves, as SVG without any other package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from irbkin.scene._arms import link_frames
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from irbkin._arrays import Floats
+    from irbkin.scene._data import Arm
+
+SIZE = 200
+"""Width and height of a picture, in its own units."""
+AZIMUTH, ELEVATION = np.radians([-29.0, 20.0])
+BASE, LINKS, GHOST = "#5b6470", ("#e8912d", "#f3ae5c"), "#98a2b3"
+LINES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#777777")
+MOST_GHOSTS = 7
+
+
+def drawn(arm: Arm, q: npt.ArrayLike, ghosts: Iterable[npt.ArrayLike] = ()) -> str:
+    """Draw an arm's capsules as thick lines, far ones first, and other postures as faint chains."""
+    own = _capsules(arm, q)
+    others = [
+        (link_frames(arm, it)[:, :3, 3] @ _paper())[:, :2] for it in list(ghosts)[:MOST_GHOSTS]
+    ]
+    points = np.vstack([*(ends[:, :2] for ends, *_ in own), *others])
+    low, high = points.min(axis=0), points.max(axis=0)
+    room = max(radius for _, radius, _ in own)
+    scale = SIZE / (float((high - low).max()) + 2.2 * room)
+    middle = 0.5 * (low + high)
+    lines = []
+    for other in others:
+        places = SIZE / 2 + scale * (other - middle) * [1, -1]
+        path = " ".join(f"{x:.0f},{y:.0f}" for x, y in places)
+        look = f'stroke="{GHOST}" stroke-width="5" opacity=".35"'
+        lines.append(f'<polyline points="{path}" fill="none" {look}/>')
+    for ends, radius, link in sorted(own, key=lambda it: float(it[0][:, 2].mean())):
+        color = BASE if link == 0 else LINKS[link % 2]
+        lines.append(_line(ends, radius, color, scale, middle, ""))
+        lines.append(_line(ends, 0.45 * radius, "#fff", scale, middle, ' opacity=".25"'))
+    return _svg(lines)
+
+
+def curves(x: Floats, rows: Floats, name: str, unit: str) -> str:
+    """Draw a curve for each column of rows over x."""
+    low, high = float(rows.min()), float(rows.max())
+    span, wide = max(high - low, 1e-9), max(float(x[-1] - x[0]), 1e-9)
+    left, top, width, height = 34.0, 8.0, SIZE - 40.0, SIZE - 34.0
+    u = left + width * (x - x[0]) / wide
+    v = top + height * (high - rows) / span
+    lines = [
+        f'<path d="M{left} {top}V{top + height}H{left + width}" fill="none" stroke="#999"/>',
+        *(
+            f'<text x="{x:g}" y="{y:g}" font-size="10" fill="currentColor" text-anchor="{anchor}">'
+            f"{words}</text>"
+            for x, y, anchor, words in (
+                (left - 4, top + 8, "end", f"{high:.4g}"),
+                (left - 4, top + height, "end", f"{low:.4g}"),
+                (left, SIZE - 12, "start", unit),
+                (left + width, SIZE - 12, "end", f"{float(x[-1]):.4g} {name}"),
+            )
+        ),
+    ]
+    for joint, column in enumerate(v.T):
+        points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(u, column, strict=True))
+        color = LINES[joint % len(LINES)]
+        lines.append(
+            f'<polyline points="{points}" fill="none" stroke="{color}" stroke-width="1.4"/>'
+        )
+    return _svg(lines)
+
+
+def _capsules(arm: Arm, q: npt.ArrayLike) -> list[tuple[Floats, float, int]]:
+    """Both ends of each capsule on the paper with their nearness, shape (2, 3); radius; link."""
+    frames = link_frames(arm, q)
+    paper = _paper()
+    found = []
+    for it in arm.body:
+        frame = frames[min(it.link, len(frames) - 2)]
+        ends = np.array([it.a, it.b]) @ frame[:3, :3].T + frame[:3, 3]
+        found.append((ends @ paper, it.radius, it.link))
+    if not found:
+        places = frames[:, :3, 3] @ paper
+        found = [(places[i : i + 2], 0.03, i) for i in range(len(places) - 1)]
+    return found
+
+
+def _paper() -> Floats:
+    """Return the directions to the right, up and toward the eye, as columns."""
+    (c, s), (d, t) = ((np.cos(it), np.sin(it)) for it in (AZIMUTH, ELEVATION))
+    sideways, upward = np.array([-s, c, 0.0]), np.array([-t * c, -t * s, d])
+    return np.column_stack([sideways, upward, np.cross(sideways, upward)])
+
+
+def _line(ends: Floats, radius: float, color: str, scale: float, middle: Floats, more: str) -> str:
+    (x, y), (u, v) = SIZE / 2 + scale * (ends[:, :2] - middle) * [1, -1]
+    # A line without a length has no round ends in all browsers.
+    path = f"M{x:.1f} {y:.1f}L{u + 0.1:.1f} {v:.1f}"
+    return f'<path d="{path}" stroke="{color}" stroke-width="{2 * scale * radius:.1f}"{more}/>'
+
+
+def _svg(parts: Iterable[str]) -> str:
+    head = f'<svg viewBox="0 0 {SIZE} {SIZE}" width="{SIZE}" height="{SIZE}" role="img"'
+    return (
+        f'{head} stroke-linecap="round" xmlns="http://www.w3.org/2000/svg">{"".join(parts)}</svg>'
+    )
