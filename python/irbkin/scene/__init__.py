@@ -16,6 +16,8 @@ True
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from irbkin.scene._arms import arm_of
 from irbkin.scene._data import (
     Arm,
@@ -31,6 +33,9 @@ from irbkin.scene._data import (
 )
 from irbkin.scene._makers import of
 
+if TYPE_CHECKING:
+    from irbkin.scene._widget import View as View
+
 __all__ = [
     "Arm",
     "Cloud",
@@ -45,3 +50,12 @@ __all__ = [
     "arm_of",
     "of",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import `View`, which needs an extra, when it is first asked for."""
+    if name == "View":
+        from irbkin.scene._widget import View
+
+        return View
+    raise AttributeError(f"module 'irbkin.scene' has no attribute {name!r}")

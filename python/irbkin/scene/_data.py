@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from irbkin.scene._plain import plain, read
+
+if TYPE_CHECKING:
+    from irbkin.scene._widget import View
 
 FORMAT, VERSION = "irbkin scene", 1
 Vector = tuple[float, ...]
@@ -177,6 +180,17 @@ class Scene:
         """Return the scene as JSON."""
         return json.dumps(self.to_dict(), allow_nan=False, separators=(",", ":"))
 
+    def view(self, height: int = 560) -> View:
+        """Return the scene as a widget of a notebook: `irbkin.scene.View`, which needs `pip install
+        'irbkin[widget]'`.
+
+        Args:
+            height: Its height [pixels].
+        """
+        from irbkin.scene._widget import View
+
+        return View(self, height=height)
+
     @classmethod
     def from_dict(cls, data: Any) -> Scene:
         """Make a scene of dicts and lists.
@@ -201,10 +215,26 @@ class Scene:
         """
         return cls.from_dict(json.loads(text))
 
+    def to_html(self) -> str:
+        """Return the scene as a page that opens in any browser, without a network: it solves, too.
+
+        Raises:
+            FileNotFoundError: This installation lacks the page's engine.
+        """
+        from irbkin.scene._page import page
+
+        return page(self)
+
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the scene to a file, as JSON."""
+        """Write the scene to a file: a page if the path ends in .html, else JSON.
+
+        Raises:
+            FileNotFoundError: As `to_html`, of a page.
+        """
+        is_page = os.fspath(path).lower().endswith((".html", ".htm"))
+        text = self.to_html() if is_page else self.to_json()
         with open(path, "w", encoding="utf-8") as file:
-            file.write(self.to_json())
+            file.write(text)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:

@@ -1,0 +1,96 @@
+"""`irbkin view`: an arm, a program or a scene as a page in the browser."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import tempfile
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from irbkin.cli.arguments import Parser, joints, read_cell, read_robot
+from irbkin.cli.errors import FINE, CommandError
+from irbkin.cli.numbers import number
+
+if TYPE_CHECKING:
+    from irbkin import Robot
+    from irbkin.scene import Scene
+
+HELP = """The page is one file that needs no network: drag the tool, jog the joints, see every
+solution, play the program. ROBOT is a name of the catalog, a .urdf, or a scene (.json) that
+irbkin.scene wrote. FILE is a RAPID module: its main routine, or the only one that moves, is played
+with its lines and findings. Without -o the page is written to a temporary file and opened."""
+EXAMPLES = """  irbkin view "IRB 2600-12/1.65"
+  irbkin view "IRB 2600-12/1.65" program.mod --cell cell.toml
+  irbkin view arm.urdf --joints 0 20 10 0 40 0 -o arm.html
+  irbkin view scene.json"""
+ENDINGS = (".html", ".htm", ".json")
+
+
+def add_arguments(parser: Parser) -> None:
+    """The arguments of the verb."""
+    parser.add_robot()
+    add = parser.add
+    add("file", metavar="FILE", nargs="?", help="a RAPID module (.mod, .sys, .prg)")
+    add("--routine", metavar="NAME", help="the routine: main, or the only one that moves")
+    add("--joints", nargs="+", type=number, metavar="Q", help="joint angles [deg]")
+    parser.add_cell()
+    add("-o", "--output", metavar="FILE", help="write the page (.html), or the scene (.json)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the verb."""
+    output: str | None = arguments.output
+    if output is not None and not output.lower().endswith(ENDINGS):
+        raise CommandError(f"--output: {output} must end in .html or .json")
+    scene = _scene(arguments)
+    try:
+        if output is not None:
+            scene.save(output)
+            return FINE
+        folder = tempfile.mkdtemp(prefix="irbkin-")
+        path = os.path.join(folder, "irbkin.html")
+        scene.save(path)
+    except FileNotFoundError as error:
+        raise CommandError(str(error)) from None
+    import webbrowser
+
+    print(path)
+    webbrowser.open(f"file://{path}")
+    return FINE
+
+
+def _scene(arguments: argparse.Namespace) -> Scene:
+    from irbkin import scene
+
+    if arguments.robot.lower().endswith(".json"):
+        try:
+            return scene.Scene.load(arguments.robot)
+        except ValueError as error:
+            raise CommandError(f"{arguments.robot}: {error}") from None
+    robot = read_robot(arguments)
+    own = _of_module(robot, arguments) if arguments.file else _of_arm(robot, arguments)
+    cell = read_cell(arguments)
+    return own if cell is None else own + scene.of(cell)
+
+
+def _of_arm(robot: Robot, arguments: argparse.Namespace) -> Scene:
+    from irbkin import scene
+
+    return scene.of(robot, q=joints(arguments.joints, "--joints", robot.dof))
+
+
+def _of_module(robot: Robot, arguments: argparse.Namespace) -> Scene:
+    from irbkin import rapid, scene
+    from irbkin.cli.files import shown
+    from irbkin.errors import RapidError
+
+    try:
+        module = rapid.load(arguments.file)
+        made = rapid.motion(robot, module, arguments.routine)
+    except RapidError as error:
+        raise CommandError(f"{shown(arguments.file)}: {error}") from None
+    own = scene.of(made, robot, title=os.path.basename(arguments.file))
+    (arm,) = own.arms
+    assert arm.motion is not None
+    return replace(own, arms=(replace(arm, motion=replace(arm.motion, source=module.source)),))

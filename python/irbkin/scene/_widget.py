@@ -1,0 +1,54 @@
+"""The page in a notebook, with anywidget: `pip install 'irbkin[widget]'`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from irbkin.scene._page import module, style
+
+try:
+    import anywidget
+    import traitlets
+except ImportError as missing:
+    raise ImportError(
+        "a view in a notebook needs anywidget: pip install 'irbkin[widget]'", name="anywidget"
+    ) from missing
+
+if TYPE_CHECKING:
+    from irbkin.scene._data import Scene
+
+
+class View(anywidget.AnyWidget):
+    """A scene in a notebook. Its first arm is moved by the handle and by Python.
+
+    `view.q` are its joint angles [rad], a list: setting them moves the arm, and dragging the handle
+    sets them; `view.observe(f, "q")` calls f then. `view.T` is the pose of its tool.
+    """
+
+    arm = traitlets.Unicode("").tag(sync=True)
+    scene = traitlets.Unicode("").tag(sync=True)
+    height = traitlets.Int(560).tag(sync=True)
+    q = traitlets.List(traitlets.Float()).tag(sync=True)
+    pose = traitlets.List(traitlets.Float()).tag(sync=True)
+
+    def __init__(self, scene: Scene, height: int = 560) -> None:
+        first = scene.arms[0] if scene.arms else None
+        q: Any = ()
+        if first is not None:
+            shown = [it.q for it in first.postures if not it.is_ghost]
+            q = shown[0] if shown else first.motion.q[0] if first.motion else ()
+        super().__init__(
+            _esm=module(),
+            _css=style(),
+            arm=first.name if first else "",
+            scene=scene.to_json(),
+            height=height,
+            q=list(q),
+        )
+
+    @property
+    def T(self) -> np.ndarray[Any, np.dtype[np.float64]]:
+        """The pose of the tool, shape (4, 4)."""
+        return np.vstack([np.reshape(self.pose or np.eye(4)[:3].ravel(), (3, 4)), [0, 0, 0, 1]])

@@ -1,0 +1,55 @@
+// An arm that is drawn: its chain and the meshes of its links. Of the engine's answer to `robot`, or
+// of an arm of a scene.
+
+class DrawnArm {
+  constructor({ base, links, tool, coupling, shapes }) {
+    Object.assign(this, { base, links, tool, coupling });
+    this.meshes = shapes.map((capsules) => joined(capsules.map(capsuleMesh)));
+    this.shapes = shapes;
+  }
+
+  static ofEngine(robot) {
+    const body = robot.body ?? { links: [], parts: [] };
+    const shapes = body.links.map((own, link) => [...own, ...(body.parts[link] ?? [])]);
+    return new DrawnArm({
+      base: fromRows(robot.base),
+      links: robot.links.map(fromRows),
+      tool: multiply(fromRows(robot.flange), fromRows(robot.tool)),
+      coupling: -robot.coupling,
+      shapes,
+    });
+  }
+
+  static ofScene(arm) {
+    const shapes = Array.from({ length: arm.joints.length + 2 }, () => []);
+    for (const it of arm.body ?? []) shapes[it.link].push(it);
+    return new DrawnArm({
+      base: fromRows(arm.base.flat()),
+      links: arm.joints.map((it) => fromRows(it.flat())),
+      tool: fromRows(arm.tool.flat()),
+      coupling: arm.coupling ?? 0,
+      shapes,
+    });
+  }
+
+  // The frames of base, links, and what the flange carries, and the pose of the tool.
+  frames(q) {
+    const frames = [this.base];
+    this.links.forEach((link, joint) => {
+      const turn = joint === 2 ? q[2] + this.coupling * q[1] : q[joint];
+      frames.push(chain(frames.at(-1), link, aboutZ(turn)));
+    });
+    const last = frames.at(-1);
+    return { links: [...frames, last], tool: multiply(last, this.tool) };
+  }
+
+  // Points around the arm at joint angles.
+  points(q) {
+    const { links, tool } = this.frames(q);
+    const points = [place(this.base), place(tool)];
+    this.shapes.forEach((capsules, link) => {
+      for (const { a, b } of capsules) points.push(moved(links[link], a), moved(links[link], b));
+    });
+    return points;
+  }
+}

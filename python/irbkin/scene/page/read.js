@@ -1,0 +1,67 @@
+// What a pasted text means: a target of RAPID, a pose in numbers, a joint vector.
+
+const NUMBER = /[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?/g;
+const DECLARED = /\b(robtarget|jointtarget)\b/i;
+
+// A literal of a target has groups of 3, 4, 4 and 6 numbers, or of 6 and 6.
+const isTarget = (text) => DECLARED.test(text) || /^(3,4,4,6|6,6)$/.test(
+  (text.match(/\[[^[\]]*\]/g) ?? []).map((it) => it.split(",").length).join(),
+);
+
+const numbersOf = (text) => (text.match(NUMBER) ?? []).map(Number);
+
+// { kind: "joints", q } or { kind: "pose", T } or { kind: "rapid", text }; a sentence if it is none.
+function meaningOf(text, dof, units) {
+  const trimmed = text.trim();
+  if (!trimmed) throw new Error("");
+  if (isTarget(trimmed)) return { kind: "rapid", text: declared(trimmed) };
+  if (/[a-df-zA-DF-Z_]{2,}/.test(trimmed.replace(/array|np|deg|rad|mm|pose|xyz|wxyz|euler/gi, ""))) {
+    throw new Error(`"${trimmed.slice(0, 40)}" is no target, no pose and no joint vector`);
+  }
+  const numbers = numbersOf(trimmed);
+  const wrong = numbers.findIndex((it) => !Number.isFinite(it) || Math.abs(it) > 1e6);
+  if (wrong >= 0) throw new Error(`number ${wrong + 1} is ${numbers[wrong]}: it must be at most 1e6`);
+  const meters = units.length === "mm" ? 1e-3 : 1;
+  const turn = units.angle === "deg" ? toRadians : (it) => it;
+  if (numbers.length === 16 || numbers.length === 12) {
+    const rows = numbers.slice(0, 12);
+    // A matrix is in meters, unless its lengths are too large for an arm.
+    const long = Math.max(...[3, 7, 11].map((i) => Math.abs(rows[i])));
+    for (const i of [3, 7, 11]) rows[i] *= long > 20 ? 1e-3 : 1;
+    return { kind: "pose", T: fromRows(rows), form: "a 4x4 matrix" };
+  }
+  if (numbers.length === 7 && (dof === 6 || isUnit(numbers.slice(3)))) {
+    const size = Math.hypot(...numbers.slice(3));
+    if (Math.abs(size - 1) > 0.02) {
+      throw new Error(`the quaternion w, x, y, z has length ${size.toFixed(3)}, it must be 1`);
+    }
+    const q = scale(numbers.slice(3), 1 / size);
+    const T = fromQuaternion(scale(numbers.slice(0, 3), meters), q);
+    return { kind: "pose", T, form: `x y z [${units.length}] and a quaternion w x y z` };
+  }
+  if (numbers.length === dof) {
+    return { kind: "joints", q: numbers.map(turn), form: `${dof} joint angles [${units.angle}]` };
+  }
+  if (numbers.length === 6) {
+    const T = fromEuler(scale(numbers.slice(0, 3), meters), numbers.slice(3).map(turn));
+    return { kind: "pose", T, form: `x y z [${units.length}] and rz ry rx [${units.angle}]` };
+  }
+  throw new Error(
+    `${numbers.length} numbers: a pose has 6, 7 or 16, a joint vector of this arm has ${dof}`,
+  );
+}
+
+const isUnit = (numbers) => Math.abs(Math.hypot(...numbers) - 1) < 0.02;
+
+// A declaration or a literal, without the instruction around it.
+function declared(text) {
+  const declaration = text.match(/((?:LOCAL\s+|TASK\s+)?(?:CONST|PERS|VAR)\s+[\s\S]*?;)/i);
+  if (declaration) return `MODULE M\n${declaration[1]}\nENDMODULE`;
+  const begin = text.indexOf("[");
+  let depth = 0;
+  for (let end = begin; end < text.length; end++) {
+    depth += { "[": 1, "]": -1 }[text[end]] ?? 0;
+    if (depth === 0) return text.slice(begin, end + 1);
+  }
+  return text;
+}

@@ -1,0 +1,31 @@
+// The page in a notebook: the joints and the pose of its tool are those of Python's object.
+
+const same = (a, b) => a.length === b.length && a.every((it, i) => Math.abs(it - b[i]) < 1e-12);
+
+function render({ model, el: host }) {
+  const room = document.createElement("div");
+  room.style.height = `${model.get("height")}px`;
+  host.append(room);
+  Engine.of(WASM).then((engine) => {
+    const app = new App(room, engine, {
+      arm: model.get("arm") || undefined,
+      onchange: (state) => {
+        if (same(state.q, model.get("q"))) return;
+        model.set("q", state.q);
+        model.set("pose", toRows(state.T));
+        model.save_changes();
+      },
+    });
+    app.open();
+    openScene(app, JSON.parse(model.get("scene")));
+    model.on("change:q", () => {
+      const q = model.get("q");
+      if (!same(q, app.state.q)) app.setJoints(q);
+    });
+    room.dataset.ready = "1";
+  }).catch((fault) => {
+    room.textContent = `irbkin does not start in this browser: ${fault.message}`;
+  });
+}
+
+export default { render };

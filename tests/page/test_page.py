@@ -1,0 +1,309 @@
+"""The page in a real Chromium: `make test-page`. Its answers are compared with irbkin's."""
+
+import json
+import os
+import re
+import shutil
+from pathlib import Path
+
+import irbkin
+import numpy as np
+import pytest
+from irbkin import rapid
+from irbkin.body import Shape
+
+playwright = pytest.importorskip("playwright.sync_api")
+
+ROOT = Path(__file__).parents[2]
+PAGE = Path(os.environ.get("IRBKIN_PAGE", ROOT / "target" / "page" / "irbkin.html"))
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+PICTURES = ROOT / "target" / "page"
+ONE_OF_EACH = {irbkin.Robot(name).structure: name for name in irbkin.catalog()}
+WIDE, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
+MODULE = """MODULE Weld
+  PERS tooldata tGun:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
+  CONST robtarget p1:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget p2:=[[900,300,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget pFar:=[[2900,300,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveJ p1,v1000,z20,tGun;
+    MoveL p2,v200,fine,tGun;
+    MoveL pFar,v200,fine,tGun;
+  ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.fixture(scope="module")
+def browser():
+    if CHROMIUM is None:
+        pytest.skip("there is no Chromium")
+    with playwright.sync_playwright() as started:
+        arguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=arguments)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def opened(browser):
+    """Open the page; no error may be on the console in the end."""
+    errors, contexts = [], []
+
+    def open_page(hash="", query="", viewport=WIDE, scheme="light"):
+        context = browser.new_context(viewport=viewport, color_scheme=scheme)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("console", lambda it: errors.append(it.text) if it.type == "error" else None)
+        page.on("pageerror", lambda it: errors.append(str(it)))
+        page.goto(f"file://{PAGE}{query}{hash and '#' + hash}")
+        page.wait_for_selector("html[data-ready]")
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    assert errors == []
+
+
+def state(page):
+    return page.evaluate("() => irbkin.state")
+
+
+def pose(state):
+    return np.array(state["T"]).reshape(4, 4).T
+
+
+def settled(page):
+    page.wait_for_timeout(250)
+    return state(page)
+
+
+def test_the_page_is_one_small_file_without_addresses():
+    text = PAGE.read_text()
+    assert len(text.encode()) <= 700_000
+    assert not re.search(r"https?://", text.split("const WASM")[0])
+
+
+@pytest.mark.parametrize("name", ONE_OF_EACH.values())
+def test_the_solutions_are_the_ones_of_python(opened, name):
+    robot = irbkin.Robot(name)
+    q = np.clip(0.3 * np.arange(1, robot.dof + 1), *robot.limits.T)
+    page = opened()
+    page.evaluate("([name, q]) => irbkin.setArm({ name }, q)", [name, q.tolist()])
+    own = state(page)
+    T = pose(own)
+    np.testing.assert_allclose(T, robot.fk(q), atol=1e-9)
+    found = robot.ik(T) if robot.dof == 6 else robot.ik(T, q7=q[6])
+    assert [it["slot"] for it in own["solutions"]] == [it.slot for it in found]
+    theirs = np.array([it["q"] for it in own["solutions"]])
+    np.testing.assert_allclose(np.sin(theirs - found.q), 0, atol=1e-9)
+    assert [it["within_limits"] for it in own["solutions"]] == [it.is_within_limits for it in found]
+
+
+def test_every_arm_of_the_catalog_opens_and_is_drawn(opened):
+    page = opened()
+    for name in irbkin.catalog():
+        page.evaluate("(name) => irbkin.setArm({ name })", name)
+        own = state(page)
+        robot = irbkin.Robot(name)
+        np.testing.assert_allclose(pose(own), robot.fk(own["q"]), atol=1e-9)
+        assert page.evaluate("() => irbkin.arm.meshes.some((it) => it.index.length)")
+
+
+def test_dragging_the_handle_changes_the_solutions(opened):
+    page = opened()
+    before = settled(page)
+    x, y, _ = page.evaluate("() => irbkin.view.camera.project(place(irbkin.state.T))")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    times = []
+    for step in range(1, 13):
+        page.mouse.move(x + 5 * step, y - 4 * step)
+        times.append(page.evaluate("() => irbkin.view.frameTime"))
+    page.mouse.up()
+    after = settled(page)
+    assert np.abs(np.subtract(before["T"], after["T"])[12:15]).max() > 0.02
+    assert before["solutions"][0]["q"] != after["solutions"][0]["q"]
+    robot = irbkin.Robot(after["name"])
+    np.testing.assert_allclose(robot.fk(after["q"]), pose(after), atol=1e-9)
+    print("frame [ms]:", np.round(sorted(times), 1))
+
+
+def test_the_picture_is_not_blank_and_the_arm_is_seen(opened, tmp_path):
+    Image = pytest.importorskip("PIL.Image")
+    page = opened()
+    page.wait_for_timeout(300)
+    page.locator("canvas").screenshot(path=tmp_path / "arm.png")
+    pixels = np.asarray(Image.open(tmp_path / "arm.png").convert("RGB")).reshape(-1, 3).astype(int)
+    orange = (pixels[:, 0] > 150) & (pixels[:, 2] < 110) & (pixels[:, 0] - pixels[:, 2] > 80)
+    assert orange.mean() > 0.02
+    flat = opened(query="?flat")
+    flat.wait_for_timeout(300)
+    flat.locator("canvas").screenshot(path=tmp_path / "flat.png")
+    pixels = np.asarray(Image.open(tmp_path / "flat.png").convert("RGB")).reshape(-1, 3).astype(int)
+    assert (pixels[:, 0] - pixels[:, 2] > 80).mean() > 0.01
+    assert "WebGL is not available" in flat.locator(".notes").inner_text()
+
+
+TARGET = "[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+PASTED = {
+    "robtarget": f"CONST robtarget p10:={TARGET};",
+    "target": TARGET,
+    "move": f"MoveL {TARGET},v100,fine,tool0;",
+    "quaternion": "900 -300 500 0 0 1 0",
+    "matrix": "[[-1,0,0,0.9],[0,1,0,-0.3],[0,0,-1,0.5],[0,0,0,1]]",
+    "jointtarget": "[[10,20,-10,5,30,5],[9E9,9E9,9E9,9E9,9E9,9E9]]",
+    "joints": "10, 20, -10, 5, 30, 5",
+}
+
+
+@pytest.mark.parametrize("kind", PASTED)
+def test_what_is_pasted_is_read(opened, kind):
+    page = opened()
+    page.fill("textarea", PASTED[kind])
+    own = state(page)
+    robot = irbkin.Robot(own["name"])
+    if kind in ("jointtarget", "joints"):
+        np.testing.assert_allclose(np.degrees(own["q"]), [10, 20, -10, 5, 30, 5], atol=1e-9)
+        return
+    T = rapid.parse(PASTED["target"]).matrix()
+    np.testing.assert_allclose(pose(own), T, atol=1e-12)
+    if "v" in kind or kind in ("robtarget", "target", "move"):
+        assert own["confdata"] == [-1, 0, -1, 0]
+        np.testing.assert_allclose(own["q"], robot.ik_configured(T, (-1, 0, -1, 0)), atol=1e-9)
+
+
+def test_impossible_numbers_are_marked_and_nothing_stops(opened):
+    page = opened()
+    for text in (
+        "1 2 3",
+        "900 -300 500 0 0 3 0",
+        "hello world",
+        "1e9 0 0 0 0 0",
+        "MoveL pX,v1,fine,t;",
+    ):
+        page.fill("textarea", text)
+        assert page.locator("textarea + p").inner_text(), text
+    field = page.get_by_label("x", exact=True).first
+    field.fill("abc")
+    assert "wrong" in field.get_attribute("class")
+    field.fill("99999999")
+    assert "wrong" in field.get_attribute("class")
+    field.fill("5000")
+    assert "wrong" not in (field.get_attribute("class") or "")
+    assert "beyond reach" in page.locator(".verdict").inner_text()
+    page.get_by_label("arm", exact=True).fill("IRB 9999")
+    page.keyboard.press("Enter")
+    assert "IRB 9999" in page.locator(".row + p").first.inner_text()
+    page.evaluate("() => irbkin.setJoints([NaN, 0, 0, 0, 0, 0])")
+    assert all(np.isfinite(state(page)["q"]))
+
+
+def test_a_module_is_a_table_that_plays(opened, tmp_path):
+    page = opened()
+    file = tmp_path / "weld.mod"
+    file.write_text(MODULE)
+    page.set_input_files("input[type=file]", file)
+    page.wait_for_selector(".program tbody tr")
+    rows = page.locator(".program tbody tr")
+    assert rows.count() == 3
+    robot = irbkin.Robot(state(page)["name"])
+    motion = rapid.motion(robot, rapid.parse(MODULE))
+    assert "R101" in rows.nth(2).inner_text()
+    rows.nth(1).click()
+    np.testing.assert_allclose(state(page)["q"], motion.moves[1].q, atol=1e-9)
+    assert "MoveL p2" in page.locator(".source").inner_text()
+    page.locator(".player button").click()
+    page.wait_for_timeout(400)
+    page.locator(".player button").click()
+    assert 0 < float(page.locator(".player input").input_value()) <= motion.duration
+    large = tmp_path / "large.mod"
+    large.write_text("! " + "x" * 20_000_000)
+    page.set_input_files("input[type=file]", large)
+    page.wait_for_function("() => document.querySelector('.notes').innerText.includes('20.0 MB')")
+
+
+def test_a_urdf_and_a_scene_are_opened(opened, tmp_path):
+    page = opened()
+    ur = ROOT / "tests" / "data" / "ur5e.urdf"
+    page.set_input_files("input[type=file]", ur)
+    page.wait_for_function("() => irbkin.robot.structure === 'three parallel axes'")
+    own = state(page)
+    robot = irbkin.Robot.from_urdf(ur, tip="tool0")
+    np.testing.assert_allclose(pose(own), robot.fk(own["q"]), atol=1e-9)
+    arm = irbkin.Robot("IRB 2600-12/1.65")
+    cell = irbkin.Cell({"post": Shape.cylinder(0.1, 1.2, irbkin.pose([0.8, 0, 0.6]))})
+    q = [0.0, 0.5, 0.2, 0.0, 0.5, 0.0]
+    file = tmp_path / "scene.json"
+    (irbkin.scene.of(arm, q=q) + irbkin.scene.of(cell)).save(file)
+    page.set_input_files("input[type=file]", file)
+    page.wait_for_function("() => irbkin.view.obstacles.length === 1")
+    page.wait_for_timeout(300)
+    own = state(page)
+    np.testing.assert_allclose(own["q"], q, atol=1e-12)
+    assert own["posture"]["contact"]["collides"] == bool(cell.collides(arm, q))
+
+
+def test_the_state_is_in_the_address_and_comes_back(opened):
+    page = opened(hash="arm=UR5e&q=10,-80,90,-100,-90,0&tool=0,0,150,0,0,0")
+    own = settled(page)
+    assert own["name"] == "UR5e"
+    np.testing.assert_allclose(np.degrees(own["q"]), [10, -80, 90, -100, -90, 0], atol=1e-9)
+    robot = irbkin.Robot("UR5e").with_tool(irbkin.pose([0, 0, 0.15], wxyz=[1, 0, 0, 0]))
+    np.testing.assert_allclose(pose(own), robot.fk(own["q"]), atol=1e-9)
+    page.evaluate("() => irbkin.setJoints(irbkin.state.q.map((it) => it + 0.1))")
+    after = settled(page)
+    again = opened(hash=page.evaluate("() => location.hash.slice(1)"))
+    np.testing.assert_allclose(state(again)["q"], after["q"], atol=1e-5)
+
+
+def test_copies_are_programs(opened):
+    page = opened()
+    texts = page.evaluate(
+        "() => [asPython, asRapid, asCsv].map((it) => it({ ...irbkin.state, robot: irbkin.robot }))"
+    )
+    own = state(page)
+    names = {}
+    exec(texts[0].replace("print", "found ="), names)
+    np.testing.assert_allclose(names["q"], own["q"], atol=1e-8)
+    module = rapid.parse(f"MODULE M\n{texts[1]}ENDMODULE")
+    robot = irbkin.Robot(own["name"])
+    joints = rapid.calc_joint_t(robot, module["pHere"])
+    np.testing.assert_allclose(joints.robax_deg, np.degrees(own["q"]), atol=1e-2)
+    np.testing.assert_allclose(module["jHere"].robax_deg, np.degrees(own["q"]), atol=1e-4)
+    assert len(texts[2].splitlines()) == 1 + len(own["solutions"])
+
+
+def test_the_keyboard_chooses_and_moves(opened):
+    page = opened()
+    page.locator("canvas").focus()
+    before = state(page)
+    page.keyboard.press("ArrowUp")
+    after = state(page)
+    np.testing.assert_allclose(
+        np.subtract(after["T"], before["T"])[12:15], [0.01, 0, 0], atol=1e-12
+    )
+    page.keyboard.press("]")
+    assert state(page)["own"] != after["own"]
+    page.keyboard.press("1")
+    assert state(page)["own"] == 0
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_pictures_for_people(opened, scheme):
+    page = opened(scheme=scheme)
+    page.wait_for_timeout(400)
+    page.screenshot(path=PICTURES / f"desktop_{scheme}.png")
+    phone = opened(viewport=PHONE, scheme=scheme)
+    phone.wait_for_timeout(400)
+    assert phone.evaluate("() => document.documentElement.scrollWidth") <= 390
+    phone.screenshot(path=PICTURES / f"phone_{scheme}.png", full_page=True)
+    assert json.loads(page.evaluate("() => JSON.stringify(irbkin.state.q)"))
+
+
+def test_the_first_solutions_come_soon(opened):
+    page = opened()
+    ready = float(page.evaluate("() => document.documentElement.dataset.ready"))
+    print("ready [ms]:", ready)
+    assert ready < 3000
