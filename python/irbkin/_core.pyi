@@ -728,7 +728,13 @@ class Robot:
             first, or why the arm is left out of the catalog.
     """
 
-    def __new__(cls, name: str) -> Robot: ...
+    def __new__(
+        cls,
+        name: str,
+        *,
+        tool: npt.ArrayLike | ToolData | None = None,
+        base: npt.ArrayLike | None = None,
+    ) -> Robot: ...
     @staticmethod
     def from_mdh(
         rows: npt.ArrayLike,
@@ -762,10 +768,13 @@ class Robot:
         snap: float = 0.0,
     ) -> Robot:
         """Robot from a standard Denavit-Hartenberg table: Rz(theta + q) Tz(d) Tx(a) Rx(alpha).
+        tool: As of `with_tool`; the flange when not given.
+        base: As of `with_base`; the world when not given.
 
         Args:
             rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, in this order too,
                 shape (6, 4) or (7, 4).
+        InvalidPoseError, RapidError: As `with_tool` and `with_base`.
             limits: As of `from_mdh`.
             name: As of `from_mdh`.
             snap: As of `from_mdh`.
@@ -883,7 +892,7 @@ class Robot:
     @property
     def mdh(self) -> _Floats:
         """Modified Denavit-Hartenberg rows: alpha [rad], a [m], d [m], theta offset [rad], shape
-        (n, 4). `flange` follows the last row.
+        (n, 4). `flange` follows the last row. Read-only: `from_mdh` takes another table.
         """
     @property
     def _root(self) -> _Floats:
@@ -895,18 +904,25 @@ class Robot:
         """Fixed transform from the last frame of `mdh` to the flange, shape (4, 4)."""
     @property
     def base(self) -> _Floats:
-        """Pose of the base in the world, shape (4, 4)."""
+        """Pose of the base in the world, shape (4, 4). Read-only: `with_base` takes another one."""
     @property
     def tool(self) -> _Floats:
-        """Pose of the tool center point in the flange frame, shape (4, 4)."""
+        """Pose of the tool center point in the flange frame, shape (4, 4). Read-only:
+        `with_tool` takes another one.
+        """
     @property
     def limits(self) -> _Floats:
         """Lower and upper limit of each joint [rad], shape (n, 2); infinite where a joint has
-        none.
+    def joint_names(self) -> tuple[str, ...]:
+        """Names of the joints as messages and tables have them: "J1" .., of a URDF too."""
+    @property
+        none. Read-only: change a copy, and pass that to `with_limits`.
         """
     @property
     def max_velocity(self) -> _Floats | None:
-        """Largest velocity of each joint [rad/s], shape (n,), or None where it is not known."""
+        """Largest velocity of each joint [rad/s], shape (n,), or None where it is not known.
+        Read-only.
+        """
     @property
     def body(self) -> Body | None:
         """The shapes of its links, an `irbkin.body.Body`: of an arm of the catalog, capsules
@@ -993,6 +1009,22 @@ class Robot:
         """
     @property
     def linkage_limits(self) -> _Floats | None:
+    def random(self, n: int | None = None, rng: np.random.Generator | int | None = None) -> _Floats:
+        """Draw joint vectors uniformly inside the limits, those of a linkage too. A joint without
+        limits is within +-180 deg, one with a single limit within a full turn of it; a joint of
+        `locked` stays at its angle.
+
+        Args:
+            n: Number of joint vectors; one alone, without a leading dimension, when not given.
+            rng: A `numpy.random.Generator`, or a seed for one; a seed of the system's when not
+                given.
+
+        Returns:
+            Joint vectors [rad], shape (n, dof), or (dof,) without n.
+
+        Raises:
+            InvalidModelError: The limits of axes 2 and 3 leave a linkage no room.
+        """
         """Lower and upper limit of the serial joint 3 [rad], shape (2,), of a robot with coupled
         axes 2 and 3: of q3 of `uncoupled()`. None where none are known.
         """

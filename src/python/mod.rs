@@ -24,6 +24,7 @@ mod freedoms;
 mod go;
 mod inverse;
 mod meshes;
+mod hints;
 mod models;
 mod notebook;
 mod outputs;

@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use super::arm::{Arm, on};
 use super::arrays::vector;
@@ -24,10 +25,13 @@ use crate::kinematics::{Robot, pose_to_rows};
 /// Args:
 ///     name: Catalog name or alias, the maker's name before it or not; case, blanks, -, _, /,
 ///         commas and parentheses do not matter. `irbkin.catalog()` lists the names.
+///     tool: As of `with_tool`; the flange when not given.
+///     base: As of `with_base`; the world when not given.
 ///
 /// Raises:
 ///     UnknownRobotError: No arm of that name; the message has up to six close ones, the closest
 ///         first, or why the arm is left out of the catalog.
+///     InvalidPoseError, RapidError: As `with_tool` and `with_base`.
 #[pyclass(name = "Robot", module = "irbkin", eq, frozen, weakref)]
 pub(super) struct PyRobot {
     arm: Arm,
@@ -57,8 +61,20 @@ impl From<Arm> for PyRobot {
 #[expect(non_snake_case, reason = "T is the name that users pass")]
 impl PyRobot {
     #[new]
-    fn new(name: &str) -> PyResult<Self> {
-        Ok(Arm::named(name)?.into())
+    #[pyo3(signature = (name, *, tool=None, base=None))]
+    fn new(
+        name: &str,
+        tool: Option<&Bound<'_, PyAny>>,
+        base: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let mut robot = Self::from(Arm::named(name)?);
+        if let Some(tool) = tool {
+            robot = robot.with_tool(tool)?;
+        }
+        if let Some(base) = base {
+            robot = robot.with_base(base)?;
+        }
+        Ok(robot)
     }
 
     /// Catalog name, or the name given by the caller.
@@ -73,6 +89,12 @@ impl PyRobot {
         self.arm.dof()
     }
 
+    /// Names of the joints as messages and tables have them: "J1" .., of a URDF too.
+    #[getter]
+    fn joint_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, (0..self.arm.dof()).map(|index| format!("J{}", index + 1)))
+    }
+
     /// Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder", "offset
     /// wrist", or "general" for any other; "refined spherical wrist" or "refined three parallel
     /// axes" after `with_nominal`; "unknown" if the first six joints are not independent.
@@ -84,7 +106,7 @@ impl PyRobot {
     }
 
     /// Modified Denavit-Hartenberg rows: alpha [rad], a [m], d [m], theta offset [rad], shape (n,
-    /// 4). `flange` follows the last row.
+    /// 4). `flange` follows the last row. Read-only: `from_mdh` takes another table.
     #[getter]
     fn mdh(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         let rows: Vec<f64> = on!(&self.arm, robot => {
@@ -105,31 +127,59 @@ impl PyRobot {
         on!(&self.arm, robot => read_only(pose_array(py, &robot.mdh().flange)))
     }
 
-    /// Pose of the base in the world, shape (4, 4).
+    /// Pose of the base in the world, shape (4, 4). Read-only: `with_base` takes another one.
     #[getter]
     fn base(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
         on!(&self.arm, robot => read_only(pose_array(py, robot.base())))
     }
 
-    /// Pose of the tool center point in the flange frame, shape (4, 4).
+    /// Pose of the tool center point in the flange frame, shape (4, 4). Read-only: `with_tool`
+    /// takes another one.
     #[getter]
     fn tool(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
         on!(&self.arm, robot => read_only(pose_array(py, robot.tool())))
     }
 
     /// Lower and upper limit of each joint [rad], shape (n, 2); infinite where a joint has none.
+    /// Read-only: change a copy, and pass that to `with_limits`.
     #[getter]
     fn limits(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         let flat = on!(&self.arm, robot => robot.limits().to_array().concat());
         PyArray1::from_vec(py, flat).reshape([self.arm.dof(), 2]).map(read_only)
     }
 
-    /// Largest velocity of each joint [rad/s], shape (n,), or None where it is not known.
+    /// Largest velocity of each joint [rad/s], shape (n,), or None where it is not known. Read-only.
     #[getter]
     fn max_velocity(&self, py: Python<'_>) -> Option<Py<PyArray1<f64>>> {
         on!(&self.arm, robot => {
             robot.max_velocity().map(|velocity| read_only(PyArray1::from_slice(py, velocity)))
         })
+    }
+
+    /// Draw joint vectors uniformly inside the limits, those of a linkage too. A joint without
+    /// limits is within +-180 deg, one with a single limit within a full turn of it; a joint of
+    /// `locked` stays at its angle.
+    ///
+    /// Args:
+    ///     n: Number of joint vectors; one alone, without a leading dimension, when not given.
+    ///     rng: A `numpy.random.Generator`, or a seed for one; a seed of the system's when not
+    ///         given.
+    ///
+    /// Returns:
+    ///     Joint vectors [rad], shape (n, dof), or (dof,) without n.
+    ///
+    /// Raises:
+    ///     InvalidModelError: The limits of axes 2 and 3 leave a linkage no room.
+    #[pyo3(signature = (n=None, rng=None))]
+    fn random<'py>(
+        slf: &Bound<'py, Self>,
+        n: Option<&Bound<'py, PyAny>>,
+        rng: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (py, arm) = (slf.py(), slf.get().arm());
+        let rows: Vec<_> = on!(arm, robot => robot.free_ranges().concat());
+        let limits = PyArray1::from_vec(py, rows).reshape([arm.dof(), 2])?;
+        py.import("irbkin._random_joints")?.call_method1("draw", (slf, limits, n, rng))
     }
 
     /// Return the robot with another tool, in place of the one that it had.

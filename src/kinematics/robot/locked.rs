@@ -69,6 +69,16 @@ impl<const N: usize> Robot<N> {
         Self { inverse, missing_form, lock: None, ..self }.joined()
     }
 
+    /// Lower and upper limit of each joint [rad]; of a locked one its angle.
+    #[cfg(feature = "python")]
+    pub(crate) fn free_ranges(&self) -> [[f64; 2]; N] {
+        let mut ranges = self.limits.to_array();
+        if let Some((joint, angle)) = self.locked_joint() {
+            ranges[joint - 1] = [angle; 2];
+        }
+        ranges
+    }
+
     /// The other six joints of an arm with a locked one as a robot, with the arm's base, tool, limits
     /// and velocities; `None` if no joint is locked.
     ///
