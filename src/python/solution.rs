@@ -12,6 +12,7 @@ use super::errors::Fault;
 use super::records::{self, FreeJoint};
 use super::state::{Reduced, hash_of, reduced};
 use crate::kinematics::{Pose, Robot, Solution, Status};
+use crate::report::Configuration;
 
 /// A solution, with the robot and the pose that it is of.
 #[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -84,6 +85,12 @@ impl PySolution {
     #[getter]
     fn is_within_limits(&self) -> bool {
         on!(&self.of, member => member.solution.is_within_limits())
+    }
+
+    /// ABB's confdata, as `Robot.configuration` of it; None of an arm that has none.
+    #[getter]
+    fn configuration(&self) -> Option<Configuration> {
+        on!(&self.of, member => member.robot.configuration(&member.solution.q).ok())
     }
 
     /// Singularities of the pose on this branch: an `irbkin.SingularityKind`, 0 for none.

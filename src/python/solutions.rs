@@ -222,11 +222,11 @@ impl PySolutions {
         format!("Solutions({})", self.outcome())
     }
 
-    /// The table: a line on the outcome, then slot, angles [deg], limits and singularities of each
-    /// solution.
+    /// The table: a line on the outcome, then of each solution slot, angles [deg], limits, margin
+    /// to the nearest limit [deg] with its joint, confdata where the arm has it, singularities.
     fn __str__(&self) -> String {
         let outcome = self.outcome();
-        on!(&self.found, found => table::text(&outcome, &found.entries(), found.robot.limits()))
+        on!(&self.found, found => table::text(&outcome, &found.entries(), &found.robot))
     }
 }
 

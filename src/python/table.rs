@@ -1,20 +1,49 @@
 //! Solutions as a table of text, in degrees.
 
-use crate::kinematics::{JointLimits, SingularityKind, Solution};
+use crate::kinematics::{JointLimits, Robot, SingularityKind, Solution};
+use crate::report::Configuration;
 
 /// Most rows that are shown: turns may be a million.
 const MOST_ROWS: usize = 48;
 
-/// The cells of a solution: slot, angles [deg], limits, singularities.
-fn cells<const N: usize>(solution: &Solution<N>, limits: &JointLimits<N>) -> Vec<String> {
-    // Adding 0 takes the sign of -0 away.
-    let degrees = |angle: f64| (angle.to_degrees() * 1e3).round() / 1e3 + 0.0;
-    let angles = solution.q.iter().map(|&angle| format!("{:.3}", degrees(angle)));
+/// The cells of a solution: slot, angles [deg], limits, margin [deg], confdata, singularities.
+fn cells<const N: usize>(solution: &Solution<N>, robot: &Robot<N>) -> Vec<String> {
+    let angles = solution.q.iter().map(|&angle| format!("{:.3}", rounded(angle.to_degrees(), 1e3)));
     let mut cells = vec![solution.slot.to_string()];
     cells.extend(angles);
-    cells.push(outside(solution, limits));
+    cells.push(outside(solution, robot.limits()));
+    cells.push(margin(&solution.q, robot.limits()));
+    if robot.configuration_rule().is_ok() {
+        let confdata = robot.configuration(&solution.q);
+        cells.push(confdata.map_or_else(
+            |_| String::new(),
+            |confdata| {
+                let Configuration { cf1, cf4, cf6, cfx } = confdata;
+                format!("[{cf1},{cf4},{cf6},{cfx}]")
+            },
+        ));
+    }
     cells.push(singularities(solution));
     cells
+}
+
+/// A number to so many parts of 1. Adding 0 takes the sign of -0 away.
+fn rounded(number: f64, parts: f64) -> f64 {
+    (number * parts).round() / parts + 0.0
+}
+
+/// The angle to the nearest limit [deg], negative outside, and whose limit it is; empty without
+/// limits.
+fn margin<const N: usize>(q: &[f64; N], limits: &JointLimits<N>) -> String {
+    let room = |(joint, [lower, upper]): (usize, [f64; 2])| {
+        ((q[joint] - lower).min(upper - q[joint]), format!("J{}", joint + 1))
+    };
+    let joints = limits.to_array().into_iter().enumerate().map(room);
+    let linkage = limits.linkage().map(|_| (-limits.linkage_overrun(q), "linkage".to_owned()));
+    let least = joints.chain(linkage).min_by(|(one, _), (other, _)| one.total_cmp(other));
+    least.filter(|(room, _)| room.is_finite()).map_or_else(String::new, |(room, name)| {
+        format!("{:>6.1} {name}", rounded(room.to_degrees(), 1e1))
+    })
 }
 
 /// "inside", or the joints that are outside.
@@ -48,11 +77,13 @@ fn singularities<const N: usize>(solution: &Solution<N>) -> String {
 }
 
 /// The head and the rows that are shown.
-fn rows<const N: usize>(solutions: &[Solution<N>], limits: &JointLimits<N>) -> Vec<Vec<String>> {
+fn rows<const N: usize>(solutions: &[Solution<N>], robot: &Robot<N>) -> Vec<Vec<String>> {
     let mut head = vec!["slot".to_owned()];
     head.extend((1..=N).map(|joint| format!("q{joint} [deg]")));
-    head.extend(["limits".to_owned(), "singularities".to_owned()]);
-    let shown = solutions.iter().take(MOST_ROWS).map(|solution| cells(solution, limits));
+    head.extend(["limits", "margin [deg]"].map(str::to_owned));
+    head.extend(robot.configuration_rule().ok().map(|_| "confdata".to_owned()));
+    head.push("singularities".to_owned());
+    let shown = solutions.iter().take(MOST_ROWS).map(|solution| cells(solution, robot));
     [head].into_iter().chain(shown).collect()
 }
 
@@ -65,13 +96,13 @@ fn rest(count: usize) -> Option<String> {
 pub(super) fn text<const N: usize>(
     outcome: &str,
     solutions: &[Solution<N>],
-    limits: &JointLimits<N>,
+    robot: &Robot<N>,
 ) -> String {
     let mut lines = vec![outcome.to_owned()];
     if !solutions.is_empty() {
-        let rows = rows(solutions, limits);
+        let rows = rows(solutions, robot);
         let widest = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
-        let widths: Vec<usize> = (0..N + 3).map(widest).collect();
+        let widths: Vec<usize> = (0..rows[0].len()).map(widest).collect();
         lines.extend(rows.iter().map(|row| {
             let padded = row.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| {
                 // Numbers end, words begin at one place.
