@@ -11,6 +11,7 @@ from collections.abc import (
 )
 from os import PathLike
 from typing import (
+    IO,
     Any,
     ClassVar,
     Literal,
@@ -290,6 +291,21 @@ class IkBatch(_Record):
         """`Status` of each slot, shape (..., slots)."""
     def __new__(cls, q: _Floats, status: npt.NDArray[np.uint8]) -> IkBatch: ...
 
+    @property
+    def found(self) -> npt.NDArray[np.bool_]:
+        """Whether each slot holds a solution, bool, shape (..., slots)."""
+    @property
+    def within_limits(self) -> npt.NDArray[np.bool_]:
+        """Whether each slot holds a solution inside the joint limits, bool, shape (..., slots)."""
+    def to_dict(self) -> dict[str, npt.NDArray[Any]]:
+        """Return the slots as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
+        table: a row for each slot of each pose, empty or not.
+
+        Returns:
+            Arrays of shape (poses * slots,) by name: `pose`, its index in row-major order; `slot`;
+            `found` and `within_limits`, bool; `status`, uint8; `q1` .. [rad], NaN where the slot is
+            empty.
+        """
 @final
 class FreeJoint(_Record):
     """The joint that a singular pose leaves undetermined."""
@@ -570,6 +586,14 @@ class CatalogEntry(_Record):
         provenance: str,
     ) -> CatalogEntry: ...
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the figures of the arm by name, a row of a table: `pandas.DataFrame` and
+        `polars.DataFrame` take a list of them, `[irbkin.catalog_entry(name).to_dict() for name in
+        irbkin.catalog()]`.
+
+        Returns:
+            `name`, `maker`, `dof`, `payload` [kg], `reach` [m], `is_coupled` and `sources`.
+        """
 @final
 class TrajectorySample(_Record):
     """The state of the joints at times."""
@@ -699,6 +723,12 @@ class Plan(_Record):
         poses.
         """
     def __new__(
+    @property
+    def T(self) -> _Floats:
+        """Pose of the tool at each pose of the path, `robot.fk(plan.q)`, shape (m, 4, 4),
+        translation [m]: with all that `rotation` and `tolerance` add to the path, and with
+        external axes as the arm sees it, its base where the robot has it. NaN where `q` is.
+        """
         cls,
         q: _Floats,
         tool_angle: _Floats,
@@ -710,7 +740,16 @@ class Plan(_Record):
         breaks: tuple[PlanBreak, ...],
         certified: bool,
     ) -> Plan: ...
+        T: _Floats,
 
+    def to_dict(self) -> dict[str, npt.NDArray[Any]]:
+        """Return the plan as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
+        table.
+
+        Returns:
+            Arrays of shape (m,) by name: `q1` .. [rad]; `tool_angle` [rad]; `slot`; `external1` ..
+            [m, rad] and `tolerance1` .. [rad, m] of a plan that has them; `x`, `y`, `z` of `T` [m].
+        """
 @final
 class Robot:
     """A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
@@ -1782,6 +1821,15 @@ class Solutions:
                 [rad]; an exception of it is passed on. Or a `Cell`.
         """
     def __array__(
+    def to_dict(self) -> dict[str, npt.NDArray[Any]]:
+        """Return the solutions as columns, of which `pandas.DataFrame` and `polars.DataFrame` make
+        a table.
+
+        Returns:
+            Arrays of shape (k,) by name: `slot`; `q1` .. [rad]; `within_limits`, bool;
+            `singularities`, the values of `irbkin.SingularityKind`; and `cf1`, `cf4`, `cf6`, `cfx`
+            of an arm that has confdata.
+        """
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
     ) -> npt.NDArray[np.float64]: ...
     def __len__(self) -> int: ...
@@ -2540,6 +2588,14 @@ class Module(Mapping[str, Any]):
         modules of `parse` and `load`; modules of `load_program` may have faults.
         """
     def rewritten(self, values: Mapping[str, Any]) -> str:
+    def to_dict(self) -> dict[str, Any]:
+        """Return the targets as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
+        table.
+
+        Returns:
+            Columns of m elements by name: `kind`, `name`, `line`; `q1` .. [rad]; `cf1`, `cf4`,
+            `cf6`, `cfx`; `wrist` and `elbow` [rad], `shoulder` [m]; `finding`, the message or None.
+        """
         """Return the source with other values for some data; everything else, comments included,
         stays as it is, character for character.
 
@@ -3370,14 +3426,53 @@ class Trajectory:
                 the limit; or a wrong shape.
         """
 
-    def resampled(self, steps: int) -> Trajectory:
-        """Return the motion with other samples.
+    def __call__(self, t: npt.ArrayLike) -> _Floats: ...
+    def to_dict(self) -> dict[str, npt.NDArray[Any]]:
+        """Return the samples as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
+        table.
+
+        Returns:
+            Arrays of shape (m,) by name: `t` [s], `q1` .. [rad], `dq1` .. [rad/s], `ddq1` ..
+            [rad/s^2].
+        """
+    def to_csv(self, path_or_file: str | PathLike[str] | IO[str]) -> None:
+        """Write the samples as comma-separated values: the columns of `to_dict` under their names,
+        each number with all of its digits.
 
         Args:
-            steps: Number of samples, evenly over the duration.
+            path_or_file: Path of the file, or a file that is open for writing.
 
         Raises:
-            InvalidMotionError: Fewer than two or more than ten million samples.
+            OSError: The file cannot be written.
+        """
+    def to_joint_trajectory(self, joint_names: Sequence[str] | None = None) -> dict[str, Any]:
+        """Return the samples with the fields of ROS' `trajectory_msgs/JointTrajectory`. It needs no
+        ROS; `rosidl_runtime_py.set_message_fields` fills a message with it.
+
+        Args:
+            joint_names: Names of the joints in ROS; `joint_1` .. as in `robot.to_urdf()` when not
+                given.
+
+        Returns:
+            {"joint_names": [..], "points": [..]}. A point has `positions` [rad], `velocities`
+            [rad/s] and `accelerations` [rad/s^2], lists of n floats, and `time_from_start`:
+            {"sec": .., "nanosec": ..}.
+
+        Raises:
+            InvalidJointsError: There is not one name for each joint.
+        """
+    def resampled(self, steps: int | None = None, *, dt: float | None = None) -> Trajectory:
+        """Return the motion with other samples, evenly over the duration, both ends included.
+
+        Args:
+            steps: Number of samples.
+            dt: Instead of `steps`, the largest time between two samples [s]: they are `dt` apart
+                or, unless that divides the duration, a little less.
+
+        Raises:
+            InvalidMotionError: Fewer than two or more than ten million samples, or `dt` is not
+                positive.
+            TypeError: Not one of both is given, or steps is not a whole number.
         """
     def stretched(self, factor: float) -> Trajectory:
         """Return the motion at another pace.

@@ -15,6 +15,7 @@ mod bodies;
 mod borrows;
 mod catalog;
 mod cell;
+mod columns;
 mod configured;
 mod corrections;
 mod errors;

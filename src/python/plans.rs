@@ -20,7 +20,7 @@ use super::signals::detached_while;
 use super::targets::{read_path_poses, read_weights};
 use super::trajectories::read_each;
 use crate::cell::Cell;
-use crate::kinematics::Pose;
+use crate::kinematics::{Pose, Robot, pose_to_rows};
 use crate::plan::{Accept, NoPlan, Plan, PlanError, PlanOptions, Watch};
 
 #[pymethods]
@@ -147,10 +147,12 @@ impl PyRobot {
                 "redundancy is for arms of seven joints: the pose alone determines the six of this \
                  one",
             )),
-            Arm::Six(robot) => asked
-                .plan(|path, options, accept, watch| robot.planned(path, options, accept, watch)),
-            Arm::Seven(robot) => asked
-                .plan(|path, options, accept, watch| robot.planned(path, options, accept, watch)),
+            Arm::Six(robot) => asked.plan(robot, |path, options, accept, watch| {
+                robot.planned(path, options, accept, watch)
+            }),
+            Arm::Seven(robot) => asked.plan(robot, |path, options, accept, watch| {
+                robot.planned(path, options, accept, watch)
+            }),
         }
     }
 }
@@ -213,6 +215,7 @@ impl Asked<'_, '_> {
     /// Plan without the interpreter's lock.
     fn plan<const N: usize>(
         &self,
+        robot: &Robot<N>,
         planned: impl FnOnce(
             &[Pose],
             &PlanOptions<N>,
@@ -242,9 +245,9 @@ impl Asked<'_, '_> {
             return Err(failure);
         }
         match planned {
-            Ok(plan) => plan_record(py, &plan),
+            Ok(plan) => plan_record(py, robot, &plan),
             Err(PlanError::Invalid(error)) => Err(error.into()),
-            Err(PlanError::NoPlan(gap)) => Err(path_error(&gap)),
+            Err(PlanError::NoPlan(gap)) => Err(path_error(robot, &gap)),
             Err(PlanError::Stopped) => Err(PyValueError::new_err("the plan was stopped")),
         }
     }
@@ -293,8 +296,13 @@ fn asked<const N: usize>(accept: &Bound<'_, PyAny>, q: &[[f64; N]]) -> PyResult<
 }
 
 /// `irbkin.Plan` of a plan.
-fn plan_record<const N: usize>(py: Python<'_>, plan: &Plan<N>) -> PyResult<records::Plan> {
+fn plan_record<const N: usize>(
+    py: Python<'_>,
+    robot: &Robot<N>,
+    plan: &Plan<N>,
+) -> PyResult<records::Plan> {
     let rows = plan.q.iter().flat_map(|q| q.unwrap_or([f64::NAN; N]));
+    let pose = |q: &Option<[f64; N]>| q.map_or([f64::NAN; 16], |q| pose_to_rows(&robot.fk(&q)));
     let slot = |slot: &Option<usize>| slot.map_or(-1, |slot| i64::try_from(slot).unwrap_or(-1));
     let breaks = plan.breaks.iter();
     let breaks = breaks.map(|gap| records::PlanBreak { leave: gap.leave, enter: gap.enter });
@@ -308,6 +316,7 @@ fn plan_record<const N: usize>(py: Python<'_>, plan: &Plan<N>) -> PyResult<recor
         bottleneck: plan.bottleneck,
         breaks: PyTuple::new(py, breaks.collect::<Vec<_>>())?.unbind(),
         certified: plan.certified,
+        T: array(py, plan.q.iter().flat_map(pose), &[plan.q.len(), 4, 4])?,
     })
 }
 
@@ -321,7 +330,7 @@ fn rows_of(py: Python<'_>, rows: &[Vec<f64>]) -> PyResult<Py<PyAny>> {
 }
 
 /// `irbkin.PathError` of a path without a plan.
-fn path_error<const N: usize>(gap: &NoPlan<N>) -> PyErr {
+fn path_error<const N: usize>(robot: &Robot<N>, gap: &NoPlan<N>) -> PyErr {
     with_attributes(raised("PathError", gap), |value| {
         let py = value.py();
         value.setattr("index", gap.pose_index)?;
@@ -332,6 +341,6 @@ fn path_error<const N: usize>(gap: &NoPlan<N>) -> PyErr {
             reason: end.reason.to_string(),
         });
         value.setattr("reasons", PyTuple::new(py, ends.collect::<Vec<_>>())?)?;
-        value.setattr("plan", plan_record(py, &gap.plan)?)
+        value.setattr("plan", plan_record(py, robot, &gap.plan)?)
     })
 }

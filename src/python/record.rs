@@ -36,7 +36,7 @@ macro_rules! record_methods {
         #[pymethods]
         impl $name {
             #[new]
-            #[allow(clippy::too_many_arguments, reason = "a field each")]
+            #[allow(clippy::too_many_arguments, non_snake_case, reason = "a field each")]
             fn new($($field: $type),+) -> Self {
                 Self { $($field),+ }
             }

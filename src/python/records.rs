@@ -283,6 +283,7 @@ record! {
 record! {
     "irbkin.records";
     /// The best joint path along a path of poses.
+    #[allow(non_snake_case, reason = "T is the name that users pass")]
     Plan {
         /// Joint angles [rad], shape (m, n); NaN where a plan with breaks has none.
         q: Array,
@@ -307,6 +308,10 @@ record! {
         breaks: Py<PyTuple>,
         /// Whether every step, apart from breaks, was shown to be continuous between its two poses.
         certified: bool,
+        /// Pose of the tool at each pose of the path, `robot.fk(plan.q)`, shape (m, 4, 4),
+        /// translation [m]: with all that `rotation` and `tolerance` add to the path, and with
+        /// external axes as the arm sees it, its base where the robot has it. NaN where `q` is.
+        T: Array,
     }
 }
 

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::PyFloat;
 
 use super::arguments::{read_angle_limits, read_steps};
 use super::arrays::Rows;
@@ -145,19 +147,45 @@ impl PyTrajectory {
         Ok(self.motion.inside(&limits)?)
     }
 
-    /// Return the motion with other samples.
+    /// Joint angles at any time: `sample(t).q`.
     ///
     /// Args:
-    ///     steps: Number of samples, evenly over the duration.
+    ///     t: Times [s], shape (...). Before the start and after the end the joints rest.
+    ///
+    /// Returns:
+    ///     Joint angles [rad], shape (..., n).
     ///
     /// Raises:
-    ///     InvalidMotionError: Fewer than two or more than ten million samples.
+    ///     InvalidMotionError: A time is NaN.
+    fn __call__(&self, py: Python<'_>, t: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
+        Ok(self.sample(py, t)?.q)
+    }
+
+    /// Return the motion with other samples, evenly over the duration, both ends included.
+    ///
+    /// Args:
+    ///     steps: Number of samples.
+    ///     dt: Instead of `steps`, the largest time between two samples [s]: they are `dt` apart
+    ///         or, unless that divides the duration, a little less.
+    ///
+    /// Raises:
+    ///     InvalidMotionError: Fewer than two or more than ten million samples, or `dt` is not
+    ///         positive.
+    ///     TypeError: Not one of both is given, or steps is not a whole number.
+    #[pyo3(signature = (steps=None, *, dt=None))]
     fn resampled(
         &self,
         py: Python<'_>,
-        #[pyo3(from_py_with = read_steps)] steps: usize,
+        steps: Option<&Bound<'_, PyAny>>,
+        dt: Option<f64>,
     ) -> PyResult<Self> {
-        Self::even(py, (*self.motion).clone(), steps)
+        let motion = (*self.motion).clone();
+        let steps = match (steps, dt) {
+            (Some(steps), None) => whole_steps(steps)?,
+            (None, Some(dt)) => motion.steps_of(dt)?,
+            _ => return Err(PyTypeError::new_err("resampled takes steps, or dt [s]")),
+        };
+        Self::even(py, motion, steps)
     }
 
     /// Return the motion at another pace.
@@ -228,6 +256,16 @@ impl PyTrajectory {
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         reduced(py, "Trajectory", &(&*self.motion, self.times(py)?))
     }
+}
+
+/// A number of samples; a time between them goes by another name.
+fn whole_steps(steps: &Bound<'_, PyAny>) -> PyResult<usize> {
+    if steps.is_instance_of::<PyFloat>() {
+        return Err(PyTypeError::new_err(format!(
+            "steps must be a whole number, got {steps}: pass dt={steps} for a time between samples [s]"
+        )));
+    }
+    read_steps(steps)
 }
 
 /// The trajectory of polynomials: knots [s], and seven coefficients of each joint between two.

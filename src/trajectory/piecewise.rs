@@ -3,11 +3,14 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::axis::AxisMotion;
 use super::polynomial::{TERMS, derivatives, hull, shifted};
 use super::sampling::Samples;
 use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::{JOINED_POSITION, LIMIT_ROUNDING, MOST_SAMPLES};
+use crate::kinematics::thresholds::{JOINED_POSITION, LIMIT_ROUNDING, MOST_SAMPLES, STEP_ROUNDING};
 use crate::lanes::run;
 
 /// Joint angles, velocities and accelerations over time, exact at any time.
@@ -154,6 +157,21 @@ impl Trajectory {
         };
         let (last, duration) = (f64::from(count - 1), self.duration());
         Ok((0..count).map(|step| f64::from(step) / last * duration).collect())
+    }
+
+    /// How many of [`Self::times`] are at most `dt` [s] apart.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] unless `dt` is positive.
+    pub fn steps_of(&self, dt: f64) -> Result<usize, Error> {
+        if dt.is_nan() || dt <= 0.0 {
+            return Err(MotionFault::NotPositive { field: "dt", index: None, value: dt }.into());
+        }
+        let steps = (self.duration() / dt - STEP_ROUNDING).ceil().max(1.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 or more")]
+        let steps = steps as usize;
+        Ok(steps.saturating_add(1))
     }
 
     /// Duration [s].

@@ -329,3 +329,12 @@ fn a_long_rough_path_has_few_pieces_and_keeps_its_limits() {
         assert!(peaks.velocity <= v * (1.0 + 1e-9) && peaks.acceleration <= a * (1.0 + 1e-9));
     }
 }
+
+#[test]
+fn samples_are_no_farther_apart_than_asked_and_no_nearer_than_need_be() {
+    let motion = spline(SplineKind::Cubic, &[0.0, 1.0], 1, &[0.0, 1.5]).unwrap();
+    for (dt, steps) in [(0.1, 16), (0.4, 5), (1.5, 2), (f64::INFINITY, 2), (1e-300, usize::MAX)] {
+        assert_eq!(motion.steps_of(dt).unwrap(), steps, "{dt}");
+    }
+    assert!([0.0, -1.0, f64::NAN].iter().all(|dt| motion.steps_of(*dt).is_err()));
+}

@@ -356,7 +356,10 @@ def test_a_plan_is_shown_in_a_line():
     assert repr(plan).startswith(
         "Plan(q=<array of float64 of shape (40, 6)>, tool_angle=<array of "
     )
-    assert repr(plan).endswith(f"bottleneck={plan.bottleneck}, breaks=(), certified=True)")
+    assert repr(plan).endswith(
+        f"bottleneck={plan.bottleneck}, breaks=(), certified=True, "
+        "T=<array of float64 of shape (40, 4, 4)>)"
+    )
     T[7, 0, 3] += 9.0
     with pytest.raises(irbkin.PathError) as broken:
         ROBOT.plan(T)

@@ -4,7 +4,7 @@ mod calc;
 mod checked;
 mod checks;
 mod module;
-mod program;
+pub(super) mod program;
 pub(super) mod records;
 mod routine_motion;
 mod text;
