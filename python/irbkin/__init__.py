@@ -26,6 +26,7 @@ from irbkin._core import (
     to_xyz_euler_zyx,
     to_xyz_wxyz,
 )
+    Follower,
 from irbkin.errors import (
     CalibrationError,
     InvalidJointsError,
@@ -84,6 +85,7 @@ __all__ = [
     "Plan",
     "Positioner",
     "RapidError",
+    "Follower",
     "Reach",
     "Robot",
     "SingularityKind",

@@ -55,6 +55,7 @@ __all__ = [
     "Declaration",
     "Finding",
     "FollowResult",
+    "Follower",
     "FreeJoint",
     "IkBatch",
     "IkMargin",
@@ -290,7 +291,6 @@ class IkBatch(_Record):
     def status(self) -> npt.NDArray[np.uint8]:
         """`Status` of each slot, shape (..., slots)."""
     def __new__(cls, q: _Floats, status: npt.NDArray[np.uint8]) -> IkBatch: ...
-
     @property
     def found(self) -> npt.NDArray[np.bool_]:
         """Whether each slot holds a solution, bool, shape (..., slots)."""
@@ -306,6 +306,7 @@ class IkBatch(_Record):
             `found` and `within_limits`, bool; `status`, uint8; `q1` .. [rad], NaN where the slot is
             empty.
         """
+
 @final
 class FreeJoint(_Record):
     """The joint that a singular pose leaves undetermined."""
@@ -585,7 +586,6 @@ class CatalogEntry(_Record):
         sources: int,
         provenance: str,
     ) -> CatalogEntry: ...
-
     def to_dict(self) -> dict[str, Any]:
         """Return the figures of the arm by name, a row of a table: `pandas.DataFrame` and
         `polars.DataFrame` take a list of them, `[irbkin.catalog_entry(name).to_dict() for name in
@@ -594,6 +594,7 @@ class CatalogEntry(_Record):
         Returns:
             `name`, `maker`, `dof`, `payload` [kg], `reach` [m], `is_coupled` and `sources`.
         """
+
 @final
 class TrajectorySample(_Record):
     """The state of the joints at times."""
@@ -722,13 +723,13 @@ class Plan(_Record):
         """Whether every step, apart from breaks, was shown to be continuous between its two
         poses.
         """
-    def __new__(
     @property
     def T(self) -> _Floats:
         """Pose of the tool at each pose of the path, `robot.fk(plan.q)`, shape (m, 4, 4),
         translation [m]: with all that `rotation` and `tolerance` add to the path, and with
         external axes as the arm sees it, its base where the robot has it. NaN where `q` is.
         """
+    def __new__(
         cls,
         q: _Floats,
         tool_angle: _Floats,
@@ -739,9 +740,8 @@ class Plan(_Record):
         bottleneck: float,
         breaks: tuple[PlanBreak, ...],
         certified: bool,
-    ) -> Plan: ...
         T: _Floats,
-
+    ) -> Plan: ...
     def to_dict(self) -> dict[str, npt.NDArray[Any]]:
         """Return the plan as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
         table.
@@ -750,6 +750,7 @@ class Plan(_Record):
             Arrays of shape (m,) by name: `q1` .. [rad]; `tool_angle` [rad]; `slot`; `external1` ..
             [m, rad] and `tolerance1` .. [rad, m] of a plan that has them; `x`, `y`, `z` of `T` [m].
         """
+
 @final
 class Robot:
     """A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
@@ -761,10 +762,13 @@ class Robot:
     Args:
         name: Catalog name or alias, the maker's name before it or not; case, blanks, -, _, /,
             commas and parentheses do not matter. `irbkin.catalog()` lists the names.
+        tool: As of `with_tool`; the flange when not given.
+        base: As of `with_base`; the world when not given.
 
     Raises:
         UnknownRobotError: No arm of that name; the message has up to six close ones, the closest
             first, or why the arm is left out of the catalog.
+        InvalidPoseError, RapidError: As `with_tool` and `with_base`.
     """
 
     def __new__(
@@ -807,13 +811,10 @@ class Robot:
         snap: float = 0.0,
     ) -> Robot:
         """Robot from a standard Denavit-Hartenberg table: Rz(theta + q) Tz(d) Tx(a) Rx(alpha).
-        tool: As of `with_tool`; the flange when not given.
-        base: As of `with_base`; the world when not given.
 
         Args:
             rows: alpha [rad], a [m], d [m], theta offset [rad] of each joint, in this order too,
                 shape (6, 4) or (7, 4).
-        InvalidPoseError, RapidError: As `with_tool` and `with_base`.
             limits: As of `from_mdh`.
             name: As of `from_mdh`.
             snap: As of `from_mdh`.
@@ -910,6 +911,9 @@ class Robot:
     def dof(self) -> int:
         """Number of joints."""
     @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Names of the joints as messages and tables have them: "J1" .., of a URDF too."""
+    @property
     def structure(
         self,
     ) -> Literal[
@@ -952,9 +956,6 @@ class Robot:
     @property
     def limits(self) -> _Floats:
         """Lower and upper limit of each joint [rad], shape (n, 2); infinite where a joint has
-    def joint_names(self) -> tuple[str, ...]:
-        """Names of the joints as messages and tables have them: "J1" .., of a URDF too."""
-    @property
         none. Read-only: change a copy, and pass that to `with_limits`.
         """
     @property
@@ -1008,6 +1009,22 @@ class Robot:
         Raises:
             InvalidModelError: A capsule of a link that the arm does not have.
         """
+    def random(self, n: int | None = None, rng: np.random.Generator | int | None = None) -> _Floats:
+        """Draw joint vectors uniformly inside the limits, those of a linkage too. A joint without
+        limits is within +-180 deg, one with a single limit within a full turn of it; a joint of
+        `locked` stays at its angle.
+
+        Args:
+            n: Number of joint vectors; one alone, without a leading dimension, when not given.
+            rng: A `numpy.random.Generator`, or a seed for one; a seed of the system's when not
+                given.
+
+        Returns:
+            Joint vectors [rad], shape (n, dof), or (dof,) without n.
+
+        Raises:
+            InvalidModelError: The limits of axes 2 and 3 leave a linkage no room.
+        """
     def with_tool(self, T: npt.ArrayLike | ToolData) -> Robot:
         """Return the robot with another tool, in place of the one that it had.
 
@@ -1048,22 +1065,6 @@ class Robot:
         """
     @property
     def linkage_limits(self) -> _Floats | None:
-    def random(self, n: int | None = None, rng: np.random.Generator | int | None = None) -> _Floats:
-        """Draw joint vectors uniformly inside the limits, those of a linkage too. A joint without
-        limits is within +-180 deg, one with a single limit within a full turn of it; a joint of
-        `locked` stays at its angle.
-
-        Args:
-            n: Number of joint vectors; one alone, without a leading dimension, when not given.
-            rng: A `numpy.random.Generator`, or a seed for one; a seed of the system's when not
-                given.
-
-        Returns:
-            Joint vectors [rad], shape (n, dof), or (dof,) without n.
-
-        Raises:
-            InvalidModelError: The limits of axes 2 and 3 leave a linkage no room.
-        """
         """Lower and upper limit of the serial joint 3 [rad], shape (2,), of a robot with coupled
         axes 2 and 3: of q3 of `uncoupled()`. None where none are known.
         """
@@ -1694,6 +1695,9 @@ class Solution:
     def is_within_limits(self) -> bool:
         """Whether every joint is inside its limits."""
     @property
+    def configuration(self) -> Configuration | None:
+        """ABB's confdata, as `Robot.configuration` of it; None of an arm that has none."""
+    @property
     def singularities(self) -> SingularityKind:
         """Singularities of the pose on this branch: an `irbkin.SingularityKind`, 0 for none."""
     @property
@@ -1734,9 +1738,6 @@ class Solution:
     def __iter__(self) -> Iterator[float]: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
-    def configuration(self) -> Configuration | None:
-        """ABB's confdata, as `Robot.configuration` of it; None of an arm that has none."""
-    @property
     def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
@@ -1820,7 +1821,6 @@ class Solutions:
             accept: Called with each `Solution`, which is also the sequence of its joint angles
                 [rad]; an exception of it is passed on. Or a `Cell`.
         """
-    def __array__(
     def to_dict(self) -> dict[str, npt.NDArray[Any]]:
         """Return the solutions as columns, of which `pandas.DataFrame` and `polars.DataFrame` make
         a table.
@@ -1830,6 +1830,7 @@ class Solutions:
             `singularities`, the values of `irbkin.SingularityKind`; and `cf1`, `cf4`, `cf6`, `cfx`
             of an arm that has confdata.
         """
+    def __array__(
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
     ) -> npt.NDArray[np.float64]: ...
     def __len__(self) -> int: ...
@@ -1841,6 +1842,52 @@ class Solutions:
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
+
+@final
+class Follower:
+    """A path that is followed pose by pose, as `Robot.follow` does a whole one: each step is the
+    solution inside the limits that continues the previous joints, turns considered.
+
+    For control loops: a step takes a few microseconds. A Follower changes with each step.
+
+    Args:
+        robot: The arm.
+        seed: Joint vector from which the path starts [rad], shape (n,).
+        weights: Cost of moving each joint, shape (n,); ones when not given.
+
+    Raises:
+        InvalidJointsError: A seed or weight that is not finite, a weight that is negative, or a
+            wrong shape.
+    """
+
+    def __new__(
+        cls, robot: Robot, seed: npt.ArrayLike, weights: npt.ArrayLike | None = None
+    ) -> Follower: ...
+    @property
+    def q(self) -> _Floats:
+        """The joints of the last step that reached its pose [rad], shape (n,); before it, the
+        seed.
+        """
+    @property
+    def last_break(self) -> Break | None:
+        """Why the joints could not follow in the last step, an `irbkin.records.Break` whose
+        `pose_index` counts the steps from 0; None if they did.
+        """
+    def step(self, T: npt.ArrayLike) -> _Floats:
+        """Return the joints at the next pose of the path.
+
+        Args:
+            T: Pose of the tool, shape (4, 4), translation [m].
+
+        Returns:
+            Joint vector [rad], shape (n,). If `last_break` is then not None, the joints arrive
+            there by a jump.
+
+        Raises:
+            UnreachableError: No solution inside the limits; the message says what is missing. The
+                next step starts anew from the last joints.
+            InvalidPoseError, InvalidModelError: As `Robot.ik`; the step does not count.
+        """
 
 # What Python's records of RAPID take: array-likes and iterables of numbers.
 _Numbers: TypeAlias = npt.ArrayLike | Iterable[float]
@@ -2541,6 +2588,14 @@ class TargetTable(_Record):
         shoulder: _Floats,
         findings: tuple[Finding | None, ...],
     ) -> TargetTable: ...
+    def to_dict(self) -> dict[str, Any]:
+        """Return the targets as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
+        table.
+
+        Returns:
+            Columns of m elements by name: `kind`, `name`, `line`; `q1` .. [rad]; `cf1`, `cf4`,
+            `cf6`, `cfx`; `wrist` and `elbow` [rad], `shoulder` [m]; `finding`, the message or None.
+        """
 
 # What a name stands for is the text's: records of any type, narrowed with isinstance.
 @final
@@ -2588,14 +2643,6 @@ class Module(Mapping[str, Any]):
         modules of `parse` and `load`; modules of `load_program` may have faults.
         """
     def rewritten(self, values: Mapping[str, Any]) -> str:
-    def to_dict(self) -> dict[str, Any]:
-        """Return the targets as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
-        table.
-
-        Returns:
-            Columns of m elements by name: `kind`, `name`, `line`; `q1` .. [rad]; `cf1`, `cf4`,
-            `cf6`, `cfx`; `wrist` and `elbow` [rad], `shoulder` [m]; `finding`, the message or None.
-        """
         """Return the source with other values for some data; everything else, comments included,
         stays as it is, character for character.
 

@@ -29,6 +29,8 @@ pub use chain::joint_axes::JointAxis;
 #[cfg(feature = "urdf")]
 pub(crate) use chain::joint_axes::unit;
 pub use chain::limits::JointLimits;
+#[cfg(feature = "python")]
+pub(crate) use path::follow::Progress;
 pub use path::follow::{Break, BreakReason, Followed, Follower};
 pub use path::singularity_mode::{FollowOptions, SingularityMode};
 #[cfg(feature = "rapid")]

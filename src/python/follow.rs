@@ -10,8 +10,9 @@ use super::arguments::{SINGULARITY_MODES, one_of, thread_count};
 use super::arm::Arm;
 use super::arrays::{Rows, together};
 use super::errors::{Fault, index_in};
+use super::follower::break_record;
 use super::outputs::{Output, pair};
-use super::records::{Break, FollowResult, break_reason};
+use super::records::FollowResult;
 use super::robot::PyRobot;
 use super::signals::detached;
 use super::targets::{checked_joints, read_path, read_weights, single_seed};
@@ -169,12 +170,7 @@ fn breaks<'py, const N: usize>(
     let mut breaks = Vec::new();
     for (path, followed) in followed.iter().enumerate() {
         for broken in &followed.breaks {
-            breaks.push(Break {
-                pose_index: broken.pose_index,
-                reason: broken.to_string(),
-                path: PyTuple::new(py, index_in(lead, path))?.unbind(),
-                kind: break_reason(py, &broken.reason)?.unbind(),
-            });
+            breaks.push(break_record(py, broken, PyTuple::new(py, index_in(lead, path))?)?);
         }
     }
     PyTuple::new(py, breaks)

@@ -20,12 +20,13 @@ mod configured;
 mod corrections;
 mod errors;
 mod follow;
+mod follower;
 mod found;
 mod freedoms;
 mod go;
+mod hints;
 mod inverse;
 mod meshes;
-mod hints;
 mod models;
 mod notebook;
 mod outputs;
@@ -150,7 +151,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     add!(module: classes [
         robot::PyRobot, solutions::PySolutions, solution::PySolution, Configuration,
-        trajectory::PyTrajectory, Break, CatalogEntry, ConfigurationBatch, FollowResult, FreeJoint,
+        follower::PyFollower, trajectory::PyTrajectory, Break, CatalogEntry, ConfigurationBatch, FollowResult, FreeJoint,
         IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd,
         ToolSpeedLimits, TrajectorySample, PyShape, PyBody, PyCell, CellContact, CellDistance,
     ], functions [

@@ -93,9 +93,15 @@ impl fmt::Display for BreakReason {
 pub struct Follower<'a, const N: usize = 6> {
     robot: &'a Robot<N>,
     weights: [f64; N],
+    at: Progress<N>,
+}
+
+/// How far a path was followed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Progress<const N: usize> {
     /// The pose of the previous step.
     last: Option<Pose>,
-    q: [f64; N],
+    pub(crate) q: [f64; N],
     /// The previous step of the joints: where the path is heading.
     velocity: [f64; N],
 }
@@ -113,12 +119,25 @@ impl<'a, const N: usize> Follower<'a, N> {
         if let Some((joint, angle)) = robot.locked_joint() {
             q[joint - 1] = angle;
         }
-        Ok(Self { robot, weights: *weights, last: None, q, velocity: [0.0; N] })
+        let at = Progress { last: None, q, velocity: [0.0; N] };
+        Ok(Self { robot, weights: *weights, at })
+    }
+
+    /// A follower of the robot that goes on from where another one was.
+    #[cfg(feature = "python")]
+    pub(crate) fn resumed(robot: &'a Robot<N>, weights: &[f64; N], at: Progress<N>) -> Self {
+        Self { robot, weights: *weights, at }
+    }
+
+    /// How far the path was followed.
+    #[cfg(feature = "python")]
+    pub(crate) fn progress(&self) -> Progress<N> {
+        self.at
     }
 
     /// Continue from `q` [rad] at `pose`.
     pub(crate) fn continue_from(&mut self, pose: &Pose, q: [f64; N]) {
-        (self.last, self.q, self.velocity) = (Some(*pose), q, [0.0; N]);
+        self.at = Progress { last: Some(*pose), q, velocity: [0.0; N] };
     }
 
     /// The joint vector of the next pose of the path [rad], with the reason if it is reached by a
@@ -135,21 +154,24 @@ impl<'a, const N: usize> Follower<'a, N> {
         let next = match self.nearest(&pose)? {
             Ok(next) => next,
             Err(explanation) => {
-                (self.last, self.velocity) = (None, [0.0; N]);
+                (self.at.last, self.at.velocity) = (None, [0.0; N]);
                 return Ok((None, Some(BreakReason::Unreachable(explanation))));
             }
         };
         let mut jump = None;
-        if let Some(last_pose) = self.last {
-            let usual = largest(&self.velocity).max(JUMP_LEAST / JUMP_GROWTH);
-            if largest(&steps(&self.q, &next.q)) > JUMP_GROWTH * usual {
+        if let Some(last_pose) = self.at.last {
+            let usual = largest(&self.at.velocity).max(JUMP_LEAST / JUMP_GROWTH);
+            if largest(&steps(&self.at.q, &next.q)) > JUMP_GROWTH * usual {
                 jump = self.jump_between(&last_pose, &pose, &next)?;
             }
         }
-        self.velocity =
-            if self.last.is_none() || jump.is_some() { [0.0; N] } else { steps(&self.q, &next.q) };
-        self.q = next.q;
-        self.last = Some(pose);
+        self.at.velocity = if self.at.last.is_none() || jump.is_some() {
+            [0.0; N]
+        } else {
+            steps(&self.at.q, &next.q)
+        };
+        self.at.q = next.q;
+        self.at.last = Some(pose);
         Ok((Some(next), jump))
     }
 
@@ -157,9 +179,12 @@ impl<'a, const N: usize> Follower<'a, N> {
     fn nearest(&self, pose: &Pose) -> Result<Result<Solution<N>, Explanation>, Error> {
         // A joint that swings while it passes a singularity does not continue to swing, nor do seven
         // joints drift along their self-motion.
-        let steady = !self.robot.is_redundant() && largest(&self.velocity) <= STEADY_STEP;
-        let heading =
-            if steady { core::array::from_fn(|i| self.q[i] + self.velocity[i]) } else { self.q };
+        let steady = !self.robot.is_redundant() && largest(&self.at.velocity) <= STEADY_STEP;
+        let heading = if steady {
+            core::array::from_fn(|i| self.at.q[i] + self.at.velocity[i])
+        } else {
+            self.at.q
+        };
         if let Some(mut next) = self.robot.continued(pose, &heading, &self.weights)? {
             self.balance(&mut next, &heading, pose);
             return Ok(Ok(next));
@@ -207,8 +232,9 @@ impl<'a, const N: usize> Follower<'a, N> {
         to: &Pose,
         direct: &Solution<N>,
     ) -> Result<Option<BreakReason>, Error> {
-        let mut scout = Self { velocity: [0.0; N], ..self.clone() };
-        let whole = largest(&steps(&self.q, &direct.q));
+        let mut scout = self.clone();
+        scout.at.velocity = [0.0; N];
+        let whole = largest(&steps(&self.at.q, &direct.q));
         let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
         while done < 1.0 {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
@@ -217,19 +243,19 @@ impl<'a, const N: usize> Follower<'a, N> {
                 // The straight line between two poses may leave the workspace where the path does
                 // not: only the size of the step can decide.
                 return if whole > JUMP_BLIND {
-                    self.jump(direct, from, &scout.q).map(Some)
+                    self.jump(direct, from, &scout.at.q).map(Some)
                 } else {
                     Ok(None)
                 };
             };
-            if largest(&steps(&scout.q, &next.q)) > whole / 4.0 {
+            if largest(&steps(&scout.at.q, &next.q)) > whole / 4.0 {
                 if depth == HALVINGS {
-                    return self.jump(direct, &pose, &scout.q).map(Some);
+                    return self.jump(direct, &pose, &scout.at.q).map(Some);
                 }
                 (width, depth) = (width / 2.0, depth + 1);
                 continue;
             }
-            (scout.q, done) = (next.q, end);
+            (scout.at.q, done) = (next.q, end);
             if depth > 0 {
                 (width, depth) = (width * 2.0, depth - 1);
             }
@@ -239,7 +265,7 @@ impl<'a, const N: usize> Follower<'a, N> {
 
     /// The jump from the current joints to `to`, at the pose where it is unavoidable.
     fn jump(&self, to: &Solution<N>, pose: &Pose, at: &[f64; N]) -> Result<BreakReason, Error> {
-        let (joint, by) = largest_step(&self.q, &to.q);
+        let (joint, by) = largest_step(&self.at.q, &to.q);
         let solutions = self.robot.solve(*pose, &FreeChoice::seed(*at))?;
         let kinds = solutions.iter().fold(self.robot.singularity(at).kinds, |kinds, solution| {
             kinds | solution.singularities()
