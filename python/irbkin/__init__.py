@@ -1,13 +1,23 @@
-"""Kinematics of ABB IRB, Universal Robots and Franka arms.
-
-All inverse-kinematics solutions, in stable slots, with limits and singularities reported. Meters,
-radians, float64; poses are 4x4 homogeneous matrices.
+"""Kinematics of robot arms. Meters, radians, float64; poses are 4x4 homogeneous matrices.
 
     >>> import irbkin
     >>> robot = irbkin.Robot("IRB 2600-12/1.65")
     >>> solutions = robot.ik(robot.fk([0.3, -0.2, 0.4, 0.5, -0.6, 0.7]))
     >>> len(solutions)
     8
+
+catalog()                   names of the arms
+Robot(name), .from_urdf()   an arm: .limits, .with_tool(T), .with_base(T), .with_limits(limits)
+robot.fk(q), .jacobian(q)   the pose of the tool and its derivatives
+robot.ik(T), .ik_batch(T)   all solutions, of one pose or of many
+robot.ik_nearest(T, seed)   the solution inside the limits that is nearest to a joint vector
+robot.follow(T, seed)       one joint path along a path of poses; Follower takes pose by pose
+robot.plan(T)               the best joint path along it
+robot.go(start, goal, cell) a motion free of collisions in a Cell
+pose(xyz, wxyz)             a pose of position and orientation
+paths, trajectory           lines and arcs of the tool; motions of the joints over time
+rapid, abb, ros             RAPID programs, backups of controllers, ROS
+IrbkinError                 the class of all errors; UnreachableError and others in `errors`
 """
 
 from __future__ import annotations
@@ -16,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 
 from irbkin._core import (
     Cell,
+    Follower,
     Robot,
     Solution,
     Solutions,
@@ -26,7 +37,6 @@ from irbkin._core import (
     to_xyz_euler_zyx,
     to_xyz_wxyz,
 )
-    Follower,
 from irbkin.errors import (
     CalibrationError,
     InvalidJointsError,
@@ -75,6 +85,7 @@ __all__ = [
     "Cell",
     "Configuration",
     "FollowResult",
+    "Follower",
     "IkBatch",
     "InvalidJointsError",
     "InvalidModelError",
@@ -85,7 +96,6 @@ __all__ = [
     "Plan",
     "Positioner",
     "RapidError",
-    "Follower",
     "Reach",
     "Robot",
     "SingularityKind",
@@ -130,6 +140,14 @@ _MODULES = (
     "trajectory",
 )
 
+# Names of other packages, and what to use here.
+_OTHERS = {
+    "from_urdf": "Robot.from_urdf",
+    "load_urdf": "Robot.from_urdf",
+    "list_robots": "catalog",
+    "robots": "catalog",
+}
+
 
 def __getattr__(name: str) -> ModuleType | Callable[..., Any]:
     """Import `irbkin.rapid` and the like when they are first asked for."""
@@ -141,7 +159,8 @@ def __getattr__(name: str) -> ModuleType | Callable[..., Any]:
         import importlib
 
         return importlib.import_module(f"irbkin.{name}")
-    raise AttributeError(f"module 'irbkin' has no attribute {name!r}")
+    hint = f": use {_OTHERS[name]}" if name in _OTHERS else ""
+    raise AttributeError(f"module 'irbkin' has no attribute {name!r}{hint}")
 
 
 def __dir__() -> list[str]:
