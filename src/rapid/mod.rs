@@ -54,14 +54,11 @@ mod tests;
 mod text;
 
 pub use self::calc::table::{TableRow, calc_moves, calc_targets};
-pub use self::calc::target::{Fallback, calc_joint_t, calc_joint_t_or, calc_rob_t};
+pub use self::calc::target::{Fallback, calc_joint_t, calc_joint_t_or, calc_rob_t, joint_vector};
 pub use self::calc::units::{Unit, UnitAxis, Units};
 pub use self::calc::wrong::error_name;
 #[cfg(feature = "python")]
-pub(crate) use self::calc::{
-    frames::rapid_pose,
-    target::{joint_target, joint_vector},
-};
+pub(crate) use self::calc::{frames::rapid_pose, target::joint_target};
 pub use self::check::checker::{CheckOptions, Checked, CheckedMove, candidates, check};
 pub use self::check::unused::unused;
 #[cfg(feature = "python")]

@@ -87,8 +87,9 @@ impl<const N: usize> Robot<N> {
         self.mdh().rows[2].alpha.cos().signum()
     }
 
-    /// Factor of q2 in joint 3: 1, -1 or, without a coupling, zero.
-    pub(crate) fn coupling(&self) -> f64 {
+    /// Factor of q2 in joint 3, q3 = q3_serial + coupling * q2: 1, -1 or, without a coupling, zero.
+    #[must_use]
+    pub fn coupling(&self) -> f64 {
         self.chain.coupling()
     }
 

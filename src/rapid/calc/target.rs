@@ -100,8 +100,10 @@ pub(in crate::rapid) fn target_pose(target: &RobTarget) -> Result<Pose, Error> {
     pose_in(&RapidPose { trans_mm: target.trans_mm, rot: target.rot }, "robtarget")
 }
 
-/// The joint angles of a jointtarget [rad].
-pub(crate) fn joint_vector<const N: usize>(joints: &JointTarget) -> [f64; N] {
+/// The joint angles of a jointtarget [rad], in the order of the arm's joints: of seven, axis 7 is the
+/// third. An axis that does not exist has its huge angle.
+#[must_use]
+pub fn joint_vector<const N: usize>(joints: &JointTarget) -> [f64; N] {
     let [one, two, three, four, five, six] = joints.robax_deg;
     let [seven, ..] = joints.extax;
     let from_base = [one, two, seven, three, four, five, six];

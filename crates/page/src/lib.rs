@@ -1,0 +1,48 @@
+//! irbkin for a page in a browser: requests and answers as JSON text.
+//!
+//! [`Page::answer`] answers a request, and keeps the robot, the cell and the program that earlier
+//! ones set. [`memory`] exports it to WebAssembly. Angles are in radians, lengths in meters; a pose
+//! is 12 numbers, the first three rows of its matrix. A number that does not exist is `null`.
+//!
+//! ```
+//! use irbkin_page::Page;
+//!
+//! let mut page = Page::default();
+//! page.answer(r#"{"do": "robot", "name": "IRB 2600-12/1.65"}"#);
+//! let answer = page.answer(r#"{"do": "fk", "q": [0, 0, 0, 0, 0.5, 0]}"#);
+//! assert!(answer.starts_with(r#"{"ok":{"tool":["#));
+//! ```
+//!
+//! | `do` | fields | answer |
+//! |---|---|---|
+//! | `catalog` | | [`catalog::Catalog`] |
+//! | `robot` | `name`, or `urdf` with `base` and `tip`; `tool`, `base_pose` | [`robot::Arm`] |
+//! | `urdf` | | the text of a URDF |
+//! | `cell` | `obstacles`, `margin` | [`cell::Obstacles`] |
+//! | `fk` | `q`, `collide` | [`forward::Posture`] |
+//! | `ik` | `T`, `seed`, `q7`, `collide` | [`inverse::Found`] |
+//! | `follow` | `T`, `q`, `collide` | [`follow::Step`] |
+//! | `ik_target` | `robtarget` | [`target::Meant`] |
+//! | `check` | `module`, `collide` | [`check::Checked`] |
+//! | `motion` | `module`, `routine` | [`motion::Motion`] |
+#![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
+#![cfg_attr(test, allow(clippy::indexing_slicing, clippy::float_cmp))]
+
+pub mod catalog;
+pub mod cell;
+pub mod check;
+pub mod follow;
+pub mod forward;
+pub mod inverse;
+pub mod memory;
+pub mod motion;
+mod page;
+mod posture;
+mod program;
+mod request;
+pub mod robot;
+pub mod target;
+#[cfg(test)]
+mod tests;
+
+pub use page::Page;

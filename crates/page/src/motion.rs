@@ -1,0 +1,123 @@
+//! `motion`: a routine as one motion.
+
+use irbkin::Robot;
+use irbkin::rapid::{self, MotionOptions};
+use serde::Serialize;
+
+use crate::program::{Fault, Finding, Program, faults};
+use crate::request::{Refusal, Request};
+
+/// Most samples of an answer: a page plays some minutes smoothly with them.
+const MOST_SAMPLES: usize = 4000;
+
+/// The moves of a routine as one motion.
+#[derive(Debug, Serialize)]
+pub struct Motion {
+    /// The routine; null for moves outside routines.
+    pub routine: Option<String>,
+    /// Duration [s]: a kinematic lower bound.
+    pub duration: f64,
+    /// Number of samples of the motion.
+    pub samples: usize,
+    /// Whether the answer has some of them only, evenly chosen, the first and the last included.
+    pub thinned: bool,
+    /// Times of the samples [s].
+    pub t: Vec<f64>,
+    /// Joint angles of the samples [rad], one sample after the other.
+    pub q: Vec<f64>,
+    /// The line of the move that each sample belongs to.
+    pub lines: Vec<usize>,
+    /// The moves, in order.
+    pub moves: Vec<Move>,
+    /// The findings on moves, in order.
+    pub findings: Vec<Finding>,
+    /// Invalid statements, which are skipped.
+    pub faults: Vec<Fault>,
+}
+
+/// A move of a motion.
+#[derive(Debug, Serialize)]
+pub struct Move {
+    /// "MoveJ", "MoveL", "MoveC", "MoveAbsJ" or "MoveExtJ".
+    pub kind: &'static str,
+    /// Line, from 1.
+    pub line: usize,
+    /// When it begins [s].
+    pub start: f64,
+    /// When it ends [s].
+    pub end: f64,
+    /// The joints at its target [rad]; null if it is left out.
+    pub q: Option<Vec<f64>>,
+    /// Whether it is made as it is programmed.
+    pub as_programmed: bool,
+}
+
+impl Motion {
+    pub(crate) fn of<const N: usize>(
+        robot: &Robot<N>,
+        program: &Program,
+        request: &Request<'_>,
+    ) -> Result<Self, Refusal> {
+        let routine = request.optional_text("routine")?;
+        let options = MotionOptions::default();
+        let motion = rapid::motion(robot, &[&program.module], routine, &options)?;
+        let samples = motion.t.len();
+        let chosen = chosen(samples);
+        let each = || chosen.iter().copied();
+        let line =
+            |index: usize| motion.moves.get(*motion.move_index.get(index)?).map(|it| it.line);
+        Ok(Self {
+            routine: motion.routine,
+            duration: motion.t.last().copied().unwrap_or_default(),
+            samples,
+            thinned: chosen.len() < samples,
+            t: each().filter_map(|index| motion.t.get(index).copied()).collect(),
+            q: each().filter_map(|index| motion.q.get(index)).flatten().copied().collect(),
+            lines: each().filter_map(line).collect(),
+            moves: motion.moves.iter().map(Move::from).collect(),
+            findings: motion.findings.iter().map(Finding::from).collect(),
+            faults: faults(&program.module),
+        })
+    }
+}
+
+impl<const N: usize> From<&rapid::MotionMove<N>> for Move {
+    fn from(step: &rapid::MotionMove<N>) -> Self {
+        Self {
+            kind: step.kind.name(),
+            line: step.line,
+            start: step.start,
+            end: step.end,
+            q: step.q.map(|q| q.to_vec()),
+            as_programmed: step.as_programmed,
+        }
+    }
+}
+
+/// The samples that are returned of so many: evenly chosen, the first and the last included.
+fn chosen(samples: usize) -> Vec<usize> {
+    if samples <= MOST_SAMPLES {
+        return (0..samples).collect();
+    }
+    let (last, intervals) = (samples - 1, MOST_SAMPLES - 1);
+    // In 64 bits, in which the product of two numbers of samples fits.
+    let at = |index: usize| (index as u64 * last as u64 / intervals as u64) as usize;
+    (0..MOST_SAMPLES).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chosen_samples_include_both_ends_and_are_even() {
+        assert_eq!(chosen(3), [0, 1, 2]);
+        for samples in [MOST_SAMPLES + 1, 123_457, 10_000_000] {
+            let chosen = chosen(samples);
+            assert_eq!((chosen.len(), chosen[0]), (MOST_SAMPLES, 0));
+            assert_eq!(chosen[MOST_SAMPLES - 1], samples - 1);
+            let steps: Vec<_> = chosen.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            assert!(steps.iter().max().unwrap() - steps.iter().min().unwrap() <= 1);
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! `ik_target`: what a robtarget or a jointtarget means.
+
+use irbkin::rapid::{self, Content, JointTarget, RobTarget, Value};
+use irbkin::{Robot, pose, thresholds};
+use serde::Serialize;
+
+use crate::posture::confdata;
+use crate::request::{Refusal, Request, twelve};
+
+/// A target.
+#[derive(Debug, Serialize)]
+pub struct Meant {
+    /// "robtarget" or "jointtarget".
+    pub kind: &'static str,
+    /// Its name, if it is declared.
+    pub name: Option<String>,
+    /// The pose of the tool in the world, for the work object `wobj0`.
+    #[serde(rename = "T")]
+    pub pose: [f64; 12],
+    /// The confdata that it asks for; of a jointtarget, that of its joints.
+    pub confdata: Option<[i32; 4]>,
+    /// The external axes, in degrees or millimeters; null for an axis that does not exist.
+    pub extax: [Option<f64>; 6],
+    /// The joint angles [rad]: of a robtarget, those inside the limits with its confdata.
+    pub q: Option<Vec<f64>>,
+    /// Why there are none.
+    pub reason: Option<String>,
+}
+
+impl Meant {
+    pub(crate) fn read<const N: usize>(
+        robot: &Robot<N>,
+        request: &Request<'_>,
+    ) -> Result<Self, Refusal> {
+        let text = request.text("robtarget")?;
+        match value(text)? {
+            (name, Value::RobTarget(target)) => Self::of_pose(robot, name, &target),
+            (name, Value::JointTarget(target)) => Self::of_joints(robot, name, &target),
+            (_, other) => Err(format!(
+                "robtarget is a {}, it must be a robtarget or a jointtarget",
+                other.type_name()
+            )
+            .into()),
+        }
+    }
+
+    fn of_pose<const N: usize>(
+        robot: &Robot<N>,
+        name: Option<String>,
+        target: &RobTarget,
+    ) -> Result<Self, Refusal> {
+        let pose = pose::from_wxyz(target.trans_mm.map(|mm| mm / 1e3), target.rot)?;
+        let joints = rapid::calc_joint_t(robot, target, None, None);
+        let conf = target.robconf;
+        Ok(Self {
+            kind: "robtarget",
+            name,
+            pose: twelve(&pose),
+            confdata: Some([conf.cf1, conf.cf4, conf.cf6, conf.cfx]),
+            extax: external(target.extax),
+            reason: joints.as_ref().err().map(ToString::to_string),
+            q: joints.ok().map(|joints| rapid::joint_vector::<N>(&joints).to_vec()),
+        })
+    }
+
+    fn of_joints<const N: usize>(
+        robot: &Robot<N>,
+        name: Option<String>,
+        target: &JointTarget,
+    ) -> Result<Self, Refusal> {
+        let q = rapid::joint_vector::<N>(target);
+        let most = thresholds::MOST_ANGLE;
+        if let Some((joint, angle)) = (1..).zip(q).find(|(_, angle)| angle.abs() > most) {
+            let degrees = angle.to_degrees();
+            return Err(format!("joint {joint} of the jointtarget is {degrees:e} deg").into());
+        }
+        Ok(Self {
+            kind: "jointtarget",
+            name,
+            pose: twelve(&robot.fk(&q)),
+            confdata: confdata(robot, &q),
+            extax: external(target.extax),
+            q: Some(q.to_vec()),
+            reason: None,
+        })
+    }
+}
+
+/// The value of a text: a literal, or the first datum that is declared, with its name.
+fn value(text: &str) -> Result<(Option<String>, Value), Refusal> {
+    if text.trim_start().starts_with('[') {
+        return Ok((None, rapid::parse_record(text)?));
+    }
+    let module = rapid::parse(text, &[])?;
+    let single = module.data().iter().find_map(|datum| match &datum.content {
+        Content::Single(value) => Some((Some(datum.name.clone()), value.clone())),
+        _ => None,
+    });
+    let none = || Refusal("robtarget declares no value, nor is it [[x, y, z], ...]".to_owned());
+    single.ok_or_else(none)
+}
+
+fn external(extax: [f64; 6]) -> [Option<f64>; 6] {
+    extax.map(|axis| (axis < rapid::NOT_THERE).then_some(axis))
+}

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Builds crates/page for WebAssembly into target/page/irbkin.wasm: page/wasm.sh. Exit code 77 where
+# the compiler cannot be had, with the reason.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+toolchain=$PWD/target/wasm-toolchain
+target=${CARGO_TARGET_DIR:-target}
+[ -d "$toolchain" ] || tests/step.sh "Download a compiler for WebAssembly (about 100 MB)" page/toolchain.sh
+
+# A panic is a trap without a message: messages and the names of source files are left out.
+flags="-Zunstable-options -Cpanic=immediate-abort"
+libraries=("$toolchain"/usr/lib/*-linux-gnu)
+LD_LIBRARY_PATH=${libraries[0]} RUSTC_BOOTSTRAP=1 RUSTC=$toolchain/usr/bin/rustc \
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$toolchain/wasm-ld RUSTFLAGS=$flags \
+    tests/step.sh "Build irbkin for WebAssembly" cargo build --quiet --locked -p irbkin-page --profile wasm \
+    --target wasm32-unknown-unknown --target-dir "$target" -Zbuild-std=std,panic_abort
+mkdir -p target/page
+cp "$target/wasm32-unknown-unknown/wasm/irbkin_page.wasm" target/page/irbkin.wasm
+
+raw=$(stat -c %s target/page/irbkin.wasm)
+packed=$(gzip -9 -c target/page/irbkin.wasm | wc -c)
+echo "target/page/irbkin.wasm: $raw bytes, $packed with gzip -9"
