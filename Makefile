@@ -33,7 +33,7 @@ EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
 
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
-.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros wheel packages stubs clean \
+.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page-wasm test-page wheel packages stubs clean \
 	toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
@@ -77,9 +77,10 @@ test: | toolchains ## Run all tests, in Rust and Python
 	$(STEP) "Python tests" $(BIN)/python -m pytest -n auto --dist loadfile
 
 lints:
-	cargo fmt --check
+	cargo fmt --all --check
 	$(STEP) "clippy" cargo clippy --quiet --all-targets --features serde,python -- -D warnings
 	$(STEP) "clippy without std" cargo clippy --quiet --lib $(NO_STD),rapid -- -D warnings
+	$(STEP) "clippy of crates/page" cargo clippy --quiet -p irbkin-page --all-targets -- -D warnings
 	$(STEP) "clippy without rapid" cargo clippy --quiet --lib --no-default-features --features std,urdf -- -D warnings
 
 rust-tests:
@@ -95,6 +96,14 @@ test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars and xarray, run do
 # In a ROS of its own each; only where one cannot be installed it is skipped, with the reason.
 test-ros: $(BUILT) ## Install ROS 1 and ROS 2, build the workspace, check both nodes
 	@tests/ros/test.sh $(abspath $(BIN)/python)
+
+# The compiler is of Debian's packages: only where they cannot be had it is skipped, with the reason.
+page-wasm: | toolchains ## Build crates/page for WebAssembly: target/page/irbkin.wasm
+	@page/wasm.sh
+
+test-page: $(BUILT) ## Test crates/page, here and in WebAssembly, against Python
+	$(STEP) "Tests of crates/page" cargo test --quiet -p irbkin-page
+	@tests/page/test.sh $(abspath $(BIN)/python)
 
 # Lints and the extension are of different profiles: they compile at the same time.
 check: | toolchains ## Check format, lints, types, stubs, docs, benches and examples

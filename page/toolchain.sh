@@ -34,8 +34,8 @@ std=$(depends libstd-rust-web-dev libstd-rust-web-)
 llvm=$(depends "${std:-none}" libllvm)
 [ -n "$std" ] && [ -n "$llvm" ] || skip "this Debian has no rustc-web"
 packages=(rustc-web rust-web-src libstd-rust-web-dev "$std" "$llvm" "lld-${llvm#libllvm}")
-# Libraries of LLVM that many systems have, and wasm-opt, which makes the file smaller.
-packages+=($(depends "$llvm" 'lib(z3|edit|xml)') binaryen)
+# Libraries of LLVM that not every system has.
+packages+=($(depends "$llvm" 'lib(z3|edit|xml)'))
 "$retry" apt-get "${apt[@]}" download "${packages[@]}" ||
     skip "these packages cannot be downloaded: ${packages[*]}"
 for package in *.deb; do

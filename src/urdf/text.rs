@@ -28,7 +28,7 @@ pub(super) struct Hinge {
 
 impl Hinge {
     fn kind(&self) -> &'static str {
-        let is_limited = self.limits.iter().any(|limit| limit.is_finite());
+        let is_limited = self.limits.iter().any(|limit| f64::is_finite(*limit));
         if is_limited { "revolute" } else { "continuous" }
     }
 }

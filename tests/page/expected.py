@@ -192,12 +192,12 @@ def of_target(robot: irbkin.Robot, q: np.ndarray) -> list[Case]:
         "q": numbers(np.radians(back)),
         "reason": None,
     }
-    declared = f"CONST robtarget p1:={target};"
+    declared = f"CONST robtarget p1:={rapid.dump(target)};"
     of_joints = {"kind": "jointtarget", "T": pose(robot.fk(q)), "q": numbers(q)}
     return [
-        {"request": {"do": "ik_target", "robtarget": str(target)}, "ok": ok},
+        {"request": {"do": "ik_target", "robtarget": rapid.dump(target)}, "ok": ok},
         {"request": {"do": "ik_target", "robtarget": declared}, "ok": {**ok, "name": "p1"}},
-        {"request": {"do": "ik_target", "robtarget": str(joints)}, "ok": of_joints},
+        {"request": {"do": "ik_target", "robtarget": rapid.dump(joints)}, "ok": of_joints},
     ]
 
 

@@ -1,7 +1,9 @@
 //! `ik`: all solutions of a pose.
 
+use core::any::Any;
+
 use irbkin::cell::Cell;
-use irbkin::{Error, Pose, Robot, Solutions};
+use irbkin::{Error, Explanation, Pose, Robot, Solutions};
 use serde::Serialize;
 
 use crate::posture::{Margin, arm_angle, collides, confdata, words};
@@ -119,7 +121,7 @@ impl Found {
         nearest: Option<&irbkin::Solution<N>>,
         q7: Option<f64>,
     ) -> Result<Self, Refusal> {
-        let outcome = solutions.explain().to_string();
+        let outcome = explained(robot, solutions).to_string();
         let nearest = nearest.map(|nearest| Nearest {
             index: solutions.iter().position(|solution| solution.slot == nearest.slot),
             q: nearest.q.to_vec(),
@@ -133,6 +135,18 @@ impl Found {
             nearest,
             q7,
         })
+    }
+}
+
+/// The outcome; of an arm without a closed form, with how near it gets to a pose out of reach.
+fn explained<const N: usize>(robot: &Robot<N>, solutions: &Solutions<N>) -> Explanation {
+    let robot: &dyn Any = robot;
+    match (solutions.explain(), robot.downcast_ref::<Robot<6>>()) {
+        (Explanation::NoRoots { certified, .. }, Some(robot)) => {
+            let approach = robot.nearest_approach(solutions.pose()).ok();
+            Explanation::NoRoots { certified, approach }
+        }
+        (explanation, _) => explanation,
     }
 }
 

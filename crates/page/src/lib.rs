@@ -25,24 +25,31 @@
 //! | `ik_target` | `robtarget` | [`target::Meant`] |
 //! | `check` | `module`, `collide` | [`check::Checked`] |
 //! | `motion` | `module`, `routine` | [`motion::Motion`] |
+//!
+//! `ik_target`, `check` and `motion` have the feature `rapid`; `urdf` and a `robot` of a URDF the
+//! feature `urdf`. Both are default.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 #![cfg_attr(test, allow(clippy::indexing_slicing, clippy::float_cmp))]
 
 pub mod catalog;
 pub mod cell;
+#[cfg(feature = "rapid")]
 pub mod check;
 pub mod follow;
 pub mod forward;
 pub mod inverse;
 pub mod memory;
+#[cfg(feature = "rapid")]
 pub mod motion;
 mod page;
 mod posture;
+#[cfg(feature = "rapid")]
 mod program;
 mod request;
 pub mod robot;
+#[cfg(feature = "rapid")]
 pub mod target;
-#[cfg(test)]
+#[cfg(all(test, feature = "rapid", feature = "urdf"))]
 mod tests;
 
 pub use page::Page;

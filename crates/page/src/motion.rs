@@ -100,8 +100,9 @@ fn chosen(samples: usize) -> Vec<usize> {
         return (0..samples).collect();
     }
     let (last, intervals) = (samples - 1, MOST_SAMPLES - 1);
-    // In 64 bits, in which the product of two numbers of samples fits.
-    let at = |index: usize| (index as u64 * last as u64 / intervals as u64) as usize;
+    // The product of two numbers of samples does not fit in the 32 bits of WebAssembly.
+    let (whole, rest) = (last / intervals, last % intervals);
+    let at = |index: usize| whole * index + rest * index / intervals;
     (0..MOST_SAMPLES).map(at).collect()
 }
 

@@ -7,14 +7,18 @@ use serde_json::Value;
 
 use crate::catalog::Catalog;
 use crate::cell::{self, Obstacles};
+#[cfg(feature = "rapid")]
 use crate::check::Checked;
 use crate::follow::Step;
 use crate::forward::Posture;
 use crate::inverse::Found;
+#[cfg(feature = "rapid")]
 use crate::motion::Motion;
+#[cfg(feature = "rapid")]
 use crate::program::Program;
 use crate::request::{Refusal, Request};
 use crate::robot::{self, Arm};
+#[cfg(feature = "rapid")]
 use crate::target::Meant;
 
 /// A robot, a cell and a program, and the answers about them.
@@ -22,6 +26,7 @@ use crate::target::Meant;
 pub struct Page {
     robot: Option<AnyRobot>,
     cell: Cell,
+    #[cfg(feature = "rapid")]
     program: Option<Program>,
 }
 
@@ -65,6 +70,7 @@ impl Page {
                 let robot = self.robot.insert(robot::read(request)?);
                 on!(robot, robot => ok(Arm::of(robot)))
             }
+            #[cfg(feature = "urdf")]
             "urdf" => on!(self.robot()?, robot => ok(robot.to_urdf())),
             "cell" => {
                 self.cell = cell::read(request)?;
@@ -73,12 +79,15 @@ impl Page {
             "fk" => on!(self.robot()?, robot => ok(Posture::read(robot, &self.cell, request)?)),
             "ik" => on!(self.robot()?, robot => ok(Found::read(robot, &self.cell, request)?)),
             "follow" => on!(self.robot()?, robot => ok(Step::read(robot, &self.cell, request)?)),
+            #[cfg(feature = "rapid")]
             "ik_target" => on!(self.robot()?, robot => ok(Meant::read(robot, request)?)),
+            #[cfg(feature = "rapid")]
             "check" => {
                 self.read_program(request)?;
                 let program = self.program()?;
                 on!(self.robot()?, robot => ok(Checked::of(robot, program, &self.cell, request)?))
             }
+            #[cfg(feature = "rapid")]
             "motion" => {
                 self.read_program(request)?;
                 on!(self.robot()?, robot => ok(Motion::of(robot, self.program()?, request)?))
@@ -97,6 +106,7 @@ impl Page {
     }
 
     /// Read the module of a request, if it has one.
+    #[cfg(feature = "rapid")]
     fn read_program(&mut self, request: &Request<'_>) -> Result<(), Refusal> {
         if let Some(text) = request.optional_text("module")? {
             self.program = Some(Program::read(text));
@@ -104,6 +114,7 @@ impl Page {
         Ok(())
     }
 
+    #[cfg(feature = "rapid")]
     fn program(&self) -> Result<&Program, Refusal> {
         let none = || Refusal("there is no program: module is missing".to_owned());
         self.program.as_ref().ok_or_else(none)

@@ -77,10 +77,13 @@ pub struct Capsule {
 pub(crate) fn read(request: &Request<'_>) -> Result<AnyRobot, Refusal> {
     let robot = match (request.optional_text("name")?, request.optional_text("urdf")?) {
         (Some(name), None) => AnyRobot::from_catalog(catalog::find(name)?)?,
+        #[cfg(feature = "urdf")]
         (None, Some(urdf)) => {
             let (base, tip) = (request.optional_text("base")?, request.optional_text("tip")?);
             AnyRobot::from_urdf(urdf, base, tip)?
         }
+        #[cfg(not(feature = "urdf"))]
+        (None, Some(_)) => return Err("urdf is not read by this page".to_owned().into()),
         (None, None) => return Err("name is missing, and so is urdf".to_owned().into()),
         (Some(_), Some(_)) => {
             return Err("there is a name and a urdf, it must be one of them".to_owned().into());
