@@ -33,7 +33,7 @@ EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
 
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
-.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page-wasm test-page wheel packages stubs clean \
+.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page test-page wheel packages stubs clean \
 	toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
@@ -97,11 +97,12 @@ test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars and xarray, run do
 test-ros: $(BUILT) ## Install ROS 1 and ROS 2, build the workspace, check both nodes
 	@tests/ros/test.sh $(abspath $(BIN)/python)
 
-# The compiler is of Debian's packages: only where they cannot be had it is skipped, with the reason.
-page-wasm: | toolchains ## Build crates/page for WebAssembly: target/page/irbkin.wasm
+# The compiler is of Debian's packages: where they cannot be had, exit code 77 and the reason.
+page: $(BUILT) ## Build the page, one HTML file with irbkin as WebAssembly: target/page/irbkin.html
 	@page/wasm.sh
+	$(BIN)/python page/pack.py
 
-test-page: $(BUILT) ## Test crates/page, here and in WebAssembly, against Python
+test-page: $(BUILT) ## Test the page: crates/page, its WebAssembly in Node, all of it in Chromium
 	$(STEP) "Tests of crates/page" cargo test --quiet -p irbkin-page
 	@tests/page/test.sh $(abspath $(BIN)/python)
 

@@ -10,9 +10,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 import irbkin
+import numpy as np
 from irbkin import rapid
 from irbkin._core import check_codes, check_program
 from irbkin.body import Shape

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the page's WebAssembly and compares its answers with those of irbkin in Python:
-# tests/page/test.sh PYTHON. Skipped with the reason where there is no compiler or no Node.
+# Builds the page's WebAssembly, compares its answers with irbkin's in Python, and opens the page in a
+# Chromium: tests/page/test.sh PYTHON. What is missing is skipped with the reason.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 code=0
@@ -16,3 +16,14 @@ if ! command -v node >/dev/null; then
     exit
 fi
 node tests/page/wasm.mjs target/page/irbkin.wasm target/page/expected.json
+
+"$1" page/pack.py
+if ! command -v chromium >/dev/null && ! tests/retry.sh apt-get install -y -qq --no-install-recommends chromium; then
+    echo "SKIPPED: the page was not opened: there is no chromium"
+    exit
+fi
+if ! tests/retry.sh "$1" -m pip install --quiet --disable-pip-version-check "playwright>=1.50"; then
+    echo "SKIPPED: the page was not opened: playwright cannot be installed"
+    exit
+fi
+"$1" -m pytest --quiet tests/page

@@ -26,7 +26,7 @@ SHELL = re.compile(
     r"^```(?:console\n(?P<console>.*?)|\w+ (?P<file>[\w-]+\.\w+)\n(?P<content>.*?))^```$",
     re.MULTILINE | re.DOTALL,
 )
-README_WORDS = 700
+README_WORDS = 600
 # Packages of the group "recipes" that a page needs.
 NEEDED = {"recipes.md": ("jax", "polars", "xarray", "distributed")}
 # Folders of the checkout that a page reads, copied beside it.

@@ -27,7 +27,7 @@ class View {
       this.fall("the graphics were lost");
     });
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.ask());
-    new ResizeObserver(() => this.resize()).observe(host);
+    new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.resize();
   }
 

@@ -1,0 +1,21 @@
+"""Pack target/page/irbkin.wasm into the package, and write the page: target/page/irbkin.html."""
+
+import gzip
+from pathlib import Path
+
+from irbkin.scene._page import ENGINE, page
+
+MADE = Path(__file__).parents[1] / "target" / "page"
+
+
+def main() -> None:
+    """Write both files and print their sizes."""
+    ENGINE.write_bytes(gzip.compress((MADE / "irbkin.wasm").read_bytes(), 9, mtime=0))
+    text = page()
+    (MADE / "irbkin.html").write_text(text, encoding="utf-8")
+    sizes = [ENGINE.stat().st_size, len(text.encode())]
+    print("{}: {:.0f} kB; target/page/irbkin.html: {:.0f} kB".format(ENGINE.name, *(it / 1e3 for it in sizes)))
+
+
+if __name__ == "__main__":
+    main()
