@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds crates/page for WebAssembly into target/page/irbkin.wasm: page/wasm.sh. Exit code 77 where
-# the compiler cannot be had, with the reason.
+# Builds crates/page for WebAssembly into target/page/irbkin.wasm: page/wasm.sh [OPTIONS OF CARGO].
+# With --no-default-features it has no RAPID and no URDF. Exit code 77 where the compiler cannot be
+# had, with the reason.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 toolchain=$PWD/target/wasm-toolchain
@@ -9,12 +10,13 @@ target=${CARGO_TARGET_DIR:-target}
 
 # A panic is a trap without a message: messages and the names of source files are left out. Without
 # vectors of two numbers, which browsers have since 2023, the lanes take many times as long to compile.
-flags="-Zunstable-options -Cpanic=immediate-abort -Ctarget-feature=+simd128"
+flags="-Zunstable-options -Cpanic=immediate-abort -Zlocation-detail=none -Ctarget-feature=+simd128"
 libraries=("$toolchain"/usr/lib/*-linux-gnu)
 LD_LIBRARY_PATH=${libraries[0]} RUSTC_BOOTSTRAP=1 RUSTC=$toolchain/usr/bin/rustc \
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$toolchain/wasm-ld RUSTFLAGS=$flags \
-    tests/step.sh "Build irbkin for WebAssembly" cargo build --quiet --locked -p irbkin-page --profile wasm \
-    --target wasm32-unknown-unknown --target-dir "$target" -Zbuild-std=std,panic_abort -Zbuild-std-features=optimize_for_size
+    tests/step.sh "Build irbkin for WebAssembly" \
+    cargo build --quiet --locked -p irbkin-page --profile wasm --target wasm32-unknown-unknown \
+    --target-dir "$target" -Zbuild-std=std,panic_abort -Zbuild-std-features=optimize_for_size "$@"
 mkdir -p target/page
 cp "$target/wasm32-unknown-unknown/wasm/irbkin_page.wasm" target/page/irbkin.wasm
 
