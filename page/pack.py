@@ -13,8 +13,8 @@ def main() -> None:
     ENGINE.write_bytes(gzip.compress((MADE / "irbkin.wasm").read_bytes(), 9, mtime=0))
     text = page()
     (MADE / "irbkin.html").write_text(text, encoding="utf-8")
-    sizes = [ENGINE.stat().st_size, len(text.encode())]
-    print("{}: {:.0f} kB; target/page/irbkin.html: {:.0f} kB".format(ENGINE.name, *(it / 1e3 for it in sizes)))
+    packed, whole = ENGINE.stat().st_size / 1e3, len(text.encode()) / 1e3
+    print(f"{ENGINE.name}: {packed:.0f} kB; target/page/irbkin.html: {whole:.0f} kB")
 
 
 if __name__ == "__main__":

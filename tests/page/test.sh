@@ -22,8 +22,8 @@ if ! command -v chromium >/dev/null && ! tests/retry.sh apt-get install -y -qq -
     echo "SKIPPED: the page was not opened: there is no chromium"
     exit
 fi
-if ! tests/retry.sh "$1" -m pip install --quiet --disable-pip-version-check "playwright>=1.50"; then
-    echo "SKIPPED: the page was not opened: playwright cannot be installed"
+if ! tests/retry.sh "$1" -m pip install --quiet --disable-pip-version-check --group page; then
+    echo "SKIPPED: the page was not opened: its tools cannot be installed"
     exit
 fi
 "$1" -m pytest --quiet tests/page

@@ -73,4 +73,5 @@ def engine() -> str:
 def module() -> str:
     """Return the page as a module of JavaScript that a notebook's widget imports."""
     widget = (FOLDER / "widget.js").read_text(encoding="utf-8")
-    return f"{scripts()}\nconst WASM = {json.dumps(engine())};\n{widget}"
+    own = f"const WASM = {json.dumps(engine())};\nconst STYLE = {json.dumps(style())};"
+    return f"{scripts()}\n{own}\n{widget}"

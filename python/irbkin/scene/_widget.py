@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from irbkin.scene._page import module, style
+from irbkin.scene._page import module
 
 try:
     import anywidget
@@ -41,7 +41,6 @@ class View(anywidget.AnyWidget):
             q = shown[0] if shown else first.motion.q[0] if first.motion else ()
         super().__init__(
             _esm=module(),
-            _css=style(),
             arm=first.name if first else "",
             scene=scene.to_json(),
             height=height,

@@ -22,8 +22,15 @@ class App {
     this.program = new Program(this);
     this.stage.append(this.program.node);
     this.watch();
-    this.arms = engine.ask({ do: "catalog" }).arms;
-    this.parts.arms.append(...this.arms.map((it) => el("option", { value: it.name }, it.maker)));
+  }
+
+  // The catalog, which takes longer than the first picture.
+  get arms() {
+    if (!this.known) {
+      this.known = this.engine.ask({ do: "catalog" }).arms;
+      this.parts.arms.append(...this.known.map((it) => el("option", { value: it.name }, it.maker)));
+    }
+    return this.known;
   }
 
   open() {
@@ -36,6 +43,7 @@ class App {
       this.setArm({ name: START });
     }
     this.view.fit();
+    setTimeout(() => this.arms, 300);
   }
 
   // Run something, and show a sentence in a place if it is refused.

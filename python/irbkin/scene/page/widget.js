@@ -5,7 +5,9 @@ const same = (a, b) => a.length === b.length && a.every((it, i) => Math.abs(it -
 function render({ model, el: host }) {
   const room = document.createElement("div");
   room.style.height = `${model.get("height")}px`;
-  host.append(room);
+  const look = document.createElement("style");
+  look.textContent = STYLE;
+  host.append(look, room);
   Engine.of(WASM).then((engine) => {
     const app = new App(room, engine, {
       arm: model.get("arm") || undefined,
