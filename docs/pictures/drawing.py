@@ -25,10 +25,26 @@ STYLE: dict[Any, Any] = {
     "grid.linewidth": 0.6,
     "lines.linewidth": 1.6,
     "path.simplify_threshold": 0.3,
-    "savefig.facecolor": "white",
+    "axes.facecolor": "none",
+    "savefig.facecolor": "none",
     "svg.fonttype": "none",
     "svg.hashsalt": "irbkin",
 }
+
+
+# Without a background; where pages are dark, dark lines and words are light.
+DARK = {"#000000": "#e6e9ef", "#333333": "#ccd3dd", "#555555": "#aab4c2", "#777777": "#98a2b3"}
+GRID = {"#dddddd": "#333c4a", "#dcdcdc": "#3a4452", "#c8c8c8": "#4a5566"}
+
+
+def twin(svg: str) -> str:
+    """Give a drawing other colors where the page that shows it is dark."""
+    rules = ["text{fill:#e6e9ef!important}"]
+    for light, dark in {**DARK, **GRID}.items():
+        for part in ("stroke", "fill"):
+            rules.append(f'[style*="{part}: {light}"]{{{part}:{dark}!important}}')
+    style = f"<style>@media (prefers-color-scheme:dark){{{''.join(rules)}}}</style>"
+    return re.sub(r"(<svg\b[^>]*>)", lambda tag: f"{tag[1]}\n{style}", svg, count=1)
 
 
 def compact(svg: str) -> str:
@@ -44,5 +60,5 @@ def save(figure: Figure, name: str, folder: Path = DRAWN) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     target = folder / f"{name}.svg"
     figure.savefig(target, dpi=150, metadata={"Date": None, "Creator": None})
-    target.write_text(compact(target.read_text()))
+    target.write_text(twin(compact(target.read_text())))
     print(f"{target}: {target.stat().st_size / 1000:.0f} kB")
