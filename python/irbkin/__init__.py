@@ -77,6 +77,7 @@ if TYPE_CHECKING:
     from irbkin import ros as ros
     from irbkin import scene as scene
     from irbkin import trajectory as trajectory
+    from irbkin import viewer as viewer
     from irbkin.calibration import calibrate as calibrate
 
 __all__ = [
@@ -138,6 +139,7 @@ _MODULES = (
     "ros",
     "scene",
     "trajectory",
+    "viewer",
 )
 
 # Names of other packages, and what to use here.

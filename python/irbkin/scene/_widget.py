@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from irbkin.scene._data import Scene
 
 
-class View(anywidget.AnyWidget):
+class View(anywidget.AnyWidget):  # type: ignore[misc]
     """A scene in a notebook. Its first arm is moved by the handle and by Python.
 
     `view.q` are its joint angles [rad], a list: setting them moves the arm, and dragging the handle
