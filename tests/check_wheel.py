@@ -26,8 +26,8 @@ from pathlib import Path
 # of seven joints, limits of jerk, bodies and cells 0.16 more; motions proven free, meshes, hulls,
 # cells of files, fitted bodies and free motion 0.36 more, programs of RAPID that are followed, with
 # functions, records and the reading behind faults 0.29 more, backups, reports and the server of
-# editors 0.08 more, the same programs of seven axes 0.05 more, scenes, pictures of arms
-# and the page's scripts 0.06 more, columns, hints and followers 0.04 more. The rest is room for compilers.
+# editors 0.08 more, the same programs of seven axes 0.05 more, scenes, pictures of arms and the
+# page's scripts 0.06 more, columns, hints and followers 0.04 more. The rest is room for compilers.
 # A build with `-C llvm-args=-inline-threshold=100` is 7 % smaller, but its batches of singularities
 # and configurations are 17 % and 60 % slower: it was not taken.
 MOST_BYTES = 4_200_000

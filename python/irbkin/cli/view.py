@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 HELP = """The page is one file that needs no network: drag the tool, jog the joints, see every
 solution, play the program. ROBOT is a name of the catalog, a .urdf, or a scene (.json) that
 irbkin.scene wrote. FILE is a RAPID module: its main routine, or the only one that moves, is played
-with its lines and findings. Without -o the page is written to a temporary file and opened."""
+with its lines and findings. Without -o the page is written to a temporary file and opened. --live
+serves a window of viser in its place, until Ctrl-C: pip install 'irbkin[viewer]'."""
 EXAMPLES = """  irbkin view "IRB 2600-12/1.65"
   irbkin view "IRB 2600-12/1.65" program.mod --cell cell.toml
   irbkin view arm.urdf --joints 0 20 10 0 40 0 -o arm.html
@@ -36,6 +37,8 @@ def add_arguments(parser: Parser) -> None:
     add("--joints", nargs="+", type=number, metavar="Q", help="joint angles [deg]")
     parser.add_cell()
     add("-o", "--output", metavar="FILE", help="write the page (.html), or the scene (.json)")
+    add("--live", action="store_true", help="serve a window, until Ctrl-C")
+    add("--port", type=int, default=8080, metavar="PORT", help="of --live: 8080")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -44,6 +47,8 @@ def run(arguments: argparse.Namespace) -> int:
     if output is not None and not output.lower().endswith(ENDINGS):
         raise CommandError(f"--output: {output} must end in .html or .json")
     scene = _scene(arguments)
+    if arguments.live:
+        return _serve(scene, arguments)
     try:
         if output is not None:
             scene.save(output)
@@ -58,6 +63,19 @@ def run(arguments: argparse.Namespace) -> int:
     print(path)
     webbrowser.open(f"file://{path}")
     return FINE
+
+
+def _serve(scene: Scene, arguments: argparse.Namespace) -> int:
+    """Serve a window until the command is interrupted."""
+    import time
+
+    from irbkin.viewer import Viewer
+
+    is_scene = arguments.robot.lower().endswith(".json")
+    robot = None if is_scene else read_robot(arguments)
+    print(Viewer(scene, robot, port=arguments.port).url, flush=True)
+    while True:
+        time.sleep(1.0)
 
 
 def _scene(arguments: argparse.Namespace) -> Scene:
