@@ -4,7 +4,11 @@
 class DrawnArm {
   constructor({ base, links, tool, coupling, shapes }) {
     Object.assign(this, { base, links, tool, coupling });
-    this.meshes = shapes.map((capsules) => joined(capsules.map(capsuleMesh)));
+    const meshes = (detail) => shapes.map(
+      (capsules) => joined(capsules.map((it) => capsuleMesh(it, detail))),
+    );
+    this.meshes = meshes(FINE);
+    this.coarse = meshes(COARSE);
     this.shapes = shapes;
   }
 

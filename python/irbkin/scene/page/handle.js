@@ -6,6 +6,15 @@ const GRIP = { ball: [0.98, 0.75, 0.14] };
 const HANDLE = 90;
 const NEAR = 14;
 const RING = 48;
+// Of size 1: they are drawn larger.
+const BALL = capsuleMesh({ a: [0, 0, 0], b: [0, 0, 0], radius: 1 });
+const SHAFT = capsuleMesh({ a: [0, 0, 0], b: [0, 0, 1], radius: 0.018 });
+
+// A ball at a point.
+function drawBall(drawing, center, radius, color, options) {
+  const model = identity().map((it, i) => (i < 11 ? radius * it : it));
+  drawing.mesh(BALL, Handle.shifted(model, center), color, options);
+}
 
 class Handle {
   // The size of the handle in the world: the same on the screen wherever it is.
@@ -28,20 +37,20 @@ class Handle {
     for (let axis = 0; axis < 3; axis++) {
       const bright = (part) => (held === part ? [1, 0.85, 0.2] : AXIS_COLORS[axis]);
       const tip = add(from, scale(axisOf(pose, axis), size));
-      const shaft = { a: from, b: tip, radius: 0.018 * size };
-      const head = { a: tip, b: tip, radius: 0.07 * size };
       if (drawing.isFlat) {
         drawing.lines([from, tip], bright(`move${axis}`));
       } else {
-        drawing.mesh(capsuleMesh(shaft), identity(), bright(`move${axis}`), { onTop: true });
-        drawing.mesh(capsuleMesh(head), identity(), bright(`move${axis}`), { onTop: true });
+        // The shaft is along z: the axes in turn, so that this one is third.
+        const [u, v, w] = [1, 2, 3].map((it) => scale(axisOf(pose, (axis + it) % 3), size));
+        const model = [...u, 0, ...v, 0, ...w, 0, ...from, 1];
+        drawing.mesh(SHAFT, model, bright(`move${axis}`), { onTop: true });
+        drawBall(drawing, tip, 0.07 * size, bright(`move${axis}`), { onTop: true });
       }
       drawing.lines(Handle.ring(pose, axis, 0.72 * size), bright(`turn${axis}`), {
         loop: true, onTop: true,
       });
     }
-    const ball = { a: from, b: from, radius: 0.075 * size };
-    if (!drawing.isFlat) drawing.mesh(capsuleMesh(ball), identity(), GRIP.ball, { onTop: true });
+    if (!drawing.isFlat) drawBall(drawing, from, 0.075 * size, GRIP.ball, { onTop: true });
   }
 
   // The part of the handle at a place of the screen; null if there is none.

@@ -1,7 +1,8 @@
 // Triangles of the shapes that a scene has: { position, normal, index } as flat lists.
 
-const ROUND = 20;
-const CAPS = 5;
+// Corners around an axis, and rings of a round end: of what is looked at, and of faint copies.
+const FINE = { round: 18, caps: 4 };
+const COARSE = { round: 8, caps: 2 };
 
 function joined(meshes) {
   const whole = { position: [], normal: [], index: [] };
@@ -22,19 +23,19 @@ function sides(along) {
 }
 
 // A surface of rings: each has a point on the axis, a radius, and the slope of its normal.
-function rings(along, list) {
+function rings(along, list, round = FINE.round) {
   const [u, v] = sides(along);
   const mesh = { position: [], normal: [], index: [] };
   list.forEach(({ center, radius, slope }, ring) => {
-    for (let step = 0; step <= ROUND; step++) {
-      const angle = (2 * Math.PI * step) / ROUND;
+    for (let step = 0; step <= round; step++) {
+      const angle = (2 * Math.PI * step) / round;
       const out = add(scale(u, Math.cos(angle)), scale(v, Math.sin(angle)));
       mesh.position.push(...add(center, scale(out, radius)));
       mesh.normal.push(...add(scale(out, Math.cos(slope)), scale(along, Math.sin(slope))));
     }
     if (ring === 0) return;
-    const row = ROUND + 1;
-    for (let step = 0; step < ROUND; step++) {
+    const row = round + 1;
+    for (let step = 0; step < round; step++) {
       const [a, b] = [(ring - 1) * row + step, ring * row + step];
       mesh.index.push(a, a + 1, b, b, a + 1, b + 1);
     }
@@ -42,21 +43,21 @@ function rings(along, list) {
   return mesh;
 }
 
-function capsuleMesh({ a, b, radius }) {
+function capsuleMesh({ a, b, radius }, { round, caps } = FINE) {
   const along = unit(subtract(b, a));
   const list = [];
-  for (let step = 0; step <= 2 * CAPS; step++) {
-    const slope = (Math.PI * (step - CAPS)) / (2 * CAPS);
-    const [end, half] = step <= CAPS ? [a, slope] : [b, slope];
+  for (let step = 0; step <= 2 * caps; step++) {
+    const slope = (Math.PI * (step - caps)) / (2 * caps);
+    const [end, half] = step <= caps ? [a, slope] : [b, slope];
     const ring = (center) => ({
       center: add(center, scale(along, radius * Math.sin(half))),
       radius: radius * Math.cos(half),
       slope: half,
     });
     list.push(ring(end));
-    if (step === CAPS) list.push(ring(b));
+    if (step === caps) list.push(ring(b));
   }
-  return rings(along, list);
+  return rings(along, list, round);
 }
 
 function cylinderMesh({ radius, length: long }) {

@@ -85,7 +85,7 @@ class View {
     for (const it of this.extra) this.body(it.arm, it.q, it.alpha);
     if (this.way.length) drawing.lines(this.way, [0.12, 0.47, 0.71]);
     for (const { at, color } of this.marks) {
-      drawing.mesh(capsuleMesh({ a: at, b: at, radius: 0.012 * camera.distance }), identity(), color);
+      drawBall(drawing, at, 0.012 * camera.distance, color);
     }
     if (app.settings.ghosts) {
       state.solutions.forEach((it, index) => {
@@ -106,7 +106,8 @@ class View {
 
   body(arm, q, alpha) {
     const { links } = arm.frames(q);
-    arm.meshes.forEach((mesh, link) => {
+    const meshes = alpha < 0.5 ? arm.coarse : arm.meshes;
+    meshes.forEach((mesh, link) => {
       const own = link === 0 ? BASE_COLOR : LINK_COLORS[link % 2];
       const color = [...(alpha < 1 ? GHOST_COLOR : own), alpha];
       if (this.drawing.isFlat) this.drawing.capsules(arm.shapes[link], links[link], color);
