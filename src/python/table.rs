@@ -79,8 +79,10 @@ fn singularities<const N: usize>(solution: &Solution<N>) -> String {
 /// The head and the rows that are shown.
 fn rows<const N: usize>(solutions: &[Solution<N>], robot: &Robot<N>) -> Vec<Vec<String>> {
     let mut head = vec!["slot".to_owned()];
-    head.extend((1..=N).map(|joint| format!("q{joint} [deg]")));
-    head.extend(["limits", "margin [deg]"].map(str::to_owned));
+    // The unit of all, once: the table is wide.
+    head.push("q1 [deg]".to_owned());
+    head.extend((2..=N).map(|joint| format!("q{joint}")));
+    head.extend(["limits", "margin"].map(str::to_owned));
     head.extend(robot.configuration_rule().ok().map(|_| "confdata".to_owned()));
     head.push("singularities".to_owned());
     let shown = solutions.iter().take(MOST_ROWS).map(|solution| cells(solution, robot));

@@ -192,10 +192,11 @@ def test_an_answer_prints_as_a_table():
     assert lines[0] == "7 solutions, 3 inside limits"
     assert lines[1].split() == [
         "slot",
-        *[word for i in range(1, 7) for word in (f"q{i}", "[deg]")],
+        "q1",
+        "[deg]",
+        *[f"q{i}" for i in range(2, 7)],
         "limits",
         "margin",
-        "[deg]",
         "confdata",
         "singularities",
     ]
