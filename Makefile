@@ -129,7 +129,7 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
 	$(STEP) "mypy" $(BIN)/mypy --no-error-summary
-	$(STEP) "stubs" $(BIN)/python -m mypy.stubtest irbkin --concise --allowlist tests/python/stubtest_allow.txt
+	$(STEP) "stubs" $(BIN)/python -m mypy.stubtest irbkin._core --concise --allowlist tests/python/stubtest_allow.txt
 	$(STEP) "examples in Python run" bash -eu -c 'for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done'
 
 bench: $(RELEASED) ## Time single poses, batches, Python's calls and a RAPID module
