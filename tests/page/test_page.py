@@ -155,6 +155,8 @@ PASTED = {
     "target": TARGET,
     "move": f"MoveL {TARGET},v100,fine,tool0;",
     "quaternion": "900 -300 500 0 0 1 0",
+    "angles": "900 -300 500 180 0 180",
+    "labels": "x: 900, y: -300, z: 500, rz: 180, ry: 0, rx: 180",
     "matrix": "[[-1,0,0,0.9],[0,1,0,-0.3],[0,0,-1,0.5],[0,0,0,1]]",
     "jointtarget": "[[10,20,-10,5,30,5],[9E9,9E9,9E9,9E9,9E9,9E9]]",
     "joints": "10, 20, -10, 5, 30, 5",
@@ -175,6 +177,50 @@ def test_what_is_pasted_is_read(opened, kind):
     if "v" in kind or kind in ("robtarget", "target", "move"):
         assert own["confdata"] == [-1, 0, -1, 0]
         np.testing.assert_allclose(own["q"], robot.ik_configured(T, (-1, 0, -1, 0)), atol=1e-9)
+
+
+def test_an_angle_that_is_typed_stays_what_it_is(opened):
+    page = opened(hash="arm=IRB 2600-12/1.65&q=0,0,0,0,30,0")
+    fields = [page.get_by_label(name, exact=True).first for name in ("rz", "ry", "rx")]
+    fields[1].fill("")
+    fields[1].press_sequentially("120.5", delay=20)
+    turn = pose(state(page))[:3, :3]
+    angles = [float(it.input_value()) for it in fields]
+    assert angles[1] == 120.5
+    wanted = irbkin.pose([0, 0, 0], euler_zyx=np.radians(angles))[:3, :3]
+    np.testing.assert_allclose(turn, wanted, atol=1e-6)
+
+
+def test_a_scene_has_its_own_tool_base_and_arm(opened, tmp_path):
+    base = irbkin.pose([0.3, -0.2, 0.5], wxyz=[0.6, 0, 0, 0.8])
+    robot = irbkin.Robot("IRB 2600-12/1.65").with_tool([0, 0, 0.2]).with_base(base)
+    q = np.array([0.1, 0.3, 0.2, 0.4, 0.5, 0.6])
+    own, other = tmp_path / "own.json", tmp_path / "other.json"
+    irbkin.scene.of(robot, q=q).save(own)
+    ur = irbkin.Robot.from_urdf(ROOT / "tests" / "data" / "ur5e.urdf", tip="tool0")
+    irbkin.scene.of(ur).save(other)
+    page = opened()
+    page.set_input_files("input[type=file]", own)
+    page.wait_for_function("() => irbkin.state.base[14] === 0.5")
+    np.testing.assert_allclose(pose(state(page)), robot.fk(q), atol=1e-9)
+    page.set_input_files("input[type=file]", other)
+    page.wait_for_function("() => irbkin.view.isBare")
+    assert page.evaluate("() => irbkin.view.extra[0].arm.meshes.some((it) => it.index.length)")
+
+
+def test_rubbish_in_the_address_starts_the_page(opened):
+    for hash in ("q=1e999,0,0,0,0,0", "tool=1e999,0,0,0,0,0", "base=9e9,0,0,0,0,0", "arm=x&q=a"):
+        own = state(opened(hash=hash))
+        assert len(own["q"]) == 6, hash
+        assert all(np.isfinite(own["q"])), hash
+
+
+def test_an_unreachable_drag_stays_unreachable(opened):
+    page = opened()
+    page.evaluate("() => irbkin.setPose(Handle.shifted(irbkin.state.T, [2, 0, 0]), { drag: true })")
+    page.evaluate("() => irbkin.settled()")
+    page.wait_for_timeout(400)
+    assert page.locator(".verdict").inner_text().startswith("Not reached")
 
 
 def test_impossible_numbers_are_marked_and_nothing_stops(opened):

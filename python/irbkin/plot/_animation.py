@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.animation import FuncAnimation, PillowWriter
 
 from irbkin._arguments import check_robot
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
     from irbkin.trajectory import Trajectory
 
 MOST_FRAMES = 2000
+MOST_MEGABYTES = 1000
 SEEN = 60
 """Postures that the extent of the picture is made of."""
 
@@ -36,6 +39,10 @@ class Movie:
         self.figure = figure
         self.count, self.fps = count, fps
         self._draw = draw
+
+    @property
+    def _whole_fps(self) -> int:
+        return max(round(self.fps), 1)
 
     def _animation(self) -> FuncAnimation:
         each = 1e3 / self.fps
@@ -49,7 +56,7 @@ class Movie:
         """
         ending = os.path.splitext(path)[1].lower()
         if ending == ".gif":
-            self._animation().save(os.fspath(path), writer=PillowWriter(fps=round(self.fps)))
+            self._animation().save(os.fspath(path), writer=PillowWriter(fps=self._whole_fps))
         elif ending in (".html", ".htm"):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(self.to_html())
@@ -58,7 +65,9 @@ class Movie:
 
     def to_html(self) -> str:
         """Return the motion as HTML with its frames and buttons, which needs no other file."""
-        text: str = self._animation().to_jshtml(fps=round(self.fps), embed_frames=True)
+        # matplotlib leaves frames out beyond its own limit.
+        with rc_context({"animation.embed_limit": MOST_MEGABYTES}):
+            text: str = self._animation().to_jshtml(fps=self._whole_fps, embed_frames=True)
         return text
 
     def _repr_html_(self) -> str:
@@ -102,7 +111,7 @@ def motion(
     if own.motion is None or not own.motion.q:
         raise InvalidMotionError("the motion has no joint angles")
     t, rows = np.array(own.motion.t), np.array(own.motion.q)
-    count = int(t[-1] / speed * fps) + 1
+    count = math.ceil(t[-1] / speed * fps - 1e-9) + 1
     if count > MOST_FRAMES:
         raise InvalidMotionError(
             f"the motion of {t[-1]:.1f} s has {count} pictures, at most {MOST_FRAMES} are drawn: "

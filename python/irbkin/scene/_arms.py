@@ -10,13 +10,14 @@ import numpy as np
 
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
-from irbkin.errors import InvalidJointsError
+from irbkin.errors import InvalidJointsError, InvalidModelError
 from irbkin.scene._data import Arm, LinkShape, Motion, Posture
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from irbkin import Robot
+    from irbkin.body import Body
 
 MOST_SAMPLES = 2000
 """Samples of a motion; more are thinned."""
@@ -62,7 +63,7 @@ def arm_of(
     base = np.asarray(robot.base)
     frames = [base, *robot.link_frames(np.zeros(robot.dof))]
     between = [np.linalg.solve(one, other) for one, other in pairwise(frames)]
-    body = robot.body
+    body = _body(robot)
     shapes = () if body is None else zip(body.links.tolist(), body.capsules, strict=True)
     return Arm(
         robot.name if name is None else name,
@@ -76,6 +77,16 @@ def arm_of(
         tuple(postures),
         motion,
     )
+
+
+def _body(robot: Robot) -> Body | None:
+    """The body of a robot, or an approximate one; None if its lengths give none."""
+    if robot.body is not None:
+        return robot.body
+    try:
+        return robot.approximate_body()
+    except InvalidModelError:
+        return None
 
 
 def _coupling(robot: Robot) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import re
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -30,8 +31,8 @@ def page(scene: Scene | None = None) -> str:
         FileNotFoundError: This installation has no `irbkin.wasm.gz`.
     """
     text = (FOLDER / "page.html").read_text(encoding="utf-8")
-    # A text cannot end the script that it is in.
-    own = "null" if scene is None else scene.to_json().replace("</", "<\\/")
+    # A text cannot begin or end the script that it is in.
+    own = "null" if scene is None else scene.to_json().replace("<", "\\u003c")
     title = "irbkin" if scene is None or not scene.title else f"irbkin: {scene.title}"
     parts = {
         "/*title*/": title.replace("&", "&amp;").replace("<", "&lt;"),
@@ -40,10 +41,8 @@ def page(scene: Scene | None = None) -> str:
         "/*wasm*/": engine(),
         "/*scene*/": own,
     }
-    for mark, part in parts.items():
-        before, _, after = text.partition(mark)
-        text = f"{before}{part}{after}"
-    return text
+    marks = "|".join(map(re.escape, parts))
+    return re.sub(marks, lambda mark: parts[mark[0]], text)
 
 
 @cache

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from irbkin.scene._arms import link_frames
 from irbkin.scene._page import module
 
 try:
@@ -27,11 +28,9 @@ class View(anywidget.AnyWidget):  # type: ignore[misc]
     sets them; `view.observe(f, "q")` calls f then. `view.T` is the pose of its tool.
     """
 
-    arm = traitlets.Unicode("").tag(sync=True)
     scene = traitlets.Unicode("").tag(sync=True)
     height = traitlets.Int(560).tag(sync=True)
     q = traitlets.List(traitlets.Float()).tag(sync=True)
-    pose = traitlets.List(traitlets.Float()).tag(sync=True)
 
     def __init__(self, scene: Scene, height: int = 560) -> None:
         first = scene.arms[0] if scene.arms else None
@@ -39,9 +38,9 @@ class View(anywidget.AnyWidget):  # type: ignore[misc]
         if first is not None:
             shown = [it.q for it in first.postures if not it.is_ghost]
             q = shown[0] if shown else first.motion.q[0] if first.motion else ()
+        self._arm = first
         super().__init__(
             _esm=module(),
-            arm=first.name if first else "",
             scene=scene.to_json(),
             height=height,
             q=list(q),
@@ -49,5 +48,8 @@ class View(anywidget.AnyWidget):  # type: ignore[misc]
 
     @property
     def T(self) -> np.ndarray[Any, np.dtype[np.float64]]:
-        """The pose of the tool, shape (4, 4)."""
-        return np.vstack([np.reshape(self.pose or np.eye(4)[:3].ravel(), (3, 4)), [0, 0, 0, 1]])
+        """The pose of the tool of the first arm, shape (4, 4)."""
+        if self._arm is None:
+            return np.eye(4)
+        tool: np.ndarray[Any, np.dtype[np.float64]] = link_frames(self._arm, self.q)[-1]
+        return tool

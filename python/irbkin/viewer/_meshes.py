@@ -20,8 +20,10 @@ def capsule(shape: LinkShape) -> Any:
     if long == 0.0:
         return _ball(a, shape.radius)
     mesh = trimesh.creation.capsule(height=long, radius=shape.radius, count=(16, 16))
+    # Versions of trimesh differ in where it is.
+    mesh.apply_translation(-mesh.bounds.mean(axis=0))
     mesh.apply_transform(trimesh.geometry.align_vectors([0, 0, 1], (b - a) / long))
-    mesh.apply_translation(a)
+    mesh.apply_translation(0.5 * (a + b))
     return mesh
 
 

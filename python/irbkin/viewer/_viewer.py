@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import viser
 
 from irbkin import Robot, pose, to_xyz_wxyz
-from irbkin.scene import Scene, of
+from irbkin.errors import InvalidJointsError
+from irbkin.scene import Arm, Scene, of
 from irbkin.viewer._drawn import DrawnArm
 from irbkin.viewer._meshes import obstacle
 
@@ -19,6 +21,14 @@ if TYPE_CHECKING:
 COLORS = {"error": (200, 40, 40), "warning": (200, 130, 0), "note": (30, 110, 190)}
 TICK = 1 / 30
 """Time between two pictures of a motion [s]."""
+
+
+def _start(arm: Arm) -> Sequence[float]:
+    """The joint angles at which an arm is drawn first."""
+    shown = [it.q for it in arm.postures if not it.is_ghost]
+    if shown:
+        return shown[0]
+    return arm.motion.q[0] if arm.motion and arm.motion.q else (0.0,) * len(arm.joints)
 
 
 class Viewer:
@@ -57,16 +67,13 @@ class Viewer:
             DrawnArm(self.server, f"arm_{index}", arm, ghosts=index == 0 and self.robot is not None)
             for index, arm in enumerate(self.scene.arms)
         ]
-        for drawn in self._arms:
-            arm = drawn.arm
-            shown = [it.q for it in arm.postures if not it.is_ghost]
-            q = shown[0] if shown else arm.motion.q[0] if arm.motion else np.zeros(len(arm.joints))
+        starts = [_start(it) for it in self.scene.arms]
+        for drawn, q in zip(self._arms, starts, strict=True):
             drawn.show(q)
         self._q = np.zeros(0)
         if self._arms:
             self._add_controls()
-            first = self.scene.arms[0]
-            self.q = first.postures[0].q if first.postures else first.motion.q[0]  # type: ignore[union-attr]
+            self.q = starts[0]
 
     @property
     def url(self) -> str:
@@ -80,7 +87,10 @@ class Viewer:
 
     @q.setter
     def q(self, q: npt.ArrayLike) -> None:
-        self._q = np.array(q, dtype=float)
+        angles = np.array(q, dtype=float)
+        if angles.shape != (len(self.scene.arms[0].joints),) or not np.isfinite(angles).all():
+            raise InvalidJointsError(f"q must have {len(self.scene.arms[0].joints)} finite angles")
+        self._q = angles
         self._arms[0].show(self._q)
         if self.robot is None:
             return
@@ -114,6 +124,8 @@ class Viewer:
     def play(self) -> None:
         """Play the motion of the scene once, from where the slider is; return when it ends."""
         duration = self.scene.duration
+        if self.is_playing or duration <= 0.0:
+            return
         begun, first = time.perf_counter(), float(self._slider.value) % max(duration, 1e-9)
         self.is_playing = True
         while self.is_playing and self._slider.value <= duration:
@@ -198,14 +210,14 @@ class Viewer:
                 position=xyz,
                 wxyz=wxyz,
             )
-        for path in self.scene.paths:
+        for index, path in enumerate(self.scene.paths):
             points = np.array(path.points)
             if len(points) > 1:
                 pairs = np.stack([points[:-1], points[1:]], axis=1)
                 scene.add_line_segments(
-                    f"/paths/{path.name}", pairs, (30, 110, 190), thickness=0.004
+                    f"/paths/{index}_{path.name}", pairs, (30, 110, 190), thickness=0.004
                 )
-        for cloud in self.scene.clouds:
+        for cloud in (it for it in self.scene.clouds if it.points):
             values = np.array(cloud.values)
             part = values[:, None] / max(float(values.max()), 1e-9)
             colors = ((1 - part) * [253, 231, 37] + part * [68, 1, 84]).astype(np.uint8)
@@ -214,7 +226,7 @@ class Viewer:
             )
         for index, mark in enumerate(self.scene.marks):
             color = COLORS.get(mark.severity, COLORS["note"])
-            scene.add_icosphere(f"/marks/{index}", 0.02, color, position=mark.point)
+            scene.add_icosphere(f"/marks/{index}", 0.02, color, position=np.array(mark.point))
             scene.add_label(
                 f"/marks/{index}/text", mark.text[:80], visible=mark.severity == "error"
             )

@@ -40,6 +40,7 @@ class App {
       this.setArm({ name: asked.name ?? this.options.arm ?? START }, asked.q);
     } catch (fault) {
       this.notes.add(fault.message);
+      Object.assign(this.state, { tool: identity(), base: identity(), wobj: identity() });
       this.setArm({ name: START });
     }
     this.view.fit();
@@ -65,6 +66,7 @@ class App {
       length,
       angle: inMeters ? "rad" : "deg",
       digits: inMeters ? [5, 5] : [2, 3],
+      places: inMeters ? 4 : 1,
       toMeters: (it) => (inMeters ? it : it / 1e3),
       fromMeters: (it) => (inMeters ? it : it * 1e3),
       toRadians: (it) => (inMeters ? it : toRadians(it)),
@@ -75,6 +77,7 @@ class App {
 
   // Take another arm: of the catalog, or of a URDF.
   setArm(source, q) {
+    this.view.isBare = false;
     const { tool, base } = this.state;
     const robot = this.engine.set({ do: "robot", ...source, tool: toRows(tool), base_pose: toRows(base) });
     const isOther = robot.name !== this.robot?.name;
@@ -92,11 +95,22 @@ class App {
       const angle = POSTURE[i] ?? 0;
       return Math.min(Math.max(angle, low ?? -Infinity), high ?? Infinity);
     });
-    const own = q?.length === robot.dof ? q : isOther ? rest : this.state.q;
+    const own = q?.length === robot.dof && q.every(Number.isFinite) ? q : isOther ? rest : this.state.q;
     this.reach = Math.max(...this.arm.points(own).map((it) => length(subtract(it, place(this.arm.base)))), 0.5);
+    if (isOther) {
+      this.program.forgetMotion();
+      Object.assign(this.view, { way: [], marks: [], extra: [] });
+    }
     this.setJoints(own);
     if (isOther) this.view.fit();
-    this.program.read();
+    this.readProgram(isOther);
+  }
+
+  // Check the program again: at once with another arm, after a pause with another frame.
+  readProgram(isOther) {
+    clearTimeout(this.later);
+    if (isOther) this.program.read();
+    else this.later = setTimeout(() => this.program.read(true), 500);
   }
 
   setFrame(name, pose) {
@@ -108,7 +122,7 @@ class App {
 
   // Joint angles: the tool follows.
   setJoints(q, { light = false } = {}) {
-    if (!q.every(Number.isFinite)) return;
+    if (q.length !== this.robot.dof || !q.every(Number.isFinite)) return;
     this.state.q = q;
     this.state.T = this.arm.frames(q).tool;
     this.solve(light);
@@ -146,7 +160,9 @@ class App {
     } catch (fault) {
       Object.assign(state, { solutions: [], own: -1, reason: fault.message });
     }
-    state.isReached = !moves || !state.reason;
+    if (moves) state.isMoved = true;
+    else if (!this.isSettling) state.isMoved = false;
+    state.isReached = !state.isMoved || !state.reason;
     this.show(light);
     if (!light) this.settled();
     this.options.onchange?.(state);
@@ -156,7 +172,11 @@ class App {
   settled() {
     if (this.wait) clearTimeout(this.wait);
     this.wait = setTimeout(() => {
-      if (!this.program.isPlaying && this.state.posture && !this.state.posture.contact) this.solve(false);
+      if (!this.program.isPlaying && this.state.posture && !this.state.posture.contact) {
+        this.isSettling = true;
+        this.solve(false, this.state.isMoved);
+        this.isSettling = false;
+      }
       this.remember();
     }, 120);
   }
@@ -169,7 +189,10 @@ class App {
       + (isIdentity(state.wobj) ? "" : ", in the work object");
     this.rows.forEach((row, joint) => row.show(state.q[joint]));
     parts.frames.forEach(({ name, fields }) => fields.show(state[name]));
+    const root = this.host.getRootNode();
+    const focused = [...parts.solutions.children].indexOf(root.activeElement);
     parts.solutions.replaceChildren(...solutionRows(this));
+    parts.solutions.children[focused]?.focus({ preventScroll: true });
     parts.verdict.classList.toggle("bad", !state.isReached);
     const inside = state.solutions.filter((it) => it.within_limits).length;
     parts.verdict.textContent = state.isReached
@@ -190,9 +213,9 @@ class App {
       armAngle !== null && ["arm angle", turn(armAngle)],
       margin.joint && ["nearest limit", `J${margin.joint}, ${turn(margin.rad)}`],
       singular && ["from singularities", `wrist ${turn(singular.wrist)}, elbow ${turn(singular.elbow)}, shoulder `
-        + `${trimmed(this.units.fromMeters(singular.shoulder), 1)} ${this.units.length}`],
+        + `${trimmed(this.units.fromMeters(singular.shoulder), this.units.places)} ${this.units.length}`],
       contact?.near && [contact.collides ? "collides" : "nearest", `link ${contact.link} and ${contact.near}: `
-        + `${trimmed(this.units.fromMeters(contact.distance), 1)} ${this.units.length}`],
+        + `${trimmed(this.units.fromMeters(contact.distance), this.units.places)} ${this.units.length}`],
     ].filter(Boolean);
     this.parts.facts.replaceChildren(...rows.flatMap(([name, text]) => [
       el("dt", {}, name), el("dd", { className: name === "collides" ? "bad" : "" }, text),
@@ -228,7 +251,8 @@ class App {
     const wanted = target.confdata.join();
     const own = this.state.solutions.findIndex((it) => it.confdata?.join() === wanted);
     if (target.q && isIdentity(this.state.wobj)) this.setJoints(target.q);
-    else if (own >= 0) this.choose(own);
+    else if (own >= 0 && this.state.solutions[own].within_limits && this.robot.dof === 6) this.choose(own);
+    else if (this.robot.dof === 7) meant.form += "; with a work object its arm angle is not used";
     else meant.form += `, whose confdata [${target.confdata.join(", ")}] no solution inside the limits has`;
   }
 
@@ -238,7 +262,13 @@ class App {
         this.notes.add(`${file.name} has ${(file.size / 1e6).toFixed(1)} MB, at most 4 MB are read here: irbkin check reads it.`);
         continue;
       }
-      file.text().then((text) => this.guard(this.parts.pasteWords, () => this.openFile(file.name, text)));
+      file.text().then((text) => this.guard(this.parts.pasteWords, () => {
+        try {
+          this.openFile(file.name, text);
+        } catch (fault) {
+          throw new Error(`${file.name}: ${fault.message}`);
+        }
+      }));
     }
   }
 
@@ -253,7 +283,7 @@ class App {
     } else if (["mod", "modx", "prg", "sys", "sysx"].includes(ending)) {
       this.program.open(name, text);
     } else {
-      throw new Error(`${name}: .${ending} is not read; a .urdf, a .mod or a scene (.json) is`);
+      throw new Error(`.${ending} is not read; a .urdf, a .mod or a scene (.json) is`);
     }
   }
 
@@ -271,8 +301,8 @@ class App {
   }
 
   async copy(name, write) {
-    const own = this.source.urdf ? { ...this.state, name: "arm.urdf" } : this.state;
-    const text = write({ ...own, robot: this.robot });
+    const T = this.arm.frames(this.state.q).tool;
+    const text = write({ ...this.state, T, robot: this.robot, source: this.source });
     try {
       await navigator.clipboard.writeText(text);
       this.parts.copied.textContent = `${name} copied`;
@@ -304,7 +334,7 @@ class App {
 
   key(event) {
     const at = event.composedPath()[0];
-    if (["INPUT", "TEXTAREA", "SELECT", "BUTTON"].includes(at.tagName) || event.ctrlKey || event.metaKey) return;
+    if (["INPUT", "TEXTAREA", "SELECT", "BUTTON", "SUMMARY"].includes(at.tagName) || event.ctrlKey || event.metaKey) return;
     const step = event.shiftKey ? 1e-3 : 1e-2;
     const moves = {
       ArrowUp: [step, 0, 0], ArrowDown: [-step, 0, 0], ArrowLeft: [0, step, 0],
@@ -313,7 +343,7 @@ class App {
     const { state } = this;
     const others = state.solutions.map((_, i) => i).filter((i) => state.solutions[i].within_limits);
     const next = (way) => others[(others.indexOf(state.own) + way + others.length) % others.length];
-    if (event.key in moves) this.setPose(Handle.shifted(state.T, moves[event.key]));
+    if (event.key in moves && at === this.view.canvas) this.setPose(Handle.shifted(state.T, moves[event.key]));
     else if (event.key >= "1" && event.key <= "9") this.choose(Number(event.key) - 1);
     else if (event.key === "]") this.choose(next(1));
     else if (event.key === "[") this.choose(next(-1));

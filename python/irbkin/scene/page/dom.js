@@ -13,7 +13,7 @@ function el(tag, properties = {}, ...children) {
 }
 
 // A field for a number, which marks what is no number or beyond its bounds and keeps the rest going.
-function numberField(label, { onvalue, bound = 1e6, step = 1 }) {
+function numberField(label, { onvalue, bound = 1e6, step = () => 1 }) {
   const input = el("input", { type: "text", inputMode: "decimal", ariaLabel: label, spellcheck: false });
   const read = () => {
     const value = Number(input.value.trim().replace(",", "."));
@@ -33,7 +33,7 @@ function numberField(label, { onvalue, bound = 1e6, step = 1 }) {
     const value = way && read();
     if (!way || value === null) return;
     event.preventDefault();
-    input.value = String(Number((value + way * step * (event.shiftKey ? 10 : 1)).toFixed(6)));
+    input.value = String(Number((value + way * step() * (event.shiftKey ? 10 : 1)).toFixed(6)));
     onvalue(Number(input.value));
   });
   const show = (value, digits) => {
@@ -51,19 +51,32 @@ class FrameFields {
     this.units = units;
     this.fields = ["x", "y", "z", "rz", "ry", "rx"].map((name) => numberField(name, {
       onvalue: () => this.changed(onframe),
+      step: () => (units().length === "mm" ? 1 : name.length > 1 ? 0.01 : 0.001),
     }));
     this.node = el("div", { className: "frame", role: "group", ariaLabel: title },
       ...this.fields.map((it) => it.node));
+    this.node.addEventListener("focusout", (event) => {
+      if (this.node.contains(event.relatedTarget)) return;
+      this.typed = false;
+      if (this.pose) this.show(this.pose);
+    });
   }
 
   changed(onframe) {
+    if (this.fields.some((it) => it.input.classList.contains("wrong") || !it.input.value.trim())) return;
     const numbers = this.fields.map((it) => Number(it.input.value.replace(",", ".")));
     if (!numbers.every(Number.isFinite)) return;
+    this.typed = true;
     const { toMeters, toRadians: turn } = this.units();
     onframe(fromEuler(numbers.slice(0, 3).map(toMeters), numbers.slice(3).map(turn)));
   }
 
+  // While one of them is typed in, the others stay as they are: angles have more than one form.
   show(pose) {
+    this.pose = pose;
+    const root = this.node.getRootNode();
+    if (this.typed && this.node.contains(root.activeElement)) return;
+    this.typed = false;
     const { fromMeters, fromRadians, digits } = this.units();
     const numbers = [...place(pose).map(fromMeters), ...toEuler(pose).map(fromRadians)];
     numbers.forEach((it, i) => this.fields[i].show(it, i < 3 ? digits[0] : digits[1]));

@@ -83,7 +83,10 @@ class Handle {
       const way = Handle.along(camera, middle, axis, to) - Handle.along(camera, middle, axis, from);
       return Handle.shifted(pose, scale(axis, way));
     }
-    const angle = Handle.angle(camera, middle, axis, to) - Handle.angle(camera, middle, axis, from);
+    // Seen from the side a ring is turned by the way across it.
+    const isFlat = Math.abs(dot(camera.ray(...from), axis)) < 0.12;
+    const at = (place) => Handle.angle(camera, middle, axis, place, isFlat);
+    const angle = at(to) - at(from);
     const turned = multiply(about(axis, Number.isFinite(angle) ? angle : 0), pose);
     [turned[12], turned[13], turned[14]] = middle;
     return turned;
@@ -105,12 +108,11 @@ class Handle {
   }
 
   // The angle about an axis at which the ray of a pixel meets the plane of a ring [rad].
-  static angle(camera, point, axis, [x, y]) {
+  static angle(camera, point, axis, [x, y], isFlat) {
     const ray = camera.ray(x, y);
     const slope = dot(ray, axis);
     const [u, v] = sides(axis);
-    // Seen from the side a ring is turned by the way across it.
-    if (Math.abs(slope) < 0.12) {
+    if (isFlat) {
       const tangent = cross(axis, camera.forward);
       const [px, py] = camera.project(point);
       const each = camera.pixel(point);

@@ -40,7 +40,7 @@ function panels(app) {
   const copy = (name, write) => el("button", { type: "button", onclick: () => app.copy(name, write) }, name);
   parts.file = el("input", {
     type: "file", multiple: true, hidden: true, accept: ".urdf,.mod,.modx,.prg,.sys,.json,.xml",
-    onchange: () => app.drop(parts.file.files),
+    onchange: () => { app.drop([...parts.file.files]); parts.file.value = ""; },
   });
 
   parts.node = el("aside", {},
@@ -85,6 +85,7 @@ function jointRows(app) {
     });
     const field = numberField(`J${joint + 1}`, {
       onvalue: (value) => set(app.units.toRadians(value)), bound: 36000,
+      step: () => (app.units.angle === "deg" ? 1 : 0.01),
     });
     const node = el("div", { className: "joint" }, field.node, slider);
     const show = (angle) => {
@@ -103,7 +104,7 @@ function jointRows(app) {
 // The rows of the table of solutions.
 function solutionRows(app) {
   const { state, robot, units } = app;
-  const names = robot.has_confdata ? ["slot", "confdata", "joints", ""] : ["slot", "joints", ""];
+  const names = robot.has_confdata ? ["slot", "confdata", "", "joints"] : ["slot", "", "joints"];
   app.parts.head.replaceChildren(...names.map((it) => el("th", {}, it)));
   return state.solutions.map((it, index) => {
     const flags = [
@@ -123,7 +124,7 @@ function solutionRows(app) {
     },
     el("td", {}, String(it.slot)),
     robot.has_confdata ? el("td", {}, it.confdata?.join(" ") ?? "") : null,
-    el("td", { className: "angles" }, angles),
-    el("td", { className: it.collides || !it.within_limits ? "bad" : "dim" }, flags));
+    el("td", { className: it.collides || !it.within_limits ? "bad" : "dim" }, flags),
+    el("td", { className: "angles" }, angles));
   });
 }

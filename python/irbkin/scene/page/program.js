@@ -30,9 +30,25 @@ class Program {
     this.read();
   }
 
+  // A motion of a scene is of its arm alone.
+  forgetMotion() {
+    this.stop();
+    if (this.text === undefined) {
+      this.motion = null;
+      this.node.hidden = true;
+    }
+  }
+
+  close() {
+    this.text = undefined;
+    this.forgetMotion();
+  }
+
   // Play a motion of a scene.
   openMotion(name, motion) {
+    if (!motion.t.length) return;
     this.stop();
+    this.shown = null;
     this.name = name;
     this.text = undefined;
     this.title.textContent = name;
@@ -46,17 +62,19 @@ class Program {
     this.at(0);
   }
 
-  // Check the module with the arm as it is.
-  read() {
+  // Check the module with the arm as it is; `stays` where the motion is.
+  read(stays = false) {
     if (this.text === undefined) return;
     this.stop();
+    this.shown = null;
+    this.line.textContent = "";
     const { engine } = this.app;
     this.motion = null;
     this.node.hidden = false;
     this.title.textContent = this.name;
     let checked;
     try {
-      checked = engine.ask({ do: "check", module: this.text });
+      checked = engine.ask({ do: "check", module: this.text, collide: this.app.view.obstacles.length > 0 });
     } catch (fault) {
       this.words.textContent = `${this.name} cannot be checked: ${fault.message}`;
       this.list.replaceChildren();
@@ -73,12 +91,12 @@ class Program {
     const unchecked = checked.moves.filter((it) => it.unchecked).length;
     const errors = shown.filter((it) => it.severity === "error").length;
     this.words.textContent = `${checked.moves.length - unchecked} of ${checked.moves.length} moves `
-      + `checked, ${errors} errors, ${shown.length - errors} warnings and notes`
+      + `checked, ${errors} ${errors === 1 ? "error" : "errors"}, ${shown.length - errors} other findings`
       + `${checked.faults.length ? `, ${checked.faults.length} statements not read` : ""}.${why}`;
     this.player.hidden = !this.motion;
     this.fill(checked, shown);
     this.paths();
-    if (this.motion) this.at(0);
+    if (this.motion && !stays) this.at(0);
   }
 
   fill(checked, shown) {
@@ -101,7 +119,10 @@ class Program {
         el("td", {}, ""), el("td", {}, ""), el("td", {}, fault.message)));
     }
     this.list.replaceChildren(...rows);
-    this.marks = shown.flatMap((it) => {
+    if (checked.moves.length > 3000) {
+      this.words.textContent += ` The table has the first 3000.`;
+    }
+    this.marks = shown.slice(0, 300).flatMap((it) => {
       const move = checked.moves.find((one) => one.line === it.line && one.column === it.column);
       const color = { error: [0.8, 0.16, 0.16], warning: [0.75, 0.47, 0] }[it.severity];
       return move?.q && color ? [{ q: move.q, color }] : [];
@@ -189,6 +210,7 @@ class Program {
   }
 
   stop() {
+    if (this.isPlaying) this.app.settled();
     this.isPlaying = false;
     this.button.textContent = "play";
   }

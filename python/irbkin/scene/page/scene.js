@@ -6,6 +6,7 @@ function openScene(app, scene) {
   if (scene.format !== "irbkin scene") throw new Error('not a scene: it has no "format": "irbkin scene"');
   if (scene.version !== 1) throw new Error(`the scene has version ${scene.version}, this page reads 1`);
   const { view, state } = app;
+  app.program.close();
   const [first, ...others] = scene.arms ?? [];
   const obstacles = scene.obstacles ?? [];
   const cell = obstacles.filter((it) => KNOWN.includes(it.shape.kind)).map(({ name, shape }) => ({
@@ -16,7 +17,6 @@ function openScene(app, scene) {
     app.notes.add(`${obstacles.length - cell.length} obstacles are drawn and not tested for collisions.`);
   }
   view.obstacles = obstacles.flatMap((it) => shapeMeshes(it.shape));
-  view.way = (scene.paths ?? []).flatMap((it) => it.points);
   const colors = { error: [0.8, 0.16, 0.16], warning: [0.75, 0.47, 0], note: [0.12, 0.47, 0.71] };
   const dots = (scene.clouds ?? []).flatMap((it) => {
     const most = Math.max(...it.values, 1e-9);
@@ -27,13 +27,21 @@ function openScene(app, scene) {
   if (first) {
     const posture = (first.postures ?? []).find((it) => !it.is_ghost) ?? first.postures?.[0];
     const q = posture?.q ?? first.motion?.q[0];
-    state.base = fromRows(first.base.flat());
-    if (app.arms.some((it) => it.name === first.name)) app.setArm({ name: first.name }, q);
-    else app.notes.add(`${first.name} is not in the catalog: it is drawn, and not solved.`);
     const drawn = DrawnArm.ofScene(first);
-    const isSolved = app.robot.name === first.name;
+    const isSolved = app.arms.some((it) => it.name === first.name);
+    if (isSolved) {
+      // The scene has the tool behind the last joint, the engine behind the flange.
+      const bare = app.engine.ask({ do: "robot", name: first.name });
+      state.base = drawn.base;
+      state.tool = multiply(inverse(fromRows(bare.flange)), drawn.tool);
+      state.wobj = identity();
+      app.setArm({ name: first.name }, q);
+    } else {
+      app.notes.add(`${first.name} is not in the catalog: it is drawn, and not solved.`);
+      app.view.isBare = true;
+    }
     const rest = (first.postures ?? []).filter((it) => it !== posture || !isSolved);
-    view.extra = rest.map((it) => ({ arm: drawn, q: it.q, alpha: it.is_ghost ? 0.2 : 0.6 }));
+    view.extra = rest.map((it) => ({ arm: drawn, q: it.q, alpha: it === posture ? 1 : it.is_ghost ? 0.2 : 0.6 }));
     if (first.motion && isSolved) app.program.openMotion(scene.title ?? "motion", first.motion);
   }
   for (const arm of others) {
@@ -41,6 +49,7 @@ function openScene(app, scene) {
     const q = arm.postures?.[0]?.q ?? arm.motion?.q[0];
     if (q) view.extra.push({ arm: drawn, q, alpha: 1 });
   }
+  view.way = (scene.paths ?? []).flatMap((it) => it.points);
   view.marks = [...(scene.marks ?? []).map((it) => ({ at: it.point, color: colors[it.severity] ?? colors.note })), ...dots];
   for (const it of (scene.marks ?? []).slice(0, 50)) app.notes.add(`${it.place ?? ""} ${it.text}`.trim());
   view.fit();

@@ -9,17 +9,16 @@ function render({ model, el: host }) {
   look.textContent = STYLE;
   host.append(look, room);
   Engine.of(WASM).then((engine) => {
-    const app = new App(room, engine, {
-      arm: model.get("arm") || undefined,
-      onchange: (state) => {
-        if (same(state.q, model.get("q"))) return;
-        model.set("q", state.q);
-        model.set("pose", toRows(state.T));
-        model.save_changes();
-      },
-    });
+    const q = model.get("q");
+    const app = new App(room, engine, {});
     app.open();
     openScene(app, JSON.parse(model.get("scene")));
+    app.setJoints(q);
+    app.options.onchange = (state) => {
+      if (same(state.q, model.get("q"))) return;
+      model.set("q", state.q);
+      model.save_changes();
+    };
     model.on("change:q", () => {
       const q = model.get("q");
       if (!same(q, app.state.q)) app.setJoints(q);

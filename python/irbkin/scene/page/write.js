@@ -11,13 +11,16 @@ function asPython(state) {
   const frames = [
     ["with_tool", state.tool], ["with_base", state.base],
   ].filter(([, it]) => !isIdentity(it));
+  const { urdf, tip } = state.source ?? {};
+  const end = tip ? `, tip=${JSON.stringify(tip)}` : "";
+  const made = urdf ? `Robot.from_urdf("arm.urdf"${end})` : `Robot(${JSON.stringify(name)})`;
   const calls = frames.map(([call, it]) => `.${call}(irbkin.pose(${python(it)}))`).join("");
   return [
     "import irbkin",
-    `robot = irbkin.Robot(${JSON.stringify(name)})${calls}`,
-    `T = irbkin.pose(${python(T)})`,
-    "print(robot.ik(T))",
+    `robot = irbkin.${made}${calls}`,
     `q = [${listed(q, 9)}]  # rad`,
+    `T = irbkin.pose(${python(T)})`,
+    `print(robot.ik(T${q.length === 7 ? ", q7=q[6]" : ""}))`,
     "",
   ].join("\n");
 }
