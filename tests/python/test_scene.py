@@ -111,6 +111,12 @@ def test_a_motion_has_its_times_lines_and_findings():
     assert len(long.paths[0].points) == 500
 
 
+def test_each_robot_of_several_things_stands_at_q():
+    several = scene.of([ROBOT, irbkin.Cell(SHAPES), ROBOT.ik(T)], ROBOT, q=np.full(6, 0.3))
+    firsts = [arm.postures[0].q for arm in several.arms]
+    assert firsts == [(0.3,) * 6, (0.3,) * 6, tuple(ROBOT.ik(T)[0].q)]
+
+
 def test_scenes_add_up():
     both = every_scene()["map"] + every_scene()["cell"]
     assert len(both.clouds) == len(both.arms) == 1
@@ -134,6 +140,8 @@ def test_what_is_no_scene_is_refused_with_its_place():
     ):
         with pytest.raises(ValueError, match=words):
             scene.Scene.from_dict({**data, **change})
+    with pytest.raises(TypeError, match="q is given, but a Solutions has its own joint angles"):
+        scene.of(ROBOT.ik(T), ROBOT, q=np.zeros(6))
     with pytest.raises(TypeError, match="robot is missing: a Trajectory does not know its arm"):
         scene.of(MOVE)
     with pytest.raises(TypeError, match=r"thing must be a Robot, .* got int"):

@@ -33,19 +33,20 @@ def of(
             FollowResult, a `rapid.RoutineMotion` with its findings, a Cell, a `ReachMap`; or a
             sequence of these.
         robot: The arm of anything but a Robot; of a cell and a map it may be left out.
-        q: Joint angles of a Robot [rad], shape (n,) or (k, n): several are drawn.
+        q: Joint angles of a Robot, or of `robot` in a cell or a map [rad], shape (n,) or (k, n):
+            several are drawn.
         title: Words above the scene; the robot's name when not given.
 
     Returns:
         The scene.
 
     Raises:
-        TypeError: Something else, or `robot` is missing.
+        TypeError: Something else, `robot` is missing, or `q` of a thing that has its own.
     """
     if isinstance(thing, list | tuple) and not isinstance(thing, Plan | FollowResult | ReachMap):
         whole = Scene(title)
         for it in thing:
-            whole += of(it, robot)
+            whole += of(it, robot, q=q if isinstance(it, Robot | Cell | ReachMap) else None)
         return whole
     scene = _scene(thing, robot, q)
     name = scene.arms[0].name if scene.arms else ""
@@ -69,6 +70,8 @@ def _scene(thing: Any, robot: Robot | None, q: npt.ArrayLike | None) -> Scene:
             "thing must be a Robot, Solutions, Trajectory, Plan, FollowResult, RoutineMotion, Cell "
             f"or ReachMap, got {type(thing).__name__}"
         )
+    if q is not None:
+        raise TypeError(f"q is given, but a {type(thing).__name__} has its own joint angles")
     if robot is None:
         raise TypeError(f"robot is missing: a {type(thing).__name__} does not know its arm")
     if isinstance(thing, Solutions):
