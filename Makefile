@@ -226,7 +226,7 @@ evidence-ros-starts: $(BUILT) ## COUNT (200) nodes of each ROS ended with SIGTER
 docs: $(BUILT) $(VENV)/.groups ## Write generated tables and transcripts, draw the pictures, build cargo doc
 	IRBKIN_WRITE=1 cargo test --quiet --test suite -- catalog_page::
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_check.py -k rules_of_the_command
-	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k transcripts
+	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k "transcripts or notebook"
 	for script in eight_solutions slots motion plans singularities; do $(BIN)/python docs/pictures/$$script.py; done
 	cargo doc --no-deps --features serde
 

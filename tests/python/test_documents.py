@@ -4,6 +4,7 @@ somewhere.
 
 import contextlib
 import io
+import json
 import os
 import re
 import shutil
@@ -100,6 +101,44 @@ def test_the_transcripts_of_a_page_are_what_a_shell_prints(page, tmp_path):
     if os.environ.get("IRBKIN_WRITE") == "1":
         page.write_text(own)
     assert text == own, "IRBKIN_WRITE=1 pytest tests/python/test_documents.py writes it"
+
+
+def notebook(text):
+    """A page as a notebook (nbformat 4.5) that has been run: its Python and what that prints."""
+    prose, cells = 0, []
+
+    def add(kind, source, **more):
+        if source.strip():
+            lines = source.strip().splitlines(keepends=True)
+            base = {"cell_type": kind, "id": str(len(cells)), "metadata": {}, "source": lines}
+            cells.append(base | more)
+
+    for count, block in enumerate(BLOCK.finditer(text), 1):
+        add("markdown", text[prose : block.start()])
+        stream = {
+            "name": "stdout",
+            "output_type": "stream",
+            "text": (block[2] or "").splitlines(True),
+        }
+        add("code", block[1], execution_count=count, outputs=[stream] if block[2] else [])
+        prose = block.end()
+    add("markdown", text[prose:])
+    kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    whole = {
+        "cells": cells,
+        "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+    return json.dumps(whole, indent=1, ensure_ascii=False) + "\n"
+
+
+def test_the_notebook_is_the_tutorial():
+    page = ROOT / "docs" / "guide" / "tutorial.md"
+    own, file = notebook(page.read_text()), page.with_suffix(".ipynb")
+    if os.environ.get("IRBKIN_WRITE") == "1":
+        file.write_text(own)
+    assert file.read_text() == own, "IRBKIN_WRITE=1 pytest tests/python/test_documents.py writes it"
 
 
 def words(text):
