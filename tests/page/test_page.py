@@ -191,6 +191,14 @@ def test_an_angle_that_is_typed_stays_what_it_is(opened):
     np.testing.assert_allclose(turn, wanted, atol=1e-6)
 
 
+def test_one_field_of_a_frame_leaves_the_others_as_they_are(opened):
+    page = opened(hash="arm=IRB 2600-12/1.65&q=0.123456789,0.2,0.3,0.4,0.5,0.6")
+    wanted = pose(state(page))
+    wanted[1, 3] = 0.25
+    page.get_by_label("y", exact=True).first.fill("250")
+    np.testing.assert_allclose(pose(state(page)), wanted, atol=1e-9)
+
+
 def test_a_scene_has_its_own_tool_base_and_arm(opened, tmp_path):
     base = irbkin.pose([0.3, -0.2, 0.5], wxyz=[0.6, 0, 0, 0.8])
     robot = irbkin.Robot("IRB 2600-12/1.65").with_tool([0, 0, 0.2]).with_base(base)

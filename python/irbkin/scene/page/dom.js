@@ -49,8 +49,8 @@ function numberField(label, { onvalue, bound = 1e6, step = () => 1 }) {
 class FrameFields {
   constructor(title, units, onframe) {
     this.units = units;
-    this.fields = ["x", "y", "z", "rz", "ry", "rx"].map((name) => numberField(name, {
-      onvalue: () => this.changed(onframe),
+    this.fields = ["x", "y", "z", "rz", "ry", "rx"].map((name, i) => numberField(name, {
+      onvalue: (value) => this.changed(i, value, onframe),
       step: () => (units().length === "mm" ? 1 : name.length > 1 ? 0.01 : 0.001),
     }));
     this.node = el("div", { className: "frame", role: "group", ariaLabel: title },
@@ -62,13 +62,13 @@ class FrameFields {
     });
   }
 
-  changed(onframe) {
-    if (this.fields.some((it) => it.input.classList.contains("wrong") || !it.input.value.trim())) return;
-    const numbers = this.fields.map((it) => Number(it.input.value.replace(",", ".")));
-    if (!numbers.every(Number.isFinite)) return;
+  // The fields beside it keep the digits that they do not show.
+  changed(index, value, onframe) {
+    if (this.fields.some((it) => it.input.classList.contains("wrong"))) return;
+    this.numbers[index] = value;
     this.typed = true;
     const { toMeters, toRadians: turn } = this.units();
-    onframe(fromEuler(numbers.slice(0, 3).map(toMeters), numbers.slice(3).map(turn)));
+    onframe(fromEuler(this.numbers.slice(0, 3).map(toMeters), this.numbers.slice(3).map(turn)));
   }
 
   // While one of them is typed in, the others stay as they are: angles have more than one form.
@@ -78,7 +78,7 @@ class FrameFields {
     if (this.typed && this.node.contains(root.activeElement)) return;
     this.typed = false;
     const { fromMeters, fromRadians, digits } = this.units();
-    const numbers = [...place(pose).map(fromMeters), ...toEuler(pose).map(fromRadians)];
-    numbers.forEach((it, i) => this.fields[i].show(it, i < 3 ? digits[0] : digits[1]));
+    this.numbers = [...place(pose).map(fromMeters), ...toEuler(pose).map(fromRadians)];
+    this.numbers.forEach((it, i) => this.fields[i].show(it, i < 3 ? digits[0] : digits[1]));
   }
 }
