@@ -1,10 +1,8 @@
 //! `catalog`: all arms.
 
+use irbkin::catalog;
 use irbkin::catalog::CatalogArm;
-use irbkin::{AnyRobot, catalog};
 use serde::Serialize;
-
-use crate::request::Refusal;
 
 /// All arms of the catalog: ABB's by type number, then other makers' arms.
 #[derive(Debug, Serialize)]
@@ -20,8 +18,6 @@ pub struct Entry {
     pub name: &'static str,
     /// The maker.
     pub maker: &'static str,
-    /// The word for its kinematic structure.
-    pub structure: &'static str,
     /// Number of joints.
     pub dof: usize,
     /// Reach [m].
@@ -31,23 +27,19 @@ pub struct Entry {
 }
 
 impl Catalog {
-    pub(crate) fn all() -> Result<Self, Refusal> {
-        Ok(Self { arms: catalog().map(Entry::of).collect::<Result<_, _>>()? })
+    pub(crate) fn all() -> Self {
+        Self { arms: catalog().map(Entry::of).collect() }
     }
 }
 
 impl Entry {
-    fn of(arm: &'static CatalogArm) -> Result<Self, Refusal> {
-        Ok(Self {
+    fn of(arm: &'static CatalogArm) -> Self {
+        Self {
             name: arm.name,
             maker: arm.maker,
-            structure: match AnyRobot::from_catalog(arm)? {
-                AnyRobot::Six(robot) => robot.structure(),
-                AnyRobot::Seven(robot) => robot.structure(),
-            },
             dof: arm.dof(),
             reach: arm.reach,
             payload: arm.payload,
-        })
+        }
     }
 }

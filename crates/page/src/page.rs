@@ -65,7 +65,7 @@ impl Page {
 
     fn granted(&mut self, request: &Request<'_>) -> Result<String, Refusal> {
         match request.text("do")? {
-            "catalog" => ok(Catalog::all()?),
+            "catalog" => ok(Catalog::all()),
             "robot" => {
                 let robot = self.robot.insert(robot::read(request)?);
                 on!(robot, robot => ok(Arm::of(robot)))

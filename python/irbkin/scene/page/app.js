@@ -16,21 +16,14 @@ class App {
     };
     this.setUnits("mm", true);
     this.parts = panels(this);
+    this.arms = engine.ask({ do: "catalog" }).arms;
+    this.parts.arms.append(...this.arms.map((it) => el("option", { value: it.name }, it.maker)));
     this.stage = el("main", {});
     host.append(el("div", { className: "irbkin" }, this.stage, this.parts.node));
     this.view = new View(this, this.stage);
     this.program = new Program(this);
     this.stage.append(this.program.node);
     this.watch();
-  }
-
-  // The catalog, which takes longer than the first picture.
-  get arms() {
-    if (!this.known) {
-      this.known = this.engine.ask({ do: "catalog" }).arms;
-      this.parts.arms.append(...this.known.map((it) => el("option", { value: it.name }, it.maker)));
-    }
-    return this.known;
   }
 
   open() {
@@ -44,7 +37,6 @@ class App {
       this.setArm({ name: START });
     }
     this.view.fit();
-    setTimeout(() => this.arms, 300);
   }
 
   // Run something, and show a sentence in a place if it is refused.
