@@ -35,12 +35,10 @@ fn rounded(number: f64, parts: f64) -> f64 {
 /// The angle to the nearest limit [deg], negative outside, and whose limit it is; empty without
 /// limits.
 fn margin<const N: usize>(q: &[f64; N], limits: &JointLimits<N>) -> String {
-    let room = |(joint, [lower, upper]): (usize, [f64; 2])| {
-        ((q[joint] - lower).min(upper - q[joint]), format!("J{}", joint + 1))
-    };
-    let joints = limits.to_array().into_iter().enumerate().map(room);
+    let joint = limits.nearest(q).map(|(joint, room)| (room, format!("J{joint}")));
     let linkage = limits.linkage().map(|_| (-limits.linkage_overrun(q), "linkage".to_owned()));
-    let least = joints.chain(linkage).min_by(|(one, _), (other, _)| one.total_cmp(other));
+    let least =
+        joint.into_iter().chain(linkage).min_by(|(one, _), (other, _)| one.total_cmp(other));
     least.filter(|(room, _)| room.is_finite()).map_or_else(String::new, |(room, name)| {
         format!("{:>6.1} {name}", rounded(room.to_degrees(), 1e1))
     })

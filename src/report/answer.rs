@@ -225,6 +225,12 @@ impl fmt::Display for Configuration {
     }
 }
 
+impl From<Configuration> for [i32; 4] {
+    fn from(it: Configuration) -> Self {
+        [it.cf1, it.cf4, it.cf6, it.cfx]
+    }
+}
+
 /// How a controller counts the configurations of an arm.
 ///
 /// docs/guide/abb.md says how each rule was validated.

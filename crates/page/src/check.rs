@@ -62,7 +62,7 @@ impl Checked {
             instruction: instructions.get(&(it.line, it.column)).map(ToString::to_string),
             target: it.target,
             q: it.q.map(|q| q.to_vec()),
-            confdata: it.confdata.map(|conf| [conf.cf1, conf.cf4, conf.cf6, conf.cfx]),
+            confdata: it.confdata.map(Into::into),
             unchecked: it.unchecked.map(rapid::Code::id),
         });
         Ok(Self {

@@ -1,4 +1,4 @@
-//! What answers say of joint angles: confdata, arm angle, margins, contacts.
+//! Facts about joint angles that answers share: confdata, arm angle, margins, contacts.
 
 use core::any::Any;
 
@@ -40,14 +40,11 @@ pub struct Contact {
 
 impl Margin {
     pub(crate) fn of<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Self {
-        let limits = robot.limits().to_array();
-        let rooms = limits.iter().zip(q).map(|([low, high], q)| (q - low).min(high - q));
-        let least = (1..).zip(rooms).min_by(|(_, one), (_, two)| one.total_cmp(two));
-        let least = least.filter(|(_, room)| room.is_finite());
+        let nearest = robot.limits().nearest(q);
         let margin = robot.margin(q);
         Self {
-            joint: least.map(|(joint, _)| joint),
-            rad: least.map(|(_, room)| room),
+            joint: nearest.map(|(joint, _)| joint),
+            rad: nearest.map(|(_, room)| room),
             limits: margin.limits,
             singularities: margin.singularities,
         }
@@ -85,8 +82,7 @@ pub(crate) fn collides<const N: usize>(
 
 /// ABB's confdata of joint angles, if the arm has them.
 pub(crate) fn confdata<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Option<[i32; 4]> {
-    let configuration = robot.configuration(q).ok()?;
-    Some([configuration.cf1, configuration.cf4, configuration.cf6, configuration.cfx])
+    robot.configuration(q).ok().map(Into::into)
 }
 
 /// The arm angle of joint angles [rad], of an arm that has one.

@@ -17,11 +17,11 @@ pub struct Meant {
     /// The pose of the tool in the world, for the work object `wobj0`.
     #[serde(rename = "T")]
     pub pose: [f64; 12],
-    /// The confdata that it asks for; of a jointtarget, that of its joints.
+    /// The confdata that it asks for; of a jointtarget, the confdata of its joints.
     pub confdata: Option<[i32; 4]>,
     /// The external axes, in degrees or millimeters; null for an axis that does not exist.
     pub extax: [Option<f64>; 6],
-    /// The joint angles [rad]: of a robtarget, those inside the limits with its confdata.
+    /// The joint angles [rad]: of a robtarget, inside the limits and with its confdata.
     pub q: Option<Vec<f64>>,
     /// Why there are none.
     pub reason: Option<String>,
@@ -51,12 +51,11 @@ impl Meant {
     ) -> Result<Self, Refusal> {
         let pose = pose::from_wxyz(target.trans_mm.map(|mm| mm / 1e3), target.rot)?;
         let joints = rapid::calc_joint_t(robot, target, None, None);
-        let conf = target.robconf;
         Ok(Self {
             kind: "robtarget",
             name,
             pose: twelve(&pose),
-            confdata: Some([conf.cf1, conf.cf4, conf.cf6, conf.cfx]),
+            confdata: Some(target.robconf.into()),
             extax: external(target.extax),
             reason: joints.as_ref().err().map(ToString::to_string),
             q: joints.ok().map(|joints| rapid::joint_vector::<N>(&joints).to_vec()),

@@ -142,6 +142,16 @@ impl<const N: usize> JointLimits<N> {
         if overrun > 0.0 { overrun } else { self.excess(joint, angle) }
     }
 
+    /// The joint (from 1) that is nearest to one of its limits, and how far inside it is [rad];
+    /// negative outside. `None` without limits.
+    #[must_use]
+    pub fn nearest(&self, q: &[f64; N]) -> Option<(usize, f64)> {
+        let room = |joint: usize| (q[joint] - self.lower[joint]).min(self.upper[joint] - q[joint]);
+        let rooms = (0..N).map(|joint| (joint + 1, room(joint)));
+        let nearest = rooms.min_by(|(_, one), (_, other)| one.total_cmp(other));
+        nearest.filter(|(_, room)| room.is_finite())
+    }
+
     /// [`Self::overrun`] of the joint that exceeds its limits most.
     pub(crate) fn worst_overrun(&self, q: &[f64; N]) -> f64 {
         let linkage = self.linkage_overrun(q);

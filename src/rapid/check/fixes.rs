@@ -91,8 +91,8 @@ impl Written {
             let text = alloc::format!("[{cf1},{cf4},{cf6},{cfx}]");
             return Vec::from([Edit { module: self.module, span: self.span.clone(), text }]);
         };
-        let of = |it: Configuration| [it.cf1, it.cf4, it.cf6, it.cfx];
-        let pairs = numbers.iter().zip(of(from).into_iter().zip(of(to)));
+        let pairs =
+            numbers.iter().zip(<[i32; 4]>::from(from).into_iter().zip(<[i32; 4]>::from(to)));
         let differing = pairs.filter(|(_, (from, to))| from != to);
         let edit = |(span, (_, to)): (&Range<usize>, (i32, i32))| Edit {
             module: self.module,
