@@ -22,7 +22,7 @@ MOST_ROUNDS = 1000
 def draw(
     robot: Robot, limits: Floats, n: int | None, rng: np.random.Generator | int | None
 ) -> Floats:
-    """Draw joint vectors inside limits [rad], shape (dof, 2), and inside those of the linkage."""
+    """Draw joint vectors inside limits [rad], shape (dof, 2), and inside the linkage's."""
     generator = np.random.default_rng(rng)
     lower, upper = _ends(limits)
     count = 1 if n is None else operator.index(n)

@@ -151,15 +151,17 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     add!(module: classes [
         robot::PyRobot, solutions::PySolutions, solution::PySolution, Configuration,
-        follower::PyFollower, trajectory::PyTrajectory, Break, CatalogEntry, ConfigurationBatch, FollowResult, FreeJoint,
-        IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd,
-        ToolSpeedLimits, TrajectorySample, PyShape, PyBody, PyCell, CellContact, CellDistance,
+        follower::PyFollower, trajectory::PyTrajectory, Break, CatalogEntry, ConfigurationBatch,
+        FollowResult, FreeJoint, IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck,
+        Singularity, StrandEnd, ToolSpeedLimits, TrajectorySample, PyShape, PyBody, PyCell,
+        CellContact, CellDistance,
     ], functions [
         catalog::catalog, catalog::catalog_entry, instruction_set, instruction_sets,
         use_instruction_set, restore, poses::pose, poses::to_xyz_wxyz,
         poses::to_xyz_euler_zyx, trajectory::trajectory_of, trajectories::joint,
         trajectories::spline, retiming::retime, retiming::at_tool_speed,
-        models::urdf_links, retiming::tool_speed_limits, tool_paths::line, tool_paths::arc, tool_paths::polyline,
+        models::urdf_links, retiming::tool_speed_limits, tool_paths::line, tool_paths::arc,
+        tool_paths::polyline,
     ]);
     // `spline` is taken by trajectories; `irbkin.paths` gives this one its name.
     module.add("path_spline", wrap_pyfunction!(tool_paths::spline, module)?)?;

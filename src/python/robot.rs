@@ -156,9 +156,9 @@ impl PyRobot {
         })
     }
 
-    /// Draw joint vectors uniformly inside the limits, those of a linkage too. A joint without
-    /// limits is within +-180 deg, one with a single limit within a full turn of it; a joint of
-    /// `locked` stays at its angle.
+    /// Draw joint vectors uniformly inside the limits, of a linkage too. A joint without limits is
+    /// within +-180 deg, one with a single limit within a full turn of it; a joint of `locked`
+    /// stays at its angle.
     ///
     /// Args:
     ///     n: Number of joint vectors; one alone, without a leading dimension, when not given.

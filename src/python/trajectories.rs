@@ -55,7 +55,7 @@ pub(super) fn read_each(
     }
 }
 
-/// A limit of each of six joints, if it is given.
+/// A limit of each joint, if it is given.
 pub(super) fn read_limits<const N: usize>(
     given: Option<&Bound<'_, PyAny>>,
     field: &'static str,

@@ -1,4 +1,4 @@
-"""What notebooks show: light tables with small pictures, which need nothing else."""
+"""HTML of notebooks: light tables with small pictures, which need nothing else."""
 
 import re
 from html.parser import HTMLParser

@@ -1,4 +1,4 @@
-//! `fk`: the frames of joint angles, and what there is to say of them.
+//! `fk`: the frames of joint angles, their margins and contacts.
 
 use irbkin::Robot;
 use irbkin::cell::Cell;

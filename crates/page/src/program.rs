@@ -65,7 +65,7 @@ pub struct Fault {
     pub line: usize,
     /// Column, from 1, in characters.
     pub column: usize,
-    /// What is wrong with it, with its line.
+    /// The reason, with its line.
     pub message: String,
 }
 

@@ -22,7 +22,7 @@ KINDS = {
     "tooldata": "tool",
     "wobjdata": "work object",
 }
-"""What findings on unused data begin with; others are on routines."""
+"""First words of findings on unused data; other findings are on routines."""
 
 
 class RoutineRow(NamedTuple):

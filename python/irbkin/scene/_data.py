@@ -1,4 +1,4 @@
-"""What a scene is made of, and its JSON."""
+"""The parts of a scene, and its JSON."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Arm:
     """An arm: enough to draw it at any joint angles.
 
     The frame of link i in the world is `base @ joints[0] @ Rz(q[0]) @ .. @ joints[i - 1] @ Rz(q[i -
-    1])`, the tool's is that of the last link times `tool`; joint 3 turns by `q[2] + coupling *
+    1])`, the tool's is the frame of the last link times `tool`; joint 3 turns by `q[2] + coupling *
     q[1]`.
     """
 
@@ -116,7 +116,7 @@ class Cloud:
     values: Vector
     """A number for each."""
     unit: str = ""
-    """What the numbers are, in words."""
+    """The quantity, in words."""
 
 
 @dataclass(frozen=True)

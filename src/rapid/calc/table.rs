@@ -129,7 +129,7 @@ pub(in crate::rapid) fn frames_of<const N: usize>(
 }
 
 /// The external axes of a move's target [deg or mm]; zero where its value is not known. The first
-/// number of a seven-axis arm is none.
+/// number of a seven-axis arm belongs to its own axis 7.
 pub(in crate::rapid) fn external_axes<const N: usize>(step: &Move) -> [f64; 6] {
     let mut extax = match &step.target.value {
         Ok(Target::RobTarget(target)) => target.extax,

@@ -1,4 +1,4 @@
-// What a pasted text means: a target of RAPID, a pose in numbers, a joint vector.
+// The meaning of a pasted text: a target of RAPID, a pose in numbers, a joint vector.
 
 const NUMBER = /[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?/g;
 const DECLARED = /\b(robtarget|jointtarget)\b/i;
@@ -10,7 +10,7 @@ const isTarget = (text) => DECLARED.test(text) || /^(3,4,4,6|6,6)$/.test(
 
 const numbersOf = (text) => (text.match(NUMBER) ?? []).map(Number);
 
-// { kind: "joints", q } or { kind: "pose", T } or { kind: "rapid", text }; a sentence if it is none.
+// { kind: "joints", q } or { kind: "pose", T } or { kind: "rapid", text }; throws a sentence otherwise.
 function meaningOf(text, dof, units) {
   // Without comments of RAPID.
   const trimmed = text.replace(/![^\n]*/g, "").trim();

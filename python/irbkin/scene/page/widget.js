@@ -1,4 +1,4 @@
-// The page in a notebook: the joints and the pose of its tool are those of Python's object.
+// The page in a notebook, with the joints of Python's object.
 
 const same = (a, b) => a.length === b.length && a.every((it, i) => Math.abs(it - b[i]) < 1e-12);
 
