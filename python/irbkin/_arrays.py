@@ -1,4 +1,4 @@
-"""Arguments that Python code reads as arrays; the extension reads its own."""
+"""Arrays of Python code: arguments, and samples of long ones; the extension reads its own."""
 
 from __future__ import annotations
 
@@ -13,6 +13,13 @@ if TYPE_CHECKING:
     from irbkin.errors import IrbkinError
 
 Floats = npt.NDArray[np.float64]
+
+
+def evenly(count: int, most: int) -> npt.NDArray[np.int64]:
+    """At most so many indices of a sequence, evenly chosen, both ends included."""
+    if count <= most:
+        return np.arange(count)
+    return np.unique(np.linspace(0, count - 1, most).round().astype(np.int64))
 
 
 def as_array(

@@ -1,4 +1,4 @@
-//! What notebooks show: `irbkin.scene._html`.
+//! The tables of notebooks: `irbkin.scene._html`.
 
 use pyo3::prelude::*;
 
@@ -7,36 +7,38 @@ use super::robot::PyRobot;
 use super::solutions::PySolutions;
 use super::trajectory::PyTrajectory;
 
-/// The HTML of something, and of the robot that it is of.
-fn html(thing: &Bound<'_, PyAny>, robot: Option<PyRobot>) -> PyResult<String> {
-    let module = thing.py().import("irbkin.scene._html")?;
-    module.getattr("html")?.call1((thing, robot))?.extract()
+/// Call a function of `irbkin.scene._html`.
+fn html<'py, A>(py: Python<'py>, function: &str, arguments: A) -> PyResult<String>
+where
+    A: pyo3::call::PyCallArgs<'py>,
+{
+    py.import("irbkin.scene._html")?.call_method1(function, arguments)?.extract()
 }
 
 #[pymethods]
 impl PyRobot {
     fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
-        html(slf.as_any(), None)
+        html(slf.py(), "of_robot", (slf,))
     }
 }
 
 #[pymethods]
 impl PySolutions {
     fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
-        html(slf.as_any(), Some(slf.get().robot()))
+        html(slf.py(), "of_solutions", (slf, slf.get().robot()))
     }
 }
 
 #[pymethods]
 impl Plan {
     fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
-        html(slf.as_any(), None)
+        html(slf.py(), "of_plan", (slf,))
     }
 }
 
 #[pymethods]
 impl PyTrajectory {
     fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
-        html(slf.as_any(), None)
+        html(slf.py(), "of_trajectory", (slf,))
     }
 }

@@ -11,7 +11,7 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from irbkin import plot, rapid, trajectory
-from irbkin.plot._camera import UPWARD
+from irbkin.scene._look import UPWARD
 from matplotlib.figure import Figure
 from pictures import MAP, PLACED, PLAN, SEAM, curves, shaded
 from PIL import Image

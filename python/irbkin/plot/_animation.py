@@ -12,12 +12,13 @@ from matplotlib import rc_context
 from matplotlib.animation import FuncAnimation, PillowWriter
 
 from irbkin._arguments import check_robot
+from irbkin._arrays import evenly
 from irbkin.errors import InvalidMotionError
 from irbkin.plot._bodies import ARROW, corners, draw_body, draw_frame, extent
-from irbkin.plot._camera import on_paper
 from irbkin.plot._picture import Picture
 from irbkin.plot._style import BLUE, FONT, title
 from irbkin.scene import of
+from irbkin.scene._look import on_paper
 
 if TYPE_CHECKING:
     from irbkin import Plan, Robot
@@ -121,8 +122,7 @@ def motion(
     q = np.column_stack([np.interp(times, t, column) for column in rows.T])
     figure = Picture(figsize=(4.8, 4.8), layout="constrained")
     axes = figure.subplots()
-    seen = rows[np.unique(np.linspace(0, len(rows) - 1, SEEN).round().astype(int))]
-    points = np.concatenate([corners(own, it) for it in seen])
+    points = np.concatenate([corners(own, it) for it in rows[evenly(len(rows), SEEN)]])
     extent(axes, points, figure)
     axes.plot(*on_paper(np.array(scene.paths[0].points)).T, color=BLUE, linewidth=1.2, zorder=0.5)
     length = ARROW * float(np.ptp(on_paper(points), axis=0).max())

@@ -11,10 +11,10 @@ from matplotlib.collections import PolyCollection
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidJointsError
-from irbkin.plot._camera import nearness, on_paper
 from irbkin.plot._style import AXIS_COLORS, canvas, title, whole
 from irbkin.scene import Arm, arm_of
-from irbkin.scene._arms import link_frames, rest
+from irbkin.scene._arms import capsules_at, link_frames, rest
+from irbkin.scene._look import link_color, nearness, on_paper
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -25,9 +25,8 @@ if TYPE_CHECKING:
     from irbkin._arrays import Floats
     from irbkin.plot._style import Canvas
 
-BASE, LINKS, CARRIED = "#5b6470", ("#e8912d", "#f3ae5c"), "#6f7a88"
-"""Colors of the base, of links in turn, of what the flange carries."""
-GHOST = "#b9c0ca"
+CARRIED, GHOST = "#6f7a88", "#b9c0ca"
+"""Colors of what the flange carries, and of faint arms."""
 LIGHT = np.array([-0.25, 0.35])
 """Where the light comes from on the paper, in parts of a capsule's radius."""
 TONES = ((1.0, -0.16), (0.82, 0.0), (0.5, 0.18))
@@ -90,8 +89,7 @@ def corners(own: Arm, q: npt.ArrayLike) -> Floats:
     """Return points around an arm, for the extent of a picture, shape (k, 3)."""
     frames = link_frames(own, q)
     points = [frames[0, :3, 3], frames[-1, :3, 3]]
-    for it in own.body:
-        ends = _placed(frames, it.link, np.array([it.a, it.b]))
+    for it, ends in capsules_at(own, q):
         points += [end + it.radius * side for end in ends for side in SIDES]
     return np.array(points)
 
@@ -108,12 +106,9 @@ def extent(axes: Axes, points: Floats, drawn: Canvas) -> None:
 
 def draw_body(axes: Axes, own: Arm, q: npt.ArrayLike, *, is_ghost: bool = False) -> list[Any]:
     """Draw the capsules of an arm, far ones first; return what was added to the axes."""
-    frames = link_frames(own, q)
-    last = len(own.joints)
     shapes = []
-    for it in own.body:
-        ends = _placed(frames, it.link, np.array([it.a, it.b]))
-        color = CARRIED if it.link > last else BASE if it.link == 0 else LINKS[it.link % 2]
+    for it, ends in capsules_at(own, q):
+        color = CARRIED if it.link > len(own.joints) else link_color(it.link)
         shapes.append((float(nearness(ends).mean()), on_paper(ends), it.radius, color))
     shapes.sort(key=lambda shape: shape[0])
     polygons, colors = [], []
@@ -137,13 +132,6 @@ def draw_frame(axes: Axes, pose: Floats, length: float) -> list[Any]:
             axes.annotate("", (head[0], head[1]), (tail[0], tail[1]), arrowprops=look, zorder=4)
         )
     return added
-
-
-def _placed(frames: Floats, link: int, points: Floats) -> Floats:
-    """Points of a link in the world; what the flange carries moves with the last link."""
-    frame = frames[min(link, len(frames) - 2)]
-    placed: Floats = points @ frame[:3, :3].T + frame[:3, 3]
-    return placed
 
 
 def _stadium(ends: Floats, radius: float) -> Floats:

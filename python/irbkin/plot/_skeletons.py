@@ -10,8 +10,8 @@ from matplotlib.lines import Line2D
 
 from irbkin._arguments import check_robot
 from irbkin.errors import UnreachableError
-from irbkin.plot._camera import on_paper
 from irbkin.plot._style import BLACK, BLUE, ORANGE, VERMILION, canvas, whole
+from irbkin.scene._look import on_paper
 
 if TYPE_CHECKING:
     import numpy.typing as npt

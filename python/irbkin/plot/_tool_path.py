@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from irbkin._arrays import as_array
+from irbkin._arrays import as_array, evenly
 from irbkin.errors import InvalidPoseError
 from irbkin.plot._style import (
     AXIS_COLORS,
@@ -65,8 +65,7 @@ def path(poses: npt.ArrayLike, *, frames: int = 6, figure: Canvas | None = None)
     start = known[0, :3, 3]
     axes.plot(*start[:, None], color=BLACK, marker="o", linestyle="none", label="start")
     size = float(np.ptp(known[:, :3, 3], axis=0).max()) or 0.1
-    frames = min(frames, len(known))
-    shown = known[np.linspace(0, len(known) - 1, frames).round().astype(int)]
+    shown = known[evenly(len(known), frames)]
     for column, (name, color, dashes) in enumerate(AXES if frames else ()):
         ends = shown[:, :3, 3] + FRAME * size * shown[:, :3, column]
         for index, (tail, head) in enumerate(zip(shown[:, :3, 3], ends, strict=True)):

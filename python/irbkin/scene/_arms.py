@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from irbkin._arguments import check_robot
-from irbkin._arrays import as_array
+from irbkin._arrays import as_array, evenly
 from irbkin.errors import InvalidJointsError, InvalidModelError
 from irbkin.scene._data import Arm, LinkShape, Motion, Posture
 
@@ -110,9 +110,7 @@ def motion_of(
         InvalidJointsError: The joint angles are not finite.
     """
     times, angles = np.asarray(t, dtype=float), as_array(q, "q", (None, None), InvalidJointsError)
-    kept = np.arange(len(times))
-    if len(kept) > MOST_SAMPLES:
-        kept = np.unique(np.linspace(0, len(times) - 1, MOST_SAMPLES).round().astype(int))
+    kept = evenly(len(times), MOST_SAMPLES)
     numbers = np.asarray(lines, dtype=int)
     own = tuple(numbers[kept].tolist()) if len(numbers) else ()
     return Motion(rows(times[kept]), rows(angles[kept]), own, source)
@@ -138,3 +136,23 @@ def link_frames(arm: Arm, q: npt.ArrayLike) -> npt.NDArray[np.float64]:
         frames.append(frames[-1] @ np.array(fixed) @ turn)
     frames.append(frames[-1] @ np.array(arm.tool))
     return np.array(frames)
+
+
+def capsules_at(arm: Arm, q: npt.ArrayLike) -> list[tuple[LinkShape, npt.NDArray[np.float64]]]:
+    """Return the capsules of an arm at joint angles [rad], and the ends of each in the world, shape
+    (2, 3). Parts that the flange carries move with the last link.
+    """
+    frames = link_frames(arm, q)[:-1]
+    placed = []
+    for it in arm.body:
+        frame = frames[min(it.link, len(frames) - 1)]
+        placed.append((it, np.array([it.a, it.b]) @ frame[:3, :3].T + frame[:3, 3]))
+    return placed
+
+
+def start(arm: Arm) -> Sequence[float]:
+    """Return the joint angles at which an arm is drawn first [rad]."""
+    shown = [it.q for it in arm.postures if not it.is_ghost]
+    if shown:
+        return shown[0]
+    return arm.motion.q[0] if arm.motion and arm.motion.q else (0.0,) * len(arm.joints)

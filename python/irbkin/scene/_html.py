@@ -1,4 +1,4 @@
-"""What notebooks show of robots, solutions, plans and trajectories: a table and a small picture."""
+"""HTML of robots, solutions, plans and trajectories for notebooks: a table and a small picture."""
 
 from __future__ import annotations
 
@@ -8,36 +8,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from irbkin._core import Robot, Solutions, Trajectory, catalog, catalog_entry
+from irbkin._arrays import evenly
+from irbkin._core import catalog, catalog_entry
 from irbkin.scene._arms import arm_of, rest
 from irbkin.scene._svg import curves, drawn
 
 if TYPE_CHECKING:
-    from irbkin.records import Plan
+    from irbkin import Plan, Robot, Solutions
+    from irbkin.trajectory import Trajectory
 
 MOST_ROWS = 16
 CURVES = 120
 """Points of a curve."""
 
 
-def html(thing: Robot | Solutions | Trajectory | Plan, robot: Robot | None = None) -> str:
-    """Return the HTML of something, which has no style of its own but widths.
-
-    Args:
-        thing: A Robot, Solutions, a Trajectory or a Plan.
-        robot: The arm of Solutions.
-    """
-    if isinstance(thing, Robot):
-        return _of_robot(thing)
-    if isinstance(thing, Solutions):
-        assert robot is not None
-        return _of_solutions(thing, robot)
-    if isinstance(thing, Trajectory):
-        return _of_trajectory(thing)
-    return _of_plan(thing)
-
-
-def _of_robot(robot: Robot) -> str:
+def of_robot(robot: Robot) -> str:
+    """Return what is known of an arm."""
     limits = np.degrees(robot.limits)
     head = ["", *(f"J{joint + 1}" for joint in range(robot.dof))]
     rows = [
@@ -60,7 +46,8 @@ def _of_robot(robot: Robot) -> str:
     return _beside(picture, f"<b>{escape(robot.name or 'Robot')}</b>", words, _table(head, rows))
 
 
-def _of_solutions(solutions: Solutions, robot: Robot) -> str:
+def of_solutions(solutions: Solutions, robot: Robot) -> str:
+    """Return a row for each solution of a robot."""
     head = ["slot", *(f"q{joint + 1} [deg]" for joint in range(robot.dof)), "limits"]
     rows = []
     for it in list(solutions)[:MOST_ROWS]:
@@ -75,7 +62,8 @@ def _of_solutions(solutions: Solutions, robot: Robot) -> str:
     return _beside(picture, f"<b>{escape(robot.name)}</b>", words, _table(head, rows))
 
 
-def _of_trajectory(move: Trajectory) -> str:
+def of_trajectory(move: Trajectory) -> str:
+    """Return the peaks of a motion and its curves."""
     peaks = move.peaks()
     head = ["", *(f"J{joint + 1}" for joint in range(move.dof))]
     rows = [
@@ -88,7 +76,8 @@ def _of_trajectory(move: Trajectory) -> str:
     return _beside(picture, "<b>Trajectory</b>", words, _table(head, rows))
 
 
-def _of_plan(plan: Plan) -> str:
+def of_plan(plan: Plan) -> str:
+    """Return the extremes of a plan and its curves."""
     q = np.degrees(np.asarray(plan.q))
     known = q[np.isfinite(q).all(axis=1)]
     head = ["", *(f"J{joint + 1}" for joint in range(q.shape[1]))]
@@ -105,7 +94,7 @@ def _of_plan(plan: Plan) -> str:
     words += ["certified"] if plan.certified else []
     picture = ""
     if len(known):
-        kept = np.unique(np.linspace(0, len(known) - 1, CURVES).round().astype(int))
+        kept = evenly(len(known), CURVES)
         picture = curves(kept.astype(float), known[kept], "pose", "deg")
     return _beside(picture, "<b>Plan</b>", words, _table(head, rows))
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from irbkin._arrays import evenly
 from irbkin._core import Cell, Robot, RoutineMotion, Solutions, Trajectory
 from irbkin._grids import ReachMap
 from irbkin.records import FollowResult, Plan
@@ -105,8 +106,7 @@ def _of_motion(robot: Robot, motion: Motion, marks: tuple[Mark, ...] = ()) -> Sc
     paths: tuple[Path, ...] = ()
     if motion.q:
         points = robot.fk(np.array(motion.q))[:, :3, 3]
-        kept = np.unique(np.linspace(0, len(points) - 1, MOST_POINTS).round().astype(int))
-        paths = (Path("tool", rows(points[kept])),)
+        paths = (Path("tool", rows(points[evenly(len(points), MOST_POINTS)])),)
     return Scene(arms=(arm,), paths=paths, marks=marks)
 
 

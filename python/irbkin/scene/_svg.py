@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from irbkin.scene._arms import link_frames
+from irbkin.scene._arms import capsules_at, link_frames
+from irbkin.scene._look import link_color, nearness, on_paper
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -17,8 +18,7 @@ if TYPE_CHECKING:
 
 SIZE = 200
 """Width and height of a picture, in its own units."""
-AZIMUTH, ELEVATION = np.radians([-29.0, 20.0])
-BASE, LINKS, GHOST = "#5b6470", ("#e8912d", "#f3ae5c"), "#98a2b3"
+GHOST = "#98a2b3"
 LINES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#777777")
 MOST_GHOSTS = 7
 
@@ -26,12 +26,10 @@ MOST_GHOSTS = 7
 def drawn(arm: Arm, q: npt.ArrayLike, ghosts: Iterable[npt.ArrayLike] = ()) -> str:
     """Draw an arm's capsules as thick lines, far ones first, and other postures as faint chains."""
     own = _capsules(arm, q)
-    others = [
-        (link_frames(arm, it)[:, :3, 3] @ _paper())[:, :2] for it in list(ghosts)[:MOST_GHOSTS]
-    ]
-    points = np.vstack([*(ends[:, :2] for ends, *_ in own), *others])
+    others = [on_paper(link_frames(arm, it)[:, :3, 3]) for it in list(ghosts)[:MOST_GHOSTS]]
+    points = np.vstack([*(ends for ends, *_ in own), *others])
     low, high = points.min(axis=0), points.max(axis=0)
-    room = max(radius for _, radius, _ in own)
+    room = max(radius for _, radius, *_ in own)
     scale = SIZE / (float((high - low).max()) + 2.2 * room)
     middle = 0.5 * (low + high)
     lines = []
@@ -40,9 +38,8 @@ def drawn(arm: Arm, q: npt.ArrayLike, ghosts: Iterable[npt.ArrayLike] = ()) -> s
         path = " ".join(f"{x:.0f},{y:.0f}" for x, y in places)
         look = f'stroke="{GHOST}" stroke-width="5" opacity=".35"'
         lines.append(f'<polyline points="{path}" fill="none" {look}/>')
-    for ends, radius, link in sorted(own, key=lambda it: float(it[0][:, 2].mean())):
-        color = BASE if link == 0 else LINKS[link % 2]
-        lines.append(_line(ends, radius, color, scale, middle, ""))
+    for ends, radius, link, _ in sorted(own, key=lambda it: it[-1]):
+        lines.append(_line(ends, radius, link_color(link), scale, middle, ""))
         lines.append(_line(ends, 0.45 * radius, "#fff", scale, middle, ' opacity=".25"'))
     return _svg(lines)
 
@@ -76,30 +73,19 @@ def curves(x: Floats, rows: Floats, name: str, unit: str) -> str:
     return _svg(lines)
 
 
-def _capsules(arm: Arm, q: npt.ArrayLike) -> list[tuple[Floats, float, int]]:
-    """Both ends of each capsule on the paper with their nearness, shape (2, 3); radius; link."""
-    frames = link_frames(arm, q)
-    paper = _paper()
-    found = []
-    for it in arm.body:
-        frame = frames[min(it.link, len(frames) - 2)]
-        ends = np.array([it.a, it.b]) @ frame[:3, :3].T + frame[:3, 3]
-        found.append((ends @ paper, it.radius, it.link))
+def _capsules(arm: Arm, q: npt.ArrayLike) -> list[tuple[Floats, float, int, float]]:
+    """Both ends of each capsule on the paper, shape (2, 2); its radius, link and nearness."""
+    found = [(ends, it.radius, it.link) for it, ends in capsules_at(arm, q)]
     if not found:
-        places = frames[:, :3, 3] @ paper
+        places = link_frames(arm, q)[:, :3, 3]
         found = [(places[i : i + 2], 0.03, i) for i in range(len(places) - 1)]
-    return found
-
-
-def _paper() -> Floats:
-    """Return the directions to the right, up and toward the eye, as columns."""
-    (c, s), (d, t) = ((np.cos(it), np.sin(it)) for it in (AZIMUTH, ELEVATION))
-    sideways, upward = np.array([-s, c, 0.0]), np.array([-t * c, -t * s, d])
-    return np.column_stack([sideways, upward, np.cross(sideways, upward)])
+    return [
+        (on_paper(ends), size, link, float(nearness(ends).mean())) for ends, size, link in found
+    ]
 
 
 def _line(ends: Floats, radius: float, color: str, scale: float, middle: Floats, more: str) -> str:
-    (x, y), (u, v) = SIZE / 2 + scale * (ends[:, :2] - middle) * [1, -1]
+    (x, y), (u, v) = SIZE / 2 + scale * (ends - middle) * [1, -1]
     # A line without a length has no round ends in all browsers.
     path = f"M{x:.1f} {y:.1f}L{u + 0.1:.1f} {v:.1f}"
     return f'<path d="{path}" stroke="{color}" stroke-width="{2 * scale * radius:.1f}"{more}/>'

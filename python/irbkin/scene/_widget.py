@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from irbkin.scene._arms import link_frames
+from irbkin.scene._arms import link_frames, start
 from irbkin.scene._page import module
 
 try:
@@ -33,18 +33,9 @@ class View(anywidget.AnyWidget):  # type: ignore[misc]
     q = traitlets.List(traitlets.Float()).tag(sync=True)
 
     def __init__(self, scene: Scene, height: int = 560) -> None:
-        first = scene.arms[0] if scene.arms else None
-        q: Any = ()
-        if first is not None:
-            shown = [it.q for it in first.postures if not it.is_ghost]
-            q = shown[0] if shown else first.motion.q[0] if first.motion else ()
-        self._arm = first
-        super().__init__(
-            _esm=module(),
-            scene=scene.to_json(),
-            height=height,
-            q=list(q),
-        )
+        self._arm = scene.arms[0] if scene.arms else None
+        q = [] if self._arm is None else list(start(self._arm))
+        super().__init__(_esm=module(), scene=scene.to_json(), height=height, q=q)
 
     @property
     def T(self) -> np.ndarray[Any, np.dtype[np.float64]]:

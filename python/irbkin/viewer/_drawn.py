@@ -10,13 +10,14 @@ import numpy as np
 from irbkin import to_xyz_wxyz
 from irbkin.scene import Arm
 from irbkin.scene._arms import link_frames
+from irbkin.scene._look import link_color
 from irbkin.viewer._meshes import joined
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     import viser
 
-BASE, LINKS, GHOST = (91, 100, 112), ((232, 145, 45), (243, 174, 92)), (150, 165, 190)
+GHOST = (150, 165, 190)
 MOST_GHOSTS = 16
 """Copies that are kept ready: no more solutions are drawn."""
 
@@ -30,7 +31,7 @@ class DrawnArm:
         self._ghosts: list[tuple[int, Any]] = []
         for link in sorted({it.link for it in arm.body}):
             mesh = joined([it for it in arm.body if it.link == link])
-            color = BASE if link == 0 else LINKS[link % 2]
+            color = tuple(bytes.fromhex(link_color(link)[1:]))
             scene, parts = server.scene, (np.asarray(mesh.vertices), np.asarray(mesh.faces))
             handle = scene.add_mesh_simple(f"/{name}/link_{link}", *parts, color=color)
             self._links.append((link, handle))

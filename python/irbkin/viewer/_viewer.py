@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +10,8 @@ import viser
 
 from irbkin import Robot, pose, to_xyz_wxyz
 from irbkin.errors import InvalidJointsError
-from irbkin.scene import Arm, Scene, of
+from irbkin.scene import Scene, of
+from irbkin.scene._arms import start
 from irbkin.viewer._drawn import DrawnArm
 from irbkin.viewer._meshes import obstacle
 
@@ -21,14 +21,6 @@ if TYPE_CHECKING:
 COLORS = {"error": (200, 40, 40), "warning": (200, 130, 0), "note": (30, 110, 190)}
 TICK = 1 / 30
 """Time between two pictures of a motion [s]."""
-
-
-def _start(arm: Arm) -> Sequence[float]:
-    """The joint angles at which an arm is drawn first."""
-    shown = [it.q for it in arm.postures if not it.is_ghost]
-    if shown:
-        return shown[0]
-    return arm.motion.q[0] if arm.motion and arm.motion.q else (0.0,) * len(arm.joints)
 
 
 class Viewer:
@@ -67,7 +59,7 @@ class Viewer:
             DrawnArm(self.server, f"arm_{index}", arm, ghosts=index == 0 and self.robot is not None)
             for index, arm in enumerate(self.scene.arms)
         ]
-        starts = [_start(it) for it in self.scene.arms]
+        starts = [start(it) for it in self.scene.arms]
         for drawn, q in zip(self._arms, starts, strict=True):
             drawn.show(q)
         self._q = np.zeros(0)
@@ -111,14 +103,13 @@ class Viewer:
             What the window says: how many solutions there are, or why there is none.
         """
         assert self.robot is not None, "a scene without a robot has no handle"
-        solutions = self.robot.ik(T) if self.robot.dof == 6 else None
         try:
             self._q = self.robot.ik_nearest(T, self._q)
             self._arms[0].show(self._q)
         except ValueError as error:
             self._words.content = f"**not reached**: {error}"
             return str(error)
-        self._update(np.asarray(T), solutions)
+        self._update(np.asarray(T))
         return str(self._words.content)
 
     def play(self) -> None:
@@ -126,10 +117,10 @@ class Viewer:
         duration = self.scene.duration
         if self.is_playing or duration <= 0.0:
             return
-        begun, first = time.perf_counter(), float(self._slider.value) % max(duration, 1e-9)
+        begun = time.perf_counter() - float(self._slider.value) % duration
         self.is_playing = True
-        while self.is_playing and self._slider.value <= duration:
-            t = first + time.perf_counter() - begun
+        while self.is_playing:
+            t = time.perf_counter() - begun
             self.at(min(t, duration))
             if t >= duration:
                 break
@@ -158,12 +149,11 @@ class Viewer:
         self.is_playing = False
         self.server.stop()
 
-    def _update(self, T: npt.NDArray[np.float64], solutions: Any = None) -> None:
+    def _update(self, T: npt.NDArray[np.float64]) -> None:
         """The words and the copies of the other solutions at a pose."""
         assert self.robot is not None
-        if solutions is None:
-            q7 = None if self.robot.dof == 6 else float(self._q[6])
-            solutions = self.robot.ik(T) if q7 is None else self.robot.ik(T, q7=q7)
+        q7 = None if self.robot.dof == 6 else float(self._q[6])
+        solutions = self.robot.ik(T, q7=q7)
         inside = [it.q for it in solutions if it.is_within_limits]
         others = [it for it in inside if np.abs(np.sin((it - self._q) / 2)).max() > 1e-4]
         self._arms[0].show_ghosts(others)

@@ -2,7 +2,7 @@
 // the plane of the screen.
 
 const AXIS_COLORS = [[0.84, 0.15, 0.16], [0.17, 0.63, 0.17], [0.12, 0.47, 0.71]];
-const GRIP = { ball: [0.98, 0.75, 0.14] };
+const GRIP_COLOR = [0.98, 0.75, 0.14];
 const HANDLE = 90;
 const NEAR = 14;
 const RING = 48;
@@ -50,7 +50,7 @@ class Handle {
         loop: true, onTop: true,
       });
     }
-    if (!drawing.isFlat) drawBall(drawing, from, 0.075 * size, GRIP.ball, { onTop: true });
+    if (!drawing.isFlat) drawBall(drawing, from, 0.075 * size, GRIP_COLOR, { onTop: true });
   }
 
   // The part of the handle at a place of the screen; null if there is none.

@@ -124,7 +124,7 @@ class Program {
     }
     this.marks = shown.slice(0, 300).flatMap((it) => {
       const move = checked.moves.find((one) => one.line === it.line && one.column === it.column);
-      const color = { error: [0.8, 0.16, 0.16], warning: [0.75, 0.47, 0] }[it.severity];
+      const color = SEVERITY_COLORS[it.severity];
       return move?.q && color ? [{ q: move.q, color }] : [];
     });
   }

@@ -17,7 +17,6 @@ function openScene(app, scene) {
     app.notes.add(`${obstacles.length - cell.length} obstacles are drawn and not tested for collisions.`);
   }
   view.obstacles = obstacles.flatMap((it) => shapeMeshes(it.shape));
-  const colors = { error: [0.8, 0.16, 0.16], warning: [0.75, 0.47, 0], note: [0.12, 0.47, 0.71] };
   const dots = (scene.clouds ?? []).flatMap((it) => {
     const most = Math.max(...it.values, 1e-9);
     const each = Math.max(1, Math.floor(it.points.length / 1500));
@@ -50,7 +49,7 @@ function openScene(app, scene) {
     if (q) view.extra.push({ arm: drawn, q, alpha: 1 });
   }
   view.way = (scene.paths ?? []).flatMap((it) => it.points);
-  view.marks = [...(scene.marks ?? []).map((it) => ({ at: it.point, color: colors[it.severity] ?? colors.note })), ...dots];
+  view.marks = [...(scene.marks ?? []).map((it) => ({ at: it.point, color: SEVERITY_COLORS[it.severity] ?? NOTE_COLOR })), ...dots];
   for (const it of (scene.marks ?? []).slice(0, 50)) app.notes.add(`${it.place ?? ""} ${it.text}`.trim());
   view.fit();
 }

@@ -3,6 +3,8 @@
 const LINK_COLORS = [[0.93, 0.53, 0.13], [0.97, 0.66, 0.31]];
 const BASE_COLOR = [0.32, 0.36, 0.42];
 const GHOST_COLOR = [0.55, 0.62, 0.72];
+const SEVERITY_COLORS = { error: [0.8, 0.16, 0.16], warning: [0.75, 0.47, 0] };
+const NOTE_COLOR = [0.12, 0.47, 0.71];
 
 class View {
   constructor(app, host) {
@@ -85,7 +87,7 @@ class View {
     if (!this.isBare) this.body(arm, state.q, 1);
     for (const [pose, mesh] of this.obstacles) drawing.mesh(mesh, pose, [0.45, 0.55, 0.5]);
     for (const it of this.extra) this.body(it.arm, it.q, it.alpha);
-    if (this.way.length) drawing.lines(this.way, [0.12, 0.47, 0.71]);
+    if (this.way.length) drawing.lines(this.way, NOTE_COLOR);
     for (const { at, color } of this.marks) {
       drawBall(drawing, at, 0.012 * camera.distance, color);
     }

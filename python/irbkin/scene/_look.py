@@ -1,4 +1,4 @@
-"""The parallel projection of the pictures of arms."""
+"""The look of arms in pictures and windows: the direction of the eye, the colors of links."""
 
 from __future__ import annotations
 
@@ -20,6 +20,13 @@ UPWARD = np.array(
     ]
 )
 TOWARD = np.cross(SIDEWAYS, UPWARD)
+BASE, LINKS = "#5b6470", ("#e8912d", "#f3ae5c")
+"""Colors of the base, and of the links in turn."""
+
+
+def link_color(link: int) -> str:
+    """Return the color of a link, of which 0 is the base."""
+    return BASE if link == 0 else LINKS[link % 2]
 
 
 def on_paper(points: Floats) -> Floats:
