@@ -33,7 +33,7 @@ EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
 
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
-.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page test-page wheel packages stubs clean \
+.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page test-page site wheel packages stubs clean \
 	toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
@@ -60,6 +60,10 @@ $(VENV)/.irbkin-%: $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
 
 $(VENV)/.groups: $(VENV)/.made pyproject.toml
 	$(STEP) "Install test tools and reference packages into $(VENV)" $(PIP_INSTALL) --group test --group check
+	@touch $@
+
+$(VENV)/.site: $(VENV)/.made pyproject.toml
+	$(STEP) "Install what builds the site into $(VENV)" $(PIP_INSTALL) --group site
 	@touch $@
 
 run: $(BUILT) ## Solve a pose of an IRB 2600 and show all solutions
@@ -223,12 +227,16 @@ evidence-instructions: | toolchains ## Instructions of a call, with valgrind; WR
 evidence-ros-starts: $(BUILT) ## COUNT (200) nodes of each ROS ended with SIGTERM: none may hang
 	@tests/ros/test.sh --starts $(or $(COUNT),200) $(abspath $(BIN)/python)
 
-docs: $(BUILT) $(VENV)/.groups ## Write generated tables and transcripts, draw the pictures, build cargo doc
+docs: $(BUILT) $(VENV)/.groups $(VENV)/.site ## Write generated tables and transcripts, draw the pictures, build cargo doc and the site
 	IRBKIN_WRITE=1 cargo test --quiet --test suite -- catalog_page::
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_check.py -k rules_of_the_command
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k "transcripts or notebook"
 	for script in eight_solutions slots motion plans singularities; do $(BIN)/python docs/pictures/$$script.py; done
 	cargo doc --no-deps --features serde
+	$(BIN)/python docs/site/build.py
+
+site: $(BUILT) $(VENV)/.site ## Build the site of README, docs, arms and docstrings: target/site/html
+	$(BIN)/python docs/site/build.py
 
 stubs: $(BUILT) ## Write the docstrings of the type stubs from those of the extension
 	$(BIN)/python tests/python/stub_docs.py

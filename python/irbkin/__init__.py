@@ -6,18 +6,20 @@
     >>> len(solutions)
     8
 
-catalog()                   names of the arms
-Robot(name), .from_urdf()   an arm: .limits, .with_tool(T), .with_base(T), .with_limits(limits)
-robot.fk(q), .jacobian(q)   the pose of the tool and its derivatives
-robot.ik(T), .ik_batch(T)   all solutions, of one pose or of many
-robot.ik_nearest(T, seed)   the solution inside the limits that is nearest to a joint vector
-robot.follow(T, seed)       one joint path along a path of poses; Follower takes pose by pose
-robot.plan(T)               the best joint path along it
-robot.go(start, goal, cell) a motion free of collisions in a Cell
-pose(xyz, wxyz)             a pose of position and orientation
-paths, trajectory           lines and arcs of the tool; motions of the joints over time
-rapid, abb, ros             RAPID programs, backups of controllers, ROS
-IrbkinError                 the class of all errors; UnreachableError and others in `errors`
+The names to begin with:
+
+    catalog()                   names of the arms
+    Robot(name), .from_urdf()   an arm: .limits, .with_tool(T), .with_base(T), .with_limits(limits)
+    robot.fk(q), .jacobian(q)   the pose of the tool and its derivatives
+    robot.ik(T), .ik_batch(T)   all solutions, of one pose or of many
+    robot.ik_nearest(T, seed)   the solution inside the limits that is nearest to a joint vector
+    robot.follow(T, seed)       one joint path along a path of poses; Follower takes pose by pose
+    robot.plan(T)               the best joint path along it
+    robot.go(start, goal, cell) a motion free of collisions in a Cell
+    pose(xyz, wxyz)             a pose of position and orientation
+    paths, trajectory           lines and arcs of the tool; motions of the joints over time
+    rapid, abb, ros             RAPID programs, backups of controllers, ROS
+    IrbkinError                 the class of all errors; UnreachableError and others in `errors`
 """
 
 from __future__ import annotations
