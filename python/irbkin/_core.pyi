@@ -2359,6 +2359,11 @@ class MotionMove(_Record):
         """Whether it is made as it is programmed. Otherwise the joints go straight to its target
         at their limits or, without `q`, it is left out.
         """
+    @property
+    def tool(self) -> _Floats:
+        """What the robot carries, in the flange frame, shape (4, 4): the tool or, if that is
+        stationary, the work object.
+        """
     def __new__(
         cls,
         kind: Literal["MoveJ", "MoveL", "MoveC", "MoveAbsJ"],
@@ -2370,6 +2375,7 @@ class MotionMove(_Record):
         length: float,
         q: _Floats | None,
         as_programmed: bool,
+        tool: _Floats,
     ) -> MotionMove: ...
 
 @final

@@ -111,6 +111,18 @@ def test_a_motion_has_its_times_lines_and_findings():
     assert len(long.paths[0].points) == 500
 
 
+def test_the_way_of_a_program_is_of_its_tool():
+    module = rapid.parse("""MODULE M
+PERS tooldata tGun:=[TRUE,[[0,0,200],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+CONST robtarget p:=[[900,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+PROC main() MoveJ p,v100,fine,tGun; MoveL Offs(p,0,200,0),v100,fine,tGun; ENDPROC
+ENDMODULE""")
+    made = rapid.motion(ROBOT, module)
+    np.testing.assert_array_equal(made.moves[1].tool, irbkin.pose([0, 0, 0.2]))
+    (way,) = scene.of(made, ROBOT).paths
+    np.testing.assert_allclose([way.points[0], way.points[-1]], [[0.9, 0, 0.9], [0.9, 0.2, 0.9]])
+
+
 def test_each_robot_of_several_things_stands_at_q():
     several = scene.of([ROBOT, irbkin.Cell(SHAPES), ROBOT.ik(T)], ROBOT, q=np.full(6, 0.3))
     firsts = [arm.postures[0].q for arm in several.arms]

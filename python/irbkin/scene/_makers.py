@@ -101,29 +101,32 @@ def _of_solutions(robot: Robot, solutions: Solutions) -> Scene:
     return Scene(arms=(arm_of(robot, postures),), frames=frames)
 
 
-def _of_motion(robot: Robot, motion: Motion, marks: tuple[Mark, ...] = ()) -> Scene:
-    arm = arm_of(robot, motion=motion)
-    paths: tuple[Path, ...] = ()
-    if motion.q:
-        points = robot.fk(np.array(motion.q))[:, :3, 3]
-        paths = (Path("tool", rows(points[evenly(len(points), MOST_POINTS)])),)
-    return Scene(arms=(arm,), paths=paths, marks=marks)
+def _of_motion(robot: Robot, motion: Motion) -> Scene:
+    poses = robot.fk(np.array(motion.q).reshape(-1, robot.dof))
+    return Scene(arms=(arm_of(robot, motion=motion),), paths=_way(poses))
+
+
+def _way(poses: npt.NDArray[np.float64]) -> tuple[Path, ...]:
+    points = poses[evenly(len(poses), MOST_POINTS), :3, 3]
+    return (Path("tool", rows(points)),) if len(points) else ()
 
 
 def _of_routine(robot: Robot, made: RoutineMotion) -> Scene:
     motion = motion_of(made.t, made.q, made.lines)
-    marks = tuple(_mark(robot, made, it) for it in made.findings)
-    return _of_motion(robot, motion, marks)
+    # The program has its own tools.
+    tools = np.array([it.tool for it in made.moves])[np.asarray(made.move_index)]
+    poses = robot.with_tool(np.eye(4)).fk(made.q) @ tools
+    marks = tuple(_mark(made, poses, it) for it in made.findings)
+    return Scene(arms=(arm_of(robot, motion=motion),), paths=_way(poses), marks=marks)
 
 
-def _mark(robot: Robot, made: RoutineMotion, finding: Finding) -> Mark:
-    """A finding at the target of its move, or where the motion is if that has no joints."""
+def _mark(made: RoutineMotion, poses: npt.NDArray[np.float64], finding: Finding) -> Mark:
+    """A finding at the end of its move, or where the motion is if the move is left out."""
     before = np.flatnonzero(np.asarray(made.move_index) <= finding.move_index)
     sample = int(before[-1]) if len(before) else 0
-    q = made.moves[finding.move_index].q
-    point = rows(robot.fk(made.q[sample] if q is None else q)[:3, 3])
     text = f"{finding.code} {finding.message}"
-    return Mark(point, text, finding.severity, f"line {finding.line}", float(made.t[sample]))
+    place = f"line {finding.line}"
+    return Mark(rows(poses[sample, :3, 3]), text, finding.severity, place, float(made.t[sample]))
 
 
 def _of_map(found: ReachMap) -> Scene:

@@ -152,6 +152,9 @@ record! {
         /// Whether it is made as it is programmed. Otherwise the joints go straight to its target
         /// at their limits or, without `q`, it is left out.
         as_programmed: bool,
+        /// What the robot carries, in the flange frame, shape (4, 4): the tool or, if that is
+        /// stationary, the work object.
+        tool: Array,
     }
 }
 

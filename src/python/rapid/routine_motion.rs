@@ -7,11 +7,11 @@ use pyo3::types::{PyDict, PyTuple};
 use super::checked::Finding;
 use super::module::{RapidModule, counted};
 use super::program::MotionMove;
-use crate::kinematics::Robot;
+use crate::kinematics::{Robot, pose_to_rows};
 use crate::python::arm::{Arm, ByJoints, on};
 use crate::python::arrays::vector;
 use crate::python::errors::Fault;
-use crate::python::outputs::{column, read_only};
+use crate::python::outputs::{column, matrix, read_only};
 use crate::python::robot::PyRobot;
 use crate::python::trajectories::read_limits;
 use crate::python::trajectory::PyTrajectory;
@@ -257,6 +257,7 @@ impl MotionMove {
             length,
             q,
             as_programmed,
+            tool: matrix(py, pose_to_rows(&step.tool).as_chunks::<4>().0).into_any().unbind(),
         }
     }
 }

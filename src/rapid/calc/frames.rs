@@ -64,6 +64,14 @@ impl Frames {
         })
     }
 
+    /// What the robot carries, in the flange frame: the tool or the work object.
+    pub(in crate::rapid) fn carried(&self) -> Pose {
+        match self {
+            Self::Carried { t_flange_tool, .. } => *t_flange_tool,
+            Self::Stationary { t_flange_wobj, .. } => *t_flange_wobj,
+        }
+    }
+
     /// The flange in the world frame, for the tool in the work object.
     pub(in crate::rapid) fn flange(&self, t_wobj_tool: &Pose) -> Pose {
         match self {

@@ -9,7 +9,7 @@ use super::joints::Samples;
 use super::pace::Pace;
 use super::sequence::sequence;
 use crate::error::{Error, MotionFault, RapidFault, RapidFaultKind, RoutineFault};
-use crate::kinematics::{Robot, check_seed};
+use crate::kinematics::{Pose, Robot, check_seed};
 use crate::paths::Spacing;
 use crate::rapid::calc::table::external_axes;
 use crate::rapid::calc::target::with_flange;
@@ -63,6 +63,9 @@ pub struct MotionMove<const N: usize = 6> {
     /// Whether it is made as it is programmed; otherwise the joints go straight to its target at
     /// their limits or, without `q`, it is left out.
     pub as_programmed: bool,
+    /// What the robot carries, in the flange frame: the tool or, if that is stationary, the work
+    /// object.
+    pub tool: Pose,
     /// The instruction with its arguments.
     pub(super) step: Move,
 }
@@ -71,9 +74,10 @@ pub struct MotionMove<const N: usize = 6> {
 /// followed, timed and checked (docs/guide/motion.md).
 ///
 /// The routine is one of the first module: without a name, `main` or else the only one that moves.
-/// Calls of procedures of all modules are followed, loops with known bounds in each pass. Everything that is wrong
-/// with a move is a finding: an unknown value, a target that cannot be reached, a flip, a
-/// singularity, another configuration than the target's, a joint too fast at the programmed speed.
+/// Calls of procedures of all modules are followed, loops with known bounds in each pass.
+/// Everything that is wrong with a move is a finding: an unknown value, a target that cannot be
+/// reached, a flip, a singularity, another configuration than the target's, a joint too fast at the
+/// programmed speed.
 /// A line or an arc that cannot be followed is replaced by a joint move to its target; a move whose
 /// target has no joints is left out, and a line after it is replaced in the same way.
 ///
@@ -267,6 +271,7 @@ fn moves<const N: usize>(
             length: ways.iter().fold(0.0, |sum, way| sum + way[0]),
             q: made.q,
             as_programmed: made.as_programmed,
+            tool: goal.frames.carried(),
             step: goal.step.clone(),
         }
     };
