@@ -14,7 +14,7 @@ pub struct Meant {
     pub kind: &'static str,
     /// Its name, if it is declared.
     pub name: Option<String>,
-    /// The pose of the tool in the world, for the work object `wobj0`.
+    /// The pose of the tool in the work object.
     #[serde(rename = "T")]
     pub pose: [f64; 12],
     /// The confdata that it asks for; of a jointtarget, the confdata of its joints.
@@ -33,9 +33,12 @@ impl Meant {
         request: &Request<'_>,
     ) -> Result<Self, Refusal> {
         let text = request.text("robtarget")?;
+        // The work object is the world of a robot that stands elsewhere.
+        let wobj = request.optional_pose("wobj")?.unwrap_or_default();
+        let robot = robot.clone().with_base(&(wobj.inverse() * robot.base()))?;
         match value(text)? {
-            (name, Value::RobTarget(target)) => Self::of_pose(robot, name, &target),
-            (name, Value::JointTarget(target)) => Self::of_joints(robot, name, &target),
+            (name, Value::RobTarget(target)) => Self::of_pose(&robot, name, &target),
+            (name, Value::JointTarget(target)) => Self::of_joints(&robot, name, &target),
             (_, other) => Err(format!(
                 "robtarget is a {}, it must be a robtarget or a jointtarget",
                 other.type_name()
