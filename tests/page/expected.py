@@ -219,15 +219,17 @@ def of_program(robot: irbkin.Robot, text: str) -> list[Case]:
         {"code": it.code, "line": it.line, "column": it.column, "message": it.message}
         for it in checked.findings
     ]
-    lines = [motion.moves[index].line for index in motion.move_index]
+    flange = robot.with_tool(np.eye(4)).fk(motion.q)
+    tools = np.array([motion.moves[index].tool for index in motion.move_index])
     played = {
         "t": numbers(motion.t),
         "q": numbers(motion.q.ravel()),
-        "lines": lines,
+        "way": numbers((flange @ tools)[:, :3, 3].ravel()),
+        "move_index": [int(index) for index in motion.move_index],
         "samples": len(motion.t),
         "thinned": False,
     }
-    request = {"do": "check", "module": text}
+    request = {"do": "check", "modules": [{"text": text}]}
     return [
         {"request": request, "ok": {"moves": moves, "findings": found}},
         {"request": {"do": "motion"}, "ok": played},

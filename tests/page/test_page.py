@@ -281,6 +281,39 @@ def test_a_module_is_a_table_that_plays(opened, tmp_path):
     page.wait_for_function("() => document.querySelector('.notes').innerText.includes('20.0 MB')")
 
 
+def test_modules_are_read_together_and_a_routine_is_chosen(opened, tmp_path):
+    page = opened()
+    data, moves = tmp_path / "Data.sysx", tmp_path / "Moves.mod"
+    data.write_text("""MODULE Data
+    PERS tooldata tGun:=[TRUE,[[0,0,200],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+    PERS robtarget p1:=[[900,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+ENDMODULE
+""")
+    moves.write_text("""MODULE Moves
+    PROC first()
+        MoveJ p1,v100,fine,tGun;
+    ENDPROC
+    PROC second()
+        MoveJ p1,v100,fine,tGun;
+        MoveL Offs(p1,0,200,0),v100,fine,tGun;
+    ENDPROC
+ENDMODULE
+""")
+    page.set_input_files("input[type=file]", [data, moves])
+    page.wait_for_selector(".program tbody tr")
+    assert "3 of 3 moves checked" in page.locator(".program").inner_text()
+    assert "Moves.mod:3" in page.locator(".program tbody tr").first.inner_text()
+    assert page.evaluate("() => irbkin.program.motion.moves.length") == 1
+    page.select_option(".program select", label="second")
+    robot = irbkin.Robot(state(page)["name"])
+    module = rapid.parse(moves.read_text(), [rapid.parse(data.read_text())])
+    motion = rapid.motion(robot, module, "second")
+    played = page.evaluate("() => ({ ...irbkin.program.motion })")
+    assert played["duration"] == pytest.approx(motion.duration, abs=1e-9)
+    np.testing.assert_allclose(played["way"][-3:], [0.9, 0.2, 0.9], atol=1e-9)
+    np.testing.assert_allclose(page.evaluate("() => irbkin.view.way[0]"), [0.9, 0, 0.9], atol=1e-9)
+
+
 def test_a_urdf_and_a_scene_are_opened(opened, tmp_path):
     page = opened()
     ur = ROOT / "tests" / "data" / "ur5e.urdf"

@@ -60,8 +60,8 @@ const REFUSED = [
     ['{"do": "robot", "name": "IRB 2601"}', 'unknown robot "IRB 2601"'],
     ['{"do": "robot", "urdf": "<robot"}', ""],
     ['{"do": "cell", "obstacles": [{"name": "a", "shape": "cone"}]}', "obstacles[0].shape is"],
-    [`{"do": "check", "module": "${" ".repeat(4000001)}"}`, "module has 4000001 bytes"],
-    ['{"do": "motion", "module": "MODULE A ENDMODULE"}', ""],
+    [`{"do": "check", "modules": [{"text": "${" ".repeat(4000001)}"}]}`, "modules[0].text has 4000001 bytes"],
+    ['{"do": "motion", "modules": [{"text": "MODULE A ENDMODULE"}]}', ""],
 ];
 
 function refusals(page) {

@@ -1,29 +1,42 @@
-//! `check`: all moves of a module, checked.
+//! `check`: all moves of a program, checked.
 
 use std::collections::HashMap;
 
 use irbkin::Robot;
 use irbkin::cell::Cell;
-use irbkin::rapid::{self, CheckOptions};
+use irbkin::rapid::{self, CheckOptions, RoutineKind};
 use serde::Serialize;
 
 use crate::program::{Fault, Finding, Program, faults};
 use crate::request::{Refusal, Request};
 
-/// The moves of a module and what is wrong with them.
+/// The moves of a program and what is wrong with them.
 #[derive(Debug, Serialize)]
 pub struct Checked {
-    /// The moves, in the order of the text.
+    /// The procedures, in the order of the texts.
+    pub procedures: Vec<Procedure>,
+    /// The moves, in the order of the texts.
     pub moves: Vec<Move>,
-    /// The findings, in the order of the text.
+    /// The findings, in the order of the texts.
     pub findings: Vec<Finding>,
     /// Invalid statements, which are skipped.
     pub faults: Vec<Fault>,
 }
 
+/// A procedure, which `motion` can follow.
+#[derive(Debug, Serialize)]
+pub struct Procedure {
+    /// The module, from 0.
+    pub module: usize,
+    /// Its name.
+    pub name: String,
+}
+
 /// A place at which the program moves.
 #[derive(Debug, Serialize)]
 pub struct Move {
+    /// The module, from 0.
+    pub module: usize,
     /// Line, from 1.
     pub line: usize,
     /// Column, from 1, in characters.
@@ -51,24 +64,35 @@ impl Checked {
     ) -> Result<Self, Refusal> {
         let cell = request.flag("collide")?.then_some(cell);
         let options = CheckOptions { cell, ..CheckOptions::default() };
-        let checked = rapid::check(robot, &[(&program.module, &program.text)], &options)?;
-        let read = program.module.moves().iter();
-        let instructions: HashMap<_, _> =
-            read.map(|it| ((it.line, it.column), &it.instruction)).collect();
+        let modules = &program.modules;
+        let sources: Vec<_> =
+            modules.iter().zip(program.texts.iter().map(String::as_str)).collect();
+        let checked = rapid::check(robot, &sources, &options)?;
+        let mut procedures = Vec::new();
+        let mut instructions = HashMap::new();
+        for (module, own) in modules.iter().enumerate() {
+            let named = own.routines().iter().filter(|it| it.kind == RoutineKind::Proc);
+            procedures.extend(named.map(|it| Procedure { module, name: it.name.clone() }));
+            let moves = own.moves().iter();
+            instructions.extend(moves.map(|it| ((module, it.line, it.column), &it.instruction)));
+        }
+        let instruction = |place| instructions.get(&place).map(ToString::to_string);
         let moves = checked.moves.into_iter().map(|it| Move {
+            module: it.module,
             line: it.line,
             column: it.column,
             routine: it.routine,
-            instruction: instructions.get(&(it.line, it.column)).map(ToString::to_string),
+            instruction: instruction((it.module, it.line, it.column)),
             target: it.target,
             q: it.q.map(|q| q.to_vec()),
             confdata: it.confdata.map(Into::into),
             unchecked: it.unchecked.map(rapid::Code::id),
         });
         Ok(Self {
+            procedures,
             moves: moves.collect(),
             findings: checked.findings.iter().map(Finding::from).collect(),
-            faults: faults(&program.module),
+            faults: faults(modules),
         })
     }
 }

@@ -22,9 +22,9 @@
 //! | `fk` | `q`, `collide` | [`forward::Posture`] |
 //! | `ik` | `T`, `seed`, `q7`, `collide` | [`inverse::Found`] |
 //! | `follow` | `T`, `q`, `collide` | [`follow::Step`] |
-//! | `ik_target` | `robtarget` | [`target::Meant`] |
-//! | `check` | `module`, `collide` | [`check::Checked`] |
-//! | `motion` | `module`, `routine` | [`motion::Motion`] |
+//! | `ik_target` | `robtarget`, `wobj` | [`target::Meant`] |
+//! | `check` | `modules`, `collide` | [`check::Checked`] |
+//! | `motion` | `modules`, `module`, `routine` | [`motion::Motion`] |
 //!
 //! `ik_target`, `check` and `motion` have the feature `rapid`; `urdf` and a `robot` of a URDF the
 //! feature `urdf`. Both are default.

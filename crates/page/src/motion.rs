@@ -1,10 +1,10 @@
 //! `motion`: a routine as one motion.
 
-use irbkin::Robot;
 use irbkin::rapid::{self, MotionOptions};
+use irbkin::{Pose, Robot};
 use serde::Serialize;
 
-use crate::program::{Fault, Finding, Program, faults};
+use crate::program::Program;
 use crate::request::{Refusal, Request};
 
 /// Most samples of an answer: a page plays some minutes smoothly with them.
@@ -25,19 +25,20 @@ pub struct Motion {
     pub t: Vec<f64>,
     /// Joint angles of the samples [rad], one sample after the other.
     pub q: Vec<f64>,
-    /// The line of the move that each sample belongs to.
-    pub lines: Vec<usize>,
+    /// Positions of the samples [m], one after the other: of the tool or, if that is stationary, of
+    /// the work object that the robot carries.
+    pub way: Vec<f64>,
+    /// The move, by its index in `moves`, that each sample belongs to.
+    pub move_index: Vec<usize>,
     /// The moves, in order.
     pub moves: Vec<Move>,
-    /// The findings on moves, in order.
-    pub findings: Vec<Finding>,
-    /// Invalid statements, which are skipped.
-    pub faults: Vec<Fault>,
 }
 
 /// A move of a motion.
 #[derive(Debug, Serialize)]
 pub struct Move {
+    /// The module, from 0.
+    pub module: usize,
     /// "MoveJ", "MoveL", "MoveC", "MoveAbsJ" or "MoveExtJ".
     pub kind: &'static str,
     /// Line, from 1.
@@ -59,38 +60,47 @@ impl Motion {
         request: &Request<'_>,
     ) -> Result<Self, Refusal> {
         let routine = request.optional_text("routine")?;
-        let options = MotionOptions::default();
-        let motion = rapid::motion(robot, &[&program.module], routine, &options)?;
+        let first = request.index("module", program.modules.len())?;
+        // The routine is one of the first module.
+        let order: Vec<_> =
+            (first..=first).chain((0..program.modules.len()).filter(|it| *it != first)).collect();
+        let modules: Vec<_> = order.iter().filter_map(|it| program.modules.get(*it)).collect();
+        let motion = rapid::motion(robot, &modules, routine, &MotionOptions::default())?;
+        let flange = robot.clone().with_tool(&Pose::identity())?;
         let samples = motion.t.len();
         let chosen = chosen(samples);
         let each = || chosen.iter().copied();
-        let line =
-            |index: usize| motion.moves.get(*motion.move_index.get(index)?).map(|it| it.line);
+        let place = |index: usize| -> Option<[f64; 3]> {
+            let step = motion.moves.get(*motion.move_index.get(index)?)?;
+            let pose = flange.fk(motion.q.get(index)?) * step.tool;
+            Some(pose.translation.vector.into())
+        };
         Ok(Self {
-            routine: motion.routine,
+            routine: motion.routine.clone(),
             duration: motion.t.last().copied().unwrap_or_default(),
             samples,
             thinned: chosen.len() < samples,
             t: each().filter_map(|index| motion.t.get(index).copied()).collect(),
             q: each().filter_map(|index| motion.q.get(index)).flatten().copied().collect(),
-            lines: each().filter_map(line).collect(),
-            moves: motion.moves.iter().map(Move::from).collect(),
-            findings: motion.findings.iter().map(Finding::from).collect(),
-            faults: faults(&program.module),
+            way: each().filter_map(place).flatten().collect(),
+            move_index: each().filter_map(|index| motion.move_index.get(index).copied()).collect(),
+            moves: motion.moves.iter().filter_map(|it| Move::of(it, &order)).collect(),
         })
     }
 }
 
-impl<const N: usize> From<&rapid::MotionMove<N>> for Move {
-    fn from(step: &rapid::MotionMove<N>) -> Self {
-        Self {
+impl Move {
+    /// A move of modules that were given in another order.
+    fn of<const N: usize>(step: &rapid::MotionMove<N>, order: &[usize]) -> Option<Self> {
+        Some(Self {
+            module: *order.get(step.module)?,
             kind: step.kind.name(),
             line: step.line,
             start: step.start,
             end: step.end,
             q: step.q.map(|q| q.to_vec()),
             as_programmed: step.as_programmed,
-        }
+        })
     }
 }
 

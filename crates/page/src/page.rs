@@ -105,18 +105,18 @@ impl Page {
         self.robot.as_ref().ok_or_else(none)
     }
 
-    /// Read the module of a request, if it has one.
+    /// Read the modules of a request, if it has some.
     #[cfg(feature = "rapid")]
     fn read_program(&mut self, request: &Request<'_>) -> Result<(), Refusal> {
-        if let Some(text) = request.optional_text("module")? {
-            self.program = Some(Program::read(text));
+        if request.has("modules") {
+            self.program = Some(Program::read(request)?);
         }
         Ok(())
     }
 
     #[cfg(feature = "rapid")]
     fn program(&self) -> Result<&Program, Refusal> {
-        let none = || Refusal("there is no program: module is missing".to_owned());
+        let none = || Refusal("there is no program: modules is missing".to_owned());
         self.program.as_ref().ok_or_else(none)
     }
 }

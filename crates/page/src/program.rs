@@ -1,18 +1,36 @@
-//! The program of a page: one module, read in spite of its faults, and what answers on it share.
+//! The program of a page: its modules, read in spite of their faults, and what answers on it share.
 
 use irbkin::rapid::{self, Module};
 use serde::Serialize;
 
-/// A module with its text.
+use crate::request::{Refusal, Request};
+
+/// Most modules of a program.
+const MOST_MODULES: usize = 100;
+
+/// The modules of a task with their texts.
 #[derive(Debug)]
 pub(crate) struct Program {
-    pub(crate) module: Module,
-    pub(crate) text: String,
+    pub(crate) modules: Vec<Module>,
+    pub(crate) texts: Vec<String>,
 }
 
 impl Program {
-    pub(crate) fn read(text: &str) -> Self {
-        Self { module: rapid::read(text, &[]), text: text.to_owned() }
+    /// The modules of a request, each read with the declarations of the others.
+    pub(crate) fn read(request: &Request<'_>) -> Result<Self, Refusal> {
+        let given = request.objects("modules", MOST_MODULES)?;
+        if given.is_empty() {
+            return request.refused("modules", "has 0 items, it must have at least one");
+        }
+        let texts: Vec<_> =
+            given.iter().map(|it| it.text("text").map(str::to_owned)).collect::<Result<_, _>>()?;
+        let alone: Vec<_> = texts.iter().map(|text| rapid::read(text, &[])).collect();
+        let others = |own: &Module| -> Vec<&Module> {
+            alone.iter().filter(|other| !core::ptr::eq(*other, own)).collect()
+        };
+        let modules =
+            alone.iter().zip(&texts).map(|(own, text)| rapid::read(text, &others(own))).collect();
+        Ok(Self { modules, texts })
     }
 }
 
@@ -27,6 +45,8 @@ pub struct Finding {
     pub severity: &'static str,
     /// Whether it is shown unless codes are selected.
     pub shown: bool,
+    /// The module, from 0.
+    pub module: usize,
     /// Line, from 1.
     pub line: usize,
     /// Column, from 1, in characters.
@@ -48,6 +68,7 @@ impl From<&rapid::Finding> for Finding {
             name: finding.code.name(),
             severity: finding.code.severity().id(),
             shown: finding.code.is_default(),
+            module: finding.module,
             line: finding.line,
             column: finding.column,
             message: finding.message.clone(),
@@ -61,6 +82,8 @@ impl From<&rapid::Finding> for Finding {
 /// A statement that is invalid and skipped.
 #[derive(Debug, Serialize)]
 pub struct Fault {
+    /// The module, from 0.
+    pub module: usize,
     /// Line, from 1; 0 of the whole text.
     pub line: usize,
     /// Column, from 1, in characters.
@@ -69,12 +92,16 @@ pub struct Fault {
     pub message: String,
 }
 
-/// The faults of the text of a module.
-pub(crate) fn faults(module: &Module) -> Vec<Fault> {
-    let fault = |fault: &rapid::RapidFault| Fault {
-        line: fault.line,
-        column: fault.column,
-        message: fault.to_string(),
+/// The faults of the texts of modules.
+pub(crate) fn faults(modules: &[Module]) -> Vec<Fault> {
+    let of = |(module, own): (usize, &Module)| -> Vec<Fault> {
+        let fault = |fault: &rapid::RapidFault| Fault {
+            module,
+            line: fault.line,
+            column: fault.column,
+            message: fault.to_string(),
+        };
+        own.faults().iter().map(fault).collect()
     };
-    module.faults().iter().map(fault).collect()
+    modules.iter().enumerate().flat_map(of).collect()
 }

@@ -107,6 +107,16 @@ impl<'a> Request<'a> {
         items.iter().enumerate().map(object).collect()
     }
 
+    /// An index of a list with so many items; 0 if it is missing.
+    pub(crate) fn index(&self, field: &str, count: usize) -> Result<usize, Refusal> {
+        let Some(value) = self.value(field) else { return Ok(0) };
+        let index = value.as_u64().and_then(|it| usize::try_from(it).ok());
+        match index.filter(|it| *it < count) {
+            Some(index) => Ok(index),
+            None => self.refused(field, &format!("is {value}, it must be 0 to {}", count - 1)),
+        }
+    }
+
     /// A number of at most the size of `bound`.
     fn number(&self, field: &str, bound: f64) -> Result<f64, Refusal> {
         match self.value(field) {

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use crate::Page;
 
+const YUMI: &str = "IRB 14000-0.5/0.5 (left)";
 /// Names of arms of each structure, and joint angles [rad] that are at no singularity.
 const ARMS: [(&str, usize); 6] = [
     ("IRB 2600-12/1.65", 6),
@@ -12,7 +13,7 @@ const ARMS: [(&str, usize); 6] = [
     ("UR5e", 6),
     ("CRB 15000-5/0.95", 6),
     ("Panda", 7),
-    ("IRB 14000-0.5/0.5 (left)", 7),
+    (YUMI, 7),
 ];
 const Q: [f64; 7] = [0.3, -0.4, 0.2, -0.9, 0.6, 0.7, 0.5];
 
@@ -160,8 +161,20 @@ fn targets_mean_poses_or_joints() {
     assert!(words.contains("[1,2,3]"), "{words}");
     let words = refused(&mut page, &json!({"do": "ik_target", "robtarget": "VAR num n:=1;"}));
     assert!(words.contains("a num, it must be a robtarget"), "{words}");
+    // A robot in its work object meets a target with its arm angle as one in the world does.
+    let seven = "[[325.00229,483.78301,864.45859],[0.511069,-0.225138,0.668941,0.490549],\
+                 [0,1,0,4],[-70.63875,9E9,9E9,9E9,9E9,9E9]]";
+    let placed = json!([0, -1, 0, 0.3, 1, 0, 0, -0.2, 0, 0, 1, 0.1]);
+    let mut page = with_arm(YUMI);
+    let wanted = granted(&mut page, &json!({"do": "ik_target", "robtarget": seven}));
+    granted(&mut page, &json!({"do": "robot", "name": YUMI, "base_pose": placed}));
+    let target = json!({"do": "ik_target", "robtarget": seven, "wobj": placed});
+    let found = granted(&mut page, &target);
+    assert_eq!(numbers(&wanted["q"]).len(), 7, "{wanted}");
+    let pairs = numbers(&found["q"]).into_iter().zip(numbers(&wanted["q"]));
+    assert!(pairs.into_iter().all(|(one, other)| (one - other).abs() < 1e-9), "{found} {wanted}");
     // Axis 7 is not there.
-    let mut page = with_arm("IRB 14000-0.5/0.5 (left)");
+    let mut page = with_arm(YUMI);
     let words = refused(&mut page, &json!({"do": "ik_target", "robtarget": text}));
     assert!(words.starts_with("joint 3 of the jointtarget is 9e9 deg"), "{words}");
 }
@@ -171,7 +184,9 @@ fn a_program_is_checked_and_played() {
     let mut page = with_arm("IRB 2600-12/1.65");
     let words = refused(&mut page, &json!({"do": "motion"}));
     assert!(words.starts_with("there is no program"));
-    let checked = granted(&mut page, &json!({"do": "check", "module": MODULE, "collide": true}));
+    let modules = json!([{"text": MODULE}]);
+    let checked = granted(&mut page, &json!({"do": "check", "modules": modules, "collide": true}));
+    assert_eq!(checked["procedures"], json!([{"module": 0, "name": "main"}]));
     let moves = checked["moves"].as_array().unwrap();
     assert_eq!(moves.len(), 2);
     assert_eq!(moves[1]["instruction"], "MoveL");
@@ -180,12 +195,46 @@ fn a_program_is_checked_and_played() {
     let motion = granted(&mut page, &json!({"do": "motion", "routine": "main"}));
     let samples = motion["t"].as_array().unwrap().len();
     assert_eq!(numbers(&motion["q"]).len(), 6 * samples);
-    assert_eq!(motion["lines"].as_array().unwrap().len(), samples);
+    assert_eq!(motion["move_index"].as_array().unwrap().len(), samples);
     assert_eq!(motion["thinned"], false);
     let words = refused(&mut page, &json!({"do": "motion", "routine": "weld"}));
     assert!(words.contains("weld"), "{words}");
-    let broken = granted(&mut page, &json!({"do": "check", "module": "MODULE A MoveL; ENDMODULE"}));
-    assert!(broken["faults"].as_array().is_some_and(|faults| !faults.is_empty()));
+    let broken = json!({"do": "check", "modules": [{"text": "MODULE A MoveL; ENDMODULE"}]});
+    let faults = granted(&mut page, &broken)["faults"].take();
+    assert!(faults.as_array().is_some_and(|faults| !faults.is_empty()));
+}
+
+#[test]
+fn modules_are_read_together_and_the_tool_is_on_the_way() {
+    let mut page = with_arm("IRB 2600-12/1.65");
+    let data = "MODULE Data PERS tooldata tGun:=[TRUE,[[0,0,200],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]]; \
+                PERS robtarget p10:=[[900,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]; ENDMODULE";
+    let moves = "MODULE Moves PROC weld() MoveJ p10,v100,fine,tGun; \
+                 MoveL Offs(p10,0,100,0),v100,fine,tGun; ENDPROC ENDMODULE";
+    let modules = json!([{"text": data}, {"text": moves}]);
+    let checked = granted(&mut page, &json!({"do": "check", "modules": modules}));
+    assert_eq!(checked["procedures"], json!([{"module": 1, "name": "weld"}]));
+    assert!(
+        checked["moves"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|it| it["module"] == 1 && it["q"].is_array())
+    );
+    let motion = granted(&mut page, &json!({"do": "motion", "module": 1, "routine": "weld"}));
+    assert!(motion["moves"].as_array().unwrap().iter().all(|it| it["module"] == 1));
+    let way = numbers(&motion["way"]);
+    let (first, last) = (&way[..3], &way[way.len() - 3..]);
+    for (found, wanted) in first.iter().chain(last).zip([0.9, 0.0, 0.9, 0.9, 0.1, 0.9]) {
+        assert!((found - wanted).abs() < 1e-12, "{way:?}");
+    }
+    for (module, words) in [(2, "module is 2, it must be 0 to 1"), (0, "weld")] {
+        let found =
+            refused(&mut page, &json!({"do": "motion", "module": module, "routine": "weld"}));
+        assert!(found.contains(words), "{found}");
+    }
+    let none = refused(&mut page, &json!({"do": "check", "modules": []}));
+    assert_eq!(none, "modules has 0 items, it must have at least one");
 }
 
 #[test]

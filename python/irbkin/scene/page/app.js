@@ -231,37 +231,40 @@ class App {
   }
 
   pasteTarget(meant) {
-    const target = this.engine.ask({ do: "ik_target", robtarget: meant.text });
+    const { wobj } = this.state;
+    const target = this.engine.ask({ do: "ik_target", robtarget: meant.text, wobj: toRows(wobj) });
     const name = target.name ? ` ${target.name}` : "";
     meant.form = `a ${target.kind}${name}`;
-    if (target.kind === "jointtarget") {
+    if (target.q) {
       this.setJoints(target.q);
-      return;
+    } else {
+      this.setPose(multiply(wobj, fromRows(target.T)));
+      meant.form += `, whose confdata [${target.confdata.join(", ")}] no solution inside the limits has`;
     }
-    const T = multiply(this.state.wobj, fromRows(target.T));
-    this.setPose(T);
-    const wanted = target.confdata.join();
-    const own = this.state.solutions.findIndex((it) => it.confdata?.join() === wanted);
-    if (target.q && isIdentity(this.state.wobj)) this.setJoints(target.q);
-    else if (own >= 0 && this.state.solutions[own].within_limits && this.robot.dof === 6) this.choose(own);
-    else if (this.robot.dof === 7) meant.form += "; with a work object its arm angle is not used";
-    else meant.form += `, whose confdata [${target.confdata.join(", ")}] no solution inside the limits has`;
   }
 
-  drop(files) {
+  // Modules among the files are read together: they are of one task.
+  async drop(files) {
+    const read = [];
     for (const file of files) {
       if (file.size > 4e6) {
         this.notes.add(`${file.name} has ${(file.size / 1e6).toFixed(1)} MB, at most 4 MB are read here: irbkin check reads it.`);
-        continue;
+      } else {
+        read.push({ name: file.name, text: await file.text() });
       }
-      file.text().then((text) => this.guard(this.parts.pasteWords, () => {
-        try {
-          this.openFile(file.name, text);
-        } catch (fault) {
-          throw new Error(`${file.name}: ${fault.message}`);
-        }
-      }));
     }
+    const isModule = ({ name }) => /\.(modx?|prg|sysx?)$/i.test(name);
+    this.guard(this.parts.pasteWords, () => {
+      const modules = read.filter(isModule);
+      if (modules.length) this.program.open(modules);
+      for (const { name, text } of read.filter((it) => !isModule(it))) {
+        try {
+          this.openFile(name, text);
+        } catch (fault) {
+          throw new Error(`${name}: ${fault.message}`);
+        }
+      }
+    });
   }
 
   openFile(name, text) {
@@ -272,8 +275,6 @@ class App {
       if (this.robot.missing_form) this.notes.add(`${this.robot.name}: ${this.robot.missing_form}`);
     } else if (ending === "json") {
       openScene(this, JSON.parse(text));
-    } else if (["mod", "modx", "prg", "sys", "sysx"].includes(ending)) {
-      this.program.open(name, text);
     } else {
       throw new Error(`.${ending} is not read; a .urdf, a .mod or a scene (.json) is`);
     }

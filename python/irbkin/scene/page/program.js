@@ -1,4 +1,7 @@
-// A module of RAPID: its moves as a table with findings, played back on a slider.
+// A program of RAPID: its moves as a table with findings, a routine played back on a slider.
+
+const MOST_ROWS = 3000;
+const MOST_MARKS = 300;
 
 class Program {
   constructor(app) {
@@ -15,6 +18,7 @@ class Program {
     this.node = el("section", { className: "program", hidden: true },
       el("h2", {}, "Program ", this.title = el("span", { className: "dim" })),
       this.words,
+      this.routines = el("select", { ariaLabel: "routine", onchange: () => this.play() }),
       this.player = el("div", { className: "player" }, this.button, this.slider, this.clock),
       this.line,
       el("div", { className: "moves" }, el("table", {},
@@ -23,24 +27,25 @@ class Program {
     );
   }
 
-  open(name, text) {
-    this.name = name;
-    this.text = text;
-    this.lines = text.split("\n");
+  // Modules of one task: each with a name and a text.
+  open(modules) {
+    this.modules = modules;
+    this.lines = modules.map((it) => it.text.split("\n"));
+    this.name = modules.map((it) => it.name).join(", ");
     this.read();
   }
 
   // A motion of a scene is of its arm alone.
   forgetMotion() {
     this.stop();
-    if (this.text === undefined) {
+    if (!this.modules) {
       this.motion = null;
       this.node.hidden = true;
     }
   }
 
   close() {
-    this.text = undefined;
+    this.modules = null;
     this.forgetMotion();
   }
 
@@ -49,107 +54,134 @@ class Program {
     if (!motion.t.length) return;
     this.stop();
     this.shown = null;
-    this.name = name;
-    this.text = undefined;
+    this.modules = null;
     this.title.textContent = name;
     this.words.textContent = "";
+    this.routines.hidden = true;
     this.list.replaceChildren();
-    this.lines = (motion.source ?? "").split("\n");
-    const duration = motion.t.at(-1);
-    this.motion = { t: motion.t, q: motion.q.flat(), lines: motion.lines ?? [], duration, moves: [] };
+    this.lines = [(motion.source ?? "").split("\n")];
+    const places = (motion.lines ?? []).map((line) => ({ module: 0, line }));
+    this.motion = { t: motion.t, q: motion.q.flat(), places, duration: motion.t.at(-1), moves: [] };
     this.node.hidden = false;
     this.player.hidden = false;
     this.at(0);
   }
 
-  // Check the module with the arm as it is; `stays` where the motion is.
+  // Check the program with the arm as it is; `stays` where the motion is.
   read(stays = false) {
-    if (this.text === undefined) return;
+    if (!this.modules) return;
     this.stop();
-    this.shown = null;
-    this.line.textContent = "";
-    const { engine } = this.app;
     this.motion = null;
+    this.line.textContent = "";
     this.node.hidden = false;
     this.title.textContent = this.name;
+    const { engine, view } = this.app;
+    const modules = this.modules.map(({ text }) => ({ text }));
     let checked;
     try {
-      checked = engine.ask({ do: "check", module: this.text, collide: this.app.view.obstacles.length > 0 });
+      checked = engine.ask({ do: "check", modules, collide: view.obstacles.length > 0 });
     } catch (fault) {
       this.words.textContent = `${this.name} cannot be checked: ${fault.message}`;
       this.list.replaceChildren();
-      this.player.hidden = true;
+      this.routines.hidden = this.player.hidden = true;
       return;
-    }
-    let why = "";
-    try {
-      this.motion = engine.ask({ do: "motion" });
-    } catch (fault) {
-      why = ` It is not played: ${fault.message}.`;
     }
     const shown = checked.findings.filter((it) => it.shown);
     const unchecked = checked.moves.filter((it) => it.unchecked).length;
     const errors = shown.filter((it) => it.severity === "error").length;
-    this.words.textContent = `${checked.moves.length - unchecked} of ${checked.moves.length} moves `
+    this.counted = `${checked.moves.length - unchecked} of ${checked.moves.length} moves `
       + `checked, ${errors} ${errors === 1 ? "error" : "errors"}, ${shown.length - errors} other findings`
-      + `${checked.faults.length ? `, ${checked.faults.length} statements not read` : ""}.${why}`;
-    this.player.hidden = !this.motion;
+      + `${checked.faults.length ? `, ${checked.faults.length} statements not read` : ""}.`;
+    if (checked.moves.length > MOST_ROWS) this.counted += ` The table has the first ${MOST_ROWS}.`;
     this.fill(checked, shown);
+    this.choices(checked);
+    this.play(stays);
+  }
+
+  // The procedures, `main` or the first that moves chosen unless another one was.
+  choices({ procedures, moves }) {
+    const before = this.routines.value;
+    const moving = moves.find((move) => move.routine !== null);
+    const isFirst = (it) => it.module === moving?.module && it.name === moving.routine;
+    const own = procedures.find((it) => it.name.toLowerCase() === "main") ?? procedures.find(isFirst);
+    this.procedures = procedures;
+    this.routines.replaceChildren(...procedures.map((it, index) => el("option", { value: index }, it.name)));
+    this.routines.value = before in procedures ? before : procedures.indexOf(own);
+    this.routines.hidden = procedures.length < 2;
+  }
+
+  // Follow the chosen routine; `stays` where the motion is.
+  play(stays = false) {
+    this.stop();
+    this.shown = null;
+    this.motion = null;
+    this.line.textContent = "";
+    const chosen = this.procedures[this.routines.value];
+    let why = "";
+    try {
+      this.motion = this.app.engine.ask({ do: "motion", module: chosen?.module, routine: chosen?.name });
+      const { moves, move_index: own } = this.motion;
+      this.motion.places = own.map((index) => moves[index]);
+    } catch (fault) {
+      why = ` ${chosen?.name ?? "It"} is not played: ${fault.message}.`;
+    }
+    this.words.textContent = this.counted + why;
+    this.player.hidden = !this.motion;
     this.paths();
     if (this.motion && !stays) this.at(0);
   }
 
   fill(checked, shown) {
     const rows = [];
-    for (const move of checked.moves.slice(0, 3000)) {
-      const own = shown.filter((it) => it.line === move.line && it.column === move.column);
+    const place = ({ module, line, column }) => `${module}:${line}:${column}`;
+    const found = new Map();
+    for (const it of shown) found.set(place(it), [...(found.get(place(it)) ?? []), it]);
+    const named = ({ module, line }) => (this.modules.length > 1 ? `${this.modules[module].name}:${line}` : String(line));
+    for (const move of checked.moves.slice(0, MOST_ROWS)) {
+      const own = found.get(place(move)) ?? [];
       const worst = ["error", "warning", "note"].find((it) => own.some((one) => one.severity === it));
       rows.push(el("tr", {
-        className: worst ?? "", tabIndex: 0, "data-line": move.line,
+        className: worst ?? "", tabIndex: 0, "data-module": move.module, "data-line": move.line,
         onclick: () => this.go(move), onkeydown: (event) => event.key === "Enter" && this.go(move),
       },
-      el("td", {}, String(move.line)),
+      el("td", {}, named(move)),
       el("td", {}, `${move.instruction ?? ""} ${move.target}`.trim()),
       el("td", {}, move.confdata ? move.confdata.join(" ") : ""),
       el("td", {}, ...own.map((it) => el("div", {}, el("b", {}, it.code), ` ${it.message}`)),
         own.length || !move.unchecked ? "" : "not checked")));
     }
     for (const fault of checked.faults) {
-      rows.push(el("tr", { className: "error" }, el("td", {}, String(fault.line)),
+      rows.push(el("tr", { className: "error" }, el("td", {}, named(fault)),
         el("td", {}, ""), el("td", {}, ""), el("td", {}, fault.message)));
     }
     this.list.replaceChildren(...rows);
-    if (checked.moves.length > 3000) {
-      this.words.textContent += ` The table has the first 3000.`;
-    }
-    this.marks = shown.slice(0, 300).flatMap((it) => {
-      const move = checked.moves.find((one) => one.line === it.line && one.column === it.column);
+    const moves = new Map(checked.moves.map((it) => [place(it), it]));
+    this.marks = shown.slice(0, MOST_MARKS).flatMap((it) => {
+      const q = moves.get(place(it))?.q;
       const color = SEVERITY_COLORS[it.severity];
-      return move?.q && color ? [{ q: move.q, color }] : [];
+      return q && color ? [{ ...it, q, color }] : [];
     });
   }
 
-  // The way of the tool, and the places of findings.
+  // The way of the program's tool, and the findings at the ends of their moves.
   paths() {
-    const { arm } = this.app;
-    const way = [];
-    const { dof } = this.app.robot;
-    if (this.motion) {
-      const count = this.motion.t.length;
-      const each = Math.max(1, Math.floor(count / 800));
-      for (let i = 0; i < count; i += each) {
-        way.push(place(arm.frames(this.motion.q.slice(dof * i, dof * (i + 1))).tool));
-      }
-    }
-    this.app.view.way = way;
-    this.app.view.marks = (this.marks ?? []).map((it) => ({ at: place(arm.frames(it.q).tool), color: it.color }));
+    const { arm, view } = this.app;
+    const way = this.motion?.way ?? [];
+    const count = way.length / 3;
+    const each = Math.max(1, Math.floor(count / 800));
+    view.way = Array.from({ length: Math.ceil(count / each) }, (_, i) => way.slice(3 * each * i, 3 * each * i + 3));
+    const ends = new Map((this.motion?.places ?? []).map((it, i) => [`${it.module}:${it.line}`, 3 * i]));
+    view.marks = this.marks.map(({ module, line, q, color }) => {
+      const end = ends.get(`${module}:${line}`);
+      return { at: end === undefined ? place(arm.frames(q).tool) : way.slice(end, end + 3), color };
+    });
   }
 
   go(move) {
     this.stop();
-    this.show(move.line);
+    this.show(move);
     if (move.q) this.app.setJoints(move.q);
-    const at = this.motion?.moves.find((it) => it.line === move.line);
+    const at = this.motion?.moves.find((it) => it.module === move.module && it.line === move.line);
     if (at) this.time(at.end);
   }
 
@@ -165,7 +197,7 @@ class Program {
     const part = span > 0 ? (t - motion.t[before]) / span : 1;
     const [from, to] = [before, after].map((it) => motion.q.slice(dof * it, dof * (it + 1)));
     this.app.setJoints(from.map((it, i) => it + part * (to[i] - it)), { light: this.isPlaying });
-    this.show(motion.lines[after]);
+    this.show(motion.places[after]);
   }
 
   time(t) {
@@ -175,12 +207,15 @@ class Program {
     this.clock.textContent = `${t.toFixed(2)} of ${duration.toFixed(2)} s`;
   }
 
-  show(line) {
-    if (this.shown === line) return;
-    this.shown = line;
-    this.line.textContent = line ? `${line}  ${(this.lines[line - 1] ?? "").trim()}` : "";
+  // The source line of a place.
+  show(place) {
+    const { module, line } = place ?? {};
+    const shown = `${module}:${line}`;
+    if (this.shown === shown) return;
+    this.shown = shown;
+    this.line.textContent = line ? `${line}  ${(this.lines[module][line - 1] ?? "").trim()}` : "";
     for (const row of this.list.children) {
-      const isOwn = Number(row.dataset.line) === line;
+      const isOwn = Number(row.dataset.module) === module && Number(row.dataset.line) === line;
       row.classList.toggle("here", isOwn);
       if (isOwn && this.isPlaying) row.scrollIntoView({ block: "nearest" });
     }
