@@ -231,7 +231,7 @@ docs: $(BUILT) $(VENV)/.groups $(VENV)/.site ## Write generated tables and trans
 	IRBKIN_WRITE=1 cargo test --quiet --test suite -- catalog_page::
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_check.py -k rules_of_the_command
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k "transcripts or notebook"
-	for script in eight_solutions slots motion plans singularities; do $(BIN)/python docs/pictures/$$script.py; done
+	for script in eight_solutions slots motion plans singularities peers; do $(BIN)/python docs/pictures/$$script.py; done
 	cargo doc --no-deps --features serde
 	$(BIN)/python docs/site/build.py
 

@@ -8,7 +8,7 @@ import argparse
 import warnings
 from pathlib import Path
 
-from . import machine, plot, report
+from . import machine, report
 from .arms import IRB2600
 from .contenders import BUILDERS
 from .general_arms import GENERAL
@@ -18,18 +18,15 @@ from .rows import ROWS, gather, run
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "evidence" / "benchmarks.md"
-PICTURE = ROOT / "docs" / "pictures" / "peers.svg"
 
 
 def main() -> None:
-    """Count, time and print; write the page and the picture when asked to."""
+    """Count, time and print; write the page when asked to."""
     parser = argparse.ArgumentParser(prog="python -m benches.peers", description=__doc__)
     parser.add_argument(
         "--quick", action="store_true", help="tiny counts: shows that it runs, measures nothing"
     )
-    parser.add_argument(
-        "--write", action="store_true", help=f"write {PAGE.name} and {PICTURE.name}, too"
-    )
+    parser.add_argument("--write", action="store_true", help=f"write {PAGE.name}, too")
     arguments = parser.parse_args()
     if arguments.quick and arguments.write:
         parser.error("--quick measures nothing that is worth writing")
@@ -71,8 +68,7 @@ def main() -> None:
 
     if arguments.write:
         report.write(PAGE, report.document(about, recalls, results, missing))
-        plot.draw(results, PICTURE)
-        print(f"\nWrote {PAGE.relative_to(ROOT)} and {PICTURE.relative_to(ROOT)}")
+        print(f"\nWrote {PAGE.relative_to(ROOT)}, from which make docs draws its pictures")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Style and writer of the pictures.
 
-README and the pages show three pictures of this folder; `make docs` draws all others into
+README and the pages show the pictures of this folder; `make docs` draws all others into
 target/pictures. The same irbkin and matplotlib give the same files.
 """
 
