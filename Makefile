@@ -90,11 +90,12 @@ lints:
 rust-tests:
 	$(STEP) "Compile the Rust tests" $(FIRST) cargo test --quiet --lib --tests --no-run
 
-test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars and xarray, run docs/guide/recipes.md
-	@if tests/step.sh "Install what docs/guide/recipes.md needs" $(PIP_INSTALL) --group recipes; then \
+test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars, xarray, rerun; run the recipes and irbkin record
+	@if tests/step.sh "Install what recipes and irbkin record need" $(PIP_INSTALL) --group recipes; then \
 		tests/step.sh "Recipes" $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k recipes; \
+		tests/step.sh "irbkin record" $(BIN)/python -m pytest --quiet tests/python/test_record.py; \
 	else \
-		echo "SKIPPED: docs/guide/recipes.md was not run: its packages cannot be installed (the reason is above)"; \
+		echo "SKIPPED: recipes and irbkin record were not run: their packages cannot be installed (the reason is above)"; \
 	fi
 
 # In a ROS of its own each; only where one cannot be installed it is skipped, with the reason.

@@ -39,7 +39,7 @@ def links(viewer):
 
 @pytest.mark.parametrize("b", [(0.1, 0.2, 1.3), (0.1, 0.2, 0.3)])
 def test_a_capsule_contains_its_ends(b):
-    from irbkin.viewer._meshes import capsule
+    from irbkin.scene._meshes import capsule
 
     mesh = capsule(irbkin.scene.LinkShape(0, (0.1, 0.2, 0.3), b, 0.1))
     np.testing.assert_allclose(mesh.bounds, [[0, 0.1, 0.2], [0.2, 0.3, b[2] + 0.1]], atol=2e-3)

@@ -25,6 +25,7 @@ VERBS = {
     "map": "what an arm reaches: a grid of positions, each with many orientations",
     "plot": "draw solutions, paths and reach",
     "view": "show an arm, a program or a scene in the browser",
+    "record": "write an arm, a program or a scene as a file of rerun",
     "urdf": "write an arm as URDF",
 }
 OVERVIEW = """usage: irbkin VERB ... [--help]

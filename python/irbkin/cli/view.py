@@ -5,22 +5,19 @@ from __future__ import annotations
 import argparse
 import os
 import tempfile
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from irbkin.cli.arguments import Parser, joints, read_cell, read_robot
+from irbkin.cli.arguments import Parser, read_robot
 from irbkin.cli.errors import FINE, CommandError
-from irbkin.cli.numbers import number
+from irbkin.cli.scenes import INPUTS, add_scene, is_scene, read_scene
 
 if TYPE_CHECKING:
-    from irbkin import Robot
     from irbkin.scene import Scene
 
-HELP = """The page is one file that needs no network: drag the tool, jog the joints, see every
-solution, play the program. ROBOT is a name of the catalog, a .urdf, or a scene (.json) that
-irbkin.scene wrote. FILE is a RAPID module: its main routine, or the only one that moves, is played
-with its lines and findings. Without -o the page is written to a temporary file and opened. --live
-serves a window of viser in its place, until Ctrl-C: pip install 'irbkin[viewer]'."""
+HELP = f"""The page is one file that needs no network: drag the tool, jog the joints, see every
+solution, play the program.
+{INPUTS} Without -o the page is written to a temporary file and opened. --live serves
+a window of viser in its place, until Ctrl-C: pip install 'irbkin[viewer]'."""
 EXAMPLES = """  irbkin view "IRB 2600-12/1.65"
   irbkin view "IRB 2600-12/1.65" program.mod --cell cell.toml
   irbkin view arm.urdf --joints 0 20 10 0 40 0 -o arm.html
@@ -30,12 +27,8 @@ ENDINGS = (".html", ".htm", ".json")
 
 def add_arguments(parser: Parser) -> None:
     """The arguments of the verb."""
-    parser.add_robot()
+    add_scene(parser)
     add = parser.add
-    add("file", metavar="FILE", nargs="?", help="a RAPID module (.mod, .sys, .prg)")
-    add("--routine", metavar="NAME", help="the routine: main, or the only one that moves")
-    add("--joints", nargs="+", type=number, metavar="Q", help="joint angles [deg]")
-    parser.add_cell()
     add("-o", "--output", metavar="FILE", help="write the page (.html), or the scene (.json)")
     add("--live", action="store_true", help="serve a window, until Ctrl-C")
     add("--port", type=int, default=8080, metavar="PORT", help="of --live: 8080")
@@ -46,7 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
     output: str | None = arguments.output
     if output is not None and not output.lower().endswith(ENDINGS):
         raise CommandError(f"--output: {output} must end in .html or .json")
-    scene = _scene(arguments)
+    scene = read_scene(arguments)
     if arguments.live:
         return _serve(scene, arguments)
     try:
@@ -71,44 +64,7 @@ def _serve(scene: Scene, arguments: argparse.Namespace) -> int:
 
     from irbkin.viewer import Viewer
 
-    is_scene = arguments.robot.lower().endswith(".json")
-    robot = None if is_scene else read_robot(arguments)
+    robot = None if is_scene(arguments) else read_robot(arguments)
     print(Viewer(scene, robot, port=arguments.port).url, flush=True)
     while True:
         time.sleep(1.0)
-
-
-def _scene(arguments: argparse.Namespace) -> Scene:
-    from irbkin import scene
-
-    if arguments.robot.lower().endswith(".json"):
-        try:
-            return scene.Scene.load(arguments.robot)
-        except ValueError as error:
-            raise CommandError(f"{arguments.robot}: {error}") from None
-    robot = read_robot(arguments)
-    own = _of_module(robot, arguments) if arguments.file else _of_arm(robot, arguments)
-    cell = read_cell(arguments)
-    return own if cell is None else own + scene.of(cell)
-
-
-def _of_arm(robot: Robot, arguments: argparse.Namespace) -> Scene:
-    from irbkin import scene
-
-    return scene.of(robot, q=joints(arguments.joints, "--joints", robot.dof))
-
-
-def _of_module(robot: Robot, arguments: argparse.Namespace) -> Scene:
-    from irbkin import rapid, scene
-    from irbkin.cli.files import shown
-    from irbkin.errors import RapidError
-
-    try:
-        module = rapid.load(arguments.file)
-        made = rapid.motion(robot, module, arguments.routine)
-    except RapidError as error:
-        raise CommandError(f"{shown(arguments.file)}: {error}") from None
-    own = scene.of(made, robot, title=os.path.basename(arguments.file))
-    (arm,) = own.arms
-    assert arm.motion is not None
-    return replace(own, arms=(replace(arm, motion=replace(arm.motion, source=module.source)),))

@@ -226,12 +226,19 @@ class Scene:
         return page(self)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the scene to a file: a page if the path ends in .html, else JSON.
+        """Write the scene to a file: a page if the path ends in .html, for the viewer of rerun if
+        it ends in .rrd, which needs `pip install 'irbkin[rerun]'`, else JSON.
 
         Raises:
             FileNotFoundError: As `to_html`, of a page.
+            ImportError: rerun-sdk is not installed, of a .rrd.
         """
-        is_page = os.fspath(path).lower().endswith((".html", ".htm"))
+        name = os.fspath(path).lower()
+        if name.endswith(".rrd"):
+            from irbkin.scene._rerun import write
+
+            return write(self, os.fspath(path))
+        is_page = name.endswith((".html", ".htm"))
         text = self.to_html() if is_page else self.to_json()
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)

@@ -1,4 +1,4 @@
-"""The look of arms in pictures and windows: the direction of the eye, the colors of links."""
+"""The look of scenes in pictures and windows: the direction of the eye, and colors."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from irbkin._arrays import Floats
 
 # Seen from the front on the right, from above.
@@ -22,6 +24,19 @@ UPWARD = np.array(
 TOWARD = np.cross(SIDEWAYS, UPWARD)
 BASE, LINKS = "#5b6470", ("#e8912d", "#f3ae5c")
 """Colors of the base, and of the links in turn."""
+GHOST = (150, 165, 190)
+OBSTACLE = (120, 145, 130)
+PATH = (30, 110, 190)
+SEVERITIES = {"error": (200, 40, 40), "warning": (200, 130, 0), "note": PATH}
+"""Colors of marks: red, green and blue, to 255."""
+
+
+def value_colors(values: npt.ArrayLike) -> npt.NDArray[np.uint8]:
+    """Return the colors of a cloud's values, shape (m, 3), from yellow to violet."""
+    numbers = np.asarray(values, dtype=float)
+    part = numbers[:, None] / max(float(numbers.max()), 1e-9)
+    colors = (1 - part) * [253, 231, 37] + part * [68, 1, 84]
+    return colors.clip(0, 255).astype(np.uint8)
 
 
 def link_color(link: int) -> str:

@@ -10,14 +10,13 @@ import numpy as np
 from irbkin import to_xyz_wxyz
 from irbkin.scene import Arm
 from irbkin.scene._arms import link_frames
-from irbkin.scene._look import link_color
-from irbkin.viewer._meshes import joined
+from irbkin.scene._look import GHOST, link_color
+from irbkin.scene._meshes import joined
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     import viser
 
-GHOST = (150, 165, 190)
 MOST_GHOSTS = 16
 """Copies that are kept ready: no more solutions are drawn."""
 

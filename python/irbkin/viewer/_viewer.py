@@ -12,13 +12,13 @@ from irbkin import Robot, pose, to_xyz_wxyz
 from irbkin.errors import InvalidJointsError
 from irbkin.scene import Scene, of
 from irbkin.scene._arms import start
+from irbkin.scene._look import OBSTACLE, PATH, SEVERITIES, value_colors
+from irbkin.scene._meshes import obstacle
 from irbkin.viewer._drawn import DrawnArm
-from irbkin.viewer._meshes import obstacle
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-COLORS = {"error": (200, 40, 40), "warning": (200, 130, 0), "note": (30, 110, 190)}
 TICK = 1 / 30
 """Time between two pictures of a motion [s]."""
 
@@ -190,7 +190,7 @@ class Viewer:
         for it in self.scene.obstacles:
             mesh = obstacle(it.shape)
             parts = (np.asarray(mesh.vertices), np.asarray(mesh.faces))
-            scene.add_mesh_simple(f"/obstacles/{it.name}", *parts, color=(120, 145, 130))
+            scene.add_mesh_simple(f"/obstacles/{it.name}", *parts, color=OBSTACLE)
         for frame in self.scene.frames:
             (xyz,), (wxyz,) = to_xyz_wxyz(np.array(frame.pose)[None])
             scene.add_frame(
@@ -204,18 +204,14 @@ class Viewer:
             points = np.array(path.points)
             if len(points) > 1:
                 pairs = np.stack([points[:-1], points[1:]], axis=1)
-                scene.add_line_segments(
-                    f"/paths/{index}_{path.name}", pairs, (30, 110, 190), thickness=0.004
-                )
+                scene.add_line_segments(f"/paths/{index}_{path.name}", pairs, PATH, thickness=0.004)
         for cloud in (it for it in self.scene.clouds if it.points):
-            values = np.array(cloud.values)
-            part = values[:, None] / max(float(values.max()), 1e-9)
-            colors = ((1 - part) * [253, 231, 37] + part * [68, 1, 84]).astype(np.uint8)
+            colors = value_colors(cloud.values)
             scene.add_point_cloud(
                 f"/clouds/{cloud.name}", np.array(cloud.points), colors, point_size=0.02
             )
         for index, mark in enumerate(self.scene.marks):
-            color = COLORS.get(mark.severity, COLORS["note"])
+            color = SEVERITIES.get(mark.severity, PATH)
             scene.add_icosphere(f"/marks/{index}", 0.02, color, position=np.array(mark.point))
             scene.add_label(
                 f"/marks/{index}/text", mark.text[:80], visible=mark.severity == "error"
