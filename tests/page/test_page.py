@@ -335,6 +335,33 @@ def test_a_urdf_and_a_scene_are_opened(opened, tmp_path):
     assert own["posture"]["contact"]["collides"] == bool(cell.collides(arm, q))
 
 
+def test_paths_of_a_scene_are_apart_and_its_frames_have_axes(opened, tmp_path):
+    page = opened()
+    pose = irbkin.pose([0.5, 0.6, 0.7], euler_zyx=[0.3, 0.2, 0.1])
+    own = irbkin.scene.Scene(
+        frames=(irbkin.scene.Frame("table", tuple(map(tuple, pose.tolist()))),),
+        paths=tuple(
+            irbkin.scene.Path("way", ((x, 0.0, 1.0), (x, 1.0, 1.0), (x, 1.0, 2.0)))
+            for x in (0.5, 0.8)
+        ),
+    )
+    own.save(tmp_path / "own.json")
+    page.evaluate(
+        "() => { irbkin.view.drawing.lines = (points, color) => (window.drawn ??= [])"
+        ".push({ points, color }) }"
+    )
+    page.set_input_files("input[type=file]", tmp_path / "own.json")
+    page.wait_for_function("() => irbkin.view.frames.length && window.drawn?.length > 4")
+    drawn = page.evaluate("() => window.drawn")
+    ways = [it["points"] for it in drawn if len(it["points"]) == 8]
+    for a, b in zip(ways[0][::2], ways[0][1::2], strict=True):
+        assert np.linalg.norm(np.subtract(b, a)) == 1.0
+    x, y, z = [it["points"] for it in drawn if len(it["points"]) == 2][:3]
+    for axis, (start, end) in enumerate((x, y, z)):
+        np.testing.assert_allclose(start, pose[:3, 3], atol=1e-12)
+        np.testing.assert_allclose(np.subtract(end, start), 0.15 * pose[:3, axis], atol=1e-12)
+
+
 def test_the_state_is_in_the_address_and_comes_back(opened):
     page = opened(hash="arm=UR5e&q=10,-80,90,-100,-90,0&tool=0,0,150,0,0,0")
     own = settled(page)

@@ -91,7 +91,7 @@ class App {
     this.reach = Math.max(...this.arm.points(own).map((it) => length(subtract(it, place(this.arm.base)))), 0.5);
     if (isOther) {
       this.program.forgetMotion();
-      Object.assign(this.view, { way: [], marks: [], extra: [] });
+      Object.assign(this.view, { way: [], frames: [], marks: [], extra: [] });
     }
     this.setJoints(own);
     if (isOther) this.view.fit();

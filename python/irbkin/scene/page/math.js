@@ -12,6 +12,9 @@ const toRows = (m) => [
   m[0], m[4], m[8], m[12], m[1], m[5], m[9], m[13], m[2], m[6], m[10], m[14],
 ];
 
+// A way through points as pairs of them.
+const segments = (points) => points.slice(1).flatMap((it, i) => [points[i], it]);
+
 function multiply(a, b) {
   const product = new Array(16);
   for (let column = 0; column < 4; column++) {

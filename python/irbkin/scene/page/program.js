@@ -169,7 +169,7 @@ class Program {
     const way = this.motion?.way ?? [];
     const count = way.length / 3;
     const each = Math.max(1, Math.floor(count / 800));
-    view.way = Array.from({ length: Math.ceil(count / each) }, (_, i) => way.slice(3 * each * i, 3 * each * i + 3));
+    view.way = segments(Array.from({ length: Math.ceil(count / each) }, (_, i) => way.slice(3 * each * i, 3 * each * i + 3)));
     const ends = new Map((this.motion?.places ?? []).map((it, i) => [`${it.module}:${it.line}`, 3 * i]));
     view.marks = this.marks.map(({ module, line, q, color }) => {
       const end = ends.get(`${module}:${line}`);

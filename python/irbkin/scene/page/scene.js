@@ -21,7 +21,7 @@ function openScene(app, scene) {
     const most = Math.max(...it.values, 1e-9);
     const each = Math.max(1, Math.floor(it.points.length / 1500));
     return it.points.filter((_, i) => i % each === 0)
-      .map((at, i) => ({ at, color: [0.9 - 0.7 * (it.values[i * each] / most), 0.75, 0.45] }));
+      .map((at, i) => ({ at, size: 0.004, color: [0.9 - 0.7 * (it.values[i * each] / most), 0.75, 0.45] }));
   });
   if (first) {
     const posture = (first.postures ?? []).find((it) => !it.is_ghost) ?? first.postures?.[0];
@@ -48,7 +48,8 @@ function openScene(app, scene) {
     const q = arm.postures?.[0]?.q ?? arm.motion?.q[0];
     if (q) view.extra.push({ arm: drawn, q, alpha: 1 });
   }
-  view.way = (scene.paths ?? []).flatMap((it) => it.points);
+  view.way = (scene.paths ?? []).flatMap((it) => segments(it.points));
+  view.frames = (scene.frames ?? []).map((it) => fromRows(it.pose.flat()));
   view.marks = [...(scene.marks ?? []).map((it) => ({ at: it.point, color: SEVERITY_COLORS[it.severity] ?? NOTE_COLOR })), ...dots];
   for (const it of (scene.marks ?? []).slice(0, 50)) app.notes.add(`${it.place ?? ""} ${it.text}`.trim());
   view.fit();

@@ -5,6 +5,8 @@ const BASE_COLOR = [0.32, 0.36, 0.42];
 const GHOST_COLOR = [0.55, 0.62, 0.72];
 const SEVERITY_COLORS = { error: [0.8, 0.16, 0.16], warning: [0.75, 0.47, 0] };
 const NOTE_COLOR = [0.12, 0.47, 0.71];
+// Length of the axes of a frame [m].
+const AXIS = 0.15;
 
 class View {
   constructor(app, host) {
@@ -13,7 +15,7 @@ class View {
     this.canvas = el("canvas", { tabIndex: 0, ariaLabel: "the arm: drag the handle, or the ground to look around" });
     host.append(this.canvas);
     this.start();
-    Object.assign(this, { way: [], marks: [], obstacles: [], extra: [], held: null, hover: null });
+    Object.assign(this, { way: [], frames: [], marks: [], obstacles: [], extra: [], held: null, hover: null });
     this.pointers = new Map();
     for (const kind of ["pointerdown", "pointermove", "pointerup", "pointercancel"]) {
       this.canvas.addEventListener(kind, (event) => this[kind](event));
@@ -87,9 +89,10 @@ class View {
     if (!this.isBare) this.body(arm, state.q, 1);
     for (const [pose, mesh] of this.obstacles) drawing.mesh(mesh, pose, [0.45, 0.55, 0.5]);
     for (const it of this.extra) this.body(it.arm, it.q, it.alpha);
-    if (this.way.length) drawing.lines(this.way, NOTE_COLOR);
-    for (const { at, color } of this.marks) {
-      drawBall(drawing, at, 0.012 * camera.distance, color);
+    if (this.way.length) drawing.lines(this.way, NOTE_COLOR, { pairs: true });
+    this.axes();
+    for (const { at, color, size = 0.012 } of this.marks) {
+      drawBall(drawing, at, size * camera.distance, color);
     }
     if (this.isBare) return;
     if (app.settings.ghosts) {
@@ -101,6 +104,14 @@ class View {
     if (hovered && this.hover !== state.own) this.body(arm, hovered.q, 0.55);
     Handle.draw(drawing, camera, state.T, this.held?.part ?? this.over);
     this.frameTime = performance.now() - begun;
+  }
+
+  axes() {
+    if (!this.frames.length) return;
+    AXIS_COLORS.forEach((color, axis) => {
+      const ends = this.frames.flatMap((it) => [place(it), add(place(it), scale(axisOf(it, axis), AXIS))]);
+      this.drawing.lines(ends, color, { pairs: true });
+    });
   }
 
   // The color of the page, which is another one in the dark.
