@@ -56,16 +56,18 @@ def test_poses_that_do_not_determine_a_tool_are_refused(poses, words):
 
 
 def test_a_work_object_has_x_through_two_points_and_its_origin_below_the_third():
-    frame, error = work_object(seen([[0.1, 0, 0], [0.4, 0, 0], [0, 0.3, 0]]))
+    frame, error, *_ = work_object(seen([[0.1, 0, 0], [0.4, 0, 0], [0, 0.3, 0]]))
     np.testing.assert_allclose(frame, FRAME, rtol=0, atol=1e-15)
     np.testing.assert_array_equal(error, np.zeros(3))
 
 
 def test_a_work_object_is_fitted_to_nominal_points():
     nominal = np.random.default_rng(1).uniform(-0.5, 0.5, (6, 3))
-    frame, error = work_object(seen(nominal), nominal)
+    frame, error, measured, fitted = work_object(seen(nominal), nominal)
     np.testing.assert_allclose(frame, FRAME, rtol=0, atol=1e-14)
     assert error.max() < 1e-14
+    np.testing.assert_array_equal(measured, seen(nominal))
+    np.testing.assert_allclose(fitted, measured, rtol=0, atol=1e-14)
     # Three points suffice, in a plane.
     flat = nominal[:3] * [1, 1, 0]
     np.testing.assert_allclose(work_object(seen(flat), flat).frame, FRAME, rtol=0, atol=1e-13)

@@ -240,6 +240,8 @@ def _calibration(
         position_error=distance,
         rotation_error=angle,
         condition=_identify.condition(jacobian[:, kept]),
+        q=measurements.q,
+        measured=measurements.position,
     )
 
 

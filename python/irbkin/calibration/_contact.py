@@ -41,6 +41,15 @@ class _Problem(_fit.Problem):
             [body.errors(points[body.rows], corrections[body.numbers])[0] for body in self.bodies]
         )
 
+    def touched(self, corrections: Floats) -> Floats:
+        """The nearest points of the bodies [m], shape (m, 3)."""
+        points = self._points(corrections)
+        for body in self.bodies:
+            rows = body.rows
+            off, directions, _ = body.errors(points[rows], corrections[body.numbers])
+            points[rows] -= off[:, None] * directions
+        return points
+
     def typical(self, corrections: Floats) -> float:
         """Their root mean square and, for a robust loss, their median [m]."""
         off = np.abs(self.off(corrections))
@@ -153,4 +162,6 @@ def calibrate_contact(
         position_error=np.abs(problem.off(found)),
         rotation_error=np.zeros(0),
         condition=_identify.condition(jacobian[:, kept]),
+        q=q,
+        measured=problem.touched(found),
     )

@@ -39,6 +39,10 @@ class HandEye(NamedTuple):
     """Distance of A X from Y B, or X B, for each pair [m], shape (m,)."""
     rotation_error: Floats
     """Angle between their rotations [rad], shape (m,)."""
+    measured: Floats
+    """Positions of Y B, or X B [m], shape (m, 3)."""
+    fitted: Floats
+    """Positions of A X [m], shape (m, 3)."""
 
 
 def hand_eye(
@@ -83,7 +87,7 @@ def hand_eye(
         [start],
         (position_std, rotation_std, loss),
     )
-    return HandEye(x, None, *_errors(hands @ x, x @ eyes))
+    return _hand_eye(x, None, hands @ x, x @ eyes)
 
 
 def robot_world(
@@ -132,7 +136,7 @@ def robot_world(
         [x, y],
         (position_std, rotation_std, loss),
     )
-    return HandEye(x, y, *_errors(hands @ x, y @ seen))
+    return _hand_eye(x, y, hands @ x, y @ seen)
 
 
 def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floats]:
@@ -170,9 +174,9 @@ def _differences(left: Floats, right: Floats) -> tuple[Floats, Floats]:
     return left[:, :3, 3] - right[:, :3, 3], _vectors(turned)
 
 
-def _errors(left: Floats, right: Floats) -> tuple[Floats, Floats]:
-    shift, turn = _differences(left, right)
-    return np.linalg.norm(shift, axis=1), np.linalg.norm(turn, axis=1)
+def _hand_eye(x: Floats, y: Floats | None, left: Floats, right: Floats) -> HandEye:
+    shift, turn = (np.linalg.norm(it, axis=1) for it in _differences(left, right))
+    return HandEye(x, y, shift, turn, right[:, :3, 3], left[:, :3, 3])
 
 
 def _refined(

@@ -106,6 +106,17 @@ class Calibration(NamedTuple):
     """These angles [rad], shape (m,); (0,) where positions were measured."""
     condition: float
     """Condition number of the Jacobian in the fitted parameters, its columns scaled to one."""
+    q: Floats
+    """Joint angles at each measurement [rad], shape (m, n)."""
+    measured: Floats
+    """Measured positions [m], shape (m, 3); of a contact the nearest point of its fitted sphere or
+    plane.
+    """
+
+    @property
+    def fitted(self) -> Floats:
+        """Positions of the calibrated robot's tool at these joint angles [m], shape (m, 3)."""
+        return self.robot.fk(self.q)[:, :3, 3]
 
     @property
     def identifiable(self) -> tuple[str, ...]:

@@ -34,6 +34,13 @@ class ToolCenterPoint(NamedTuple):
     """The touched point in the base [m], shape (3,)."""
     error: Floats
     """Distance of the tool center point from it at each pose [m], shape (m,)."""
+    fitted: Floats
+    """The tool center point at each pose in the base [m], shape (m, 3)."""
+
+    @property
+    def measured(self) -> Floats:
+        """The touched point, once for each pose [m], shape (m, 3)."""
+        return np.broadcast_to(self.point, self.fitted.shape)
 
 
 class WorkObject(NamedTuple):
@@ -43,6 +50,10 @@ class WorkObject(NamedTuple):
     """Its pose in the base, shape (4, 4)."""
     error: Floats
     """Distance of each point from its nominal place [m], shape (m,); zeros of three points."""
+    measured: Floats
+    """The points in the base [m], shape (m, 3)."""
+    fitted: Floats
+    """Their nominal places in the base [m], shape (m, 3); of X1, X2 and Y1 the points."""
 
 
 def tool_center_point(flange: npt.ArrayLike) -> ToolCenterPoint:
@@ -79,7 +90,7 @@ def tool_center_point(flange: npt.ArrayLike) -> ToolCenterPoint:
     point = tips.mean(axis=0)
     tool = np.eye(4)
     tool[:3, 3] = tip
-    return ToolCenterPoint(tool, point, np.linalg.norm(tips - point, axis=1))
+    return ToolCenterPoint(tool, point, np.linalg.norm(tips - point, axis=1), tips)
 
 
 def work_object(points: npt.ArrayLike, nominal: npt.ArrayLike | None = None) -> WorkObject:
@@ -104,7 +115,7 @@ def work_object(points: npt.ArrayLike, nominal: npt.ArrayLike | None = None) -> 
         x = rotation[:, 0]
         frame = np.eye(4)
         frame[:3, :3], frame[:3, 3] = rotation, x1 + x * (x @ (y1 - x1))
-        return WorkObject(frame, np.zeros(3))
+        return WorkObject(frame, np.zeros(3), measured, measured)
     measured = _points(points, "points", None)
     wanted = _points(nominal, "nominal", len(measured))
     off, own = measured - measured.mean(axis=0), wanted - wanted.mean(axis=0)
@@ -118,8 +129,8 @@ def work_object(points: npt.ArrayLike, nominal: npt.ArrayLike | None = None) -> 
     frame = np.eye(4)
     frame[:3, :3] = nearest_rotation(off.T @ own)
     frame[:3, 3] = measured.mean(axis=0) - frame[:3, :3] @ wanted.mean(axis=0)
-    error = wanted @ frame[:3, :3].T + frame[:3, 3] - measured
-    return WorkObject(frame, np.linalg.norm(error, axis=1))
+    places = wanted @ frame[:3, :3].T + frame[:3, 3]
+    return WorkObject(frame, np.linalg.norm(places - measured, axis=1), measured, places)
 
 
 def _points(points: npt.ArrayLike, name: str, count: int | None) -> Floats:

@@ -2,8 +2,8 @@
 
 A scene has arms with their bodies, postures and a motion, frames, paths, clouds of points,
 obstacles and marks with texts. `of` makes one of a robot, of solutions, plans, trajectories, RAPID
-motions, cells and maps; scenes add up. Lengths are in meters, angles in radians, times in seconds;
-all is in the world frame.
+motions, cells, maps and calibrations; scenes add up. Lengths are in meters, angles in radians,
+times in seconds; all is in the world frame.
 
 >>> import irbkin
 >>> robot = irbkin.Robot("IRB 2600-12/1.65")

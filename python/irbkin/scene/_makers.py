@@ -9,8 +9,10 @@ import numpy as np
 from irbkin._arrays import evenly
 from irbkin._core import Cell, Robot, RoutineMotion, Solutions, Trajectory
 from irbkin._grids import ReachMap
+from irbkin.calibration import Calibration, HandEye, ToolCenterPoint, WorkObject
 from irbkin.records import FollowResult, Plan
 from irbkin.scene._arms import arm_of, motion_of, rest, rows
+from irbkin.scene._calibration import Calibrated, of_calibration
 from irbkin.scene._data import Cloud, Frame, Mark, Motion, Obstacle, Path, Posture, Scene
 
 if TYPE_CHECKING:
@@ -20,6 +22,10 @@ if TYPE_CHECKING:
 
 MOST_POINTS = 500
 """Points of a path, and positions of a map in thousands: more are thinned."""
+AT_JOINTS = Robot, Cell, ReachMap, ToolCenterPoint, WorkObject, HandEye
+"""What is drawn with an arm at joint angles that are given."""
+OWN_JOINTS = Solutions, Trajectory, Plan, FollowResult, RoutineMotion, Calibration
+"""What has joint angles."""
 EACH = 0.02
 """Time from one pose of a path without times to the next [s]."""
 
@@ -31,11 +37,12 @@ def of(
 
     Args:
         thing: A Robot; Solutions (the first is drawn, the others are ghosts), a Trajectory, Plan or
-            FollowResult, a `rapid.RoutineMotion` with its findings, a Cell, a `ReachMap`; or a
-            sequence of these.
-        robot: The arm of anything but a Robot; of a cell and a map it may be left out.
-        q: Joint angles of a Robot, or of `robot` in a cell or a map [rad], shape (n,) or (k, n):
-            several are drawn.
+            FollowResult, a `rapid.RoutineMotion` with its findings, a Cell, a `ReachMap`, what the
+            functions of `irbkin.calibration` return; or a sequence of these.
+        robot: The arm of anything but a Robot and a Calibration; of a cell, a map, a tool center
+            point and a work object it may be left out.
+        q: Joint angles of a Robot, of `robot` in a cell or a map, or at which `robot` was measured
+            [rad], shape (n,) or (k, n): several are drawn.
         title: Words above the scene; the robot's name when not given.
 
     Returns:
@@ -44,10 +51,11 @@ def of(
     Raises:
         TypeError: Something else, `robot` is missing, or `q` of a thing that has its own.
     """
-    if isinstance(thing, list | tuple) and not isinstance(thing, Plan | FollowResult | ReachMap):
+    # Records are tuples, too.
+    if isinstance(thing, list | tuple) and not isinstance(thing, (*AT_JOINTS, *OWN_JOINTS)):
         whole = Scene(title)
         for it in thing:
-            whole += of(it, robot, q=q if isinstance(it, Robot | Cell | ReachMap) else None)
+            whole += of(it, robot, q=q if isinstance(it, AT_JOINTS) else None)
         return whole
     scene = _scene(thing, robot, q)
     name = scene.arms[0].name if scene.arms else ""
@@ -57,22 +65,20 @@ def of(
 def _scene(thing: Any, robot: Robot | None, q: npt.ArrayLike | None) -> Scene:
     if isinstance(thing, Scene):
         return thing
+    if not isinstance(thing, (*AT_JOINTS, *OWN_JOINTS)):
+        raise TypeError(
+            "thing must be a Robot, Solutions, Trajectory, Plan, FollowResult, RoutineMotion, "
+            f"Cell, ReachMap or a calibration, got {type(thing).__name__}"
+        )
+    if q is not None and isinstance(thing, OWN_JOINTS):
+        raise TypeError(f"q is given, but a {type(thing).__name__} has its own joint angles")
     if isinstance(thing, Robot):
         return _of_robot(thing, q)
-    if isinstance(thing, Cell):
-        obstacles = tuple(Obstacle(name, it.data()) for name, it in thing.obstacles.items())
-        own = Scene(obstacles=obstacles)
+    if isinstance(thing, Calibrated):
+        return of_calibration(thing, robot, q)
+    if isinstance(thing, Cell | ReachMap):
+        own = _of_map(thing) if isinstance(thing, ReachMap) else _of_cell(thing)
         return own if robot is None else own + _of_robot(robot, q)
-    if isinstance(thing, ReachMap):
-        own = _of_map(thing)
-        return own if robot is None else own + _of_robot(robot, q)
-    if not isinstance(thing, Solutions | Trajectory | Plan | FollowResult | RoutineMotion):
-        raise TypeError(
-            "thing must be a Robot, Solutions, Trajectory, Plan, FollowResult, RoutineMotion, Cell "
-            f"or ReachMap, got {type(thing).__name__}"
-        )
-    if q is not None:
-        raise TypeError(f"q is given, but a {type(thing).__name__} has its own joint angles")
     if robot is None:
         raise TypeError(f"robot is missing: a {type(thing).__name__} does not know its arm")
     if isinstance(thing, Solutions):
@@ -90,6 +96,10 @@ def _of_robot(robot: Robot, q: npt.ArrayLike | None) -> Scene:
     # A wrong shape is refused by `fk`.
     robot.fk(angles)
     return Scene(arms=(arm_of(robot, [Posture(it) for it in rows(angles)]),))
+
+
+def _of_cell(cell: Cell) -> Scene:
+    return Scene(obstacles=tuple(Obstacle(name, it.data()) for name, it in cell.obstacles.items()))
 
 
 def _of_solutions(robot: Robot, solutions: Solutions) -> Scene:
