@@ -1,7 +1,7 @@
 //! Corrections of the parameters of an arm: poses, Jacobian, and the table they make.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use irbkin::nalgebra::{Rotation3, Vector3};
+use irbkin::nalgebra::{Point3, Rotation3, Vector3};
 use irbkin::{Corrections, JacobianFrame, Mdh, Pose, Robot};
 
 use crate::common::Rng;
@@ -194,4 +194,34 @@ fn corrections_that_are_none_are_refused() {
     assert!(refusal.contains("corrections") && refusal.contains("42"), "{refusal}");
     let short = robot.parameter_jacobian(&Corrections::NONE, &[0.0; 6], &mut [0.0; 36]);
     assert!(short.unwrap_err().to_string().contains("252"));
+}
+
+#[test]
+fn the_body_stays_at_the_arm() {
+    let mut rng = Rng::new(8);
+    let size = 3e-4;
+    let robots = robots();
+    let with_bodies: Vec<_> = robots.iter().filter_map(|it| Some((it, it.body()?))).collect();
+    assert!(with_bodies.len() >= 3);
+    for (robot, body) in with_bodies {
+        for _ in 0..50 {
+            let corrected = robot.with_corrections(&drawn(&mut rng, size)).unwrap();
+            let of_corrected = corrected.body().unwrap();
+            let q = angles(&mut rng);
+            let ([there, here], flange) = ([robot, &corrected].map(|it| it.link_frames(&q).0), 7);
+            for (one, other) in body.capsules().iter().zip(of_corrected.capsules()) {
+                if one.link == 0 || one.link == flange {
+                    continue;
+                }
+                let ends = one.capsule.ends().into_iter().zip(other.capsule.ends());
+                for (end, moved) in ends {
+                    let at = there[one.link - 1] * Point3::from(end);
+                    let off = (here[one.link - 1] * Point3::from(moved) - at).norm();
+                    // Each of 42 corrections moves a point by itself or itself times its distance.
+                    let bound = 42.0 * size * (1.0 + 3.0);
+                    assert!(off < bound, "{} link {}: {off:e}", robot.name(), one.link);
+                }
+            }
+        }
+    }
 }

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use super::shape::{Capsule, check_length};
 use crate::error::{BodyFault, Error};
+use crate::kinematics::Pose;
 
 /// The source of a body that is made of lengths alone.
 const APPROXIMATE: &str = "approximate: capsules along the links of the kinematic table";
@@ -114,6 +115,17 @@ impl Body {
             self.excess.push(excess);
         }
         Self { arm: None, ..self }
+    }
+
+    /// The body in other frames: each pose moves the shapes of a link into its new one.
+    pub(crate) fn in_frames(mut self, pose: impl Fn(usize) -> Option<Pose>) -> Self {
+        for own in self.links.iter_mut().chain(&mut self.parts) {
+            if let Some(pose) = pose(own.link) {
+                own.capsule = own.capsule.moved(&pose);
+                self.arm = None;
+            }
+        }
+        self
     }
 
     /// The body with more capsules: a hose, a dress pack. The parts beside its links stay.

@@ -79,14 +79,37 @@ impl<const N: usize> Corrections<N> {
         Ok(())
     }
 
+    /// The twist [rad] and the length [m] of a corrected row.
+    fn twist(&self, mdh: &Mdh<N>, row: usize) -> (f64, f64) {
+        let [alpha, a, ..] = self.rows[row];
+        (mdh.rows[row].alpha + alpha, mdh.rows[row].a + a)
+    }
+
+    fn unskewed(&self, mdh: &Mdh<N>, row: usize) -> Option<Unskewed> {
+        let (alpha, a) = self.twist(mdh, row);
+        Unskewed::new(alpha, a, self.rows[row][4])
+    }
+
+    /// The frame of a link of the arm as it is corrected, in the frame of the corrected table, which
+    /// may be far away; `None` if they are the same.
+    pub(in crate::kinematics) fn link(&self, mdh: &Mdh<N>, link: usize) -> Option<Pose> {
+        // The base is its own frame, whatever the first row is.
+        let behind = (1..N).contains(&link).then_some(link)?;
+        let (turn, shift) = self.unskewed(mdh, behind)?.before;
+        Some((about_z(turn) * Translation3::new(0.0, 0.0, shift)).inverse())
+    }
+
     /// The corrected table: without beta, which moves into the twist of its row and the offsets of
     /// both axes (eq. 7 to 9).
     pub(in crate::kinematics) fn table(&self, mdh: &Mdh<N>) -> Mdh<N> {
         let mut table = mdh.clone();
-        for (i, [alpha, a, d, theta, beta]) in self.rows.into_iter().enumerate() {
+        for (i, [_, _, d, theta, _]) in self.rows.into_iter().enumerate() {
             let row = &mut table.rows[i];
-            *row = DhRow::new(row.alpha + alpha, row.a + a, row.d + d, row.theta + theta);
-            let Some(unskewed) = Unskewed::new(row.alpha, row.a, beta) else { continue };
+            (row.d, row.theta) = (row.d + d, row.theta + theta);
+            let Some(unskewed) = self.unskewed(mdh, i) else {
+                (row.alpha, row.a) = self.twist(mdh, i);
+                continue;
+            };
             let Unskewed { before: (turn, shift), alpha, a, behind } = unskewed;
             *row = DhRow::new(alpha, a, row.d + behind.1, row.theta + behind.0);
             match i.checked_sub(1) {

@@ -6,8 +6,8 @@ use crate::kinematics::chain::corrections::{Corrections, correction};
 use crate::kinematics::pose::Pose;
 
 impl<const N: usize> Robot<N> {
-    /// Return the robot with corrected base, table and tool; limits, velocities, name and a coupling
-    /// of axes 2 and 3 are kept. Column `theta` of row 3 corrects the serial joint 3.
+    /// Return the robot with corrected base, table and tool; limits, velocities, name, body and a
+    /// coupling of axes 2 and 3 are kept. Column `theta` of row 3 corrects the serial joint 3.
     ///
     /// Corrections of base and tool alone leave the structure as it is. Corrections of the table
     /// make an arm of general structure; corrections of two nearly parallel axes may put their
@@ -37,7 +37,9 @@ impl<const N: usize> Robot<N> {
                 .with_name(self.name.clone())
                 .with_max_velocity(self.max_velocity)?
                 .with_lock(self.locked_joint())?
-                .with_body(self.body().cloned())?
+                .with_body(self.body().map(|body| {
+                    body.clone().in_frames(|link| corrections.link(self.mdh(), link))
+                }))?
         };
         robot.with_base(&base)?.with_tool(&tool)
     }
