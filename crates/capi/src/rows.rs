@@ -1,0 +1,105 @@
+//! Many postures or poses at once.
+
+use core::num::NonZeroUsize;
+
+use irbkin::batch::Batch;
+use irbkin::cell::Cell;
+
+use crate::arguments::{check_apart, optional, slice, slice_mut};
+use crate::fault::{IrbkinCode, guarded};
+use crate::handle::{self, IrbkinCell, IrbkinRobot, handle};
+
+fn batch(threads: usize) -> Batch<'static> {
+    Batch::new(NonZeroUsize::new(threads))
+}
+
+/// A number of elements; the largest number there is where there are more.
+fn elements(rows: usize, each: usize) -> usize {
+    rows.saturating_mul(each)
+}
+
+/// Write the poses of many joint vectors: `count` rows of dof angles [rad] to `count` rows of 16
+/// numbers, NaN for a row that is not finite.
+///
+/// Up to `threads` threads help; 0 and 1: none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn irbkin_fk_batch(
+    robot: *const IrbkinRobot,
+    q: *const f64,
+    q_len: usize,
+    poses: *mut f64,
+    poses_len: usize,
+    threads: usize,
+) -> IrbkinCode {
+    guarded(|| {
+        // SAFETY: the pointers are as the header says.
+        let (robot, q) = unsafe { (handle("robot", robot)?, slice("q", q, q_len)?) };
+        check_apart(("q", q), ("poses", poses, poses_len))?;
+        // SAFETY: as above.
+        let poses = unsafe { slice_mut("poses", poses, poses_len) }?;
+        on!(robot.robot(), robot => Ok(batch(threads).fk(robot, q, poses)?))
+    })
+}
+
+/// Write every solution of many poses, as irbkin_ik().
+///
+/// `poses` has `count` rows of 16 numbers, `angles` the angle of joint 7 of seven joints at each;
+/// NULL of six. `q` has `count` times slot_count rows of dof angles [rad], `status` as many flags.
+/// A row that is no pose has NaN and IRBKIN_STATUS_INVALID; the others are solved.
+///
+/// Up to `threads` threads help; 0 and 1: none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn irbkin_ik_batch(
+    robot: *const IrbkinRobot,
+    poses: *const f64,
+    count: usize,
+    angles: *const f64,
+    q: *mut f64,
+    q_len: usize,
+    status: *mut u8,
+    status_len: usize,
+    threads: usize,
+) -> IrbkinCode {
+    guarded(|| {
+        let poses_len = elements(count, 16);
+        // SAFETY: the pointers are as the header says.
+        let (robot, poses) =
+            unsafe { (handle("robot", robot)?, slice("poses", poses, poses_len)?) };
+        // SAFETY: as above.
+        let angles = unsafe { optional("angles", angles, count) }?.unwrap_or_default();
+        check_apart(("poses", poses), ("q", q, q_len))?;
+        check_apart(("angles", angles), ("q", q, q_len))?;
+        // SAFETY: as above.
+        let (q, status) =
+            unsafe { (slice_mut("q", q, q_len)?, slice_mut("status", status, status_len)?) };
+        on!(robot.robot(), robot => Ok(batch(threads).ik_with(robot, poses, angles, q, status)?))
+    })
+}
+
+/// Write whether an arm collides at many joint vectors: with itself, or with what is in a cell.
+///
+/// `cell` may be NULL: the arm is alone. `q` has `count` rows of dof angles [rad], `collides` has
+/// `count` elements. Up to `threads` threads help; 0 and 1: none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn irbkin_collides(
+    robot: *const IrbkinRobot,
+    cell: *const IrbkinCell,
+    q: *const f64,
+    count: usize,
+    collides: *mut bool,
+    threads: usize,
+) -> IrbkinCode {
+    guarded(|| {
+        // SAFETY: the pointers are as the header says.
+        let (robot, cell) = unsafe { (handle("robot", robot)?, handle::optional("cell", cell)?) };
+        let q_len = elements(count, robot.robot().dof());
+        // SAFETY: as above. Zero is a byte of `bool`, whatever was there.
+        let (q, collides) = unsafe {
+            slice_mut("collides", collides.cast::<u8>(), count)?.fill(0);
+            (slice("q", q, q_len)?, slice_mut("collides", collides, count)?)
+        };
+        let alone = Cell::default();
+        let cell = cell.map_or(&alone, |cell| cell.cell());
+        on!(robot.robot(), robot => Ok(batch(threads).collides(cell, robot, q, collides)?))
+    })
+}
