@@ -33,7 +33,7 @@ EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
 
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
-.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page test-page site wheel packages stubs clean \
+.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page test-page capi test-capi bench-capi site wheel packages stubs clean \
 	toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
@@ -85,6 +85,7 @@ lints:
 	$(STEP) "clippy" cargo clippy --quiet --all-targets --features serde,python -- -D warnings
 	$(STEP) "clippy without std" cargo clippy --quiet --lib $(NO_STD),rapid -- -D warnings
 	$(STEP) "clippy of crates/page" cargo clippy --quiet -p irbkin-page --all-targets -- -D warnings
+	$(STEP) "clippy of crates/capi" cargo clippy --quiet -p irbkin-capi --all-targets -- -D warnings
 	$(STEP) "clippy without rapid" cargo clippy --quiet --lib --no-default-features --features std,urdf -- -D warnings
 
 rust-tests:
@@ -110,6 +111,17 @@ page: $(BUILT) ## Build the page, one HTML file with irbkin as WebAssembly: targ
 test-page: $(BUILT) ## Test the page: crates/page, its WebAssembly in Node, all of it in Chromium
 	$(STEP) "Tests of crates/page" cargo test --quiet -p irbkin-page
 	@tests/page/test.sh $(abspath $(BIN)/python)
+
+# With the flags of the wheel: the library names no folders of this machine.
+capi: | toolchains ## Build the C library, install it with headers, pkg-config and CMake files: target/capi
+	@$(EXTENSION_FLAGS) crates/capi/install.sh
+
+test-capi: capi ## Test the C interface: crates/capi, C and C++ programs, in valgrind too
+	$(STEP) "Tests of crates/capi" cargo test --quiet -p irbkin-capi
+	@tests/capi/test.sh
+
+bench-capi: capi ## Compare the time of a pose in C with that in Rust: at most 60 ns more
+	@$(EXTENSION_FLAGS) cargo run --quiet --release -p irbkin-capi --example overhead -- target/capi/lib/libirbkin.so
 
 # Lints and the extension are of different profiles: they compile at the same time.
 check: | toolchains ## Check format, lints, types, stubs, docs, benches and examples
@@ -151,6 +163,7 @@ bench: $(RELEASED) ## Time single poses, batches, Python's calls and a RAPID mod
 	$(BIN)/python benches/rapid_check.py
 	$(BIN)/python benches/command.py
 	$(BIN)/python benches/lsp.py
+	$(MAKE) --no-print-directory bench-capi
 
 # One at a time: a peer without a wheel for this Python does not exclude the others.
 $(PEERS)/.made: benches/peers/requirements.txt | toolchains
