@@ -1,18 +1,14 @@
 //! Time of all solutions of a pose and of forward kinematics, by the Rust crate and by the C
-//! library in turn: overhead LIBRARY. Fails if C takes more than 60 ns longer.
+//! library in turn: overhead LIBRARY.
 #![allow(clippy::unwrap_used, clippy::indexing_slicing, clippy::float_cmp)]
 
 use std::ffi::{CString, c_char, c_int, c_void};
 use std::hint::black_box;
 use std::mem::transmute;
-use std::process::ExitCode;
 use std::ptr::{null, null_mut};
 use std::time::Instant;
 
 use irbkin::{Robot, pose};
-
-/// How much longer C may take [ns].
-const MOST: f64 = 60.0;
 
 /// Rounds, each so short that other programs leave many of them alone.
 const ROUNDS: usize = 300;
@@ -43,7 +39,7 @@ fn time(mut call: impl FnMut()) -> f64 {
     start.elapsed().as_secs_f64() * 1e9 / f64::from(CALLS)
 }
 
-fn main() -> ExitCode {
+fn main() {
     let path = CString::new(std::env::args().nth(1).unwrap()).unwrap();
     // SAFETY: the library's initialization has no conditions. 2 is RTLD_NOW.
     let library = unsafe { dlopen(path.as_ptr(), 2) };
@@ -107,9 +103,4 @@ fn main() -> ExitCode {
             c - rust
         );
     }
-    let is_near = best[1] - best[0] <= MOST;
-    if !is_near {
-        eprintln!("C takes more than {MOST} ns longer");
-    }
-    ExitCode::from(u8::from(!is_near))
 }
