@@ -33,7 +33,7 @@ EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
 
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
-.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page test-page capi test-capi bench-capi site wheel packages stubs clean \
+.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page test-page capi test-capi bench-capi site wheel packages thirdparty stubs clean \
 	toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
@@ -143,6 +143,7 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "the bench of the language server runs" env MOVES=200 KEYS=3 OTHERS=3 $(BIN)/python benches/lsp.py >/dev/null
 	$(STEP) "the tails compile" cargo check --quiet --manifest-path benches/tails/Cargo.toml --target-dir target/tails
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
+	$(STEP) "licenses of the wheel" $(BIN)/python packaging/thirdparty.py --check
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
 	$(STEP) "mypy" $(BIN)/mypy --no-error-summary
@@ -268,6 +269,9 @@ wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
 
 packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked examples
 	@tests/packages.sh $(abspath $(BIN))
+
+thirdparty: | toolchains ## Write THIRDPARTY.txt, the licenses of the crates in a wheel
+	$(PYTHON) packaging/thirdparty.py
 
 clean: ## Remove all build products
 	rm -rf $(VENV) $(PEERS) .venv-ros2 target dist
