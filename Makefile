@@ -31,9 +31,14 @@ REMAPPED = --remap-path-prefix=$${CARGO_HOME:-$$HOME/.cargo}/registry/src/= \
 # The same flags for the environment and for the wheel: one build serves both.
 EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
 
+# Compile a tool in Rust, unless it is there: $(call TOOL,NAME,VERSION).
+TOOL = tests/step.sh "Compile $(1) (a minute or more)" \
+	cargo install --quiet --locked --debug --root target/tools $(1)@$(2)
+MSRV := $(shell sed -nE 's/^rust-version = "(.*)"/\1/p' Cargo.toml)
+
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
-.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page test-page capi test-capi bench-capi site wheel packages thirdparty stubs clean \
+.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page test-page capi test-capi bench-capi site wheel packages thirdparty deny semver msrv stubs clean \
 	toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
@@ -272,6 +277,27 @@ packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked
 
 thirdparty: | toolchains ## Write THIRDPARTY.txt, the licenses of the crates in a wheel
 	$(PYTHON) packaging/thirdparty.py
+
+# CHECKS="advisories" asks the database of advisories, which needs a network.
+deny: | toolchains ## Check licenses and sources of all crates (deny.toml)
+	@if $(call TOOL,cargo-deny,0.20.2); then \
+		target/tools/bin/cargo-deny $(if $(CHECKS),,--offline) --workspace check $(or $(CHECKS),licenses bans sources); \
+	else \
+		echo "SKIPPED: licenses and sources of crates: cargo-deny cannot be compiled (the reason is above)"; \
+	fi
+
+semver: | toolchains ## Compare the Rust interface with that of the last tag
+	@tag=$$(git describe --tags --abbrev=0 --match 'v[0-9]*' 2>/dev/null) || \
+		{ echo "There is no tag v* yet: no interface to compare with"; exit 0; }; \
+	$(call TOOL,cargo-semver-checks,0.51.0); \
+	PATH=$$PWD/target/tools/bin:$$PATH cargo semver-checks --package irbkin --baseline-rev "$$tag" \
+		--only-explicit-features --features std,urdf,rapid,serde
+
+msrv: | toolchains ## Compile with the oldest Rust, rust-version in Cargo.toml
+	@rustup toolchain list | grep -q '^$(MSRV)' || \
+		{ echo "Rust $(MSRV) is missing: rustup toolchain install $(MSRV) --profile minimal"; exit 1; }
+	$(STEP) "Compile with Rust $(MSRV)" rustup run $(MSRV) cargo check --quiet --locked --features serde,python
+	$(STEP) "Compile with Rust $(MSRV), without std" rustup run $(MSRV) cargo check --quiet --locked --lib $(NO_STD),rapid
 
 clean: ## Remove all build products
 	rm -rf $(VENV) $(PEERS) .venv-ros2 target dist
