@@ -271,7 +271,7 @@ wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
 	tests/retry.sh dist/venv/bin/pip install --quiet --disable-pip-version-check dist/irbkin-*.whl
 	cd dist && venv/bin/python ../examples/01_solve_a_pose.py >/dev/null
 	dist/venv/bin/irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 >/dev/null
-	dist/venv/bin/irbkin rule R102 >/dev/null
+	$(STEP) "the command by pip, uv and pipx" tests/install_command.sh dist/venv dist/irbkin-*.whl
 
 packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked examples
 	@tests/packages.sh $(abspath $(BIN))
