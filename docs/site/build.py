@@ -21,9 +21,10 @@ ROOT = HERE.parents[1]
 PAGE = ROOT / "target" / "page" / "irbkin.html"
 SITE = ROOT / "target" / "site"
 PAGES = SITE / "pages"
+PROJECT = ("CHANGELOG.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "RELEASING.md", "SECURITY.md")
 COPIED = (
-    "README.md", "CHANGELOG.md", "ARCHITECTURE.md", "CONTRIBUTING.md",
-    "docs", "examples", "ros", "benches/instructions.md", "benches/peers/arms.py",
+    "README.md", *PROJECT, "docs", "examples", "crates/capi/examples", "ros",
+    "benches/instructions.md", "benches/peers/arms.py",
 )  # fmt: skip
 """What pages are, and link to. Folders stay as they are in the sources, so links do, too."""
 MODULES = (
@@ -45,7 +46,7 @@ def main() -> None:
         **chapters(),
         "Arms": ["arms/README.md", *arms],
         "Reference": modules,
-        "Project": ["docs/README.md", "CHANGELOG.md", "ARCHITECTURE.md", "CONTRIBUTING.md"],
+        "Project": ["docs/README.md", "docs/releases/0.1.0.md", *PROJECT],
     }
     settings = (HERE / "zensical.toml").read_text(encoding="utf-8")
     tabs = ",\n".join(f"    {{{json.dumps(tab)} = {json.dumps(own)}}}" for tab, own in nav.items())
