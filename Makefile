@@ -38,7 +38,8 @@ MSRV := $(shell sed -nE 's/^rust-version = "(.*)"/\1/p' Cargo.toml)
 
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
-.PHONY: help run test check bench bench-peers evidence docs test-recipes test-ros page test-page capi test-capi bench-capi site wheel packages thirdparty deny semver msrv stubs clean \
+.PHONY: help run test check bench bench-peers evidence soak fuzz docs site test-recipes test-ros page \
+	test-page capi test-capi bench-capi wheel packages thirdparty deny semver msrv stubs clean \
 	toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
@@ -192,6 +193,19 @@ $(PEERS)/.irbkin-built: $(PEERS)/.made $(RUST_SOURCES) $(wildcard python/irbkin/
 
 bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages; WRITE=1 writes docs/evidence/benchmarks.md
 	$(PEERS)/bin/python -m benches.peers $(if $(QUICK),--quick) $(if $(WRITE),--write)
+
+# `evidence SUITE=hardsets` is long enough without other seeds; that a seed is fixed is no law.
+LAWS := laws:: recall:: certificates:: follow:: cell:: cell_paths:: go:: --skip every_run_draws
+soak: | toolchains ## Laws with other random numbers for SECONDS (600), on from the last seed; SEED=
+	$(STEP) "Compile the Rust tests" cargo test --quiet --release --test suite --no-run
+	tests/seeds.sh soak $(or $(SECONDS),600) env IRBKIN_POSES=2000 PROPTEST_CASES=2000 \
+		cargo test --quiet --release --test suite -- $(LAWS)
+
+fuzz: $(BUILT) $(VENV)/.groups ## Broken files for every reader for SECONDS (600), on from the last seed; SEED=
+	$(STEP) "Compile the Rust tests" cargo test --quiet --release --test suite --no-run
+	tests/seeds.sh fuzz $(or $(SECONDS),600) env IRBKIN_INPUTS=20000 bash -euc ' \
+		cargo test --quiet --release --test suite -- rapid_fuzz::; \
+		$(BIN)/python -m pytest --quiet -n 2 tests/python/test_*_fuzz.py -k broken'
 
 evidence: ## Run a suite of long tests or counts: SUITE=...
 	@echo " $(SUITES) " | grep -q " $(or $(SUITE),-) " || { echo "SUITE= is one of: $(SUITES)"; exit 2; }

@@ -6,12 +6,13 @@ use irbkin::JointLimits;
 
 /// A small generator with a fixed seed: a run draws the same numbers everywhere (splitmix64).
 ///
-/// Any seed will do, and every bit is random.
+/// Any seed will do, and every bit is random. `IRBKIN_SEED` (0) draws others; `make soak` counts it.
 pub struct Rng(u64);
 
 impl Rng {
     pub fn new(seed: u64) -> Self {
-        Self(seed)
+        let run = std::env::var("IRBKIN_SEED").ok().and_then(|seed| seed.parse().ok());
+        Self(seed ^ run.unwrap_or(0_u64).wrapping_mul(0xd134_2543_de82_ef95))
     }
 
     pub fn bits(&mut self) -> u64 {

@@ -1,7 +1,5 @@
 """Broken files of backups: findings, never another error, in linear time."""
 
-import os
-import random
 import time
 from pathlib import Path
 
@@ -10,44 +8,18 @@ from backups import MODULE, written
 from irbkin.abb import load_backup, parse_backinfo, parse_cfg
 from irbkin.abb.folders import decoded
 from irbkin.abb.machine import read_machine
+from mangling import INPUTS, dice, mangled
 
-INPUTS = int(os.environ.get("IRBKIN_INPUTS", "5000"))
-"""Broken texts; of whole backups, a hundredth of it."""
 EXAMPLE = Path(__file__).parents[2] / "examples" / "backup"
 
 
-def mangled(random_, content):
-    """A file with lines and bytes lost, doubled, exchanged and replaced."""
-    lines = content.split(b"\n")
-    for _ in range(random_.randrange(1, 6)):
-        place = random_.randrange(len(lines))
-        change = random_.randrange(6)
-        line = lines[place]
-        if change == 0:
-            del lines[place]
-        elif change == 1:
-            lines.insert(place, lines[random_.randrange(len(lines))])
-        elif change == 2:
-            cut = random_.randrange(len(line) + 1)
-            lines[place] = line[:cut]
-        elif change == 3 and line:
-            at = random_.randrange(len(line))
-            lines[place] = line[:at] + random_.randbytes(random_.randrange(1, 4)) + line[at:]
-        elif change == 4:
-            tokens = [b"-", b'"', b"\\", b"9E999", b"-1e400", b"nan", b"#", b">>", b"<<<<<<< x"]
-            lines[place] = line + b" " + random_.choice(tokens)
-        else:
-            lines[place] = b" ".join(random_.sample(line.split(b" "), k=len(line.split(b" "))))
-        lines = lines or [b""]
-    return b"\n".join(lines)
-
-
 def test_broken_files_are_findings_and_never_another_error(tmp_path):
-    random_ = random.Random(20261126)
+    random_ = dice(20261126)
     names = ["BACKINFO/backinfo.txt", "SYSPAR/MOC.cfg", "SYSPAR/SYS.cfg"]
     sound = {name: (EXAMPLE / name).read_bytes() for name in names}
     written(tmp_path, {**sound, "RAPID/TASK1/PROGMOD/Main.mod": MODULE})
     robots = tasks = 0
+    # Of whole backups, a hundredth.
     count = max(INPUTS // 100, 100)
     for _ in range(count):
         name = random_.choice(names)
@@ -89,7 +61,7 @@ SYSMOD/user.sys @ user.sys
 
 
 def test_broken_texts_are_read_to_their_end():
-    random_ = random.Random(20261127)
+    random_ = dice(20261127)
     robots = modules = 0
     for _ in range(INPUTS):
         text = decoded(mangled(random_, SHORT))
