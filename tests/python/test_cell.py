@@ -220,7 +220,8 @@ def test_values_are_frozen_equal_and_pickled():
     assert ROBOT.with_body(None) != ROBOT
     assert ROBOT.with_body(None).body is None
     calibrated = ROBOT.with_corrections(np.full(42, 1e-3))
-    assert calibrated.body == ROBOT.body
+    assert calibrated.body.source == ROBOT.body.source
+    assert pickle.loads(pickle.dumps(calibrated)).body == calibrated.body
     assert calibrated != ROBOT
     assert "25 capsules" in repr(irbkin.Robot("IRB 1200-5/0.9").body)
     assert repr(Shape.sphere(0.5, [0, 0, 1])) == "Shape.sphere(0.5, [0.0, 0.0, 1.0])"
