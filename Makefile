@@ -198,7 +198,7 @@ bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages; WRITE=1 writ
 LAWS := laws:: recall:: certificates:: follow:: cell:: cell_paths:: go:: --skip every_run_draws
 soak: | toolchains ## Laws with other random numbers for SECONDS (600), on from the last seed; SEED=
 	$(STEP) "Compile the Rust tests" cargo test --quiet --release --test suite --no-run
-	tests/seeds.sh soak $(or $(SECONDS),600) env IRBKIN_POSES=2000 PROPTEST_CASES=2000 \
+	tests/seeds.sh soak $(or $(SECONDS),600) env IRBKIN_POSES=10000 PROPTEST_CASES=2000 \
 		cargo test --quiet --release --test suite -- $(LAWS)
 
 fuzz: $(BUILT) $(VENV)/.groups ## Broken files for every reader for SECONDS (600), on from the last seed; SEED=

@@ -28,6 +28,8 @@ fn the_arm_of_the_tests_is_that_of_the_catalog() {
 #[test]
 fn the_slots_of_a_panda_follow_from_its_own_joints() {
     let arm = named("Panda");
+    // Where the arm is stretched: 0.0825 m beside 0.316 m above the elbow, and beside 0.384 m below.
+    let stretched = -(0.0825_f64.atan2(0.316) + 0.0825_f64.atan2(0.384));
     let mut rng = Rng::new(1);
     let mut compared = 0;
     for _ in 0..2000 {
@@ -38,7 +40,7 @@ fn the_slots_of_a_panda_follow_from_its_own_joints() {
             }
             let wrapped = |angle: f64| angle.sin().atan2(angle.cos());
             let slot = 4 * usize::from(wrapped(solution.q[1]) < 0.0)
-                + 2 * usize::from(wrapped(solution.q[3] + 0.467_178_6) > 0.0)
+                + 2 * usize::from(wrapped(solution.q[3] - stretched) > 0.0)
                 + usize::from(wrapped(solution.q[4]).abs() > FRAC_PI_2);
             assert_eq!(solution.slot.index(), slot, "{q:?}");
             compared += 1;
