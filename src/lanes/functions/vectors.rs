@@ -65,26 +65,15 @@ fn six<S: Simd>(c: &[f64; 6], z: Vector<S>, z2: Vector<S>) -> Vector<S> {
 #[cfg(test)]
 mod tests {
     use core::f64::consts::PI;
+    use std::vec::Vec;
 
-    use super::super::{atan2, sin_cos};
+    use super::super::tests::One;
     use super::*;
-    use crate::lanes::{Column, InstructionSet, LANES, VectorKernel, run_on};
+    use crate::lanes::{Column, VectorKernel, on_each_set, run, run_on};
     use crate::rng::Rng;
 
     /// The arc tangents of y and x, and the sines and cosines of y.
     struct All<'a>(&'a [Column; 2]);
-
-    impl All<'_> {
-        fn of_numbers<const FUSED: bool>(&self) -> [Column; 3] {
-            let [y, x] = *self.0;
-            let mut all = [[0.0; LANES]; 3];
-            for lane in 0..LANES {
-                all[0][lane] = atan2::<FUSED>(y[lane], x[lane]);
-                (all[1][lane], all[2][lane]) = sin_cos::<FUSED>(y[lane]);
-            }
-            all
-        }
-    }
 
     impl VectorKernel for All<'_> {
         type Answer = [Column; 3];
@@ -103,23 +92,30 @@ mod tests {
     fn vectors_have_the_bits_of_numbers() {
         let mut rng = Rng::new(1);
         let special = [0.0, -0.0, 1.0, -1.0, PI, -PI / 2.0, 1e-300, 1e5];
-        for round in 0..20_000 {
-            let both: [Column; 2] = core::array::from_fn(|_| {
-                core::array::from_fn(|lane| {
-                    let size = [1.0, 4.0, 1e-9, 1e4][round % 4];
-                    let is_special = rng.unit() < 0.1;
-                    if is_special { special[lane] } else { rng.between(-size, size) }
+        let columns: Vec<[Column; 2]> = (0..20_000)
+            .map(|round| {
+                core::array::from_fn(|_| {
+                    core::array::from_fn(|lane| {
+                        let size = [1.0, 4.0, 1e-9, 1e4][round % 4];
+                        let is_special = rng.unit() < 0.1;
+                        if is_special { special[lane] } else { rng.between(-size, size) }
+                    })
                 })
-            });
-            let all = All(&both);
-            let (plain, fused) = (all.of_numbers::<false>(), all.of_numbers::<true>());
-            for set in InstructionSet::available() {
-                // On other processors the baseline is fused too.
-                let is_plain = set == InstructionSet::Baseline && cfg!(target_arch = "x86_64");
-                let numbers = if is_plain { plain } else { fused };
-                let bits = |all: [Column; 3]| all.map(|column| column.map(f64::to_bits));
-                assert_eq!(bits(numbers), bits(run_on(set, All(&both))), "{set:?} {both:?}");
+            })
+            .collect();
+        on_each_set(|set| {
+            for both in &columns {
+                let vectors = run_on(set, All(both));
+                for (lane, (&y, &x)) in both[0].iter().zip(&both[1]).enumerate() {
+                    let bits = |all: [f64; 3]| all.map(f64::to_bits);
+                    let numbers = run(One { y, x, angle: y });
+                    assert_eq!(
+                        bits(vectors.map(|column| column[lane])),
+                        bits(numbers),
+                        "{set:?} {y:e} {x:e}"
+                    );
+                }
             }
-        }
+        });
     }
 }
