@@ -7,8 +7,8 @@ use crate::error::Error;
 /// The instruction sets that kernels are compiled for. The widest one of the processor is chosen
 /// when the first kernel runs.
 ///
-/// Answers have the same bits on every set with fused multiplication and addition (AVX2, AVX-512,
-/// aarch64's baseline), and agree with the x86-64 baseline to rounding.
+/// Answers have the same bits on AVX2 and on AVX-512, and agree with those of every baseline to
+/// rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InstructionSet {
