@@ -4,17 +4,13 @@
 # had, with the reason.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-toolchain=$PWD/target/wasm-toolchain
 target=${CARGO_TARGET_DIR:-target}
-[ -d "$toolchain" ] || tests/step.sh "Download a compiler for WebAssembly (about 100 MB)" page/toolchain.sh
 
 # A panic is a trap without a message: messages and the names of source files are left out. Without
 # vectors of two numbers, which browsers have since 2023, the lanes take many times as long to compile.
 flags="-Zunstable-options -Cpanic=immediate-abort -Zlocation-detail=none -Ctarget-feature=+simd128"
-libraries=("$toolchain"/usr/lib/*-linux-gnu)
-LD_LIBRARY_PATH=${libraries[0]} RUSTC_BOOTSTRAP=1 RUSTC=$toolchain/usr/bin/rustc \
-    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$toolchain/wasm-ld RUSTFLAGS=$flags \
-    tests/step.sh "Build irbkin for WebAssembly" \
+CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$PWD/target/compiler/wasm-ld RUSTFLAGS=$flags \
+    ship/cross.sh tests/step.sh "Build irbkin for WebAssembly" \
     cargo build --quiet --locked -p irbkin-page --profile wasm --target wasm32-unknown-unknown \
     --target-dir "$target" -Zbuild-std=std,panic_abort -Zbuild-std-features=optimize_for_size "$@"
 mkdir -p target/page
