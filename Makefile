@@ -151,6 +151,7 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
 	$(STEP) "licenses of the wheel" $(BIN)/python packaging/thirdparty.py --check
 	$(STEP) "workflows" $(BIN)/zizmor --quiet --offline --persona auditor --strict-collection .github
+	$(BIN)/python ship/sbom.py --check
 	$(BIN)/ruff check --quiet .
 	$(BIN)/ruff format --check --quiet .
 	$(STEP) "mypy" $(BIN)/mypy --no-error-summary

@@ -1,4 +1,4 @@
-"""Check a wheel: its size, and that it has no paths of the machine that built it.
+"""Check a wheel: its name, size and bill of materials, and that it has no paths of the machine.
 
 Usage: python tests/check_wheel.py dist/irbkin-*.whl
 """
@@ -6,6 +6,7 @@ Usage: python tests/check_wheel.py dist/irbkin-*.whl
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -32,6 +33,8 @@ from pathlib import Path
 # and configurations are 17 % and 60 % slower: it was not taken.
 MOST_BYTES = 4_200_000
 
+SBOM = re.compile(r"irbkin-[^/]+\.dist-info/sboms/irbkin\.cyclonedx\.json")
+
 
 def machine_paths() -> set[bytes]:
     """Folders whose names must not be in a wheel."""
@@ -57,7 +60,11 @@ def faults(wheel: Path) -> list[str]:
     size = wheel.stat().st_size
     if size > MOST_BYTES:
         found.append(f"{wheel.name} has {size} bytes, it must have at most {MOST_BYTES}")
+    if "-cp310-abi3-" not in wheel.name:
+        found.append(f"{wheel.name} is not of the stable ABI: its name has no cp310-abi3")
     with zipfile.ZipFile(wheel) as files:
+        if not any(SBOM.fullmatch(name) for name in files.namelist()):
+            found.append(f"{wheel.name} has no bill of materials: nothing matches {SBOM.pattern}")
         for name in files.namelist():
             content = files.read(name)
             for path in sorted(machine_paths()):
