@@ -30,6 +30,10 @@ REMAPPED = --remap-path-prefix=$${CARGO_HOME:-$$HOME/.cargo}/registry/src/= \
 	--remap-path-prefix=$$(rustc --print sysroot)/lib/rustlib/src/rust=/rustc
 # The same flags for the environment and for the wheel: one build serves both.
 EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
+# For files of a release, whose times are that of the commit: two builds have the same bytes.
+SHIPPED = env $(EXTENSION_FLAGS) SOURCE_DATE_EPOCH="$$(git log -1 --format=%ct)" \
+	VENV="$(abspath $(VENV))" PATH="$(abspath $(BIN)):$$PATH"
+TARGETS := x86_64-unknown-linux-gnu aarch64-unknown-linux-gnu x86_64-unknown-linux-musl x86_64-pc-windows-gnu
 
 # Compile a tool in Rust, unless it is there: $(call TOOL,NAME,VERSION).
 TOOL = tests/step.sh "Compile $(1) (a minute or more)" \
@@ -39,7 +43,7 @@ MSRV := $(shell sed -nE 's/^rust-version = "(.*)"/\1/p' Cargo.toml)
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
 .PHONY: help run test check bench bench-peers evidence soak fuzz docs site test-recipes test-ros page \
-	test-page capi test-capi bench-capi wheel packages thirdparty deny semver msrv stubs clean \
+	test-page capi test-capi bench-capi wheel packages thirdparty deny semver msrv ship stubs clean \
 	toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
@@ -279,7 +283,7 @@ stubs: $(BUILT) ## Write the docstrings of the type stubs from those of the exte
 
 wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
 	rm -rf dist/venv dist/irbkin-*.whl
-	$(EXTENSION_FLAGS) $(BIN)/maturin build --release --quiet \
+	@$(SHIPPED) maturin build --release --quiet \
 		--compression-level 9 --out dist
 	$(BIN)/python tests/check_wheel.py dist/irbkin-*.whl
 	$(PYTHON) -m venv dist/venv
@@ -287,6 +291,14 @@ wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
 	cd dist && venv/bin/python ../examples/01_solve_a_pose.py >/dev/null
 	dist/venv/bin/irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 >/dev/null
 	$(STEP) "the command by pip, uv and pipx" tests/install_command.sh dist/venv dist/irbkin-*.whl
+
+$(VENV)/.ship: $(VENV)/.made pyproject.toml
+	$(STEP) "Install what builds and checks a release into $(VENV)" $(PIP_INSTALL) --group ship
+	@touch $@
+
+# What takes Debian packages that cannot be had is skipped, with the reason; then the exit code is 77.
+ship: $(VENV)/.ship ## Build sdist and wheels of TARGETS into dist, check them, print a table
+	@$(SHIPPED) ship/ship.sh $(TARGETS)
 
 packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked examples
 	@tests/packages.sh $(abspath $(BIN))

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Builds the files of a release into dist, checks them and prints a table: ship/ship.sh TARGET...
+# Exit code 77 if a wheel was skipped, since the compiler for other platforms cannot be had.
+set -euo pipefail
+rm -rf dist
+maturin sdist --out dist
+code=0
+ship/each.sh "${@/#/ship/wheel.sh dist }" || code=$?
+[ $code -eq 0 ] || [ $code -eq 77 ] || exit $code
+ship/check.sh
+python ship/table.py
+[ -z "$(git status --porcelain)" ] || echo "Built with changes that are not committed."
+exit $code
