@@ -43,7 +43,7 @@ MSRV := $(shell sed -nE 's/^rust-version = "(.*)"/\1/p' Cargo.toml)
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
 .PHONY: help run test check bench bench-peers evidence soak fuzz docs site test-recipes test-ros page \
-	test-page capi test-capi bench-capi wheel packages thirdparty deny semver msrv ship stubs clean \
+	test-page capi test-capi bench-capi wheel packages thirdparty deny semver msrv ship test-platforms stubs clean \
 	toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
@@ -299,6 +299,9 @@ $(VENV)/.ship: $(VENV)/.made pyproject.toml
 # What takes Debian packages that cannot be had is skipped, with the reason; then the exit code is 77.
 ship: $(VENV)/.ship ## Build sdist and wheels of TARGETS into dist, check them, print a table
 	@$(SHIPPED) ship/ship.sh $(TARGETS)
+
+test-platforms: $(VENV)/.ship ## Test under wine, under qemu aarch64 and on musl
+	@$(SHIPPED) ship/each.sh ship/test_windows.sh ship/test_aarch64.sh ship/test_musl.sh
 
 packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked examples
 	@tests/packages.sh $(abspath $(BIN))
