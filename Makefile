@@ -43,11 +43,11 @@ MSRV := $(shell sed -nE 's/^rust-version = "(.*)"/\1/p' Cargo.toml)
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
 .PHONY: help run test check bench bench-peers evidence soak fuzz docs site test-recipes test-ros page \
-	test-page capi test-capi bench-capi wheel packages thirdparty deny semver msrv ship test-platforms stubs clean \
-	toolchains lints rust-tests $(SUITES:%=evidence-%)
+	test-page capi test-capi bench-capi wheel packages ship test-platforms reproducible thirdparty deny \
+	semver msrv stubs clean toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
-	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | grep -v '^evidence-' | sed -E 's/:.*## /\t/' | expand -t 14
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | grep -v '^evidence-' | sed -E 's/:.*## /\t/' | expand -t 16
 	@echo; echo "Suites of \`make evidence\`:"
 	@sed -nE 's/^evidence-([a-z-]+):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
 
@@ -302,6 +302,9 @@ ship: $(VENV)/.ship ## Build sdist and wheels of TARGETS into dist, check them, 
 
 test-platforms: $(VENV)/.ship ## Test under wine, under qemu aarch64 and on musl
 	@$(SHIPPED) ship/each.sh ship/test_windows.sh ship/test_aarch64.sh ship/test_musl.sh
+
+reproducible: $(VENV)/.ship ## Build sdist and wheel twice, in different folders: the same bytes
+	@$(SHIPPED) ship/reproducible.sh
 
 packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked examples
 	@tests/packages.sh $(abspath $(BIN))
