@@ -130,7 +130,7 @@ test-capi: capi ## Test the C interface: crates/capi, C and C++ programs, in val
 	$(STEP) "Tests of crates/capi" cargo test --quiet -p irbkin-capi
 	@tests/capi/test.sh
 
-bench-capi: capi ## Compare the time of a pose in C with that in Rust: at most 60 ns more
+bench-capi: capi ## Compare the time of a pose in C with that in Rust
 	@$(EXTENSION_FLAGS) cargo run --quiet --release -p irbkin-capi --example overhead -- target/capi/lib/libirbkin.so
 
 # Lints and the extension are of different profiles: they compile at the same time.
