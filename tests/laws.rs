@@ -360,7 +360,10 @@ fn turns_are_solutions_inside_the_limits<const N: usize>(structure: &Structure<N
         let cost =
             |s: &irbkin::Solution<N>| s.q.iter().zip(q).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
         let least = turns.iter().map(cost).fold(f64::INFINITY, f64::min);
-        prop_assert_eq!(nearest.map_or(f64::INFINITY, |s| cost(&s)), least);
+        let found = nearest.map_or(f64::INFINITY, |s| cost(&s));
+        // A sum of at most seven squares is rounded 14 times: two may differ in that alone.
+        let rounding = 14.0 * f64::EPSILON * least;
+        prop_assert!(found == least || found - least <= rounding, "{found:e} {least:e}");
         Ok(())
     });
     assert_compared(&counts, 100);
