@@ -12,11 +12,11 @@ interface=${version%.*}
 # native-static-libs` lists it.
 case $(uname -s) in
     Darwin)
-        file=libirbkin.dylib name=libirbkin.$interface.dylib flag=-install_name,@rpath/
+        ending=dylib name=libirbkin.$interface.dylib flag=-install_name,@rpath/
         libraries="-liconv -lSystem -lc -lm"
         ;;
     *)
-        file=libirbkin.so name=libirbkin.so.$interface flag=-soname,
+        ending=so name=libirbkin.so.$interface flag=-soname,
         libraries="-lgcc_s -lutil -lrt -lpthread -lm -ldl -lc"
         ;;
 esac
@@ -26,9 +26,9 @@ tests/step.sh "Build libirbkin (minutes)" \
 
 mkdir -p "$prefix"/{include,lib/pkgconfig,lib/cmake/irbkin}
 cp crates/capi/include/irbkin.{h,hpp} "$prefix/include"
-cp "$target/release/libirbkin.a" "$prefix/lib"
-cp "$target/release/$file" "$prefix/lib/$name"
-ln -sf "$name" "$prefix/lib/$file"
+cp "$target/release/libirbkin_c.a" "$prefix/lib/libirbkin.a"
+cp "$target/release/libirbkin_c.$ending" "$prefix/lib/$name"
+ln -sf "$name" "$prefix/lib/libirbkin.$ending"
 for template in irbkin.pc irbkin-config.cmake irbkin-config-version.cmake; do
     case $template in *.pc) folder=lib/pkgconfig ;; *) folder=lib/cmake/irbkin ;; esac
     sed -e "s|@VERSION@|$version|" -e "s|@INTERFACE@|$interface|" -e "s|@SHARED@|$name|" \
