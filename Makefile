@@ -153,7 +153,7 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "the bench of the language server runs" env MOVES=200 KEYS=3 OTHERS=3 $(BIN)/python benches/lsp.py >/dev/null
 	$(STEP) "the tails compile" cargo check --quiet --manifest-path benches/tails/Cargo.toml --target-dir target/tails
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
-	$(STEP) "licenses of the wheel" $(BIN)/python packaging/thirdparty.py --check
+	$(STEP) "licenses of the wheel" $(BIN)/python ship/thirdparty.py --check
 	$(STEP) "workflows" $(BIN)/zizmor --quiet --offline --persona auditor --strict-collection .github
 	$(BIN)/python ship/sbom.py --check
 	$(BIN)/ruff check --quiet .
@@ -309,8 +309,9 @@ reproducible: $(VENV)/.ship ## Build sdist and wheel twice, in different folders
 packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked examples
 	@tests/packages.sh $(abspath $(BIN))
 
-thirdparty: | toolchains ## Write THIRDPARTY.txt, the licenses of the crates in a wheel
-	$(PYTHON) packaging/thirdparty.py
+thirdparty: | toolchains ## Write the licenses and the bill of materials of the crates in a wheel
+	$(PYTHON) ship/thirdparty.py
+	$(PYTHON) ship/sbom.py
 
 # CHECKS="advisories" asks the database of advisories, which needs a network.
 deny: | toolchains ## Check licenses and sources of all crates (deny.toml)

@@ -3,43 +3,37 @@
 Usage: python ship/sbom.py [--check]
 
 It lists the crates that are linked into the extension on any platform. maturin's own bill names the
-folder of the build, and lists what only tests and macros use.
+folder of the build, and lists crates that only tests and macros use.
 """
 
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+from crates import ROOT, linked
+
 FILE = ROOT / "ship/irbkin.cyclonedx.json"
-TREE = "cargo tree --locked --target all --features python -e normal,no-proc-macro --prefix depth"
 
 
 def bill() -> str:
     """The text of the file."""
-    command = [*TREE.split(), "--format", "|{p}|{l}"]
-    lines = subprocess.run(command, cwd=ROOT, capture_output=True, check=True, text=True).stdout
     components: dict[str, dict[str, object]] = {}
     uses: dict[str, set[str]] = {}
     # The package of each depth above the line.
     above: list[str] = []
-    for line in lines.splitlines():
-        depth, package, license_text = line.removesuffix(" (*)").split("|")
-        name, version = package.split()[:2]
-        purl = f"pkg:cargo/{name}@{version.removeprefix('v')}"
+    for crate in linked():
+        purl = f"pkg:cargo/{crate.name}@{crate.version}"
         components[purl] = {
             "type": "library",
             "bom-ref": purl,
-            "name": name,
-            "version": version.removeprefix("v"),
+            "name": crate.name,
+            "version": crate.version,
             # Old manifests have a slash.
-            "licenses": [{"expression": license_text.replace("/", " OR ")}],
+            "licenses": [{"expression": crate.license.replace("/", " OR ")}],
             "purl": purl,
         }
-        above[int(depth) :] = [purl]
+        above[crate.depth :] = [purl]
         uses.setdefault(purl, set())
         if len(above) > 1:
             uses[above[-2]].add(purl)
@@ -61,4 +55,4 @@ if __name__ == "__main__":
     if sys.argv[1:] != ["--check"]:
         FILE.write_text(bill())
     elif FILE.read_text() != bill():
-        sys.exit(f"{FILE.relative_to(ROOT)} is not that of Cargo.lock: run python ship/sbom.py")
+        sys.exit(f"{FILE.relative_to(ROOT)} is not current: `make thirdparty` writes it")

@@ -17,9 +17,9 @@ ROOT = Path(__file__).parents[2]
 CRATE = tomllib.loads((ROOT / "Cargo.toml").read_text())["package"]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_text())
-RECIPE = ROOT / "packaging" / "conda" / "recipe.yaml"
+RECIPE = ROOT / "ship" / "conda" / "recipe.yaml"
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
-DOCKER = ROOT / "packaging" / "docker"
+DOCKER = ROOT / "ship" / "docker"
 
 
 def test_all_versions_are_that_of_the_crate():

@@ -1,19 +1,19 @@
 """Write THIRDPARTY.txt: the crates that wheels link, by license, each text of a license once.
 
-Usage: python packaging/thirdparty.py [--check]
+Usage: python ship/thirdparty.py [--check]
 """
 
 from __future__ import annotations
 
 import json
 import re
-import subprocess
 import sys
 import textwrap
 from collections import defaultdict
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+from crates import ROOT, cargo, linked
+
 FILE = ROOT / "THIRDPARTY.txt"
 # How the text of a license begins, after the copyright notices. If a crate offers several licenses,
 # the first of these is taken.
@@ -29,25 +29,14 @@ writes this file.
 """
 
 
-def cargo(*arguments: str) -> str:
-    """Return what a command of cargo prints."""
-    return subprocess.run(
-        ["cargo", *arguments, "--locked"], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True
-    ).stdout
-
-
-def linked() -> list[tuple[str, str, Path]]:
+def in_wheels() -> list[tuple[str, str, Path]]:
     """Name with version, license expression and folder of each crate in wheels of any platform."""
-    tree = cargo(
-        *("tree", "--features", "python", "--target", "all", "--edges", "normal,no-proc-macro"),
-        *("--prefix", "none", "--format", "{p}"),
-    )
-    names = {tuple(line.split()[:2]) for line in tree.splitlines()}
+    names = {(crate.name, crate.version) for crate in linked()}
     packages = json.loads(cargo("metadata", "--all-features", "--format-version", "1"))["packages"]
     return [
         (f"{package['name']} {package['version']}", package["license"], folder)
         for package in packages
-        if (package["name"], f"v{package['version']}") in names
+        if (package["name"], package["version"]) in names
         and (folder := Path(package["manifest_path"]).parent) != ROOT
     ]
 
@@ -79,7 +68,7 @@ def notice_and_text(crate: str, license: str, folder: Path) -> tuple[str, str]:
 def third_party() -> str:
     """Return the content of THIRDPARTY.txt."""
     crates = defaultdict(list)
-    for crate, expression, folder in linked():
+    for crate, expression, folder in in_wheels():
         license = chosen(crate, expression)
         notice, text = notice_and_text(crate, license, folder)
         crates[license, text].append(f"  {crate}{': ' if notice else ''}{notice}")
