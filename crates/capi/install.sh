@@ -8,7 +8,7 @@ version=$(sed -nE 's/^version = "(.*)"/\1/p' crates/capi/Cargo.toml)
 target=${CARGO_TARGET_DIR:-target}
 # Before 1.0, another minor version has another interface: programs load the one they were linked to.
 interface=${version%.*}
-# What a program that links the static library must link, too: `cargo rustc ... --print
+# A program that links the static library must link these, too: `cargo rustc ... --print
 # native-static-libs` lists it.
 case $(uname -s) in
     Darwin)

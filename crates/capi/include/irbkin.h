@@ -61,7 +61,7 @@
 // It is not certain that the slots hold every solution of the pose.
 #define IRBKIN_STATUS_UNCERTIFIED 128
 
-// What a call returns. irbkin_last_error() has the sentence.
+// The outcome of a call. irbkin_last_error() has the sentence.
 typedef enum {
   // The call succeeded.
   IRBKIN_CODE_OK = 0,
@@ -125,7 +125,7 @@ typedef struct {
   int8_t signs[6];
 } IrbkinOpwParameters;
 
-// What is free in a plan, and what it must keep. All zeros: nothing is free, nothing is kept.
+// The freedoms of a plan and its conditions. All zeros: nothing is free, nothing is kept.
 typedef struct {
   // Number of angles about its z axis that the tool may take; 0: the tool does not turn.
   size_t rotation_steps;
@@ -145,7 +145,7 @@ typedef struct {
   const IrbkinCell *cell;
 } IrbkinPlanOptions;
 
-// What is known of a plan.
+// The figures of a plan.
 typedef struct {
   // Weighted sum of the squares of all joint steps [rad^2].
   double cost;
@@ -223,7 +223,7 @@ IrbkinCode irbkin_robot_with_limits(const IrbkinRobot *robot,
 // outside it. Arms of the catalog have a body; an arm of a table needs one for collisions.
 IrbkinCode irbkin_robot_with_approximate_body(const IrbkinRobot *robot, IrbkinRobot **made);
 
-// Free a robot; NULL is none. Robots that were made of it stay.
+// Free a robot; NULL does nothing. Robots that were made of it stay.
 void irbkin_robot_free(IrbkinRobot *robot);
 
 // Number of joints, 6 or 7; 0 if `robot` is NULL.
@@ -283,7 +283,7 @@ IrbkinCode irbkin_explain(const IrbkinRobot *robot,
 // and of seven joints among all angles of joint 7.
 //
 // `seed`, `weights` and `q` have `len` numbers, dof; `weights` may be NULL: all are 1.
-// IRBKIN_CODE_UNREACHABLE if there is none.
+// IRBKIN_CODE_UNREACHABLE if no solution is inside.
 IrbkinCode irbkin_ik_nearest(const IrbkinRobot *robot,
                              const double *pose,
                              const double *seed,
@@ -301,7 +301,7 @@ IrbkinCode irbkin_configuration(const IrbkinRobot *robot,
 //
 // `seed` may be NULL; of several solutions the nearest to it is written. `arm_angle` is the arm
 // angle of a YuMi [rad], NULL of other arms. IRBKIN_CODE_NO_CONFIGURATION if no solution has the
-// confdata: the message lists those that exist.
+// confdata: the message lists the existing ones.
 IrbkinCode irbkin_ik_configured(const IrbkinRobot *robot,
                                 const double *pose,
                                 const int32_t *confdata,
@@ -386,7 +386,7 @@ IrbkinCode irbkin_cell_of_boxes(const IrbkinBox *boxes,
                                 double margin,
                                 IrbkinCell **made);
 
-// Free a cell; NULL is none.
+// Free a cell; NULL does nothing.
 void irbkin_cell_free(IrbkinCell *cell);
 
 #ifdef __cplusplus

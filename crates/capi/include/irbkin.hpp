@@ -20,7 +20,7 @@
 
 namespace irbkin {
 
-/// What irbkin refuses: its code, and a message that names the argument, its value and the bound.
+/// A refused call: its code, and a message that names the argument, its value and the bound.
 class Error : public std::runtime_error {
 public:
     explicit Error(IrbkinCode code) : std::runtime_error(irbkin_last_error()), code_(code) {}
@@ -167,7 +167,7 @@ struct Followed {
     std::vector<std::optional<Joints>> q;
     /// Whether a pose is not reached, or by a jump only.
     std::vector<bool> is_break;
-    /// The first break and its reason; empty if there is none.
+    /// The first break and its reason; empty without one.
     std::string reason;
 };
 
@@ -292,7 +292,7 @@ public:
         return text.data();
     }
 
-    /// The solution inside the limits that is nearest to a seed; none if there is none.
+    /// The solution inside the limits that is nearest to a seed, if one is inside.
     std::optional<Joints> ik_nearest(const Pose &pose, const Joints &seed) const {
         Joints q = Joints::of_size(dof_);
         const auto code =

@@ -48,6 +48,14 @@ pub(crate) fn check_apart(
     Ok(())
 }
 
+/// An argument that may be left out: `read` is called unless it is NULL.
+pub(crate) fn given<P, T>(
+    pointer: *const P,
+    read: impl FnOnce() -> Result<T, Fault>,
+) -> Result<Option<T>, Fault> {
+    (!pointer.is_null()).then(read).transpose()
+}
+
 /// A value.
 ///
 /// # Safety
@@ -80,20 +88,6 @@ pub(crate) unsafe fn slice<'a, T>(
     Ok(unsafe { core::slice::from_raw_parts(pointer, len) })
 }
 
-/// Values to read that may be left out.
-///
-/// # Safety
-///
-/// As of [`slice`].
-pub(crate) unsafe fn optional<'a, T>(
-    argument: &'static str,
-    pointer: *const T,
-    len: usize,
-) -> Result<Option<&'a [T]>, Fault> {
-    // SAFETY: as of the caller.
-    (!pointer.is_null()).then(|| unsafe { slice(argument, pointer, len) }).transpose()
-}
-
 /// Values to write.
 ///
 /// # Safety
@@ -110,20 +104,6 @@ pub(crate) unsafe fn slice_mut<'a, T>(
     check(argument, pointer, len)?;
     // SAFETY: as in `slice`.
     Ok(unsafe { core::slice::from_raw_parts_mut(pointer, len) })
-}
-
-/// Values to write that may be left out.
-///
-/// # Safety
-///
-/// As of [`slice_mut`].
-pub(crate) unsafe fn optional_mut<'a, T>(
-    argument: &'static str,
-    pointer: *mut T,
-    len: usize,
-) -> Result<Option<&'a mut [T]>, Fault> {
-    // SAFETY: as of the caller.
-    (!pointer.is_null()).then(|| unsafe { slice_mut(argument, pointer, len) }).transpose()
 }
 
 /// `K` values to read.
@@ -166,19 +146,6 @@ pub(crate) unsafe fn text<'a>(
     // SAFETY: it is not NULL; the zero is the caller's contract.
     let text = unsafe { CStr::from_ptr(pointer) };
     text.to_str().map_err(|error| Fault::Text { argument, at: error.valid_up_to() })
-}
-
-/// A text that may be left out.
-///
-/// # Safety
-///
-/// As of [`text`].
-pub(crate) unsafe fn optional_text<'a>(
-    argument: &'static str,
-    pointer: *const c_char,
-) -> Result<Option<&'a str>, Fault> {
-    // SAFETY: as of the caller.
-    (!pointer.is_null()).then(|| unsafe { text(argument, pointer) }).transpose()
 }
 
 /// A pose by the 16 elements of its matrix.

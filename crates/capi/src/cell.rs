@@ -46,7 +46,7 @@ pub unsafe extern "C" fn irbkin_cell_of_boxes(
     guarded(|| unsafe { give("made", made, new) })
 }
 
-/// Free a cell; NULL is none.
+/// Free a cell; NULL does nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn irbkin_cell_free(cell: *mut IrbkinCell) {
     // SAFETY: the pointer is as the header says.

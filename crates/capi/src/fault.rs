@@ -8,7 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use irbkin::Error;
 use irbkin::follow::Break;
 
-/// What a call returns. irbkin_last_error() has the sentence.
+/// The outcome of a call. irbkin_last_error() has the sentence.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IrbkinCode {

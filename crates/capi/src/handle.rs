@@ -12,7 +12,7 @@ use std::sync::Arc;
 use irbkin::AnyRobot;
 use irbkin::cell::Cell;
 
-use crate::arguments::{array_mut, reference};
+use crate::arguments::{array_mut, given, reference};
 use crate::fault::Fault;
 
 /// A robot arm. It does not change: any threads may use it at the same time.
@@ -96,20 +96,7 @@ pub(crate) unsafe fn handle<'a, H: Handle>(
     unsafe { reference(argument, pointer) }
 }
 
-/// The value of a handle that may be left out.
-///
-/// # Safety
-///
-/// As of [`handle`].
-pub(crate) unsafe fn optional<'a, H: Handle>(
-    argument: &'static str,
-    pointer: *const H,
-) -> Result<Option<&'a H>, Fault> {
-    // SAFETY: as of the caller.
-    (!pointer.is_null()).then(|| unsafe { handle(argument, pointer) }).transpose()
-}
-
-/// Give the handle of a new value to the caller; NULL if there is none.
+/// Give the handle of a new value to the caller; NULL where the call fails.
 ///
 /// # Safety
 ///
@@ -126,14 +113,14 @@ pub(crate) unsafe fn give<H>(
     Ok(())
 }
 
-/// Free a handle; NULL is none.
+/// Free a handle; NULL does nothing.
 ///
 /// # Safety
 ///
 /// The handle is NULL or of [`give`], and nobody uses it any more.
 pub(crate) unsafe fn free<H: Handle>(argument: &'static str, pointer: *mut H) -> Result<(), Fault> {
     // SAFETY: as of the caller.
-    if (unsafe { optional(argument, pointer) })?.is_none() {
+    if given(pointer, || unsafe { handle(argument, pointer) })?.is_none() {
         return Ok(());
     }
     if cfg!(debug_assertions) {

@@ -4,11 +4,11 @@ use irbkin::follow::{Break, Follower};
 use irbkin::plan::{Plan, PlanError, PlanOptions, ToolAxis, ToolRotation};
 use irbkin::{Pose, Robot, pose};
 
-use crate::arguments::{check_length, joints, optional, optional_mut, reference, slice, slice_mut};
+use crate::arguments::{array_mut, check_length, given, joints, reference, slice, slice_mut};
 use crate::fault::{Fault, IrbkinCode, guarded};
-use crate::handle::{self, IrbkinCell, IrbkinRobot, handle};
+use crate::handle::{IrbkinCell, IrbkinRobot, handle};
 
-/// What is free in a plan, and what it must keep. All zeros: nothing is free, nothing is kept.
+/// The freedoms of a plan and its conditions. All zeros: nothing is free, nothing is kept.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct IrbkinPlanOptions {
@@ -30,7 +30,7 @@ pub struct IrbkinPlanOptions {
     pub cell: *const IrbkinCell,
 }
 
-/// What is known of a plan.
+/// The figures of a plan.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct IrbkinPlanReport {
@@ -100,9 +100,10 @@ pub unsafe extern "C" fn irbkin_follow(
         let seed = unsafe { slice("seed", seed, seed_len) }?.to_vec();
         check_length("q", q_len, path.len() * robot.robot().dof())?;
         // SAFETY: as above, and all that is read is copied. 0 and 1 are the bytes of `bool`.
-        let (q, is_break) = unsafe {
-            (slice_mut("q", q, q_len)?, optional_mut("is_break", is_break.cast(), path.len())?)
-        };
+        let q = unsafe { slice_mut("q", q, q_len) }?;
+        let is_break: *mut u8 = is_break.cast();
+        // SAFETY: as above.
+        let is_break = given(is_break, || unsafe { slice_mut("is_break", is_break, path.len()) })?;
         on!(robot.robot(), robot => follow(robot, &path, &seed, q, is_break))
     })
 }
@@ -134,9 +135,9 @@ pub unsafe extern "C" fn irbkin_plan(
             let options = self::options(options, count)?;
             let out = Out {
                 q: slice_mut("q", q, q_len)?.as_chunks_mut().0,
-                tool_angle: optional_mut("tool_angle", tool_angle, count)?,
-                slot: optional_mut("slot", slot, count)?,
-                report: optional_mut("report", report, 1)?,
+                tool_angle: given(tool_angle, || slice_mut("tool_angle", tool_angle, count))?,
+                slot: given(slot, || slice_mut("slot", slot, count))?,
+                report: given(report, || array_mut("report", report))?,
             };
             out.write_result(robot.plan(&path, &options))
         })
@@ -152,29 +153,30 @@ unsafe fn options<const N: usize>(
     options: *const IrbkinPlanOptions,
     count: usize,
 ) -> Result<PlanOptions<N>, Fault> {
-    if options.is_null() {
-        return Ok(PlanOptions::default());
-    }
     // SAFETY: as of the caller.
-    let given = unsafe { reference("options", options) }?;
-    let (lower, upper) = (given.rotation_lower, given.rotation_upper);
-    let rotation = match given.rotation_steps {
+    let Some(own) = given(options, || unsafe { reference("options", options) })? else {
+        return Ok(PlanOptions::default());
+    };
+    let (lower, upper) = (own.rotation_lower, own.rotation_upper);
+    let rotation = match own.rotation_steps {
         0 => None,
         steps if lower == 0.0 && upper == 0.0 => Some(ToolRotation::full(steps)?),
         steps => Some(ToolRotation::new(steps, lower, upper, ToolAxis::Z)?),
     };
     // SAFETY: as of the caller.
-    let (times, cell) =
-        unsafe { (optional("times", given.times, count)?, handle::optional("cell", given.cell)?) };
+    let numbers =
+        |argument, numbers, len| given(numbers, || unsafe { slice(argument, numbers, len) });
+    let angles = |argument, angles| -> Result<Option<[f64; N]>, Fault> {
+        Ok(numbers(argument, angles, N)?.map(|q| joints(argument, q)).transpose()?.copied())
+    };
     // SAFETY: as of the caller.
-    let (start, end) =
-        unsafe { (optional("start", given.start, N)?, optional("end", given.end, N)?) };
+    let cell = given(own.cell, || unsafe { handle("cell", own.cell) })?;
     Ok(PlanOptions {
         rotation,
-        times: times.map(<[f64]>::to_vec),
-        start: start.map(|start| joints("start", start)).transpose()?.copied(),
-        end: end.map(|end| joints("end", end)).transpose()?.copied(),
-        closed: given.closed != 0,
+        times: numbers("times", own.times, count)?.map(<[f64]>::to_vec),
+        start: angles("start", own.start)?,
+        end: angles("end", own.end)?,
+        closed: own.closed != 0,
         cell: cell.map(|cell| cell.cell().clone()),
         ..PlanOptions::default()
     })
@@ -185,7 +187,7 @@ struct Out<'a, const N: usize> {
     q: &'a mut [[f64; N]],
     tool_angle: Option<&'a mut [f64]>,
     slot: Option<&'a mut [i32]>,
-    report: Option<&'a mut [IrbkinPlanReport]>,
+    report: Option<&'a mut [IrbkinPlanReport; 1]>,
 }
 
 impl<const N: usize> Out<'_, N> {

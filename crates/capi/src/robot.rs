@@ -4,7 +4,7 @@ use core::ffi::c_char;
 
 use irbkin::{AnyRobot, DhRow, Error, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
 
-use crate::arguments::{check_length, optional_text, pose, reference, slice, slice_mut, text};
+use crate::arguments::{check_length, given, pose, reference, slice, slice_mut, text};
 use crate::fault::{Fault, IrbkinCode, guarded, report};
 use crate::handle::{IrbkinRobot, free, give, handle};
 
@@ -84,7 +84,8 @@ pub unsafe extern "C" fn irbkin_robot_from_urdf(
 ) -> IrbkinCode {
     let make = || {
         // SAFETY: the pointers are as the header says.
-        let (base, tip) = unsafe { (optional_text("base", base)?, optional_text("tip", tip)?) };
+        let link = |argument, link| given(link, || unsafe { text(argument, link) });
+        let (base, tip) = (link("base", base)?, link("tip", tip)?);
         // SAFETY: as above.
         Ok(AnyRobot::from_urdf(unsafe { text("urdf", urdf) }?, base, tip)?)
     };
@@ -241,7 +242,7 @@ pub unsafe extern "C" fn irbkin_robot_with_approximate_body(
     unsafe { changed(robot, made, change) }
 }
 
-/// Free a robot; NULL is none. Robots that were made of it stay.
+/// Free a robot; NULL does nothing. Robots that were made of it stay.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn irbkin_robot_free(robot: *mut IrbkinRobot) {
     // SAFETY: the pointer is as the header says.

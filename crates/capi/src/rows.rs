@@ -5,9 +5,9 @@ use core::num::NonZeroUsize;
 use irbkin::batch::Batch;
 use irbkin::cell::Cell;
 
-use crate::arguments::{check_apart, optional, slice, slice_mut};
+use crate::arguments::{check_apart, given, slice, slice_mut};
 use crate::fault::{IrbkinCode, guarded};
-use crate::handle::{self, IrbkinCell, IrbkinRobot, handle};
+use crate::handle::{IrbkinCell, IrbkinRobot, handle};
 
 fn batch(threads: usize) -> Batch<'static> {
     Batch::new(NonZeroUsize::new(threads))
@@ -66,7 +66,8 @@ pub unsafe extern "C" fn irbkin_ik_batch(
         let (robot, poses) =
             unsafe { (handle("robot", robot)?, slice("poses", poses, poses_len)?) };
         // SAFETY: as above.
-        let angles = unsafe { optional("angles", angles, count) }?.unwrap_or_default();
+        let angles =
+            given(angles, || unsafe { slice("angles", angles, count) })?.unwrap_or_default();
         check_apart(("poses", poses), ("q", q, q_len))?;
         check_apart(("angles", angles), ("q", q, q_len))?;
         // SAFETY: as above.
@@ -91,7 +92,9 @@ pub unsafe extern "C" fn irbkin_collides(
 ) -> IrbkinCode {
     guarded(|| {
         // SAFETY: the pointers are as the header says.
-        let (robot, cell) = unsafe { (handle("robot", robot)?, handle::optional("cell", cell)?) };
+        let robot = unsafe { handle("robot", robot) }?;
+        // SAFETY: as above.
+        let cell = given(cell, || unsafe { handle("cell", cell) })?;
         let q_len = elements(count, robot.robot().dof());
         // SAFETY: as above. Zero is a byte of `bool`, whatever was there.
         let (q, collides) = unsafe {

@@ -7,8 +7,7 @@ use irbkin::{
 };
 
 use crate::arguments::{
-    array, array_mut, check_length, joints, optional, optional_mut, slice, slice_mut,
-    unchecked_pose,
+    array, array_mut, check_length, given, joints, reference, slice, slice_mut, unchecked_pose,
 };
 use crate::fault::{Fault, IrbkinCode, guarded};
 use crate::handle::{IrbkinRobot, handle};
@@ -108,14 +107,14 @@ pub unsafe extern "C" fn irbkin_ik(
         // SAFETY: the pointers are as the header says.
         let (robot, pose) = unsafe { (handle("robot", robot)?, unchecked_pose("pose", pose)?) };
         // SAFETY: as above.
-        let q7 = unsafe { optional("q7", q7, 1) }?.and_then(<[f64]>::first).copied();
+        let q7 = given(q7, || unsafe { reference("q7", q7) })?.copied();
         // SAFETY: as above.
         let q = unsafe { slice_mut("q", q, q_len) }?;
         // SAFETY: as above.
         let status = unsafe { slice_mut("status", status, status_len) }?;
         let count = on!(robot.robot(), robot => all(robot, &pose, q7, q, status)?);
         // SAFETY: as above.
-        if let Some([found]) = unsafe { optional_mut("found", found, 1) }? {
+        if let Some([found]) = given(found, || unsafe { array_mut("found", found) })? {
             *found = count;
         }
         Ok(())
@@ -164,7 +163,7 @@ pub unsafe extern "C" fn irbkin_explain(
         // SAFETY: the pointers are as the header says.
         let (robot, pose) = unsafe { (handle("robot", robot)?, unchecked_pose("pose", pose)?) };
         // SAFETY: as above.
-        let q7 = unsafe { optional("q7", q7, 1) }?.and_then(<[f64]>::first).copied();
+        let q7 = given(q7, || unsafe { reference("q7", q7) })?.copied();
         let words = on!(robot.robot(), robot => robot.ik_with(&pose, q7)?.explain()).to_string();
         // SAFETY: as above.
         let text: &mut [u8] = unsafe { slice_mut("text", text.cast(), text_len) }?;
@@ -181,7 +180,7 @@ pub unsafe extern "C" fn irbkin_explain(
 /// and of seven joints among all angles of joint 7.
 ///
 /// `seed`, `weights` and `q` have `len` numbers, dof; `weights` may be NULL: all are 1.
-/// IRBKIN_CODE_UNREACHABLE if there is none.
+/// IRBKIN_CODE_UNREACHABLE if no solution is inside.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn irbkin_ik_nearest(
     robot: *const IrbkinRobot,
@@ -208,8 +207,9 @@ pub unsafe extern "C" fn irbkin_ik_nearest(
         // SAFETY: the pointers are as the header says.
         let (robot, pose) = unsafe { (handle("robot", robot)?, unchecked_pose("pose", pose)?) };
         // SAFETY: as above.
-        let (seed, weights) =
-            unsafe { (slice("seed", seed, len)?, optional("weights", weights, len)?) };
+        let seed = unsafe { slice("seed", seed, len) }?;
+        // SAFETY: as above.
+        let weights = given(weights, || unsafe { slice("weights", weights, len) })?;
         on!(robot.robot(), robot => {
             let nearest = nearest(robot, &pose, seed, weights)?;
             // SAFETY: as above; there are as many angles as in the seed.
@@ -230,10 +230,9 @@ pub unsafe extern "C" fn irbkin_configuration(
     guarded(|| {
         // SAFETY: the pointers are as the header says.
         let (robot, q) = unsafe { (handle("robot", robot)?, slice("q", q, q_len)?) };
-        let Configuration { cf1, cf4, cf6, cfx } =
-            on!(robot.robot(), robot => robot.configuration(joints("q", q)?)?);
+        let found = on!(robot.robot(), robot => robot.configuration(joints("q", q)?)?);
         // SAFETY: as above.
-        *unsafe { array_mut("confdata", confdata) }? = [cf1, cf4, cf6, cfx];
+        *unsafe { array_mut("confdata", confdata) }? = found.into();
         Ok(())
     })
 }
@@ -242,7 +241,7 @@ pub unsafe extern "C" fn irbkin_configuration(
 ///
 /// `seed` may be NULL; of several solutions the nearest to it is written. `arm_angle` is the arm
 /// angle of a YuMi [rad], NULL of other arms. IRBKIN_CODE_NO_CONFIGURATION if no solution has the
-/// confdata: the message lists those that exist.
+/// confdata: the message lists the existing ones.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn irbkin_ik_configured(
     robot: *const IrbkinRobot,
@@ -270,11 +269,11 @@ pub unsafe extern "C" fn irbkin_ik_configured(
         let (robot, pose) = unsafe { (handle("robot", robot)?, unchecked_pose("pose", pose)?) };
         check_length("q", q_len, robot.robot().dof())?;
         // SAFETY: as above.
-        let (confdata, seed) =
-            unsafe { (*array("confdata", confdata)?, optional("seed", seed, q_len)?) };
+        let confdata = *unsafe { array("confdata", confdata) }?;
         // SAFETY: as above.
-        let arm_angle = unsafe { optional("arm_angle", arm_angle, 1) }?;
-        let arm_angle = arm_angle.and_then(<[f64]>::first).copied();
+        let seed = given(seed, || unsafe { slice("seed", seed, q_len) })?;
+        // SAFETY: as above.
+        let arm_angle = given(arm_angle, || unsafe { reference("arm_angle", arm_angle) })?.copied();
         on!(robot.robot(), robot => {
             let found = configured(robot, &pose, confdata, seed, arm_angle)?;
             // SAFETY: as above, and the length fits.
