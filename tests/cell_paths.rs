@@ -2,7 +2,7 @@
 //! refute it, and a contact is where it is said to be.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use crate::common::Rng;
+use crate::common::{Rng, enough};
 
 use irbkin::body::Shape;
 use irbkin::cell::{Cell, Contact, Near, RESOLUTION};
@@ -198,7 +198,7 @@ fn a_motion_is_free_until_its_contact() {
             AnyRobot::Six(robot) => paths(robot, rng),
             AnyRobot::Seven(robot) => paths(robot, rng),
         };
-        assert!(free > 1 && touching > 1, "{free} free, {touching} not");
+        assert!(enough(free > 4 && touching > 10), "{free} free, {touching} not");
     });
 }
 

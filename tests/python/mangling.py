@@ -12,6 +12,11 @@ def dice(seed):
     return random.Random(f"{seed} {os.environ.get('IRBKIN_SEED', 0)}")
 
 
+def enough(counts):
+    """Whether enough was drawn to show something; of another `IRBKIN_SEED` nothing is asked."""
+    return counts or "IRBKIN_SEED" in os.environ
+
+
 def mangled(random_, content):
     """A file with lines and bytes lost, doubled, exchanged and replaced."""
     lines = content.split(b"\n")

@@ -8,7 +8,7 @@ from backups import MODULE, written
 from irbkin.abb import load_backup, parse_backinfo, parse_cfg
 from irbkin.abb.folders import decoded
 from irbkin.abb.machine import read_machine
-from mangling import INPUTS, dice, mangled
+from mangling import INPUTS, dice, enough, mangled
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "backup"
 
@@ -29,9 +29,9 @@ def test_broken_files_are_findings_and_never_another_error(tmp_path):
         robots += sum(it.robot is not None for it in backup.robots.values())
         tasks += sum(it.robot is not None for it in backup.tasks)
         assert all(it.line >= 0 and it.message for it in backup.findings)
-    # Of two robots and two tasks each, broken lines cost little.
-    assert robots > 1.6 * count
-    assert tasks > 1.6 * count
+    # Broken lines cost little of the rest.
+    assert enough(robots > 1.8 * count)
+    assert enough(tasks > 1.8 * count)
 
 
 SHORT = b"""MOC:CFG_1.0:6:0::
@@ -69,8 +69,8 @@ def test_broken_texts_are_read_to_their_end():
         machine = read_machine(found, ())
         robots += sum(it.robot is not None for it in machine.robots.values())
         modules += sum(len(it.modules) for it in parse_backinfo(text).tasks)
-    assert robots > 0.7 * INPUTS
-    assert modules > 0.7 * INPUTS
+    assert enough(robots > 0.8 * INPUTS)
+    assert enough(modules > 0.8 * INPUTS)
 
 
 LONG = [
