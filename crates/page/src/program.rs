@@ -28,8 +28,11 @@ impl Program {
         let others = |own: &Module| -> Vec<&Module> {
             alone.iter().filter(|other| !core::ptr::eq(*other, own)).collect()
         };
-        let modules =
-            alone.iter().zip(&texts).map(|(own, text)| rapid::read(text, &others(own))).collect();
+        let together = |(own, text): (&Module, &String)| rapid::read(text, &others(own));
+        let modules = match texts.len() {
+            1 => alone,
+            _ => alone.iter().zip(&texts).map(together).collect(),
+        };
         Ok(Self { modules, texts })
     }
 }
