@@ -30,7 +30,7 @@ REMAPPED = --remap-path-prefix=$${CARGO_HOME:-$$HOME/.cargo}/registry/src/= \
 	--remap-path-prefix=$$(rustc --print sysroot)/lib/rustlib/src/rust=/rustc
 # The same flags for the environment and for the wheel: one build serves both.
 EXTENSION_FLAGS = RUSTFLAGS="$${RUSTFLAGS:-} $(REMAPPED)"
-# For files of a release, whose times are that of the commit: two builds have the same bytes.
+# For files of a release, with the time of the commit: two builds have the same bytes.
 SHIPPED = env $(EXTENSION_FLAGS) SOURCE_DATE_EPOCH="$$(git log -1 --format=%ct)" \
 	VENV="$(abspath $(VENV))" PATH="$(abspath $(BIN)):$$PATH"
 TARGETS := x86_64-unknown-linux-gnu aarch64-unknown-linux-gnu x86_64-unknown-linux-musl x86_64-pc-windows-gnu
@@ -206,9 +206,9 @@ soak: | toolchains ## Laws with other random numbers for SECONDS (600), on from 
 	tests/seeds.sh soak $(or $(SECONDS),600) env IRBKIN_POSES=10000 PROPTEST_CASES=2000 \
 		cargo test --quiet --release --test suite -- $(LAWS)
 
-fuzz: $(BUILT) $(VENV)/.groups ## Broken files for every reader for SECONDS (600), on from the last seed; SEED=
+fuzz: $(BUILT) $(VENV)/.groups ## INPUTS (20,000) broken files of each kind for every reader, for SECONDS as soak
 	$(STEP) "Compile the Rust tests" cargo test --quiet --release --test suite --no-run
-	tests/seeds.sh fuzz $(or $(SECONDS),600) env IRBKIN_INPUTS=20000 bash -euc ' \
+	tests/seeds.sh fuzz $(or $(SECONDS),600) env IRBKIN_INPUTS=$(or $(INPUTS),20000) bash -euc ' \
 		cargo test --quiet --release --test suite -- rapid_fuzz::; \
 		$(BIN)/python -m pytest --quiet -n 2 tests/python/test_*_fuzz.py -k broken'
 
@@ -244,12 +244,6 @@ evidence-plans: $(BUILT) $(VENV)/.groups ## 100,000 random lines planned, each s
 
 evidence-configurations: | toolchains ## confdata at 100,000 poses of every ABB arm
 	IRBKIN_POSES=100000 cargo test --quiet --release --test suite -- configuration:: --nocapture --test-threads=1
-
-evidence-fuzz: | toolchains ## Four million invalid RAPID texts: no panic, linear time
-	IRBKIN_INPUTS=1000000 cargo test --quiet --release --test suite -- rapid_fuzz:: --nocapture --test-threads=1
-
-evidence-backups: $(BUILT) $(VENV)/.groups ## INPUTS (1,000,000) broken .cfg and backinfo texts: no other error
-	IRBKIN_INPUTS=$(or $(INPUTS),1000000) $(BIN)/python -m pytest --quiet tests/python/test_backup_fuzz.py -k broken
 
 evidence-ulp: | toolchains ## Arc tangent, sine and cosine against correctly rounded ones
 	IRBKIN_POINTS=10000000 cargo test --quiet --release --lib lanes::functions -- --nocapture --test-threads=1
@@ -296,7 +290,7 @@ $(VENV)/.ship: $(VENV)/.made pyproject.toml
 	$(STEP) "Install what builds and checks a release into $(VENV)" $(PIP_INSTALL) --group ship
 	@touch $@
 
-# What takes Debian packages that cannot be had is skipped, with the reason; then the exit code is 77.
+# Where Debian packages cannot be had, a step is skipped with the reason; then the exit code is 77.
 ship: $(VENV)/.ship ## Build sdist and wheels of TARGETS into dist, check them, print a table
 	@$(SHIPPED) ship/ship.sh $(TARGETS)
 
@@ -321,7 +315,7 @@ deny: | toolchains ## Check licenses and sources of all crates (deny.toml)
 		echo "SKIPPED: licenses and sources of crates: cargo-deny cannot be compiled (the reason is above)"; \
 	fi
 
-semver: | toolchains ## Compare the Rust interface with that of the last tag
+semver: | toolchains ## Compare the Rust interface with the last tag
 	@tag=$$(git describe --tags --abbrev=0 --match 'v[0-9]*' 2>/dev/null) || \
 		{ echo "There is no tag v* yet: no interface to compare with"; exit 0; }; \
 	$(call TOOL,cargo-semver-checks,0.51.0); \

@@ -1,8 +1,7 @@
 //! RAPID texts that nobody would write: none makes the reader panic, and what it reads it writes
 //! and reads again.
 //!
-//! `IRBKIN_INPUTS` is the number of inputs of each kind; `make evidence SUITE=fuzz` reads a
-//! million.
+//! `IRBKIN_INPUTS` is the number of inputs of each kind; `make fuzz INPUTS=1000000` reads a million.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
