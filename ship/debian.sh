@@ -8,7 +8,7 @@ skip() {
     exit 77
 }
 
-# Fetch the lists of the packages of an architecture: those of the system may be old, and only root
+# Fetch the lists of the packages of an architecture: the system's may be old, and only root
 # may renew them. The other functions use them.
 fetch_lists() {
     command -v apt-get >/dev/null && command -v dpkg >/dev/null ||

@@ -9,7 +9,7 @@ commit=$(git rev-parse HEAD)
 for clone in "$folder/one" "$folder/two/is/deeper"; do
     git clone --quiet . "$clone"
     git -C "$clone" checkout --quiet --detach "$commit"
-    # A home of its own for the unpacked crates; the archives are those of the normal one.
+    # A home of its own for the unpacked crates; the archives are the normal one's.
     mkdir -p "$clone.cargo/registry"
     ln -s "$home"/registry/{cache,index} "$clone.cargo/registry/"
     for config in "$home"/config*; do

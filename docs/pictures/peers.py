@@ -85,7 +85,7 @@ def number(ratio: float) -> str:
 
 
 def brief(title: str, subject: str) -> str:
-    """A title without what is in that of the picture."""
+    """A title without the words of the picture's own."""
     return title.removesuffix(f", {subject}").replace("of one pose with", "with")
 
 

@@ -2361,8 +2361,8 @@ class MotionMove(_Record):
         """
     @property
     def tool(self) -> _Floats:
-        """What the robot carries, in the flange frame, shape (4, 4): the tool or, if that is
-        stationary, the work object.
+        """The tool in the flange frame, shape (4, 4); of a stationary tool, the work object that
+        the robot carries.
         """
     def __new__(
         cls,

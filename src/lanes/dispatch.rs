@@ -7,7 +7,7 @@ use crate::error::Error;
 /// The instruction sets that kernels are compiled for. The widest one of the processor is chosen
 /// when the first kernel runs.
 ///
-/// Answers have the same bits on AVX2 and on AVX-512, and agree with those of every baseline to
+/// Answers have the same bits on AVX2 and on AVX-512, and agree with every baseline's to
 /// rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

@@ -1,4 +1,4 @@
-// Laws of the C interface: laws URDF. The answers are, to the last digit, those that the Rust crate
+// Laws of the C interface: laws URDF. The answers are, to the last digit, as the Rust crate
 // gave in the same run, and what is refused is refused in words.
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// Laws of the C++ wrapper: wrapper URDF. Its answers are those of the Rust crate, its errors are
+// Laws of the C++ wrapper: wrapper URDF. Its answers are the Rust crate's, its errors are
 // exceptions, its handles are freed once.
 #include <irbkin.hpp>
 

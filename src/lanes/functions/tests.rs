@@ -1,5 +1,5 @@
 //! Compares the functions with correctly rounded ones (crate `pxfm`), with fused multiplication and
-//! addition and without. Functions of the C library are no reference: those of mingw-w64 are not
+//! addition and without. Functions of the C library are no reference: mingw-w64's are not
 //! correctly rounded.
 //!
 //! `make evidence SUITE=ulp` uses ten million points and prints the worst; `make test` uses fewer.

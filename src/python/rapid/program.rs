@@ -152,8 +152,8 @@ record! {
         /// Whether it is made as it is programmed. Otherwise the joints go straight to its target
         /// at their limits or, without `q`, it is left out.
         as_programmed: bool,
-        /// What the robot carries, in the flange frame, shape (4, 4): the tool or, if that is
-        /// stationary, the work object.
+        /// The tool in the flange frame, shape (4, 4); of a stationary tool, the work object that
+        /// the robot carries.
         tool: Array,
     }
 }

@@ -64,7 +64,7 @@ impl Frames {
         })
     }
 
-    /// What the robot carries, in the flange frame: the tool or the work object.
+    /// The carried tool or work object in the flange frame.
     pub(in crate::rapid) fn carried(&self) -> Pose {
         match self {
             Self::Carried { t_flange_tool, .. } => *t_flange_tool,

@@ -63,8 +63,7 @@ pub struct MotionMove<const N: usize = 6> {
     /// Whether it is made as it is programmed; otherwise the joints go straight to its target at
     /// their limits or, without `q`, it is left out.
     pub as_programmed: bool,
-    /// What the robot carries, in the flange frame: the tool or, if that is stationary, the work
-    /// object.
+    /// The tool in the flange frame; of a stationary tool, the work object that the robot carries.
     pub tool: Pose,
     /// The instruction with its arguments.
     pub(super) step: Move,
