@@ -21,6 +21,7 @@ mod urdf;
 pub(crate) use self::body::BodyFault;
 pub(crate) use self::go::GoFault;
 pub(crate) use self::input::{JointFault, PoseFault};
+#[cfg(any(feature = "urdf", feature = "rapid"))]
 pub(crate) use self::lists::Names;
 pub use self::lists::{LeftOut, NoConfiguration, UnknownRobot};
 pub(crate) use self::model::ModelFault;

@@ -1,9 +1,10 @@
 //! The words of errors: a row for each message with a computed part.
 
 use std::f64::consts::PI;
-use std::string::{String, ToString};
+use std::string::ToString;
 use std::{vec, vec::Vec};
 
+use super::lists::Names;
 use super::*;
 use crate::report::{Approach, Configuration, FreeJoint, Reach};
 
@@ -199,7 +200,7 @@ fn messages_of_motions_and_plans() {
 #[test]
 fn messages_of_rapid() {
     use RapidFaultKind as Kind;
-    let (thing, routine) = (String::from("robtarget p10"), Some("main".into()));
+    let (thing, routine) = ("robtarget p10".to_string(), Some("main".into()));
     let fault = |kind| RapidFault::nowhere(kind).into();
     let count = |part: &str, found| {
         let (thing, part) = (thing.clone(), part.into());
