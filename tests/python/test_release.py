@@ -1,5 +1,6 @@
 """The files around the code name one version and one address, and each other correctly."""
 
+import importlib
 import re
 import sys
 from pathlib import Path
@@ -41,6 +42,18 @@ def test_all_addresses_are_that_of_the_crate():
         found = re.findall(r"(?:https://)?github\.com/[\w-]+/irbkin", (ROOT / file).read_text())
         assert found
         assert set(found) <= {address, address.removeprefix("https://")}
+
+
+def test_the_readme_of_a_release_has_no_relative_link(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "ship")
+    absolute = importlib.import_module("readme").absolute
+    text = absolute((ROOT / "README.md").read_text(), CRATE["repository"], CRATE["version"])
+    links = re.findall(r"\]\(([^)]*)\)", text)
+    assert len(links) >= 20
+    at_tag = re.compile(rf"{CRATE['repository']}/(?:blob|raw)/v{CRATE['version']}/([^#]*)")
+    files = [found[1] for link in links if (found := at_tag.match(link))]
+    assert len(files) == len(links)
+    assert all((ROOT / file).exists() for file in files)
 
 
 def test_the_licenses_of_all_crates_are_in_the_wheel():
