@@ -5,8 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . ship/debian.sh
-tests=(tests/python/test_{poses,known_solutions,recorded_poses,forward,universal_robots}.py
-    tests/python/test_{inverse,arrays,free_joints,singularity,reasons,configuration}.py)
+. ship/python_tests.sh
 root=$PWD/target/aarch64
 site=$PWD/target/aarch64-site
 compgen -G "dist/irbkin-*_aarch64.whl" >/dev/null || ship/wheel.sh dist aarch64-unknown-linux-gnu

@@ -43,7 +43,7 @@ fi
 version=$("$root/python/python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
 rm -rf "$site"
 # Later wheels of numpy need musl 1.2.4.
-tests/retry.sh pip install --quiet --disable-pip-version-check --target "$site" --only-binary :all: \
+tests/retry.sh pip install --quiet --disable-pip-version-check --no-warn-conflicts --target "$site" --only-binary :all: \
     --platform musllinux_1_1_x86_64 --platform musllinux_1_2_x86_64 --implementation cp \
     --python-version "$version" "$wheel" 'numpy<2'
 # The first block of a language in README.
