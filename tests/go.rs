@@ -2,8 +2,8 @@
 //! is refused as that.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use crate::common::Rng;
 use crate::common::scenes::{ARMS, in_shelf, on_table, problems, shelf, table};
+use crate::common::{Rng, enough};
 
 use irbkin::body::Shape;
 use irbkin::cell::Cell;
@@ -85,9 +85,9 @@ fn motions_round_a_table_and_a_shelf_are_free_from_end_to_end() {
     for (name, size) in ARMS {
         let robot: Robot<6> = Robot::named(name).unwrap();
         let [found, straight] = scene(&robot, &table(size), &|rng| on_table(size, rng), [5, 60]);
-        assert!(found == 60 && straight < 57, "{name}: {found}, {straight}");
+        assert!(enough(found == 60 && straight < 57), "{name}: {found}, {straight}");
         let [found, straight] = scene(&robot, &shelf(size), &|rng| in_shelf(size, rng), [6, 60]);
-        assert!(found == 60 && straight < 57, "{name}: {found}, {straight}");
+        assert!(enough(found == 60 && straight < 57), "{name}: {found}, {straight}");
     }
 }
 
@@ -111,7 +111,7 @@ fn seven_joints_go_round_a_post_and_a_locked_one_stays() {
             assert!(!is_locked || high - low < 1e-12);
         }
     }
-    assert!(motions > 0);
+    assert!(enough(motions > 0));
     let moved = End::Joints([0.0, 0.4, 0.5, -1.9, 0.1, 2.3, 0.7]);
     let refused = go(&locked, &[End::Joints(start), moved], &cell, 0).unwrap_err().to_string();
     assert!(refused.contains("goal: joint 3 is 0.500000 rad"), "{refused}");

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 
-use crate::common::{apart, poses, profile, wrapped};
+use crate::common::{apart, enough, poses, profile, wrapped};
 use crate::rng::Rng;
 use crate::structures::three_parallel::{ParallelArm, arms, equal_links};
 use crate::structures::{SIX, Subject};
@@ -123,7 +123,7 @@ fn shortfall_is_that_of_the_nearest_branch() {
     };
     TestRunner::new(profile()).run(&(arms(), poses(2.0), 0..4_u8), law).unwrap();
     println!("inside {inside:?}, beyond {beyond:?}, reached {reached:?}");
-    assert!(inside.get() > 200 && beyond.get() > 200 && reached.get() > 200);
+    assert!(enough(inside.get() > 200 && beyond.get() > 200 && reached.get() > 200));
 }
 
 #[test]
