@@ -42,7 +42,7 @@ MSRV := $(shell sed -nE 's/^rust-version = "(.*)"/\1/p' Cargo.toml)
 
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
-.PHONY: help run test check bench bench-peers evidence soak fuzz docs site test-recipes test-ros page \
+.PHONY: help run test check bench bench-peers evidence soak fuzz mutants docs site test-recipes test-ros page \
 	test-page capi test-capi bench-capi wheel packages ship test-platforms reproducible thirdparty deny \
 	semver msrv stubs clean toolchains lints rust-tests $(SUITES:%=evidence-%)
 
@@ -211,6 +211,17 @@ fuzz: $(BUILT) $(VENV)/.groups ## INPUTS (20,000) broken files of each kind for 
 	tests/seeds.sh fuzz $(or $(SECONDS),600) env IRBKIN_INPUTS=$(or $(INPUTS),20000) bash -euc ' \
 		cargo test --quiet --release --test suite -- rapid_fuzz::; \
 		$(BIN)/python -m pytest --quiet -n 2 tests/python/test_*_fuzz.py -k broken'
+
+# In a copy of the sources, which is built first.
+mutants: | toolchains ## Change FILES, all solvers, in one place after another for SECONDS (1200): what no test sees
+	$(call TOOL,cargo-mutants,27.1.0)
+	@PATH=$(abspath target/tools/bin):$$PATH timeout --signal=INT $(or $(SECONDS),1200) \
+		cargo mutants --shuffle --no-default-features --features std --output target \
+		--file '$(or $(FILES),src/kinematics/structure/**)' \
+		--cargo-arg=--lib --cargo-arg=--test=suite -- \
+		laws:: hard_sets:: reach_and_paths:: certificates:: follow:: structure:: solve:: || \
+		case $$? in 2 | 3 | 124) ;; *) exit 1 ;; esac
+	@cd target/mutants.out; echo "Seen: $$(wc -l <caught.txt). Not seen:"; cat missed.txt
 
 evidence: ## Run a suite of long tests or counts: SUITE=...
 	@echo " $(SUITES) " | grep -q " $(or $(SUITE),-) " || { echo "SUITE= is one of: $(SUITES)"; exit 2; }
