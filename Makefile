@@ -213,7 +213,7 @@ fuzz: $(BUILT) $(VENV)/.groups ## INPUTS (20,000) broken files of each kind for 
 		$(BIN)/python -m pytest --quiet -n 2 tests/python/test_*_fuzz.py -k broken'
 
 # In a copy of the sources, which is built first.
-mutants: | toolchains ## Change FILES, all solvers, in one place after another for SECONDS (1200): what no test sees
+mutants: | toolchains ## Change the solvers (FILES) in one place after another for SECONDS (1200): what no test sees
 	$(call TOOL,cargo-mutants,27.1.0)
 	@PATH=$(abspath target/tools/bin):$$PATH timeout --signal=INT $(or $(SECONDS),1200) \
 		cargo mutants --shuffle --no-default-features --features std --output target \

@@ -23,13 +23,11 @@ def absolute(text: str, repository: str, version: str) -> str:
 
 def main() -> None:
     """Rewrite README.md."""
-    manifest = (ROOT / "Cargo.toml").read_text()
-    repository, version = (
-        re.search(rf'^{key} = "(.*)"', manifest, re.MULTILINE)[1]  # type: ignore[index]
-        for key in ("repository", "version")
-    )
+    manifest = (ROOT / "Cargo.toml").read_text(encoding="utf-8")
+    version, repository = re.findall(r'^(?:version|repository) = "(.*)"', manifest, re.MULTILINE)
     readme = ROOT / "README.md"
-    readme.write_text(absolute(readme.read_text(), repository, version))
+    # As bytes: on Windows a text would get another encoding and other ends of lines.
+    readme.write_bytes(absolute(readme.read_bytes().decode(), repository, version).encode())
 
 
 if __name__ == "__main__":

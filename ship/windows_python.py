@@ -54,7 +54,7 @@ def main(folder: Path, wheel: str) -> None:
 
     (folder / "python.c").write_text(PROGRAM.replace("@", name))
     compile_with_zig(folder, "python.exe", "-municode", "python.c")
-    # The DLL of the stable interface leads to the same names in that of the version.
+    # The DLL of the stable interface forwards each name to the DLL of the version.
     dll = (folder / f"{name}.dll").read_bytes()
     names = sorted(set(re.findall(rb"\0(_?Py[A-Za-z0-9_]+)(?=\0)", dll)))
     exports = "".join(f"{it}={name}.{it}\n" for it in map(bytes.decode, names))
