@@ -112,8 +112,8 @@ fn frames_may_be_anywhere() {
     }
 }
 
-/// Slots of a closed form do not depend on how axes x are directed, nor those of an arm that is
-/// offset from axis 1 on where joint 1 is zero [rad].
+/// Slots of a closed form do not depend on how axes x are directed. If the arm is offset from axis
+/// 1, they do not depend on where joint 1 is zero [rad] either.
 fn assert_same_slots(subject: &Subject<6>, other: &Robot<6>, zero: f64) {
     if subject.has_ordinals() || subject.robot.structure() != other.structure() {
         return;
