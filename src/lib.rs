@@ -104,9 +104,11 @@ pub mod body;
 pub mod catalog;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod cell;
-pub mod error;
+#[cfg(any(feature = "std", feature = "libm"))]
+mod error;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod go;
+mod interrupt;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod kinematics;
 #[cfg(any(feature = "std", feature = "libm"))]
@@ -120,23 +122,13 @@ mod python;
 #[cfg(all(feature = "rapid", any(feature = "std", feature = "libm")))]
 pub mod rapid;
 pub mod report;
-// Shared by unit tests and the tests of the public interface.
-#[cfg(test)]
-#[allow(dead_code, unreachable_pub)]
-#[path = "../tests/common/rng.rs"]
-mod rng;
-#[cfg(test)]
-#[allow(dead_code, unreachable_pub)]
-#[path = "../tests/structures"]
-mod structures {
-    pub mod place;
-    #[path = "spherical_shoulder/arm.rs"]
-    pub mod shoulder_arm;
-}
 #[cfg(feature = "std")]
 mod spelling;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod spline;
+#[cfg(test)]
+#[path = "../tests/main.rs"]
+mod suite;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod trajectory;
 #[cfg(all(feature = "urdf", any(feature = "std", feature = "libm")))]
@@ -144,12 +136,15 @@ mod urdf;
 
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use catalog::catalog;
+#[cfg(any(feature = "std", feature = "libm"))]
 pub use error::Error;
+pub use interrupt::{Interrupt, Interrupted};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
-    AnyRobot, ConfigurationRequest, Corrections, Definition, DhRow, JacobianFrame, JointAxis,
-    JointLimits, Margin, Mdh, OpwParameters, Pose, PoseDifference, Robot, Sdh, SingularDistances,
-    Singularity, SingularityKind, Slot, Solution, Solutions, Status, thresholds,
+    AnyRobot, ByJoints, ConfigurationRequest, Corrections, Definition, DhRow, JacobianFrame,
+    JointAxis, JointLimits, Joints, Margin, Mdh, NoConfiguration, OpwParameters, Pose,
+    PoseDifference, Robot, Sdh, SingularDistances, Singularity, SingularityKind, Slot, Solution,
+    Solutions, Status, thresholds,
 };
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use lanes::InstructionSet;

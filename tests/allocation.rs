@@ -1,9 +1,11 @@
 //! A solve allocates nothing.
-#![allow(unsafe_code, clippy::unwrap_used, missing_docs)]
+#![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+use irbkin::trajectory::state::{brake, to_rest};
+use irbkin::trajectory::{AxisLimits, AxisMotion, AxisState};
 use irbkin::{Corrections, JacobianFrame, Robot, follow::Follower};
 
 /// The system's allocator, counting the allocations of the test's own thread.
@@ -140,4 +142,17 @@ fn motions_of_axes_allocate_nothing_and_a_line_what_it_returns() {
         assert_eq!(path.unwrap().len(), 1000);
     });
     assert_eq!(count, 2);
+}
+
+#[test]
+fn motions_to_rest_and_brakes_allocate_nothing() {
+    let now = AxisState { position: 0.2, velocity: 1.0, acceleration: -3.0 };
+    let limits = AxisLimits { velocity: 2.0, acceleration: 8.0, jerk: 60.0 };
+    let targets = [0.9, -1.0, 0.2, 0.21, 3.0, 0.0];
+    let mut motions = [AxisMotion::still(0.0, 0.0); 6];
+    let count = allocations_of(|| {
+        std::hint::black_box(to_rest(&[now; 6], &targets, &[limits; 6], &mut motions).unwrap());
+        std::hint::black_box(brake(&now, &limits).unwrap());
+    });
+    assert_eq!(count, 0);
 }

@@ -1,5 +1,4 @@
 //! `AnyRobot` is the robot of six or seven joints that the name or the file says.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::{AnyRobot, Error, Robot, catalog};
 

@@ -1,10 +1,9 @@
 //! Numbers that are too large to compute with are refused with the bound, and up to the bound
 //! answers keep their digits, for every structure.
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use std::f64::consts::{PI, TAU};
 
-use crate::common::{Rng, reach_of};
+use crate::suite::common::{Rng, reach_of};
 use irbkin::batch::{Batch, NO_CONFIGURATION};
 use irbkin::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use irbkin::{

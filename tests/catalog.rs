@@ -1,10 +1,10 @@
 //! Every arm of the catalog is compared with figures that are not irbkin's own.
-#![allow(clippy::unwrap_used, clippy::unreadable_literal, clippy::panic, missing_docs)]
+#![allow(clippy::unreadable_literal)]
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-use crate::common::{Rng, apart, reach_of};
+use crate::suite::common::{Rng, apart, reach_of};
 use irbkin::{Error, JointLimits, Pose, Robot, catalog, catalog::CatalogGeometry, pose};
 use nalgebra::Vector3;
 

@@ -1,10 +1,9 @@
 //! Laws of bodies and cells: what they call free is free of the public meshes, and distances are
 //! the least over all points of a capsule's axis.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use std::collections::BTreeMap;
 
-use crate::common::{Rng, enough};
+use crate::suite::common::{Rng, enough};
 
 use irbkin::body::{Body, Capsule, LinkCapsule, Shape};
 use irbkin::catalog::find;

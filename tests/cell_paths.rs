@@ -1,8 +1,7 @@
 //! Laws of motions in a cell: what is proven free is free at every instant, whatever is tried to
 //! refute it, and a contact is where it is said to be.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-use crate::common::{Rng, enough};
+use crate::suite::common::{Rng, enough};
 
 use irbkin::body::Shape;
 use irbkin::cell::{Cell, Contact, Near, RESOLUTION};

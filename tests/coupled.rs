@@ -1,13 +1,12 @@
 //! Laws of arms with axes 2 and 3 coupled by a parallelogram linkage: their joint vectors are the
 //! controller's, with axis 3 measured from the base.
-#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::common::coupled_arm::{
+use crate::suite::common::coupled_arm::{
     limited, odd, opposed, opw, others, serial, unlimited, with_linkage,
 };
-use crate::common::{Rng, apart, central_difference, difference_bound, reach_of};
+use crate::suite::common::{Rng, apart, central_difference, difference_bound, reach_of};
 use irbkin::batch::Batch;
 use irbkin::{
     DhRow, Error, Explanation, FreeJoint, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose,

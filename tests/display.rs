@@ -1,5 +1,4 @@
 //! Robots and solutions as text.
-#![allow(clippy::unwrap_used)]
 
 use irbkin::{Pose, Robot};
 

@@ -2,13 +2,13 @@
 //! and why.
 //!
 //! `make evidence SUITE=hardsets` prints the table.
-#![allow(clippy::unwrap_used, clippy::cast_precision_loss, clippy::float_cmp, missing_docs)]
+#![allow(clippy::cast_precision_loss)]
 
-use crate::common;
+use crate::suite::common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::common::{Rng, asked_set};
+use crate::suite::common::{Rng, asked_set};
 
 use nalgebra::Vector3;
 

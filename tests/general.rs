@@ -1,6 +1,5 @@
 //! General arms through the public interface: cases with known answers, and what holds of every
 //! answer.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use std::f64::consts::PI;
 
@@ -8,7 +7,7 @@ use irbkin::batch::Batch;
 use irbkin::{DhRow, Explanation, Mdh, Pose, Robot, Sdh, Status, follow::FollowOptions, pose};
 use serde_json::Value;
 
-use crate::common::{Rng, apart, company};
+use crate::suite::common::{Rng, apart, company};
 
 const CASES: &str = include_str!("data/general_6r.json");
 

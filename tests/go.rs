@@ -1,15 +1,14 @@
 //! Laws of free motions: free at every instant, from end to end, within the limits; what cannot be
 //! is refused as that.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-use crate::common::scenes::{ARMS, in_shelf, on_table, problems, shelf, table};
-use crate::common::{Rng, enough};
+use crate::suite::common::scenes::{ARMS, in_shelf, on_table, problems, shelf, table};
+use crate::suite::common::{Rng, enough};
 
 use irbkin::body::Shape;
 use irbkin::cell::Cell;
 use irbkin::go::{End, GoOptions};
 use irbkin::trajectory::Trajectory;
-use irbkin::{Error, Pose, Robot, pose};
+use irbkin::{Error, Interrupt, Pose, Robot, pose};
 
 /// Instants at which a motion is looked at.
 const INSTANTS: usize = 300;
@@ -23,9 +22,10 @@ fn go<const N: usize>(
     cell: &Cell,
     seed: u64,
 ) -> Result<Trajectory, Error> {
-    let mut samples = 0..SAMPLES;
+    let samples = core::cell::Cell::new(0);
+    let is_enough = || samples.replace(samples.get() + 1) >= SAMPLES;
     let options = GoOptions { seed, ..GoOptions::default() };
-    robot.go(start, goal, cell, &options, &mut || samples.next().is_some())
+    robot.go(start, goal, cell, &options, Interrupt::when(&is_enough))
 }
 
 fn meets<const N: usize>(robot: &Robot<N>, q: &[f64; N], end: &End<N>) -> bool {
@@ -147,7 +147,7 @@ fn what_cannot_be_is_refused_as_that() {
     assert!(to(End::Joints([f64::NAN; 6])).contains("finite"));
     let limits = GoOptions { max_velocity: Some([0.0; 6]), ..GoOptions::default() };
     let ends = [End::Joints(free); 2];
-    let refused = robot.go(&ends[0], &ends[1], &cell, &limits, &mut || true).unwrap_err();
+    let refused = robot.go(&ends[0], &ends[1], &cell, &limits, Interrupt::none()).unwrap_err();
     assert!(matches!(refused, Error::InvalidMotion(_)), "{refused}");
     // A wall between the two, which ends nowhere near.
     let place = pose::from_wxyz([0.0; 3], [1.0, 0.0, 0.0, 0.0]).unwrap();

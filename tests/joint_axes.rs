@@ -1,9 +1,8 @@
 //! Laws of the tables that are built from joint axes.
-#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use irbkin::{JointAxis, Mdh, Pose, PoseDifference, Robot, pose};
+use irbkin::{JointAxis, Joints, Mdh, Pose, PoseDifference, Robot, pose};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
 use proptest::prelude::*;
 
@@ -75,7 +74,10 @@ fn table_moves_like_the_axes<const N: usize>(
     drawn: &[Drawn; N],
     tip: &Pose,
     q: &[f64; N],
-) -> Result<(), TestCaseError> {
+) -> Result<(), TestCaseError>
+where
+    Robot<N>: Joints<N>,
+{
     let axes = axes_of(drawn);
     let mdh = Mdh::from_joint_axes(&axes, tip).unwrap();
     let off = PoseDifference::between(

@@ -1,9 +1,8 @@
 //! Laws of robots of seven joints with one of them locked.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use std::f64::consts::TAU;
 
-use crate::common::Rng;
+use crate::suite::common::Rng;
 use irbkin::batch::Batch;
 use irbkin::{Error, Robot, Status, pose};
 

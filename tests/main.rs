@@ -1,7 +1,8 @@
-//! The suite: one binary, because linking and optimizing one per file took most of the time.
+//! The suite: the laws, on the public interface. `src/lib.rs` includes it, so that the crate is
+//! compiled once for them and for its unit tests.
 //!
-//! A new file of tests is a module here, see `CONTRIBUTING.md`. Tests that force an instruction set
-//! in the whole process are in `lanes.rs`, which is a separate binary.
+//! A new file of tests is a module here, see `CONTRIBUTING.md`. `lanes` forces instruction sets in
+//! the whole process: its tests are ignored, and run by themselves.
 #![allow(unreachable_pub)]
 
 mod allocation;
@@ -23,6 +24,7 @@ mod general;
 mod go;
 mod hard_sets;
 mod joint_axes;
+mod lanes;
 mod laws;
 mod locked;
 mod nearest;
@@ -39,11 +41,13 @@ mod reach_and_paths;
 mod recall;
 mod redundancy;
 mod refined;
+#[cfg(feature = "serde")]
 mod serde;
 mod seven_paths;
 #[cfg(feature = "urdf")]
 mod snap;
-mod structures;
+mod states;
+pub(crate) mod structures;
 #[cfg(feature = "urdf")]
 mod urdf;
 #[cfg(feature = "urdf")]
@@ -51,4 +55,4 @@ mod urdf_time;
 #[cfg(feature = "urdf")]
 mod urdf_write;
 
-use common::rng;
+pub(crate) use common::rng;

@@ -1,14 +1,12 @@
 //! Laws of the choice near singularities: if joints inside the limits made a pose, some are found,
 //! the nearest of them to every seed, and those of every configuration. `IRBKIN_POSES` sets the
 //! number of poses per set.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-#[path = "nearest/sets.rs"]
 mod sets;
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::common::{Rng, asked_set, reach_of};
+use crate::suite::common::{Rng, asked_set, reach_of};
 use irbkin::{
     JointLimits, Pose, Robot, Solution, Status, catalog, catalog::CatalogGeometry,
     follow::Follower, thresholds,

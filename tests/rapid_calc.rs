@@ -1,7 +1,6 @@
 //! `CalcJointT`, `CalcRobT` and the tables of whole modules.
-#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
-use crate::common::{Rng, apart};
+use crate::suite::common::{Rng, apart};
 use irbkin::rapid::{
     Code, Fallback, JointTarget, LoadData, RapidPose, RobTarget, TableRow, ToolData, WobjData,
     calc_joint_t, calc_joint_t_or, calc_moves, calc_rob_t, calc_targets, error_name, parse,

@@ -2,18 +2,11 @@
 //! and reads again.
 //!
 //! `IRBKIN_INPUTS` is the number of inputs of each kind; `make fuzz INPUTS=1000000` reads a million.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    missing_docs
-)]
+#![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)]
 
 use std::time::{Duration, Instant};
 
-use crate::common::Rng;
+use crate::suite::common::Rng;
 use irbkin::rapid::{
     Content, Module, MotionOptions, Move, NewValue, Value, decode, parse, read, rewrite,
 };
@@ -463,6 +456,12 @@ fn pathological(size: usize) -> Vec<(&'static str, String)> {
             lines(&|i| format!("VAR pos p{i}; p{i}.x:=1; p{i}.y:=2; p0.z{i}:=1; p0.x:=2;")),
         ),
         ("processes", "ArcL p,v1,s,w,z1,tool0; SpotL p,v1,s,tool0;\n".repeat(size)),
+        ("unfinished lines", "foo\n".repeat(size)),
+        ("unfinished arguments", "foo a,\n! a note\n".repeat(size)),
+        ("unfinished calls", "x:=f(1,\n".repeat(size)),
+        ("calls", lines(&|i| format!("foo{i} f{i}(g{i}(1)\\h:=2)\\i;"))),
+        ("options", format!("foo {};", "\\a".repeat(size))),
+        ("operators", format!("x:=a{};", " AND NOT b<=c".repeat(size))),
         ("vectors", format!("CONST pos a:=[1,2,3]{};", "*[1,2,3]".repeat(size))),
     ]
 }

@@ -1,9 +1,8 @@
 //! Routines as one motion: paths, corners, speeds and limits hold; what is wrong is found.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::float_cmp, missing_docs)]
 
 use std::fmt::Write as _;
 
-use crate::common::Rng;
+use crate::suite::common::Rng;
 use irbkin::nalgebra::Vector3;
 use irbkin::rapid::{
     Finding, JointTarget, Module, MotionOptions, NOT_THERE, RobTarget, RoutineMotion, ToolData,

@@ -3,14 +3,12 @@
 //! joint paths are followed.
 //!
 //! `IRBKIN_POSES` sets the number of poses; each law prints its rates.
-#![allow(clippy::unwrap_used, clippy::cast_precision_loss, missing_docs)]
+#![allow(clippy::cast_precision_loss)]
 
-#[path = "reach_and_paths/arm.rs"]
-#[allow(unreachable_pub)]
 mod arm;
-use crate::common;
+use crate::suite::common;
 
-use crate::common::{Rng, asked_set};
+use crate::suite::common::{Rng, asked_set};
 use arm::{Arm, Near, arms, equal_links, irb_2600, lateral, log_uniform, sign, universal, wrapped};
 use irbkin::{Pose, Robot, Status, follow::FollowOptions, thresholds};
 use nalgebra::Vector3;

@@ -3,18 +3,17 @@
 //!
 //! One by one and in a batch. `make evidence SUITE=million` runs a million poses on each
 //! instruction set and prints the table; `make test` runs fewer.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use std::f64::consts::PI;
 
 use irbkin::{JointLimits, Pose, Robot, SingularityKind, Status, pose};
 
-use crate::common::tally::Tally;
-use crate::common::{Rng, apart, poses_or};
-use crate::structures::{self, Structure, Subject};
+use crate::suite::common::tally::Tally;
+use crate::suite::common::{Rng, apart, poses_or};
+use crate::suite::structures::{self, Structure, Subject};
 
-crate::on_every_structure!(every_generating_joint_vector_is_found);
-crate::on_structures_of_ordinals!(every_generating_joint_vector_is_found);
+crate::suite::structures::on_every_structure!(every_generating_joint_vector_is_found);
+crate::suite::structures::on_structures_of_ordinals!(every_generating_joint_vector_is_found);
 
 /// Poses per batch: a million at once would take half a gigabyte. Not a multiple of any lane count.
 const PART: usize = 1003;

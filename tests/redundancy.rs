@@ -3,12 +3,11 @@
 //!
 //! `IRBKIN_POSES` is the number of poses for each arm and distance; `make evidence
 //! SUITE=hardsets` prints one row per arm with more.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write as _;
 
-use crate::common::{self, Rng};
+use crate::suite::common::{self, Rng};
 use irbkin::{DhRow, JointLimits, Mdh, Pose, Robot, thresholds};
 use nalgebra::Isometry3;
 

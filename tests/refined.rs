@@ -1,13 +1,12 @@
 //! A calibrated arm by way of its nominal one. `IRBKIN_POSES` sets the number of poses of the rates
 //! in docs/guide/calibrate.md, which `--nocapture` prints.
-#![allow(clippy::unwrap_used, missing_docs)]
 
 use irbkin::batch::Batch;
 use irbkin::{
     Corrections, JointLimits, Mdh, Robot, SingularityKind, Solution, Status, follow::Follower,
 };
 
-use crate::common::{Rng, apart, poses_or};
+use crate::suite::common::{Rng, apart, poses_or};
 
 const ARMS: [&str; 2] = ["IRB 2600-12/1.65", "UR5"];
 

@@ -1,11 +1,10 @@
 //! Values that users store are written and read back unchanged.
-#![allow(clippy::unwrap_used)]
 
 use std::fmt::Debug;
 
 use irbkin::{
-    AnyRobot, Configuration, Corrections, JointLimits, Mdh, OpwParameters, Robot, Sdh, Solution,
-    Status, catalog,
+    AnyRobot, Configuration, Corrections, JointLimits, Joints, Mdh, OpwParameters, Robot, Sdh,
+    Solution, Status, catalog,
     follow::{FollowOptions, SingularityMode},
     pose,
 };
@@ -26,7 +25,10 @@ fn models_round_trip() {
     round_trips(&Sdh { base, rows, flange });
 }
 
-fn round_trips_with_settings<const N: usize>(robot: &Robot<N>) {
+fn round_trips_with_settings<const N: usize>(robot: &Robot<N>)
+where
+    Robot<N>: Joints<N>,
+{
     round_trips(robot);
     let base = pose::from_euler_zyx([0.1, -2.0, 0.3], [0.4, 0.5, -0.6]).unwrap();
     let tool = pose::from_euler_zyx([0.0, 0.02, 0.11], [0.1, 0.0, 3.0]).unwrap();

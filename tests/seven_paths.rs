@@ -1,8 +1,7 @@
 //! Laws of `follow` and `plan` of arms of seven joints: their joint vectors meet the poses inside the
 //! limits, `follow` does not jump, and a plan costs no more than what `follow` finds.
-#![allow(clippy::unwrap_used, missing_docs)]
 
-use crate::common::{Rng, iiwa};
+use crate::suite::common::{Rng, iiwa};
 
 use irbkin::follow::{BreakReason, Followed};
 use irbkin::plan::{PlanError, PlanOptions, PlanOrder};

@@ -1,15 +1,14 @@
 //! Right angles written with few digits are made exact on request, which is proposed exactly where
 //! it helps.
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
-use crate::common;
+use crate::suite::common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Debug;
 
-use crate::common::{Rng, reach_of};
+use crate::suite::common::{Rng, reach_of};
 use irbkin::batch::Batch;
-use irbkin::{DhRow, Error, JointLimits, Mdh, Pose, Robot, Sdh, Solutions, pose};
+use irbkin::{DhRow, Error, JointLimits, Joints, Mdh, Pose, Robot, Sdh, Solutions, pose};
 
 const XARM7: &str = include_str!("data/few_digits/xarm7.urdf");
 const PUMA560: &str = include_str!("data/few_digits/puma560.urdf");
@@ -112,7 +111,10 @@ fn rounded<const N: usize>(mdh: &Mdh<N>, decimals: i32) -> Mdh<N> {
 /// above it is accepted.
 #[test]
 fn tables_of_every_structure_are_accepted_with_the_proposed_snap() {
-    fn check<const N: usize>(exact: &Robot<N>) {
+    fn check<const N: usize>(exact: &Robot<N>)
+    where
+        Robot<N>: Joints<N>,
+    {
         for decimals in 3..=9 {
             let table = rounded(exact.mdh(), decimals);
             let off = table.rows.iter().zip(&exact.mdh().rows);

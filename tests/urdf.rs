@@ -1,18 +1,12 @@
 //! Robots from URDF: what is read, and the messages for what is refused.
-#![allow(
-    clippy::unwrap_used,
-    clippy::float_cmp,
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    missing_docs
-)]
+#![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 
-use crate::common;
+use crate::suite::common;
 
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use crate::common::{Rng, kuka_kr6};
+use crate::suite::common::{Rng, kuka_kr6};
 use irbkin::{Error, PoseDifference, Robot};
 
 const IRB2600: &str = include_str!("data/irb2600.urdf");
@@ -106,19 +100,108 @@ fn a_continuous_joint_has_no_limits_and_an_absent_limit_is_zero() {
 }
 
 #[test]
-fn a_missing_or_zero_velocity_is_unknown() {
+fn a_velocity_that_is_no_positive_number_is_unknown() {
     let velocity = "velocity=\"8.726646259971648\"";
     assert!(IRB2600.contains(velocity));
-    for unknown in ["", "velocity=\"0\"", "velocity=\"-0.0\""] {
-        assert_eq!(
-            six(&IRB2600.replace(velocity, unknown), None, None).unwrap().max_velocity(),
-            None
-        );
+    for unknown in ["", "0", "-0.0", "-2", "inf", "nan", "1 3", "${v}"] {
+        let unknown =
+            if unknown.is_empty() { String::new() } else { format!("velocity='{unknown}'") };
+        let robot = six(&IRB2600.replace(velocity, &unknown), None, None).unwrap();
+        assert_eq!(robot.max_velocity(), None, "{unknown}");
     }
-    assert_eq!(
-        words(&IRB2600.replace(velocity, "velocity=\"-2\"")),
-        "joint 6 velocity is -2 rad/s, it must be positive"
-    );
+}
+
+#[test]
+fn what_moves_no_axis_stops_no_file() {
+    let whole = six(IRB2600, None, None).unwrap();
+    let (limit, axis) = ("<limit", "<axis");
+    for (from, to) in [
+        (limit, "<limit start_stop='411' k_velocity='x'"),
+        (axis, "<axis rpy='0 0 0'"),
+        (axis, "<axis rpy=' 0 -0.0 0e3 '"),
+        ("<origin", "<origin quat_wxyz='0 0 0'"),
+        (axis, "<drake:gear_ratio value='1'/><axis"),
+        (axis, "<foo:rotor/><axis bar:of='foo' drake:is='1'"),
+        (axis, "<safety_controller k_velocity='?'/><calibration rising='x'/><axis"),
+        (
+            "<robot name=\"irb2600\"",
+            "<!-- <!DOCTYPE a [ -->\n<!DOCTYPE\n robot>\n<robot name=\"irb2600\"",
+        ),
+        ("<robot name", "<!DOCTYPE robot PUBLIC \"-//A//B\" 'http://a/b.dtd'>\n<robot name"),
+        ("<robot", "<!-- a & b --><robot"),
+    ] {
+        let at = IRB2600.find(from).unwrap();
+        let text = format!("{}{}", &IRB2600[..at], IRB2600[at..].replacen(from, to, 1));
+        let text = text.strip_prefix("<?xml version=\"1.0\"?>").unwrap_or(&text);
+        assert_eq!(six(text, None, None).as_ref(), Ok(&whole), "{to}");
+    }
+    let named = |name: &str| IRB2600.replace("\"irb2600\"", &format!("\"{name}\""));
+    let robot = six(&named("A & B &amp; C&D; &#65; &"), None, None);
+    assert!(robot.unwrap_err().to_string().contains("unknown entity reference 'D'"));
+    let robot = six(&named("A & B &amp; C && &#65; &; &"), None, None).unwrap();
+    assert_eq!(robot.name(), "A & B & C && A &; &");
+    let unlimited = IRB2600.replace("lower=\"-6.981317007977318\"", "lower=\"-1e10\"");
+    let unlimited = unlimited.replace("upper=\"6.981317007977318\"", "upper=\"inf\"");
+    let limits = six(&unlimited, None, None).unwrap().limits().to_array();
+    assert_eq!(limits[3], [f64::NEG_INFINITY, f64::INFINITY]);
+    // A fixed joint has no axis and follows nothing.
+    let fixed = "<axis xyz='0 0 0' rpy='1 2 3'/><mimic joint='joint_2'/>";
+    let text =
+        IRB2600.replace("<parent link=\"flange\"/>", &format!("<parent link='flange'/>{fixed}"));
+    assert_ne!(text, IRB2600);
+    assert_eq!(six(&text, None, None), Ok(whole));
+}
+
+#[test]
+fn what_moves_an_axis_and_entities_are_refused() {
+    let rpy = third("<axis", "<axis rpy=\"0 0 1e-3\"");
+    assert!(words(&rpy).contains("joint \"joint_3\" <axis> has the attribute \"rpy\""));
+    for kind in [
+        "<!DOCTYPE r [<!ENTITY a \"b\">]>",
+        "<!DOCTYPE r SYSTEM 'a' [\n]>",
+        "<!DOCTYPE r [<!ATTLIST origin xyz CDATA '1 2 3'>]>",
+    ] {
+        let text = IRB2600.replacen("<robot", &format!("{kind}<robot"), 1);
+        assert!(words(&text).ends_with("it has a document type, which is not read"), "{kind}");
+    }
+}
+
+#[test]
+fn the_joint_of_a_gripper_is_not_counted_silently() {
+    let behind = |parent: &str, child: &str, joint: &str, kind: &str| {
+        format!(
+            "<link name='{child}'/><joint name='{joint}' type='{kind}'><parent link='{parent}'/>\
+             <child link='{child}'/><limit lower='0' upper='1'/><origin xyz='0.1 0.2 0.3' \
+             rpy='1 2 3'/></joint>"
+        )
+    };
+    // `versioned` has six joints; a joint more makes seven.
+    let seven = |more: String| {
+        let text = versioned("", "", &more);
+        irbkin::AnyRobot::from_urdf(&text, None, None).unwrap_err().to_string()
+    };
+    let asked = |joint: &str, ends: &str| {
+        format!(
+            "URDF: joint {joint:?} may be a gripper's: revolute joints lead from \"l0\" to {ends}; \
+             tip must name the end of the arm"
+        )
+    };
+    let jaw = |name: &str| behind("l6", "moving", name, "revolute");
+    for name in ["gripper", "Moving_Jaw", "leftFinger", "claw_1"] {
+        assert_eq!(seven(jaw(name)), asked(name, "\"moving\" (7), \"l6\" (6)"));
+    }
+    // A frame before the last joint: then both ends are of six or seven joints, or one is shorter.
+    let both = seven(jaw("j7") + &behind("l6", "tcp", "f", "fixed"));
+    assert!(both.contains("several ends: \"moving\", \"tcp\""), "{both}");
+    let text = versioned("", "", &behind("l5", "tcp", "f", "fixed"));
+    assert_eq!(words(&text), asked("j6", "\"l6\" (6), \"tcp\" (5)"));
+    let text = versioned("", "", &behind("l4", "tcp", "f", "fixed"));
+    assert_eq!(words(&text), asked("j6", "\"l6\" (6), \"tcp\" (4)"));
+    assert!(six(&text, None, Some("l6")).is_ok());
+    // Frames nearer to the base are of no gripper.
+    for link in ["l0", "l1", "l2", "l3"] {
+        assert!(six(&versioned("", "", &behind(link, "camera", "f", "fixed")), None, None).is_ok());
+    }
 }
 
 #[test]
@@ -431,11 +514,6 @@ fn numbers_are_named_with_their_joint() {
             "limit lower is \"x-3.141592653589793\", it must be a number",
         ),
         (
-            "velocity=\"3",
-            "velocity=\"1 3",
-            "limit velocity is \"1 3.0543261909900767\", it must be a number",
-        ),
-        (
             "<limit",
             "<limits",
             "is revolute and has no <limit>; a joint without limits is continuous",
@@ -474,7 +552,7 @@ fn an_arm_without_a_closed_form_is_reported_and_solved() {
     assert!(robot.missing_form().is_some());
     let q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
     let solutions = robot.ik(&robot.fk(&q)).unwrap();
-    assert!(solutions.iter().any(|found| crate::common::apart(&found.q, &q) < 1e-9));
+    assert!(solutions.iter().any(|found| crate::suite::common::apart(&found.q, &q) < 1e-9));
 }
 
 /// A chain of fixed joints with an arm's six joints at its end, or links side by side.

@@ -1,6 +1,6 @@
 //! Reading a URDF takes time in proportion to its text, whatever its shape: what would take longer
 //! is refused before it is parsed.
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::format_collect)]
+#![allow(clippy::format_collect)]
 
 use std::fmt::Write as _;
 use std::time::Instant;
@@ -216,5 +216,35 @@ fn text_is_not_counted() {
         format!("<robot a=\"{}\"/>", " xmlns:a='b' /&gt; >".repeat(1000)),
     ] {
         assert_eq!(refusal(&text), "URDF: the robot has no links", "{text:.60}");
+    }
+}
+
+#[test]
+fn links_beside_an_arm_take_as_long_as_their_text() {
+    let arm = include_str!("data/irb2600.urdf");
+    let beside = |size: usize, is_chain: bool| {
+        let link = |i: usize| {
+            let parent = if is_chain && i > 0 { format!("f{}", i - 1) } else { "tool0".to_owned() };
+            format!(
+                "<link name=\"f{i}\"><collision><geometry><sphere radius=\"1\"/></geometry>\
+                 </collision></link><joint name=\"g{i}\" type=\"revolute\"><parent \
+                 link=\"{parent}\"/><child link=\"f{i}\"/><limit upper=\"1\"/><mimic \
+                 joint=\"g{}\"/></joint>",
+                i / 2
+            )
+        };
+        arm.replace("</robot>", &(filled(size, &link) + "</robot>"))
+    };
+    let taken = |text: String| {
+        let start = Instant::now();
+        assert!(
+            Robot::<6>::from_urdf(&text, None, Some("tool0")).is_ok_and(|it| it.body().is_none())
+        );
+        start.elapsed().as_secs_f64()
+    };
+    for is_chain in [true, false] {
+        let [small, large] = [1 << 19, 1 << 22].map(|size| taken(beside(size, is_chain)));
+        println!("{is_chain}: {:.2} ms, {:.2} ms", 1e3 * small, 1e3 * large);
+        assert!(large < 1.0 || large < 32.0 * small.max(5e-4), "{is_chain}: {small}, {large}");
     }
 }

@@ -1,11 +1,10 @@
 //! The URDF of a robot is read back as the robot.
-#![allow(clippy::unwrap_used, clippy::float_cmp, missing_docs)]
 
 use std::f64::consts::PI;
 
-use crate::common::coupled_arm::{limited, odd, opposed, with_linkage};
-use crate::common::{Rng, apart, kuka_kr6, random_pose, reach_of};
-use irbkin::{AnyRobot, Error, JointLimits, PoseDifference, Robot, catalog, thresholds};
+use crate::suite::common::coupled_arm::{limited, odd, opposed, with_linkage};
+use crate::suite::common::{Rng, apart, kuka_kr6, random_pose, reach_of};
+use irbkin::{AnyRobot, Error, JointLimits, Joints, PoseDifference, Robot, catalog, thresholds};
 
 const CASES: usize = 100;
 
@@ -18,7 +17,10 @@ fn rounding<const N: usize>(robot: &Robot<N>) -> f64 {
 }
 
 /// The robot of the text of `robot`, after a comparison of everything but its solutions.
-fn again<const N: usize>(robot: &Robot<N>) -> Robot<N> {
+fn again<const N: usize>(robot: &Robot<N>) -> Robot<N>
+where
+    Robot<N>: Joints<N>,
+{
     let read = Robot::<N>::from_urdf(&robot.to_urdf(), None, None).unwrap();
     assert_eq!(read.name(), robot.name());
     assert_eq!(read.limits(), robot.limits());

@@ -118,7 +118,7 @@ mod tests {
 
     use super::*;
     use crate::kinematics::pose_to_rows;
-    use crate::rng::Rng;
+    use crate::suite::rng::Rng;
 
     fn margins(robot: &Robot<6>, poses: &[f64], threads: usize) -> (Vec<f64>, Vec<f64>, Vec<u8>) {
         let count = poses.len() / 16;

@@ -11,13 +11,11 @@ use core::num::NonZeroUsize;
 
 #[cfg(feature = "std")]
 use super::threads::Helpers;
+use crate::interrupt::Interrupt;
 
 /// How often the caller is asked while it waits for other threads.
 #[cfg(feature = "std")]
 const WAIT: Duration = Duration::from_millis(20);
-
-/// Whether to go on, asked now and then.
-pub(crate) type GoOn<'a> = dyn FnMut() -> bool + 'a;
 
 /// Rows worked through part by part, on one thread or more.
 ///
@@ -39,7 +37,7 @@ pub struct Batch<'a> {
     #[cfg_attr(not(feature = "std"), expect(dead_code, reason = "there are no threads"))]
     threads: usize,
     /// Asked after each part, on the thread of the caller.
-    go_on: Option<&'a mut GoOn<'a>>,
+    interrupt: Interrupt<'a>,
 }
 
 impl Batch<'static> {
@@ -47,27 +45,27 @@ impl Batch<'static> {
     /// `std`, on the caller's.
     #[must_use]
     pub fn new(threads: Option<NonZeroUsize>) -> Self {
-        Self { threads: threads.map_or(1, NonZeroUsize::get), go_on: None }
+        Self { threads: threads.map_or(1, NonZeroUsize::get), interrupt: Interrupt::none() }
     }
 }
 
 #[cfg(feature = "python")]
 impl<'a> Batch<'a> {
-    /// A batch that ends early when `go_on` returns false.
-    pub(crate) fn until(threads: Option<NonZeroUsize>, go_on: &'a mut GoOn<'a>) -> Self {
-        Self { threads: threads.map_or(1, NonZeroUsize::get), go_on: Some(go_on) }
+    /// A batch that ends early when it is interrupted.
+    pub(crate) fn until(threads: Option<NonZeroUsize>, interrupt: Interrupt<'a>) -> Self {
+        Self { interrupt, ..Batch::new(threads) }
     }
 }
 
 impl Batch<'_> {
-    /// Works on the parts of `rows` rows, in any order. Work that takes long asks whether to go on.
+    /// Works on the parts of `rows` rows, in any order. Work that takes long asks whether to end.
     ///
     /// The caller works, too: it does not wait for threads that wake up late.
     pub(crate) fn run<P: Send>(
         &mut self,
         rows: usize,
         mut parts: impl Iterator<Item = P> + Send,
-        work: impl Fn(P, &mut GoOn<'_>) + Sync,
+        work: impl Fn(P, Interrupt<'_>) + Sync,
     ) {
         #[cfg(feature = "std")]
         if let Some(helpers) = Helpers::of(self.threads, rows) {
@@ -76,10 +74,9 @@ impl Batch<'_> {
             return;
         }
         let _ = rows;
-        let mut go_on = || self.go_on.as_mut().is_none_or(|go_on| go_on());
         for part in parts.by_ref() {
-            work(part, &mut go_on);
-            if !go_on() {
+            work(part, self.interrupt);
+            if self.interrupt.is_raised() {
                 return;
             }
         }
@@ -91,7 +88,7 @@ impl Batch<'_> {
         &mut self,
         helpers: &Helpers,
         parts: impl Iterator<Item = P> + Send,
-        work: impl Fn(P, &mut GoOn<'_>) + Sync,
+        work: impl Fn(P, Interrupt<'_>) + Sync,
     ) {
         let (parts, stopped) = (Mutex::new(parts), AtomicBool::new(false));
         let next = || {
@@ -106,24 +103,22 @@ impl Batch<'_> {
                 scope.spawn(|_| {
                     let _counted = Ended(&busy);
                     while let Some(part) = next() {
-                        work(part, &mut || !stopped.load(Ordering::Relaxed));
+                        work(part, Interrupt::when(&|| stopped.load(Ordering::Relaxed)));
                     }
                 });
             }
-            let mut go_on = || {
-                let on = self.go_on.as_mut().is_none_or(|go_on| go_on());
-                if !on {
-                    stopped.store(true, Ordering::Relaxed);
-                }
-                on
+            let is_raised = || {
+                let is_raised = self.interrupt.is_raised();
+                stopped.fetch_or(is_raised, Ordering::Relaxed);
+                is_raised
             };
             while let Some(part) = next() {
-                work(part, &mut go_on);
-                go_on();
+                work(part, Interrupt::when(&is_raised));
+                is_raised();
             }
             // The last parts of others may take long.
             while busy.is_any() {
-                go_on();
+                is_raised();
             }
         });
     }
@@ -166,6 +161,7 @@ impl Drop for Ended<'_> {
 mod tests {
     use super::*;
     use crate::batch::threads::WORTH_A_THREAD;
+    use core::cell::Cell;
     use std::sync::atomic::AtomicUsize;
     use std::thread;
     use std::vec::Vec;
@@ -201,12 +197,9 @@ mod tests {
     fn work_ends_when_the_caller_wants_no_more() {
         for threads in [1, 2] {
             let worked = AtomicUsize::new(0);
-            let mut asked = 0;
-            let mut go_on = || {
-                asked += 1;
-                asked < 3
-            };
-            let mut pace = Batch { threads, go_on: Some(&mut go_on) };
+            let asked = Cell::new(0);
+            let is_raised = || asked.replace(asked.get() + 1) >= 2;
+            let mut pace = Batch { threads, interrupt: Interrupt::when(&is_raised) };
             pace.run(100_000, 0..1_000_000, |_, _| {
                 worked.fetch_add(1, Ordering::Relaxed);
                 thread::yield_now();
@@ -220,18 +213,15 @@ mod tests {
     fn the_caller_is_asked_while_it_waits_for_the_part_of_another_thread() {
         let caller = thread::current().id();
         let is_ended = || {
-            let (mut asked, ended) = (0, AtomicBool::new(false));
-            let mut go_on = || {
-                asked += 1;
-                asked < 4
-            };
-            let mut pace = Batch { threads: 2, go_on: Some(&mut go_on) };
-            pace.run(100_000, 0..2, |_, go_on| {
+            let (asked, ended) = (Cell::new(0), AtomicBool::new(false));
+            let is_raised = || asked.replace(asked.get() + 1) >= 3;
+            let mut pace = Batch { threads: 2, interrupt: Interrupt::when(&is_raised) };
+            pace.run(100_000, 0..2, |_, interrupt| {
                 if thread::current().id() == caller {
                     thread::sleep(Duration::from_millis(5));
                     return;
                 }
-                while go_on() {
+                while !interrupt.is_raised() {
                     thread::yield_now();
                 }
                 ended.store(true, Ordering::Relaxed);

@@ -24,7 +24,8 @@ use alloc::vec::Vec;
 use nalgebra::Vector3;
 
 use super::shape::{Capsule, Shape, check_length};
-use crate::error::{BodyFault, Error};
+use crate::body::fault::BodyFault;
+use crate::error::Error;
 
 /// Capsules of a cover where no excess is given, at most.
 const FEW: usize = 4;
@@ -212,7 +213,7 @@ mod tests {
 
     use super::*;
     use crate::kinematics::Pose;
-    use crate::rng::Rng;
+    use crate::suite::rng::Rng;
 
     /// A pose in general position.
     fn pose() -> Pose {

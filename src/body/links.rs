@@ -1,10 +1,13 @@
 //! Capsules that move with the links of an arm.
 
 use alloc::borrow::Cow;
+#[cfg(feature = "urdf")]
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::shape::{Capsule, check_length};
-use crate::error::{BodyFault, Error};
+use crate::body::fault::BodyFault;
+use crate::error::Error;
 use crate::kinematics::Pose;
 
 /// The source of a body that is made of lengths alone.
@@ -93,8 +96,9 @@ impl Body {
         links: Vec<LinkCapsule>,
         pairs: Vec<[usize; 2]>,
         excess: Vec<f64>,
+        source: String,
     ) -> Self {
-        Self { links, pairs, excess, ..Self::empty("collision shapes of a URDF") }
+        Self { links, pairs, excess, source: source.into(), ..Self::empty("") }
     }
 
     /// The body with capsules that the flange carries, as a link of that number, at most `excess`

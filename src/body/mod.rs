@@ -2,6 +2,7 @@
 
 mod arms;
 mod cover;
+pub(crate) mod fault;
 mod links;
 mod outline;
 mod shape;

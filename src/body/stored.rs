@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::arms::body_of;
 use super::links::{Body, LinkCapsule};
-use crate::error::BodyFault;
+use crate::body::fault::BodyFault;
 
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Body")]

@@ -6,7 +6,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::{CatalogArm, catalog};
-use crate::error::LeftOut;
+use crate::catalog::fault::LeftOut;
 
 /// Words of a designation that do not change the kinematics: Foundry, the hose package of a LeanID.
 const WITHOUT_KINEMATICS: [&str; 3] = ["F", "MH6", "TYPE"];
@@ -225,7 +225,6 @@ pub(super) fn left_out(name: &str) -> Option<LeftOut> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

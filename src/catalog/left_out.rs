@@ -3,7 +3,7 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::error::LeftOut;
+use crate::catalog::fault::LeftOut;
 
 /// An arm, and the words of a name that mean it.
 struct Entry {

@@ -3,6 +3,7 @@
 mod abb;
 mod confdata;
 mod designation;
+pub(crate) mod fault;
 mod franka;
 mod left_out;
 mod names;
@@ -13,9 +14,11 @@ use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 
 use crate::body::body_of;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{AnyRobot, DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
+use crate::kinematics::{
+    AnyRobot, DhRow, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
+};
 
-pub use crate::error::LeftOut;
+pub use fault::{LeftOut, UnknownRobot};
 pub use left_out::left_out;
 pub use names::find;
 
@@ -224,7 +227,10 @@ impl AnyRobot {
     }
 }
 
-impl<const N: usize> Robot<N> {
+impl<const N: usize> Robot<N>
+where
+    Self: Joints<N>,
+{
     /// The catalog arm with this name; [`find`] defines which spellings match.
     ///
     /// # Errors

@@ -7,7 +7,8 @@ use core::iter;
 
 use super::designation::{self, Designation, trim_decimals};
 use super::{CatalogArm, catalog, left_out};
-use crate::error::{Error, UnknownRobot};
+use crate::catalog::fault::UnknownRobot;
+use crate::error::Error;
 #[cfg(feature = "std")]
 use crate::spelling::similar;
 
@@ -163,7 +164,6 @@ fn spelled_like(_: &str) -> Vec<&'static str> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use alloc::format;
 

@@ -61,7 +61,8 @@ const GOFA_10: CatalogArm = CatalogArm {
     max_velocity: Some(GOFA_SPEEDS),
     sources: 3,
     provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; visose/Robots has 399, \
-        636 and 100.5 mm for d1, d4 and d6, and +-180 deg for axes 1 and 6",
+        636 and 100.5 mm for d1, d4 and d6, and +-180 deg for axes 1 and 6; speeds are 120 120 125 \
+        200 200 200 deg/s in work-r-labs/robots: these are the GoFa 5's",
 };
 
 const GOFA_LARGE_LIMITS: &[[f64; 2]] = &[
@@ -90,7 +91,8 @@ const GOFA_12: CatalogArm = CatalogArm {
     limits: GOFA_LARGE_LIMITS,
     max_velocity: None,
     sources: 2,
-    provenance: "RobotComponents, robotkinematicscatalogue",
+    provenance: "RobotComponents, robotkinematicscatalogue; speeds are 120 120 125 200 200 200 \
+        deg/s in work-r-labs/robots, and in no other source",
 };
 
 const CRX_SPEEDS: &[f64] = &[120.0, 120.0, 180.0, 180.0, 180.0, 180.0];

@@ -11,6 +11,8 @@ mod postures;
 mod standing;
 
 pub use obstacles::Cell;
+#[cfg(feature = "python")]
+pub(crate) use path::Motion;
 pub use path::{Contact, RESOLUTION};
 pub(crate) use placed::Placed;
 pub use postures::{Near, Nearest};

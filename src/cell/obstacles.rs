@@ -4,8 +4,9 @@ use alloc::format;
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
 
+use crate::body::fault::BodyFault;
 use crate::body::{Shape, check_length};
-use crate::error::{BodyFault, Error};
+use crate::error::Error;
 
 /// The last link of the longest arm.
 const LAST_LINK: usize = 8;

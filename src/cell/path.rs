@@ -11,6 +11,7 @@ use super::obstacles::Cell;
 use super::placed::Placed;
 use super::postures::Nearest;
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::kinematics::{Robot, check_seed};
 use crate::lanes::LANES;
 use crate::trajectory::Trajectory;
@@ -25,6 +26,9 @@ const MOST_SAMPLES: u32 = 1000;
 
 /// A motion in pieces.
 pub(crate) trait Motion<const N: usize> {
+    /// Check that its joint angles are finite, and as many as the arm has.
+    fn check(&self) -> Result<(), Error>;
+
     /// Number of pieces.
     fn pieces(&self) -> usize;
 
@@ -38,6 +42,10 @@ pub(crate) trait Motion<const N: usize> {
 
 /// Joint vectors, each joint moving evenly from one to the next.
 impl<const N: usize> Motion<N> for [[f64; N]] {
+    fn check(&self) -> Result<(), Error> {
+        self.iter().try_for_each(|q| check_seed("q", q))
+    }
+
     fn pieces(&self) -> usize {
         // A single joint vector rests.
         if self.len() == 1 { 1 } else { self.len().saturating_sub(1) }
@@ -58,6 +66,14 @@ impl<const N: usize> Motion<N> for [[f64; N]] {
 }
 
 impl<const N: usize> Motion<N> for Trajectory {
+    fn check(&self) -> Result<(), Error> {
+        let found = self.dof();
+        if found == N {
+            return Ok(());
+        }
+        Err(Error::WrongLength { field: "trajectory", found, wanted: N })
+    }
+
     fn pieces(&self) -> usize {
         self.pieces()
     }
@@ -115,8 +131,7 @@ impl Cell {
         robot: &Robot<N>,
         q: &[[f64; N]],
     ) -> Result<Option<Contact<N>>, Error> {
-        q.iter().try_for_each(|q| check_seed("q", q))?;
-        Ok(self.contact(&mut Placed::of(robot)?, q))
+        self.check_motion(robot, q, Interrupt::none())
     }
 
     /// [`Self::check_path`] along a trajectory.
@@ -130,14 +145,24 @@ impl Cell {
         robot: &Robot<N>,
         trajectory: &Trajectory,
     ) -> Result<Option<Contact<N>>, Error> {
-        let found = trajectory.dof();
-        if found != N {
-            return Err(Error::WrongLength { field: "trajectory", found, wanted: N });
-        }
-        Ok(self.contact(&mut Placed::of(robot)?, trajectory))
+        self.check_motion(robot, trajectory, Interrupt::none())
     }
 
-    /// Where a motion first touches something; its joint angles must be finite.
+    /// [`Self::check_path`] of any motion, until it is interrupted.
+    pub(crate) fn check_motion<const N: usize, M: Motion<N> + ?Sized>(
+        &self,
+        robot: &Robot<N>,
+        motion: &M,
+        interrupt: Interrupt<'_>,
+    ) -> Result<Option<Contact<N>>, Error> {
+        motion.check()?;
+        let contact = self.contact(&mut Placed::of(robot)?.until(interrupt), motion);
+        interrupt.check(0)?;
+        Ok(contact)
+    }
+
+    /// Where a motion first touches something; its joint angles must be finite. What is not proven
+    /// when it is interrupted counts as touching.
     pub(crate) fn contact<const N: usize, M: Motion<N> + ?Sized>(
         &self,
         placed: &mut Placed<'_, N>,
@@ -153,7 +178,7 @@ impl Cell {
                 None => (piece, part[0] + (1.0 - part[0]) * f64::from(sample) / f64::from(SAMPLES)),
                 Some(more) => (piece + more as usize, 1.0),
             };
-            if later >= motion.pieces() {
+            if later >= motion.pieces() || placed.interrupt.is_raised() {
                 break;
             }
             let capsules = placed.capsules(&motion.range(later, [at; 2]).0);
@@ -229,6 +254,9 @@ impl Cell {
         // The first part is the last one here.
         let mut left = whole(motion.pieces());
         while !left.is_empty() {
+            if placed.interrupt.is_raised() {
+                return left.pop();
+            }
             let next = left.split_off(left.len().saturating_sub(LANES));
             let verdicts = self.verdicts(placed, motion, &next, resolution);
             let touching = self.touching_middles(placed, motion, &next, verdicts);

@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 use super::block::Block;
 use super::obstacles::Cell;
 use crate::body::{Capsule, Outline};
-use crate::error::{BodyFault, Error};
+use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::kinematics::Robot;
 use crate::lanes::LANES;
 
@@ -16,16 +17,22 @@ pub(crate) struct Placed<'a, const N: usize> {
     block: Block<N>,
     /// How far any axis of a capsule is from an axis of a joint at most [m].
     reach: f64,
+    pub(super) interrupt: Interrupt<'a>,
 }
 
 impl<'a, const N: usize> Placed<'a, N> {
     pub(crate) fn of(robot: &'a Robot<N>) -> Result<Self, Error> {
-        let outline = robot.outline().ok_or(BodyFault::NoBody)?;
+        let outline = robot.outline().ok_or_else(|| robot.no_body())?;
         let block = Block::new(robot, outline);
         let table = robot.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum::<f64>();
         let own = outline.groups.iter().map(|group| group.around.center.norm() + group.spread);
         let reach = table + own.fold(0.0, f64::max);
-        Ok(Self { robot, outline, block, reach })
+        Ok(Self { robot, outline, block, reach, interrupt: Interrupt::none() })
+    }
+
+    /// For work that ends when it is interrupted.
+    pub(crate) fn until(self, interrupt: Interrupt<'a>) -> Self {
+        Self { interrupt, ..self }
     }
 
     /// Which of up to eight joint vectors touch something, as bits: [`Block::touching`].

@@ -1,37 +1,31 @@
 //! Errors of input. A message names the field, the value, the bound and, where one is likely, the
 //! slip.
 //!
-//! A caller matches [`Error`] and prints the fault inside it: the types of faults have no public
-//! names.
+//! A caller matches [`Error`] and prints the fault inside it: most types of faults have no public
+//! names. Those that one room raises are in that room; here are those that several raise.
 
 use alloc::string::String;
 
-mod body;
-mod go;
-mod input;
-mod lists;
+pub(crate) mod input;
 mod model;
 mod motion;
-#[cfg(feature = "rapid")]
-mod rapid;
 #[cfg(test)]
 mod tests;
-mod urdf;
 
-pub(crate) use self::body::BodyFault;
-pub(crate) use self::go::GoFault;
 pub(crate) use self::input::{JointFault, PoseFault};
-#[cfg(any(feature = "urdf", feature = "rapid"))]
-pub(crate) use self::lists::Names;
-pub use self::lists::{LeftOut, NoConfiguration, UnknownRobot};
 pub(crate) use self::model::ModelFault;
-pub(crate) use self::motion::{MotionFault, PlanFault};
+pub(crate) use self::motion::MotionFault;
+use crate::body::fault::BodyFault;
+use crate::catalog::fault::UnknownRobot;
+use crate::go::fault::GoFault;
+use crate::interrupt::Interrupted;
+use crate::kinematics::NoConfiguration;
+use crate::plan::fault::PlanFault;
 #[cfg(feature = "rapid")]
-pub use self::rapid::RapidFault;
-#[cfg(feature = "rapid")]
-pub(crate) use self::rapid::{FrameFault, Missing, RapidFaultKind, RoutineFault};
-pub(crate) use self::urdf::UrdfFault;
+use crate::rapid::text::fault::{FrameFault, RapidFault};
 use crate::report::Explanation;
+#[cfg(feature = "urdf")]
+use crate::urdf::fault::UrdfFault;
 
 /// Why a call was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -89,6 +83,9 @@ pub enum Error {
     /// Solutions are inside the limits, none with the configuration that was asked for.
     #[error(transparent)]
     NoConfiguration(#[from] NoConfiguration),
+    /// The caller ended the work ([`Interrupt`](crate::Interrupt)).
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
     /// The processor lacks these instructions.
     #[error("the instruction set \"{name}\" is not supported by this CPU")]
     NoInstructionSet {
@@ -107,6 +104,7 @@ pub enum Error {
     },
 }
 
+#[cfg(feature = "urdf")]
 impl From<UrdfFault> for Error {
     fn from(fault: UrdfFault) -> Self {
         ModelFault::Urdf(fault).into()

@@ -7,8 +7,9 @@ use alloc::string::String;
 
 use thiserror::Error;
 
-use super::UrdfFault;
 use crate::report::{Snap, UnknownStructure};
+#[cfg(feature = "urdf")]
+use crate::urdf::fault::UrdfFault;
 
 /// Why the model of an arm is refused, or a question to it. Lengths in meters, angles in radians;
 /// joints, axes and rows count from 1, an `index` of 0 is a parameter by itself.
@@ -118,6 +119,7 @@ pub enum ModelFault {
         .bound[0], .bound[1]
     )]
     FarFromNominal { position: f64, rotation: f64, bound: [f64; 2] },
+    #[cfg(feature = "urdf")]
     #[error("URDF: {0}")]
     Urdf(UrdfFault),
 }

@@ -4,9 +4,11 @@ use std::f64::consts::PI;
 use std::string::ToString;
 use std::{vec, vec::Vec};
 
-use super::lists::Names;
 use super::*;
-use crate::report::{Approach, Configuration, FreeJoint, Reach};
+use crate::catalog::LeftOut;
+#[cfg(feature = "rapid")]
+use crate::rapid::text::fault::{Missing, RapidFaultKind};
+use crate::report::{Approach, Configuration, FreeJoint, Names, Reach};
 
 fn unreachable(explanation: Explanation) -> Error {
     Error::Unreachable(explanation)
@@ -147,6 +149,13 @@ fn messages_of_models() {
             unknown(&[], Some(LeftOut { name: "IRB 460", reason: "four axes" })).into(),
             "unknown robot \"IRB\"; left out of the catalog: IRB 460: four axes",
         ),
+    ]);
+}
+
+#[cfg(feature = "urdf")]
+#[test]
+fn messages_of_urdf() {
+    check(&[
         (
             UrdfFault::NoTip { base: "b".into(), wanted: vec![6, 7], ends: names(&["\"e\" (5)"]) }
                 .into(),

@@ -6,8 +6,10 @@ use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 
 use super::End;
+use crate::body::fault::BodyFault;
 use crate::cell::{Cell, Nearest, Placed};
-use crate::error::{BodyFault, Error, GoFault};
+use crate::error::Error;
+use crate::go::fault::GoFault;
 use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 use crate::kinematics::{Pose, Robot, Solutions, check_seed, checked_pose};
 use crate::trajectory::distance;
@@ -100,13 +102,13 @@ impl<const N: usize> Candidates<'_, N> {
             Error::Unreachable(reason) => GoFault::Unreachable { field, reason }.into(),
             other => other,
         })?;
-        let (mut q, mut is_all) = (vec![nearest.q], !robot.is_redundant());
+        let (mut q, mut is_all) = (vec![nearest.q], robot.redundancy().is_none());
         let mut take = |solutions: &Solutions<N>| {
             is_all &= solutions.is_certified();
             is_all &= solutions.iter().all(|solution| solution.free_joint.is_none());
             q.extend(solutions.iter().filter_map(|solution| self.nearest_turn(robot, &solution.q)));
         };
-        if robot.is_redundant() {
+        if robot.redundancy().is_some() {
             let [low, high] = robot.limits().to_array()[N - 1];
             let (low, high) = (low.max(-PI), high.min(PI));
             for index in 0..ANGLES {

@@ -2,6 +2,7 @@
 //! (docs/guide/cell.md).
 
 mod ends;
+pub(crate) mod fault;
 mod samples;
 mod search;
 mod shorten;
@@ -9,7 +10,9 @@ mod timed;
 mod tree;
 
 use crate::cell::{Cell, Placed};
-use crate::error::{Error, GoFault};
+use crate::error::Error;
+use crate::go::fault::GoFault;
+use crate::interrupt::Interrupt;
 use crate::kinematics::{Pose, Robot};
 use crate::trajectory::Trajectory;
 
@@ -38,11 +41,11 @@ impl<const N: usize> Robot<N> {
     /// ([`Cell::check_trajectory`]). Each joint moves evenly to the nearest goal if that is free;
     /// else a path is sought, shortened and rounded.
     ///
-    /// The search goes on for as long as `go_on` says so, which is asked for each sample; a motion
-    /// depends on the seed alone.
+    /// The search goes on until it is interrupted, which is asked for each sample; a motion depends
+    /// on the seed alone.
     ///
     /// ```
-    /// use irbkin::Robot;
+    /// use irbkin::{Interrupt, Robot};
     /// use irbkin::body::Shape;
     /// use irbkin::cell::Cell;
     /// use irbkin::go::{End, GoOptions};
@@ -51,13 +54,14 @@ impl<const N: usize> Robot<N> {
     /// let post = Shape::sphere(0.2, [-0.6, 0.0, 0.4])?;
     /// let cell = Cell::new(vec![("post".into(), post)], 0.01)?;
     /// let [start, goal] = [[-1.0, -1.0, 1.2, -1.6, -1.5, 0.0], [1.0, -1.0, 1.2, -1.6, -1.5, 0.0]];
-    /// let mut samples = 0..10_000;
+    /// let samples = core::cell::Cell::new(0);
+    /// let is_enough = || samples.replace(samples.get() + 1) >= 10_000;
     /// let motion = robot.go(
     ///     &End::Joints(start),
     ///     &End::Joints(goal),
     ///     &cell,
     ///     &GoOptions::default(),
-    ///     &mut || samples.next().is_some(),
+    ///     Interrupt::when(&is_enough),
     /// )?;
     /// assert!(cell.check_trajectory(&robot, &motion)?.is_none());
     /// # Ok::<(), irbkin::Error>(())
@@ -75,7 +79,7 @@ impl<const N: usize> Robot<N> {
         goal: &End<N>,
         cell: &Cell,
         options: &GoOptions<N>,
-        go_on: &mut dyn FnMut() -> bool,
+        interrupt: Interrupt<'_>,
     ) -> Result<Trajectory, Error> {
         let pace = timed::Pace::new(self, options)?;
         let mut placed = Placed::of(self)?;
@@ -85,7 +89,7 @@ impl<const N: usize> Robot<N> {
             path
         } else {
             let samples = samples::Samples::new(self, &ends, options.seed);
-            let path = space.path(ends, samples, go_on)?;
+            let path = space.path(ends, samples, interrupt)?;
             space.shortened(&path, options.seed)
         };
         space.timed(&path, &pace)?.ok_or_else(|| GoFault::NotFound { samples: 0 }.into())

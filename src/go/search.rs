@@ -8,7 +8,9 @@ use core::mem::swap;
 use super::samples::Samples;
 use super::tree::Tree;
 use crate::cell::{Cell, Placed};
-use crate::error::{Error, GoFault};
+use crate::error::Error;
+use crate::go::fault::GoFault;
+use crate::interrupt::Interrupt;
 use crate::kinematics::Robot;
 use crate::trajectory::distance;
 
@@ -52,11 +54,11 @@ impl<const N: usize> Space<'_, N> {
         &mut self,
         [starts, goals]: [Vec<[f64; N]>; 2],
         mut from: Samples<N>,
-        go_on: &mut dyn FnMut() -> bool,
+        interrupt: Interrupt<'_>,
     ) -> Result<Vec<[f64; N]>, Error> {
         let (mut own, mut other) = (Tree::new(starts), Tree::new(goals));
         let (mut samples, mut is_swapped) = (0, false);
-        while go_on() && own.len() + other.len() < MOST_NODES {
+        while !interrupt.is_raised() && own.len() + other.len() < MOST_NODES {
             samples += 1;
             let sample = from.next();
             if self.robot.limits().contains(&sample) {

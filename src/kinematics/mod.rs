@@ -12,6 +12,7 @@ pub mod thresholds;
 #[cfg(feature = "python")]
 pub(crate) use answer::check::{check_joints, check_most_near, check_near};
 pub(crate) use answer::check::{check_seed, check_weights};
+pub use answer::request::ConfigurationRequest;
 #[cfg(feature = "python")]
 pub(crate) use answer::select::Cost;
 pub use answer::singularity::{SingularDistances, Singularity};
@@ -37,10 +38,12 @@ pub use path::singularity_mode::{FollowOptions, SingularityMode};
 pub(crate) use path::step::largest_step;
 pub(crate) use path::step::{largest, steps};
 #[cfg(feature = "rapid")]
+pub(crate) use pose::angles::angle_between;
+#[cfg(feature = "rapid")]
 pub(crate) use pose::angles::constant_sin_cos;
-pub(crate) use pose::angles::nearest_turn;
 #[cfg(feature = "urdf")]
 pub(crate) use pose::angles::snapped;
+pub(crate) use pose::angles::{nearest_turn, rotation_vector};
 pub(crate) use pose::checked_pose;
 #[cfg(feature = "urdf")]
 pub(crate) use pose::constant_pose;
@@ -51,8 +54,8 @@ pub use pose::{
 };
 #[cfg(feature = "urdf")]
 pub(crate) use robot::SNAPS;
-pub use robot::any::AnyRobot;
-pub use robot::{Definition, Margin, Robot};
-pub use solve::configuration::ConfigurationRequest;
+pub use robot::any::{AnyRobot, ByJoints};
+pub use robot::{Definition, Joints, Margin, Robot};
+pub use solve::configuration::fault::NoConfiguration;
 pub(crate) use structure::inverse::Rows;
 pub use structure::spherical_wrist::OpwParameters;

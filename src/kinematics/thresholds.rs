@@ -107,13 +107,6 @@ pub(crate) const JOINT_7_FINER_SPACING: f64 = 0.015;
 /// wider.
 pub(crate) const SAMPLE_LEAP: f64 = 0.5;
 
-/// First step along a curve of self-motion [rad].
-pub(crate) const FIRST_CURVE_STEP: f64 = 0.05;
-
-/// Largest step along a curve of self-motion [rad]: a tenth of what it takes to turn by half a
-/// radian and back.
-pub(crate) const LARGEST_CURVE_STEP: f64 = 0.2;
-
 /// Step below which a curve of self-motion ends, and a valley is at its bottom [rad]: its square is
 /// the rounding of a cost.
 pub(crate) const LEAST_CURVE_STEP: f64 = 1e-8;
@@ -203,6 +196,9 @@ pub(crate) const JUMP_LEAST: f64 = 0.035;
 /// 20 degrees.
 pub(crate) const JUMP_BLIND: f64 = 0.35;
 
+/// Largest joint step between two points at which the way between two poses is examined [rad].
+pub(crate) const EXAMINED_STEP: f64 = 0.1;
+
 /// Joint step below which an arm with axis 4 locked has converged [rad]: rounding.
 pub(crate) const LOCKED_CONVERGED: f64 = 1e-15;
 
@@ -219,13 +215,6 @@ pub const WRIST_ZONE: f64 = 0.0175;
 /// [rad]: 0.01 deg, the rounding of a robtarget's printed digits.
 pub const CONFIGURATION_EDGE: f64 = 0.01 * core::f64::consts::PI / 180.0;
 
-/// How far an axis may be over the quarter of a target's confdata [rad] to be taken for the one that
-/// is meant: tools and work objects are measured again, targets are not. Of 640 targets of public
-/// programs 24 are over a quarter; those of running cells by 8.7 deg at most, a target that was
-/// never configured by 12 deg or more.
-#[cfg(feature = "rapid")]
-pub(crate) const NEAR_CONFDATA: f64 = 10.0 * core::f64::consts::PI / 180.0;
-
 /// How far beyond its limits a joint of a GoFa or YuMi may be in a taught target [rad]: arms that
 /// are guided by hand pass their limits, by 1.1 deg in controllers' backups.
 pub const TAUGHT_BEYOND_LIMITS: f64 = 1.5 * core::f64::consts::PI / 180.0;
@@ -238,118 +227,3 @@ pub(crate) const ARM_ANGLE_OFF: f64 = 1e-6;
 /// and of its summands, are all there. The length counts as zero, which moves a
 /// singular value by no more than its root.
 pub(crate) const REFLECTED_SQUARE: f64 = 1e-290;
-
-/// Most samples of a trajectory and most poses of a path [1]: they fill gigabytes. More is a step
-/// in another unit.
-pub(crate) const MOST_SAMPLES: usize = 10_000_000;
-
-/// Least duration of a motion [s]: its fifth power and the velocities are far inside what a double
-/// holds.
-pub(crate) const LEAST_DURATION: f64 = 1e-9;
-
-/// Greatest duration of a motion [s]: 30 years.
-pub(crate) const MOST_DURATION: f64 = 1e9;
-
-/// How far joints may be apart where one trajectory continues another [rad].
-pub(crate) const JOINED_POSITION: f64 = 1e-9;
-
-/// How far a velocity may be off the direction of the path that it is along, as a part of its size
-/// [1]: far above the rounding of a derivative, far below a direction that is meant.
-pub(crate) const PATH_DIRECTION: f64 = 1e-6;
-
-/// How far rounding may exceed a limit of a motion, as a part of the limit [1].
-pub(crate) const LIMIT_ROUNDING: f64 = 1e-9;
-
-/// Cosine of half the angle below which a turn of the tool is a half turn [1]: both ways are
-/// equally long, to 2e-9 rad.
-pub(crate) const HALF_TURN_COS: f64 = 1e-9;
-
-/// Least part of a given axis along a half turn's for it to choose the way [1].
-pub(crate) const LEAST_ALONG: f64 = 1e-6;
-
-/// Least distance of the second point of an arc from the line through the others, by their distance
-/// [1]: below, the radius is a million times that distance.
-pub(crate) const LEAST_BEND: f64 = 1e-6;
-
-/// Part of a step of a path that is rounding and takes no step of its own [1].
-pub(crate) const STEP_ROUNDING: f64 = 1e-9;
-
-/// Way of the tool below which it stays at one place [m]: a pose that repeats another is known to
-/// rounding, and directions and speeds on such a way are not determined.
-pub(crate) const LEAST_WAY: f64 = 1e-9;
-
-/// Turn of the tool below which a pose at the same place repeats the one before it [rad].
-pub(crate) const LEAST_TURN: f64 = 1e-9;
-
-/// Angle between upper arm and forearm from stretched or folded below which a move of a program
-/// passes the elbow singularity [rad]: one degree, as [`WRIST_ZONE`].
-#[cfg(feature = "rapid")]
-pub(crate) const ELBOW_ZONE: f64 = 0.0175;
-
-/// Distance of the wrist center from axis 1 below which a move of a program passes the shoulder
-/// singularity [m]. At this distance axis 1 turns by 57 deg for each millimeter of the way.
-#[cfg(feature = "rapid")]
-pub(crate) const SHOULDER_ZONE: f64 = 1e-3;
-
-/// How far the joints at the end of a move may be from those with which the next one begins [rad]:
-/// more than the rounding of two solutions of one pose near a singularity.
-#[cfg(feature = "rapid")]
-pub(crate) const JOINED_MOVES: f64 = 1e-6;
-
-/// How much a range of tool angles may differ from a full turn and still be one [rad].
-pub(crate) const FULL_TURN: f64 = 1e-9;
-
-/// Most tool angles of a plan at each pose [1]: a tenth of a degree apart.
-pub(crate) const MOST_TOOL_ANGLES: usize = 3600;
-
-/// Most values of an external axis or of a tolerance of a plan [1].
-pub(crate) const MOST_AXIS_STEPS: usize = 1001;
-
-/// Most external axes of a plan [1]: a track and a positioner of two axes.
-pub(crate) const MOST_EXTERNAL: usize = 3;
-
-/// Most axes that are free in a plan [1]: [`MOST_EXTERNAL`], two of a cone, an offset and the tool
-/// angle.
-pub(crate) const MOST_FREE_AXES: usize = MOST_EXTERNAL + 4;
-
-/// Largest value of an external axis [m, rad].
-pub(crate) const MOST_EXTERNAL_VALUE: f64 = 1000.0;
-
-/// Most nodes of a plan in all [1]: its joint angles take 50 bytes each.
-pub(crate) const MOST_PLAN_NODES: usize = 1 << 28;
-
-/// Most combinations of turns that a plan tells apart at each node [1].
-pub(crate) const MOST_TURN_STATES: usize = 4096;
-
-/// How far the tool at the start or the end of a plan may be from the pose there, and the ends of a
-/// closed path from each other [m, rad]: poses written with six digits.
-pub(crate) const PLAN_END_OFF: f64 = 1e-6;
-
-/// Joint step that is small enough to be no jump [rad]: a twentieth of a degree.
-pub(crate) const CONTINUOUS_STEP: f64 = 1e-3;
-
-/// Largest joint step between two points at which the way between two poses is examined [rad].
-pub(crate) const EXAMINED_STEP: f64 = 0.1;
-
-/// Joint step from which a branch may have ended at a singularity, so that a plan looks for another
-/// one that continues it [rad].
-pub(crate) const CROSSING_JUMP: f64 = 1.0;
-
-/// Joint step up to which one branch may continue another one through a singularity [rad].
-pub(crate) const CROSSING_STEP: f64 = 0.5;
-
-/// Distance of tool angles down to which a plan refines them [rad]: half a degree.
-pub(crate) const REFINED_TOOL_STEP: f64 = 8.8e-3;
-
-/// Distance of the tool angles that a plan looks at first along a long path [rad]: ten degrees.
-pub(crate) const COARSEST_TOOL_STEP: f64 = 0.174_532_925_199_432_95;
-
-/// Distance of the values of a track down to which a plan refines them [m].
-pub(crate) const REFINED_TRACK: f64 = 5e-3;
-
-/// Distance of the offsets of a tool down to which a plan refines them [m].
-pub(crate) const REFINED_OFFSET: f64 = 5e-4;
-
-/// How far rounding may raise the cost of a step, relative to it [1]: that of joint angles, 1e-15
-/// rad, in steps of a millionth of a radian.
-pub(crate) const BOTTLENECK_ROUNDING: f64 = 1e-9;

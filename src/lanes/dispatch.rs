@@ -165,6 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
+    #[ignore = "run by itself: cargo test --lib -- --ignored"]
     fn the_widest_supported_set_is_in_use_and_others_are_refused() {
         let available = || InstructionSet::available();
         assert_eq!(available().next(), Some(InstructionSet::Baseline));

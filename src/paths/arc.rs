@@ -12,20 +12,20 @@ use super::line::Turn;
 use super::line::part;
 use super::spacing::Spacing;
 use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::LEAST_BEND;
 use crate::kinematics::{Pose, checked_pose};
+use crate::paths::thresholds::LEAST_BEND;
 
 /// The orientation of the tool along an arc; ABB's names are values of CirPathMode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ArcOrientation {
-    /// It turns evenly relative to the path (ABB: \PathFrame). The second pose's is not
-    /// regarded.
+    /// It turns evenly relative to the path (ABB: \PathFrame). The second pose's chooses the
+    /// direction.
     #[default]
     Path,
-    /// It turns evenly relative to the base (ABB: \ObjectFrame). The second pose's is not
-    /// regarded.
+    /// It turns evenly relative to the base (ABB: \ObjectFrame). The second pose's chooses the
+    /// direction.
     Object,
     /// It turns evenly to the second pose's, then to the third's (ABB: \CirPointOri).
     Via,
@@ -37,8 +37,8 @@ pub enum ArcOrientation {
 /// # Errors
 ///
 /// [`Error::InvalidPose`] for a pose that is not a rigid transform; [`Error::InvalidMotion`] when
-/// the three points lie on a line or coincide, the orientation makes a half turn, or the spacing
-/// leaves the number of poses open.
+/// the three points lie on a line or coincide, the orientation makes a half turn whose direction
+/// the second pose leaves open, or the spacing leaves the number of poses open.
 pub fn arc(
     start: &Pose,
     via: &Pose,
@@ -166,15 +166,17 @@ impl Turns {
         orientation: ArcOrientation,
         [start, via, end]: [Rotation3<f64>; 3],
     ) -> Result<Self, Error> {
+        let part = circle.via / circle.end;
         Ok(match orientation {
             ArcOrientation::Path => {
-                let end = circle.turned(circle.end).inverse() * end;
-                Self::Path(Turn::new(&start, &end, None, 2)?)
+                let [via, end] = [(circle.via, via), (circle.end, end)]
+                    .map(|(angle, orientation)| circle.turned(angle).inverse() * orientation);
+                Self::Path(Turn::past([&start, &via, &end], part, 2)?)
             }
-            ArcOrientation::Object => Self::Object(Turn::new(&start, &end, None, 2)?),
+            ArcOrientation::Object => Self::Object(Turn::past([&start, &via, &end], part, 2)?),
             ArcOrientation::Via => Self::Via(
                 [Turn::new(&start, &via, None, 1)?, Turn::new(&via, &end, None, 2)?],
-                circle.via / circle.end,
+                part,
             ),
         })
     }

@@ -1,6 +1,7 @@
 //! A straight line of the tool, its orientation turning evenly.
 
 use alloc::vec::Vec;
+use core::f64::consts::TAU;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -8,8 +9,8 @@ use nalgebra::{Matrix3, Rotation3, Translation3, Vector3};
 
 use super::spacing::Spacing;
 use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::{HALF_TURN_COS, LEAST_ALONG};
 use crate::kinematics::{Pose, checked_pose, pose_to_wxyz};
+use crate::paths::thresholds::{HALF_TURN_COS, LEAST_ALONG, STEP_ROUNDING};
 
 /// Poses along a line, both ends included: the position goes straight, the orientation turns about
 /// one axis (slerp), both in equal steps (eq. 17, 18).
@@ -121,9 +122,7 @@ impl Turn {
         axis: Option<&Vector3<f64>>,
         index: usize,
     ) -> Result<Self, Error> {
-        let relative = start.inverse() * end;
-        let (_, [w, x, y, z]) = pose_to_wxyz(&Pose::from_parts(Translation3::identity(), relative));
-        let (mut w, mut v) = (w, Vector3::new(x, y, z));
+        let (mut w, mut v) = quaternion(start, end);
         if w < HALF_TURN_COS {
             let angle = 2.0 * v.norm().atan2(w);
             let axis = axis.ok_or(MotionFault::HalfTurn { index, angle })?;
@@ -138,6 +137,30 @@ impl Turn {
         let size = v.norm();
         let unit = if size > 0.0 { v / size } else { Vector3::zeros() };
         Ok(Self::about(start, &unit, 2.0 * size.atan2(w)))
+    }
+
+    /// The turn that passes nearer to an orientation at a part of the way: the shorter one, unless
+    /// the other direction is twice as near, or nearer of a half turn.
+    pub(super) fn past(
+        [start, via, end]: [&Rotation3<f64>; 3],
+        part: f64,
+        index: usize,
+    ) -> Result<Self, Error> {
+        let (w, v) = quaternion(start, end);
+        let angle = 2.0 * v.norm().atan2(w);
+        // The axis of so small a turn is rounding: there is no other direction.
+        if angle < STEP_ROUNDING {
+            return Ok(Self::by(start, &(2.0 * v)));
+        }
+        let unit = v / v.norm();
+        let short = Self::about(start, &unit, angle);
+        let long = Self::about(start, &-unit, TAU - angle);
+        let [near, far] = [short, long].map(|it| (it.at(part).matrix() - via.matrix()).norm());
+        let is_half = w < HALF_TURN_COS;
+        if is_half && (near - far).abs() < LEAST_ALONG {
+            return Err(MotionFault::HalfTurn { index, angle }.into());
+        }
+        Ok(if far < if is_half { near } else { 0.5 * near } { long } else { short })
     }
 
     /// By an angle [rad] about an axis of length 1, as seen from the orientation at the start; of
@@ -168,4 +191,11 @@ impl Turn {
         let matrix = self.start + self.sin_part * sin + self.cos_part * versine;
         Rotation3::from_matrix_unchecked(matrix)
     }
+}
+
+/// The rotation from one orientation to another as a quaternion, w not negative.
+fn quaternion(start: &Rotation3<f64>, end: &Rotation3<f64>) -> (f64, Vector3<f64>) {
+    let relative = Pose::from_parts(Translation3::identity(), start.inverse() * end);
+    let (_, [w, x, y, z]) = pose_to_wxyz(&relative);
+    (w, Vector3::new(x, y, z))
 }

@@ -16,6 +16,7 @@ pub(crate) mod line;
 pub(crate) mod polyline;
 mod spacing;
 mod spline;
+pub(crate) mod thresholds;
 
 pub use arc::{ArcOrientation, arc};
 pub(crate) use line::Turn;

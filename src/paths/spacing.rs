@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
+use crate::paths::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
 
 /// How the poses of a path are spaced.
 #[derive(Clone, Copy, Debug, PartialEq)]

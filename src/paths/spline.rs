@@ -10,8 +10,8 @@ use super::line::Turn;
 use super::line::{line, part};
 use super::spacing::Spacing;
 use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::{LEAST_TURN, LEAST_WAY};
 use crate::kinematics::{Pose, PoseDifference, checked_pose};
+use crate::paths::thresholds::{LEAST_TURN, LEAST_WAY};
 use crate::spline::{Ends, cubic};
 
 /// Parts of a span in which the rate of its turn is measured.

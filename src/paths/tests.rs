@@ -6,7 +6,7 @@ use nalgebra::{Rotation3, Translation3, Vector3};
 
 use super::*;
 use crate::kinematics::{Pose, PoseDifference, pose_from_euler_zyx};
-use crate::rng::Rng;
+use crate::suite::rng::Rng;
 
 pub(super) fn random(rng: &mut Rng) -> Pose {
     let xyz = [(); 3].map(|()| rng.between(-1.0, 1.0));
@@ -124,6 +124,44 @@ fn an_arc_stays_on_its_circle_and_passes_the_second_point() {
 }
 
 #[test]
+fn the_second_pose_of_an_arc_chooses_the_direction_of_its_turn() {
+    let mut rng = Rng::new(15);
+    for end in [0.5, 2.0, PI, 3.5, 4.0, 5.5] {
+        let frame = random(&mut rng);
+        let at = |angle: f64, turn: f64| {
+            let point = Translation3::new(angle.cos(), angle.sin(), 0.0);
+            frame * Pose::from_parts(point, Rotation3::new(Vector3::z() * turn))
+        };
+        let spacing = Spacing::count(101).unwrap();
+        let along = |via: f64, to: f64, orientation| {
+            arc(&at(0.0, 0.0), &at(0.5 * end, via), &at(end, to), orientation, spacing)
+        };
+        // The same orientation everywhere, and the path's own.
+        for (turn, orientation) in [(0.0, ArcOrientation::Path), (end, ArcOrientation::Object)] {
+            for (index, pose) in along(0.5 * turn, turn, orientation).unwrap().iter().enumerate() {
+                #[expect(clippy::cast_precision_loss, reason = "a hundred poses")]
+                let part = index as f64 / 100.0;
+                let off = apart(pose, &at(end * part, turn * part));
+                assert!(off < 1e-12, "{end} {turn}: {off}");
+            }
+        }
+        // Of a half turn the nearer direction; one that is as far from both leaves it open.
+        for side in [0.1, -0.1] {
+            let found = along(0.5 * end + side, end + PI, ArcOrientation::Path).unwrap();
+            let wanted = at(0.5 * end, 0.5 * (end + PI.copysign(side)));
+            assert!(apart(&found[50], &wanted) < 1e-12, "{end} {side}");
+        }
+        // Of none there is one direction, wherever the second pose is.
+        for via in [0.0, 1.0, 3.0] {
+            let found = along(0.5 * end + via, end + 1e-12, ArcOrientation::Path).unwrap();
+            assert!(apart(&found[50], &at(0.5 * end, 0.5 * end)) < 1e-11, "{end} {via}");
+        }
+        let open = along(0.5 * end, end + PI, ArcOrientation::Path);
+        assert!(open.unwrap_err().to_string().contains("there are two ways"));
+    }
+}
+
+#[test]
 fn points_on_a_line_are_no_arc() {
     let at = |x: f64, y: f64| pose_from_euler_zyx([x, y, 0.0], [0.0; 3]).unwrap();
     for (second, third) in [
@@ -154,7 +192,7 @@ fn a_corner_is_as_far_from_its_zone_as_is_said() {
         let Ok(path) = polyline(&poses, &zones, spacing) else { continue };
         corners += 1;
         let kept = radius.min(0.5 * before.norm().min(after.norm()));
-        let said = corner_distance(kept, before.angle(&after));
+        let said = corner_distance(kept, before.cross(&after).norm().atan2(before.dot(&after)));
         let nearest =
             path.iter().map(|pose| (pose.translation.vector - poses[1].translation.vector).norm());
         let nearest = nearest.fold(f64::INFINITY, f64::min);

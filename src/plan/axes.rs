@@ -5,12 +5,11 @@ use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Rotation3, Translation3, Unit, Vector3};
 
-use crate::error::{Error, PlanFault};
+use crate::error::Error;
 use crate::kinematics::Pose;
-use crate::kinematics::thresholds::{
-    FULL_TURN, MOST_AXIS_STEPS, MOST_EXTERNAL_VALUE, MOST_TOOL_ANGLES,
-};
 use crate::lanes::whole_below;
+use crate::plan::fault::PlanFault;
+use crate::plan::thresholds::{FULL_TURN, MOST_AXIS_STEPS, MOST_EXTERNAL_VALUE, MOST_TOOL_ANGLES};
 
 /// An axis of the tool frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -12,8 +12,8 @@ use super::lanes::Pass;
 use super::options::PlanOrder;
 use super::search::{Bound, Passed, Search, SlotReach};
 use super::windows::Windows;
-use crate::kinematics::thresholds::BOTTLENECK_ROUNDING;
 use crate::lanes::nearest_whole;
+use crate::plan::thresholds::BOTTLENECK_ROUNDING;
 
 /// Difference in the room to joint limits that is none, as a part of half a range [1].
 const SAME_ROOM: f64 = 1e-6;

@@ -10,9 +10,10 @@ use super::certificate::{ARRIVED, Step};
 use super::graph::{Grid, Layer, Node};
 use super::nodes::Arm;
 use crate::error::Error;
-use crate::kinematics::thresholds::{CONTINUOUS_STEP, CROSSING_JUMP, CROSSING_STEP, EXAMINED_STEP};
+use crate::kinematics::thresholds::EXAMINED_STEP;
 use crate::kinematics::{MOST_SLOTS, Solution, Solutions, largest, nearest_turn};
 use crate::lanes::{Column, Kernel, LANES, nearest_whole, run};
+use crate::plan::thresholds::{CONTINUOUS_STEP, CROSSING_JUMP, CROSSING_STEP};
 
 /// How many times farther than the nearest joint angles others have to be, so that these are on the
 /// same branch without a doubt [1].
@@ -30,7 +31,7 @@ impl Arm<'_> {
         // The branch of an ordinal may go on in any other slot: where that is nearer.
         let jump = if has_names { CROSSING_JUMP } else { CONTINUOUS_STEP };
         for layer in range {
-            if self.watch.ends_at(layer) {
+            if self.interrupt.ends(layer) {
                 return;
             }
             let (before, after) = layers.split_at_mut(layer);

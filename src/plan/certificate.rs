@@ -8,8 +8,9 @@ use nalgebra::Translation3;
 
 use super::graph::{Grid, Layer, Node, Values};
 use super::nodes::Arm;
-use crate::kinematics::thresholds::{CONTINUOUS_STEP, EXAMINED_STEP};
+use crate::kinematics::thresholds::EXAMINED_STEP;
 use crate::kinematics::{Pose, Slot, Solution, Status, largest, nearest_turn, pose_to_rows, steps};
+use crate::plan::thresholds::CONTINUOUS_STEP;
 
 /// How often a step is halved in search of a continuous motion: down to a millionth of it.
 pub(super) const HALVINGS: u32 = 20;
@@ -263,7 +264,7 @@ impl Arm<'_> {
             let (layers, nodes) = ([&layers[at - 1], &layers[at]], [nodes[at - 1], nodes[at]]);
             (at, Step::new(grid, layers, nodes, [q[at - 1], q[at]]))
         });
-        while self.watch.goes_on() {
+        while !self.interrupt.is_raised() {
             part.clear();
             part.extend(steps.by_ref().take(count));
             if part.is_empty() {

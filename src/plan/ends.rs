@@ -5,10 +5,12 @@ use core::f64::consts::TAU;
 use super::graph::{Own, Values, Waypoint};
 use super::nodes::Arm;
 use super::options::PlanOptions;
-use crate::error::{Error, PlanFault};
-use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_FREE_AXES, PLAN_END_OFF};
+use crate::error::Error;
+use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 use crate::kinematics::{Pose, PoseDifference, check_seed, nearest_turn};
 use crate::lanes::nearest_whole;
+use crate::plan::fault::PlanFault;
+use crate::plan::thresholds::{MOST_FREE_AXES, PLAN_END_OFF};
 
 /// Joint angles at an end of the path, as a node.
 #[derive(Clone, Copy, Debug)]

@@ -7,13 +7,13 @@ use core::f64::consts::PI;
 
 use super::answer::{Plan, PlanError};
 use super::certificate::HALF;
-use super::options::{PlanOptions, Watch};
+use super::options::PlanOptions;
 use super::tested::Tests;
 use crate::error::Error;
-use crate::kinematics::thresholds::{
-    CONTINUOUS_STEP, EXAMINED_STEP, LIMIT_TOLERANCE, PLAN_END_OFF,
-};
+use crate::interrupt::Interrupt;
+use crate::kinematics::thresholds::{EXAMINED_STEP, LIMIT_TOLERANCE};
 use crate::kinematics::{Follower, MOST_SLOTS, Pose, Robot, Slot, largest, steps};
+use crate::plan::thresholds::{CONTINUOUS_STEP, PLAN_END_OFF};
 
 /// Angles of joint 7 at the first pose from whose solutions a path is followed.
 const ANGLES: usize = 8;
@@ -30,14 +30,14 @@ impl Robot<7> {
         path: &[Pose],
         options: &PlanOptions<7>,
         tests: &mut Tests<'_, '_, 7>,
-        watch: Watch<'_>,
+        interrupt: Interrupt<'_>,
     ) -> Result<Option<Plan<7>>, PlanError<7>> {
         let is_tool_free = options.rotation.is_some() || options.cone.is_some();
         if is_tool_free || options.offset.is_some() || !options.external.is_empty() {
             return Ok(None);
         }
         for start in self.starts(&path[0], options)? {
-            let Some(q) = self.followed(path, &start, options, watch)? else { continue };
+            let Some(q) = self.followed(path, &start, options, interrupt)? else { continue };
             let plan = self.plan_along(&q, options);
             if self.meets_options(&q, &plan, options)
                 && self.is_continuous(path, &q, &options.weights)?
@@ -73,12 +73,12 @@ impl Robot<7> {
         path: &[Pose],
         start: &[f64; 7],
         options: &PlanOptions<7>,
-        watch: Watch<'_>,
+        interrupt: Interrupt<'_>,
     ) -> Result<Option<Vec<[f64; 7]>>, PlanError<7>> {
         let mut follower = Follower::new(self, start, &options.weights)?;
         let mut q = Vec::with_capacity(path.len());
         for (index, pose) in path.iter().enumerate() {
-            if watch.ends_at(index) {
+            if interrupt.ends(index) {
                 return Err(PlanError::Stopped);
             }
             let (Some(next), None) = follower.step(pose)? else { return Ok(None) };

@@ -9,10 +9,11 @@ use super::ToolRotation;
 use super::robot::freedoms;
 use super::tests::random_path;
 use super::{ExternalAxis, Plan, PlanError, PlanOptions, ToolAxis, ToolCone, ToolOffset};
-use crate::error::{Error, PlanFault};
+use crate::error::Error;
 use crate::kinematics::{Pose, PoseDifference, Robot, largest, pose_from_euler_zyx, steps};
 use crate::paths::{Spacing, line};
-use crate::rng::Rng;
+use crate::plan::fault::PlanFault;
+use crate::suite::rng::Rng;
 
 fn arm() -> Robot<6> {
     Robot::named("IRB 2600-12/1.65").unwrap()

@@ -8,10 +8,9 @@ use nalgebra::{Matrix3, Rotation3, Translation3, Vector3};
 
 use super::axes::{Carried, ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
 use super::graph::{Grid, Moved, Values};
-use crate::kinematics::thresholds::{
-    LIMIT_TOLERANCE, MOST_FREE_AXES, REFINED_OFFSET, REFINED_TOOL_STEP, REFINED_TRACK,
-};
-use crate::kinematics::{Pose, nearest_turn};
+use crate::kinematics::thresholds::LIMIT_TOLERANCE;
+use crate::kinematics::{Pose, nearest_turn, rotation_vector};
+use crate::plan::thresholds::{MOST_FREE_AXES, REFINED_OFFSET, REFINED_TOOL_STEP, REFINED_TRACK};
 
 /// The motion of a free axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -262,7 +261,7 @@ impl Freedom {
         let angle = if self.rotation().is_some() { angle } else { 0.0 };
         let mut about = Vector3::zeros();
         about[self.pointing().index()] = -angle;
-        let tilt = (relative * Rotation3::new(about)).scaled_axis();
+        let tilt = rotation_vector(&(relative * Rotation3::new(about)));
         let shift =
             carried.rotation.inverse() * (tool.translation.vector - carried.translation.vector);
         for (axis, value) in self.axes.iter().zip(&mut values) {

@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 
 use crate::error::Error;
 use crate::kinematics::Pose;
-use crate::kinematics::thresholds::MOST_FREE_AXES;
 use crate::lanes::{Column, LANES};
 use crate::paths::Turn;
+use crate::plan::thresholds::MOST_FREE_AXES;
 
 /// A value of each free axis [m, rad]; 0 beyond the last axis.
 pub(super) type Values = [f64; MOST_FREE_AXES];

@@ -4,10 +4,12 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
-use crate::error::{Error, PlanFault};
-use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_TURN_STATES};
+use crate::error::Error;
+use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 use crate::kinematics::{Robot, nearest_turn};
 use crate::lanes::{nearest_whole, whole_below};
+use crate::plan::fault::PlanFault;
+use crate::plan::thresholds::MOST_TURN_STATES;
 
 /// Turns of a joint without limits, where the search has to count them: two to each side.
 const FREE_TURNS: usize = 5;
@@ -17,6 +19,9 @@ const EITHER_END: f64 = 4.0 * LIMIT_TOLERANCE;
 
 /// Turns of a joint that has a limit on one side only.
 const HALF_FREE_TURNS: f64 = 64.0;
+
+/// Turns of a joint from which its limits are wide: which turn it has costs nothing.
+const WIDE_TURNS: usize = 65;
 
 /// The joints of an arm in a plan (docs/guide/plan.md, eq. 2, 3).
 #[derive(Clone, Debug)]
@@ -43,14 +48,12 @@ impl PlannedJoints {
     pub(super) fn of(robot: &Robot<6>, weights: [f64; 6]) -> Self {
         let limits = robot.limits().to_array();
         let wide = TAU * HALF_FREE_TURNS;
-        let low = limits.map(|[lower, upper]| {
-            let least = if upper.is_finite() { upper - wide } else { f64::NEG_INFINITY };
-            lower.max(least) - LIMIT_TOLERANCE
-        });
-        let high = limits.map(|[lower, upper]| {
-            let most = if lower.is_finite() { lower + wide } else { f64::INFINITY };
-            upper.min(most) + LIMIT_TOLERANCE
-        });
+        // A missing limit is that many turns from the other one, if that is there.
+        let beside = |own: f64, other: f64, way: f64| {
+            if own.is_infinite() && other.is_finite() { other + way } else { own }
+        };
+        let low = limits.map(|[lower, upper]| beside(lower, upper, -wide) - LIMIT_TOLERANCE);
+        let high = limits.map(|[lower, upper]| beside(upper, lower, wide) + LIMIT_TOLERANCE);
         let counts = core::array::from_fn(|joint| {
             let span = high[joint] - low[joint];
             match span {
@@ -76,8 +79,18 @@ impl PlannedJoints {
         }
     }
 
-    /// Count the turns of joints without limits around the turns of `q`.
+    /// Count the turns of joints without limits around the turns of `q`, and those of joints with
+    /// more turns than a search can count.
     pub(super) fn around(mut self, q: &[f64; 6]) -> Self {
+        let half = TAU * HALF_FREE_TURNS;
+        for joint in 0..6 {
+            if self.counts[joint] <= MOST_TURN_STATES {
+                continue;
+            }
+            self.low[joint] = self.low[joint].max(q[joint] - half);
+            self.high[joint] = self.high[joint].min(q[joint] + half);
+            self.counts[joint] = 1 + count(whole_below((self.high[joint] - self.low[joint]) / TAU));
+        }
         self.middle = core::array::from_fn(|joint| {
             #[expect(clippy::cast_possible_truncation, reason = "angles are small")]
             let turn = nearest_whole(q[joint] / TAU) as i32;
@@ -88,6 +101,12 @@ impl PlannedJoints {
 
     pub(super) fn is_unlimited(&self, joint: usize) -> bool {
         !(self.high[joint] - self.low[joint]).is_finite()
+    }
+
+    /// Whether limits, as those of an axis 6 that may turn hundreds of times, are so far apart that
+    /// the costs of its turns are one.
+    pub(super) fn is_wide(&self, joint: usize) -> bool {
+        self.counts[joint] > WIDE_TURNS
     }
 
     /// The 2 pi equivalent of an angle with which its turns are counted from 0: the first one
@@ -237,7 +256,10 @@ impl<'a> NodeCost<'a> {
 
     /// Whether the turns of a joint differ in cost.
     pub(super) fn depends_on_turns(&self, joints: &PlannedJoints, joint: usize) -> bool {
-        self.limits > 0.0 && joints.wraps[joint] && !joints.is_unlimited(joint)
+        self.limits > 0.0
+            && joints.wraps[joint]
+            && !joints.is_unlimited(joint)
+            && !joints.is_wide(joint)
     }
 
     /// The cost of joint angles at which a step ends that takes `time` [s].

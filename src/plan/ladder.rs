@@ -12,7 +12,8 @@ use super::freedom::{FreeAxis, Freedom, Motion};
 use super::graph::{Grid, Layer, Moved, Node, Window};
 use super::joints::{NodeCost, PlannedJoints};
 use super::lanes::Rates;
-use super::options::{PlanOrder, Watch};
+use super::options::PlanOrder;
+use crate::interrupt::Interrupt;
 use crate::lanes::whole_below;
 
 /// Part of a step by which rounding may shorten a window [1].
@@ -44,7 +45,7 @@ pub(super) struct Ladder<'a> {
     pub(super) whole: bool,
     pub(super) order: PlanOrder,
     pub(super) node_cost: Option<NodeCost<'a>>,
-    pub(super) watch: Watch<'a>,
+    pub(super) interrupt: Interrupt<'a>,
 }
 
 /// The largest cost of an edge.

@@ -19,7 +19,9 @@
 // The arguments and the answer.
 mod answer;
 mod axes;
+pub(crate) mod fault;
 mod options;
+pub(crate) mod thresholds;
 
 // The ladder graph: what is free, the nodes of each pose, the branches between them.
 mod branches;
@@ -53,14 +55,14 @@ mod timed;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
 pub use axes::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
-#[cfg(feature = "python")]
-pub(crate) use options::Watch;
 pub use options::{Accept, PlanOptions, PlanOrder};
 
 #[cfg(test)]
 mod exhaustive;
 #[cfg(test)]
 mod free_axes_tests;
+#[cfg(test)]
+mod interrupted_tests;
 #[cfg(test)]
 mod ordinals_tests;
 #[cfg(test)]

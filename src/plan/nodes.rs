@@ -8,9 +8,9 @@ use core::ops::Range;
 use super::freedom::Freedom;
 use super::graph::{Grid, Layer, Node, Waypoint, turns};
 use super::joints::{NodeCost, PlannedJoints};
-use super::options::Watch;
 use super::work::Work;
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::kinematics::{Robot, Rows, Status, pose_to_rows};
 use crate::lanes::LANES;
 
@@ -37,7 +37,7 @@ pub(super) struct Arm<'a> {
     pub(super) joints: &'a PlannedJoints,
     pub(super) freedom: &'a Freedom,
     pub(super) node_cost: Option<NodeCost<'a>>,
-    pub(super) watch: Watch<'a>,
+    pub(super) interrupt: Interrupt<'a>,
     pub(super) work: &'a Work,
     /// The only branch at the first pose; all if `None`.
     pub(super) first_slot: Option<usize>,
@@ -62,7 +62,7 @@ impl Arm<'_> {
             let mut layer = Layer::new(point.pose, point.time, Some(point.index), grid);
             (layer.first, layer.turn) = (first, turn);
             layers.push(layer);
-            if self.watch.ends_at(layers.len()) {
+            if self.interrupt.ends(layers.len()) {
                 break;
             }
         }
@@ -81,7 +81,7 @@ impl Arm<'_> {
                 continue;
             }
             // The search, which is next, asks too.
-            if self.watch.ends_at(layer) {
+            if self.interrupt.ends(layer) {
                 return;
             }
             for cell in 0..grid.cells {

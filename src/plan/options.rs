@@ -6,9 +6,11 @@ use alloc::vec::Vec;
 use super::axes::{ExternalAxis, ToolCone, ToolOffset, ToolRotation};
 use super::graph::Values;
 use crate::cell::Cell;
-use crate::error::{Error, MotionFault, PlanFault};
+use crate::error::{Error, MotionFault};
+use crate::interrupt::Interrupt;
 use crate::kinematics::check_weights;
-use crate::kinematics::thresholds::MOST_EXTERNAL;
+use crate::plan::fault::PlanFault;
+use crate::plan::thresholds::MOST_EXTERNAL;
 
 /// The order in which bottleneck and sum make one joint path better than another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -161,9 +163,6 @@ impl<const N: usize> PlanOptions<N> {
     }
 }
 
-/// After how many layers the caller is asked whether to go on.
-const WATCHED: usize = 64;
-
 /// A caller's own test of joint vectors, asked for many at a time: whether each is accepted, or
 /// nothing to stop.
 pub type Accept<'a, const N: usize = 6> = dyn FnMut(&[[f64; N]]) -> Option<Vec<bool>> + 'a;
@@ -177,23 +176,8 @@ pub(super) trait Test {
     fn motions(&mut self, q: &[[f64; 6]], values: &[Values]) -> Vec<bool>;
 }
 
-/// A caller: its tests, if it has any, and whether to go on.
+/// A caller: its tests, if it has any, and whether it ends the plan.
 pub(super) struct Caller<'a> {
     pub(super) tests: Option<&'a mut dyn Test>,
-    pub(super) watch: Watch<'a>,
-}
-
-/// Whether to go on; without a caller to ask, always.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Watch<'a>(pub(crate) Option<&'a dyn Fn() -> bool>);
-
-impl Watch<'_> {
-    pub(super) fn goes_on(self) -> bool {
-        self.0.is_none_or(|goes_on| goes_on())
-    }
-
-    /// Whether a loop over many ends here: it asks now and then, not at once.
-    pub(super) fn ends_at(self, number: usize) -> bool {
-        number % WATCHED == WATCHED - 1 && !self.goes_on()
-    }
+    pub(super) interrupt: Interrupt<'a>,
 }

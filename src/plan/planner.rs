@@ -11,10 +11,12 @@ use super::joints::TurnStates;
 use super::ladder::{Ends, Ladder};
 use super::nodes::Arm;
 use super::options::{Caller, PlanOptions, PlanOrder, Test};
-use crate::error::{Error, PlanFault};
-use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_PLAN_NODES};
+use crate::error::Error;
+use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 use crate::kinematics::{largest, steps};
 use crate::paths::Turn;
+use crate::plan::fault::PlanFault;
+use crate::plan::thresholds::MOST_PLAN_NODES;
 
 /// How often a step with a jump is halved where there are free axes.
 const HALVINGS_OF_AXES: u32 = 6;
@@ -125,7 +127,7 @@ impl<'a> Planner<'a> {
             whole: self.whole,
             order: self.order,
             node_cost: self.arm.node_cost,
-            watch: self.arm.watch,
+            interrupt: self.arm.interrupt,
         }
     }
 
@@ -162,7 +164,7 @@ impl<'a> Planner<'a> {
                 }
                 *between != Between::Continuous
             });
-            if !self.arm.watch.goes_on() {
+            if self.arm.interrupt.is_raised() {
                 return Err(PlanError::Stopped);
             }
             if open.is_empty() {

@@ -10,8 +10,8 @@ use super::graph::{Layer, Node};
 use super::planner::Planner;
 use super::search::SlotReach;
 use crate::error::Error;
-use crate::kinematics::thresholds::{CROSSING_JUMP, CROSSING_STEP};
 use crate::kinematics::{SingularityKind, largest, nearest_turn};
+use crate::plan::thresholds::{CROSSING_JUMP, CROSSING_STEP};
 use crate::report::Explanation;
 
 /// Two nodes of neighboring layers, with the steps of the joints between them [rad].

@@ -13,8 +13,8 @@ use super::nodes::Arm;
 use super::options::{Caller, PlanOptions, PlanOrder};
 use super::planner::Planner;
 use crate::error::Error;
-use crate::kinematics::thresholds::{BOTTLENECK_ROUNDING, MOST_FREE_AXES};
 use crate::paths::Turn;
+use crate::plan::thresholds::{BOTTLENECK_ROUNDING, MOST_FREE_AXES};
 
 /// Values of a refined layer to each side of the one that was found.
 const BAND: usize = 5;
@@ -238,9 +238,6 @@ impl Planner<'_> {
         self.layers.clear();
         self.layers.reserve(middles.size_hint().0);
         for middle in middles {
-            if self.arm.watch.ends_at(self.layers.len()) {
-                break;
-            }
             let Middle { values, depth, turn, .. } = middle;
             let mut layer = Layer::new(middle.pose, middle.time, middle.index, &grid);
             layer.first = core::array::from_fn(|axis| values[axis] - FINER * steps[axis]);
@@ -250,6 +247,9 @@ impl Planner<'_> {
                 layer.put(&grid, Node { slot, cell }, Some(q));
             }
             self.layers.push(layer);
+            if self.arm.interrupt.ends(self.layers.len()) {
+                break;
+            }
         }
         self.solve_all();
     }

@@ -11,15 +11,17 @@ use super::freedom::Freedom;
 use super::graph::Waypoint;
 use super::joints::{NodeCost, PlannedJoints};
 use super::nodes::Arm;
-use super::options::{Accept, Caller, PlanOptions, Test, Watch};
+use super::options::{Accept, Caller, PlanOptions, Test};
 use super::planner::Planner;
 use super::refine::coarse_to_fine;
 use super::tested::Tests;
 use super::timed::fastest;
 use super::work::Work;
-use crate::error::{Error, ModelFault, PlanFault};
-use crate::kinematics::thresholds::{COARSEST_TOOL_STEP, PLAN_END_OFF};
+use crate::error::{Error, ModelFault};
+use crate::interrupt::Interrupt;
 use crate::kinematics::{Pose, PoseDifference, Robot, checked_pose};
+use crate::plan::fault::PlanFault;
+use crate::plan::thresholds::{COARSEST_TOOL_STEP, PLAN_END_OFF};
 
 impl Robot<6> {
     /// The best joint path along a path of poses.
@@ -41,7 +43,7 @@ impl Robot<6> {
     /// and the plan with the fewest breaks; [`PlanError::Invalid`] for poses that are no rigid
     /// transforms, or half a turn apart, options that do not fit, and an arm of unknown structure.
     pub fn plan(&self, path: &[Pose], options: &PlanOptions) -> Result<Plan, PlanError> {
-        self.planned(path, options, None, Watch::default())
+        self.planned(path, options, None, Interrupt::none())
     }
 
     /// [`Self::plan`] through joint vectors that `accept` accepts: it is asked for many at a time,
@@ -56,7 +58,7 @@ impl Robot<6> {
         options: &PlanOptions,
         accept: &mut Accept<'_>,
     ) -> Result<Plan, PlanError> {
-        self.planned(path, options, Some(accept), Watch::default())
+        self.planned(path, options, Some(accept), Interrupt::none())
     }
 
     /// [`Self::plan`], for a caller that may be asked.
@@ -65,11 +67,11 @@ impl Robot<6> {
         path: &[Pose],
         options: &PlanOptions,
         accept: Option<&mut Accept<'_>>,
-        watch: Watch<'_>,
+        interrupt: Interrupt<'_>,
     ) -> Result<Plan, PlanError> {
         let mut tests = Tests::new(self, options, accept)?;
         let tests = tests.is_any().then_some(&mut tests as &mut dyn Test);
-        self.planned_for(path, options, &mut Caller { tests, watch })
+        self.planned_for(path, options, &mut Caller { tests, interrupt })
     }
 
     /// [`Self::planned`], for a caller that is asked for free axes, too.
@@ -92,11 +94,11 @@ impl Robot<6> {
         let [fine, coarse] = freedoms(options);
         let fixed = coarse.clone().with_fixed_tool();
         let node_cost = NodeCost::new(self, options.limit_cost, options.singularity_cost);
-        let watch = caller.watch;
+        let interrupt = caller.interrupt;
         let work = Work::default();
         let (robot, joints, work) = (self, &joints, &work);
         let (freedom, first_slot) = (&fine, None);
-        let arm = Arm { robot, joints, freedom, node_cost, watch, work, first_slot };
+        let arm = Arm { robot, joints, freedom, node_cost, interrupt, work, first_slot };
         let points = waypoints(&path, options);
         if let Some(limits) = &options.max_acceleration
             && let Some((planner, path)) =

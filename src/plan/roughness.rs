@@ -11,7 +11,7 @@ use super::banded::Banded;
 use super::graph::{Layer, Values};
 use super::nodes::Arm;
 use super::options::PlanOrder;
-use crate::kinematics::thresholds::MOST_EXTERNAL;
+use crate::plan::thresholds::MOST_EXTERNAL;
 
 /// Distance from joint limits that smoothing aims at [rad]: walls are soft.
 const INSET: f64 = 0.01;

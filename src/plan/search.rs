@@ -91,7 +91,11 @@ impl Search<'_> {
     /// The best joint paths from layer `from` to each node of layer `to`, or of the last layer
     /// before it that is reached; `None` if the caller stops it.
     pub(super) fn pass(&self, pass: Pass, from: usize, to: usize, cap: f64) -> Option<Passed> {
-        let Ladder { grid, layers, watch, .. } = self.ladder;
+        let Ladder { grid, layers, interrupt, .. } = self.ladder;
+        // Of an interrupted plan not all layers are there.
+        if interrupt.is_raised() {
+            return None;
+        }
         let size = self.states.len() * grid.len();
         let (mut before, mut after) = (vec![f64::INFINITY; size], vec![f64::INFINITY; size]);
         let is_summed = pass == Pass::Squares;
@@ -102,11 +106,8 @@ impl Search<'_> {
         let mut live = vec![[true; LANES]; grid.len() / LANES];
         let mut work = Work::default();
         self.begin(from, &mut before);
-        if !watch.goes_on() {
-            return None;
-        }
         for layer in from + 1..=to {
-            if watch.ends_at(layer) {
+            if interrupt.ends(layer) {
                 return None;
             }
             if is_summed {
@@ -141,7 +142,13 @@ impl Search<'_> {
         for (node, q) in layers[layer].nodes(&grid) {
             for state in 0..self.states.len() {
                 let turns = self.states.turns(state);
-                let q = core::array::from_fn(|joint| joints.angle(joint, q[joint], turns[joint]));
+                let amid = joints.amid(&q);
+                let q = core::array::from_fn(|joint| {
+                    if joints.is_wide(joint) && !self.states.has(joint) {
+                        return amid[joint];
+                    }
+                    joints.angle(joint, q[joint], turns[joint])
+                });
                 let at = state * grid.len() + grid.number(node);
                 costs[at] = node_cost.at(&q, self.ladder.time(layer));
             }

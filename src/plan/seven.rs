@@ -9,11 +9,14 @@ use core::f64::consts::TAU;
 use super::answer::{NoPlan, Plan, PlanError, StrandEnd, StrandReason};
 use super::axes::{Carried, ExternalAxis};
 use super::graph::Values;
-use super::options::{Accept, Caller, PlanOptions, Test, Watch};
+use super::options::{Accept, Caller, PlanOptions, Test};
 use super::tested::Tests;
-use crate::error::{Error, JointFault, ModelFault, PlanFault};
-use crate::kinematics::thresholds::{LIMIT_TOLERANCE, MOST_EXTERNAL};
+use crate::error::{Error, JointFault, ModelFault};
+use crate::interrupt::Interrupt;
+use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 use crate::kinematics::{Pose, Robot, Slot, check_weights};
+use crate::plan::fault::PlanFault;
+use crate::plan::thresholds::MOST_EXTERNAL;
 use crate::trajectory::Retiming;
 
 impl Robot<7> {
@@ -27,7 +30,7 @@ impl Robot<7> {
     ///
     /// As [`Robot::<6>::plan`].
     pub fn plan(&self, path: &[Pose], options: &PlanOptions<7>) -> Result<Plan<7>, PlanError<7>> {
-        self.planned(path, options, None, Watch::default())
+        self.planned(path, options, None, Interrupt::none())
     }
 
     /// [`Self::plan`] through joint vectors that `accept` accepts, as [`Robot::<6>::plan_accepted`].
@@ -41,7 +44,7 @@ impl Robot<7> {
         options: &PlanOptions<7>,
         accept: &mut Accept<'_, 7>,
     ) -> Result<Plan<7>, PlanError<7>> {
-        self.planned(path, options, Some(accept), Watch::default())
+        self.planned(path, options, Some(accept), Interrupt::none())
     }
 
     /// [`Self::plan`], for a caller that may be asked.
@@ -50,7 +53,7 @@ impl Robot<7> {
         path: &[Pose],
         options: &PlanOptions<7>,
         accept: Option<&mut Accept<'_, 7>>,
-        watch: Watch<'_>,
+        interrupt: Interrupt<'_>,
     ) -> Result<Plan<7>, PlanError<7>> {
         if let Some(reason) = self.unknown_structure() {
             return Err(Error::from(ModelFault::UnknownStructure(reason)).into());
@@ -58,11 +61,12 @@ impl Robot<7> {
         let mut tests = Tests::new(self, options, accept)?;
         if self.locked_joint().is_some() {
             return Seven { robot: self, locked: self, is_free: false }
-                .planned(path, options, &mut tests, watch);
+                .planned(path, options, &mut tests, interrupt);
         }
         let mut by = |joint| {
             let locked = &self.locked(joint, 0.0)?;
-            Seven { robot: self, locked, is_free: true }.planned(path, options, &mut tests, watch)
+            Seven { robot: self, locked, is_free: true }
+                .planned(path, options, &mut tests, interrupt)
         };
         match (by(7), by(1)) {
             (Ok(one), Ok(other)) => {
@@ -71,7 +75,7 @@ impl Robot<7> {
             }
             (Err(PlanError::NoPlan(one)), Err(PlanError::NoPlan(other))) => {
                 let farther = if other.pose_index > one.pose_index { other } else { one };
-                let followed = self.followed_plan(path, options, &mut tests, watch)?;
+                let followed = self.followed_plan(path, options, &mut tests, interrupt)?;
                 followed.ok_or(PlanError::NoPlan(farther))
             }
             (Err(PlanError::NoPlan(_)), other) => other,
@@ -133,7 +137,7 @@ impl Seven<'_> {
         path: &[Pose],
         options: &PlanOptions<7>,
         tests: &mut Tests<'_, '_, 7>,
-        watch: Watch<'_>,
+        interrupt: Interrupt<'_>,
     ) -> Result<Plan<7>, PlanError<7>> {
         let six = self.locked.six_joints()?.ok_or(JointFault::NoJoint { joint: 7, dof: 7 });
         let six = six.map_err(Error::from)?;
@@ -141,7 +145,7 @@ impl Seven<'_> {
         let is_any = tests.is_any();
         let mut tests = TestsOfSix { seven: self, tests };
         let tests = is_any.then_some(&mut tests as &mut dyn Test);
-        let planned = six.planned_for(path, &options, &mut Caller { tests, watch });
+        let planned = six.planned_for(path, &options, &mut Caller { tests, interrupt });
         planned.map(|plan| self.plan(plan)).map_err(|error| match error {
             PlanError::Invalid(error) => PlanError::Invalid(error),
             PlanError::Stopped => PlanError::Stopped,

@@ -15,8 +15,8 @@ use super::options::{Caller, PlanOrder};
 use super::planner::Planner;
 use super::refine::Middle;
 use super::roughness::{COORDINATES, Curve, Derivatives, Roughness};
-use crate::kinematics::thresholds::BOTTLENECK_ROUNDING;
 use crate::kinematics::{largest, nearest_turn, pose_to_rows, steps};
+use crate::plan::thresholds::BOTTLENECK_ROUNDING;
 
 /// How much smoothing may raise a bottleneck, up to the one with nothing free [1].
 const OF_SMOOTHING: f64 = 0.03;
@@ -177,7 +177,7 @@ impl Roughness<'_> {
     pub(super) fn smoothed(&self, mut curve: Curve) -> Option<Vec<Values>> {
         let mut has_moved = false;
         for round in 0..ROUNDS {
-            if !self.arm.watch.goes_on() {
+            if self.arm.interrupt.is_raised() {
                 return None;
             }
             let wall = WALLS[round.min(WALLS.len() - 1)];

@@ -6,8 +6,9 @@ use alloc::vec::Vec;
 use super::graph::Values;
 use super::options::{Accept, PlanOptions, Test};
 use crate::cell::{Cell, Placed};
-use crate::error::{Error, PlanFault};
+use crate::error::Error;
 use crate::kinematics::Robot;
+use crate::plan::fault::PlanFault;
 
 /// The tests of a plan, if it has any.
 pub(super) struct Tests<'a, 'b, const N: usize> {

@@ -12,14 +12,14 @@ use super::graph::{Grid, Layer, Node, Values};
 use super::joints::{NodeCost, PlannedJoints, TurnStates};
 use super::ladder::{Ends, Ladder};
 use super::nodes::Arm;
-use super::options::Watch;
 use super::planner::Planner;
 use super::robot::{freedoms, waypoints};
 use super::work::Work;
 use super::{ExternalAxis, PlanError, PlanOptions, PlanOrder, ToolAxis, ToolRotation};
+use crate::interrupt::Interrupt;
 use crate::kinematics::{JointLimits, Pose, Robot, largest, pose_from_euler_zyx, steps};
 use crate::paths::Turn;
-use crate::rng::Rng;
+use crate::suite::rng::Rng;
 
 fn below(rng: &mut Rng, count: usize) -> usize {
     usize::try_from(rng.bits() % u64::try_from(count).unwrap()).unwrap()
@@ -111,7 +111,7 @@ fn the_best_path_is_that_of_an_exhaustive_search() {
             whole: false,
             order,
             node_cost,
-            watch: Watch::default(),
+            interrupt: Interrupt::none(),
         };
         let (count, bottleneck, squares) = exhaustive(&ladder, |_, _| true);
         let Some(best) = ladder.best_path(0, &mut states).unwrap() else {
@@ -191,7 +191,7 @@ fn the_best_closed_path_is_that_of_an_exhaustive_search() {
             whole: true,
             order,
             node_cost,
-            watch: Watch::default(),
+            interrupt: Interrupt::none(),
         };
         let is_closed = |first: &Turned, last: &Turned| {
             first.number == last.number && largest(&steps(&first.q, &last.q)) < 1e-9
@@ -259,8 +259,8 @@ fn arm<'a>(
     freedom: &'a Freedom,
     work: &'a Work,
 ) -> Arm<'a> {
-    let (node_cost, watch, first_slot) = (None, Watch::default(), None);
-    Arm { robot, joints, freedom, node_cost, watch, work, first_slot }
+    let (node_cost, interrupt, first_slot) = (None, Interrupt::none(), None);
+    Arm { robot, joints, freedom, node_cost, interrupt, work, first_slot }
 }
 
 #[test]

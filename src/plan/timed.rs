@@ -106,8 +106,8 @@ impl Planner<'_> {
     fn retimed(&self, path: &JointPath, max_acceleration: &[f64]) -> Result<Trajectory, PlanError> {
         let velocity = self.max_velocity();
         let motion = Retiming::within(&velocity, max_acceleration);
-        let watch = self.arm.watch;
-        let timed = motion.along_while(&self.rows(path), &mut || watch.goes_on());
-        if watch.goes_on() { Ok(timed?) } else { Err(PlanError::Stopped) }
+        let interrupt = self.arm.interrupt;
+        let timed = motion.along_until(&self.rows(path), interrupt);
+        if interrupt.is_raised() { Err(PlanError::Stopped) } else { Ok(timed?) }
     }
 }

@@ -7,9 +7,9 @@ use pyo3::prelude::*;
 
 use super::arrays::Rows;
 use super::errors::{Fault, shape_text};
-use crate::kinematics::thresholds::MOST_SAMPLES;
 use crate::kinematics::{JacobianFrame, SingularityMode};
 use crate::paths::ArcOrientation;
+use crate::paths::thresholds::MOST_SAMPLES;
 use crate::plan::{PlanOrder, ToolAxis};
 use crate::trajectory::{Profile, SplineKind, Synchronization};
 

@@ -7,22 +7,20 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use super::arguments::thread_count;
-use super::arm::{Arm, on};
+use super::arm::{Arm, joints, on};
 use super::arrays::{Rows, vector};
 use super::errors::Fault;
 use super::outputs::{Output, array};
 use super::records::{CellContact, CellDistance};
 use super::robot::PyRobot;
 use super::shapes::PyShape;
-use super::signals::detached;
+use super::signals::{detached, detached_until};
 use super::state::{Reduced, reduced};
 use super::targets::checked_joints;
 use super::trajectory::PyTrajectory;
-use crate::cell::{Cell, Contact, Nearest};
+use crate::cell::{Cell, Contact, Motion, Nearest};
+use crate::error::Error;
 use crate::kinematics::Robot;
-
-/// Rows after which signals are handled.
-const WATCHED: usize = 2048;
 
 /// Obstacles around an arm: whether it touches them or itself.
 ///
@@ -145,7 +143,7 @@ impl PyCell {
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (q.py(), thread_count(threads)?);
-        let rows = robot.arm().joints(q)?;
+        let rows = joints(robot.arm(), q)?;
         let mut answer = Output::<bool>::new(py, out, &rows.lead, &[rows.addresses()])?;
         match robot.arm() {
             Arm::Six(_) => checked_joints::<6>("q", &rows).map(drop)?,
@@ -174,7 +172,7 @@ impl PyCell {
     ///     InvalidModelError: The robot has no body.
     fn distance(&self, robot: &PyRobot, q: &Bound<'_, PyAny>) -> PyResult<CellDistance> {
         let py = q.py();
-        let rows = robot.arm().joints(q)?;
+        let rows = joints(robot.arm(), q)?;
         let (nearest, gradient) = on!(robot.arm(), robot => self.nearest(py, robot, &rows)?);
         let distance =
             nearest.iter().map(|one| one.as_ref().map_or(f64::INFINITY, |one| one.distance));
@@ -219,23 +217,10 @@ impl PyCell {
         let py = motion.py();
         if let Ok(trajectory) = motion.cast::<PyTrajectory>() {
             let trajectory = trajectory.get().motion();
-            return on!(robot.arm(), robot => {
-                let found = py.detach(|| self.0.check_trajectory(robot, trajectory))?;
-                found.map(|contact| contact_of(py, 0, &contact)).transpose()
-            });
+            return on!(robot.arm(), robot => self.contact(py, robot, trajectory));
         }
-        let rows = robot.arm().joints(motion)?;
-        on!(robot.arm(), robot => {
-            let q = checked_joints("motion", &rows)?;
-            for first in (0..q.len().max(1)).step_by(WATCHED) {
-                py.check_signals()?;
-                let some = &q[first..q.len().min(first + WATCHED + 1)];
-                if let Some(contact) = py.detach(|| self.0.check_path(robot, some))? {
-                    return contact_of(py, first, &contact).map(Some);
-                }
-            }
-            Ok(None)
-        })
+        let rows = joints(robot.arm(), motion)?;
+        on!(robot.arm(), robot => self.contact(py, robot, checked_joints("motion", &rows)?))
     }
 
     fn __repr__(&self) -> String {
@@ -249,6 +234,17 @@ impl PyCell {
 }
 
 impl PyCell {
+    /// Where a motion first touches something.
+    fn contact<const N: usize, M: Motion<N> + Sync + ?Sized>(
+        &self,
+        py: Python<'_>,
+        robot: &Robot<N>,
+        motion: &M,
+    ) -> PyResult<Option<CellContact>> {
+        let found = detached_until(py, |it| self.0.check_motion(robot, motion, it))??;
+        found.map(|contact| contact_of(py, contact)).transpose()
+    }
+
     /// The nearest pair at each row of joint angles, and the gradients of the distances.
     fn nearest<const N: usize>(
         &self,
@@ -256,17 +252,18 @@ impl PyCell {
         robot: &Robot<N>,
         rows: &Rows<'_>,
     ) -> PyResult<(Vec<Option<Nearest>>, Vec<f64>)> {
-        let (mut all, mut gradients) = (Vec::new(), Vec::new());
-        for (row, q) in checked_joints("q", rows)?.iter().enumerate() {
-            if row % WATCHED == WATCHED - 1 {
-                py.check_signals()?;
+        let rows = checked_joints("q", rows)?;
+        Ok(detached_until(py, |interrupt| {
+            let (mut all, mut gradients) = (Vec::new(), Vec::new());
+            for q in rows {
+                interrupt.check(0)?;
+                let nearest = self.0.nearest(robot, q)?;
+                let gradient = nearest.as_ref().map_or([f64::NAN; N], |one| one.gradient(robot, q));
+                gradients.extend(gradient);
+                all.push(nearest);
             }
-            let nearest = self.0.nearest(robot, q)?;
-            let gradient = nearest.as_ref().map_or([f64::NAN; N], |one| one.gradient(robot, q));
-            gradients.extend(gradient);
-            all.push(nearest);
-        }
-        Ok((all, gradients))
+            Ok::<_, Error>((all, gradients))
+        })??)
     }
 }
 
@@ -277,17 +274,7 @@ fn names(nearest: Option<&Nearest>) -> (String, String) {
     })
 }
 
-/// A contact of rows from one on.
-#[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 rows")]
-fn contact_of<const N: usize>(
-    py: Python<'_>,
-    first: usize,
-    contact: &Contact<N>,
-) -> PyResult<CellContact> {
-    Ok(CellContact {
-        at: first as f64 + contact.at,
-        q: array(py, contact.q, &[N])?,
-        pair: names(Some(&contact.nearest)),
-        depth: contact.depth,
-    })
+fn contact_of<const N: usize>(py: Python<'_>, contact: Contact<N>) -> PyResult<CellContact> {
+    let Contact { at, q, nearest, depth } = contact;
+    Ok(CellContact { at, q: array(py, q, &[N])?, pair: names(Some(&nearest)), depth })
 }

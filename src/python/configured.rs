@@ -8,7 +8,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 
 use super::arguments::thread_count;
-use super::arm::{Arm, on};
+use super::arm::{Arm, joints, on, seven_joints};
 use super::arrays::{Rows, together};
 use super::errors::Fault;
 use super::outputs::{Output, answer_row, matrix};
@@ -42,8 +42,8 @@ impl PyRobot {
     ///         catalog: its controller counts otherwise.
     fn configuration<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let (py, arm) = (q.py(), self.arm());
-        arm.check_rule()?;
-        let rows = arm.joints(q)?;
+        on!(arm, robot => robot.configuration_rule().map(drop))?;
+        let rows = joints(arm, q)?;
         if let Some(one) = on!(arm, robot => rows.single()?.map(|q| robot.configuration(q))) {
             return one?.into_bound_py_any(py);
         }
@@ -71,8 +71,8 @@ impl PyRobot {
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
     ///     InvalidModelError: The arm is not a YuMi of the catalog.
     fn arm_angle<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let (py, robot) = (q.py(), self.arm().seven_joints()?);
-        let rows = self.arm().joints(q)?;
+        let (py, robot) = (q.py(), seven_joints(self.arm())?);
+        let rows = joints(self.arm(), q)?;
         if let Some(q) = rows.single()? {
             return robot.arm_angle(q)?.unwrap_or(f64::NAN).into_bound_py_any(py);
         }
@@ -140,13 +140,13 @@ impl PyRobot {
                 let message = "give a configuration, or an arm_angle with every=True";
                 return Err(PyTypeError::new_err(message));
             };
-            let robot = arm.seven_joints()?;
+            let robot = seven_joints(arm)?;
             let pose = read_single_pose(T, "ik_configured with every=True")?;
             let found = robot.ik_arm_angle(&pose, arm_angle.extract()?)?;
             let q: Vec<_> = found.iter().map(|solution| solution.q).collect();
             return Ok(matrix(py, &q).into_any());
         };
-        arm.check_rule()?;
+        on!(arm, robot => robot.configuration_rule().map(drop))?;
         let or_nearest = !every && or_nearest(arm, fallback, seed)?;
         on!(arm, robot => {
             let asked = Asked::read(robot, configuration, arm_angle, seed, or_nearest)?;

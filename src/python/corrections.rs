@@ -8,7 +8,7 @@ use super::errors::Fault;
 use super::queries::mapped;
 use super::robot::PyRobot;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{Corrections, Robot};
+use crate::kinematics::{AnyRobot, Corrections, Robot};
 
 #[pymethods]
 impl PyRobot {
@@ -53,7 +53,7 @@ impl PyRobot {
     fn with_nominal(&self, nominal: &Bound<'_, PyAny>) -> PyResult<Self> {
         let nominal = match nominal.cast::<Self>() {
             Ok(nominal) => nominal.get().arm().clone(),
-            Err(_) => Arm::named(nominal.extract()?)?,
+            Err(_) => AnyRobot::named(nominal.extract()?)?.into(),
         };
         let refined = match (self.arm(), &nominal) {
             (Arm::Six(robot), Arm::Six(nominal)) => robot.with_nominal(nominal)?.into(),

@@ -6,7 +6,9 @@ use pyo3::exceptions::{PyBaseException, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::error::{Error, FrameFault, MotionFault, PlanFault};
+use crate::error::{Error, MotionFault};
+use crate::plan::fault::PlanFault;
+use crate::rapid::text::fault::FrameFault;
 
 /// The kind of invalid input, which determines the exception.
 #[derive(Clone, Copy)]
@@ -77,7 +79,9 @@ impl From<Error> for PyErr {
             | Error::Collides { .. }
             | Error::NoConfiguration(_) => "UnreachableError",
             Error::Rapid(_) | Error::Frame(_) => "RapidError",
-            Error::NoInstructionSet { .. } => return PyValueError::new_err(error.to_string()),
+            Error::NoInstructionSet { .. } | Error::Interrupted(_) => {
+                return PyValueError::new_err(error.to_string());
+            }
         };
         let raised = raised(class, &error);
         with_attributes(raised, |value| match error {

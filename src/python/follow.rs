@@ -17,6 +17,7 @@ use super::robot::PyRobot;
 use super::signals::detached;
 use super::targets::{checked_joints, read_path, read_weights, single_seed};
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::kinematics::thresholds::WRIST_ZONE;
 use crate::kinematics::{FollowOptions, Followed, Pose, SingularityMode};
 
@@ -75,19 +76,21 @@ impl PyRobot {
         match self.arm() {
             Arm::Six(robot) => {
                 let options = options(read_weights(weights)?);
-                paths.follow(|path, seed, go_on| robot.follow_while(path, seed, &options, go_on))
+                paths.follow(|path, seed, interrupt| {
+                    robot.follow_until(path, seed, &options, interrupt)
+                })
             }
             Arm::Seven(robot) => {
                 let weights = read_weights(weights)?;
                 let Some(six) = robot.six_turned()? else {
                     check_through(mode, singularity_mode)?;
-                    return paths.follow(|path, seed, go_on| {
-                        robot.follow_while(path, seed, &weights, go_on)
+                    return paths.follow(|path, seed, interrupt| {
+                        robot.follow_until(path, seed, &weights, interrupt)
                     });
                 };
                 let options = options(robot.others(&weights));
-                paths.follow(|path, seed: &[f64; 7], go_on| {
-                    let six = six.follow_while(path, &robot.others(seed), &options, go_on)?;
+                paths.follow(|path, seed: &[f64; 7], interrupt| {
+                    let six = six.follow_until(path, &robot.others(seed), &options, interrupt)?;
                     let q = six.q.iter().map(|q| q.map(|q| robot.with_others(&q))).collect();
                     let Followed { orientation_error, breaks, .. } = six;
                     Ok(Followed { q, orientation_error, breaks })
@@ -121,9 +124,7 @@ impl Paths<'_, '_> {
     /// Follow each path from its seed by a function.
     fn follow<const N: usize>(
         &self,
-        follow: impl Fn(&[Pose], &[f64; N], &mut dyn FnMut() -> bool) -> Result<Followed<N>, Error>
-        + Sync
-        + Send,
+        follow: impl Fn(&[Pose], &[f64; N], Interrupt<'_>) -> Result<Followed<N>, Error> + Sync + Send,
     ) -> PyResult<FollowResult> {
         let py = self.T.py();
         let has_length = |shape: &[usize]| matches!(shape, [.., _, 4, 4]);

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use super::solution::Member;
 use crate::cell::{Cell, Nearest, Placed};
 use crate::error::Error;
-use crate::kinematics::{Cost, MOST_SLOTS, Robot, Solution, Solutions};
+use crate::kinematics::{Cost, Joints, MOST_SLOTS, Robot, Solution, Solutions};
 use crate::report::Explanation;
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or
@@ -17,7 +17,7 @@ const MOST_TURNS: f64 = 1e6;
 
 /// The solutions of a pose, or the list of their turns.
 #[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(bound = "")]
+#[serde(bound(serialize = "", deserialize = "Robot<N>: Joints<N>"))]
 pub(super) struct Found<const N: usize> {
     pub(super) robot: Arc<Robot<N>>,
     pub(super) solutions: Solutions<N>,

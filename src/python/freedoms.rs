@@ -7,7 +7,7 @@ use pyo3::types::{PyBool, PyString};
 use super::arguments::{AXES, one_of};
 use super::arrays::{Rows, vector};
 use super::errors::Fault;
-use crate::kinematics::thresholds::MOST_TOOL_ANGLES;
+use crate::plan::thresholds::MOST_TOOL_ANGLES;
 use crate::plan::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
 
 /// A tuple of `irbkin.freedom`, as the argument `field`.

@@ -9,13 +9,15 @@ use super::arrays::{matrix4, vector};
 use super::cell::PyCell;
 use super::errors::{Fault, raised, with_attributes};
 use super::robot::PyRobot;
-use super::signals::detached_while;
+use super::signals::detached_until;
 use super::targets::shape_of;
 use super::trajectories::read_limits;
 use super::trajectory::PyTrajectory;
 use crate::cell::Cell;
-use crate::error::{Error, GoFault, MotionFault};
+use crate::error::{Error, MotionFault};
+use crate::go::fault::GoFault;
 use crate::go::{End, GoOptions};
+use crate::interrupt::Interrupt;
 use crate::kinematics::{Robot, pose_from_rows};
 use crate::trajectory::Trajectory;
 
@@ -101,9 +103,9 @@ impl Asked<'_, '_> {
             max_acceleration: read_limits(self.max_acceleration, "max_acceleration")?,
         };
         let (begun, seconds) = (Instant::now(), self.seconds);
-        let in_time = || begun.elapsed().as_secs_f64() < seconds;
-        let found = detached_while(self.ends[0].py(), |go_on| {
-            robot.go(&start, &goal, cell, &options, &mut || in_time() && go_on())
+        let found = detached_until(self.ends[0].py(), |interrupt| {
+            let ends = || begun.elapsed().as_secs_f64() >= seconds || interrupt.is_raised();
+            robot.go(&start, &goal, cell, &options, Interrupt::when(&ends))
         })?;
         found.map_err(|error| self.refused(error))
     }

@@ -6,7 +6,9 @@ use pyo3::types::PyString;
 use super::arrays::Rows;
 use super::errors::Fault;
 use super::shapes::{PyShape, read_pose};
+use super::signals::detached_until;
 use crate::body::Shape;
+use crate::interrupt::Interrupt;
 
 #[pymethods]
 impl PyShape {
@@ -33,7 +35,9 @@ impl PyShape {
             Some(triangles) => scaled(read_triangles(&triangles)?.data()?, scale)?,
             None => scaled(read_points(points)?.data()?, scale)?,
         };
-        Ok(Self(Shape::convex(&rows, &read_pose(pose)?)?))
+        let pose = read_pose(pose)?;
+        let made = detached_until(points.py(), |it| Shape::convex_until(&rows, &pose, it))?;
+        Ok(Self(made?))
     }
 
     /// A triangle mesh: what is inside belongs to it.
@@ -63,7 +67,9 @@ impl PyShape {
         let read = of_file(triangles)?;
         let rows = read_triangles(read.as_ref().unwrap_or(triangles))?;
         let corners = scaled(rows.data()?, scale)?;
-        Ok(Self(Shape::mesh(corners.as_chunks::<3>().0, solid, &read_pose(pose)?)?))
+        let (corners, pose) = (corners.as_chunks::<3>().0, read_pose(pose)?);
+        let made = |it: Interrupt<'_>| Shape::mesh_until(corners, solid, &pose, it);
+        Ok(Self(detached_until(triangles.py(), made)??))
     }
 
     /// A cloud of points, each with a ball around it.
@@ -86,7 +92,9 @@ impl PyShape {
         pose: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let rows = scaled(read_points(points)?.data()?, 1.0)?;
-        Ok(Self(Shape::points(&rows, radius, &read_pose(pose)?)?))
+        let pose = read_pose(pose)?;
+        let made = detached_until(points.py(), |it| Shape::points_until(&rows, radius, &pose, it))?;
+        Ok(Self(made?))
     }
 
     /// Several shapes as one.
@@ -107,6 +115,7 @@ impl PyShape {
     ///     T: Pose of the frame that the shape is in, shape (4, 4).
     ///
     /// Raises:
+    ///     InvalidModelError: The shape is more than 100 m away then.
     ///     InvalidPoseError: T is not a rigid transform.
     #[pyo3(signature = (T))]
     #[expect(non_snake_case, reason = "the name of a pose")]

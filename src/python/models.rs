@@ -1,17 +1,22 @@
 //! `irbkin.Robot` from tables, parameters, limits and URDF, and its URDF.
 
+use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyString};
+use roxmltree::Document;
 
 use super::arm::{Arm, on};
 use super::arrays::{Rows, vector};
 use super::errors::Fault;
+use super::outputs::matrix;
 use super::robot::PyRobot;
+use super::shapes::{read_capsules, row_of};
 use super::targets::pose_array;
-use crate::error::{Error, ModelFault, UrdfFault};
-use crate::kinematics::{DhRow, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
+use crate::error::{Error, ModelFault};
+use crate::kinematics::{DhRow, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh};
 use crate::report::Convention;
-use crate::urdf::UrdfArm;
+use crate::urdf::fault::UrdfFault;
+use crate::urdf::{Carrier, UrdfArm, read_document};
 
 #[pymethods]
 impl PyRobot {
@@ -117,14 +122,18 @@ impl PyRobot {
     }
 
     /// Robot from a URDF: the revolute and continuous joints between two links, with their limits
-    /// and velocities.
+    /// and velocities, and a body of the collision shapes.
+    ///
+    /// Links behind joints beside the arm, as of a gripper, are in the body wherever these joints
+    /// may be. With a mesh, or a shape that is not valid, there is no body. See
+    /// docs/guide/bodies.md.
     ///
     /// Args:
     ///     text_or_path: The text, str that begins with "<" or bytes, or the path of a file, of
     ///         URDF 1.0 to 1.2. Xacro must be expanded first.
     ///     base: Link in whose frame poses are given; the one without a parent when not given.
     ///     tip: Link that poses are of; when not given, the only one at the end of a chain of six
-    ///         or seven joints.
+    ///         or seven joints, if the last of these can be no gripper's.
     ///     name: A name of your own; the URDF's when not given.
     ///     snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
     ///         exact [rad], at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they
@@ -133,8 +142,8 @@ impl PyRobot {
     /// Raises:
     ///     InvalidModelError: The text is not a URDF, several links could be meant, there are not
     ///         six or seven joints, a joint between base and tip is not revolute, continuous or
-    ///         fixed, an attribute is none of the version's, or six joints are not independent; the
-    ///         message names what is wrong, and the base and tip that could be passed.
+    ///         fixed, an unknown attribute could move a joint, or six joints are not independent;
+    ///         the message names what is wrong, and the base and tip that could be passed.
     ///     OSError: The file cannot be read.
     #[staticmethod]
     #[pyo3(signature = (text_or_path, base=None, tip=None, name="", *, snap=0.0))]
@@ -205,7 +214,10 @@ fn robot_of_table<const N: usize>(
     numbers: &[[f64; 4]],
     convention: Convention,
     snap: f64,
-) -> Result<Robot<N>, Error> {
+) -> Result<Robot<N>, Error>
+where
+    Robot<N>: Joints<N>,
+{
     let found = numbers.len();
     let numbers: &[[f64; 4]; N] =
         numbers.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;
@@ -250,16 +262,56 @@ where
     Ok(Robot::clone(robot).with_limits(JointLimits::new(limits)?).into())
 }
 
-/// Name, link of the body and pose in its frame of every link of a URDF that moves with the arm.
+/// Name, link of the body, and pose in its frame.
+type Link<'py> = (String, usize, Option<Bound<'py, PyAny>>);
+
+/// Name, link of the body and pose in its frame of every link of a URDF that moves with the arm, no
+/// pose of those behind joints beside it; and a remark on these.
 #[pyfunction(name = "_urdf_links")]
 pub(super) fn urdf_links<'py>(
     text_or_path: &Bound<'py, PyAny>,
     base: Option<&str>,
     tip: Option<&str>,
-) -> PyResult<Vec<(String, usize, Bound<'py, PyAny>)>> {
+) -> PyResult<(Vec<Link<'py>>, String)> {
     let (py, bytes) = (text_or_path.py(), bytes_of(text_or_path)?);
-    let links = UrdfArm::links(text_of(&bytes)?, base, tip)?.into_iter();
-    Ok(links.map(|(name, link, pose)| (name, link, pose_array(py, &pose).into_any())).collect())
+    let (links, remark) = UrdfArm::links(text_of(&bytes)?, base, tip)?;
+    let row = |(name, number, carrier): (String, usize, Carrier)| {
+        let is_rigid = carrier.beside.is_empty();
+        (name, number, is_rigid.then(|| pose_array(py, &carrier.pose).into_any()))
+    };
+    Ok((links.into_iter().map(row).collect(), remark))
+}
+
+/// Capsules that contain those of a link wherever the joints beside the arm are, in the frame of
+/// the body's link, and by how much they are thicker [m].
+#[pyfunction(name = "_urdf_swept")]
+pub(super) fn urdf_swept<'py>(
+    text_or_path: &Bound<'py, PyAny>,
+    base: Option<&str>,
+    tip: Option<&str>,
+    name: &str,
+    links: Vec<usize>,
+    capsules: &Bound<'py, PyAny>,
+) -> PyResult<(Bound<'py, PyArray2<f64>>, f64)> {
+    let (py, bytes) = (text_or_path.py(), bytes_of(text_or_path)?);
+    let (moving, _) = UrdfArm::links(text_of(&bytes)?, base, tip)?;
+    let own = read_capsules(links, capsules)?;
+    let own: Vec<_> = own.iter().map(|own| own.capsule).collect();
+    let carrier = moving.iter().find(|(other, ..)| other == name);
+    let (swept, growth) = carrier.map(|(.., carrier)| carrier.swept(&own)).unwrap_or_default();
+    Ok((matrix(py, &swept.iter().map(row_of).collect::<Vec<_>>()), growth))
+}
+
+/// The text of an XML file without what is refused in it and of no arm: prefixes without a
+/// namespace, a document type, `&` alone; as it is, if it is refused for more.
+#[pyfunction(name = "_urdf_text")]
+pub(super) fn urdf_text<'py>(text: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    let bytes = bytes_of(text)?;
+    let own = |document: &Document<'_>, _| Ok::<_, Error>(document.input_text().to_owned());
+    match text_of(&bytes).and_then(|text| read_document(text, own)) {
+        Ok(mended) => Ok(mended.into_pyobject(text.py())?.into_any()),
+        Err(_) => Ok(text.clone()),
+    }
 }
 
 fn text_of(bytes: &[u8]) -> Result<&str, Error> {

@@ -1,6 +1,5 @@
 //! `Robot.plan`: the best joint path along a path of poses.
 
-use std::cell::RefCell;
 use std::sync::Arc;
 
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -16,12 +15,13 @@ use super::freedoms::{read_carrier, read_end, read_redundancy, read_rotation, re
 use super::outputs::{array, column, matrix};
 use super::records;
 use super::robot::PyRobot;
-use super::signals::detached_while;
+use super::signals::detached_until;
 use super::targets::{read_path_poses, read_weights};
 use super::trajectories::read_each;
 use crate::cell::Cell;
+use crate::interrupt::Interrupt;
 use crate::kinematics::{Pose, Robot, pose_to_rows};
-use crate::plan::{Accept, NoPlan, Plan, PlanError, PlanOptions, Watch};
+use crate::plan::{Accept, NoPlan, Plan, PlanError, PlanOptions};
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -220,7 +220,7 @@ impl Asked<'_, '_> {
             &[Pose],
             &PlanOptions<N>,
             Option<&mut Accept<'_, N>>,
-            Watch<'_>,
+            Interrupt<'_>,
         ) -> Result<Plan<N>, PlanError<N>>
         + Send,
     ) -> PyResult<records::Plan> {
@@ -228,17 +228,15 @@ impl Asked<'_, '_> {
         let options = self.options::<N>()?;
         let path = read_path_poses(self.T)?;
         let accept = self.accept.map(|accept| accept.clone().unbind());
-        let (planned, failure) = detached_while(py, |go_on| {
+        let (planned, failure) = detached_until(py, |interrupt| {
             let mut failure = None;
             let mut ask = |q: &[[f64; N]]| {
                 let accept = accept.as_ref()?;
                 let accepted = Python::attach(|py| asked(accept.bind(py), q));
                 accepted.map_err(|error| failure = Some(error)).ok()
             };
-            let go_on = RefCell::new(go_on);
-            let goes_on = || go_on.borrow_mut()();
             let ask = accept.is_some().then_some(&mut ask as &mut Accept<'_, N>);
-            let planned = planned(&path, &options, ask, Watch(Some(&goes_on)));
+            let planned = planned(&path, &options, ask, interrupt);
             (planned, failure)
         })?;
         if let Some(failure) = failure {

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
 use super::arguments::{FRAMES, one_of, thread_count};
-use super::arm::{Arm, on};
+use super::arm::{Arm, joints, on};
 use super::arrays::copied_vector;
 use super::outputs::{Output, answer, array};
 use super::records::{self, Array, Margin, Singularity};
@@ -113,7 +113,7 @@ impl PyRobot {
     #[pyo3(signature = (q, *, threads=1))]
     fn singularity(&self, q: &Bound<'_, PyAny>, threads: isize) -> PyResult<Singularity> {
         let (py, threads) = (q.py(), thread_count(threads)?);
-        let rows = self.arm().joints(q)?;
+        let rows = joints(self.arm(), q)?;
         let (data, lead) = (rows.data()?, &rows.lead);
         if let Some(one) = on!(self.arm(), robot => rows.single()?.map(|q| robot.singularity(q))) {
             let numbers = numbers(&one).map(|number| PyFloat::new(py, number).into_any().unbind());
@@ -153,7 +153,7 @@ impl PyRobot {
     #[pyo3(signature = (q, *, threads=1))]
     fn margin(&self, q: &Bound<'_, PyAny>, threads: isize) -> PyResult<Margin> {
         let (py, threads) = (q.py(), thread_count(threads)?);
-        let rows = self.arm().joints(q)?;
+        let rows = joints(self.arm(), q)?;
         let mut limits = Output::new(py, None, &rows.lead, &[])?;
         let mut singularities = Output::new(py, None, &rows.lead, &[])?;
         let (q, to_limits, to) = (rows.data()?, limits.slice()?, singularities.slice()?);
@@ -187,7 +187,7 @@ pub(super) fn mapped<'py>(
     tail: &[usize],
     compute: impl FnOnce(&mut Batch<'_>, &[f64], &mut [f64]) -> Result<(), Error> + Send,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let rows = arm.joints(q)?;
+    let rows = joints(arm, q)?;
     let mut answer = Output::new(q.py(), out, &rows.shape_with(tail), &[rows.addresses()])?;
     let (data, slice) = (rows.data()?, answer.slice()?);
     detached(q.py(), None, |batch| compute(batch, data, slice))?;

@@ -7,11 +7,12 @@ use super::arguments::{read_angle_limits, read_steps};
 use super::errors::Fault;
 use super::outputs::column;
 use super::records::ToolSpeedLimits;
-use super::signals::detached_while;
+use super::signals::detached_until;
 use super::targets::read_path_poses;
 use super::trajectories::{inside, read_each, read_rows};
 use super::trajectory::PyTrajectory;
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::trajectory::{Retiming, Trajectory, tool_lengths};
 
 /// A path of joints with their limits.
@@ -57,11 +58,12 @@ impl Path {
         py: Python<'_>,
         limits: Option<&Bound<'_, PyAny>>,
         steps: Option<&Bound<'_, PyAny>>,
-        time: impl FnOnce(&Self, &mut dyn FnMut() -> bool) -> Result<Trajectory, Error> + Send,
+        time: impl FnOnce(&Self, Interrupt<'_>) -> Result<Trajectory, Error> + Send,
     ) -> PyResult<PyTrajectory> {
         let steps = steps.map_or(Ok(self.rows().max(2)), read_steps)?;
         let limits = read_angle_limits(limits, self.max_velocity.len())?;
-        let motion = detached_while(py, |go_on| inside(time(self, go_on)?, limits.as_deref()))?;
+        let motion =
+            detached_until(py, |interrupt| inside(time(self, interrupt)?, limits.as_deref()))?;
         PyTrajectory::even(py, motion?, steps)
     }
 }
@@ -96,7 +98,8 @@ impl Path {
 ///         duration that is not between 1e-9 and 1e9 s, a velocity at an end that is not along the
 ///         path or too fast for it, a joint that leaves `limits` (the message has the joint, the
 ///         time, its angle and the limit) or, with `max_tool_speed`, a part of the path on which
-///         the tool only turns.
+///         the tool only turns, or a step of a joint above 0.1 rad, between whose samples the tool
+///         would leave `T`.
 ///     InvalidJointsError: A wrong shape, or an angle that is not finite.
 ///     InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
 #[pyfunction]
@@ -127,11 +130,12 @@ pub(super) fn retime(
         (Some(lengths), Some(speed)) => Some((lengths, speed)),
         _ => return Err(PyValueError::new_err("give T and max_tool_speed together, or neither")),
     };
-    path.timed(q.py(), limits, steps, |Path { q, max_velocity, max_acceleration }, go_on| {
+    path.timed(q.py(), limits, steps, |Path { q, max_velocity, max_acceleration }, interrupt| {
         let (start_velocity, end_velocity) = (Some(&start[..]), Some(&end[..]));
         let max_jerk = jerk.as_deref();
         let within = Retiming::within(max_velocity, max_acceleration);
-        Retiming { max_jerk, start_velocity, end_velocity, tool, ..within }.along_while(q, go_on)
+        Retiming { max_jerk, start_velocity, end_velocity, tool, ..within }
+            .along_until(q, interrupt)
     })
 }
 

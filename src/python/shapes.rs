@@ -27,7 +27,8 @@ impl PyShape {
     ///     pose: Pose of its middle, shape (4, 4); the identity when not given.
     ///
     /// Raises:
-    ///     InvalidModelError: A length that is not positive, or more than 1e6 m.
+    ///     InvalidModelError: A length that is not positive or more than 100 m, or a pose
+    ///         farther away.
     ///     InvalidPoseError: pose is not a rigid transform.
     #[staticmethod]
     #[pyo3(signature = (size, pose=None))]
@@ -43,7 +44,8 @@ impl PyShape {
     ///     center: Its center [m], shape (3,).
     ///
     /// Raises:
-    ///     InvalidModelError: A radius that is not positive, or more than 1e6 m.
+    ///     InvalidModelError: A radius that is not positive or more than 100 m, or a center
+    ///         farther away.
     #[staticmethod]
     #[pyo3(signature = (radius, center))]
     fn sphere(radius: f64, center: &Bound<'_, PyAny>) -> PyResult<Self> {
@@ -58,7 +60,8 @@ impl PyShape {
     ///     radius: The radius [m].
     ///
     /// Raises:
-    ///     InvalidModelError: A radius that is not positive, or more than 1e6 m.
+    ///     InvalidModelError: A radius that is not positive or more than 100 m, or an end
+    ///         farther away.
     #[staticmethod]
     #[pyo3(signature = (a, b, radius))]
     fn capsule(a: &Bound<'_, PyAny>, b: &Bound<'_, PyAny>, radius: f64) -> PyResult<Self> {
@@ -74,7 +77,8 @@ impl PyShape {
     ///     pose: Pose of its middle, shape (4, 4); the identity when not given.
     ///
     /// Raises:
-    ///     InvalidModelError: A length that is not positive, or more than 1e6 m.
+    ///     InvalidModelError: A length that is not positive or more than 100 m, or a pose
+    ///         farther away.
     ///     InvalidPoseError: pose is not a rigid transform.
     #[staticmethod]
     #[pyo3(signature = (radius, length, pose=None))]
@@ -89,7 +93,7 @@ impl PyShape {
     ///     point: A point of the plane [m], shape (3,).
     ///
     /// Raises:
-    ///     InvalidModelError: A normal of length zero.
+    ///     InvalidModelError: A normal of length zero, or a point more than 100 m away.
     #[staticmethod]
     #[pyo3(signature = (normal, point))]
     fn half_space(normal: &Bound<'_, PyAny>, point: &Bound<'_, PyAny>) -> PyResult<Self> {
@@ -152,7 +156,10 @@ fn position(pose: &Pose) -> [f64; 3] {
 pub(super) struct PyBody(pub(super) Body);
 
 /// Capsules by their links, ends and radii.
-fn read_capsules(links: Vec<usize>, capsules: &Bound<'_, PyAny>) -> PyResult<Vec<LinkCapsule>> {
+pub(super) fn read_capsules(
+    links: Vec<usize>,
+    capsules: &Bound<'_, PyAny>,
+) -> PyResult<Vec<LinkCapsule>> {
     let rows = Rows::exact(capsules, &[links.len(), 7], "capsules", Fault::Model)?;
     let made = links.into_iter().zip(rows.chunks::<7>()?).map(|(link, row)| {
         let [ax, ay, az, bx, by, bz, radius] = *row;
@@ -208,9 +215,11 @@ impl PyBody {
     /// meshes. It needs `pip install 'irbkin[mesh]'`, and takes some 15 s for an arm.
     ///
     /// Of each link, the meshes and shapes of its `collision` elements, or of its `visual` ones
-    /// where it has none. Links that are not neighbors are kept apart; left out are pairs that
-    /// touch in all of 2,000 random postures inside the limits, and pairs whose capsules touch in
-    /// more than 2 % of these and whose meshes do in none. The same body comes out each time.
+    /// where it has none; of links behind joints beside the arm, as of a gripper, wherever these
+    /// joints may be. `source` names them. Links that are not neighbors are kept apart; left out
+    /// are pairs that touch in all of 2,000 random postures inside the limits, and pairs whose
+    /// capsules touch in more than 2 % of these and whose meshes do in none. The same body comes
+    /// out each time.
     ///
     /// Args:
     ///     urdf: As of `Robot.from_urdf`.
@@ -224,7 +233,8 @@ impl PyBody {
     ///         the URDF when not given.
     ///
     /// Raises:
-    ///     InvalidModelError: As `Robot.from_urdf`; a file is no mesh, or no link has a shape.
+    ///     InvalidModelError: As `Robot.from_urdf`; a file is no mesh, no link has a shape, or the
+    ///         joint in front of one has no end.
     ///     FileNotFoundError: A mesh is not found.
     ///     ImportError: trimesh or scipy is not installed.
     #[staticmethod]
@@ -252,7 +262,7 @@ impl PyBody {
     /// link (`Robot.link_frames`).
     #[getter]
     fn capsules<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        matrix(py, &self.0.capsules().iter().map(row_of).collect::<Vec<_>>())
+        matrix(py, &self.0.capsules().iter().map(|own| row_of(&own.capsule)).collect::<Vec<_>>())
     }
 
     /// The pairs of links that are kept apart. The others may touch by construction or, of a body
@@ -292,7 +302,8 @@ impl PyBody {
     }
 }
 
-fn row_of(own: &LinkCapsule) -> [f64; 7] {
-    let [[ax, ay, az], [bx, by, bz]] = own.capsule.ends();
-    [ax, ay, az, bx, by, bz, own.capsule.radius()]
+/// Both ends of the axis and the radius.
+pub(super) fn row_of(own: &Capsule) -> [f64; 7] {
+    let [[ax, ay, az], [bx, by, bz]] = own.ends();
+    [ax, ay, az, bx, by, bz, own.radius()]
 }

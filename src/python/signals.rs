@@ -1,6 +1,7 @@
 //! Batches that calculate without the interpreter's lock, and end when a signal's handler raises:
 //! Ctrl-C.
 
+use std::cell::RefCell;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
@@ -9,6 +10,7 @@ use pyo3::prelude::*;
 
 use crate::batch::Batch;
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 
 /// How long a signal may wait.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -20,17 +22,19 @@ pub(super) fn detached<R: Send>(
     threads: Option<NonZeroUsize>,
     work: impl FnOnce(&mut Batch<'_>) -> Result<R, Error> + Send,
 ) -> PyResult<R> {
-    Ok(detached_while(py, |go_on| work(&mut Batch::until(threads, go_on)))??)
+    Ok(detached_until(py, |interrupt| work(&mut Batch::until(threads, interrupt)))??)
 }
 
-/// Works without the interpreter's lock, for as long as what it may ask now and then says so: until
-/// a signal's handler raises an exception.
-pub(super) fn detached_while<R: Send>(
+/// Works without the interpreter's lock, until a signal's handler raises an exception.
+pub(super) fn detached_until<R: Send>(
     py: Python<'_>,
-    work: impl FnOnce(&mut dyn FnMut() -> bool) -> R + Send,
+    work: impl FnOnce(Interrupt<'_>) -> R + Send,
 ) -> PyResult<R> {
     let mut signals = Signals { asked: Instant::now(), is_deaf: false, raised: None };
-    let answer = py.detach(|| work(&mut || signals.is_quiet()));
+    let answer = py.detach(|| {
+        let signals = RefCell::new(&mut signals);
+        work(Interrupt::when(&|| !signals.borrow_mut().is_quiet()))
+    });
     match signals.raised {
         Some(raised) => Err(raised),
         None => Ok(answer),

@@ -11,12 +11,12 @@ use super::arm::{ByJoints, on};
 use super::errors::Fault;
 use super::records::{self, FreeJoint};
 use super::state::{Reduced, hash_of, reduced};
-use crate::kinematics::{Pose, Robot, Solution, Status};
+use crate::kinematics::{Joints, Pose, Robot, Solution, Status};
 use crate::report::Configuration;
 
 /// A solution, with the robot and the pose that it is of.
 #[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(bound = "")]
+#[serde(bound(serialize = "", deserialize = "Robot<N>: Joints<N>"))]
 pub(super) struct Member<const N: usize> {
     pub(super) robot: Arc<Robot<N>>,
     pub(super) pose: Pose,

@@ -13,7 +13,7 @@ use super::errors::Fault;
 use super::outputs::{array, column, read_only};
 use super::records::{MotionPeaks, TrajectorySample};
 use super::state::{Reduced, reduced};
-use crate::trajectory::{Trajectory, TrajectoryParts};
+use crate::trajectory::{AxisLimits, AxisState, Trajectory};
 
 /// Joint angles, velocities and accelerations over time.
 ///
@@ -268,14 +268,37 @@ fn whole_steps(steps: &Bound<'_, PyAny>) -> PyResult<usize> {
     read_steps(steps)
 }
 
-/// The trajectory of polynomials: knots [s], and seven coefficients of each joint between two.
+/// The trajectory of phases of each joint: rows of duration, position, velocity, acceleration and
+/// jerk. It ends after a duration [s] at an end [rad].
 #[pyfunction(name = "_trajectory_of")]
 pub(super) fn trajectory_of(
     py: Python<'_>,
-    dof: usize,
-    knots: Vec<f64>,
-    terms: Vec<[f64; 7]>,
-    times: Vec<f64>,
+    joints: Vec<[[f64; 5]; 10]>,
+    duration: f64,
+    end: Vec<f64>,
 ) -> PyResult<PyTrajectory> {
-    PyTrajectory::new(py, TrajectoryParts { dof, knots, terms }.try_into()?, times)
+    PyTrajectory::even(py, Trajectory::of_phases(joints, duration, end)?, 2)
+}
+
+/// A motion between two states of joints, by way of rest; their limits of velocity, acceleration
+/// and jerk.
+#[pyfunction(name = "_between")]
+pub(super) fn between(
+    py: Python<'_>,
+    start: Vec<[f64; 3]>,
+    end: Vec<[f64; 3]>,
+    limits: Vec<[f64; 3]>,
+) -> PyResult<PyTrajectory> {
+    let [start, end] = [start, end].map(|rows| {
+        let state = |[position, velocity, acceleration]: [f64; 3]| AxisState {
+            position,
+            velocity,
+            acceleration,
+        };
+        rows.into_iter().map(state).collect::<Vec<_>>()
+    });
+    let limit =
+        |[velocity, acceleration, jerk]: [f64; 3]| AxisLimits { velocity, acceleration, jerk };
+    let limits: Vec<_> = limits.into_iter().map(limit).collect();
+    PyTrajectory::even(py, crate::trajectory::state::between(&start, &end, &limits)?, 2)
 }

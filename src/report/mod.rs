@@ -2,10 +2,12 @@
 
 mod answer;
 mod free_joint;
+mod names;
 mod unknown_structure;
 
 pub use answer::{Approach, Configuration, ConfigurationRule, Explanation, Reach};
 pub use free_joint::FreeJoint;
+pub(crate) use names::{Listed, Names};
 pub use unknown_structure::UnknownStructure;
 pub(crate) use unknown_structure::{
     Columns, Convention, Freedom, MOST_CONDITIONS, ORDERS, Pattern, Reading, Relation, Snap,

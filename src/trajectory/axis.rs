@@ -3,38 +3,13 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
+use super::phase::{AxisState, Phase};
 use super::polynomial::{TERMS, derivatives};
-use crate::kinematics::thresholds::JOINED_POSITION;
 use crate::spline::{hermite, quintic_between};
 
-/// Most pieces of one motion: the seven phases of a jerk-limited one.
-const MOST_PIECES: usize = 7;
-
-/// Position, velocity and acceleration of a joint.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct AxisState {
-    /// Position [rad].
-    pub position: f64,
-    /// Velocity [rad/s].
-    pub velocity: f64,
-    /// Acceleration [rad/s^2].
-    pub acceleration: f64,
-}
-
-impl AxisState {
-    /// At rest at a position.
-    #[must_use]
-    pub const fn at_rest(position: f64) -> Self {
-        Self { position, velocity: 0.0, acceleration: 0.0 }
-    }
-
-    /// Whether a velocity or an acceleration is none: less than 1e-9 rad/s or rad/s^2, the rounding
-    /// of a motion that ends at rest.
-    pub(crate) fn is_rest(rate: f64) -> bool {
-        rate.abs() <= JOINED_POSITION
-    }
-}
+/// Most pieces of one motion: a motion of ruckig has two phases that brake, seven that move,
+/// and a rest.
+pub(super) const MOST_PIECES: usize = 10;
 
 /// Limits of one joint; infinity for none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -177,6 +152,9 @@ impl AxisMotion {
         let Phases { jerk: tj, acceleration: tc, cruise: tv } = phases;
         let way = end - start;
         let rise = 2.0 * tj + tc;
+        if rise + tv == 0.0 {
+            return Self::still(end, 0.0);
+        }
         let v = way / (rise + tv);
         let a = v / (tj + tc);
         let j = if tj > 0.0 { a / tj } else { 0.0 };
@@ -184,26 +162,44 @@ impl AxisMotion {
         let (s1, v1) = (j * tj * tj * tj / 6.0, 0.5 * a * tj);
         let (s2, v2) = (s1 + tc * (v1 + 0.5 * a * tc), v1 + a * tc);
         let (s3, s4) = (0.5 * v * rise, way - 0.5 * v * rise);
-        let pieces = [
-            (tj, [0.0, 0.0, 0.0, j]),
-            (tc, [s1, v1, a, 0.0]),
-            (tj, [s2, v2, a, -j]),
-            (tv, [s3, v, 0.0, 0.0]),
-            (tj, [s4, v, 0.0, -j]),
-            (tc, [way - s2, v2, -a, 0.0]),
-            (tj, [way - s1, v1, -a, j]),
-        ];
-        let mut motion = Self::still(start, 0.0);
+        let phase = |duration, way, velocity, acceleration, jerk| Phase {
+            duration,
+            start: AxisState { position: start + way, velocity, acceleration },
+            jerk,
+        };
+        Self::of_phases(&[
+            phase(tj, 0.0, 0.0, 0.0, j),
+            phase(tc, s1, v1, a, 0.0),
+            phase(tj, s2, v2, a, -j),
+            phase(tv, s3, v, 0.0, 0.0),
+            phase(tj, s4, v, 0.0, -j),
+            phase(tc, way - s2, v2, -a, 0.0),
+            phase(tj, way - s1, v1, -a, j),
+        ])
+    }
+
+    /// The motion of phases, [`MOST_PIECES`] at most; without any length, the last one.
+    pub(super) fn of_phases<const COUNT: usize>(phases: &[Phase; COUNT]) -> Self {
+        let mut motion = Self::single(phases[COUNT - 1].terms(), 0.0);
         motion.count = 0;
-        for (duration, [s, v, a, j]) in pieces {
-            if duration > 0.0 {
-                let piece = motion.count;
-                motion.terms[piece] = [start + s, v, a / 2.0, j / 6.0, 0.0, 0.0, 0.0];
-                motion.starts[piece + 1] = motion.starts[piece] + duration;
-                motion.count += 1;
-            }
+        for phase in phases.iter().filter(|phase| phase.duration > 0.0) {
+            let piece = motion.count;
+            motion.terms[piece] = phase.terms();
+            motion.starts[piece + 1] = motion.starts[piece] + phase.duration;
+            motion.count += 1;
         }
-        if motion.count == 0 { Self::still(end, 0.0) } else { motion }
+        motion.count = motion.count.max(1);
+        motion
+    }
+
+    /// The motion that ends at a time [s]: its last piece is longer or shorter.
+    #[cfg(feature = "python")]
+    pub(super) fn ending(mut self, time: f64) -> Self {
+        for start in &mut self.starts {
+            *start = start.min(time);
+        }
+        self.starts[self.count] = time;
+        self
     }
 
     /// Duration [s].

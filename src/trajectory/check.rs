@@ -3,7 +3,8 @@
 use super::axis::AxisLimits;
 use crate::error::{Error, JointFault, MotionFault};
 use crate::kinematics::check_seed;
-use crate::kinematics::thresholds::{FARTHEST_OUTSIDE, LEAST_DURATION, MOST_DURATION};
+use crate::kinematics::thresholds::FARTHEST_OUTSIDE;
+use crate::trajectory::thresholds::{LEAST_DURATION, MOST_DURATION};
 
 /// Joints of an arm, at least: most of them beyond four turns are in degrees.
 const LEAST_JOINTS: usize = 6;

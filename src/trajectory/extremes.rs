@@ -11,7 +11,7 @@ use super::check::check_axes;
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, derivative, extremes, hull, largest_size, size_bound};
 use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::{JOINED_POSITION, LIMIT_ROUNDING};
+use crate::trajectory::thresholds::{JOINED_POSITION, LIMIT_ROUNDING};
 
 /// The largest velocity, acceleration and jerk of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -19,7 +19,8 @@ use super::piece::{Piece, Strips};
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, shifted};
 use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::LIMIT_ROUNDING;
+use crate::interrupt::Interrupt;
+use crate::trajectory::thresholds::LIMIT_ROUNDING;
 
 /// Pieces of the grid, at least: a path of few waypoints is cut finer.
 const LEAST_PIECES: usize = 1000;
@@ -37,12 +38,6 @@ const MOST_PIECES: f64 = 30_000.0;
 /// Pieces between two samples, on average, that a longer path may have for it [1]: with 360 bytes a
 /// piece of six joints its memory stays below 2 kB a sample.
 const LONG_PARTS: f64 = 3.0;
-
-/// Pieces of which the work takes about a millisecond: then the caller is asked.
-const ASKED_EACH: usize = 2048;
-
-/// Whether to go on, asked now and then.
-pub(super) type GoOn<'a> = dyn FnMut() -> bool + 'a;
 
 /// Limits of a pace, and its values at both ends.
 pub(super) struct PaceLimits<'a> {
@@ -65,7 +60,7 @@ impl Grid {
         knots: &[f64],
         spline: &[[f64; TERMS]],
         dof: usize,
-        go_on: &mut GoOn<'_>,
+        interrupt: Interrupt<'_>,
     ) -> Result<Self, Error> {
         let turns = knots
             .windows(2)
@@ -83,7 +78,7 @@ impl Grid {
             reason = "to MOST_PARTS"
         )]
         let parts = |piece: usize| least.max((turns[piece] / coarser).ceil() as usize);
-        Self::of(knots, spline, dof, parts, go_on)
+        Self::of(knots, spline, dof, parts, interrupt)
     }
 
     /// Each piece of a spline, cut into as many parts as `parts` says.
@@ -92,12 +87,12 @@ impl Grid {
         spline: &[[f64; TERMS]],
         dof: usize,
         parts: impl Fn(usize) -> usize,
-        go_on: &mut GoOn<'_>,
+        interrupt: Interrupt<'_>,
     ) -> Result<Self, Error> {
         let count = (0..knots.len() - 1).map(&parts).sum();
         let (mut lengths, mut grid) = (Vec::with_capacity(count), Vec::with_capacity(count * dof));
         for (piece, ends) in knots.windows(2).enumerate() {
-            asked(piece, go_on)?;
+            interrupt.check(piece)?;
             let terms = &spline[piece * dof..][..dof];
             let parts = parts(piece);
             let mut begin = 0.0;
@@ -121,9 +116,9 @@ impl Grid {
         self,
         limits: &PaceLimits<'_>,
         cap: impl Fn(usize) -> f64,
-        go_on: &mut GoOn<'_>,
+        interrupt: Interrupt<'_>,
     ) -> Result<Trajectory, Error> {
-        let paces = self.paces(limits, cap, go_on)?;
+        let paces = self.paces(limits, cap, interrupt)?;
         Ok(self.timed(&paces))
     }
 
@@ -132,13 +127,13 @@ impl Grid {
         &self,
         limits: &PaceLimits<'_>,
         cap: impl Fn(usize) -> f64,
-        go_on: &mut GoOn<'_>,
+        interrupt: Interrupt<'_>,
     ) -> Result<Vec<f64>, Error> {
         let [start, end] = limits.ends;
         let last = self.lengths.len();
         let mut bounds = vec![f64::INFINITY; last + 1];
         for index in 0..last {
-            asked(index, go_on)?;
+            interrupt.check(index)?;
             let bound = self.piece(index).pace_bound(limits.max_velocity).min(cap(index));
             bounds[index] = bounds[index].min(bound);
             bounds[index + 1] = bounds[index + 1].min(bound);
@@ -146,13 +141,13 @@ impl Grid {
         bounds[last] = end_pace("end_velocity", end, bounds[last])?;
         let mut strips = Strips::default();
         for index in (0..last).rev() {
-            asked(index, go_on)?;
+            interrupt.check(index)?;
             strips.set(&self.piece(index), limits.max_acceleration);
             bounds[index] = strips.most_before(bounds[index], bounds[index + 1]);
         }
         bounds[0] = end_pace("start_velocity", start, bounds[0])?;
         for index in 1..=last {
-            asked(index, go_on)?;
+            interrupt.check(index)?;
             strips.set(&self.piece(index - 1), limits.max_acceleration);
             bounds[index] = strips.most_after(bounds[index - 1], bounds[index]);
             if !bounds[index].is_finite() {
@@ -189,11 +184,6 @@ impl Grid {
         }
         Trajectory::new(self.dof, knots, self.terms)
     }
-}
-
-/// Asks whether to go on, each so many pieces.
-pub(super) fn asked(index: usize, go_on: &mut GoOn<'_>) -> Result<(), MotionFault> {
-    if index.is_multiple_of(ASKED_EACH) && !go_on() { Err(MotionFault::Stopped) } else { Ok(()) }
 }
 
 /// The pace at an end, of which at most `bound` is possible.

@@ -10,10 +10,12 @@ use alloc::vec::Vec;
 use core::array;
 
 use super::axis::AxisLimits;
-use super::grid::{GoOn, Grid, PaceLimits, asked};
+use super::grid::{Grid, PaceLimits};
+use super::phase::{AxisState, Phase};
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, monotone_root};
 use crate::error::{Error, MotionFault};
+use crate::interrupt::Interrupt;
 
 /// Rounds in which paces are lowered.
 const MOST_ROUNDS: usize = 30;
@@ -85,7 +87,7 @@ pub(super) fn paced_with_jerk(
     limits: &PaceLimits<'_>,
     max_jerk: &[f64],
     most: f64,
-    go_on: &mut GoOn<'_>,
+    interrupt: Interrupt<'_>,
 ) -> Result<Trajectory, Error> {
     let axes: Vec<AxisLimits> = (0..max_jerk.len())
         .map(|joint| AxisLimits {
@@ -96,13 +98,14 @@ pub(super) fn paced_with_jerk(
         .collect();
     let mut best: Option<(f64, f64, Pace, f64)> = None;
     for change in CHANGES {
-        let (max_acceleration, window) = accelerations(grid, limits, &axes, (most, change), go_on)?;
+        let (max_acceleration, window) =
+            accelerations(grid, limits, &axes, (most, change), interrupt)?;
         let limits = PaceLimits { max_acceleration: &max_acceleration, ..*limits };
         let mut caps = vec![most; grid.lengths.len()];
         let (mut least, mut stalled) = (f64::INFINITY, 0);
         for _ in 0..MOST_ROUNDS {
-            let pace = Pace::of(grid, grid.paces(&limits, |piece| caps[piece], go_on)?);
-            let motion = averaged(grid, &pace, window, go_on)?;
+            let pace = Pace::of(grid, grid.paces(&limits, |piece| caps[piece], interrupt)?);
+            let motion = averaged(grid, &pace, window, interrupt)?;
             let excess = motion.excesses(&axes);
             let factor = excess.iter().copied().fold(1.0, f64::max);
             lower(&mut caps, &pace, &motion, &excess, window);
@@ -118,7 +121,9 @@ pub(super) fn paced_with_jerk(
         }
     }
     match best {
-        Some((_, factor, pace, window)) => averaged(grid, &pace, window, go_on)?.stretched(factor),
+        Some((_, factor, pace, window)) => {
+            averaged(grid, &pace, window, interrupt)?.stretched(factor)
+        }
         None => Err(MotionFault::Overflow.into()),
     }
 }
@@ -130,7 +135,7 @@ fn accelerations(
     limits: &PaceLimits<'_>,
     axes: &[AxisLimits],
     (most, change): (f64, f64),
-    go_on: &mut GoOn<'_>,
+    interrupt: Interrupt<'_>,
 ) -> Result<(Vec<f64>, f64), Error> {
     // More is not reached between rest and full velocity.
     let useful = |axis: &AxisLimits| axis.acceleration.min((axis.velocity * axis.jerk).sqrt());
@@ -141,7 +146,7 @@ fn accelerations(
         // A joint without limits has none.
         let window = windows.filter(|window| *window < f64::INFINITY).fold(0.0, f64::max);
         let limits = PaceLimits { max_acceleration: &accelerations, ..*limits };
-        let pace = Pace::of(grid, grid.paces(&limits, |_| most, go_on)?);
+        let pace = Pace::of(grid, grid.paces(&limits, |_| most, interrupt)?);
         let window = window.max(LEAST_WINDOW * pace.duration());
         let duration = pace.duration() + window;
         if duration.is_nan() || duration >= least {
@@ -160,19 +165,20 @@ fn averaged(
     grid: &Grid,
     pace: &Pace,
     window: f64,
-    go_on: &mut GoOn<'_>,
+    interrupt: Interrupt<'_>,
 ) -> Result<Trajectory, Error> {
     let mut walk = Walk::new(grid);
     let (last, mut time) = (grid.lengths.len(), 0.0);
     let (mut front, mut back) = (1, 0);
     while back <= last {
-        asked(front + back, go_on)?;
+        interrupt.check(front + back)?;
         let (now, before) = (pace.state(front, time), pace.state(back, time - window));
         let behind = pace.times[back] + window;
         let next = if front <= last { pace.times[front].min(behind) } else { behind };
-        let [speed, acceleration, jerk] =
+        let [velocity, acceleration, jerk] =
             array::from_fn(|order| (now[order] - before[order]) / window);
-        walk.go(next - time, [speed, acceleration, jerk]);
+        let start = AxisState { position: walk.place, velocity, acceleration };
+        walk.go(Phase { duration: next - time, start, jerk });
         time = next;
         if front <= last && pace.times[front] <= next {
             front += 1;
@@ -198,43 +204,42 @@ impl<'a> Walk<'a> {
         Self { grid, piece: 0, place: 0.0, knots: vec![0.0], terms: Vec::new() }
     }
 
-    /// Go on for a time [s], from a speed and an acceleration on with a jerk.
-    fn go(&mut self, mut time: f64, mut rates: [f64; 3]) {
-        while time > 0.0 {
-            let [speed, acceleration, jerk] = rates;
-            let left = self.grid.lengths[self.piece] - self.place;
-            let way = [-left, speed, acceleration / 2.0, jerk / 6.0, 0.0, 0.0, 0.0];
+    /// Go on in a phase that begins at the place.
+    fn go(&mut self, mut phase: Phase) {
+        while phase.duration > 0.0 {
+            let mut way = phase.terms();
+            way[0] = phase.start.position - self.grid.lengths[self.piece];
             let is_last = self.piece + 1 == self.grid.lengths.len();
-            let root = monotone_root(&way, 0.0, time).filter(|_| !is_last);
-            let whole = root.unwrap_or(time);
-            let (mut part, mut is_whole) = (whole, true);
-            while self.above_six(part, rates) > MOST_REPLACED {
-                (part, is_whole) = (0.5 * part, false);
+            let root = monotone_root(&way, 0.0, phase.duration).filter(|_| !is_last);
+            let mut part = Phase { duration: root.unwrap_or(phase.duration), ..phase };
+            let mut is_whole = true;
+            while self.above_six(&part) > MOST_REPLACED {
+                (part.duration, is_whole) = (0.5 * part.duration, false);
             }
-            self.part(part, rates);
+            self.part(&part);
+            phase.start = part.end();
             if root.is_some() && is_whole {
-                (self.piece, self.place) = (self.piece + 1, 0.0);
+                (self.piece, phase.start.position) = (self.piece + 1, 0.0);
             }
-            time -= part;
-            rates[0] += part * (acceleration + part * jerk / 2.0);
-            rates[1] += part * jerk;
+            self.place = phase.start.position;
+            phase.duration -= part.duration;
         }
     }
 
-    /// The largest part of an angle that the terms of a degree above six have in a time [rad].
-    fn above_six(&self, t: f64, [speed, acceleration, jerk]: [f64; 3]) -> f64 {
+    /// The largest part of an angle that the terms of a degree above six have in a phase [rad].
+    fn above_six(&self, phase: &Phase) -> f64 {
         let cubics = &self.grid.terms[self.piece * self.grid.dof..][..self.grid.dof];
         let most = cubics.iter().map(|terms| terms[3].abs()).fold(0.0, f64::max);
+        let (t, AxisState { velocity, acceleration, .. }) = (phase.duration, phase.start);
         let [x, y, z] =
-            [speed * t, acceleration * t * t / 2.0, jerk * t * t * t / 6.0].map(f64::abs);
+            [velocity * t, acceleration * t * t / 2.0, phase.jerk * t * t * t / 6.0].map(f64::abs);
         most * z * (3.0 * (x * z + y * y + y * z) + z * z)
     }
 
     /// Put s(t) into the cubics of the piece (eq. 16b). What has a degree above six is replaced by
     /// terms of degree four to six with the same position, velocity and acceleration at both ends.
-    fn part(&mut self, time: f64, [speed, acceleration, jerk]: [f64; 3]) {
-        let (s, h) = (self.place, time);
-        let (x, y, z) = (speed, acceleration / 2.0, jerk / 6.0);
+    fn part(&mut self, phase: &Phase) {
+        let ([s, x, y, z, ..], h) = (phase.terms(), phase.duration);
         let [seven, eight, nine] = [
             3.0 * z * (x * z + y * y) * h * h * h,
             3.0 * y * z * z * h.powi(4),
@@ -259,8 +264,7 @@ impl<'a> Walk<'a> {
                 b2 * z * z + b3 * y * (y * y + 6.0 * x * z) + b3 * replaced[2],
             ]
         }));
-        self.knots.push(self.knots[self.knots.len() - 1] + time);
-        self.place += time * (x + time * (y + time * z));
+        self.knots.push(self.knots[self.knots.len() - 1] + h);
     }
 }
 

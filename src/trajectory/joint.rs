@@ -2,8 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::axis::{AxisLimits, AxisMotion, AxisState, Profile};
+use super::axis::{AxisLimits, AxisMotion, Profile};
 use super::check::{check_axes, check_duration, check_finite, check_joints};
+use super::phase::AxisState;
 use super::piecewise::Trajectory;
 use crate::error::{Error, MotionFault};
 

@@ -22,21 +22,23 @@ mod extremes;
 mod grid;
 mod jerk;
 mod joint;
+mod phase;
 mod piece;
 mod piecewise;
 mod polynomial;
 mod retime;
 mod rounded;
 mod sampling;
+pub mod state;
+pub(crate) mod thresholds;
 mod tool_speed;
 mod waypoints;
 
-pub use axis::{AxisLimits, AxisMotion, AxisState, Profile};
+pub use axis::{AxisLimits, AxisMotion, Profile};
 pub use extremes::Peaks;
 pub use joint::{Synchronization, joint, joint_within};
+pub use phase::AxisState;
 pub use piecewise::Trajectory;
-#[cfg(feature = "python")]
-pub(crate) use piecewise::TrajectoryParts;
 pub use retime::{Retiming, retime, retime_tool};
 #[cfg(feature = "rapid")]
 pub(crate) use retime::{evenly, within_times};

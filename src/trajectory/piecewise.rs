@@ -10,8 +10,21 @@ use super::axis::AxisMotion;
 use super::polynomial::{TERMS, derivatives, hull, shifted};
 use super::sampling::Samples;
 use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::{JOINED_POSITION, LIMIT_ROUNDING, MOST_SAMPLES, STEP_ROUNDING};
 use crate::lanes::run;
+use crate::paths::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
+use crate::trajectory::thresholds::{JOINED_POSITION, LIMIT_ROUNDING};
+#[cfg(feature = "python")]
+use {
+    super::axis::MOST_PIECES,
+    super::phase::{AxisState, Phase},
+    crate::spline::quintic_between,
+    core::array,
+};
+
+/// Most that another planner's motion may miss its end [rad]: some rounding of angles. To spread it
+/// over a short motion would take more jerk than it is worth.
+#[cfg(feature = "python")]
+const MET: f64 = 1e-12;
 
 /// Joint angles, velocities and accelerations over time, exact at any time.
 ///
@@ -32,14 +45,13 @@ pub struct Trajectory {
 }
 
 /// A trajectory as it is stored: reading checks it.
-#[derive(Clone)]
 #[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
+#[derive(Clone, serde::Serialize, serde::Deserialize)]
 #[serde(rename = "Trajectory")]
-pub(crate) struct TrajectoryParts {
-    pub(crate) dof: usize,
-    pub(crate) knots: Vec<f64>,
-    pub(crate) terms: Vec<[f64; TERMS]>,
+struct TrajectoryParts {
+    dof: usize,
+    knots: Vec<f64>,
+    terms: Vec<[f64; TERMS]>,
 }
 
 #[cfg(feature = "serde")]
@@ -280,6 +292,58 @@ impl Trajectory {
         self.knots.extend(next.knots[1..].iter().map(|knot| offset + knot));
         self.terms.extend_from_slice(&next.terms);
         Ok(self)
+    }
+
+    /// The trajectory passed the other way.
+    pub(super) fn reversed(&self) -> Self {
+        let duration = self.duration();
+        let knots = self.knots.iter().rev().map(|knot| duration - knot).collect();
+        let mut terms = Vec::with_capacity(self.terms.len());
+        for piece in (0..self.pieces()).rev() {
+            let length = self.knots[piece + 1] - self.knots[piece];
+            terms.extend(self.terms[piece * self.dof..][..self.dof].iter().map(|own| {
+                let mut own = shifted(own, length);
+                own.iter_mut().skip(1).step_by(2).for_each(|odd| *odd = -*odd);
+                own
+            }));
+        }
+        Self { dof: self.dof, knots, terms }
+    }
+
+    /// Another planner's phases of each joint: rows of duration, position, velocity, acceleration
+    /// and jerk. They end after a duration [s] at an end [rad]; what they miss of it is spread
+    /// (docs/guide/motion.md, eq. 8b).
+    #[cfg(feature = "python")]
+    pub(crate) fn of_phases(
+        joints: Vec<[[f64; 5]; MOST_PIECES]>,
+        duration: f64,
+        end: Vec<f64>,
+    ) -> Result<Self, Error> {
+        if joints.is_empty() {
+            return Err(MotionFault::NoJoints { field: "q0" }.into());
+        }
+        let axes = joints.into_iter().map(|rows| {
+            let phases = rows.map(|[duration, position, velocity, acceleration, jerk]| {
+                let start = AxisState { position, velocity, acceleration };
+                Phase { duration, start, jerk }
+            });
+            AxisMotion::of_phases(&phases).ending(duration)
+        });
+        let mut motion = Self::of_axes(&axes.collect::<Vec<_>>());
+        let [_, found] = motion.ends();
+        let missing: Vec<f64> =
+            end.into_iter().zip(found).map(|(end, found)| end - found).collect();
+        if duration > 0.0 && missing.iter().any(|missing| missing.abs() > MET) {
+            let mut unit = [0.0; TERMS];
+            unit[..6].copy_from_slice(&quintic_between([0.0; 3], [1.0, 0.0, 0.0], duration));
+            for (terms, knot) in motion.terms.chunks_exact_mut(missing.len()).zip(&motion.knots) {
+                let around = shifted(&unit, *knot);
+                for (terms, missing) in terms.iter_mut().zip(&missing) {
+                    *terms = array::from_fn(|degree| terms[degree] + missing * around[degree]);
+                }
+            }
+        }
+        motion.checked()
     }
 
     /// The part from one time to another [s], which begins at 0.

@@ -7,18 +7,23 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::check::{check_duration, check_finite, check_limits, check_path_limits, check_rows};
-use super::grid::{GoOn, Grid, PaceLimits};
+use super::grid::{Grid, PaceLimits};
 use super::jerk::paced_with_jerk;
 use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
 use super::tool_speed::{ToolPath, check_speed};
 use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::PATH_DIRECTION;
+use crate::interrupt::Interrupt;
 use crate::spline::{Ends, cubic};
+use crate::trajectory::thresholds::PATH_DIRECTION;
 
 /// Pieces of the grid between two rests of a program, at least.
 #[cfg(feature = "rapid")]
 const PROGRAMMED_PIECES: usize = 48;
+
+/// Largest step of a joint from row to row with which the tool keeps a speed [rad]: between the
+/// rows of 3,400 random lines it was faster by 0.5 % at most.
+const TOOL_STEP: f64 = 0.1;
 
 /// The bounds that the pace along a path keeps.
 ///
@@ -71,11 +76,15 @@ impl<'a> Retiming<'a> {
     /// As [`retime`] and [`retime_tool`]; [`Error::InvalidMotion`] too for a velocity at an end that
     /// is not in the direction of the path, or that the limits do not allow.
     pub fn along(&self, q: &[f64]) -> Result<Trajectory, Error> {
-        self.along_while(q, &mut || true)
+        self.along_until(q, Interrupt::none())
     }
 
-    /// As [`Self::along`], for as long as `go_on` says so.
-    pub(crate) fn along_while(&self, q: &[f64], go_on: &mut GoOn<'_>) -> Result<Trajectory, Error> {
+    /// As [`Self::along`], until it is interrupted.
+    pub(crate) fn along_until(
+        &self,
+        q: &[f64],
+        interrupt: Interrupt<'_>,
+    ) -> Result<Trajectory, Error> {
         let Self { max_velocity, max_acceleration, .. } = *self;
         let dof = check_path_limits(max_velocity, max_acceleration)?;
         self.check_jerk(dof)?;
@@ -90,6 +99,7 @@ impl<'a> Retiming<'a> {
             Some((lengths, speed)) => {
                 check_speed("max_tool_speed", speed)?;
                 let path = ToolPath::new(q, lengths, max_velocity, max_acceleration)?;
+                check_steps(q, dof)?;
                 (path.knots, path.terms, speed * speed)
             }
         };
@@ -97,12 +107,12 @@ impl<'a> Retiming<'a> {
         if spline.is_empty() {
             return Ok(Trajectory::still(&q[..dof]));
         }
-        let grid = Grid::fine(&knots, &spline, dof, go_on)?;
+        let grid = Grid::fine(&knots, &spline, dof, interrupt)?;
         drop(spline);
         let limits = PaceLimits { max_velocity, max_acceleration, ends };
         let timed = match self.max_jerk {
-            None => grid.paced(&limits, |_| most, go_on)?,
-            Some(max_jerk) => paced_with_jerk(&grid, &limits, max_jerk, most, go_on)?,
+            None => grid.paced(&limits, |_| most, interrupt)?,
+            Some(max_jerk) => paced_with_jerk(&grid, &limits, max_jerk, most, interrupt)?,
         };
         check_duration(timed.duration()).and_then(|()| timed.checked())
     }
@@ -197,7 +207,8 @@ pub fn retime(
 /// # Errors
 ///
 /// As [`retime`]; [`Error::InvalidMotion`] too for a speed that is not positive, a length that is
-/// not finite, or joints that move where the tool does not.
+/// not finite, joints that move where the tool does not, or a step of a joint above 0.1 rad,
+/// between whose rows the tool would leave its path.
 pub fn retime_tool(
     q: &[f64],
     lengths: &[f64],
@@ -207,6 +218,19 @@ pub fn retime_tool(
 ) -> Result<Trajectory, Error> {
     let tool = Some((lengths, max_tool_speed));
     Retiming { tool, ..Retiming::within(max_velocity, max_acceleration) }.along(q)
+}
+
+/// Check that no joint steps farther than the tool is known to stay on its path between two rows.
+fn check_steps(q: &[f64], dof: usize) -> Result<(), Error> {
+    for (row, ends) in q.windows(2 * dof).step_by(dof).enumerate() {
+        for (joint, step) in (0..dof).map(|joint| (joint, ends[dof + joint] - ends[joint])) {
+            if step.abs() > TOOL_STEP {
+                let (joint, row, bound) = (joint + 1, row + 1, TOOL_STEP);
+                return Err(MotionFault::ToolStep { joint, row, step, bound }.into());
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Joints that go evenly from row to row [rad]. The times of the rows [s] begin at zero and do not
@@ -259,9 +283,9 @@ pub(crate) fn within_times<const N: usize>(
     }
     let parts = PROGRAMMED_PIECES.div_ceil(lengths.len() - 1);
     let spline = cubic(&lengths, &points, N, Ends::NotAKnot);
-    let grid = Grid::of(&lengths, &spline, N, |_| parts, &mut || true)?;
+    let grid = Grid::of(&lengths, &spline, N, |_| parts, Interrupt::none())?;
     let pace = PaceLimits { max_velocity, max_acceleration, ends: [0.0; 2] };
-    let timed = grid.paced(&pace, |piece| caps[piece / parts], &mut || true)?.checked()?;
+    let timed = grid.paced(&pace, |piece| caps[piece / parts], Interrupt::none())?.checked()?;
     let times = knots.iter().map(|knot| timed.knots()[knot * parts]).collect();
     Ok((timed, times))
 }

@@ -12,6 +12,7 @@ use super::grid::{Grid, PaceLimits};
 use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 
 /// Pieces of the grid on a side or a corner: the motion takes 2 % longer than the shortest.
 const PARTS: usize = 24;
@@ -60,7 +61,7 @@ pub(crate) fn paced(
     max_velocity: &[f64],
     max_acceleration: &[f64],
 ) -> Result<Trajectory, Error> {
-    let grid = Grid::of(path.knots(), &path.terms, path.dof(), |_| PARTS, &mut || true)?;
+    let grid = Grid::of(path.knots(), &path.terms, path.dof(), |_| PARTS, Interrupt::none())?;
     let limits = PaceLimits { max_velocity, max_acceleration, ends: [0.0; 2] };
-    grid.paced(&limits, |_| f64::INFINITY, &mut || true)?.checked()
+    grid.paced(&limits, |_| f64::INFINITY, Interrupt::none())?.checked()
 }

@@ -97,7 +97,7 @@ mod tests {
 
     use super::*;
     use crate::lanes::on_each_set;
-    use crate::rng::Rng;
+    use crate::suite::rng::Rng;
     use crate::trajectory::Trajectory;
     use crate::trajectory::polynomial::derivatives;
 
@@ -117,6 +117,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "run by itself: cargo test --lib -- --ignored"]
     fn samples_are_those_of_each_number_alone_to_the_bit() {
         on_each_set(|set| {
             let mut rng = Rng::new(3);

@@ -1,7 +1,7 @@
 use std::vec::Vec;
 
 use super::*;
-use crate::rng::Rng;
+use crate::suite::rng::Rng;
 
 const ROUNDING: f64 = 1e-12;
 

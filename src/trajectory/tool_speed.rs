@@ -15,8 +15,9 @@ use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
 use crate::error::{Error, MotionFault};
 use crate::kinematics::Pose;
-use crate::kinematics::thresholds::{JOINED_POSITION, LEAST_WAY, LIMIT_ROUNDING};
+use crate::paths::thresholds::LEAST_WAY;
 use crate::spline::{Ends, cubic};
+use crate::trajectory::thresholds::{JOINED_POSITION, LIMIT_ROUNDING};
 
 /// Limits of the speed of the tool along a path, by the limits of the joints.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,14 +1,14 @@
-//! The version of a URDF, and the attributes that it has: one that is skipped would be an arm of
-//! another shape.
+//! The version of a URDF, and the attributes that it has: an unknown one of an origin, an axis or a
+//! mimic that is skipped could be an arm of another shape.
 //!
 //! Reference: `urdfdom`'s versions 1.0 to 1.2.
 
 use alloc::borrow::ToOwned;
 use alloc::string::ToString;
 
-use roxmltree::Node;
+use roxmltree::{Attribute, Node};
 
-use crate::error::UrdfFault;
+use crate::urdf::fault::UrdfFault;
 
 /// The minor number of a version 1.x.
 pub(super) type Version = u32;
@@ -16,23 +16,11 @@ pub(super) type Version = u32;
 /// The newest version that is read, as its minor number [1].
 pub(super) const NEWEST: Version = 2;
 
-/// The attributes of the elements that make an arm, each with the version from which it has
-/// effect. Accelerations and jerks are accepted in each version: irbkin does not use them.
+/// The attributes of the elements that place a joint, each with the version from which it has
+/// effect.
 const ATTRIBUTES: &[(&str, &[(&str, Version)])] = &[
     ("origin", &[("xyz", 0), ("rpy", 0), ("quat_xyzw", 1)]),
     ("axis", &[("xyz", 0)]),
-    (
-        "limit",
-        &[
-            ("lower", 0),
-            ("upper", 0),
-            ("velocity", 0),
-            ("effort", 0),
-            ("acceleration", 0),
-            ("deceleration", 0),
-            ("jerk", 0),
-        ],
-    ),
     ("mimic", &[("joint", 0), ("multiplier", 0), ("offset", 0)]),
 ];
 
@@ -50,16 +38,18 @@ pub(super) fn version_of(robot: Node<'_, '_>) -> Result<Version, UrdfFault> {
 }
 
 /// Reject an attribute that the version of the robot does not have. Attributes with a namespace
-/// belong to other programs.
+/// belong to other programs, and zeros neither turn nor move anything.
 pub(super) fn check_attributes(
     joint: Node<'_, '_>,
     name: &str,
     version: Version,
 ) -> Result<(), UrdfFault> {
-    for element in joint.children() {
+    let is_fixed = joint.attribute("type") == Some("fixed");
+    for element in joint.children().filter(|it| !is_fixed || it.has_tag_name("origin")) {
         let of_element = |(name, _): &&(&str, _)| element.has_tag_name(*name);
         let Some((element_name, known)) = ATTRIBUTES.iter().find(of_element) else { continue };
-        for attribute in element.attributes().filter(|it| it.namespace().is_none()) {
+        let is_own = |it: &Attribute<'_, '_>| it.namespace().is_none() && !is_zero(it.value());
+        for attribute in element.attributes().filter(is_own) {
             let (joint, attribute) = (name.to_owned(), attribute.name());
             match known.iter().find(|(known, _)| *known == attribute) {
                 Some((attribute, since)) if version < *since => {
@@ -78,4 +68,10 @@ pub(super) fn check_attributes(
         }
     }
     Ok(())
+}
+
+/// Whether a text is zeros: at least one number, and no other.
+fn is_zero(text: &str) -> bool {
+    let mut numbers = text.split_whitespace().map(|word| word.parse() == Ok(0.0)).peekable();
+    numbers.peek().is_some() && numbers.all(|is_zero| is_zero)
 }

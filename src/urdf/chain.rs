@@ -9,9 +9,10 @@ use alloc::vec::Vec;
 
 use super::joint::Joint;
 use super::tree::{Tree, quoted};
-use crate::error::{Names, UrdfFault};
+use crate::report::Names;
 #[cfg(feature = "std")]
 use crate::spelling::similar;
+use crate::urdf::fault::UrdfFault;
 
 /// Number of links up to which a message for an unknown one lists all names, and of chains that a
 /// message proposes.
@@ -23,8 +24,8 @@ const MOST_JOINTS: usize = 7;
 /// Number of ends of chains up to which a message looks for chains that could be taken.
 const MOST_ENDS: usize = 64;
 
-/// The base, and the joints from there to the tip, all of them revolute or fixed; the number of revolute ones is in
-/// `wanted`.
+/// The base, and the joints from there to the tip, all of them revolute or fixed; the number of
+/// revolute ones is in `wanted`.
 pub(super) fn chain_between<'t, 'a>(
     tree: &'t Tree<'a>,
     base: Option<&str>,
@@ -205,10 +206,21 @@ impl<'a> Way<'a> {
     }
 }
 
+/// Whether a joint moves a part of a gripper, by its name or that of its link. A link may be a whole
+/// gripper that an arm carries.
+fn is_of_gripper(tree: &Tree<'_>, joint: &Joint<'_>) -> bool {
+    let [name, link] = [joint.name, tree.links[joint.child]].map(str::to_lowercase);
+    let parts = ["jaw", "finger", "claw"];
+    name.contains("gripper") || parts.iter().any(|it| name.contains(it) || link.contains(it))
+}
+
 /// The only link at the end of a chain whose number of joints is in `wanted`. A frame is never
-/// guessed: if there are several, none is chosen.
+/// guessed: if there are several, none is chosen. Nor if the last joint may be a gripper's: its
+/// name has a word of one, or another end is on a link before it.
 fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, UrdfFault> {
     let mut ways = vec![Way::default(); tree.links.len()];
+    // The link behind the last joint above each link that is not fixed.
+    let mut carriers: Vec<usize> = (0..tree.links.len()).collect();
     let mut ends = Vec::new();
     for link in tree.hanging_on([base].into_iter()) {
         for &index in &tree.below[link] {
@@ -216,6 +228,9 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, Urd
             let way = ways[link];
             let barred = Way { barred_by: way.barred_by.or(Some(index)), ..way };
             ways[joint.child] = way.through(joint).unwrap_or(barred);
+            if joint.kind == "fixed" {
+                carriers[joint.child] = carriers[link];
+            }
         }
         if tree.below[link].is_empty() {
             ends.push(link);
@@ -225,13 +240,31 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, Urd
         |link: &&usize| ways[**link].barred_by.is_none() && wanted.contains(&ways[**link].turning);
     let (base_link, wanted_counts) = (base, wanted.to_vec());
     let base = tree.links[base].to_owned();
-    match (ends.iter().find(can_be), ends.iter().filter(can_be).count()) {
-        (Some(&tip), 1) => Ok(tip),
-        (Some(_), _) => {
-            let tips = tree.quoted(ends.iter().filter(can_be).copied());
+    let above = |link: usize| tree.above[carriers[link]].map(|joint| &tree.joints[joint]);
+    let before = |link: usize| above(link).map(|joint| joint.parent);
+    let last = ends.iter().find(can_be).and_then(|&tip| above(tip));
+    // A finger may have two joints.
+    let others = last.map(|last| [Some(last.parent), before(last.parent)]);
+    let others = others.map(|others| others.map(|it| it.map(|link| carriers[link])));
+    let is_before = |link: &&usize| {
+        let is_end = ways[**link].barred_by.is_none() && !can_be(link);
+        is_end && others.is_some_and(|others| others.contains(&Some(carriers[**link])))
+    };
+    let shorter: Vec<usize> = ends.iter().filter(is_before).copied().collect();
+    let named = |link: usize| remark(tree, link, ways[link]);
+    match (last, ends.iter().find(can_be), ends.iter().filter(can_be).count()) {
+        (Some(last), Some(&tip), 1) if is_of_gripper(tree, last) || !shorter.is_empty() => {
+            let shorter = if shorter.is_empty() { vec![last.parent] } else { shorter };
+            let ends = core::iter::once(tip).chain(shorter).map(named).collect();
+            Err(UrdfFault::MayBeGripper { base, joint: last.name.to_owned(), ends })
+        }
+        (_, Some(&tip), 1) => Ok(tip),
+        (_, Some(_), _) => {
+            let tips = ends.iter().filter(can_be).map(|&link| quoted(tree.links[link]));
+            let tips = tips.chain(shorter.into_iter().map(named)).collect();
             Err(UrdfFault::SeveralTips { base, wanted: wanted_counts, tips })
         }
-        (None, _) => {
+        (_, None, _) => {
             let remarks = ends.iter().map(|&link| remark(tree, link, ways[link])).collect();
             let fault = UrdfFault::NoTip { base, wanted: wanted_counts, ends: remarks };
             Err(proposing(fault, tree, base_link, &ends, wanted))

@@ -7,18 +7,23 @@ use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::fmt::Write as _;
 
 use nalgebra::Vector3;
 use roxmltree::Node;
 
 use super::joint::{Joint, Placed};
+use super::sweep::{Carrier, Sweep};
 use super::tree::Tree;
 use crate::body::{Body, Capsule, LinkCapsule, Shape};
-use crate::error::UrdfFault;
 use crate::kinematics::{Pose, Robot, constant_pose, pose_from_wxyz, pose_to_euler_zyx};
+use crate::urdf::fault::UrdfFault;
 
 /// Shapes of an arm, at most: to compare all of them takes quadratic time.
 const MOST: usize = 2000;
+
+/// Capsules of these, at most: four of each, or more of those that are swept.
+const MOST_CAPSULES: usize = 4 * MOST;
 
 /// How far a sphere may be from the end of a cylinder to make a capsule of both, and their radii
 /// from each other [m].
@@ -34,52 +39,81 @@ pub(super) struct Solid {
     excess: f64,
 }
 
-/// The shapes of the links that move with the chain; `None` if there is none, or if one is a mesh
-/// or another shape that is not read: a body without it would be called free where the arm is not.
+/// The shapes of the links that move with the chain, none if the links have none, and a remark on
+/// those that move beside it. With a mesh, or a link whose place is not known, there are no shapes:
+/// a body without it would be called free where the arm is not.
 pub(super) fn solids(
     tree: &Tree<'_>,
     robot: Node<'_, '_>,
     base: usize,
     chain: &[&Joint<'_>],
-) -> Result<Option<Vec<Solid>>, UrdfFault> {
+) -> Result<(Vec<Solid>, String), UrdfFault> {
     let links: Vec<_> = robot.children().filter(|node| node.has_tag_name("link")).collect();
     let collisions = |link: usize| links[link].children().filter(|it| it.has_tag_name("collision"));
-    if (0..links.len()).all(|link| collisions(link).next().is_none()) {
-        return Ok(None);
+    let has_shapes = shaped(robot, &["collision"]);
+    if !has_shapes.contains(&true) {
+        return Ok((Vec::new(), String::new()));
     }
     let mut found = Vec::new();
-    for (link, carrier) in carriers(tree, base, chain).into_iter().enumerate() {
-        let (Some(carrier), true) = (carrier, collisions(link).next().is_some()) else { continue };
-        let (after, pose) = carrier?;
+    let carriers = carriers(tree, base, chain);
+    for link in (0..carriers.len()).filter(|link| has_shapes[*link]) {
+        let Some(carrier) = carriers[link].clone().transpose()? else { continue };
+        let name = || tree.links[link].to_owned();
         let mut shapes = Vec::new();
         for collision in collisions(link) {
-            match shape_of(collision) {
-                Ok(Some(shape)) => shapes.push(shape),
-                Ok(None) => return Ok(None),
-                Err(what) => {
-                    return Err(UrdfFault::Shape { link: tree.links[link].to_owned(), what });
-                }
-            }
+            let shape = shape_of(collision);
+            let shape = shape.map_err(|what| UrdfFault::Shape { link: name(), what })?;
+            shapes.push(shape.ok_or_else(|| UrdfFault::MeshOfBody { link: name() })?);
         }
         for (capsules, excess) in covered(&shapes) {
-            let capsules = capsules.iter().map(|capsule| capsule.moved(&pose)).collect();
-            found.push(Solid { after, capsules, excess });
+            let (capsules, growth) = carrier.swept(&capsules);
+            found.push(Solid { after: carrier.after, capsules, excess: excess + growth });
         }
-        if found.len() > MOST {
+        let pieces: usize = found.iter().map(|solid| solid.capsules.len()).sum();
+        if found.len() > MOST || pieces > MOST_CAPSULES {
             return Err(UrdfFault::Shapes { bound: MOST });
         }
     }
-    Ok(Some(found))
+    Ok((found, remark(tree, &carriers, &has_shapes)))
 }
 
-/// The number of joints of the chain above a link and its pose in the link of the chain; `None` if
-/// a joint beside the chain moves it.
-pub(super) type Carrier = Option<Result<(usize, Pose), UrdfFault>>;
+/// Of each link, whether it has one of these elements.
+pub(super) fn shaped(robot: Node<'_, '_>, elements: &[&str]) -> Vec<bool> {
+    let has = |node: Node<'_, '_>| elements.contains(&node.tag_name().name());
+    let links = robot.children().filter(|node| node.has_tag_name("link"));
+    links.map(|link| link.children().any(has)).collect()
+}
 
-/// The carrier of each link.
-pub(super) fn carriers(tree: &Tree<'_>, base: usize, chain: &[&Joint<'_>]) -> Vec<Carrier> {
-    let mut carriers: Vec<Carrier> = vec![None; tree.links.len()];
-    carriers[base] = Some(Ok((0, Pose::identity())));
+/// Which links are swept over the joints beside the chain, and which are left out since no moving
+/// link of the chain carries them, of those that have shapes.
+pub(super) fn remark(
+    tree: &Tree<'_>,
+    carriers: &[Option<Result<Carrier, UrdfFault>>],
+    has_shapes: &[bool],
+) -> String {
+    let is_swept =
+        |link: &usize| matches!(&carriers[*link], Some(Ok(carrier)) if !carrier.beside.is_empty());
+    let shaped = || (0..carriers.len()).filter(|link| has_shapes[*link]);
+    let swept = tree.quoted(shaped().filter(is_swept));
+    let left_out = tree.quoted(shaped().filter(|link| carriers[*link].is_none()));
+    let mut text = String::new();
+    for (names, what) in [(swept, "wherever their joints are"), (left_out, "left out")] {
+        if !names.is_empty() {
+            // Writing to a String does not fail.
+            let _ = write!(text, "; {what}: {names}");
+        }
+    }
+    text
+}
+
+/// The carrier of each link; `None` if none of the moving links of the chain carries it.
+pub(super) fn carriers(
+    tree: &Tree<'_>,
+    base: usize,
+    chain: &[&Joint<'_>],
+) -> Vec<Option<Result<Carrier, UrdfFault>>> {
+    let mut carriers = vec![None; tree.links.len()];
+    carriers[base] = Some(Ok(Carrier { after: 0, beside: Vec::new(), pose: Pose::identity() }));
     for link in tree.hanging_on([base].into_iter()) {
         for &index in &tree.below[link] {
             let joint = &tree.joints[index];
@@ -91,21 +125,34 @@ pub(super) fn carriers(tree: &Tree<'_>, base: usize, chain: &[&Joint<'_>]) -> Ve
 
 /// The carrier of the child of a joint.
 fn below(
-    carrier: Option<&Result<(usize, Pose), UrdfFault>>,
+    carrier: Option<&Result<Carrier, UrdfFault>>,
     joint: &Joint<'_>,
     chain: &[&Joint<'_>],
     tree: &Tree<'_>,
-) -> Carrier {
-    Some(match carrier? {
-        Ok((after, _)) if chain.get(*after).is_some_and(|next| core::ptr::eq(*next, joint)) => {
-            Ok((after + 1, Pose::identity()))
+) -> Option<Result<Carrier, UrdfFault>> {
+    let mut carrier = match carrier? {
+        Ok(carrier) => carrier.clone(),
+        Err(fault) => return Some(Err(fault.clone())),
+    };
+    if chain.get(carrier.after).is_some_and(|next| core::ptr::eq(*next, joint)) {
+        let (after, pose) = (carrier.after + 1, Pose::identity());
+        return Some(Ok(Carrier { after, beside: Vec::new(), pose }));
+    }
+    // Another arm, on the same base.
+    let moves = chain[..carrier.after].iter().any(|joint| joint.turns());
+    if !moves && joint.kind != "fixed" {
+        return None;
+    }
+    let placed = joint.placed(tree.version).and_then(|placed| {
+        carrier.pose *= placed.origin(0.0);
+        if joint.kind != "fixed" {
+            let sweep = Sweep::of(joint, carrier.beside.len(), tree)?;
+            carrier.beside.push((carrier.pose, sweep));
+            carrier.pose = Pose::identity();
         }
-        Ok((after, pose)) if joint.kind == "fixed" => {
-            joint.placed(tree.version).map(|placed| (*after, pose * placed.origin(0.0)))
-        }
-        Ok(_) => return None,
-        Err(fault) => Err(fault.clone()),
-    })
+        Ok(carrier)
+    });
+    Some(placed)
 }
 
 /// The shape of an element; `None` for a mesh, and what is wrong with one that is none.
@@ -209,6 +256,7 @@ pub(super) fn body_of<const N: usize>(
     solids: &[Solid],
     joints: &[Placed],
     snap: f64,
+    remark: &str,
 ) -> Option<Body> {
     if solids.is_empty() {
         return None;
@@ -224,7 +272,8 @@ pub(super) fn body_of<const N: usize>(
     if capsules.iter().all(|own| own.link <= N) {
         excess.truncate(N + 1);
     }
-    Some(robot.body_of_shapes(capsules, excess))
+    let source = alloc::format!("collision shapes of a URDF{remark}");
+    Some(robot.body_of_shapes(capsules, excess, source))
 }
 
 /// Of the base and of each link behind a joint of the chain: the link of the body, and the pose in

@@ -6,9 +6,9 @@ use nalgebra::{Quaternion, Rotation3, Translation3, Unit, UnitQuaternion, Vector
 use roxmltree::Node;
 
 use super::attributes::{Version, check_attributes};
-use crate::error::UrdfFault;
 use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, QUATERNION_NORM_BOUND};
 use crate::kinematics::{JointAxis, Pose, constant_pose, pose_to_euler_zyx, snapped, unit};
+use crate::urdf::fault::UrdfFault;
 
 /// Most characters of an attribute that a message repeats.
 const REPEATED: usize = 60;
@@ -139,14 +139,28 @@ impl<'a> Joint<'a> {
 
     /// The multiplier, 1 or -1, and the offset [rad] of a joint that turns as far as another one.
     fn multiplier_and_offset(&self) -> Option<[f64; 2]> {
-        let mimic = self.element("mimic").ok()?.filter(|_| self.is_revolute())?;
-        let number = |attribute, default: f64| {
-            let given = mimic.attribute(attribute).map_or(Ok(default), |text| text.trim().parse());
-            given.ok()
-        };
-        let [multiplier, offset] = [number("multiplier", 1.0)?, number("offset", 0.0)?];
+        let [multiplier, offset] = self.mimic_numbers().ok()?.filter(|_| self.is_revolute())?;
         let is_linkage = [1.0, -1.0].contains(&multiplier) && offset.abs() <= MOST_ANGLE;
         is_linkage.then_some([multiplier, offset])
+    }
+
+    /// The multiplier and the offset of a joint that follows another one.
+    pub(super) fn mimic_numbers(&self) -> Result<Option<[f64; 2]>, UrdfFault> {
+        let Some(mimic) = self.element("mimic")? else { return Ok(None) };
+        let number = |name, field, default| match mimic.attribute(name) {
+            Some(text) => self.numbers::<1>(field, text, f64::MAX).map(|[number]| number),
+            None => Ok(default),
+        };
+        let multiplier = number("multiplier", "mimic multiplier", 1.0)?;
+        Ok(Some([multiplier, number("offset", "mimic offset", 0.0)?]))
+    }
+
+    /// The limits of a joint that may be beside the chain [rad or m], infinite for none.
+    pub(super) fn range(&self) -> Result<[f64; 2], UrdfFault> {
+        match self.limit() {
+            Err(UrdfFault::NoLimit { .. }) => Ok([f64::NEG_INFINITY, f64::INFINITY]),
+            limit => limit.map(|(range, _)| range),
+        }
     }
 
     /// The reason why the joint may not be between base and tip.
@@ -158,7 +172,7 @@ impl<'a> Joint<'a> {
             });
         }
         match self.element("mimic")? {
-            Some(_) if !self.is_linkage() => Err(self.mimic()),
+            Some(_) if self.is_revolute() && !self.is_linkage() => Err(self.mimic()),
             _ => Ok(()),
         }
     }
@@ -228,7 +242,7 @@ impl<'a> Joint<'a> {
     }
 
     /// The direction of the axis.
-    fn direction(&self) -> Result<Vector3<f64>, UrdfFault> {
+    pub(super) fn direction(&self) -> Result<Vector3<f64>, UrdfFault> {
         let axis = match self.element("axis")? {
             Some(axis) => self.three(axis, "xyz", "axis", f64::MAX)?,
             None => None,
@@ -247,30 +261,28 @@ impl<'a> Joint<'a> {
     }
 
     /// Limits, infinite for a continuous joint, and velocity. A missing limit is zero, as the
-    /// format defines.
+    /// format defines; one beyond [`MOST_ANGLE`] is none. A velocity that is no positive number is
+    /// not known: it concerns no pose.
     fn limit(&self) -> Result<([f64; 2], Option<f64>), UrdfFault> {
         let unlimited = [f64::NEG_INFINITY, f64::INFINITY];
         let Some(limit) = self.element("limit")? else {
             let fault = UrdfFault::NoLimit { joint: self.name.to_owned() };
             return if self.kind == "continuous" { Ok((unlimited, None)) } else { Err(fault) };
         };
-        let number = |attribute, field, bound| {
-            let numbers =
-                limit.attribute(attribute).map(|text| self.numbers::<1>(field, text, bound));
-            numbers.transpose().map(|number| number.map_or(0.0, |[value]| value))
-        };
-        let velocity = Some(number("velocity", "limit velocity", f64::MAX)?)
-            .filter(|velocity| *velocity != 0.0);
+        let velocity = limit.attribute("velocity").and_then(|text| text.trim().parse().ok());
+        let velocity = velocity.filter(|value: &f64| *value > 0.0 && value.is_finite());
         if self.kind == "continuous" {
             return Ok((unlimited, velocity));
         }
-        Ok((
-            [
-                number("lower", "limit lower", MOST_ANGLE)?,
-                number("upper", "limit upper", MOST_ANGLE)?,
-            ],
-            velocity,
-        ))
+        let bound = |attribute, field| {
+            let Some(text) = limit.attribute(attribute) else { return Ok(0.0) };
+            let [value] = match text.trim().parse::<f64>() {
+                Ok(value) if value.abs() > MOST_ANGLE => [value.signum() * f64::INFINITY],
+                _ => self.numbers(field, text, MOST_ANGLE)?,
+            };
+            Ok(value)
+        };
+        Ok(([bound("lower", "limit lower")?, bound("upper", "limit upper")?], velocity))
     }
 
     fn three(

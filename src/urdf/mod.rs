@@ -6,8 +6,10 @@
 mod attributes;
 mod chain;
 mod collision;
+pub(crate) mod fault;
 mod joint;
 mod shape;
+mod sweep;
 mod text;
 mod tree;
 mod write;
@@ -20,34 +22,50 @@ use nalgebra::Vector3;
 use self::chain::chain_between;
 use self::collision::{Solid, body_of, solids};
 #[cfg(feature = "python")]
-use self::collision::{carriers, places};
+use self::collision::{carriers, places, remark, shaped};
 use self::joint::{Joint, Motion, Placed};
-use self::tree::{Tree, parsed};
-use crate::error::{Error, ModelFault, UrdfFault};
+#[cfg(feature = "python")]
+pub(crate) use self::sweep::Carrier;
+use self::tree::Tree;
+pub(crate) use self::tree::read_document;
+use crate::error::{Error, ModelFault};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
-use crate::kinematics::{AnyRobot, JointAxis, JointLimits, Mdh, Pose, Robot, SNAPS, check_snap};
+use crate::kinematics::{
+    AnyRobot, JointAxis, JointLimits, Joints, Mdh, Pose, Robot, SNAPS, check_snap,
+};
+#[cfg(feature = "python")]
+use crate::on;
+use crate::urdf::fault::UrdfFault;
 
-impl<const N: usize> Robot<N> {
+impl<const N: usize> Robot<N>
+where
+    Self: Joints<N>,
+{
     /// A robot from the text of a URDF, with the solver of its kinematic structure.
     ///
     /// `base` is the link in whose frame poses are given; by default the link without a parent.
     /// `tip` is the link whose poses are given; by default the only one at the end of a chain of
     /// `N` revolute joints. Joints are numbered from base to tip; fixed joints, and joints that are
     /// not between them, are not counted. A joint turns in the sense of its axis. Limits and
-    /// velocities are the text's. A velocity that is missing or zero is unknown, and one unknown
-    /// velocity leaves the robot without velocities. A joint that takes joint 2 back on the axis of
-    /// joint 3, by mimicking it with the multiplier -1, or 1 about the reverse axis, and any
-    /// offset, is a parallelogram linkage: the arm is then [`Robot::coupled`].
+    /// velocities are the text's; a limit beyond 1e5 rad is none. A velocity that is no positive
+    /// number is unknown, and one unknown velocity leaves the robot without velocities. A joint
+    /// that takes joint 2 back on the axis of joint 3, by mimicking it with the multiplier -1, or 1
+    /// about the reverse axis, and any offset, is a parallelogram linkage: the arm is then
+    /// [`Robot::coupled`].
     ///
     /// The body of the robot has capsules that contain the collision shapes of all links that move
-    /// with the chain, behind fixed joints too: boxes, cylinders, spheres and capsules. Links that
-    /// are not neighbors are kept apart, unless they touch in each of 64 postures that fill the
-    /// limits. With a mesh among the shapes, which is not read, there is no body.
+    /// with the chain: boxes, cylinders, spheres and capsules. Links behind joints beside the chain,
+    /// as of a gripper, are in it wherever these joints may be; another arm on the same base is
+    /// not. [`Body::source`](crate::body::Body::source) names both. Links that are not neighbors are
+    /// kept apart, unless they touch in each of 64 postures that fill the limits. With a mesh among
+    /// the shapes, or another one that is not read, there is no body, and where one is needed the
+    /// error says why.
     ///
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when the text is not a URDF, `base` or `tip` are not links of a
-    /// chain of `N` revolute joints or are ambiguous, or six joints are not independent.
+    /// chain of `N` revolute joints or are ambiguous, the last joint may be a gripper's and `tip` is
+    /// not given, or six joints are not independent.
     /// [`Robot::serial_chain_from_urdf`] accepts such an arm, without its inverse.
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
         UrdfArm::read(text, base, tip, &[N])?.robot(0.0)?.with_inverse()
@@ -93,12 +111,16 @@ impl AnyRobot {
     }
 }
 
+/// A link that moves with the chain: its name, the link of the body, its way in the frame of that.
+#[cfg(feature = "python")]
+type Moving = (String, usize, Carrier);
+
 /// The arm of a URDF, with any number of joints.
 pub(crate) struct UrdfArm {
     name: String,
     joints: Vec<Placed>,
-    /// The shapes of its links, if all are read.
-    solids: Vec<Solid>,
+    /// The shapes of its links, if all are read, and a remark on those beside the chain.
+    solids: Result<(Vec<Solid>, String), UrdfFault>,
 }
 
 impl UrdfArm {
@@ -109,38 +131,43 @@ impl UrdfArm {
         tip: Option<&str>,
         wanted: &[usize],
     ) -> Result<Self, Error> {
-        let (document, skipped) = parsed(text)?;
-        let tree = Tree::new(&document, skipped)?;
-        let (base, chain) = chain_between(&tree, base, tip, wanted)?;
-        let solids = solids(&tree, document.root_element(), base, &chain)?.unwrap_or_default();
-        let placed = |joint: &Joint<'_>| joint.placed(tree.version);
-        let joints = chain.into_iter().map(placed).collect::<Result<_, _>>()?;
-        Ok(Self { name: tree.name.to_string(), joints, solids })
+        read_document(text, |document, skipped| {
+            let tree = Tree::new(document, skipped)?;
+            let (base, chain) = chain_between(&tree, base, tip, wanted)?;
+            let solids = solids(&tree, document.root_element(), base, &chain);
+            let placed = |joint: &Joint<'_>| joint.placed(tree.version);
+            let joints = chain.into_iter().map(placed).collect::<Result<_, _>>()?;
+            Ok(Self { name: tree.name.to_string(), joints, solids })
+        })
     }
 
+    /// Every link with shapes that moves with the chain, and a remark on those beside the chain.
     #[cfg(feature = "python")]
-    /// Name, link of the body and pose in its frame of every link that moves with the chain.
     pub(crate) fn links(
         text: &str,
         base: Option<&str>,
         tip: Option<&str>,
-    ) -> Result<Vec<(String, usize, Pose)>, Error> {
-        let (document, skipped) = parsed(text)?;
-        let tree = Tree::new(&document, skipped)?;
-        let (from, chain) = chain_between(&tree, base, tip, &[6, 7])?;
+    ) -> Result<(Vec<Moving>, String), Error> {
         let arm = Self::read(text, base, tip, &[6, 7])?;
-        let places = match arm.any_robot(0.0)? {
-            AnyRobot::Six(robot) => places(&robot, &arm.joints, 0.0),
-            AnyRobot::Seven(robot) => places(&robot, &arm.joints, 0.0),
-        };
-        let mut links = Vec::new();
-        for (link, carrier) in carriers(&tree, from, &chain).into_iter().enumerate() {
-            let Some((after, pose)) = carrier.transpose()? else { continue };
-            if let Some((number, place)) = &places[after] {
-                links.push((tree.links[link].to_owned(), *number, place * pose));
+        let places = on!(arm.any_robot(0.0)?, robot => places(&robot, &arm.joints, 0.0));
+        read_document(text, |document, skipped| {
+            let tree = Tree::new(document, skipped)?;
+            let (base, chain) = chain_between(&tree, base, tip, &[6, 7])?;
+            let carriers = carriers(&tree, base, &chain);
+            let has_shapes = shaped(document.root_element(), &["collision", "visual"]);
+            let remark = remark(&tree, &carriers, &has_shapes);
+            let mut links = Vec::new();
+            for (link, carrier) in carriers.into_iter().enumerate().filter(|it| has_shapes[it.0]) {
+                let Some(mut carrier) = carrier.transpose()? else { continue };
+                if let Some((number, place)) = places[carrier.after] {
+                    let first = carrier.beside.first_mut().map(|(pose, _)| pose);
+                    let first = first.unwrap_or(&mut carrier.pose);
+                    *first = place * *first;
+                    links.push((tree.links[link].to_owned(), number, carrier));
+                }
             }
-        }
-        Ok(links)
+            Ok((links, remark))
+        })
     }
 
     fn motions(&self) -> impl Iterator<Item = &Motion> {
@@ -158,7 +185,10 @@ impl UrdfArm {
     /// The robot, which must have `N` joints. Angles within `snap` of a multiple of 90 deg [rad]
     /// are made exact. If the arm has no closed form, or no table, and would have one with a larger
     /// snap, that is proposed.
-    pub(crate) fn robot<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error> {
+    pub(crate) fn robot<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
+    where
+        Robot<N>: Joints<N>,
+    {
         check_snap(snap)?;
         let proposal = || {
             let is_taken =
@@ -180,8 +210,13 @@ impl UrdfArm {
             other => other?,
         };
         let robot = self.limited(robot)?;
-        let body = body_of(&robot, &self.solids, &self.joints, snap);
-        robot.with_body(body)
+        match &self.solids {
+            Ok((solids, remark)) => {
+                let body = body_of(&robot, solids, &self.joints, snap, remark);
+                robot.with_body(body)
+            }
+            Err(fault) => Ok(robot.without_body(fault.to_string())),
+        }
     }
 
     /// The table of the chain.

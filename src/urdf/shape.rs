@@ -7,8 +7,10 @@
 //! XML, the parser stops no later than where the two could differ.
 
 use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
 
-use crate::error::UrdfFault;
+use crate::urdf::fault::UrdfFault;
 
 /// Most namespaces in a text [1]: real ones declare about ten. Each name is looked up among all of
 /// them.
@@ -35,6 +37,51 @@ pub(super) fn check_shape(text: &str) -> Result<(), UrdfFault> {
         rest = &rest[end..];
     }
     Ok(())
+}
+
+/// A text that a parser refuses for what is of no arm, without that, if it can be told apart: a
+/// prefix without a namespace gets one, `&` that begins no reference is one, and a document type
+/// that declares nothing is left out. Entities stay. Lines stay where they are.
+pub(super) fn mended(text: &str, error: &roxmltree::Error) -> Option<String> {
+    match error {
+        roxmltree::Error::UnknownNamespace(prefix, _) if prefix != "xacro" => {
+            let root = prolog(text).find(|rest| end_of_text(rest).is_none())?;
+            let at = text.len() - root.len() + 1 + Tag::read(root).name.len();
+            Some(format!("{} xmlns:{prefix}=\"urn:{prefix}\"{}", &text[..at], &text[at..]))
+        }
+        roxmltree::Error::DtdDetected => {
+            let rest = prolog(text).find(|rest| rest.starts_with("<!DOCTYPE"))?;
+            let (start, kind) = (text.len() - rest.len(), &rest[..end_of(rest, ">")]);
+            let lines: String = kind.matches('\n').collect();
+            (!kind.contains('['))
+                .then(|| format!("{}{lines}{}", &text[..start], &text[start + kind.len()..]))
+        }
+        roxmltree::Error::MalformedEntityReference(_) => {
+            let mut parts = text.split('&');
+            let mut whole = parts.next()?.to_owned();
+            for part in parts {
+                let is_name = |c: char| c.is_alphanumeric() || "#_-.:".contains(c);
+                let name = part.trim_start_matches(is_name);
+                let is_reference = name.starts_with(';') && name.len() < part.len();
+                whole.push_str(if is_reference { "&" } else { "&amp;" });
+                whole.push_str(part);
+            }
+            Some(whole)
+        }
+        _ => None,
+    }
+}
+
+/// The rests of a text from each markup on, up to the first tag.
+fn prolog(text: &str) -> impl Iterator<Item = &str> {
+    let from = |text: &str| text.find('<');
+    let mut at = from(text);
+    core::iter::from_fn(move || {
+        let rest = &text[at?..];
+        let next = end_of_text(rest).map(|end| text.len() - rest.len() + end_of(rest, end));
+        at = next.and_then(|next| from(&text[next..]).map(|more| next + more));
+        Some(rest)
+    })
 }
 
 /// The end of a markup that is not a tag.

@@ -5,7 +5,7 @@ use core::fmt::Write as _;
 use alloc::string::String;
 
 #[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
+use nalgebra::{ComplexField as _, RealField as _};
 use nalgebra::{Rotation3, Vector3};
 
 use super::joint::LINKAGE;
@@ -39,7 +39,8 @@ pub(super) struct Text(String);
 impl Text {
     pub(super) fn new(name: &str) -> Self {
         let name = if name.is_empty() { "robot".into() } else { escaped(name) };
-        let mut text = Self(String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"));
+        // Without an encoding, which is not the text's own as a str: lxml refuses one there.
+        let mut text = Self(String::from("<?xml version=\"1.0\"?>\n"));
         text.line(format_args!("<robot name=\"{name}\">"));
         text
     }
@@ -160,8 +161,10 @@ fn along(a: [f64; 3], b: [f64; 3]) -> (Pose, f64) {
     let way = b - a;
     // Upward, so that no half turn is needed.
     let up = if way.z < 0.0 { -way } else { way };
-    let rotation =
-        Rotation3::rotation_between(&Vector3::z(), &up).unwrap_or_else(Rotation3::identity);
+    let about = Vector3::z().cross(&up);
+    let (sin, cos) = (about.norm(), up.z);
+    let turn = if sin > 0.0 { about * (sin.atan2(cos) / sin) } else { about };
+    let rotation = Rotation3::new(turn);
     (Pose::from_parts(((a + b) * 0.5).into(), rotation), way.norm())
 }
 

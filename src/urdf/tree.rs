@@ -1,7 +1,7 @@
 //! The links of a URDF and the joints between them.
 
-use alloc::borrow::ToOwned;
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::borrow::{Cow, ToOwned};
+use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec;
@@ -11,8 +11,9 @@ use roxmltree::{Document, Node};
 
 use super::attributes::{Version, version_of};
 use super::joint::Joint;
-use super::shape::check_shape;
-use crate::error::{Names, UrdfFault};
+use super::shape::{check_shape, mended};
+use crate::report::Names;
+use crate::urdf::fault::UrdfFault;
 
 /// Links and joints by index, each link with the joint above it and those below.
 pub(super) struct Tree<'a> {
@@ -27,15 +28,32 @@ pub(super) struct Tree<'a> {
     /// The joints whose parent a link is.
     pub(super) below: Vec<Vec<usize>>,
     index: BTreeMap<&'a str, usize>,
+    joint_index: BTreeMap<&'a str, usize>,
 }
 
-/// The text as XML, and the number of lines before it: an XML declaration is valid only at the very
-/// beginning. Entities are not read.
-pub(super) fn parsed(text: &str) -> Result<(Document<'_>, usize), UrdfFault> {
+/// Mends of a text, at most: each is one more reading.
+const MOST_MENDS: usize = 16;
+
+/// What is read from a text as XML, with the number of lines before it: an XML declaration is valid
+/// only at the very beginning. Entities are not read.
+pub(crate) fn read_document<T, E: From<UrdfFault>>(
+    text: &str,
+    read: impl FnOnce(&Document<'_>, usize) -> Result<T, E>,
+) -> Result<T, E> {
     let body = text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
     let skipped = text[..text.len() - body.len()].matches('\n').count();
     check_shape(text)?;
-    Ok((Document::parse(body).map_err(|error| not_xml(&error, skipped, body))?, skipped))
+    let mut text = Cow::Borrowed(body);
+    let mut mends = 0;
+    loop {
+        let error = match Document::parse(&text) {
+            Ok(document) => return read(&document, skipped),
+            Err(error) => error,
+        };
+        mends += 1;
+        let better = mended(&text, &error).filter(|_| mends <= MOST_MENDS);
+        text = better.ok_or_else(|| not_xml(&error, skipped, &text))?.into();
+    }
 }
 
 /// The parser's message, with the line in the whole text.
@@ -75,6 +93,7 @@ impl<'a> Tree<'a> {
             above: Vec::new(),
             below: Vec::new(),
             index: BTreeMap::new(),
+            joint_index: BTreeMap::new(),
         };
         tree.refuse_xacro(robot)?;
         if robot.tag_name().name() != "robot" {
@@ -89,11 +108,10 @@ impl<'a> Tree<'a> {
             let (line, element) = (tree.line(robot), "robot xmlns:xacro".to_owned());
             return Err(UrdfFault::Xacro { line, element });
         }
-        let mut names = BTreeSet::new();
         for node in elements("joint") {
             let missing = |missing| tree.missing(node, "joint", missing);
             let joint = Joint::new(node, missing, |name| tree.link(name))?;
-            if !names.insert(joint.name) {
+            if tree.joint_index.insert(joint.name, tree.joints.len()).is_some() {
                 return Err(UrdfFault::SameName { element: "joint", name: joint.name.to_owned() });
             }
             tree.add_joint(joint)?;
@@ -127,6 +145,11 @@ impl<'a> Tree<'a> {
     /// The index of a link.
     pub(super) fn link(&self, name: &str) -> Option<usize> {
         self.index.get(name).copied()
+    }
+
+    /// The joint of a name.
+    pub(super) fn joint(&self, name: &str) -> Option<&Joint<'a>> {
+        self.joint_index.get(name).map(|&joint| &self.joints[joint])
     }
 
     /// The links without a parent.

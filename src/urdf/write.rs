@@ -17,8 +17,9 @@ use nalgebra::{Translation3, Vector3};
 
 use super::text::{Hinge, Text};
 use crate::body::{Capsule, LinkCapsule};
-use crate::error::{BodyFault, Error};
+use crate::error::Error;
 use crate::kinematics::{AnyRobot, DhRow, Pose, Robot, constant_pose};
+use crate::on;
 
 /// The first lines of a file without shapes.
 const KINEMATICS: &str =
@@ -77,7 +78,7 @@ impl<const N: usize> Robot<N> {
     ///
     /// [`Body::parts`]: crate::body::Body::parts
     pub fn to_urdf_with_body(&self) -> Result<String, Error> {
-        Ok(self.urdf_with(self.body().ok_or(BodyFault::NoBody)?.capsules()))
+        Ok(self.urdf_with(self.body().ok_or_else(|| self.no_body())?.capsules()))
     }
 
     fn urdf_with(&self, capsules: &[LinkCapsule]) -> String {
@@ -126,8 +127,6 @@ impl Arm<'_> {
             text.fixed("world-base_link", ["world", "base_link"], self.base);
         }
         text.solid_link("base_link", &self.solids(0, &Pose::identity()));
-        text.link("base");
-        text.fixed("base_link-base", ["base_link", "base"], &Pose::identity());
         let (last, t_last_flange) = self.write_chain(&mut text);
         // z of tool0 is x of the flange.
         let turn = constant_pose([0.0; 3], [0.0, FRAC_PI_2, 0.0]);
@@ -140,6 +139,9 @@ impl Arm<'_> {
             text.link("tool");
             text.fixed("tool0-tool", ["tool0", "tool"], self.tool);
         }
+        // Last: some programs follow the first joint of each link.
+        text.link("base");
+        text.fixed("base_link-base", ["base_link", "base"], &Pose::identity());
         text.finished()
     }
 
@@ -189,10 +191,7 @@ impl AnyRobot {
     /// The text of a URDF of the robot; see [`Robot::to_urdf`].
     #[must_use]
     pub fn to_urdf(&self) -> String {
-        match self {
-            Self::Six(robot) => robot.to_urdf(),
-            Self::Seven(robot) => robot.to_urdf(),
-        }
+        on!(self, robot => robot.to_urdf())
     }
 
     /// The text of a URDF with the body of the robot; see [`Robot::to_urdf_with_body`].
@@ -201,9 +200,6 @@ impl AnyRobot {
     ///
     /// As [`Robot::to_urdf_with_body`].
     pub fn to_urdf_with_body(&self) -> Result<String, Error> {
-        match self {
-            Self::Six(robot) => robot.to_urdf_with_body(),
-            Self::Seven(robot) => robot.to_urdf_with_body(),
-        }
+        on!(self, robot => robot.to_urdf_with_body())
     }
 }

@@ -1,15 +1,12 @@
 //! Shared by several tests: random numbers, arms, distances.
-#![allow(dead_code, unreachable_pub, missing_docs, clippy::unwrap_used, clippy::panic)]
 
 pub mod company;
 pub mod coupled_arm;
 pub mod rng;
 pub mod scenes;
-pub mod skip;
 pub mod tally;
 
 use std::f64::consts::{PI, TAU};
-use std::sync::{Mutex, PoisonError};
 
 use irbkin::{Definition, DhRow, Error, InstructionSet, JointLimits, Mdh, Pose, Robot, pose};
 use proptest::prelude::*;
@@ -17,7 +14,7 @@ use proptest::test_runner::{Config as ProptestConfig, FileFailurePersistence, Rn
 
 pub use rng::Rng;
 
-use crate::structures::spherical_wrist::KUKA_KR6;
+use crate::suite::structures::spherical_wrist::KUKA_KR6;
 
 /// The table of a KUKA LBR iiwa 7 R800: alpha [deg], a, d [m], theta.
 pub const IIWA_ROWS: [[f64; 4]; 7] = [
@@ -75,25 +72,14 @@ pub fn profile() -> ProptestConfig {
         RngSeed::Random => RngSeed::Fixed(20_260_117),
         fixed @ RngSeed::Fixed(_) => fixed,
     };
-    let cases = if std::env::var("PROPTEST_CASES").is_ok() { asked.cases } else { 2000 };
+    let is_asked = std::env::var("PROPTEST_CASES").is_ok();
+    let cases = if is_asked { asked.cases } else { 2000 / u32::try_from(divisor()).unwrap() };
     ProptestConfig {
         cases,
         rng_seed,
         max_global_rejects: 20 * cases,
         failure_persistence: Some(Box::new(FileFailurePersistence::Direct(REGRESSIONS))),
         ..asked
-    }
-}
-
-/// Run `work` on each instruction set of this processor in turn; one test at a time, because a set
-/// is forced in the whole process.
-pub fn on_each_set(mut work: impl FnMut(InstructionSet)) {
-    static FORCED: Mutex<()> = Mutex::new(());
-    // A test that failed while it held the lock has reported its failure.
-    let _one_at_a_time = FORCED.lock().unwrap_or_else(PoisonError::into_inner);
-    for set in InstructionSet::available() {
-        set.force().unwrap();
-        work(set);
     }
 }
 
@@ -107,9 +93,18 @@ pub fn wrapped(angle: f64) -> f64 {
     (angle - TAU * (angle / TAU).round()).abs()
 }
 
-/// Number of poses of a test: `IRBKIN_POSES`, or a default.
+/// Number of poses of a test: `IRBKIN_POSES`, or a default over the divisor.
 pub fn poses_or(default: usize) -> usize {
-    std::env::var("IRBKIN_POSES").ok().map_or(default, |count| count.parse().unwrap())
+    asked("IRBKIN_POSES").unwrap_or_else(|| default / divisor())
+}
+
+/// How many times fewer cases and poses are drawn: `IRBKIN_DIVISOR`, or 1.
+pub fn divisor() -> usize {
+    asked("IRBKIN_DIVISOR").unwrap_or(1)
+}
+
+fn asked(name: &str) -> Option<usize> {
+    std::env::var(name).ok().map(|count| count.parse().unwrap())
 }
 
 /// Step of the central differences [rad].

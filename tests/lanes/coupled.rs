@@ -7,10 +7,12 @@ use std::num::NonZeroUsize;
 use irbkin::batch::Batch;
 use irbkin::{JointLimits, Robot, Status, pose};
 
-use crate::common::coupled_arm::{limited, odd, opposed, others, with_linkage};
-use crate::common::{Rng, apart, on_each_set};
+use crate::lanes::on_each_set;
+use crate::suite::common::coupled_arm::{limited, odd, opposed, others, with_linkage};
+use crate::suite::common::{Rng, apart};
 
 #[test]
+#[ignore = "run by itself: cargo test --lib -- --ignored"]
 fn batch_equals_single_and_the_scalar_solver() {
     let mut rng = Rng::new(6);
     // Limits too far from zero for the lanes: the scalar solver, for the same postures.

@@ -6,15 +6,15 @@ use std::num::NonZeroUsize;
 use irbkin::batch::Batch;
 use irbkin::{JointLimits, Robot, pose};
 
-use crate::common::coupled_arm::{limited, odd, opposed, with_linkage};
-use crate::common::{Rng, on_each_set};
-use crate::structures::Structure;
-use crate::subjects::{PoseRow, rows, subjects};
-use crate::{on_a_structure, same_bits};
+use super::same_bits;
+use super::subjects::{PoseRow, rows, subjects};
+use crate::lanes::on_each_set;
+use crate::suite::common::Rng;
+use crate::suite::common::coupled_arm::{limited, odd, opposed, with_linkage};
+use crate::suite::structures::Structure;
+use crate::suite::structures::on_every_structure;
 
-on_a_structure!(spherical_wrist, 6: the_nearest_of_rows_is_the_nearest_alone);
-on_a_structure!(three_parallel, 6: the_nearest_of_rows_is_the_nearest_alone);
-on_a_structure!(spherical_shoulder, 7: the_nearest_of_rows_is_the_nearest_alone);
+alone!(on_every_structure: the_nearest_of_rows_is_the_nearest_alone,);
 
 /// No multiple of any lane count; every kind of row in every lane.
 const ROWS: usize = 24 * 9 + 5;
@@ -100,6 +100,7 @@ fn seed<const N: usize>(row: usize, q: &[f64; N], rng: &mut Rng) -> [f64; N] {
 }
 
 #[test]
+#[ignore = "run by itself: cargo test --lib -- --ignored"]
 fn the_nearest_of_a_coupled_arm_is_the_nearest_alone() {
     let mut rng = Rng::new(8);
     let narrow = |robot: Robot<6>| {

@@ -1,11 +1,11 @@
 //! The least singular value and the manipulability against a full decomposition of the Jacobian.
 
-use irbkin::{DhRow, JacobianFrame, Mdh, Pose, Robot};
+use irbkin::{DhRow, JacobianFrame, Joints, Mdh, Pose, Robot};
 use nalgebra::DMatrix;
 use std::array;
 
-use crate::common::Rng;
-use crate::common::coupled_arm::unlimited;
+use crate::suite::common::Rng;
+use crate::suite::common::coupled_arm::unlimited;
 
 /// Joint vectors of each kind.
 const POSES: usize = 300;
@@ -59,7 +59,10 @@ fn hold_near_singularities<const N: usize>(robot: &Robot<N>) {
 }
 
 /// A chain that bends everywhere.
-fn bent<const N: usize>() -> Robot<N> {
+fn bent<const N: usize>() -> Robot<N>
+where
+    Robot<N>: Joints<N>,
+{
     let mut rng = Rng::new(2);
     let rows = array::from_fn(|_| DhRow::new(rng.angle(), 0.1, 0.2, 0.5));
     Robot::serial_chain(Mdh { base: Pose::identity(), rows, flange: Pose::identity() }).unwrap()

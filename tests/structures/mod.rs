@@ -5,7 +5,6 @@
 //! laws, hard sets, recall and lanes then run on it. One whose slots are ordinals is its tables and
 //! one line of `on_structures_of_ordinals`: laws, recall and lanes run on it, as far as they ask
 //! for nothing but the table.
-#![allow(dead_code, clippy::unwrap_used)]
 
 pub mod by_table;
 pub mod general;
@@ -23,44 +22,44 @@ use irbkin::batch::Batch;
 use irbkin::{Error, JacobianFrame, Pose, Robot, Solution, Solutions};
 use proptest::strategy::BoxedStrategy;
 
-use crate::common::Rng;
+use crate::suite::common::Rng;
 use place::{At, Made, Place, Posture, Verdict};
 
 /// Makes a test of each law for each structure: `laws::spherical_wrist::every_solution_closes`.
 ///
 /// A law is a generic function of a [`Structure`].
-#[macro_export]
 macro_rules! on_every_structure {
-    ($($law:ident),* $(,)?) => {
-        $crate::on_a_structure!(spherical_wrist, 6: $($law),*);
-        $crate::on_a_structure!(three_parallel, 6: $($law),*);
-        $crate::on_a_structure!(spherical_shoulder, 7: $($law),*);
+    ($($(#[$attribute:meta])? $law:ident),* $(,)?) => {
+        $crate::suite::structures::on_a_structure!(spherical_wrist, 6: $($(#[$attribute])? $law),*);
+        $crate::suite::structures::on_a_structure!(three_parallel, 6: $($(#[$attribute])? $law),*);
+        $crate::suite::structures::on_a_structure!(spherical_shoulder, 7: $($(#[$attribute])? $law),*);
     };
 }
 
 /// Makes a test of each law for each structure whose slots are ordinals.
-#[macro_export]
 macro_rules! on_structures_of_ordinals {
-    ($($law:ident),* $(,)?) => {
-        $crate::on_a_structure!(offset_wrist, 6: $($law),*);
-        $crate::on_a_structure!(general, 6: $($law),*);
+    ($($(#[$attribute:meta])? $law:ident),* $(,)?) => {
+        $crate::suite::structures::on_a_structure!(offset_wrist, 6: $($(#[$attribute])? $law),*);
+        $crate::suite::structures::on_a_structure!(general, 6: $($(#[$attribute])? $law),*);
     };
 }
 
 /// Makes a test of each law for one structure.
-#[macro_export]
 macro_rules! on_a_structure {
-    ($structure:ident, $joints:literal: $($law:ident),*) => {
+    ($structure:ident, $joints:literal: $($(#[$attribute:meta])? $law:ident),*) => {
         mod $structure {
             $(
                 #[test]
+                $(#[$attribute])?
                 fn $law() {
-                    super::$law::<$joints>(&$crate::structures::$structure::structure());
+                    super::$law::<$joints>(&$crate::suite::structures::$structure::structure());
                 }
             )*
         }
     };
 }
+
+pub(crate) use {on_a_structure, on_every_structure, on_structures_of_ordinals};
 
 /// What the tests know of a structure.
 pub struct Structure<const N: usize> {

@@ -7,7 +7,7 @@ use std::{format, vec};
 
 use irbkin::{Pose, Robot};
 
-use crate::rng::Rng;
+use crate::suite::rng::Rng;
 
 /// A singularity.
 #[derive(Clone, Copy, Debug, PartialEq)]

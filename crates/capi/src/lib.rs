@@ -9,16 +9,6 @@
 
 use core::ffi::c_char;
 
-/// An expression of a robot, whether it has six joints or seven.
-macro_rules! on {
-    ($any:expr, $robot:ident => $answer:expr) => {
-        match $any {
-            irbkin::AnyRobot::Six($robot) => $answer,
-            irbkin::AnyRobot::Seven($robot) => $answer,
-        }
-    };
-}
-
 mod arguments;
 pub mod fault;
 pub mod handle;

@@ -2,7 +2,7 @@
 
 use irbkin::follow::{Break, Follower};
 use irbkin::plan::{Plan, PlanError, PlanOptions, ToolAxis, ToolRotation};
-use irbkin::{Pose, Robot, pose};
+use irbkin::{Pose, Robot, on, pose};
 
 use crate::arguments::{array_mut, check_length, given, joints, reference, slice, slice_mut};
 use crate::fault::{Fault, IrbkinCode, guarded};

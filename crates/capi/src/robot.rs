@@ -2,7 +2,9 @@
 
 use core::ffi::c_char;
 
-use irbkin::{AnyRobot, DhRow, Error, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh};
+use irbkin::{
+    AnyRobot, DhRow, Error, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, on,
+};
 
 use crate::arguments::{check_length, given, pose, reference, slice, slice_mut, text};
 use crate::fault::{Fault, IrbkinCode, guarded, report};
@@ -103,11 +105,8 @@ pub unsafe extern "C" fn irbkin_robot_from_mdh(
     rows_len: usize,
     made: *mut *mut IrbkinRobot,
 ) -> IrbkinCode {
-    fn modified<const N: usize>(rows: [DhRow; N]) -> Result<Robot<N>, Error> {
-        Robot::from_mdh(Mdh { base: Pose::identity(), rows, flange: Pose::identity() })
-    }
     // SAFETY: the pointers are as the header says.
-    unsafe { self::made(made, || of_table(rows, rows_len, modified, modified)) }
+    unsafe { self::made(made, || of_table(rows, rows_len, false)) }
 }
 
 /// Make an arm of a standard Denavit-Hartenberg table without limits, as irbkin_robot_from_mdh().
@@ -117,11 +116,8 @@ pub unsafe extern "C" fn irbkin_robot_from_sdh(
     rows_len: usize,
     made: *mut *mut IrbkinRobot,
 ) -> IrbkinCode {
-    fn standard<const N: usize>(rows: [DhRow; N]) -> Result<Robot<N>, Error> {
-        Robot::from_sdh(Sdh { base: Pose::identity(), rows, flange: Pose::identity() })
-    }
     // SAFETY: the pointers are as the header says.
-    unsafe { self::made(made, || of_table(rows, rows_len, standard, standard)) }
+    unsafe { self::made(made, || of_table(rows, rows_len, true)) }
 }
 
 /// The arm of a table of six or of seven rows.
@@ -132,12 +128,22 @@ pub unsafe extern "C" fn irbkin_robot_from_sdh(
 unsafe fn of_table(
     rows: *const f64,
     rows_len: usize,
-    six: impl FnOnce([DhRow; 6]) -> Result<Robot<6>, Error>,
-    seven: impl FnOnce([DhRow; 7]) -> Result<Robot<7>, Error>,
+    is_standard: bool,
 ) -> Result<AnyRobot, Fault> {
-    fn table<const N: usize>(rows: &[[f64; 4]]) -> [DhRow; N] {
+    fn robot<const N: usize>(rows: &[[f64; 4]], is_standard: bool) -> Result<AnyRobot, Error>
+    where
+        Robot<N>: Joints<N>,
+        AnyRobot: From<Robot<N>>,
+    {
         let mut rows = rows.iter().map(|&[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
-        core::array::from_fn(|_| rows.next().unwrap_or_default())
+        let rows = core::array::from_fn(|_| rows.next().unwrap_or_default());
+        let (base, flange) = (Pose::identity(), Pose::identity());
+        let robot: Robot<N> = if is_standard {
+            Robot::from_sdh(Sdh { base, rows, flange })?
+        } else {
+            Robot::from_mdh(Mdh { base, rows, flange })?
+        };
+        Ok(robot.into())
     }
     if rows_len != 24 && rows_len != 28 {
         let (argument, value) = ("rows_len", i64::try_from(rows_len).unwrap_or(i64::MAX));
@@ -145,7 +151,8 @@ unsafe fn of_table(
     }
     // SAFETY: as of the caller.
     let rows = unsafe { slice("rows", rows, rows_len) }?.as_chunks::<4>().0;
-    Ok(if rows.len() == 7 { seven(table(rows))?.into() } else { six(table(rows))?.into() })
+    let robot = if rows.len() == 7 { robot::<7> } else { robot::<6> };
+    Ok(robot(rows, is_standard)?)
 }
 
 /// Make an arm of the parameters of an ortho-parallel arm with a spherical wrist without limits.
@@ -172,7 +179,7 @@ pub unsafe extern "C" fn irbkin_robot_with_tool(
     tool: *const f64,
     made: *mut *mut IrbkinRobot,
 ) -> IrbkinCode {
-    let change = |robot| {
+    let change = |robot: AnyRobot| {
         // SAFETY: the pointers are as the header says.
         let tool = unsafe { pose("tool", tool) }?;
         on!(robot, robot => Ok(robot.with_tool(&tool).map_err(Fault::of("tool"))?.into()))
@@ -189,7 +196,7 @@ pub unsafe extern "C" fn irbkin_robot_with_base(
     base: *const f64,
     made: *mut *mut IrbkinRobot,
 ) -> IrbkinCode {
-    let change = |robot| {
+    let change = |robot: AnyRobot| {
         // SAFETY: the pointers are as the header says.
         let base = unsafe { pose("base", base) }?;
         on!(robot, robot => Ok(robot.with_base(&base).map_err(Fault::of("base"))?.into()))
@@ -216,7 +223,7 @@ pub unsafe extern "C" fn irbkin_robot_with_limits(
         let pairs = core::array::from_fn(|_| pairs.next().copied().unwrap_or_default());
         Ok(robot.with_limits(JointLimits::new(pairs)?).into())
     }
-    let change = |robot| {
+    let change = |robot: AnyRobot| {
         // SAFETY: the pointers are as the header says.
         let limits = unsafe { slice("limits", limits, limits_len) }?;
         on!(robot, robot => limited(robot, limits))
@@ -232,7 +239,7 @@ pub unsafe extern "C" fn irbkin_robot_with_approximate_body(
     robot: *const IrbkinRobot,
     made: *mut *mut IrbkinRobot,
 ) -> IrbkinCode {
-    let change = |robot| {
+    let change = |robot: AnyRobot| {
         on!(robot, robot => {
             let body = robot.approximate_body()?;
             Ok(robot.with_body(Some(body))?.into())

@@ -4,6 +4,7 @@ use core::num::NonZeroUsize;
 
 use irbkin::batch::Batch;
 use irbkin::cell::Cell;
+use irbkin::on;
 
 use crate::arguments::{check_apart, given, slice, slice_mut};
 use crate::fault::{IrbkinCode, guarded};

@@ -3,7 +3,7 @@
 use core::ffi::c_char;
 
 use irbkin::{
-    Configuration, ConfigurationRequest, JacobianFrame, Pose, Robot, Status, pose as poses,
+    Configuration, ConfigurationRequest, JacobianFrame, Pose, Robot, Status, on, pose as poses,
 };
 
 use crate::arguments::{

@@ -3,7 +3,7 @@ use core::ffi::{CStr, c_char};
 use core::ptr::{null, null_mut};
 use std::alloc::{GlobalAlloc, Layout, System};
 
-use irbkin::catalog;
+use irbkin::{catalog, on};
 
 use crate::cell::{irbkin_cell_free, irbkin_cell_of_boxes};
 use crate::fault::{Fault, IrbkinCode, guarded, report};

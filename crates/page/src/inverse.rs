@@ -1,7 +1,5 @@
 //! `ik`: all solutions of a pose.
 
-use core::any::Any;
-
 use irbkin::cell::Cell;
 use irbkin::{Error, Explanation, Pose, Robot, Solutions};
 use serde::Serialize;
@@ -140,13 +138,12 @@ impl Found {
 
 /// The outcome; of an arm without a closed form, with how near it gets to a pose out of reach.
 fn explained<const N: usize>(robot: &Robot<N>, solutions: &Solutions<N>) -> Explanation {
-    let robot: &dyn Any = robot;
-    match (solutions.explain(), robot.downcast_ref::<Robot<6>>()) {
-        (Explanation::NoRoots { certified, .. }, Some(robot)) => {
+    match solutions.explain() {
+        Explanation::NoRoots { certified, .. } if N == 6 => {
             let approach = robot.nearest_approach(solutions.pose()).ok();
             Explanation::NoRoots { certified, approach }
         }
-        (explanation, _) => explanation,
+        explanation => explanation,
     }
 }
 

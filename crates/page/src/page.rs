@@ -1,7 +1,7 @@
 //! The page: what earlier requests set, and the dispatch of a request.
 
-use irbkin::AnyRobot;
 use irbkin::cell::Cell;
+use irbkin::{AnyRobot, on};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -40,16 +40,6 @@ struct Granted<T> {
 #[derive(Serialize)]
 struct Refused<'a> {
     error: &'a str,
-}
-
-/// An expression of the robot, whether it has six joints or seven.
-macro_rules! on {
-    ($any:expr, $robot:ident => $answer:expr) => {
-        match $any {
-            AnyRobot::Six($robot) => $answer,
-            AnyRobot::Seven($robot) => $answer,
-        }
-    };
 }
 
 impl Page {

@@ -1,7 +1,5 @@
 //! Facts about joint angles that answers share: confdata, arm angle, margins, contacts.
 
-use core::any::Any;
-
 use irbkin::cell::Cell;
 use irbkin::{Robot, SingularityKind};
 use serde::Serialize;
@@ -87,9 +85,7 @@ pub(crate) fn confdata<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Option
 
 /// The arm angle of joint angles [rad], of an arm that has one.
 pub(crate) fn arm_angle<const N: usize>(robot: &Robot<N>, q: &[f64; N]) -> Option<f64> {
-    let robot: &dyn Any = robot;
-    let robot: &Robot<7> = robot.downcast_ref()?;
-    robot.arm_angle(q.as_slice().try_into().ok()?).ok()?
+    robot.arm_angle(q).ok()?
 }
 
 /// The words for singularities.

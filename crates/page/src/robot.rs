@@ -2,7 +2,7 @@
 
 use irbkin::body::{Body, LinkCapsule};
 use irbkin::report::ConfigurationRule;
-use irbkin::{AnyRobot, Error, Robot, catalog};
+use irbkin::{AnyRobot, Error, Robot, catalog, on};
 use serde::Serialize;
 
 use crate::request::{Refusal, Request, twelve};
@@ -89,10 +89,7 @@ pub(crate) fn read(request: &Request<'_>) -> Result<AnyRobot, Refusal> {
             return Err("there is a name and a urdf, it must be one of them".to_owned().into());
         }
     };
-    Ok(match robot {
-        AnyRobot::Six(robot) => placed(robot, request)?.into(),
-        AnyRobot::Seven(robot) => placed(robot, request)?.into(),
-    })
+    Ok(on!(robot, robot => placed(robot, request)?.into()))
 }
 
 /// The robot with the tool and the base of a request, and with a body if it has none.

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::checks::{LEAST, check_length, check_point};
+use super::checks::{check_point, check_size};
 use super::segment::{Segment, at, between, part_near};
 use crate::error::Error;
 use crate::kinematics::Pose;
@@ -27,13 +27,13 @@ impl Capsule {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidBody`] for an end that is not finite or more than 1e6 m away, and a radius
-    /// below 1e-6 m.
+    /// [`Error::InvalidBody`] for an end that is not finite or more than 100 m away, and a radius
+    /// below 1e-6 m or above 100 m.
     pub fn new(a: [f64; 3], b: [f64; 3], radius: f64) -> Result<Self, Error> {
         let capsule = Self::known(a, b, radius);
-        check_point("a", &capsule.ends[0])?;
-        check_point("b", &capsule.ends[1])?;
-        check_length("radius", radius, LEAST)?;
+        check_point("capsule", "a", &capsule.ends[0])?;
+        check_point("capsule", "b", &capsule.ends[1])?;
+        check_size("capsule", "radius", radius)?;
         Ok(capsule)
     }
 

@@ -5,15 +5,17 @@ use alloc::vec::Vec;
 use nalgebra::Vector3;
 
 use super::tree::Bounds;
-use crate::error::{BodyFault, Error};
+use crate::body::fault::BodyFault;
+use crate::error::Error;
 use crate::kinematics::thresholds::MOST_LENGTH;
 use crate::kinematics::{Pose, checked_pose};
 
 /// Least size of a shape [m].
 pub(super) const LEAST: f64 = 1e-6;
 
-/// Size beyond which points count as millimeters [m].
-const MOST_SPAN: f64 = 100.0;
+/// Size of a shape, and distance of its position from the origin, beyond which it counts as in
+/// millimeters [m]: no cell is larger.
+const MOST_SIZE: f64 = 100.0;
 
 /// Most points or triangles of a shape: their numbers are 32 bits.
 const MOST_COUNT: usize = 1 << 28;
@@ -28,26 +30,44 @@ pub(crate) fn check_length(field: &'static str, value: f64, least: f64) -> Resul
     }
 }
 
-/// Check a point [m].
-pub(super) fn check_point(field: &'static str, point: &Vector3<f64>) -> Result<(), Error> {
+/// Check a length of a shape's own [m].
+pub(super) fn check_size(
+    shape: &'static str,
+    field: &'static str,
+    value: f64,
+) -> Result<(), Error> {
+    if value > MOST_SIZE {
+        return Err(BodyFault::Large { shape, field, value, most: MOST_SIZE }.into());
+    }
+    check_length(field, value, LEAST)
+}
+
+/// Check a point of a shape [m].
+pub(super) fn check_point(
+    shape: &'static str,
+    field: &'static str,
+    point: &Vector3<f64>,
+) -> Result<(), Error> {
     for (index, value) in point.iter().enumerate() {
-        if value.is_nan() || value.abs() > MOST_LENGTH {
-            return Err(BodyFault::Point { field, index, value: *value, most: MOST_LENGTH }.into());
+        if value.is_nan() || value.abs() > MOST_SIZE {
+            let (value, most) = (*value, MOST_SIZE);
+            return Err(BodyFault::Point { shape, field, index, value, most }.into());
         }
     }
     Ok(())
 }
 
-/// Check a pose.
-pub(super) fn placed(pose: &Pose) -> Result<Pose, Error> {
+/// Check the pose of a shape.
+pub(super) fn placed(shape: &'static str, pose: &Pose) -> Result<Pose, Error> {
     let pose = checked_pose(pose)?;
-    check_point("pose", &pose.translation.vector)?;
+    check_point(shape, "pose", &pose.translation.vector)?;
     Ok(pose)
 }
 
 /// Points of a shape, checked: finite, at least `least` of them, and together not so large that they
 /// are in millimeters.
 pub(super) fn check_points(
+    shape: &'static str,
     field: &'static str,
     points: &[[f64; 3]],
     least: usize,
@@ -64,11 +84,11 @@ pub(super) fn check_points(
     }
     let Bounds { low, high } = Bounds::of(&points);
     let span = (high - low).max();
-    if span > MOST_SPAN {
-        return Err(BodyFault::Span { field, span, most: MOST_SPAN }.into());
+    if span > MOST_SIZE {
+        return Err(BodyFault::Span { field, span, most: MOST_SIZE }.into());
     }
     for point in [low, high] {
-        check_point(field, &point)?;
+        check_point(shape, field, &point)?;
     }
     Ok(points)
 }

@@ -8,10 +8,11 @@ use nalgebra::Vector3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
-use super::checks::{LEAST, check_length, check_points};
+use super::checks::{check_points, check_size};
 use super::segment::{Nearest, Segment, at, nearer, part_near};
 use super::tree::{Bounds, Tree, above};
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 
 /// Points, and all that is within a radius of them.
 #[derive(Clone, Debug)]
@@ -48,22 +49,21 @@ impl TryFrom<Stored> for Cloud {
     type Error = Error;
 
     fn try_from((points, radius): Stored) -> Result<Self, Error> {
-        Self::new(&points, radius)
+        Self::new(&points, radius, Interrupt::none())
     }
 }
 
 impl Cloud {
     /// At least one point [m], and the radius of the balls around them [m].
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidBody`] for points that are not finite or more than 100 m apart, and a radius
-    /// below 1e-6 m.
-    pub fn new(points: &[[f64; 3]], radius: f64) -> Result<Self, Error> {
-        check_length("radius", radius, LEAST)?;
-        let points = check_points("points", points, 1)?;
+    pub(super) fn new(
+        points: &[[f64; 3]],
+        radius: f64,
+        interrupt: Interrupt<'_>,
+    ) -> Result<Self, Error> {
+        check_size("point cloud", "radius", radius)?;
+        let points = check_points("point cloud", "points", points, 1)?;
         let boxes: Vec<_> = points.iter().map(|point| Bounds::of([point])).collect();
-        Ok(Self(Arc::new(Inside { points, radius, tree: Tree::new(&boxes) })))
+        Ok(Self(Arc::new(Inside { points, radius, tree: Tree::new(&boxes, interrupt)? })))
     }
 
     /// The points [m].

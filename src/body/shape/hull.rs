@@ -18,7 +18,9 @@ use super::checks::{LEAST, check_points};
 use super::segment::{Segment, part_near};
 use super::tree::{Bounds, Tree};
 use super::triangle::nearest_to_origin;
-use crate::error::{BodyFault, Error};
+use crate::body::fault::BodyFault;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
 
 /// Rounds of the search, at most.
 const ROUNDS: u32 = 64;
@@ -60,7 +62,7 @@ impl TryFrom<Vec<[f64; 3]>> for Hull {
     type Error = Error;
 
     fn try_from(points: Vec<[f64; 3]>) -> Result<Self, Error> {
-        Self::new(&points)
+        Self::new(&points, Interrupt::none())
     }
 }
 
@@ -76,18 +78,14 @@ type Simplex = ArrayVec<(f64, Difference), 4>;
 
 impl Hull {
     /// The convex hull of at least four points [m].
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidBody`] for points that are not finite, in a plane, or more than 100 m apart.
-    pub fn new(points: &[[f64; 3]]) -> Result<Self, Error> {
-        let points = check_points("points", points, 4)?;
+    pub(super) fn new(points: &[[f64; 3]], interrupt: Interrupt<'_>) -> Result<Self, Error> {
+        let points = check_points("convex hull", "points", points, 4)?;
         let thickness = thickness(&points);
         if thickness < LEAST {
             return Err(BodyFault::Flat { thickness, least: LEAST }.into());
         }
         let boxes: Vec<_> = points.iter().map(|point| Bounds::of([point])).collect();
-        Ok(Self(Arc::new(Inside { points, tree: Tree::new(&boxes) })))
+        Ok(Self(Arc::new(Inside { points, tree: Tree::new(&boxes, interrupt)? })))
     }
 
     /// The points [m].

@@ -14,6 +14,7 @@ use super::surface::{check_closed, check_volume, crossings};
 use super::tree::{Bounds, Tree, above};
 use super::triangle::{Triangle, segment_and, square_outside};
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 
 /// Directions in which a point looks for its way out of a mesh, one after another while an edge is
 /// in the way.
@@ -60,7 +61,7 @@ impl TryFrom<Stored> for Mesh {
     type Error = Error;
 
     fn try_from((triangles, is_solid): Stored) -> Result<Self, Error> {
-        Self::new(&triangles, is_solid)
+        Self::new(&triangles, is_solid, Interrupt::none())
     }
 }
 
@@ -69,21 +70,20 @@ impl Mesh {
     /// is an edge of another one in the opposite sense. Corners are the same if their coordinates
     /// are. Several solids may overlap if the corners of all are counterclockwise, seen from
     /// outside, or of all clockwise.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidBody`] for corners that are not finite or more than 100 m apart, and for a
-    /// solid mesh that is not closed, or without volume.
-    pub fn new(triangles: &[[[f64; 3]; 3]], is_solid: bool) -> Result<Self, Error> {
-        let corners = check_points("triangles", triangles.as_flattened(), 3)?;
+    pub(super) fn new(
+        triangles: &[[[f64; 3]; 3]],
+        is_solid: bool,
+        interrupt: Interrupt<'_>,
+    ) -> Result<Self, Error> {
+        let corners = check_points("mesh", "triangles", triangles.as_flattened(), 3)?;
         let (rows, _) = corners.as_chunks::<3>();
         let triangles = rows.to_vec();
         if is_solid {
-            check_closed(&triangles)?;
+            check_closed(&triangles, interrupt)?;
             check_volume(&triangles)?;
         }
         let boxes: Vec<_> = triangles.iter().map(Bounds::of).collect();
-        Ok(Self(Arc::new(Inside { triangles, is_solid, tree: Tree::new(&boxes) })))
+        Ok(Self(Arc::new(Inside { triangles, is_solid, tree: Tree::new(&boxes, interrupt)? })))
     }
 
     /// The corners of the triangles [m].

@@ -7,14 +7,16 @@ use nalgebra::Vector3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
-use super::checks::{LEAST, check_length, check_point, placed};
+use super::checks::{check_length, check_point, check_size, placed};
 use super::cloud::Cloud;
 use super::convex::{nearest_of_box, nearest_of_cylinder, of_convex};
 use super::hull::Hull;
 use super::mesh::Mesh;
 use super::tree::Bounds;
-use crate::error::{BodyFault, Error};
-use crate::kinematics::Pose;
+use crate::body::fault::BodyFault;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
+use crate::kinematics::{Pose, checked_pose};
 
 /// A solid shape, or a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +79,8 @@ impl Shape {
     ///
     /// As [`Capsule::new`].
     pub fn sphere(radius: f64, center: [f64; 3]) -> Result<Self, Error> {
-        check_point("center", &center.into())?;
+        check_point("sphere", "center", &center.into())?;
+        check_size("sphere", "radius", radius)?;
         Capsule::new(center, center, radius).map(Self::Capsule)
     }
 
@@ -94,13 +97,13 @@ impl Shape {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidBody`] for an edge that is shorter than 1e-6 m or not finite, and
-    /// [`Error::InvalidPose`].
+    /// [`Error::InvalidBody`] for an edge that is shorter than 1e-6 m or longer than 100 m, or a
+    /// pose that is more than 100 m away, and [`Error::InvalidPose`].
     pub fn cuboid(size: [f64; 3], pose: &Pose) -> Result<Self, Error> {
         for length in size {
-            check_length("size", length, LEAST)?;
+            check_size("box", "size", length)?;
         }
-        Ok(Self::Box { pose: placed(pose)?, half: 0.5 * Vector3::from(size) })
+        Ok(Self::Box { pose: placed("box", pose)?, half: 0.5 * Vector3::from(size) })
     }
 
     /// A cylinder by its radius and length [m], around the origin of `pose` along its z axis.
@@ -109,9 +112,9 @@ impl Shape {
     ///
     /// As [`Self::cuboid`].
     pub fn cylinder(radius: f64, length: f64, pose: &Pose) -> Result<Self, Error> {
-        check_length("radius", radius, LEAST)?;
-        check_length("length", length, LEAST)?;
-        Ok(Self::Cylinder { pose: placed(pose)?, radius, half: 0.5 * length })
+        check_size("cylinder", "radius", radius)?;
+        check_size("cylinder", "length", length)?;
+        Ok(Self::Cylinder { pose: placed("cylinder", pose)?, radius, half: 0.5 * length })
     }
 
     /// Everything behind the plane through `point` [m] whose normal is `normal`: a floor has the
@@ -119,12 +122,13 @@ impl Shape {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidBody`] for a point or normal that is not finite, and a normal of length zero.
+    /// [`Error::InvalidBody`] for a point more than 100 m away, and a normal that is not finite or of
+    /// length zero.
     pub fn half_space(normal: [f64; 3], point: [f64; 3]) -> Result<Self, Error> {
         let (normal, point) = (Vector3::from(normal), Vector3::from(point));
-        check_point("normal", &normal)?;
-        check_point("point", &point)?;
+        check_point("half space", "point", &point)?;
         let length = normal.norm();
+        check_length("length of the normal", length, 0.0)?;
         if length < f64::MIN_POSITIVE {
             return Err(BodyFault::Normal.into());
         }
@@ -136,9 +140,20 @@ impl Shape {
     ///
     /// # Errors
     ///
-    /// As [`Hull::new`], and [`Error::InvalidPose`].
+    /// [`Error::InvalidBody`] for points that are not finite, in a plane, or more than 100 m apart,
+    /// and [`Error::InvalidPose`].
     pub fn convex(points: &[[f64; 3]], pose: &Pose) -> Result<Self, Error> {
-        Ok(Self::Convex { pose: placed(pose)?, hull: Hull::new(points)? })
+        Self::convex_until(points, pose, Interrupt::none())
+    }
+
+    /// [`Self::convex`], until it is interrupted.
+    pub(crate) fn convex_until(
+        points: &[[f64; 3]],
+        pose: &Pose,
+        interrupt: Interrupt<'_>,
+    ) -> Result<Self, Error> {
+        let pose = placed("convex hull", pose)?;
+        Ok(Self::Convex { pose, hull: Hull::new(points, interrupt)? })
     }
 
     /// A mesh by the corners of its triangles [m] in the frame of `pose`. What is inside a solid one
@@ -146,18 +161,42 @@ impl Shape {
     ///
     /// # Errors
     ///
-    /// As [`Mesh::new`], and [`Error::InvalidPose`].
+    /// [`Error::InvalidBody`] for corners that are not finite or more than 100 m apart, and for a
+    /// solid mesh that is not closed, or without volume; [`Error::InvalidPose`].
     pub fn mesh(triangles: &[[[f64; 3]; 3]], is_solid: bool, pose: &Pose) -> Result<Self, Error> {
-        Ok(Self::Mesh { pose: placed(pose)?, mesh: Mesh::new(triangles, is_solid)? })
+        Self::mesh_until(triangles, is_solid, pose, Interrupt::none())
+    }
+
+    /// [`Self::mesh`], until it is interrupted.
+    pub(crate) fn mesh_until(
+        triangles: &[[[f64; 3]; 3]],
+        is_solid: bool,
+        pose: &Pose,
+        interrupt: Interrupt<'_>,
+    ) -> Result<Self, Error> {
+        let pose = placed("mesh", pose)?;
+        Ok(Self::Mesh { pose, mesh: Mesh::new(triangles, is_solid, interrupt)? })
     }
 
     /// Balls of one radius [m] around points [m] in the frame of `pose`.
     ///
     /// # Errors
     ///
-    /// As [`Cloud::new`], and [`Error::InvalidPose`].
+    /// [`Error::InvalidBody`] for points that are not finite or more than 100 m apart, and a radius
+    /// below 1e-6 m; [`Error::InvalidPose`].
     pub fn points(points: &[[f64; 3]], radius: f64, pose: &Pose) -> Result<Self, Error> {
-        Ok(Self::Points { pose: placed(pose)?, cloud: Cloud::new(points, radius)? })
+        Self::points_until(points, radius, pose, Interrupt::none())
+    }
+
+    /// [`Self::points`], until it is interrupted.
+    pub(crate) fn points_until(
+        points: &[[f64; 3]],
+        radius: f64,
+        pose: &Pose,
+        interrupt: Interrupt<'_>,
+    ) -> Result<Self, Error> {
+        let pose = placed("point cloud", pose)?;
+        Ok(Self::Points { pose, cloud: Cloud::new(points, radius, interrupt)? })
     }
 
     /// Several shapes as one.
@@ -190,9 +229,9 @@ impl Shape {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidPose`].
+    /// [`Error::InvalidPose`], and [`Error::InvalidBody`] if it is more than 100 m away then.
     pub fn moved(&self, pose: &Pose) -> Result<Self, Error> {
-        let to = placed(pose)?;
+        let to = checked_pose(pose)?;
         let mut moved = self.clone();
         match &mut moved {
             Self::Capsule(capsule) => *capsule = capsule.moved(&to),
@@ -204,10 +243,14 @@ impl Shape {
             Self::HalfSpace { normal, offset } => {
                 *normal = to.rotation * *normal;
                 *offset += normal.dot(&to.translation.vector);
+                check_point("half space", "point", &(*normal * *offset))?;
             }
             Self::Union(parts) => {
                 *parts = parts.iter().map(|part| part.moved(&to)).collect::<Result<_, _>>()?;
             }
+        }
+        if let Some((center, _)) = moved.ball() {
+            check_point("moved shape", "middle", &center)?;
         }
         Ok(moved)
     }

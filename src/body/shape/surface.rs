@@ -9,7 +9,9 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::checks::LEAST;
 use super::triangle::{Triangle, edges};
-use crate::error::{BodyFault, Error};
+use crate::body::fault::BodyFault;
+use crate::error::Error;
+use crate::interrupt::Interrupt;
 
 /// Bound of the rounding of a product of three vectors, relative to the product of their lengths
 /// [1]: more than 10 roundings.
@@ -17,11 +19,12 @@ const ROUNDING: f64 = 4e-15;
 
 /// Check that every edge is used in one sense as often as in the other, so that every ray leaves
 /// the surface as often as it enters it.
-pub(super) fn check_closed(triangles: &[Triangle]) -> Result<(), Error> {
+pub(super) fn check_closed(triangles: &[Triangle], interrupt: Interrupt<'_>) -> Result<(), Error> {
     let mut numbers = BTreeMap::new();
     let mut senses: BTreeMap<[usize; 2], [u32; 2]> = BTreeMap::new();
     let mut places = Vec::new();
-    for triangle in triangles {
+    for (index, triangle) in triangles.iter().enumerate() {
+        interrupt.check(index)?;
         let corners = triangle.map(|corner| {
             // 0.0 is -0.0.
             let bits: [u64; 3] = corner.map(|value| (value + 0.0).to_bits()).into();

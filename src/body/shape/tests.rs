@@ -1,6 +1,5 @@
 //! Laws of shapes: no distance is above the true one, trees answer as all items do, what is inside
 //! a solid touches it.
-#![allow(clippy::unwrap_used)]
 
 use alloc::string::ToString;
 use alloc::vec;
@@ -13,8 +12,9 @@ use super::mesh::Mesh;
 use super::segment::{NOWHERE, Nearest, Segment, at, between, nearer, part_near};
 use super::solid::Shape;
 use super::triangle::{Triangle, segment_and};
+use crate::interrupt::Interrupt;
 use crate::kinematics::Pose;
-use crate::rng::Rng;
+use crate::suite::rng::Rng;
 
 /// How far above the true one a distance may be [m].
 const ABOVE: f64 = 1e-9;
@@ -141,9 +141,9 @@ fn ball(center: [f64; 3]) -> Capsule {
 fn a_mesh_and_a_cloud_are_as_near_as_all_their_items() {
     let mut rng = Rng::new(3);
     let triangles = torus(40);
-    let mesh = Mesh::new(&triangles, false).unwrap();
+    let mesh = Mesh::new(&triangles, false, Interrupt::none()).unwrap();
     let points: Vec<[f64; 3]> = (0..3000).map(|_| triple(&mut rng, 1.0).into()).collect();
-    let cloud = super::cloud::Cloud::new(&points, 0.01).unwrap();
+    let cloud = super::cloud::Cloud::new(&points, 0.01, Interrupt::none()).unwrap();
     for _ in 0..300 {
         let own = capsule(&mut rng, 1.0, 0.05);
         let all =

@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::segment::{NOWHERE, Nearest, Segment, at, part_near};
+use crate::interrupt::{Interrupt, Interrupted};
 
 /// Items of a leaf, at most.
 const LEAF: usize = 4;
@@ -97,11 +98,11 @@ pub(super) struct Tree {
 
 impl Tree {
     /// A tree of at least one item, by their boxes.
-    pub(super) fn new(boxes: &[Bounds]) -> Self {
+    pub(super) fn new(boxes: &[Bounds], interrupt: Interrupt<'_>) -> Result<Self, Interrupted> {
         let mut items: Vec<usize> = (0..boxes.len()).collect();
         let mut nodes = Vec::new();
-        split(boxes, &mut items, 0, &mut nodes);
-        Self { nodes, items }
+        split(boxes, &mut items, 0, &mut nodes, interrupt)?;
+        Ok(Self { nodes, items })
     }
 
     /// The box around all items.
@@ -172,21 +173,28 @@ impl Tree {
 }
 
 /// Add the node of some items, the first of which is number `first`, and the nodes below it.
-fn split(boxes: &[Bounds], items: &mut [usize], first: usize, nodes: &mut Vec<Node>) {
+fn split(
+    boxes: &[Bounds],
+    items: &mut [usize],
+    first: usize,
+    nodes: &mut Vec<Node>,
+    interrupt: Interrupt<'_>,
+) -> Result<(), Interrupted> {
     let corners = items.iter().flat_map(|item| [&boxes[*item].low, &boxes[*item].high]);
     let bounds = Bounds::of(corners);
     let at = nodes.len();
     if items.len() <= LEAF {
         nodes.push(Node { bounds, next: first, count: items.len() });
-        return;
+        return Ok(());
     }
+    interrupt.check(nodes.len())?;
     nodes.push(Node { bounds, next: 0, count: 0 });
     let axis = (bounds.high - bounds.low).imax();
     let middle = items.len() / 2;
     let place = |item: &usize| boxes[*item].low[axis] + boxes[*item].high[axis];
     items.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
     let (low, high) = items.split_at_mut(middle);
-    split(boxes, low, first, nodes);
+    split(boxes, low, first, nodes, interrupt)?;
     nodes[at].next = nodes.len();
-    split(boxes, high, first + middle, nodes);
+    split(boxes, high, first + middle, nodes, interrupt)
 }

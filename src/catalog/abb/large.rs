@@ -514,7 +514,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalogue; a forearm of 1280 mm in IFRA's URDF would reach 2.9 m, which the name contradicts",
     },
     CatalogArm {
         name: "IRB 6640-235/2.55",
@@ -728,9 +728,9 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-120.0, 120.0],
             [-360.0, 360.0],
         ],
-        max_velocity: None,
+        max_velocity: Some(&[110.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; ARTE has the forearm of the 3.9 m arm (2042)",
+        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; ARTE has the forearm of the 3.9 m arm (2042); speeds of ABB's data sheet (text in rox-architecture/RODEOS)",
     },
     CatalogArm {
         name: "IRB 6660-130/3.1",

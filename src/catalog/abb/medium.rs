@@ -325,7 +325,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 120.0, 120.0, 225.0, 250.0, 330.0]),
         sources: 2,
-        provenance: "ros-industrial/abb, robotkinematicscatalogue; axis 3 is +-165 deg in robotkinematicscatalogue; tool0 is not turned by 90 deg about y in ros-industrial/abb",
+        provenance: "ros-industrial/abb, robotkinematicscatalogue; axis 3 is +-165 deg in robotkinematicscatalogue; tool0 is not turned by 90 deg about y in ros-industrial/abb; the lengths reach 2.48 m, not the 2.43 of the name",
     },
     CatalogArm {
         name: "IRB 4600-20/2.5",

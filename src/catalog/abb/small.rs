@@ -28,7 +28,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "ros-industrial/abb_experimental, ARTE",
+        provenance: "ros-industrial/abb_experimental, ARTE; speeds are 180 180 180 320 400 460 deg/s in work-r-labs/robots, and in no other source",
     },
     CatalogArm {
         name: "IRB 52-7/1.45",
@@ -55,7 +55,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "ros-industrial/abb_experimental",
+        provenance: "ros-industrial/abb_experimental; work-r-labs/robots has -63..110 and -235..55 deg for axes 2 and 3, the limits of the 1.2 m arm: unsettled; speeds are 180 180 180 320 400 460 deg/s there, and in no other source",
     },
     CatalogArm {
         name: "IRB 120-3/0.58",
@@ -159,11 +159,11 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-180.0, 50.0],
             [-170.0, 170.0],
             [-125.0, 125.0],
-            [-242.0, 242.0],
+            [-360.0, 360.0],
         ],
-        max_velocity: None,
-        sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 6 is +-360 deg in robotkinematicscatalogue",
+        max_velocity: Some(&[320.0, 320.0, 375.0, 500.0, 470.0, 500.0]),
+        sources: 4,
+        provenance: "RobotComponents, robotkinematicscatalogue, work-r-labs/robots, ABB's data sheet (text in rox-architecture/RODEOS) (axis 6, speeds); axis 6 is +-242 deg in RobotComponents, perhaps the number of turns to which it may be set",
     },
     CatalogArm {
         name: "IRB 1100-4/0.475",
@@ -190,7 +190,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue; speeds are 460 360 280 560 420 750 deg/s in work-r-labs/robots, and in no other source",
     },
     CatalogArm {
         name: "IRB 1100-4/0.58",
@@ -217,7 +217,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue; speeds are 460 360 280 560 420 750 deg/s in work-r-labs/robots, and in no other source",
     },
     CatalogArm {
         name: "IRB 1200-5/0.9",
@@ -244,7 +244,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
         sources: 6,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents, visose/Robots and three controllers' configurations (panin-anan/abb_SAMXL_Grinding_RAPID:SYSPAR/MOC.cfg), +-360 deg in the others",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents, visose/Robots and three controllers' configurations (panin-anan/abb_SAMXL_Grinding_RAPID:SYSPAR/MOC.cfg), +-360 deg in the others; speeds of axes 2 and 3 are 224 and 297 deg/s in work-r-labs/robots: unsettled",
     },
     CatalogArm {
         name: "IRB 1200-7/0.7",
@@ -271,7 +271,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 2 is to 130 deg and axis 6 +-400 deg in work-r-labs/robots, as of the IRB 1200-5/0.9; speeds of axes 2 and 3 are 224 and 297 deg/s there, too: unsettled",
     },
     CatalogArm {
         name: "IRB 1300-7/1.4",
@@ -379,7 +379,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalogue; axis 6 is likely +-400 deg as on the IRB 1300, whose wrist it has: the source has +-242 deg for the IRB 1300-11/0.9, too, where RobotComponents has +-400",
     },
     CatalogArm {
         name: "CRB 1300-10/1.15",
@@ -406,7 +406,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalogue; axis 6 is likely +-400 deg as on the IRB 1300, whose wrist it has: the source has +-242 deg for the IRB 1300-11/0.9, too, where RobotComponents has +-400",
     },
     CatalogArm {
         name: "CRB 1300-11/0.9",
@@ -433,7 +433,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue",
+        provenance: "robotkinematicscatalogue; axis 6 is likely +-400 deg as on the IRB 1300, whose wrist it has: the source has +-242 deg for the IRB 1300-11/0.9, too, where RobotComponents has +-400",
     },
     CatalogArm {
         name: "IRB 1410-4/1.45",
@@ -487,7 +487,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalogue, ARTE",
+        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; speeds are 130 140 140 320 380 460 deg/s in work-r-labs/robots, and in no other source",
     },
     CatalogArm {
         name: "IRB 1600-6/1.2",
@@ -512,9 +512,9 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-115.0, 115.0],
             [-400.0, 400.0],
         ],
-        max_velocity: Some(&[150.0, 160.0, 170.0, 320.0, 400.0, 450.0]),
+        max_velocity: Some(&[150.0, 160.0, 170.0, 320.0, 400.0, 460.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 2 of the 1.2 m arms goes to 136 deg in ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-100 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged; speed of axis 6 of the data sheet and work-r-labs/robots: it is 450 deg/s in the other sources that have one",
     },
     CatalogArm {
         name: "IRB 1600-6/1.45",
@@ -539,9 +539,9 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-115.0, 115.0],
             [-400.0, 400.0],
         ],
-        max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
+        max_velocity: Some(&[150.0, 160.0, 170.0, 320.0, 400.0, 460.0]),
         sources: 4,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 2 goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arm exchanged",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 2 goes to 150 deg in visose/Robots and ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-95 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arm exchanged; speeds of the data sheet: those of the other sources, 180 180 185 385 400 460 deg/s, are of the 10 kg arm",
     },
     CatalogArm {
         name: "IRB 1600-8/1.2",
@@ -568,7 +568,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "robotkinematicscatalogue; axis 2 of the 1.2 m arms goes to 136 deg in ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-100 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
     CatalogArm {
         name: "IRB 1600-8/1.45",
@@ -595,7 +595,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 200.0, 400.0, 400.0, 460.0]),
         sources: 2,
-        provenance: "ros-industrial/abb_experimental, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "ros-industrial/abb_experimental, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-95 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
     CatalogArm {
         name: "IRB 1600-10/1.2",
@@ -620,9 +620,9 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-115.0, 115.0],
             [-400.0, 400.0],
         ],
-        max_velocity: None,
+        max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
         sources: 1,
-        provenance: "RobotComponents; axis 2 of the 1.2 m arms goes to 136 deg in ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "RobotComponents; axis 2 of the 1.2 m arms goes to 136 deg in ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-100 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged; speeds of the data sheet",
     },
     CatalogArm {
         name: "IRB 1600-10/1.45",
@@ -649,7 +649,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE (another generation); RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-95 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
     },
     CatalogArm {
         name: "IRB 1600ID-4/1.5",

@@ -2,6 +2,7 @@
 
 pub(crate) mod check;
 mod display;
+pub(crate) mod request;
 pub(crate) mod select;
 pub(crate) mod singularity;
 pub(crate) mod slot;

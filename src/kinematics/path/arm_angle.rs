@@ -1,16 +1,16 @@
 //! Paths of programs: of a `YuMi`, the arm angle goes along evenly.
 
 use alloc::vec::Vec;
-use core::any::Any;
 
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::kinematics::path::follow::{Break, BreakReason, Followed, between};
-use crate::kinematics::path::singularity_mode::{FollowOptions, SingularityMode};
+use crate::kinematics::path::singularity_mode::SingularityMode;
 use crate::kinematics::path::step::largest_step;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::inverse::of_count;
+use crate::kinematics::thresholds::WRIST_ZONE;
 use crate::report::Explanation;
 
 /// Number of times that the way between two poses is halved to find a smaller step.
@@ -29,33 +29,22 @@ impl<const N: usize> Robot<N> {
         from: &[f64; N],
         arm_angle: Option<f64>,
         singularity_mode: SingularityMode,
+        interrupt: Interrupt<'_>,
     ) -> Result<Followed<N>, Error> {
-        let arm: &dyn Any = self;
-        let followed = if let (Some(six), Some(from)) =
-            (arm.downcast_ref::<Robot<6>>(), of_count(*from))
-        {
-            let options = FollowOptions { singularity_mode, ..FollowOptions::default() };
-            of_count(six.follow(path, &from, &options)?)
-        } else if let (Some(seven), Some(from)) = (arm.downcast_ref::<Robot<7>>(), of_count(*from))
-        {
-            of_count(seven.follow_arm_angle(path, &from, arm_angle)?)
-        } else {
-            None
-        };
-        let none = || Followed { q: Vec::new(), orientation_error: Vec::new(), breaks: Vec::new() };
-        Ok(followed.unwrap_or_else(none))
+        if self.with_redundancy().is_some() {
+            return self.follow_arm_angle(path, from, arm_angle);
+        }
+        self.follow_in_mode(path, [from, &[1.0; N]], (singularity_mode, WRIST_ZONE), interrupt)
     }
-}
 
-impl Robot<7> {
     /// The joints at the end of a way, of which `halvings` more may be halved.
     fn walk_to(
         &self,
-        from: &[f64; 7],
+        from: &[f64; N],
         [start, end]: [(&Pose, f64); 2],
         halvings: u32,
-    ) -> Option<[f64; 7]> {
-        if let Some(q) = self.step_to(from, end.0, end.1) {
+    ) -> Option<[f64; N]> {
+        if let Some(q) = self.with_configurations().ok()?.step_to(from, end.0, end.1) {
             return Some(q);
         }
         let halvings = halvings.checked_sub(1)?;
@@ -68,9 +57,9 @@ impl Robot<7> {
     fn follow_arm_angle(
         &self,
         path: &[Pose],
-        from: &[f64; 7],
+        from: &[f64; N],
         arm_angle: Option<f64>,
-    ) -> Result<Followed<7>, Error> {
+    ) -> Result<Followed<N>, Error> {
         let own = self.arm_angle(from)?.or(arm_angle).unwrap_or_default();
         let change = wrap(arm_angle.unwrap_or(own) - own);
         #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 poses")]
@@ -103,14 +92,14 @@ impl Robot<7> {
     /// limits.
     fn reason(
         &self,
-        q: &[f64; 7],
-        outside: Option<[f64; 7]>,
+        q: &[f64; N],
+        outside: Option<[f64; N]>,
         pose: &Pose,
         arm_angle: f64,
     ) -> Result<BreakReason, Error> {
         if let Some(outside) = outside {
             let excess = |joint: usize| self.limits().excess(joint, outside[joint]);
-            let joint = (0..7).max_by(|a, b| excess(*a).total_cmp(&excess(*b))).unwrap_or(0);
+            let joint = (0..N).max_by(|a, b| excess(*a).total_cmp(&excess(*b))).unwrap_or(0);
             let (joint, excess) = (joint + 1, excess(joint));
             let explanation = Explanation::OutsideLimits { solutions: 1, joint, excess };
             return Ok(BreakReason::Unreachable(explanation));

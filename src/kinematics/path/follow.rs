@@ -13,14 +13,14 @@ use crate::kinematics::answer::check::{check_seed_near, check_weights};
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::path::step::{largest, largest_step, steps};
+use crate::kinematics::pose::angles::rotation_vector;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::thresholds::{
-    JUMP_BLIND, JUMP_GROWTH, JUMP_LEAST, PATH_WRIST_SIN, SEEDED_FREE, STEADY_STEP,
+    EXAMINED_STEP, JUMP_BLIND, JUMP_GROWTH, JUMP_LEAST, PATH_WRIST_SIN, SEEDED_FREE, STEADY_STEP,
 };
-use crate::report::Explanation;
-use crate::report::FreeJoint;
+use crate::report::{Explanation, FreeJoint};
 
 /// Number of times that a segment of the path is bisected in search of a continuous way through it:
 /// down to a millionth of it.
@@ -151,7 +151,7 @@ impl<'a, const N: usize> Follower<'a, N> {
         pose: &Pose,
     ) -> Result<(Option<Solution<N>>, Option<BreakReason>), Error> {
         let pose = checked_pose(pose)?;
-        let next = match self.nearest(&pose)? {
+        let mut next = match self.nearest(&pose)? {
             Ok(next) => next,
             Err(explanation) => {
                 (self.at.last, self.at.velocity) = (None, [0.0; N]);
@@ -161,8 +161,9 @@ impl<'a, const N: usize> Follower<'a, N> {
         let mut jump = None;
         if let Some(last_pose) = self.at.last {
             let usual = largest(&self.at.velocity).max(JUMP_LEAST / JUMP_GROWTH);
-            if largest(&steps(&self.at.q, &next.q)) > JUMP_GROWTH * usual {
-                jump = self.jump_between(&last_pose, &pose, &next)?;
+            let step = largest(&steps(&self.at.q, &next.q));
+            if step > (JUMP_GROWTH * usual).min(JUMP_BLIND) {
+                (next, jump) = self.examined(&last_pose, &pose, next)?;
             }
         }
         self.at.velocity = if self.at.last.is_none() || jump.is_some() {
@@ -179,7 +180,7 @@ impl<'a, const N: usize> Follower<'a, N> {
     fn nearest(&self, pose: &Pose) -> Result<Result<Solution<N>, Explanation>, Error> {
         // A joint that swings while it passes a singularity does not continue to swing, nor do seven
         // joints drift along their self-motion.
-        let steady = !self.robot.is_redundant() && largest(&self.at.velocity) <= STEADY_STEP;
+        let steady = self.robot.redundancy().is_none() && largest(&self.at.velocity) <= STEADY_STEP;
         let heading = if steady {
             core::array::from_fn(|i| self.at.q[i] + self.at.velocity[i])
         } else {
@@ -202,11 +203,8 @@ impl<'a, const N: usize> Follower<'a, N> {
     /// as the pose permits.
     fn balance(&self, next: &mut Solution<N>, heading: &[f64; N], pose: &Pose) {
         let is_near = |sin_5: f64| sin_5.abs() <= PATH_WRIST_SIN;
-        let Some(wrist) = self.robot.singular_wrist().filter(|_| {
-            self.robot.spherical_wrist().is_some() && self.robot.sin_5(&next.q).is_some_and(is_near)
-        }) else {
-            return;
-        };
+        let is_near = self.robot.sin_5(&next.q).is_some_and(is_near);
+        let Some(wrist) = self.robot.singular_wrist().filter(|_| is_near) else { return };
         let sign = match next.free_joint.unwrap_or_else(|| wrist.wrist_pair(&next.q)) {
             FreeJoint::WristSum => 1.0,
             FreeJoint::WristDifference => -1.0,
@@ -225,42 +223,48 @@ impl<'a, const N: usize> Follower<'a, N> {
     }
 
     /// Bisect the way from the last pose to the next one: a step that is only large shrinks with
-    /// the segment, a jump does not.
-    fn jump_between(
+    /// the segment, a jump does not. Return where the way ends: at the joints that were found at
+    /// once, or at those of the branch that it follows; with the reason if there is none.
+    fn examined(
         &self,
         from: &Pose,
         to: &Pose,
-        direct: &Solution<N>,
-    ) -> Result<Option<BreakReason>, Error> {
+        direct: Solution<N>,
+    ) -> Result<(Solution<N>, Option<BreakReason>), Error> {
         let mut scout = self.clone();
         scout.at.velocity = [0.0; N];
         let whole = largest(&steps(&self.at.q, &direct.q));
+        let bound = (whole / 4.0).min(EXAMINED_STEP);
         let (mut done, mut width, mut depth) = (0.0, 1.0, 0);
-        while done < 1.0 {
+        loop {
             let end = if done + width >= 1.0 { 1.0 } else { done + width };
             let pose = if end < 1.0 { between(from, to, end) } else { *to };
             let Ok(next) = scout.nearest(&pose)? else {
                 // The straight line between two poses may leave the workspace where the path does
                 // not: only the size of the step can decide.
-                return if whole > JUMP_BLIND {
-                    self.jump(direct, from, &scout.at.q).map(Some)
-                } else {
-                    Ok(None)
-                };
+                let is_jump = whole > JUMP_BLIND;
+                let jump = is_jump.then(|| self.jump(&direct, from, &scout.at.q)).transpose()?;
+                return Ok((direct, jump));
             };
-            if largest(&steps(&scout.at.q, &next.q)) > whole / 4.0 {
+            if largest(&steps(&scout.at.q, &next.q)) > bound {
                 if depth == HALVINGS {
-                    return self.jump(direct, &pose, &scout.at.q).map(Some);
+                    let jump = self.jump(&direct, &pose, &scout.at.q)?;
+                    return Ok((direct, Some(jump)));
                 }
                 (width, depth) = (width / 2.0, depth + 1);
                 continue;
+            }
+            if end >= 1.0 {
+                // Joints that the pose leaves free, and those of a redundant arm, may end anywhere
+                // near.
+                let apart = largest(&steps(&next.q, &direct.q));
+                return Ok((if apart <= bound { direct } else { next }, None));
             }
             (scout.at.q, done) = (next.q, end);
             if depth > 0 {
                 (width, depth) = (width * 2.0, depth - 1);
             }
         }
-        Ok(None)
     }
 
     /// The jump from the current joints to `to`, at the pose where it is unavoidable.
@@ -288,7 +292,7 @@ pub struct Followed<const N: usize = 6> {
 /// The pose at a fraction of the way from one pose to another: straight, at a constant rate of
 /// rotation.
 pub(super) fn between(from: &Pose, to: &Pose, part: f64) -> Pose {
-    let turn = (from.rotation.inverse() * to.rotation).scaled_axis() * part;
+    let turn = rotation_vector(&(from.rotation.inverse() * to.rotation)) * part;
     let position = from.translation.vector.lerp(&to.translation.vector, part);
     IsometryMatrix3::from_parts(Translation3::from(position), from.rotation * Rotation3::new(turn))
 }

@@ -1,17 +1,16 @@
 //! Singularity modes: how a path crosses the wrist singularity, named as ABB names them.
 
-use nalgebra::Vector3;
-
 use crate::error::{Error, JointFault, ModelFault};
+use crate::interrupt::Interrupt;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::path::follow::{BreakReason, Followed, Follower};
 use crate::kinematics::path::step::largest_step;
 use crate::kinematics::path::walk::Walk;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::solver::Solver;
-use crate::kinematics::structure::spherical_wrist::SphericalWrist;
-use crate::kinematics::thresholds::{JUMP_BLIND, LOCKED_CONVERGED, WRIST_ZONE};
+use crate::kinematics::structure::inverse::Inverse;
+use crate::kinematics::structure::self_motions::LockedWrist;
+use crate::kinematics::thresholds::{JUMP_BLIND, WRIST_ZONE};
 
 /// How a path passes the wrist singularity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -50,10 +49,6 @@ impl Default for FollowOptions {
     }
 }
 
-/// How often the arm and a wrist with axis 4 held are solved in turn: each round shrinks the error
-/// by the tool's length over the arm's.
-const ROUNDS: usize = 60;
-
 impl Robot<6> {
     /// Follow `path` with one continuous joint path inside the limits, starting from the solution
     /// nearest to `seed` [rad] among all 2 pi equivalents.
@@ -69,29 +64,73 @@ impl Robot<6> {
         seed: &[f64; 6],
         options: &FollowOptions,
     ) -> Result<Followed, Error> {
-        self.follow_while(path, seed, options, &mut || true)
+        self.follow_until(path, seed, options, Interrupt::none())
     }
 
-    /// [`Robot::follow`] for as long as `go_on` says so; it is asked now and then. The rest of the
-    /// path is not met.
-    pub(crate) fn follow_while(
+    /// [`Robot::follow`] until it is interrupted. The rest of the path is not met.
+    pub(crate) fn follow_until(
         &self,
         path: &[Pose],
         seed: &[f64; 6],
         options: &FollowOptions,
-        go_on: &mut dyn FnMut() -> bool,
+        interrupt: Interrupt<'_>,
     ) -> Result<Followed, Error> {
-        if !(0.0..=1.0).contains(&options.zone) {
-            return Err(JointFault::Zone { value: options.zone }.into());
+        let how = (options.singularity_mode, options.zone);
+        self.follow_in_mode(path, [seed, &options.weights], how, interrupt)
+    }
+}
+
+impl Robot<7> {
+    /// Follow `path` with one continuous joint path inside the limits, starting from the joints
+    /// nearest to `seed` [rad] that reach the first pose. Each step is the smallest along the
+    /// self-motion of its pose, by `weights`; a joint of [`Robot::locked`] stays at its angle.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is a break, not an error.
+    pub fn follow(
+        &self,
+        path: &[Pose],
+        seed: &[f64; 7],
+        weights: &[f64; 7],
+    ) -> Result<Followed<7>, Error> {
+        self.follow_until(path, seed, weights, Interrupt::none())
+    }
+
+    /// [`Robot::<7>::follow`] until it is interrupted.
+    pub(crate) fn follow_until(
+        &self,
+        path: &[Pose],
+        seed: &[f64; 7],
+        weights: &[f64; 7],
+        interrupt: Interrupt<'_>,
+    ) -> Result<Followed<7>, Error> {
+        let how = (SingularityMode::Through, WRIST_ZONE);
+        self.follow_in_mode(path, [seed, weights], how, interrupt)
+    }
+}
+
+impl<const N: usize> Robot<N> {
+    /// Follow a path from a seed by weights, in a singularity mode with its zone.
+    pub(super) fn follow_in_mode(
+        &self,
+        path: &[Pose],
+        [seed, weights]: [&[f64; N]; 2],
+        (mode, zone): (SingularityMode, f64),
+        interrupt: Interrupt<'_>,
+    ) -> Result<Followed<N>, Error> {
+        if !(0.0..=1.0).contains(&zone) {
+            return Err(JointFault::Zone { value: zone }.into());
         }
-        if matches!(options.singularity_mode, SingularityMode::Wrist | SingularityMode::LockAxis4)
-            && self.spherical_wrist().is_none()
+        if matches!(mode, SingularityMode::Wrist | SingularityMode::LockAxis4)
+            && self.singular_wrist().is_none()
         {
             return Err(ModelFault::NoSphericalWrist.into());
         }
-        let follower = Follower::new(self, seed, &options.weights)?;
-        let mut walk = Modes { walk: Walk::new(self, path, follower, go_on), options };
-        match options.singularity_mode {
+        let follower = Follower::new(self, seed, weights)?;
+        let walk = Walk::new(self, path, follower, interrupt);
+        let mut walk = Modes { walk, weights, mode, zone };
+        match mode {
             SingularityMode::Through | SingularityMode::Error => walk.through()?,
             SingularityMode::Wrist => walk.wrist()?,
             SingularityMode::LockAxis4 => walk.lock_axis_4()?,
@@ -100,22 +139,17 @@ impl Robot<6> {
     }
 }
 
-/// Which part of the wrist is locked; the rest comes as near to the pose as possible.
-#[derive(Clone, Copy)]
-enum Locked {
-    Axis4,
-    Axes4And5,
-}
-
 /// A path that is followed in one of the modes.
-struct Modes<'a> {
-    walk: Walk<'a, 6>,
-    options: &'a FollowOptions,
+struct Modes<'a, const N: usize> {
+    walk: Walk<'a, N>,
+    weights: &'a [f64; N],
+    mode: SingularityMode,
+    zone: f64,
 }
 
-impl Modes<'_> {
-    fn in_zone(&self, q: &[f64; 6]) -> bool {
-        self.walk.robot.sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.options.zone)
+impl<const N: usize> Modes<'_, N> {
+    fn in_zone(&self, q: &[f64; N]) -> bool {
+        self.walk.robot.sin_5(q).is_some_and(|sin_5| sin_5.abs() < self.zone)
     }
 
     /// Pose by pose; with [`SingularityMode::Error`] up to the zone or a jump.
@@ -126,7 +160,7 @@ impl Modes<'_> {
             }
             let (solution, broken) = self.walk.follower.step(pose)?;
             let q = solution.map(|solution| solution.q);
-            if self.options.singularity_mode == SingularityMode::Error {
+            if self.mode == SingularityMode::Error {
                 let stopped =
                     q.filter(|q| self.in_zone(q)).map(|q| BreakReason::Stopped { q5: q[4] });
                 if let Some(reason) = stopped.or(broken) {
@@ -165,7 +199,7 @@ impl Modes<'_> {
     fn cross(
         &mut self,
         first: usize,
-        entered: [f64; 6],
+        entered: [f64; N],
         broken: Option<BreakReason>,
     ) -> Result<usize, Error> {
         // The end of the zone, on either wrist branch:
@@ -181,15 +215,12 @@ impl Modes<'_> {
             }
         }
         self.walk.record(Some(entered), broken);
-        let left = match self.walk.robot.ik_nearest(
-            &self.walk.path[behind - 1],
-            &entered,
-            &self.options.weights,
-        ) {
-            Ok(solution) => solution.q,
-            Err(Error::Unreachable(_)) => entered,
-            Err(error) => return Err(error),
-        };
+        let left =
+            match self.walk.robot.ik_nearest(&self.walk.path[behind - 1], &entered, self.weights) {
+                Ok(solution) => solution.q,
+                Err(Error::Unreachable(_)) => entered,
+                Err(error) => return Err(error),
+            };
         let mut q = entered;
         for index in first + 1..behind {
             if !self.walk.goes_on() {
@@ -205,7 +236,7 @@ impl Modes<'_> {
             let found = if index + 1 == behind {
                 Some(left)
             } else {
-                self.solve_locked(&self.walk.path[index], &wanted, Locked::Axes4And5)?
+                self.solve_locked(&self.walk.path[index], &wanted, LockedWrist::Axes4And5)?
             };
             let broken = found.map_or(Some(BreakReason::Locked), |found| jump(&q, &found));
             q = found.unwrap_or(q);
@@ -217,7 +248,7 @@ impl Modes<'_> {
 
     /// Axis 4 at whichever of 0 and +-180 deg is nearest, for the whole path.
     fn lock_axis_4(&mut self) -> Result<(), Error> {
-        let mut previous: Option<[f64; 6]> = None;
+        let mut previous: Option<[f64; N]> = None;
         for pose in self.walk.path {
             if !self.walk.goes_on() {
                 return Ok(());
@@ -233,7 +264,7 @@ impl Modes<'_> {
                     }
                 },
             };
-            let locked = self.solve_locked(pose, &from, Locked::Axis4)?;
+            let locked = self.solve_locked(pose, &from, LockedWrist::Axis4)?;
             let broken = match (locked, previous) {
                 (None, _) => Some(BreakReason::Locked),
                 (Some(q), Some(before)) => jump(&before, &q),
@@ -246,68 +277,63 @@ impl Modes<'_> {
     }
 
     /// `q` with axis 4 locked in the plane of the arm.
-    fn locked(&self, mut q: [f64; 6]) -> [f64; 6] {
-        if let Some(arm) = self.walk.robot.spherical_wrist() {
+    fn locked(&self, mut q: [f64; N]) -> [f64; N] {
+        if let Some(arm) = self.walk.robot.singular_wrist() {
             q[3] = arm.axis_4_in_plane(&q);
         }
         q
     }
 
-    /// The joint vector for a pose with the wrist locked as in `q`: arm and wrist are solved in
-    /// turn until both converge.
+    /// The joint vector for a pose with the wrist locked as in `q`.
     fn solve_locked(
         &self,
         pose: &Pose,
-        q: &[f64; 6],
-        how: Locked,
-    ) -> Result<Option<[f64; 6]>, Error> {
-        let pose = checked_pose(pose)?;
-        let Some(Solver { structure: arm, end_frames, .. }) = self.walk.robot.wrist_solver() else {
-            return Ok(None);
-        };
-        let rotation = end_frames.wrist_pose(&pose).rotation;
-        let (point, lever) = end_frames.tool_point(&pose);
-        let mut locked = *q;
-        for _ in 0..ROUNDS {
-            let m = arm.rotation_in_forearm(rotation.matrix(), &locked);
-            let wrist = match how {
-                Locked::Axis4 => arm.with_axis_4_locked(&m, &locked),
-                Locked::Axes4And5 => arm.with_axes_4_and_5_locked(&m, &locked),
-            };
-            let wrist = self.walk.robot.limits().wrapped_near(&wrist, &locked);
-            let Some(next) = wrist.and_then(|wrist| self.to_point(arm, &point, &lever, &wrist))
-            else {
-                return Ok(None);
-            };
-            let moved = next.iter().zip(&locked).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            locked = next;
-            if moved < LOCKED_CONVERGED {
-                break;
-            }
-        }
-        Ok(Some(locked))
+        q: &[f64; N],
+        how: LockedWrist,
+    ) -> Result<Option<[f64; N]>, Error> {
+        let (robot, pose) = (self.walk.robot, checked_pose(pose)?);
+        let end_frames = robot.inverse().and_then(Inverse::end_frames);
+        Ok(robot.singular_wrist().zip(end_frames).and_then(|(wrist, end_frames)| {
+            wrist.with_locked_wrist(end_frames, robot.limits(), &pose, q, how)
+        }))
     }
+}
 
-    /// The joint vector inside the limits, nearest to `q`, that brings `lever`, in the wrist frame,
-    /// to `point` with the wrist of `q`.
-    fn to_point(
+impl<const N: usize> Robot<N> {
+    /// Joints along a path whose wrist axes go evenly to those of `to` [rad] while the tool keeps its
+    /// positions, not its orientations: as `SingArea \Wrist` does where the wrist turns over.
+    #[cfg(feature = "rapid")]
+    pub(crate) fn with_even_wrist(
         &self,
-        arm: &SphericalWrist,
-        point: &Vector3<f64>,
-        lever: &Vector3<f64>,
-        q: &[f64; 6],
-    ) -> Option<[f64; 6]> {
-        let distance =
-            |found: &[f64; 6]| found.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
-        let found = arm
-            .to_point(point, lever, q)
-            .filter_map(|found| self.walk.robot.limits().wrapped_near(&found, q));
-        found.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        path: &[Pose],
+        [from, to]: [&[f64; N]; 2],
+        interrupt: Interrupt<'_>,
+    ) -> Option<alloc::vec::Vec<[f64; N]>> {
+        let wrist = self.singular_wrist()?;
+        let end_frames = self.inverse().and_then(Inverse::end_frames)?;
+        let mut q = *from;
+        let steps = path.len().saturating_sub(1).max(1);
+        let pass = |(index, pose): (usize, &Pose)| {
+            #[expect(clippy::cast_precision_loss, reason = "a part of the way")]
+            let part = index as f64 / steps as f64;
+            if interrupt.ends(index) {
+                return None;
+            }
+            let mut wanted = q;
+            for joint in N - 3..N {
+                wanted[joint] = from[joint] + (to[joint] - from[joint]) * part;
+            }
+            let (limits, locked) = (self.limits(), LockedWrist::All);
+            let found = wrist.with_locked_wrist(end_frames, limits, pose, &wanted, locked)?;
+            let before = core::mem::replace(&mut q, found);
+            jump(&before, &found).is_none().then_some(found)
+        };
+        path.iter().enumerate().map(pass).collect()
     }
 }
 
 /// A step of the locked arm that is too large to belong to the path.
-fn jump(from: &[f64; 6], to: &[f64; 6]) -> Option<BreakReason> {
+fn jump<const N: usize>(from: &[f64; N], to: &[f64; N]) -> Option<BreakReason> {
     let (joint, by) = largest_step(from, to);
     (by.abs() > JUMP_BLIND).then_some(BreakReason::Jump {
         joint,

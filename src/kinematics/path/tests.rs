@@ -9,7 +9,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
 use crate::lanes::on_each_set;
-use crate::rng::Rng;
+use crate::suite::rng::Rng;
 
 /// Paths of each robot and kind, and poses of each path.
 const PATHS: usize = 40;
@@ -47,6 +47,7 @@ fn reasons(breaks: &[Break]) -> Vec<(usize, String)> {
 }
 
 #[test]
+#[ignore = "run by itself: cargo test --lib -- --ignored"]
 fn a_path_in_lanes_is_that_of_the_scalar_solver() {
     let names = ["IRB 2600-12/1.65", "IRB 120-3/0.58", "IRB 2400-10/1.55", "UR3", "UR10e"];
     let options = FollowOptions::default();

@@ -1,14 +1,11 @@
-//! A path that is followed pose by pose, for as long as the caller wants.
+//! A path that is followed pose by pose, until the caller interrupts it.
 
 use alloc::vec::Vec;
 
-use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::kinematics::path::follow::{Break, BreakReason, Followed, Follower};
 use crate::kinematics::pose::{Pose, PoseDifference};
 use crate::kinematics::robot::Robot;
-
-/// Steps between two questions whether to go on.
-const ASKED_EVERY: usize = 32;
 
 /// The state of following a path.
 pub(super) struct Walk<'a, const N: usize> {
@@ -16,7 +13,7 @@ pub(super) struct Walk<'a, const N: usize> {
     pub(super) path: &'a [Pose],
     pub(super) follower: Follower<'a, N>,
     followed: Followed<N>,
-    go_on: &'a mut dyn FnMut() -> bool,
+    interrupt: Interrupt<'a>,
     steps: usize,
     is_stopped: bool,
 }
@@ -26,22 +23,20 @@ impl<'a, const N: usize> Walk<'a, N> {
         robot: &'a Robot<N>,
         path: &'a [Pose],
         follower: Follower<'a, N>,
-        go_on: &'a mut dyn FnMut() -> bool,
+        interrupt: Interrupt<'a>,
     ) -> Self {
         let followed = Followed {
             q: Vec::with_capacity(path.len()),
             orientation_error: Vec::with_capacity(path.len()),
             breaks: Vec::new(),
         };
-        Self { robot, path, follower, followed, go_on, steps: 0, is_stopped: false }
+        Self { robot, path, follower, followed, interrupt, steps: 0, is_stopped: false }
     }
 
     /// Whether to take another step.
     pub(super) fn goes_on(&mut self) -> bool {
         self.steps += 1;
-        if self.steps.is_multiple_of(ASKED_EVERY) {
-            self.is_stopped |= !(self.go_on)();
-        }
+        self.is_stopped |= self.interrupt.ends(self.steps);
         !self.is_stopped
     }
 
@@ -64,42 +59,5 @@ impl<'a, const N: usize> Walk<'a, N> {
         self.followed.q.resize(self.path.len(), None);
         self.followed.orientation_error.resize(self.path.len(), None);
         self.followed
-    }
-}
-
-impl Robot<7> {
-    /// Follow `path` with one continuous joint path inside the limits, starting from the joints
-    /// nearest to `seed` [rad] that reach the first pose. Each step is the smallest along the
-    /// self-motion of its pose, by `weights`; a joint of [`Robot::locked`] stays at its angle.
-    ///
-    /// # Errors
-    ///
-    /// As [`Robot::ik_nearest`]; a pose that cannot be reached is a break, not an error.
-    pub fn follow(
-        &self,
-        path: &[Pose],
-        seed: &[f64; 7],
-        weights: &[f64; 7],
-    ) -> Result<Followed<7>, Error> {
-        self.follow_while(path, seed, weights, &mut || true)
-    }
-
-    /// [`Robot::<7>::follow`] for as long as `go_on` says so; it is asked now and then.
-    pub(crate) fn follow_while(
-        &self,
-        path: &[Pose],
-        seed: &[f64; 7],
-        weights: &[f64; 7],
-        go_on: &mut dyn FnMut() -> bool,
-    ) -> Result<Followed<7>, Error> {
-        let mut walk = Walk::new(self, path, Follower::new(self, seed, weights)?, go_on);
-        for pose in path {
-            if !walk.goes_on() {
-                break;
-            }
-            let (solution, broken) = walk.follower.step(pose)?;
-            walk.record(solution.map(|solution| solution.q), broken);
-        }
-        Ok(walk.finish())
     }
 }

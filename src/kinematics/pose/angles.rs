@@ -1,10 +1,12 @@
-//! Angles: wrapping, and the sines and cosines of constants.
+//! Angles: wrapping, the sines and cosines of constants, angles of rotations and between vectors.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 #[cfg(not(feature = "std"))]
-use nalgebra::ComplexField as _;
+use nalgebra::{ComplexField as _, RealField as _};
+use nalgebra::{Rotation3, Vector3};
 
+use super::rotation::quaternion;
 use crate::lanes::nearest_whole;
 
 /// How far a constant may be from a quarter turn and still be one [rad]: the rounding of
@@ -63,9 +65,26 @@ pub(crate) fn snapped(angle: f64, snap: f64) -> f64 {
     if (angle - nearest).abs() <= snap { nearest } else { angle }
 }
 
+/// The rotation vector of a rotation [rad], of length 0 to pi; exact to rounding at both ends, where
+/// the trace that nalgebra's `scaled_axis` takes the arc cosine of has none or half of the digits.
+pub(crate) fn rotation_vector(rotation: &Rotation3<f64>) -> Vector3<f64> {
+    let [w, x, y, z] = quaternion(rotation);
+    let vector = Vector3::new(x, y, z);
+    let sin = vector.norm();
+    // w is not negative: below this sine the angle is twice the sine.
+    if sin < f64::MIN_POSITIVE { vector * 2.0 } else { vector * (2.0 * sin.atan2(w) / sin) }
+}
+
+/// The angle between two vectors [rad], 0 to pi, exact to rounding at both ends.
+#[cfg(feature = "rapid")]
+pub(crate) fn angle_between(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+    a.cross(b).norm().atan2(a.dot(b))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::suite::rng::Rng;
 
     #[test]
     fn wrap_keeps_plus_pi_and_turns_minus_pi() {
@@ -106,5 +125,32 @@ mod tests {
         assert!((distance_from_half_turns(PI - 0.1) - 0.1).abs() < 1e-15);
         assert!((distance_from_half_turns(-0.1) - 0.1).abs() < 1e-15);
         assert!((distance_from_half_turns(2.0 * PI + 0.2) - 0.2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn rotation_vectors_are_exact_from_no_turn_to_a_half_turn() {
+        let mut rng = Rng::new(41);
+        for size in [0.0, 1e-300, 1e-16, 1e-9, 1e-4, 1.0, 3.0, PI - 1e-4, PI - 1e-9, PI - 1e-16] {
+            for _ in 0..200 {
+                let axis = Vector3::from_fn(|_, _| rng.between(-1.0, 1.0)).normalize();
+                let found = rotation_vector(&Rotation3::new(axis * size));
+                // Of a half turn either direction of the axis is right.
+                let is_half = (PI - size).abs() < f64::EPSILON;
+                let sign = if is_half { axis.dot(&found).signum() } else { 1.0 };
+                let off = (found * sign - axis * size).norm();
+                assert!(off <= 16.0 * f64::EPSILON, "{size} {axis} {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_rotation_next_to_none_has_a_vector_for_any_rounding() {
+        let mut rng = Rng::new(42);
+        for _ in 0..2000 {
+            let vector = Vector3::from_fn(|_, _| rng.between(-PI, PI));
+            let rotation = Rotation3::new(vector);
+            let none = rotation.inverse() * rotation;
+            assert!(rotation_vector(&none).norm() <= 4.0 * f64::EPSILON);
+        }
     }
 }

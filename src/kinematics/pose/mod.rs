@@ -12,7 +12,9 @@ use nalgebra::{ComplexField as _, RealField as _};
 use crate::error::{Error, PoseFault};
 #[cfg(feature = "urdf")]
 use crate::kinematics::pose::angles::constant_sin_cos;
-use crate::kinematics::pose::rotation::{Rows3, determinant, gram_excess, nearest_rotation};
+use crate::kinematics::pose::rotation::{
+    Rows3, determinant, gram_excess, nearest_rotation, quaternion,
+};
 use crate::kinematics::thresholds::{
     GIMBAL_COS, LAST_ROW_BOUND, MOST_EULER, MOST_LENGTH, QUATERNION_NORM_BOUND,
     ROTATION_REPAIR_BOUND, ROTATION_ROUNDING,
@@ -244,27 +246,7 @@ fn pose_of_zyx(xyz: [f64; 3], [(sz, cz), (sy, cy), (sx, cx)]: [(f64, f64); 3]) -
 /// Translation [m] and quaternion w, x, y, z of a pose; w is not negative.
 #[must_use]
 pub fn pose_to_wxyz(pose: &Pose) -> ([f64; 3], [f64; 4]) {
-    let r = pose.rotation.matrix();
-    // Shepperd's method: the largest of the four squares is computed first, the others follow from
-    // it without cancellation.
-    let squares = [
-        1.0 + r[(0, 0)] + r[(1, 1)] + r[(2, 2)],
-        1.0 + r[(0, 0)] - r[(1, 1)] - r[(2, 2)],
-        1.0 - r[(0, 0)] + r[(1, 1)] - r[(2, 2)],
-        1.0 - r[(0, 0)] - r[(1, 1)] + r[(2, 2)],
-    ];
-    let (xy, xz, yz) = (r[(0, 1)] + r[(1, 0)], r[(0, 2)] + r[(2, 0)], r[(1, 2)] + r[(2, 1)]);
-    let (wx, wy, wz) = (r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
-    let largest = (0..4).fold(0, |best, i| if squares[i] > squares[best] { i } else { best });
-    let q = match largest {
-        0 => [squares[0], wx, wy, wz],
-        1 => [wx, squares[1], xy, xz],
-        2 => [wy, xy, squares[2], yz],
-        _ => [wz, xz, yz, squares[3]],
-    };
-    let norm = q.iter().map(|element| element * element).sum::<f64>().sqrt();
-    let sign = if q[0] < 0.0 { -1.0 } else { 1.0 };
-    (pose.translation.vector.into(), q.map(|element| element * sign / norm))
+    (pose.translation.vector.into(), quaternion(&pose.rotation))
 }
 
 /// Translation [m] and ZYX Euler angles rz, ry, rx [rad] of a pose, ry in -pi/2 ..= pi/2.

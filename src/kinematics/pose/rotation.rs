@@ -1,5 +1,10 @@
-//! The deviation of a 3x3 matrix from a rotation, and the rotation nearest to it. The same
-//! arithmetic serves one matrix and a lane of many, with the same bits.
+//! The deviation of a 3x3 matrix from a rotation, the rotation nearest to it, in arithmetic that
+//! serves one matrix and a lane of many with the same bits; and the quaternion of a rotation.
+
+use nalgebra::Rotation3;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
 
 /// The rows of a 3x3 matrix.
 pub(crate) type Rows3 = [[f64; 3]; 3];
@@ -47,4 +52,29 @@ fn newton_row([a, b, c]: [f64; 3], [xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [f64; 
         b - 0.5 * (a * xy + b * yy + c * yz),
         c - 0.5 * (a * xz + b * yz + c * zz),
     ]
+}
+
+/// The quaternion w, x, y, z of a rotation; w is not negative.
+pub(crate) fn quaternion(rotation: &Rotation3<f64>) -> [f64; 4] {
+    let r = rotation.matrix();
+    // Shepperd's method: the largest of the four squares is computed first, the others follow from
+    // it without cancellation.
+    let squares = [
+        1.0 + r[(0, 0)] + r[(1, 1)] + r[(2, 2)],
+        1.0 + r[(0, 0)] - r[(1, 1)] - r[(2, 2)],
+        1.0 - r[(0, 0)] + r[(1, 1)] - r[(2, 2)],
+        1.0 - r[(0, 0)] - r[(1, 1)] + r[(2, 2)],
+    ];
+    let (xy, xz, yz) = (r[(0, 1)] + r[(1, 0)], r[(0, 2)] + r[(2, 0)], r[(1, 2)] + r[(2, 1)]);
+    let (wx, wy, wz) = (r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
+    let largest = (0..4).fold(0, |best, i| if squares[i] > squares[best] { i } else { best });
+    let q = match largest {
+        0 => [squares[0], wx, wy, wz],
+        1 => [wx, squares[1], xy, xz],
+        2 => [wy, xy, squares[2], yz],
+        _ => [wz, xz, yz, squares[3]],
+    };
+    let norm = q.iter().map(|element| element * element).sum::<f64>().sqrt();
+    let sign = if q[0] < 0.0 { -1.0 } else { 1.0 };
+    q.map(|element| element * sign / norm)
 }

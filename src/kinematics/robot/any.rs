@@ -1,9 +1,45 @@
-//! A robot whose number of joints is known at run time only.
+//! The numbers of joints that arms have: what depends on each, and a robot whose number is known at
+//! run time only.
+
+use alloc::sync::Arc;
 
 use super::Robot;
+use super::joints::{Count, Joints};
 use crate::error::Error;
 use crate::kinematics::answer::check::check_seed;
 use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::known::{SEVEN_JOINTS, SIX_JOINTS, of_opw};
+use crate::kinematics::structure::refined::Refined;
+
+impl Joints<6> for Robot<6> {
+    const COUNT: &'static Count<Self, 6> = &Count {
+        known: SIX_JOINTS,
+        of_opw: Some(of_opw),
+        refined: Some(|nominal, [nominal_chain, chain], limits| {
+            Arc::new(Refined::new(nominal, nominal_chain.clone(), chain, limits))
+        }),
+        configured: Some(|robot| robot),
+        ..Count::CHAIN
+    };
+}
+
+impl Joints<7> for Robot<7> {
+    const COUNT: &'static Count<Self, 7> = &Count {
+        known: SEVEN_JOINTS,
+        configured: Some(|robot| robot),
+        redundancy: Some(|robot| robot),
+        ..Count::CHAIN
+    };
+}
+
+macro_rules! chains {
+    ($($n:literal)+) => {
+        $(impl Joints<$n> for Robot<$n> {
+            const COUNT: &'static Count<Self, $n> = &Count::CHAIN;
+        })+
+    };
+}
+chains!(1 2 3 4 5 8 9 10 11 12);
 
 /// A robot of six or of seven joints, where a name or a file says which.
 ///
@@ -22,29 +58,44 @@ use crate::kinematics::pose::Pose;
 /// assert!(found > 0);
 /// # Ok::<(), irbkin::Error>(())
 /// ```
+pub type AnyRobot = ByJoints<Robot<6>, Robot<7>>;
+
+/// A value of an arm of six joints, or of one of seven.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[allow(clippy::large_enum_variant, reason = "a robot has 3 kB, and there are few")]
-pub enum AnyRobot {
+pub enum ByJoints<S, V> {
     /// Six joints.
-    Six(Robot<6>),
+    Six(S),
     /// Seven joints.
-    Seven(Robot<7>),
+    Seven(V),
 }
 
-impl From<Robot<6>> for AnyRobot {
+/// Evaluate one expression on either value of a [`ByJoints`](crate::ByJoints).
+#[doc(hidden)]
+#[macro_export]
+macro_rules! on {
+    ($either:expr, $inner:ident => $body:expr) => {
+        match $either {
+            $crate::ByJoints::Six($inner) => $body,
+            $crate::ByJoints::Seven($inner) => $body,
+        }
+    };
+}
+
+impl<S: From<Robot<6>>, V> From<Robot<6>> for ByJoints<S, V> {
     fn from(robot: Robot<6>) -> Self {
-        Self::Six(robot)
+        Self::Six(robot.into())
     }
 }
 
-impl From<Robot<7>> for AnyRobot {
+impl<S, V: From<Robot<7>>> From<Robot<7>> for ByJoints<S, V> {
     fn from(robot: Robot<7>) -> Self {
-        Self::Seven(robot)
+        Self::Seven(robot.into())
     }
 }
 
-impl AnyRobot {
+impl<S, V> ByJoints<S, V> {
     /// Number of joints.
     #[must_use]
     pub fn dof(&self) -> usize {
@@ -53,14 +104,19 @@ impl AnyRobot {
             Self::Seven(_) => 7,
         }
     }
+}
 
+impl From<AnyRobot> for ByJoints<Arc<Robot<6>>, Arc<Robot<7>>> {
+    fn from(robot: AnyRobot) -> Self {
+        on!(robot, robot => robot.into())
+    }
+}
+
+impl AnyRobot {
     /// Catalog name, or the name given by the caller.
     #[must_use]
     pub fn name(&self) -> &str {
-        match self {
-            Self::Six(robot) => robot.name(),
-            Self::Seven(robot) => robot.name(),
-        }
+        on!(self, robot => robot.name())
     }
 
     /// Pose of the tool for joint angles [rad].
@@ -73,9 +129,6 @@ impl AnyRobot {
     pub fn fk(&self, q: &[f64]) -> Result<Pose, Error> {
         check_seed("q", q)?;
         let wrong_length = || Error::WrongLength { field: "q", found: q.len(), wanted: self.dof() };
-        match self {
-            Self::Six(robot) => Ok(robot.fk(q.try_into().map_err(|_| wrong_length())?)),
-            Self::Seven(robot) => Ok(robot.fk(q.try_into().map_err(|_| wrong_length())?)),
-        }
+        on!(self, robot => Ok(robot.fk(q.try_into().map_err(|_| wrong_length())?)))
     }
 }

@@ -3,6 +3,8 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
+#[cfg(feature = "urdf")]
+use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::array;
@@ -11,8 +13,9 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 
 use super::Robot;
+use crate::body::fault::BodyFault;
 use crate::body::{Body, Capsule, LinkCapsule, Outline, Shape};
-use crate::error::{BodyFault, Error};
+use crate::error::Error;
 use crate::kinematics::chain::dh::{Mdh, screw_x};
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::thresholds::MOST_TOOL;
@@ -51,6 +54,18 @@ impl<const N: usize> Robot<N> {
         };
         let body = body.map(outlined);
         Ok(Self { body, ..self })
+    }
+
+    /// Return the robot without a body, and why it has none.
+    #[cfg(feature = "urdf")]
+    pub(crate) fn without_body(self, why: String) -> Self {
+        Self { body: None, no_body: Some(why.into()), ..self }
+    }
+
+    /// The error of a question that needs a body.
+    pub(crate) fn no_body(&self) -> BodyFault {
+        let why = self.no_body.as_deref().map(Into::into);
+        why.map_or(BodyFault::NoBody, |why| BodyFault::NotRead { why })
     }
 
     /// The shapes of its links, in their frames ([`Robot::link_frames`]): of an arm of the catalog,
@@ -117,7 +132,7 @@ impl<const N: usize> Robot<N> {
         excess: Option<f64>,
     ) -> Result<Self, Error> {
         let (pose, bound) = (checked_pose(pose)?, self.size());
-        let body = self.body().ok_or(BodyFault::NoBody)?.clone();
+        let body = self.body().ok_or_else(|| self.no_body())?.clone();
         let (mut added, mut outside): (Vec<LinkCapsule>, f64) = (Vec::new(), 0.0);
         for (index, shape) in shapes.iter().enumerate() {
             let cover = shape.cover(excess)?;
@@ -141,14 +156,19 @@ impl<const N: usize> Robot<N> {
     /// A body of the shapes of links: those that are not neighbors are kept apart, unless they
     /// touch in every posture.
     #[cfg(feature = "urdf")]
-    pub(crate) fn body_of_shapes(&self, capsules: Vec<LinkCapsule>, excess: Vec<f64>) -> Body {
+    pub(crate) fn body_of_shapes(
+        &self,
+        capsules: Vec<LinkCapsule>,
+        excess: Vec<f64>,
+        source: String,
+    ) -> Body {
         let has = |link: &usize| capsules.iter().any(|own| own.link == *link);
         let links: Vec<usize> = (0..=N + 1).filter(has).collect();
         // What the flange carries has the neighbors of the last link.
         let others = |one: usize| links.iter().filter(move |two| (**two).min(N) > one + 1);
         let pairs = links.iter().flat_map(|one| others(*one).map(|two| [*one, *two]));
         let pairs = self.those_that_come_apart(pairs.collect(), &capsules);
-        Body::of_shapes(capsules, pairs, excess)
+        Body::of_shapes(capsules, pairs, excess, source)
     }
 
     /// The pairs of links that do not touch in every posture.

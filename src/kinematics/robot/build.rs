@@ -2,6 +2,7 @@
 
 use alloc::borrow::Cow;
 
+use super::joints::{Count, Joints};
 use super::reading::other_reading;
 use super::{Definition, Robot};
 use crate::error::{Error, ModelFault, PoseFault};
@@ -10,7 +11,7 @@ use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
 use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose};
-use crate::kinematics::structure::known::{self, Recognized};
+use crate::kinematics::structure::known::{self, Known, Recognized};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_SNAP, MOST_TOOL};
 use crate::report::{ConfigurationRule, Convention};
@@ -32,15 +33,18 @@ impl Robot<6> {
 
     /// Build a robot from a table that differs by a link from the table of another robot.
     pub(crate) fn from_mdh_like(mdh: Mdh<6>, other: &Self) -> Result<Self, Error> {
-        let recognize = |mdh: &Mdh<6>| match other.inverse() {
+        let recognize = |mdh: &Mdh<6>, known: &Known<6>| match other.inverse() {
             Some(inverse) => known::recognize_like(mdh, inverse),
-            None => known::recognize(mdh),
+            None => known::recognize(mdh, known),
         };
-        Self::recognized(mdh, recognize)?.with_inverse()
+        Self::recognized(mdh, other.count, recognize)?.with_inverse()
     }
 }
 
-impl<const N: usize> Robot<N> {
+impl<const N: usize> Robot<N>
+where
+    Self: Joints<N>,
+{
     /// A robot from a modified (Craig) Denavit-Hartenberg table, with the solver of its kinematic
     /// structure.
     ///
@@ -57,14 +61,6 @@ impl<const N: usize> Robot<N> {
     pub fn from_mdh(mdh: Mdh<N>) -> Result<Self, Error> {
         let rows = mdh.rows;
         Self::of_table(mdh)?.hinting(&rows, Convention::Modified).with_inverse()
-    }
-
-    /// Refuse an arm of six joints whose structure is unknown.
-    pub(crate) fn with_inverse(self) -> Result<Self, Error> {
-        match self.unknown_structure() {
-            Some(reason) if N == 6 => Err(ModelFault::UnknownStructure(reason).into()),
-            _ => Ok(self),
-        }
     }
 
     /// A robot from a standard Denavit-Hartenberg table; otherwise as [`Robot::from_mdh`].
@@ -85,27 +81,15 @@ impl<const N: usize> Robot<N> {
     ///
     /// [`Error::InvalidModel`] when a number is not finite.
     pub fn serial_chain(mdh: Mdh<N>) -> Result<Self, Error> {
-        Self::recognized(mdh, known::recognize_closed_form)
+        let recognize = |mdh: &Mdh<N>, known: &Known<N>| {
+            known::recognize(mdh, &Known { others: &[], ..*known })
+        };
+        Self::recognized(mdh, Self::COUNT, recognize)
     }
 
     /// A robot from any table, with its inverse if its joints are independent.
     pub(crate) fn of_table(mdh: Mdh<N>) -> Result<Self, Error> {
-        Self::recognized(mdh, known::recognize)
-    }
-
-    fn recognized(
-        mut mdh: Mdh<N>,
-        recognize: impl FnOnce(&Mdh<N>) -> Recognized<N>,
-    ) -> Result<Self, Error> {
-        check_rows(&mdh.rows)?;
-        (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
-        let recognized = recognize(&mdh);
-        let mut robot = Self::new(Definition::Mdh(mdh), recognized);
-        robot.check_reach()?;
-        if let Some(missing) = robot.missing_form {
-            robot.missing_form = Some(missing.proposing(robot.helpful_snap()));
-        }
-        Ok(robot)
+        Self::recognized(mdh, Self::COUNT, known::recognize)
     }
 
     /// The robot of a definition.
@@ -118,6 +102,49 @@ impl<const N: usize> Robot<N> {
                 Self::serial_chain(mdh)?.with_nominal(&Self::of_definition(*nominal)?)
             }
         }
+    }
+
+    /// [`Robot::from_opw`] for a caller that is generic over the number of joints.
+    pub(crate) fn of_opw(opw: OpwParameters) -> Result<Self, Error> {
+        let opw = opw.squared_up()?;
+        let of_opw = Self::COUNT.of_opw.ok_or(ModelFault::JointCount { found: 6, wanted: N })?;
+        let recognized = Recognized::new(of_opw(&opw), None);
+        let robot = Self::new(Self::COUNT, Definition::Opw(opw), recognized);
+        robot.check_reach()?;
+        Ok(robot)
+    }
+
+    /// Whether a table has the structure of a closed form.
+    #[cfg(feature = "urdf")]
+    pub(crate) fn has_closed_form(mdh: &Mdh<N>) -> bool {
+        known::closed_form(mdh, &Self::COUNT.known).is_ok()
+    }
+}
+
+impl<const N: usize> Robot<N> {
+    /// Refuse an arm of six joints whose structure is unknown.
+    pub(crate) fn with_inverse(self) -> Result<Self, Error> {
+        match self.unknown_structure() {
+            Some(reason) if N == 6 => Err(ModelFault::UnknownStructure(reason).into()),
+            _ => Ok(self),
+        }
+    }
+
+    /// A robot of a count from a table, with what is recognized in it.
+    pub(super) fn recognized(
+        mut mdh: Mdh<N>,
+        count: &'static Count<Self, N>,
+        recognize: impl FnOnce(&Mdh<N>, &Known<N>) -> Recognized<N>,
+    ) -> Result<Self, Error> {
+        check_rows(&mdh.rows)?;
+        (mdh.base, mdh.flange) = (checked_pose(&mdh.base)?, checked_pose(&mdh.flange)?);
+        let recognized = recognize(&mdh, &count.known);
+        let mut robot = Self::new(count, Definition::Mdh(mdh), recognized);
+        robot.check_reach()?;
+        if let Some(missing) = robot.missing_form {
+            robot.missing_form = Some(missing.proposing(robot.helpful_snap()));
+        }
+        Ok(robot)
     }
 
     /// Check that the tool is no farther from an axis than [`MOST_REACH`].
@@ -141,7 +168,8 @@ impl<const N: usize> Robot<N> {
     #[must_use]
     pub(crate) fn hinting(mut self, rows: &[DhRow; N], convention: Convention) -> Self {
         if let Some(missing) = self.missing_form.filter(|missing| missing.snap().is_none()) {
-            self.missing_form = Some(missing.reading_as(other_reading(rows, convention)));
+            self.missing_form =
+                Some(missing.reading_as(other_reading(rows, convention, &self.count.known)));
         }
         self
     }
@@ -151,14 +179,8 @@ impl<const N: usize> Robot<N> {
         let Definition::Mdh(mdh) = &self.definition else { return None };
         SNAPS.into_iter().find(|snap| {
             let snapped = mdh.clone().snapped(*snap);
-            snapped.is_ok_and(|mdh| known::closed_form(&mdh).is_ok())
+            snapped.is_ok_and(|mdh| known::closed_form(&mdh, &self.count.known).is_ok())
         })
-    }
-
-    /// Whether a table has the structure of a closed form.
-    #[cfg(feature = "urdf")]
-    pub(crate) fn has_closed_form(mdh: &Mdh<N>) -> bool {
-        known::closed_form(mdh).is_ok()
     }
 
     /// Propose another `snap`, if the arm has no closed form.
@@ -168,26 +190,16 @@ impl<const N: usize> Robot<N> {
         self
     }
 
-    /// [`Robot::from_opw`] for a caller that is generic over the number of joints.
-    pub(crate) fn of_opw(opw: OpwParameters) -> Result<Self, Error> {
-        let opw = opw.squared_up()?;
-        let Mdh { base, rows, flange } = opw.mdh();
-        let rows = <[DhRow; N]>::try_from(&rows[..])
-            .map_err(|_| ModelFault::JointCount { found: 6, wanted: N })?;
-        let chain = Chain::new(Mdh { base, rows, flange });
-        let inverse =
-            known::of_opw(&opw, &chain).ok_or(ModelFault::JointCount { found: 6, wanted: N })?;
-        let recognized = Recognized { chain, inverse: Some(inverse), missing_form: None };
-        let robot = Self::new(Definition::Opw(opw), recognized);
-        robot.check_reach()?;
-        Ok(robot)
-    }
-
-    fn new(definition: Definition<N>, recognized: Recognized<N>) -> Self {
+    fn new(
+        count: &'static Count<Self, N>,
+        definition: Definition<N>,
+        recognized: Recognized<N>,
+    ) -> Self {
         let Recognized { chain, inverse, missing_form } = recognized;
         Self {
             name: Cow::Borrowed(""),
             definition,
+            count,
             chain,
             inverse,
             missing_form,
@@ -196,6 +208,7 @@ impl<const N: usize> Robot<N> {
             rule: None,
             lock: None,
             body: None,
+            no_body: None,
         }
     }
 

@@ -4,6 +4,7 @@ use super::Robot;
 use crate::error::Error;
 use crate::kinematics::chain::corrections::{Corrections, correction};
 use crate::kinematics::pose::Pose;
+use crate::kinematics::structure::known::recognize;
 
 impl<const N: usize> Robot<N> {
     /// Return the robot with corrected base, table and tool; limits, velocities, name, body and a
@@ -32,7 +33,7 @@ impl<const N: usize> Robot<N> {
         let robot = if is_zero(corrections.rows.as_flattened()) {
             self.clone()
         } else {
-            Self::of_table(corrections.table(self.mdh()))?
+            Self::recognized(corrections.table(self.mdh()), self.count, recognize)?
                 .with_coupling_of(self)?
                 .with_name(self.name.clone())
                 .with_max_velocity(self.max_velocity)?

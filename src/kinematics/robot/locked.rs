@@ -229,7 +229,7 @@ impl<const N: usize> Lock<N> {
             return Some(own.between(chain, limits));
         }
         let inverse = self.six.inverse.clone()?;
-        Locked::of(inverse, self.six.chain.clone(), self.joint, self.six.limits)
+        Some(Locked::of(inverse, self.six.chain.clone(), self.joint, self.six.limits))
     }
 }
 

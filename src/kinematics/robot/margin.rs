@@ -100,7 +100,7 @@ mod tests {
 
     use super::*;
     use crate::kinematics::Status;
-    use crate::rng::Rng;
+    use crate::suite::rng::Rng;
 
     #[test]
     fn the_margin_is_one_in_the_middle_and_zero_at_a_limit_or_a_singularity() {

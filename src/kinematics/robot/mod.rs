@@ -5,6 +5,7 @@ mod body;
 mod build;
 mod corrected;
 mod display;
+pub(super) mod joints;
 mod linkage;
 mod locked;
 mod margin;
@@ -16,16 +17,18 @@ mod stored;
 #[cfg(feature = "urdf")]
 pub(crate) use build::SNAPS;
 
+pub use joints::Joints;
 pub use margin::Margin;
 
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use alloc::sync::Arc;
-use core::any::Any;
 
+use joints::{Configured, Count, Redundancy};
 use nalgebra::SMatrix;
 
 use crate::body::{Body, Outline};
+use crate::error::{Error, ModelFault};
 use crate::kinematics::answer::singularity::{SingularDistances, Singularity};
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
@@ -39,9 +42,8 @@ use crate::kinematics::chain::singular_values::SingularValues;
 use crate::kinematics::pose::{Pose, PoseDifference};
 use crate::kinematics::structure::inverse::Inverse;
 use crate::kinematics::structure::locked::LockedJoint;
-use crate::kinematics::structure::singular_wrist::SingularWrist;
-use crate::kinematics::structure::solver::Solver;
-use crate::kinematics::structure::spherical_wrist::{OpwParameters, SphericalWrist};
+use crate::kinematics::structure::self_motions::{SelfMotions, SingularWrist};
+use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::lanes::{LANES, run};
 use crate::report::{ConfigurationRule, UnknownStructure};
 
@@ -54,6 +56,7 @@ use crate::report::{ConfigurationRule, UnknownStructure};
 pub struct Robot<const N: usize> {
     name: Cow<'static, str>,
     definition: Definition<N>,
+    count: &'static Count<Self, N>,
     chain: Chain<N>,
     /// `None` if the structure is unknown.
     inverse: Option<Arc<dyn Inverse<N>>>,
@@ -65,6 +68,8 @@ pub struct Robot<const N: usize> {
     rule: Option<ConfigurationRule>,
     lock: Option<Lock<N>>,
     body: Option<Arc<(Body, Outline)>>,
+    /// Why the shapes of its links make no body, if they do not; no part of its value.
+    no_body: Option<Arc<str>>,
 }
 
 /// A locked joint, with the robot of the six others.
@@ -134,28 +139,43 @@ impl<const N: usize> Robot<N> {
         self.inverse.as_deref()
     }
 
+    /// The arm as one with configurations.
+    pub(in crate::kinematics) fn with_configurations(&self) -> Result<&dyn Configured<N>, Error> {
+        let none = ModelFault::NoConfiguration { structure: self.structure(), snap: None };
+        Ok(self.count.configured.ok_or(none)?(self))
+    }
+
+    /// The arm as one that has one joint more than a pose needs; it may be locked.
+    pub(in crate::kinematics) fn with_redundancy(&self) -> Option<&dyn Redundancy<N>> {
+        self.count.redundancy.map(|of| of(self))
+    }
+
+    /// [`Self::with_redundancy`] without a locked joint.
+    pub(crate) fn redundancy(&self) -> Option<&dyn Redundancy<N>> {
+        self.with_redundancy().filter(|_| self.lock.is_none())
+    }
+
     /// Whether the arm has a structure with a closed form.
     pub(in crate::kinematics) fn is_closed_form(&self) -> bool {
         self.missing_form.is_none() && !matches!(self.definition, Definition::Refined { .. })
     }
 
-    /// The solver of an arm with a spherical wrist.
-    pub(in crate::kinematics) fn wrist_solver(&self) -> Option<&Solver<SphericalWrist, 6, 8>> {
-        let inverse: &dyn Any = self.inverse()?;
-        inverse.downcast_ref()
-    }
-
-    /// The geometry of an arm with a spherical wrist.
-    pub(in crate::kinematics) fn spherical_wrist(&self) -> Option<&SphericalWrist> {
-        self.wrist_solver().map(|solver| &solver.structure)
-    }
-
+    /// The arm as one with a spherical wrist, if it has one.
     pub(in crate::kinematics) fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
-        self.inverse()?.singular_wrist()
+        self.inverse()?.self_motions()?.singular_wrist()
     }
 
     pub(in crate::kinematics) fn sin_5(&self, q: &[f64; N]) -> Option<f64> {
-        self.inverse()?.sin_5(q)
+        self.inverse()?.self_motions()?.sin_5(q)
+    }
+
+    /// The known self-motions, and the pose in the frames of their structure.
+    pub(in crate::kinematics) fn self_motions(
+        &self,
+        pose: &Pose,
+    ) -> Option<(&dyn SelfMotions<N>, Pose)> {
+        let inverse = self.inverse()?;
+        Some((inverse.self_motions()?, inverse.wrist_pose(pose)))
     }
 
     /// Return the arm without lanes.

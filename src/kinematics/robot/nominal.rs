@@ -5,7 +5,6 @@ use alloc::boxed::Box;
 use super::{Definition, Robot};
 use crate::error::{Error, ModelFault};
 use crate::kinematics::pose::PoseDifference;
-use crate::kinematics::structure::known::refined;
 use crate::kinematics::thresholds::FAR_FROM_NOMINAL;
 
 /// Joint vectors at which a robot is compared with its nominal one.
@@ -31,9 +30,9 @@ impl<const N: usize> Robot<N> {
     pub fn with_nominal(&self, nominal: &Self) -> Result<Self, Error> {
         self.check_near(nominal)?;
         let closed_form = nominal.inverse.as_ref().filter(|_| nominal.is_closed_form());
-        let refined = closed_form
-            .and_then(|inverse| refined(inverse, &nominal.chain, &self.chain, &self.limits))
+        let (refined, inverse) = (self.count.refined.zip(closed_form))
             .ok_or(ModelFault::NominalStructure { structure: nominal.structure() })?;
+        let refined = refined(&**inverse, [&nominal.chain, &self.chain], &self.limits);
         let definition = Definition::Refined {
             mdh: self.mdh().clone(),
             nominal: Box::new(nominal.definition.clone()),

@@ -7,7 +7,7 @@ use nalgebra::ComplexField as _;
 
 use crate::kinematics::chain::dh::{DhRow, Mdh, Sdh};
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::known::closed_form;
+use crate::kinematics::structure::known::{Known, closed_form};
 use crate::kinematics::thresholds::MOST_LENGTH;
 use crate::report::{Columns, Convention, ORDERS, Reading};
 
@@ -27,6 +27,7 @@ const WRITTEN: f64 = 1e-4;
 pub(crate) fn other_reading<const N: usize>(
     rows: &[DhRow; N],
     given: Convention,
+    known: &Known<N>,
 ) -> Option<Reading> {
     let other = match given {
         Convention::Modified => Convention::Standard,
@@ -42,7 +43,7 @@ pub(crate) fn other_reading<const N: usize>(
         if order > 0 && !has_usual_angles(&rows) {
             return None;
         }
-        let structure = structure(rows, convention)?;
+        let structure = structure(rows, convention, known)?;
         Some(Reading { order, other, structure })
     })
 }
@@ -72,7 +73,11 @@ fn read(row: DhRow, columns: Columns) -> DhRow {
 }
 
 /// Name of the known structure of a table.
-fn structure<const N: usize>(rows: [DhRow; N], convention: Convention) -> Option<&'static str> {
+fn structure<const N: usize>(
+    rows: [DhRow; N],
+    convention: Convention,
+    known: &Known<N>,
+) -> Option<&'static str> {
     let is_near = |row: &DhRow| row.to_array().iter().all(|number| number.abs() <= MOST_LENGTH);
     if !rows.iter().all(is_near) {
         return None;
@@ -82,7 +87,7 @@ fn structure<const N: usize>(rows: [DhRow; N], convention: Convention) -> Option
         Convention::Modified => Mdh { base, rows, flange },
         Convention::Standard => Sdh { base, rows, flange }.into(),
     };
-    let solved = closed_form(&table.snapped(SNAP).ok()?).ok();
+    let solved = closed_form(&table.snapped(SNAP).ok()?, known).ok();
     solved.map(|(_, inverse)| inverse.name())
 }
 

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Definition, Robot};
+use super::{Definition, Joints, Robot};
 use crate::body::Body;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::limits::JointLimits;
@@ -55,13 +55,19 @@ impl<const N: usize> Serialize for Robot<N> {
     }
 }
 
-impl<'de, const N: usize> Deserialize<'de> for Robot<N> {
+impl<'de, const N: usize> Deserialize<'de> for Robot<N>
+where
+    Self: Joints<N>,
+{
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Stored::deserialize(deserializer)?.build().map_err(D::Error::custom)
     }
 }
 
-impl<const N: usize> Stored<N> {
+impl<const N: usize> Stored<N>
+where
+    Robot<N>: Joints<N>,
+{
     fn build(self) -> Result<Robot<N>, Error> {
         let mut robot = Robot::of_definition(self.definition)?.with_rule(self.rule);
         if self.coupled {

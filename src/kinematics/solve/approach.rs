@@ -5,11 +5,11 @@ use core::f64::consts::PI;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
-use nalgebra::{SMatrix, UnitQuaternion, Vector6};
+use nalgebra::{SMatrix, Vector6};
 
 use crate::error::Error;
 use crate::kinematics::chain::jacobian::JacobianFrame;
-use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::pose::angles::{rotation_vector, wrap};
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::report::{Approach, Explanation};
@@ -27,11 +27,12 @@ const CONVERGED: f64 = 1e-10;
 const DAMPING: f64 = 1e-2;
 const LEAST_DAMPING: f64 = 1e-12;
 
-impl Robot<6> {
+impl<const N: usize> Robot<N> {
     /// The nearest approach to a pose: the least root of the sum of squares of the distance [m] and
-    /// of the angle [rad] times the sum of the arm's lengths, limits not regarded.
+    /// of the angle [rad] times the sum of the arm's lengths, limits not regarded, except joint
+    /// 7's.
     ///
-    /// For a pose out of reach: [`Self::ik`] does not search. Levenberg and Marquardt's method from
+    /// For a pose out of reach: [`Self::ik_with`] does not search. Levenberg and Marquardt's method from
     /// 32 joint vectors takes a millisecond; a narrower minimum may be missed.
     ///
     /// # Errors
@@ -40,9 +41,7 @@ impl Robot<6> {
     pub fn nearest_approach(&self, pose: &Pose) -> Result<Approach, Error> {
         Ok(self.approach_of(&checked_pose(pose)?))
     }
-}
 
-impl<const N: usize> Robot<N> {
     /// An explanation, with the nearest approach to the pose where no solution is. Joint 7, which a
     /// search keeps inside its limits, is inside them; other limits are not regarded.
     pub(super) fn with_approach(&self, explanation: Explanation, pose: &Pose) -> Explanation {
@@ -119,10 +118,7 @@ impl<const N: usize> Robot<N> {
     fn way(&self, pose: &Pose, lengths: f64, q: &[f64; N]) -> Vector6<f64> {
         let tool = self.fk(q);
         let along = pose.translation.vector - tool.translation.vector;
-        // By the arc tangent of a quaternion: the arc cosine of a matrix has half of the digits.
-        let about =
-            UnitQuaternion::from_rotation_matrix(&(pose.rotation * tool.rotation.inverse()));
-        let about = about.scaled_axis() * lengths;
+        let about = rotation_vector(&(pose.rotation * tool.rotation.inverse())) * lengths;
         Vector6::new(along.x, along.y, along.z, about.x, about.y, about.z)
     }
 }

@@ -30,8 +30,8 @@ impl<const N: usize> NearestSearch<'_, N> {
             return;
         }
         let mut passed = Passed { before: None, here: None, valleys: VALLEYS };
-        let Some(inverse) = self.robot.inverse() else { return };
-        inverse.walk(self.known.pose(), &from.q, &mut |start, end| {
+        let Some((motions, pose)) = self.robot.self_motions(self.known.pose()) else { return };
+        motions.walk(&pose, &from.q, &mut |start, end| {
             self.pass(&mut passed, start, end, from);
         });
     }

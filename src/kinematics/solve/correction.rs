@@ -98,7 +98,7 @@ impl<const N: usize> Robot<N> {
 
     /// The difference from the tool pose at `q` to the pose: translation [m] and, for small angles,
     /// rotation [rad].
-    fn off(&self, pose: &Pose, q: &[f64; N]) -> SVector<f64, 6> {
+    pub(super) fn off(&self, pose: &Pose, q: &[f64; N]) -> SVector<f64, 6> {
         let at = self.fk(q);
         let turn = (pose.rotation * at.rotation.inverse()).into_inner();
         let turn = 0.5

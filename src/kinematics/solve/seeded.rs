@@ -1,7 +1,5 @@
 //! The solution nearest to a seed, and the outcome of a search in a sentence.
 
-use core::any::Any;
-
 use crate::error::Error;
 use crate::kinematics::answer::check::{check_seed_near, check_weights};
 use crate::kinematics::answer::select::Cost;
@@ -14,7 +12,6 @@ use crate::kinematics::solve::correction::DETERMINED;
 use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::structure::inverse::of_count;
 use crate::kinematics::structure::lanes::Choice;
 use crate::kinematics::structure::locked::others;
 #[cfg(feature = "python")]
@@ -51,12 +48,8 @@ impl<const N: usize> Robot<N> {
         if let Some(lock) = self.lock() {
             return self.nearest_locked(lock, &pose, seed, weights);
         }
-        if let (Some(arm), Some(seed), Some(weights)) =
-            (self.of_seven_joints(), of_count(*seed), of_count(*weights))
-            && let Some(nearest) =
-                of_count(arm.nearest_along_redundancy(&pose, &seed, &weights, &|_| true))
-        {
-            return nearest;
+        if let Some(arm) = self.redundancy() {
+            return arm.nearest_along_redundancy(&pose, seed, weights, &|_| true);
         }
         let mut solutions = self.unsolved(pose);
         let nearest = if self.solve_in_lanes(&mut solutions, f64::NAN) {
@@ -87,14 +80,8 @@ impl<const N: usize> Robot<N> {
         accepts: &dyn Fn(&[f64; N]) -> bool,
     ) -> Result<Solution<N>, Error> {
         let pose = checked_pose(pose)?;
-        if let (Some(arm), Some(seed), Some(weights)) =
-            (self.of_seven_joints(), of_count(*seed), of_count(*weights))
-        {
-            let accepts = |q: &[f64; 7]| of_count(*q).is_some_and(|q| accepts(&q));
-            let nearest = arm.nearest_along_redundancy(&pose, &seed, &weights, &accepts);
-            if let Some(nearest) = of_count(nearest) {
-                return nearest;
-            }
+        if let Some(arm) = self.redundancy() {
+            return arm.nearest_along_redundancy(&pose, seed, weights, accepts);
         }
         let locked = self.locked_joint().map_or(f64::NAN, |(_, angle)| angle);
         let solutions = self.ik_checked(pose, locked)?;
@@ -169,25 +156,11 @@ impl<const N: usize> Robot<N> {
         heading: &[f64; N],
         weights: &[f64; N],
     ) -> Result<Option<Solution<N>>, Error> {
-        if let (Some(arm), Some(heading), Some(weights)) =
-            (self.of_seven_joints(), of_count(*heading), of_count(*weights))
-        {
-            let next = arm.continued_along_redundancy(pose, &heading, &weights)?;
-            return Ok(next.and_then(of_count));
+        if let Some(arm) = self.redundancy() {
+            return arm.continued_along_redundancy(pose, heading, weights);
         }
         let solutions = self.solve(*pose, &FreeChoice::path(*heading))?;
         Ok(solutions.cheapest(heading, weights, Cost::Distance))
-    }
-
-    /// Whether the arm has one joint more than a pose needs.
-    pub(crate) fn is_redundant(&self) -> bool {
-        self.of_seven_joints().is_some()
-    }
-
-    /// The arm as one of seven joints none of which is locked, if it is one.
-    fn of_seven_joints(&self) -> Option<&Robot<7>> {
-        let arm: &dyn Any = self;
-        arm.downcast_ref().filter(|arm: &&Robot<7>| arm.lock().is_none())
     }
 
     /// [`Self::nearest_checked`] of rows of poses and seeds, for weights that are checked; NaN of a
@@ -234,7 +207,7 @@ impl<const N: usize> Robot<N> {
             let seen = lock.joint.seen(pose, lock.angle);
             return Ok(lock.six.with_approach(explanation, &seen));
         }
-        if let Some(arm) = self.of_seven_joints() {
+        if let Some(arm) = self.redundancy() {
             return arm.explain_along_redundancy(pose);
         }
         let solutions = self.ik_checked(*pose, f64::NAN)?;

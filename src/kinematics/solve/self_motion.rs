@@ -51,7 +51,9 @@ impl<const N: usize> Robot<N> {
     ) -> Result<Option<Solution<N>>, Error> {
         let joint = free.joint() - 1;
         let found = if let FreeJoint::Chain { .. } = free {
-            let member = self.known_inverse()?.member(pose, &solution.q, joint, value);
+            self.known_inverse()?;
+            let motions = self.self_motions(pose);
+            let member = motions.and_then(|(of, pose)| of.member(&pose, &solution.q, joint, value));
             member.map(|q| Solution { q: self.limits().wrap(q), ..*solution })
         } else if let Some((partner, sign)) = free.partner().filter(|_| self.own_rule().is_some()) {
             // Of a YuMi, whose other joints are no closed form.

@@ -2,7 +2,7 @@
 //!
 //! Reference: Allgower and Georg, Introduction to Numerical Continuation Methods, 2003, chapter 2.
 
-use nalgebra::{SMatrix, SVector, Vector3};
+use nalgebra::{SMatrix, SVector};
 
 use crate::kinematics::chain::jacobian::JacobianFrame;
 use crate::kinematics::pose::Pose;
@@ -80,7 +80,7 @@ impl SelfMotion<'_> {
         let mut rest = f64::INFINITY;
         for _ in 0..ROUNDS {
             let (border, off) = seventh(&q);
-            let wanted = self.off(&q).push(off);
+            let wanted = self.robot.off(self.pose, &q.into()).push(off);
             let bordered = self.bordered(&q, &border).lu();
             let correction = bordered.solve(&wanted)?;
             let size = correction.amax();
@@ -115,21 +115,6 @@ impl SelfMotion<'_> {
             .copy_from(&self.robot.jacobian(&(*q).into(), JacobianFrame::Base));
         matrix.row_mut(6).copy_from(&border.transpose());
         matrix
-    }
-
-    /// The difference from the tool pose at `q` to the pose: translation [m] and, for small angles,
-    /// rotation [rad].
-    fn off(&self, q: &Joints) -> SVector<f64, 6> {
-        let at = self.robot.fk(&(*q).into());
-        let turn = (self.pose.rotation * at.rotation.inverse()).into_inner();
-        let turn = 0.5
-            * Vector3::new(
-                turn[(2, 1)] - turn[(1, 2)],
-                turn[(0, 2)] - turn[(2, 0)],
-                turn[(1, 0)] - turn[(0, 1)],
-            );
-        let shift = self.pose.translation.vector - at.translation.vector;
-        SVector::<f64, 6>::new(shift.x, shift.y, shift.z, turn.x, turn.y, turn.z)
     }
 }
 

@@ -5,6 +5,7 @@
 //! fast, so that none of it is passed over (docs/theory/singularities.md, section 6).
 
 use core::f64::consts::{PI, TAU};
+use core::ops::ControlFlow::{Break, Continue};
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -16,6 +17,7 @@ use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::solve::minimum::minimum;
 use crate::kinematics::solve::nearest::{NearestSearch, UNCERTAIN_SIN_5, Wanted};
 use crate::kinematics::solve::pair::Pair;
+use crate::kinematics::structure::continuum::{Steps, walk};
 use crate::kinematics::structure::family::Family;
 use crate::kinematics::thresholds::LIMIT_SLACK;
 use crate::report::FreeJoint;
@@ -24,8 +26,9 @@ use crate::report::FreeJoint;
 const STEP: f64 = 0.12;
 const LONGEST_STEP: f64 = 0.3;
 
-/// Steps of an arc, at most; and the first.
-const MOST_STEPS: u32 = 320;
+/// Steps along an arc [1], and how many the first would make.
+const STEPS: Steps =
+    Steps { first: PI, least: 0.0, longest: f64::INFINITY, shorter: 0.25, most: 320 };
 const FIRST_STEPS: f64 = 6.0;
 
 /// How far beside a solution it is tried whether the pose is met [rad], and in how many parts of an
@@ -36,7 +39,7 @@ const ARC_PARTS: u32 = 16;
 /// Parts of an arc at whose ends any member is looked for.
 const ANY_PARTS: u32 = 8;
 
-/// Least step [1]: the root of the rounding of an angle.
+/// Step that is taken however far the joints move [1]: the root of the rounding of an angle.
 const LEAST_STEP: f64 = 1e-8;
 
 /// How much farther the joints may move between three members than from one to the next [1].
@@ -101,9 +104,9 @@ impl<const N: usize> Sample<N> {
 impl<const N: usize> NearestSearch<'_, N> {
     /// Search the self-motion of a solution, on both its branches.
     pub(super) fn look_along_self_motion(&mut self, from: &Solution<N>, free: FreeJoint) {
-        let Some(inverse) = self.robot.inverse() else { return };
+        let Some((motions, pose)) = self.robot.self_motions(self.known.pose()) else { return };
         let q_and_rest = [&from.q, self.wanted.seed];
-        inverse.with_family(self.known.pose(), q_and_rest, free, &mut |family| {
+        motions.with_family(&pose, q_and_rest, free, &mut |family| {
             if self.is_first_of(from, free.joint(), family.bit()) {
                 self.look_along_family(Along { family, from, free });
             }
@@ -220,24 +223,20 @@ impl<const N: usize> NearestSearch<'_, N> {
 
     /// Walk from one part of an arc to another, and look into the valleys.
     fn look_along_parts(&mut self, along: Along<'_, N>, arc: Arc, [low, high]: [f64; 2]) {
-        let mut here = self.sample_at(along, arc, low);
-        let mut before = None;
-        let mut step = (high - low) / FIRST_STEPS;
-        for _ in 0..MOST_STEPS {
+        let start = self.sample_at(along, arc, low);
+        let mut passed = [None, Some(start)];
+        walk(start, Steps { first: (high - low) / FIRST_STEPS, ..STEPS }, |here, step| {
             let next = self.sample_at(along, arc, (here.part + step).min(high));
             let moved = here.to(&next);
             if moved > LONGEST_STEP && step > LEAST_STEP {
-                step *= 0.25;
-                continue;
+                return None;
             }
-            self.look_into_valleys(along, arc, [before, Some(here), Some(next)]);
-            (before, here) = (Some(here), next);
-            if here.part >= high {
-                break;
-            }
-            step *= (STEP / moved).clamp(0.25, 3.0);
-        }
-        self.look_into_valleys(along, arc, [before, Some(here), None]);
+            self.look_into_valleys(along, arc, [passed[0], Some(*here), Some(next)]);
+            passed = [Some(*here), Some(next)];
+            let growth = (STEP / moved).clamp(0.25, 3.0);
+            Some(if next.part < high { Continue((next, growth)) } else { Break(()) })
+        });
+        self.look_into_valleys(along, arc, [passed[0], passed[1], None]);
     }
 
     /// Search between three samples where the joints of a branch are the least outside the limits,

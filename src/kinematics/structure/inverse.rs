@@ -1,22 +1,23 @@
 //! The inverse of an arm, whichever its structure: one object-safe trait.
 
 use alloc::sync::Arc;
-use core::any::Any;
 use core::fmt::Debug;
 
-use super::TakeStep;
-use super::family::Family;
+use super::end_frames::EndFrames;
 use super::free_choice::FreeChoice;
 use super::lanes::{Choice, PoseRow};
-use super::singular_wrist::SingularWrist;
+use super::self_motions::SelfMotions;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::Solutions;
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
-use crate::report::FreeJoint;
+
+/// A chain with deviations from a structure within rounding removed, and its inverse.
+pub(crate) type Solved<const N: usize> = (Chain<N>, Arc<dyn Inverse<N>>);
 
 /// The inverse of an arm of `N` joints between its base and its tool, with its limits: the
 /// [`Solver`](super::solver::Solver) of a structure, a [`Refined`](super::refined::Refined) nominal
@@ -24,7 +25,7 @@ use crate::report::FreeJoint;
 ///
 /// `locked` is the angle of the joint that a caller locks [rad], in an arm of seven joints; an arm
 /// of six ignores it.
-pub(crate) trait Inverse<const N: usize>: Any + Debug + Send + Sync {
+pub(crate) trait Inverse<const N: usize>: Debug + Send + Sync {
     /// Name of the structure.
     fn name(&self) -> &'static str;
 
@@ -85,28 +86,24 @@ pub(crate) trait Inverse<const N: usize>: Any + Debug + Send + Sync {
     #[cfg(test)]
     fn without_lanes(&self) -> Arc<dyn Inverse<N>>;
 
-    // --- For the search of self-motions. ---
-
-    fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
+    /// The chain and the inverse of a table that differs by a link from this arm's, if they are
+    /// prepared faster than by recognizing the table.
+    fn like(&self, _mdh: &Mdh<N>) -> Option<Solved<N>> {
         None
     }
 
-    fn with_family(
-        &self,
-        _pose: &Pose,
-        _q_and_rest: [&[f64; N]; 2],
-        _free: FreeJoint,
-        _search: &mut dyn FnMut(&dyn Family<N>),
-    ) {
-    }
-
-    fn member(&self, _pose: &Pose, _q: &[f64; N], _joint: usize, _value: f64) -> Option<[f64; N]> {
+    /// The frames that are removed from a pose for [`Self::self_motions`].
+    fn end_frames(&self) -> Option<&EndFrames> {
         None
     }
 
-    fn walk(&self, _pose: &Pose, _q: &[f64; N], _pass: &mut TakeStep<'_, N>) {}
+    /// The wrist frame of a pose, between whose joints the self-motions are.
+    fn wrist_pose(&self, pose: &Pose) -> Pose {
+        self.end_frames().map_or(*pose, |frames| frames.wrist_pose(pose))
+    }
 
-    fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
+    /// The self-motions of a pose that [`Self::wrist_pose`] returns.
+    fn self_motions(&self) -> Option<&dyn SelfMotions<N>> {
         None
     }
 }
@@ -122,10 +119,3 @@ pub(crate) struct Rows<'a> {
 
 /// Solve the row with an index into its slots and their status.
 pub(crate) type RowSolve<'a, const N: usize> = dyn FnMut(usize, &mut [[f64; N]], &mut [u8]) + 'a;
-
-/// Return a value of type `A` as one of type `B`, if they are the same type: generic code has `N`
-/// joints where a structure has six or seven.
-pub(crate) fn of_count<A: 'static, B: 'static>(value: A) -> Option<B> {
-    let mut value = Some(value);
-    (&mut value as &mut dyn Any).downcast_mut::<Option<B>>()?.take()
-}

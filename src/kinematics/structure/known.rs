@@ -1,16 +1,14 @@
 //! The structures that an arm may have, in the order in which they are tried on a table.
 
 use alloc::sync::Arc;
-use core::any::Any;
 
 use nalgebra::{Rotation3, Vector3};
 
 use super::Structure;
 use super::general::General;
-use super::inverse::{Inverse, of_count};
+use super::inverse::{Inverse, Solved};
 use super::locked::{Locked, LockedJoint};
 use super::offset_wrist::OffsetWrist;
-use super::refined::Refined;
 use super::solver::Solver;
 use super::spherical_shoulder::SphericalShoulder;
 use super::spherical_wrist::{OpwParameters, SphericalWrist};
@@ -21,33 +19,24 @@ use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::translation_z;
 use crate::report::UnknownStructure;
 
-/// A chain with deviations from a structure within rounding removed, and its inverse.
-pub(crate) type Solved<const N: usize> = (Chain<N>, Arc<dyn Inverse<N>>);
-
-/// A structure, as it is tried on a table.
-struct Known<const N: usize> {
-    is_closed_form: bool,
-    measure: fn(&Mdh<N>) -> Result<Solved<N>, UnknownStructure>,
+/// The structures that an arm may have, in the order in which they are tried on a table.
+pub(crate) struct Known<const N: usize> {
+    /// They take microseconds to prepare.
+    pub(crate) closed_forms: &'static [Measure<N>],
+    /// They take milliseconds.
+    pub(crate) others: &'static [Measure<N>],
 }
+
+pub(crate) type Measure<const N: usize> = fn(&Mdh<N>) -> Result<Solved<N>, UnknownStructure>;
 
 /// The last one takes every table whose joints are independent.
-static SIX_JOINTS: &[Known<6>] = &[
-    Known { is_closed_form: true, measure: measured::<SphericalWrist, 6, 8> },
-    Known { is_closed_form: true, measure: measured::<ThreeParallel, 6, 8> },
-    Known { is_closed_form: false, measure: measured::<OffsetWrist, 6, 16> },
-    Known { is_closed_form: false, measure: measured::<General, 6, 16> },
-];
+pub(crate) const SIX_JOINTS: Known<6> = Known {
+    closed_forms: &[measured::<SphericalWrist, 6, 8>, measured::<ThreeParallel, 6, 8>],
+    others: &[measured::<OffsetWrist, 6, 16>, measured::<General, 6, 16>],
+};
 
-static SEVEN_JOINTS: &[Known<7>] = &[
-    Known { is_closed_form: true, measure: measured::<SphericalShoulder, 7, 8> },
-    Known { is_closed_form: false, measure: last_locked },
-];
-
-fn known<const N: usize>() -> &'static [Known<N>] {
-    let lists: [&'static dyn Any; 2] = [&SIX_JOINTS, &SEVEN_JOINTS];
-    let of_count = lists.iter().find_map(|list| list.downcast_ref::<&'static [Known<N>]>());
-    of_count.copied().unwrap_or(&[])
-}
+pub(crate) const SEVEN_JOINTS: Known<7> =
+    Known { closed_forms: &[measured::<SphericalShoulder, 7, 8>], others: &[last_locked] };
 
 fn measured<T: Structure<N, S>, const N: usize, const S: usize>(
     mdh: &Mdh<N>,
@@ -77,66 +66,50 @@ pub(crate) struct Recognized<const N: usize> {
 }
 
 impl<const N: usize> Recognized<N> {
-    fn new((chain, inverse): Solved<N>, missing_form: Option<UnknownStructure>) -> Self {
+    pub(crate) fn new((chain, inverse): Solved<N>, missing_form: Option<UnknownStructure>) -> Self {
         Self { chain, inverse: Some(inverse), missing_form }
-    }
-
-    /// A table without its inverse, for a reason.
-    fn unknown(mdh: &Mdh<N>, reason: UnknownStructure) -> Self {
-        Self { chain: Chain::new(mdh.clone()), inverse: None, missing_form: Some(reason) }
     }
 }
 
 /// Recognize the structure of a table.
-pub(crate) fn recognize<const N: usize>(mdh: &Mdh<N>) -> Recognized<N> {
-    let nearest = match closed_form(mdh) {
+pub(crate) fn recognize<const N: usize>(mdh: &Mdh<N>, known: &Known<N>) -> Recognized<N> {
+    let nearest = match closed_form(mdh, known) {
         Ok(solved) => return Recognized::new(solved, None),
         Err(nearest) => nearest,
     };
     let mut refused = None;
-    for known in known().iter().filter(|known| !known.is_closed_form) {
-        match (known.measure)(mdh) {
+    for measure in known.others {
+        match measure(mdh) {
             Ok(solved) => return Recognized::new(solved, Some(nearest)),
             Err(missed) => refused = Some(missed),
         }
     }
     // A link that is too short says more than what depends on it.
     let reason = refused.filter(|_| !nearest.is_length()).unwrap_or(nearest);
-    Recognized::unknown(mdh, reason)
-}
-
-/// Recognize the structure of a table if it has a closed form; otherwise prepare no inverse, which
-/// takes milliseconds.
-pub(crate) fn recognize_closed_form<const N: usize>(mdh: &Mdh<N>) -> Recognized<N> {
-    match closed_form(mdh) {
-        Ok(solved) => Recognized::new(solved, None),
-        Err(reason) => Recognized::unknown(mdh, reason),
-    }
+    Recognized { chain: Chain::new(mdh.clone()), inverse: None, missing_form: Some(reason) }
 }
 
 /// Recognize a table that differs by a link from the table of another arm.
 pub(crate) fn recognize_like(mdh: &Mdh<6>, other: &dyn Inverse<6>) -> Recognized<6> {
-    let other: &dyn Any = other;
-    let Some(Solver { structure: other, .. }) = other.downcast_ref::<Solver<General, 6, 16>>()
-    else {
-        return recognize(mdh);
-    };
     // The offset wrist is recognized before an arm in general.
     let is_offset_wrist = OffsetWrist::PATTERN.square_up(mdh).is_ok();
-    let (Err(nearest), false) = (closed_form(mdh), is_offset_wrist) else {
-        return recognize(mdh);
+    let (Err(nearest), false) = (closed_form(mdh, &SIX_JOINTS), is_offset_wrist) else {
+        return recognize(mdh, &SIX_JOINTS);
     };
-    let Ok(general) = General::like(mdh, other) else { return recognize(mdh) };
-    let chain = Chain::new(mdh.clone());
-    let solver = Solver::new(general, &chain, &JointLimits::UNLIMITED);
-    Recognized::new((chain, Arc::new(solver)), Some(nearest))
+    match other.like(mdh) {
+        Some(solved) => Recognized::new(solved, Some(nearest)),
+        None => recognize(mdh, &SIX_JOINTS),
+    }
 }
 
 /// The inverse of a table in closed form; otherwise the conditions of the nearest one.
-pub(crate) fn closed_form<const N: usize>(mdh: &Mdh<N>) -> Result<Solved<N>, UnknownStructure> {
+pub(crate) fn closed_form<const N: usize>(
+    mdh: &Mdh<N>,
+    known: &Known<N>,
+) -> Result<Solved<N>, UnknownStructure> {
     let mut nearest: Option<UnknownStructure> = None;
-    for known in known().iter().filter(|known| known.is_closed_form) {
-        match (known.measure)(mdh) {
+    for measure in known.closed_forms {
+        match measure(mdh) {
             Ok(solved) => return Ok(solved),
             Err(missed) => nearest = Some(missed.nearer_of(nearest)),
         }
@@ -149,39 +122,17 @@ fn last_locked(mdh: &Mdh<7>) -> Result<Solved<7>, UnknownStructure> {
     let [rows @ .., last] = mdh.rows;
     let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), last.theta);
     let link = screw_x(last.alpha, last.a) * turned * translation_z(last.d);
-    let six = recognize(&Mdh { base: mdh.base, rows, flange: link * mdh.flange });
+    let six = recognize(&Mdh { base: mdh.base, rows, flange: link * mdh.flange }, &SIX_JOINTS);
     let chain = Chain::new(mdh.clone());
     let locked = LockedJoint::new(&chain, 6, 0.0);
-    let inverse = six
-        .inverse
-        .and_then(|inverse| Locked::of(inverse, six.chain, locked, JointLimits::UNLIMITED));
-    match inverse {
-        Some(inverse) => Ok((chain, inverse)),
-        None => Err(six.missing_form.unwrap_or(UnknownStructure::joint_count(7))),
-    }
+    let inverse =
+        six.inverse.ok_or(six.missing_form.unwrap_or(UnknownStructure::joint_count(7)))?;
+    Ok((chain, Locked::of(inverse, six.chain, locked, JointLimits::UNLIMITED)))
 }
 
-/// The inverse of an ortho-parallel arm with a spherical wrist; `None` for another number of joints
-/// than six.
-pub(crate) fn of_opw<const N: usize>(
-    opw: &OpwParameters,
-    chain: &Chain<N>,
-) -> Option<Arc<dyn Inverse<N>>> {
-    let chain = of_count(chain.clone())?;
+/// The chain and the inverse of an ortho-parallel arm with a spherical wrist.
+pub(crate) fn of_opw(opw: &OpwParameters) -> Solved<6> {
+    let chain = Chain::new(opw.mdh());
     let solver = Solver::new(SphericalWrist::from_opw(opw), &chain, &JointLimits::UNLIMITED);
-    of_count::<Arc<dyn Inverse<6>>, _>(Arc::new(solver))
-}
-
-/// The inverse of the calibrated arm `chain` by way of its nominal arm; `None` for another number
-/// of joints than six.
-pub(crate) fn refined<const N: usize>(
-    nominal: &Arc<dyn Inverse<N>>,
-    nominal_chain: &Chain<N>,
-    chain: &Chain<N>,
-    limits: &JointLimits<N>,
-) -> Option<Arc<dyn Inverse<N>>> {
-    let nominal = of_count::<_, Arc<dyn Inverse<6>>>(Arc::clone(nominal))?;
-    let chains = (of_count(nominal_chain.clone())?, of_count(chain.clone())?);
-    let refined = Refined::new(&*nominal, chains.0, &chains.1, &of_count(*limits)?);
-    of_count::<Arc<dyn Inverse<6>>, _>(Arc::new(refined))
+    (chain, Arc::new(solver))
 }

@@ -12,9 +12,9 @@ use alloc::sync::Arc;
 
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Unit, Vector3};
 
-use super::TakeStep;
 use super::free_choice::FreeChoice;
-use super::inverse::{Inverse, of_count};
+use super::inverse::Inverse;
+use super::self_motions::{SelfMotions, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
@@ -141,17 +141,17 @@ pub(crate) struct Locked {
 }
 
 impl Locked {
-    /// The inverse of seven joints, of an arm of six that has their base, tool and limits.
+    /// The inverse of one joint more, of an arm of six that has their base, tool and limits.
     pub(crate) fn of<const N: usize>(
         six: Arc<dyn Inverse<6>>,
         chain: Chain<6>,
         locked: LockedJoint,
         limits: JointLimits<6>,
-    ) -> Option<Arc<dyn Inverse<N>>> {
-        of_count::<Arc<dyn Inverse<7>>, _>(Arc::new(Self { six, chain, joint: locked, limits }))
+    ) -> Arc<dyn Inverse<N>> {
+        Arc::new(Self { six, chain, joint: locked, limits })
     }
 
-    fn others(&self, q: &[f64; 7]) -> [f64; 6] {
+    fn others<const N: usize>(&self, q: &[f64; N]) -> [f64; 6] {
         others(q, self.joint.joint)
     }
 
@@ -161,7 +161,7 @@ impl Locked {
     }
 }
 
-impl Inverse<7> for Locked {
+impl<const N: usize> Inverse<N> for Locked {
     /// The six joints may have a structure, the seven have none.
     fn name(&self) -> &'static str {
         if self.joint.joint == 6 { "general" } else { self.six.name() }
@@ -175,7 +175,7 @@ impl Inverse<7> for Locked {
         self.six.slot_names()
     }
 
-    fn between(&self, chain: &Chain<7>, limits: &JointLimits<7>) -> Arc<dyn Inverse<7>> {
+    fn between(&self, chain: &Chain<N>, limits: &JointLimits<N>) -> Arc<dyn Inverse<N>> {
         let six_chain = self.chain.clone().with_base(*chain.base()).with_tool(*chain.tool());
         let limits = limits.without(self.joint.joint);
         let six = self.six.between(&six_chain, &limits);
@@ -183,7 +183,7 @@ impl Inverse<7> for Locked {
         Arc::new(Self { six, chain: six_chain, joint: locked, limits })
     }
 
-    fn solve_in_lanes(&self, solutions: &mut Solutions<7>, locked: f64) -> bool {
+    fn solve_in_lanes(&self, solutions: &mut Solutions<N>, locked: f64) -> bool {
         let mut six = self.unsolved(&solutions.pose, locked);
         let is_regular = self.six.solve_in_lanes(&mut six, f64::NAN);
         if is_regular {
@@ -192,45 +192,54 @@ impl Inverse<7> for Locked {
         is_regular
     }
 
-    fn solve_on_path(&self, _: &mut Solutions<7>, _: f64) -> bool {
+    fn solve_on_path(&self, _: &mut Solutions<N>, _: f64) -> bool {
         false
     }
 
-    fn solve(&self, solutions: &mut Solutions<7>, locked: f64, free: &FreeChoice<7>) {
+    fn solve(&self, solutions: &mut Solutions<N>, locked: f64, free: &FreeChoice<N>) {
         let mut six = self.unsolved(&solutions.pose, locked);
         let free = FreeChoice { q: self.others(&free.q), policy: free.policy };
         self.six.solve(&mut six, f64::NAN, &free);
         self.joint.extend(&six, locked, solutions);
     }
 
-    fn singular(&self, q: &[f64; 7]) -> (Option<SingularDistances>, SingularityKind) {
+    fn singular(&self, q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind) {
         self.six.singular(&self.others(q))
     }
 
-    fn jacobian_determinant(&self, q: &[f64; 7]) -> Option<f64> {
+    fn jacobian_determinant(&self, q: &[f64; N]) -> Option<f64> {
         self.six.jacobian_determinant(&self.others(q))
     }
 
-    fn slot(&self, q: &[f64; 7]) -> Option<Slot> {
+    fn slot(&self, q: &[f64; N]) -> Option<Slot> {
         self.six.slot(&self.others(q))
     }
 
     #[cfg(test)]
-    fn without_lanes(&self) -> Arc<dyn Inverse<7>> {
+    fn without_lanes(&self) -> Arc<dyn Inverse<N>> {
         Arc::new(Self { six: self.six.without_lanes(), ..self.clone() })
     }
 
-    fn member(&self, pose: &Pose, q: &[f64; 7], joint: usize, value: f64) -> Option<[f64; 7]> {
+    fn self_motions(&self) -> Option<&dyn SelfMotions<N>> {
+        self.six.self_motions().map(|_| self as _)
+    }
+}
+
+/// The self-motions of the other six joints.
+impl<const N: usize> SelfMotions<N> for Locked {
+    fn member(&self, pose: &Pose, q: &[f64; N], joint: usize, value: f64) -> Option<[f64; N]> {
         let angle = q[self.joint.joint];
-        let pose = self.joint.seen(pose, angle);
-        let six = self.six.member(&pose, &self.others(q), joint, value)?;
+        let pose = self.six.wrist_pose(&self.joint.seen(pose, angle));
+        let six = self.six.self_motions()?.member(&pose, &self.others(q), joint, value)?;
         Some(self.joint.joints(&six, angle))
     }
 
-    fn walk(&self, pose: &Pose, q: &[f64; 7], pass: &mut TakeStep<'_, 7>) {
+    fn walk(&self, pose: &Pose, q: &[f64; N], pass: &mut TakeStep<'_, N>) {
+        let Some(motions) = self.six.self_motions() else { return };
         let angle = q[self.joint.joint];
         let seven = |six: &[f64; 6]| self.joint.joints(six, angle);
         let pass = &mut |start: &[f64; 6], end: &[f64; 6]| pass(&seven(start), &seven(end));
-        self.six.walk(&self.joint.seen(pose, angle), &self.others(q), pass);
+        let pose = self.six.wrist_pose(&self.joint.seen(pose, angle));
+        motions.walk(&pose, &self.others(q), pass);
     }
 }

@@ -10,6 +10,7 @@
 pub(crate) mod branches;
 pub(crate) mod by_roots;
 pub(crate) mod closure;
+pub(crate) mod continuum;
 pub(crate) mod end_frames;
 pub(crate) mod family;
 pub(crate) mod free_choice;
@@ -23,7 +24,7 @@ pub(crate) mod offset_wrist;
 pub(crate) mod planar_arm;
 pub(crate) mod recognition;
 pub(crate) mod refined;
-pub(crate) mod singular_wrist;
+pub(crate) mod self_motions;
 pub(crate) mod solver;
 pub(crate) mod spherical_shoulder;
 pub(crate) mod spherical_wrist;
@@ -35,21 +36,17 @@ pub(crate) mod zyz;
 use core::fmt::Debug;
 
 use branches::Branches;
-use family::Family;
 use free_choice::FreeChoice;
 use joint_map::JointMap;
 use lanes::LaneKernel;
-use singular_wrist::SingularWrist;
+use self_motions::SelfMotions;
 
 use super::answer::singularity::SingularDistances;
 use super::answer::slot::Slot;
 use super::answer::status::SingularityKind;
 use super::chain::dh::Mdh;
 use super::pose::Pose;
-use crate::report::{FreeJoint, Pattern, UnknownStructure};
-
-/// Take the ends of a step along a self-motion.
-pub(crate) type TakeStep<'a, const N: usize> = dyn FnMut(&[f64; N], &[f64; N]) + 'a;
+use crate::report::{Pattern, UnknownStructure};
 
 /// A kinematic structure of `N` joints with `S` slots.
 ///
@@ -65,7 +62,7 @@ pub(crate) type TakeStep<'a, const N: usize> = dyn FnMut(&[f64; N], &[f64; N]) +
 /// [`Solver`](solver::Solver) removes `B`, `F`, base and tool from a pose and converts theta to q;
 /// a structure solves `T_first_last(theta)` alone.
 pub(crate) trait Structure<const N: usize, const S: usize>:
-    Clone + Debug + Send + Sync + 'static
+    SelfMotions<N> + Clone + Debug + Send + Sync + 'static
 {
     /// The conditions on the axes, and the name.
     const PATTERN: &'static Pattern;
@@ -79,6 +76,11 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     /// Measure the geometry of a table that meets the pattern, and remove deviations within
     /// rounding.
     fn measure(mdh: &mut Mdh<N>) -> Result<Self, UnknownStructure>;
+
+    /// Measure a table that differs by a link from this arm's, if that takes less.
+    fn like(&self, _mdh: &Mdh<N>) -> Option<Self> {
+        None
+    }
 
     /// Signs, offsets, `B` and `F`.
     fn joint_map(&self) -> &JointMap<N>;
@@ -105,44 +107,4 @@ pub(crate) trait Structure<const N: usize, const S: usize>:
     /// The slot of the branch that `q` is on; the one in front if two meet at a singularity. `None`
     /// if slots are ordinals.
     fn slot(&self, q: &[f64; N]) -> Option<Slot>;
-
-    // --- For the search of self-motions. ---
-
-    /// sin q5, signed, for a structure whose wrist is singular where it is zero.
-    fn sin_5(&self, _q: &[f64; N]) -> Option<f64> {
-        None
-    }
-
-    /// Search the self-motion of `q`, which reaches `t_first_last`, along a free joint without a
-    /// partner, if it is known in closed form; a joint that is undetermined on the way takes its
-    /// angle from `rest`.
-    fn with_family(
-        &self,
-        _t_first_last: &Pose,
-        [_q, _rest]: [&[f64; N]; 2],
-        _free: FreeJoint,
-        _search: &mut dyn FnMut(&dyn Family<N>),
-    ) {
-    }
-
-    /// The member of the self-motion of `q`, which reaches `t_first_last`, with a joint, from 0, at
-    /// an angle: of several the nearest; for a [`FreeJoint::Chain`].
-    fn member(
-        &self,
-        _t_first_last: &Pose,
-        _q: &[f64; N],
-        _joint: usize,
-        _value: f64,
-    ) -> Option<[f64; N]> {
-        None
-    }
-
-    /// Walk along the self-motion of `q`, as far as [`Self::member`] does: `pass` gets the ends of
-    /// each step.
-    fn walk(&self, _t_first_last: &Pose, _q: &[f64; N], _pass: &mut TakeStep<'_, N>) {}
-
-    /// The arm as one with a spherical wrist, if it has one.
-    fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
-        None
-    }
 }

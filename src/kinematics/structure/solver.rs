@@ -3,22 +3,21 @@
 
 use alloc::sync::Arc;
 
+use super::Structure;
 use super::end_frames::{EndFrames, Frame, Seen};
-use super::family::Family;
 use super::free_choice::FreeChoice;
-use super::inverse::{Inverse, RowSolve, Rows};
+use super::inverse::{Inverse, RowSolve, Rows, Solved};
 use super::lanes::{Blocks, Choice, Columns, LaneKernel, PoseRow, RegularPose, Wanted};
-use super::singular_wrist::SingularWrist;
-use super::{Structure, TakeStep};
+use super::self_motions::SelfMotions;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::solutions::{Place, Solution, Solutions};
 use crate::kinematics::answer::status::{SingularityKind, Status};
 use crate::kinematics::chain::Chain;
+use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
 use crate::lanes::{Kernel, run};
-use crate::report::FreeJoint;
 
 /// A structure with its end frames and joint limits.
 #[derive(Clone, Debug)]
@@ -159,33 +158,18 @@ impl<T: Structure<N, S>, const N: usize, const S: usize> Inverse<N> for Solver<T
         Arc::new(Self { lanes: None, ..self.clone() })
     }
 
-    // --- For the search of self-motions. ---
-
-    fn sin_5(&self, q: &[f64; N]) -> Option<f64> {
-        self.structure.sin_5(q)
+    fn like(&self, mdh: &Mdh<N>) -> Option<Solved<N>> {
+        let (structure, chain) = (self.structure.like(mdh)?, Chain::new(mdh.clone()));
+        let solver = Self::new(structure, &chain, &JointLimits::UNLIMITED);
+        Some((chain, Arc::new(solver)))
     }
 
-    fn with_family(
-        &self,
-        pose: &Pose,
-        q_and_rest: [&[f64; N]; 2],
-        free: FreeJoint,
-        search: &mut dyn FnMut(&dyn Family<N>),
-    ) {
-        let t_first_last = self.end_frames.wrist_pose(pose);
-        self.structure.with_family(&t_first_last, q_and_rest, free, search);
+    fn end_frames(&self) -> Option<&EndFrames> {
+        Some(&self.end_frames)
     }
 
-    fn member(&self, pose: &Pose, q: &[f64; N], joint: usize, value: f64) -> Option<[f64; N]> {
-        self.structure.member(&self.end_frames.wrist_pose(pose), q, joint, value)
-    }
-
-    fn walk(&self, pose: &Pose, q: &[f64; N], pass: &mut TakeStep<'_, N>) {
-        self.structure.walk(&self.end_frames.wrist_pose(pose), q, pass);
-    }
-
-    fn singular_wrist(&self) -> Option<&dyn SingularWrist<N>> {
-        self.structure.singular_wrist()
+    fn self_motions(&self) -> Option<&dyn SelfMotions<N>> {
+        Some(&self.structure)
     }
 }
 

@@ -10,8 +10,8 @@ use proptest::prelude::*;
 
 use super::place::{At, Made, Place, Posture, Verdict};
 use super::{Arm, SIX, Structure, Subject};
-use crate::common::wrapped;
-use crate::rng::Rng;
+use crate::suite::common::wrapped;
+use crate::suite::rng::Rng;
 
 /// An arm by the parameters of its derivation.
 #[derive(Clone, Copy, Debug)]

@@ -6,6 +6,7 @@
 //! one, Newton's method finds it.
 
 use core::f64::consts::{PI, TAU};
+use core::ops::ControlFlow::{Break, Continue};
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -19,24 +20,21 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::self_motion_curve::{Joints, Point, SelfMotion};
+use crate::kinematics::structure::continuum::{Steps, walk};
 use crate::kinematics::structure::locked::LockedJoint;
 
 /// Spacing of the angles of the joint at which all solutions are computed [rad]: a self-motion that
 /// turns it by less may be missed.
 const SPACING: f64 = PI / 180.0;
 
-/// Largest and least step along a curve [rad].
-const STEP: f64 = 0.06;
-const LEAST_STEP: f64 = 1e-7;
+/// Steps along one piece of a curve [rad], after which it is given up.
+const STEPS: Steps = Steps { first: 0.06, least: 1e-7, longest: 0.06, shorter: 0.5, most: 2000 };
 
 /// Largest change of the arm angle in a step [rad].
 const LARGEST_CHANGE: f64 = 0.3;
 
 /// Cosine of the largest angle between the directions of a curve at the ends of a step [1].
 const LEAST_COSINE: f64 = 0.95;
-
-/// Steps along one piece of a curve, after which it is given up.
-const STEPS: u32 = 2000;
 
 /// How far the arm angle may be from the wanted one where it is the nearest, for Newton's method to
 /// start there [rad].
@@ -138,16 +136,10 @@ impl Search<'_> {
         if point.along[joint] * way < 0.0 {
             point.along = -point.along;
         }
-        let (mut step, mut slope) = (STEP, 0.0);
-        let Some(mut off) = self.off(&point.joints()) else { return };
-        for _ in 0..STEPS {
-            let Some((next, next_off)) = self.step(&point, off, step) else {
-                step *= 0.5;
-                if step < LEAST_STEP {
-                    return;
-                }
-                continue;
-            };
+        let Some(off) = self.off(&point.joints()) else { return };
+        let mut slope = 0.0;
+        walk((point, off), STEPS, |(point, off), step| {
+            let (next, next_off) = self.step(point, *off, step)?;
             let change = wrap(next_off - off);
             // Both signs also meet half a turn away from the wanted angle.
             if off * next_off <= 0.0 && off.abs() < 1.0 {
@@ -157,18 +149,17 @@ impl Search<'_> {
                 // The nearest that the arm angle comes, here or next to it.
                 self.refine(&point.joints());
             }
-            let turned = way * (next.q[joint] - from.at);
-            let crossed = [
-                (turned < 0.0).then_some(&mut *from),
-                (way * (next.q[joint] - to.at) > 0.0).then_some(&mut *to),
-            ];
-            if let Some(section) = crossed.into_iter().flatten().next() {
-                section.pass(&self.curve, joint, &next);
-                return;
-            }
-            (point, off, slope) = (next, next_off, change);
-            step = (2.0 * step).min(STEP);
-        }
+            let crossed = if way * (next.q[joint] - from.at) < 0.0 {
+                &mut *from
+            } else if way * (next.q[joint] - to.at) > 0.0 {
+                &mut *to
+            } else {
+                slope = change;
+                return Some(Continue(((next, next_off), 2.0)));
+            };
+            crossed.pass(&self.curve, joint, &next);
+            Some(Break(()))
+        });
     }
 
     /// A step along the curve, if neither the curve nor the arm angle turns far on it.

@@ -4,29 +4,30 @@
 mod arm_angle;
 mod arm_angle_search;
 mod coaxial;
+pub(crate) mod fault;
 mod having;
-#[cfg(feature = "rapid")]
-mod near_arm_angle;
-mod request;
 mod rule;
 mod six_axes;
 mod spherical_wrist;
 mod yumi;
 
-pub use request::ConfigurationRequest;
-
 use alloc::vec::Vec;
-use core::any::Any;
 
 use rule::Quarters;
 
-use crate::error::{Error, ModelFault, NoConfiguration};
+use crate::error::Error;
+use crate::kinematics::answer::check::check_arm_angle;
+use crate::kinematics::answer::request::ConfigurationRequest;
+#[cfg(feature = "rapid")]
+use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::select::Turns;
 use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
-use crate::kinematics::structure::inverse::of_count;
-use crate::report::{ConfigurationRule, Explanation};
+use crate::kinematics::solve::configuration::fault::NoConfiguration;
+use crate::report::ConfigurationRule;
+#[cfg(feature = "rapid")]
+use crate::report::Explanation;
 
 impl<const N: usize> Robot<N> {
     /// The solution inside the limits that has a configuration, which also selects the 2 pi
@@ -81,7 +82,7 @@ impl<const N: usize> Robot<N> {
         request: &ConfigurationRequest<N>,
     ) -> Result<Solution<N>, Error> {
         let seed = request.seed.unwrap_or_else(|| self.limits().rest());
-        match self.configured(&pose, request, &seed) {
+        match self.with_configurations()?.configured_near(&pose, request, &seed) {
             Err(Error::NoConfiguration(_)) if request.or_nearest => {
                 self.nearest_checked(pose, &seed, &[1.0; N])
             }
@@ -96,7 +97,7 @@ impl<const N: usize> Robot<N> {
         request: &ConfigurationRequest<N>,
     ) -> Result<Vec<Solution<N>>, Error> {
         let seed = request.seed.unwrap_or_else(|| self.limits().rest());
-        match self.all_configured(&pose, request, &seed) {
+        match self.with_configurations()?.configured_list(&pose, request, &seed) {
             Err(Error::NoConfiguration(_)) if request.or_nearest => {
                 Ok(Vec::from([self.nearest_checked(pose, &seed, &[1.0; N])?]))
             }
@@ -104,55 +105,78 @@ impl<const N: usize> Robot<N> {
         }
     }
 
-    /// The solution with the configuration of a request, of several the one nearest to a seed.
-    fn configured(
-        &self,
-        pose: &Pose,
-        request: &ConfigurationRequest<N>,
-        seed: &[f64; N],
-    ) -> Result<Solution<N>, Error> {
-        let arm: &dyn Any = self;
-        if let (Some(six), Some(request), Some(seed)) =
-            (arm.downcast_ref::<Robot<6>>(), of_count(*request), of_count(*seed))
-            && let Some(found) = of_count(six.configured_near(pose, &request, &seed))
-        {
-            return found;
-        }
-        let list = self.all_configured(pose, request, seed)?;
-        list.first().copied().ok_or(Error::Unreachable(Explanation::FilteredOut))
+    /// The arm angle of joint angles [rad], as a YuMi's controller has it in the `eax_a` of a
+    /// robtarget; `None` where the arm leaves it undetermined.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidJoints`] when an angle is not finite; [`Error::InvalidModel`] for an arm
+    /// that is not a YuMi of the catalog.
+    pub fn arm_angle(&self, q: &[f64; N]) -> Result<Option<f64>, Error> {
+        self.with_configurations()?.arm_angle_of(q)
     }
 
-    /// All solutions with the configuration of a request, the nearest to a seed first.
-    fn all_configured(
-        &self,
-        pose: &Pose,
-        request: &ConfigurationRequest<N>,
-        seed: &[f64; N],
-    ) -> Result<Vec<Solution<N>>, Error> {
-        let arm: &dyn Any = self;
-        let found = if let (Some(six), Some(request), Some(seed)) =
-            (arm.downcast_ref::<Robot<6>>(), of_count(*request), of_count(*seed))
-        {
-            of_count(six.configured_list(pose, &request, &seed))
-        } else if let (Some(seven), Some(request), Some(seed)) =
-            (arm.downcast_ref::<Robot<7>>(), of_count(*request), of_count(*seed))
-        {
-            of_count(seven.configured_list(pose, &request, &seed))
-        } else {
-            None
-        };
-        let structure = self.structure();
-        found.unwrap_or(Err(ModelFault::NoConfiguration { structure, snap: None }.into()))
+    /// Every joint vector that brings the tool to `pose` with an arm angle [rad], inside the limits
+    /// or not.
+    ///
+    /// The search follows the arm's self-motion from all solutions at angles of the last joint,
+    /// then of the first, one degree apart, then at one angle of ABB's axis 7. It may miss a
+    /// self-motion that turns the two by less. Where two axes are one line, one joint vector
+    /// represents those that share the sum of their angles, with its `free_joint`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::arm_angle`] and [`Robot::ik_with`].
+    pub fn ik_arm_angle(&self, pose: &Pose, arm_angle: f64) -> Result<Vec<Solution<N>>, Error> {
+        check_arm_angle(arm_angle)?;
+        self.with_configurations()?.at_arm_angle(&checked_pose(pose)?, arm_angle)
     }
 
-    /// The arm angle of joint angles, of an arm that has one.
+    /// All joint vectors inside the limits, 2 pi equivalents too, of a pose and an arm angle [rad],
+    /// if the arm has one.
     #[cfg(feature = "rapid")]
-    pub(crate) fn arm_angle_of(&self, q: &[f64; N]) -> Result<Option<f64>, Error> {
-        let arm: &dyn Any = self;
-        match (arm.downcast_ref::<Robot<7>>(), of_count(*q)) {
-            (Some(seven), Some(q)) => seven.arm_angle(&q),
-            _ => Err(ModelFault::NoArmAngle.into()),
+    pub(crate) fn ik_inside_at(
+        &self,
+        pose: &Pose,
+        arm_angle: Option<f64>,
+    ) -> Result<Vec<[f64; N]>, Error> {
+        let solutions: Vec<Solution<N>> = match (self.with_redundancy(), arm_angle) {
+            (None, _) => self.ik_with(pose, None)?.iter().copied().collect(),
+            (Some(_), Some(angle)) => self.ik_arm_angle(pose, angle)?,
+            (Some(_), None) => Vec::new(),
+        };
+        let turns = solutions.iter().flat_map(|solution| Turns::of(self.limits(), solution));
+        Ok(turns.map(|turn| turn.q).collect())
+    }
+
+    /// The joint vector nearest to a seed [rad] inside the limits, of a pose and an arm angle
+    /// [rad], if the arm has one.
+    ///
+    /// # Errors
+    ///
+    /// As [`Robot::ik_nearest`].
+    #[cfg(feature = "rapid")]
+    pub(crate) fn ik_nearest_at(
+        &self,
+        pose: &Pose,
+        seed: &[f64; N],
+        arm_angle: Option<f64>,
+    ) -> Result<[f64; N], Error> {
+        let (Some(arm), Some(angle)) = (self.with_redundancy(), arm_angle) else {
+            return Ok(self.ik_nearest(pose, seed, &[1.0; N])?.q);
+        };
+        let near = self.with_configurations()?.step_to(seed, pose, angle);
+        if let Some(near) = near.filter(|q| self.limits().contains(q)) {
+            return Ok(near);
         }
+        let distance = |q: &[f64; N]| Cost::Distance.total(q, seed, &[1.0; N]);
+        let inside = self.ik_inside_at(pose, arm_angle)?;
+        let nearest = inside.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let explained = || match arm.explain_along_redundancy(pose)? {
+            Explanation::Found { .. } => Ok(Explanation::NoArmAngle { arm_angle: angle }),
+            other => Ok::<_, Error>(other),
+        };
+        nearest.map_or_else(|| Err(Error::Unreachable(explained()?)), Ok)
     }
 
     /// Add the configurations of a solution's 2 pi equivalents inside the limits, each once, while

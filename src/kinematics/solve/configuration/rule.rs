@@ -94,7 +94,7 @@ impl<const N: usize> Robot<N> {
         if let Some(rule) = self.own_rule() {
             return Ok(rule);
         }
-        if self.spherical_wrist().is_some() {
+        if self.singular_wrist().is_some() {
             return Ok(ConfigurationRule::SphericalWrist);
         }
         let snap = self.missing_form().and_then(|missing| missing.snap());

@@ -3,17 +3,64 @@
 use alloc::vec::Vec;
 
 use super::having::{BEYOND, EDGE_ROUNDING};
-use super::request::ConfigurationRequest;
 use super::rule::Quarters;
-use crate::error::{Error, ModelFault, NoConfiguration};
+use crate::error::{Error, ModelFault};
 use crate::kinematics::answer::check::check_seed_near;
+use crate::kinematics::answer::request::ConfigurationRequest;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
+use crate::kinematics::robot::joints::Configured;
+use crate::kinematics::solve::configuration::fault::NoConfiguration;
 use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 use crate::report::{Configuration, ConfigurationRule};
+
+impl Configured<6> for Robot<6> {
+    fn configured_near(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<6>,
+        seed: &[f64; 6],
+    ) -> Result<Solution<6>, Error> {
+        let (rule, wanted) = (self.rule_for(request)?, request.configuration);
+        if rule == ConfigurationRule::SphericalWrist && self.singular_wrist().is_some() {
+            return self.configured_wrist(*pose, wanted);
+        }
+        let solutions = self.ik_checked(*pose, f64::NAN)?;
+        let near = self.having_near(&rule, &solutions, wanted, seed)?;
+        let members = with_near(&solutions, near);
+        for beyond in BEYOND {
+            let having = self.having(&rule, &members, wanted, beyond);
+            if let Some(nearest) = having.and_then(|having| having.nearest(seed)) {
+                return Ok(nearest);
+            }
+        }
+        Err(self.no_configuration(&rule, &solutions, wanted)?)
+    }
+
+    fn configured_list(
+        &self,
+        pose: &Pose,
+        request: &ConfigurationRequest<6>,
+        seed: &[f64; 6],
+    ) -> Result<Vec<Solution<6>>, Error> {
+        let (rule, wanted) = (self.rule_for(request)?, request.configuration);
+        if rule == ConfigurationRule::SphericalWrist {
+            return Ok(Vec::from([self.configured_near(pose, request, seed)?]));
+        }
+        let solutions = self.ik_checked(*pose, f64::NAN)?;
+        let near = self.having_near(&rule, &solutions, wanted, seed)?;
+        let members = with_near(&solutions, near);
+        for beyond in BEYOND {
+            if let Some(having) = self.having(&rule, &members, wanted, beyond) {
+                return Ok(having.all(seed));
+            }
+        }
+        Err(self.no_configuration(&rule, &solutions, wanted)?)
+    }
+}
 
 impl Robot<6> {
     /// [`Robot::ik_configured`] or, if no solution has that configuration, the solution nearest to
@@ -33,29 +80,6 @@ impl Robot<6> {
         check_seed_near(seed, self.limits(), &[1.0; 6])?;
         let request = ConfigurationRequest::from(wanted).or_nearest(*seed);
         self.configured_checked(checked_pose(pose)?, &request)
-    }
-
-    /// The solution nearest to a seed that has the configuration of a request.
-    pub(in crate::kinematics::solve) fn configured_near(
-        &self,
-        pose: &Pose,
-        request: &ConfigurationRequest<6>,
-        seed: &[f64; 6],
-    ) -> Result<Solution<6>, Error> {
-        let (rule, wanted) = (self.rule_for(request)?, request.configuration);
-        if let (ConfigurationRule::SphericalWrist, Some(arm)) = (rule, self.spherical_wrist()) {
-            return self.configured_wrist(arm, *pose, wanted);
-        }
-        let solutions = self.ik_checked(*pose, f64::NAN)?;
-        let near = self.having_near(&rule, &solutions, wanted, seed)?;
-        let members = with_near(&solutions, near);
-        for beyond in BEYOND {
-            let having = self.having(&rule, &members, wanted, beyond);
-            if let Some(nearest) = having.and_then(|having| having.nearest(seed)) {
-                return Ok(nearest);
-            }
-        }
-        Err(self.no_configuration(&rule, &solutions, wanted)?)
     }
 
     /// Of a singular pose, the joint vector inside the limits that has a configuration and is
@@ -83,28 +107,6 @@ impl Robot<6> {
             }
         }
         Ok(None)
-    }
-
-    /// Every solution that has the configuration of a request, the nearest to a seed first.
-    pub(in crate::kinematics::solve) fn configured_list(
-        &self,
-        pose: &Pose,
-        request: &ConfigurationRequest<6>,
-        seed: &[f64; 6],
-    ) -> Result<Vec<Solution<6>>, Error> {
-        let (rule, wanted) = (self.rule_for(request)?, request.configuration);
-        if rule == ConfigurationRule::SphericalWrist {
-            return Ok(Vec::from([self.configured_near(pose, request, seed)?]));
-        }
-        let solutions = self.ik_checked(*pose, f64::NAN)?;
-        let near = self.having_near(&rule, &solutions, wanted, seed)?;
-        let members = with_near(&solutions, near);
-        for beyond in BEYOND {
-            if let Some(having) = self.having(&rule, &members, wanted, beyond) {
-                return Ok(having.all(seed));
-            }
-        }
-        Err(self.no_configuration(&rule, &solutions, wanted)?)
     }
 
     /// The rule of the arm, for a request that fits it.

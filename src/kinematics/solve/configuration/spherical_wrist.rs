@@ -12,8 +12,6 @@ use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::correction::DAMPED;
 use crate::kinematics::solve::nearest::Wanted;
 use crate::kinematics::solve::self_motion::meets;
-use crate::kinematics::structure::Structure as _;
-use crate::kinematics::structure::spherical_wrist::SphericalWrist;
 use crate::kinematics::thresholds::{CONFIGURATION_EDGE, SEEDED_FREE, SOLUTION_OFF};
 use crate::report::{Configuration, ConfigurationRule};
 
@@ -30,25 +28,19 @@ enum Closeness {
 
 const QUARTERS: Quarters = Quarters::of(&ConfigurationRule::SphericalWrist);
 
-/// The slot of a joint vector; a spherical wrist always has one.
-fn slot_of(arm: &SphericalWrist, q: &[f64; 6]) -> Slot {
-    arm.slot(q).unwrap_or(Slot::new(0))
-}
-
 impl Robot<6> {
     /// [`Robot::ik_configured`] of an arm with a spherical wrist, for a pose that is checked.
     pub(super) fn configured_wrist(
         &self,
-        arm: &SphericalWrist,
         pose: Pose,
         wanted: Configuration,
     ) -> Result<Solution<6>, Error> {
         let mut solutions = self.unsolved(pose);
         let found = if self.solve_in_lanes(&mut solutions, f64::NAN) {
-            self.configured_regular(arm, &solutions, wanted)
+            self.configured_regular(&solutions, wanted)
         } else {
             self.solve_at_rest(&mut solutions, f64::NAN)?;
-            self.configured_singular(arm, &solutions, wanted)?
+            self.configured_singular(&solutions, wanted)?
         };
         if let Some(found) = found {
             return Ok(found);
@@ -56,10 +48,14 @@ impl Robot<6> {
         Err(self.no_configuration(&ConfigurationRule::SphericalWrist, &solutions, wanted)?)
     }
 
+    /// The slot of a joint vector; a spherical wrist always has one.
+    fn wrist_slot(&self, q: &[f64; 6]) -> Slot {
+        self.slot_of(q).unwrap_or(Slot::new(0))
+    }
+
     /// The solution of a regular pose that has the configuration, at some 2 pi equivalent.
     fn configured_regular(
         &self,
-        arm: &SphericalWrist,
         solutions: &Solutions<6>,
         wanted: Configuration,
     ) -> Option<Solution<6>> {
@@ -72,7 +68,7 @@ impl Robot<6> {
                 candidates.limits = limits;
                 for place in candidates.places_mut() {
                     let has_slot = |solution: &Solution<6>| {
-                        self.has_slot(arm, solution, solution.slot, wanted, edge, closeness)
+                        self.has_slot(solution, solution.slot, wanted, edge, closeness)
                     };
                     if !place.found().is_some_and(has_slot) {
                         *place = Place::Empty;
@@ -91,7 +87,6 @@ impl Robot<6> {
     /// undetermined joints.
     fn configured_singular(
         &self,
-        arm: &SphericalWrist,
         solutions: &Solutions<6>,
         wanted: Configuration,
     ) -> Result<Option<Solution<6>>, Error> {
@@ -102,15 +97,16 @@ impl Robot<6> {
                 };
                 for closeness in [Closeness::Same, Closeness::Bent, Closeness::Met] {
                     let accepts = &|solution: &Solution<6>| {
-                        let slot = slot_of(arm, &solution.q);
-                        self.has_slot(arm, solution, slot, wanted, edge, closeness)
+                        let slot = self.wrist_slot(&solution.q);
+                        self.has_slot(solution, slot, wanted, edge, closeness)
                     };
                     let (seed, weights) = (&limits.rest(), &[1.0; 6]);
                     let asked = Wanted { limits, seed, weights, accepts };
                     let found = self.nearest_within(solutions, &asked, allowed)?;
                     let Some((_, found)) = found else { continue };
-                    let found = self.on_side(arm, solutions, found, wanted);
-                    let same = self.is_coupled() || slot_of(arm, &found.q).number() == wanted.cfx;
+                    let found = self.on_side(solutions, found, wanted);
+                    let same =
+                        self.is_coupled() || self.wrist_slot(&found.q).number() == wanted.cfx;
                     if same || closeness == Closeness::Met {
                         return Ok(Some(found));
                     }
@@ -126,7 +122,6 @@ impl Robot<6> {
     /// A coupled arm has no slot: the branches in front of the lower arm are tried first.
     fn has_slot(
         &self,
-        arm: &SphericalWrist,
         solution: &Solution<6>,
         slot: Slot,
         wanted: Configuration,
@@ -140,7 +135,8 @@ impl Robot<6> {
         if slot == wanted.cfx {
             return true;
         }
-        let (Some(near), singularities) = arm.singular(&solution.q) else { return false };
+        let singular = self.inverse().map(|inverse| inverse.singular(&solution.q));
+        let Some((Some(near), singularities)) = singular else { return false };
         let open = match closeness {
             Closeness::Same => [near.wrist <= SEEDED_FREE, false, false],
             Closeness::Bent => {
@@ -163,31 +159,37 @@ impl Robot<6> {
     /// rounding, moved to the side that the configuration names.
     fn on_side(
         &self,
-        arm: &SphericalWrist,
         solutions: &Solutions<6>,
         solution: Solution<6>,
         wanted: Configuration,
     ) -> Solution<6> {
+        let (Some(inverse), Some(wrist)) = (self.inverse(), self.singular_wrist()) else {
+            return solution;
+        };
         let moved_onto_pose = |start: [f64; 6], kept: usize| {
             let limits = self.limits();
             let (q, off) = self.corrected(solutions.pose(), start, limits, &[kept], DAMPED);
             (off <= meets(solutions.pose()) && limits.contains(&q)).then_some(q)
         };
         let mut q = solution.q;
-        if self.is_coupled() || slot_of(arm, &q).number() == wanted.cfx {
+        if self.is_coupled() || self.wrist_slot(&q).number() == wanted.cfx {
             return solution;
         }
-        if (slot_of(arm, &q).number() ^ wanted.cfx) & 2 != 0
-            && arm.singular(&q).1.contains(SingularityKind::ELBOW)
+        if (self.wrist_slot(&q).number() ^ wanted.cfx) & 2 != 0
+            && inverse.singular(&q).1.contains(SingularityKind::ELBOW)
         {
-            let bent = arm.with_bent_elbow(&q, wanted.cfx & 2 != 0);
+            let bent = wrist.with_bent_elbow(&q, wanted.cfx & 2 != 0);
             q = moved_onto_pose(bent, 2).unwrap_or(q);
         }
-        if (slot_of(arm, &q).number() ^ wanted.cfx) & 1 != 0 {
-            let sides = [1.0, -1.0].map(|side| arm.with_straight_wrist(&q, side));
-            let there = |q: &[f64; 6]| (slot_of(arm, q).number() ^ wanted.cfx) & 1 == 0;
+        if (self.wrist_slot(&q).number() ^ wanted.cfx) & 1 != 0 {
+            let sides = [1.0, -1.0].map(|side| wrist.with_straight_wrist(&q, side));
+            let there = |q: &[f64; 6]| (self.wrist_slot(q).number() ^ wanted.cfx) & 1 == 0;
             q = sides.into_iter().filter(there).find_map(|q| moved_onto_pose(q, 4)).unwrap_or(q);
         }
-        if slot_of(arm, &q).number() == wanted.cfx { Solution { q, ..solution } } else { solution }
+        if self.wrist_slot(&q).number() == wanted.cfx {
+            Solution { q, ..solution }
+        } else {
+            solution
+        }
     }
 }

@@ -7,13 +7,17 @@ use alloc::vec::Vec;
 use super::arm_angle::ArmAngle;
 use super::arm_angle_search::{Found, MOST, Search};
 use super::having::BEYOND;
-use super::request::ConfigurationRequest;
 use super::rule::Quarters;
-use crate::error::{Error, JointFault, ModelFault, NoConfiguration};
-use crate::kinematics::answer::check::{check_arm_angle, check_seed};
+use crate::error::{Error, JointFault, ModelFault};
+use crate::kinematics::answer::check::check_seed;
+use crate::kinematics::answer::request::ConfigurationRequest;
 use crate::kinematics::answer::solutions::Solution;
-use crate::kinematics::pose::{Pose, checked_pose};
+use crate::kinematics::pose::Pose;
 use crate::kinematics::robot::Robot;
+use crate::kinematics::robot::joints::{Configured, Redundancy as _};
+use crate::kinematics::solve::configuration::fault::NoConfiguration;
+#[cfg(feature = "rapid")]
+use crate::kinematics::solve::self_motion_curve::Joints;
 use crate::kinematics::solve::self_motion_curve::SelfMotion;
 use crate::kinematics::thresholds::{CONFIGURATION_EDGE, TAUGHT_BEYOND_LIMITS};
 use crate::report::{Configuration, ConfigurationRule, Explanation};
@@ -23,18 +27,15 @@ use crate::report::{Configuration, ConfigurationRule, Explanation};
 /// still.
 const BETWEEN: usize = 3;
 
+/// Largest step of a joint that counts as one on the way [rad].
+#[cfg(feature = "rapid")]
+const LARGEST_STEP: f64 = 0.2;
+
 /// A turn of a joint [rad]. Its ends are no angle at which axes of the arm are parallel.
 const AROUND: [f64; 2] = [1.0 - TAU, 1.0];
 
-impl Robot<7> {
-    /// The arm angle of joint angles [rad], as a YuMi's controller has it in the `eax_a` of a
-    /// robtarget; `None` where the arm leaves it undetermined.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidJoints`] when an angle is not finite; [`Error::InvalidModel`] for an arm
-    /// that is not a YuMi of the catalog.
-    pub fn arm_angle(&self, q: &[f64; 7]) -> Result<Option<f64>, Error> {
+impl Configured<7> for Robot<7> {
+    fn arm_angle_of(&self, q: &[f64; 7]) -> Result<Option<f64>, Error> {
         let reference = self.arm_angle_reference()?;
         check_seed("q", q)?;
         let pose = self.fk(q);
@@ -42,26 +43,20 @@ impl Robot<7> {
         Ok(angle.and_then(|angle| angle.at(q)).map(|(angle, _)| angle))
     }
 
-    /// Every joint vector that brings the tool to `pose` with an arm angle [rad], inside the limits
-    /// or not.
-    ///
-    /// The search follows the arm's self-motion from all solutions at angles of the last joint,
-    /// then of the first, one degree apart, then at one angle of ABB's axis 7. It may miss a
-    /// self-motion that turns the two by less. Where two axes are one line, one joint vector
-    /// represents those that share the sum of their angles, with its `free_joint`.
-    ///
-    /// # Errors
-    ///
-    /// As [`Robot::arm_angle`] and [`Robot::ik_with`].
-    pub fn ik_arm_angle(&self, pose: &Pose, arm_angle: f64) -> Result<Vec<Solution<7>>, Error> {
-        check_arm_angle(arm_angle)?;
-        let found = self.at_arm_angle_anywhere(&checked_pose(pose)?, arm_angle)?;
-        Ok(found.into_iter().flatten().collect())
+    fn at_arm_angle(&self, pose: &Pose, arm_angle: f64) -> Result<Vec<Solution<7>>, Error> {
+        Ok(self.at_arm_angle_anywhere(pose, arm_angle)?.into_iter().flatten().collect())
     }
 
-    /// Every joint vector that has the configuration and the arm angle of a request, the nearest to
-    /// a seed first.
-    pub(in crate::kinematics::solve) fn configured_list(
+    #[cfg(feature = "rapid")]
+    fn step_to(&self, from: &[f64; 7], pose: &Pose, wanted: f64) -> Option<[f64; 7]> {
+        let angle = ArmAngle::of(self, self.arm_angle_reference().ok()?, pose)?;
+        let curve = SelfMotion { robot: self, pose, rounding: self.rounding() };
+        let q = curve.newton(Joints::from(*from), |q| angle.seventh(q, wanted))?.joints();
+        let is_small = from.iter().zip(&q).all(|(from, to)| (to - from).abs() <= LARGEST_STEP);
+        (is_small && angle.is_of(&q, wanted)).then_some(q)
+    }
+
+    fn configured_list(
         &self,
         pose: &Pose,
         request: &ConfigurationRequest<7>,
@@ -91,7 +86,9 @@ impl Robot<7> {
             None => Err(self.no_configuration_at(&rule, pose, wanted, arm_angle, &found)?),
         }
     }
+}
 
+impl Robot<7> {
     /// Return the joint vectors of a pose and arm angle that have a configuration, the nearest to
     /// a seed first; of a self-motion the member nearest to it.
     fn having_at(

@@ -1,14 +1,18 @@
 //! Descends the valleys of the cost along the curve of self-motion.
 
+use core::ops::ControlFlow::{Break, Continue};
+
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::Search;
 use crate::kinematics::solve::self_motion_curve::Point;
-use crate::kinematics::thresholds::{FIRST_CURVE_STEP, LARGEST_CURVE_STEP, LEAST_CURVE_STEP};
+use crate::kinematics::structure::continuum::{Steps, walk};
+use crate::kinematics::thresholds::LEAST_CURVE_STEP;
 
-/// Steps along one curve, and rounds that locate the bottom of a valley between two of them.
-const STEPS: u32 = 120;
+/// Steps along one curve [rad], and rounds that locate the bottom of a valley between two of them.
+const STEPS: Steps =
+    Steps { first: 0.05, least: LEAST_CURVE_STEP, longest: 0.2, shorter: 0.5, most: 120 };
 const ROUNDS: u32 = 40;
 
 impl Search<'_> {
@@ -24,7 +28,7 @@ impl Search<'_> {
     /// Descend from a point of the curve and, if the point is outside the limits, also from where
     /// the curve re-enters them.
     pub(super) fn descend(&mut self, start: Point) {
-        self.descend_by(start, FIRST_CURVE_STEP);
+        self.descend_by(start, STEPS.first);
     }
 
     /// Descend with a first step [rad].
@@ -52,32 +56,28 @@ impl Search<'_> {
     /// Descend to the bottom of the valley that a point of the curve is in, inside the limits or
     /// not; keep the points inside.
     fn downhill(&mut self, start: Point, first: f64) {
-        let (mut point, mut step) = (start, first);
-        self.keep(&point.joints());
-        for _ in 0..STEPS {
-            let slope = self.slope(&point);
-            if slope == 0.0 || step < LEAST_CURVE_STEP {
-                return;
+        self.keep(&start.joints());
+        walk(start, Steps { first, ..STEPS }, |point, step| {
+            let slope = self.slope(point);
+            if slope == 0.0 {
+                return Some(Break(()));
             }
             let ahead = -step.copysign(slope);
             let next = self.curve.across(&(point.q + ahead * point.along), &point.along);
-            let Some(next) = next.filter(|next| next.along.dot(&point.along) > 0.5) else {
-                step *= 0.5;
-                continue;
-            };
+            let next = next.filter(|next| next.along.dot(&point.along) > 0.5)?;
             if self.joints_outside(&next.joints()) != self.joints_outside(&point.joints()) {
-                for end in [&point, &next] {
+                for end in [point, &next] {
                     self.edges(end).iter().flatten().for_each(|edge| self.keep(&edge.joints()));
                 }
             }
             let slope_ahead = self.slope(&next);
             if slope_ahead * slope <= 0.0 {
-                self.bottom(&point, ahead, [slope, slope_ahead]);
-                return;
+                self.bottom(point, ahead, [slope, slope_ahead]);
+                return Some(Break(()));
             }
             self.keep(&next.joints());
-            (point, step) = (next, (2.0 * step).min(LARGEST_CURVE_STEP));
-        }
+            Some(Continue((next, 2.0)))
+        });
     }
 
     /// Find the bottom of a valley between a point and one ahead of it, with the slopes at both:

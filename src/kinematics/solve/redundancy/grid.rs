@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::slot::MOST_SLOTS;
 use crate::kinematics::solve::self_motion_curve::Joints;
-use crate::kinematics::structure::spherical_shoulder::EDGES;
+use crate::kinematics::structure::self_motions::EDGES;
 use crate::kinematics::thresholds::SAMPLE_LEAP;
 
 /// How often the interval between two samples is bisected where a joint moves far between them.

@@ -26,8 +26,8 @@ impl Search<'_> {
                 best = member;
             }
         };
-        if let Some(inverse) = self.robot.inverse() {
-            inverse.walk(self.pose, &sample.q, &mut pass);
+        if let Some((motions, pose)) = self.robot.self_motions(self.pose) {
+            motions.walk(&pose, &sample.q, &mut pass);
         }
         self.slide_on_surface(best);
     }

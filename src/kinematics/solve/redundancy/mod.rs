@@ -14,7 +14,6 @@ mod in_line;
 mod members;
 mod samples;
 
-use core::any::Any;
 use core::cmp::Ordering;
 
 #[cfg(not(feature = "std"))]
@@ -28,11 +27,11 @@ use crate::kinematics::answer::status::Status;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
+use crate::kinematics::robot::joints::Redundancy;
 use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::solve::self_motion_curve::{Joints, SelfMotion};
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::kinematics::structure::solver::Solver;
-use crate::kinematics::structure::spherical_shoulder::{EDGES, SINGULAR_ANGLES, SphericalShoulder};
+use crate::kinematics::structure::self_motions::{EDGES, SINGULAR_ANGLES};
 use crate::kinematics::thresholds::{
     JOINT_7_FINER_SPACING, JOINT_7_SPACING, POSITION_ROUNDING, ROTATION_ROUNDING,
 };
@@ -43,8 +42,8 @@ use crate::report::Explanation;
 /// the end of a branch.
 const MOST_UNCERTAIN: u32 = 96;
 
-impl Robot<7> {
-    pub(in crate::kinematics) fn nearest_along_redundancy(
+impl Redundancy<7> for Robot<7> {
+    fn nearest_along_redundancy(
         &self,
         pose: &Pose,
         seed: &[f64; 7],
@@ -58,8 +57,7 @@ impl Robot<7> {
             .ok_or(Error::Unreachable(found.missed.explanation))?
     }
 
-    /// The solution inside the limits that is nearest to `seed` along the curve that passes there.
-    pub(in crate::kinematics) fn continued_along_redundancy(
+    fn continued_along_redundancy(
         &self,
         pose: &Pose,
         seed: &[f64; 7],
@@ -72,11 +70,7 @@ impl Robot<7> {
         search.best.map(|(_, q)| self.solution_at(pose, q)).transpose()
     }
 
-    /// The outcome of a solve over every angle of joint 7, in a sentence.
-    pub(in crate::kinematics) fn explain_along_redundancy(
-        &self,
-        pose: &Pose,
-    ) -> Result<Explanation, Error> {
+    fn explain_along_redundancy(&self, pose: &Pose) -> Result<Explanation, Error> {
         let found = self.search(pose, &self.limits().rest(), &[1.0; 7], &|_| true)?;
         let Some(q) = found.nearest() else {
             return Ok(self.with_approach(found.missed.explanation, pose));
@@ -87,7 +81,9 @@ impl Robot<7> {
             _ => Explanation::Found { solutions: 1, inside: 1 },
         })
     }
+}
 
+impl Robot<7> {
     fn search<'a>(
         &'a self,
         pose: &'a Pose,
@@ -129,8 +125,8 @@ impl Robot<7> {
 
     /// Upper bound of the rounding of a pose of this arm [m, rad].
     pub(super) fn rounding(&self) -> f64 {
-        if let Some(solver) = self.shoulder_solver() {
-            return solver.structure.rounding();
+        if let Some(own) = self.inverse().and_then(|inverse| inverse.self_motions()?.rounding()) {
+            return own;
         }
         let rows = self.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs());
         let ends = [self.base(), &self.mdh().base, &self.mdh().flange, self.tool()];
@@ -140,23 +136,15 @@ impl Robot<7> {
 
     /// The angles of joint 7 at which branches of the pose begin or end [rad].
     fn edges_of_joint_7(&self, pose: &Pose) -> [Option<f64>; EDGES] {
-        let edges = |solver: &Solver<SphericalShoulder, 7, 8>| {
-            solver.structure.edges_of_joint_7(&solver.end_frames.wrist_pose(pose))
-        };
-        self.shoulder_solver().map_or([None; EDGES], edges)
+        let motions = self.self_motions(pose);
+        motions.map_or([None; EDGES], |(motions, pose)| motions.edges_of_joint_7(&pose))
     }
 
     /// The angles of joint 7 at which axes 1 and 3 may be in line [rad].
     fn singular_angles_of_joint_7(&self, pose: &Pose) -> [Option<f64>; SINGULAR_ANGLES] {
-        let angles = |solver: &Solver<SphericalShoulder, 7, 8>| {
-            solver.structure.singular_angles_of_joint_7(&solver.end_frames.wrist_pose(pose))
-        };
-        self.shoulder_solver().map_or([None; SINGULAR_ANGLES], angles)
-    }
-
-    fn shoulder_solver(&self) -> Option<&Solver<SphericalShoulder, 7, 8>> {
-        let inverse: &dyn Any = self.inverse()?;
-        inverse.downcast_ref()
+        let motions = self.self_motions(pose);
+        let angles = motions.map(|(motions, pose)| motions.singular_angles_of_joint_7(&pose));
+        angles.unwrap_or([None; SINGULAR_ANGLES])
     }
 
     /// A joint vector of the pose, in its slot.

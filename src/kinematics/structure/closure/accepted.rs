@@ -193,8 +193,7 @@ impl Accepted {
     }
 
     /// Keep one configuration of each self-motion (eq. 103): where its first joint that moves has
-    /// its angle of `near`, if the self-motion passes there. Where two directions are free, keep
-    /// one in all.
+    /// its angle of `near`, if the self-motion passes there.
     pub(crate) fn represent(&mut self, closure: &Closure, target: &Target, near: &[f64; 6]) {
         let mut waiting: ArrayVec<Configuration, ROOM> =
             self.all.iter().copied().filter(|one| one.moving.is_some()).collect();
@@ -210,11 +209,6 @@ impl Accepted {
                 waiting.retain(|other| !is_met(other));
                 self.all.retain(|other| !is_met(other));
             });
-            if motion.is_surface {
-                let is_on = |other: &Configuration| closure.has_two_free(&other.theta);
-                waiting.retain(|other| !is_on(other));
-                self.all.retain(|other| !is_on(other));
-            }
             let theta = way.member.unwrap_or(one.theta);
             let residual = closure.residual(target, &theta);
             self.all.push(Configuration { theta, residual, moving: Some(way.moving()), ..one });

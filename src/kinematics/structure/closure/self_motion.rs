@@ -3,18 +3,22 @@
 //!
 //! Docs: general.md, eq. 103.
 
+use core::ops::ControlFlow::{Break, Continue};
+
 use nalgebra::{SMatrix, SVector};
 
 use super::chain::{Closure, Target, sines};
 use super::configuration::{Configuration, apart};
 use crate::kinematics::pose::angles::wrap;
+use crate::kinematics::structure::continuum::{Steps, walk};
 
 /// How near two configurations may be to be examined for being the same [rad].
 const NEAR: f64 = 0.02;
 
-/// Step along a self-motion [rad], and the least where it bends.
-const STEP: f64 = 0.2;
-const LEAST_STEP: f64 = STEP / 512.0;
+/// Steps along a self-motion, down to the least where it bends [rad]: up to eight turns of its
+/// fastest joint.
+const STEPS: Steps =
+    Steps { first: 0.2, least: 0.2 / 512.0, longest: 0.2, shorter: 0.5, most: 400 };
 
 /// Step by which a singular configuration is tried for a self-motion [rad]: at a fold the closure
 /// is then off by the square of it.
@@ -23,9 +27,6 @@ const TRIED: f64 = 0.02;
 /// How far from where it is predicted a member may be, as a part of the step [1]: farther away it is
 /// one of another self-motion, which nearly crosses this one, or the curve bends sharply.
 const PREDICTED: f64 = 0.05;
-
-/// Steps along a self-motion, at most: eight turns of its fastest joint.
-const MOST_STEPS: usize = 400;
 
 /// Steps of Newton's method to a member, at most, and the one that is its last [rad].
 const MOST_CORRECTIONS: usize = 8;
@@ -82,8 +83,6 @@ pub(crate) struct SelfMotion<'a> {
     start: Member,
     /// Condition that may be left on the way [1].
     accepts: f64,
-    /// Whether two directions are free at once.
-    pub(super) is_surface: bool,
 }
 
 /// The findings of a walk along a self-motion.
@@ -102,11 +101,6 @@ impl Way {
 }
 
 impl Closure {
-    /// Whether two directions are free at a configuration.
-    pub(super) fn has_two_free(&self, theta: &[f64; 6]) -> bool {
-        self.derivatives(theta).singular_values()[4] < FREE
-    }
-
     /// Whether two configurations that close are one: they are near one another and the chain
     /// closes in the middle, too, where two solutions do not (eq. 98c).
     pub(super) fn are_one(&self, target: &Target, a: &Configuration, b: &Configuration) -> bool {
@@ -213,13 +207,13 @@ impl<'a> SelfMotion<'a> {
     ) -> Option<Self> {
         let svd = closure.derivatives(theta).try_svd(false, true, f64::EPSILON, SWEEPS)?;
         let (values, v_t) = (svd.singular_values, svd.v_t?);
-        let is_surface = values[4] < FREE;
-        for row in if is_surface { [5, 4] } else { [5, 5] } {
+        // Two directions may be free at once.
+        for row in if values[4] < FREE { [5, 4] } else { [5, 5] } {
             let direction = v_t.row(row).transpose();
             let from = Member::closed(*theta, direction);
             let guess = (SVector::from(*theta) + direction * TRIED).into();
             if let Some(start) = closure.member_ahead(target, &from, (TRIED, accepts), guess) {
-                return Some(Self { closure, target, start, accepts, is_surface });
+                return Some(Self { closure, target, start, accepts });
             }
         }
         None
@@ -227,36 +221,32 @@ impl<'a> SelfMotion<'a> {
 
     /// Follow it in both directions, or once around: `pass` gets the ends of each step.
     pub(crate) fn around(&self, pass: &mut dyn FnMut([&Member; 2])) {
-        let Self { closure, target, start, accepts, .. } = self;
+        let Self { closure, target, start, accepts } = self;
         for sign in [1.0, -1.0] {
-            let mut one = Member { direction: start.direction * sign, ..*start };
             // The change of the direction along the way.
             let mut bend = SVector::zeros();
-            let (mut length, mut walked, mut is_back) = (STEP, 0.0, false);
-            for _ in 0..MOST_STEPS {
-                let guess =
-                    SVector::from(one.theta) + (one.direction + bend * (0.5 * length)) * length;
-                let next = closure.member_ahead(target, &one, (length, *accepts), guess.into());
-                let is_near = |next: &Member| {
-                    (SVector::from(next.theta) - guess).amax() <= PREDICTED * length
-                };
+            let (mut walked, mut is_back) = (0.0, false);
+            let first = Member { direction: start.direction * sign, ..*start };
+            let is_around = walk(first, STEPS, |one, step| {
+                let guess = SVector::from(one.theta) + (one.direction + bend * (0.5 * step)) * step;
+                let next = closure.member_ahead(target, one, (step, *accepts), guess.into());
+                let is_near =
+                    |next: &Member| (SVector::from(next.theta) - guess).amax() <= PREDICTED * step;
                 // A crossing that is nearer than the least step is passed straight on.
-                let Some(next) = next.filter(|next| length == LEAST_STEP || is_near(next)) else {
-                    if length == LEAST_STEP {
-                        break;
-                    }
-                    length = (0.5 * length).max(LEAST_STEP);
-                    continue;
-                };
-                pass([&one, &next]);
+                let next = next.filter(|next| step == STEPS.least || is_near(next))?;
+                pass([one, &next]);
                 // One step more than around, which passes the start.
                 if is_back {
-                    return;
+                    return Some(Break(()));
                 }
-                walked += length;
-                is_back = walked > 3.5 * STEP && apart(&start.theta, &next.theta) < 0.6 * STEP;
-                bend = (next.direction - one.direction) / length;
-                (one, length) = (next, (2.0 * length).min(STEP));
+                walked += step;
+                is_back = walked > 3.5 * STEPS.longest
+                    && apart(&start.theta, &next.theta) < 0.6 * STEPS.longest;
+                bend = (next.direction - one.direction) / step;
+                Some(Continue((next, 2.0)))
+            });
+            if is_around {
+                return;
             }
         }
     }

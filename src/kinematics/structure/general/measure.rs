@@ -22,13 +22,9 @@ impl General {
         Self::measured(mdh, None)
     }
 
-    /// Measure an arm that differs by a link from another one, whose splits are taken if they
+    /// Measure an arm that may differ by a link from another one, whose splits are taken if they
     /// serve it, too: to choose takes milliseconds.
-    pub(crate) fn like(mdh: &Mdh<6>, other: &Self) -> Result<Self, UnknownStructure> {
-        Self::measured(mdh, Some(other))
-    }
-
-    fn measured(mdh: &Mdh<6>, other: Option<&Self>) -> Result<Self, UnknownStructure> {
+    pub(super) fn measured(mdh: &Mdh<6>, other: Option<&Self>) -> Result<Self, UnknownStructure> {
         let mut tilted = tilted_rows(&mdh.rows);
         let rows = tilted.map(|TiltedRow { row, .. }| row);
         let offsets = rows.map(|row| -row.theta);

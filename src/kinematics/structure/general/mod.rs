@@ -25,12 +25,13 @@ use at_roots::AtSplit;
 use geometry::RootKind;
 use measure::PATTERN;
 
+use super::Structure;
 use super::branches::Branches;
 use super::by_roots::{RootKernel, SLOTS};
 use super::closure::Closure;
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
-use super::{Structure, TakeStep};
+use super::self_motions::{SelfMotions, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
@@ -55,6 +56,10 @@ impl Structure<6, SLOTS> for General {
 
     fn measure(mdh: &mut Mdh<6>) -> Result<Self, UnknownStructure> {
         Self::of(mdh)
+    }
+
+    fn like(&self, mdh: &Mdh<6>) -> Option<Self> {
+        Self::measured(mdh, Some(self)).ok()
     }
 
     fn joint_map(&self) -> &JointMap<6> {
@@ -88,7 +93,9 @@ impl Structure<6, SLOTS> for General {
     fn slot(&self, _q: &[f64; 6]) -> Option<Slot> {
         None
     }
+}
 
+impl SelfMotions<6> for General {
     fn member(&self, t: &Pose, q: &[f64; 6], joint: usize, value: f64) -> Option<[f64; 6]> {
         self.member_of(t, q, joint, value)
     }

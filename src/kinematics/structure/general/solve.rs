@@ -4,7 +4,6 @@ use super::at_roots::AtSplit;
 use super::geometry::{General, RootKind};
 use crate::kinematics::answer::status::SingularityKind;
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::TakeStep;
 use crate::kinematics::structure::branches::Branches;
 use crate::kinematics::structure::by_roots::{SLOTS, Search};
 use crate::kinematics::structure::closure::{
@@ -12,6 +11,7 @@ use crate::kinematics::structure::closure::{
 };
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
+use crate::kinematics::structure::self_motions::TakeStep;
 use crate::kinematics::thresholds::CLOSURE_SINGULAR;
 use crate::report::{FreeJoint, Reach};
 

@@ -49,7 +49,7 @@ impl ByRoots for Constants {
 
     #[inline(always)]
     fn polynomial<S: Simd>(&self, simd: S, last: &Frame) -> TrigonometricPolynomial {
-        polynomial(simd, &self.lengths, &Hand::of(&self.lengths, last))
+        polynomial(simd, &self.lengths, &Hand::of(&self.lengths, last), &self.closure)
     }
 
     fn searched(&self) -> (usize, f64) {

@@ -28,8 +28,6 @@ pub(crate) struct Constants {
     pub(super) closure: Closure,
 }
 
-use crate::kinematics::thresholds::LEAST_LINK;
-
 /// The lengths and angles of the equations (docs/theory/offset_wrist.md, section 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lengths {
@@ -62,19 +60,11 @@ pub(super) struct Lengths {
     pub(super) circle: f64,
     /// The sum of the lengths of the rows [m].
     pub(super) extent: f64,
-    /// The least noise of the polynomial.
-    pub(super) least_noise: f64,
     /// Whether the polynomial is a square (eq. 129).
     pub(super) is_square: bool,
 }
 
 impl Lengths {
-    /// Whether joint 6 moves the wrist point. Where it does not, every double root is one of a wrist
-    /// that is straight, or nearly so, and shows nothing of the others.
-    pub(super) fn turns_wrist_point(&self) -> bool {
-        self.circle > LEAST_LINK
-    }
-
     /// How many solutions a root has: one for each side of the shoulder, or one.
     pub(super) fn per_root(&self) -> usize {
         if self.is_square { 2 } else { 1 }

@@ -56,6 +56,12 @@ impl<T: Number> Hand<T> {
 }
 
 impl Hand {
+    /// The middle of the circle of the wrist point.
+    #[inline(always)]
+    pub(super) fn middle(&self) -> [f64; 3] {
+        self.point[0]
+    }
+
     /// Broadcast to the lanes of a number.
     #[inline(always)]
     pub(super) fn in_lanes<T: Number>(&self, like: T) -> Hand<T> {

@@ -10,7 +10,6 @@ use crate::kinematics::chain::Chain;
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::dh::{DhRow, Mdh};
 use crate::kinematics::pose::Pose;
-use crate::kinematics::structure::by_roots::{NOISE_OF_SIZE, size_of};
 use crate::kinematics::structure::general::General;
 use crate::kinematics::thresholds::{LEAST_TWIST_SIN, POSITION_ROUNDING};
 use crate::report::{Pattern, Relation, UnknownStructure};
@@ -25,11 +24,6 @@ pub(crate) static PATTERN: Pattern = Pattern {
         (Relation::Meeting, (4, 5)),
     ],
 };
-
-/// How far the resultant may be off where joint 6 does not move the wrist point, relative to its size
-/// at other poses [1]: each branch has a factor of its own then, which vanishes where its wrist is
-/// straight, but not the rounding of what it is the difference of.
-const NOISE_OF_STRAIGHT: f64 = 2048.0 * f64::EPSILON;
 
 /// Measure the geometry of a table (docs/theory/offset_wrist.md, section 1).
 pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
@@ -81,7 +75,6 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         cos_5: links[5].cos_alpha,
         circle: links[5].a.hypot(links[4].d * links[5].sin_alpha),
         extent,
-        least_noise: 0.0,
         is_square,
     };
     let mut bare = *rows;
@@ -99,8 +92,6 @@ pub(super) fn measure(mdh: &Mdh<6>) -> Result<OffsetWrist, UnknownStructure> {
         cos_5: links[5].cos_alpha,
     };
     let general = Box::new(General::of(mdh)?);
-    let mut constants = Constants { lengths, twists, closure: *general.closure() };
-    let noise = if lengths.turns_wrist_point() { NOISE_OF_SIZE } else { NOISE_OF_STRAIGHT };
-    constants.lengths.least_noise = noise * size_of(&constants);
+    let constants = Constants { lengths, twists, closure: *general.closure() };
     Ok(OffsetWrist { chain, constants, general })
 }

@@ -23,11 +23,12 @@ pub(crate) use geometry::OffsetWrist;
 
 use geometry::Constants;
 
+use super::Structure;
 use super::branches::Branches;
 use super::by_roots::{RootKernel, SLOTS};
 use super::free_choice::FreeChoice;
 use super::joint_map::JointMap;
-use super::{Structure, TakeStep};
+use super::self_motions::{SelfMotions, TakeStep};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
@@ -79,7 +80,9 @@ impl Structure<6, SLOTS> for OffsetWrist {
     fn slot(&self, _q: &[f64; 6]) -> Option<Slot> {
         None
     }
+}
 
+impl SelfMotions<6> for OffsetWrist {
     fn member(&self, t: &Pose, q: &[f64; 6], joint: usize, value: f64) -> Option<[f64; 6]> {
         self.general.member(t, q, joint, value)
     }

@@ -6,6 +6,7 @@ use fearless_simd::prelude::*;
 
 use super::geometry::Lengths;
 use super::hand::Hand;
+use crate::kinematics::structure::closure::Closure;
 use crate::kinematics::structure::trigonometric::{
     SAMPLE_COS, SAMPLE_SIN, SAMPLES, TrigonometricPolynomial,
 };
@@ -14,6 +15,14 @@ use crate::lanes::{LANES, Number, Vector};
 /// Noise of the resultant by the rounding of a pose, relative to its coefficients [1]: they are
 /// of degree 8 in the pose's elements, and no surplus harmonic shows it.
 const NOISE_OF_DEGREE_8: f64 = 64.0 * f64::EPSILON;
+
+/// How far values may be off, in roundings of the closure times the sizes of (133) [1]. Measured
+/// against 80 bits: a sixth of this or of the noise at most, in the square case a third.
+const OFF: f64 = 1.0 / 64.0;
+
+/// How far the wrist point is off its circle for these sizes, which vanish on axis 1, as a part of the
+/// reach [1].
+const SLACK: f64 = 1e-3;
 
 /// A number `u + sigma v`, where sigma is the distance of the wrist point from axis 1 along the
 /// plane of the arm, known by its square (eq. 127).
@@ -80,12 +89,32 @@ pub(super) fn resultant<T: Number>(
     }
 }
 
+/// How far the resultant may be off: by roundings of what it is the difference of, and of the hand
+/// (eq. 133).
+fn doubt(lengths: &Lengths, hand: &Hand, closure: &Closure) -> f64 {
+    let Lengths { a1, upper, forearm, b, cos_3, cos_4, m, circle, .. } = *lengths;
+    let ([x, y, z], radius) = (hand.middle(), circle + SLACK * closure.reach);
+    let across = ((x * x + y * y).root() + radius).max(b.abs());
+    let (r, h) = (across + a1.abs(), z.abs() + radius);
+    let (p2, half) = (r * r + h * h, 0.5 / forearm);
+    let k = (p2 + ((forearm - upper) * (forearm + upper)).abs()) * half;
+    let bend = cos_3.abs() + cos_4.abs();
+    let factor = (m * m + bend * bend) * across;
+    let sum = p2 + k * k;
+    let size = factor * across * sum;
+    let rate = 2.0 * factor * (sum + across * (r + h) * (1.0 + 2.0 * k * half));
+    let change = closure.reach * rate;
+    let all = if lengths.is_square { size + change } else { size * (size + 2.0 * change) };
+    OFF * closure.rounding * all
+}
+
 /// The resultant as a polynomial, through its values at multiples of 15 deg of joint 6, for the hand
 /// of a pose.
 pub(super) fn polynomial<S: Simd>(
     simd: S,
     lengths: &Lengths,
     hand: &Hand,
+    closure: &Closure,
 ) -> TrigonometricPolynomial {
     // A function of its own for each instruction set: it is long.
     simd.vectorize(
@@ -94,7 +123,7 @@ pub(super) fn polynomial<S: Simd>(
             let values = samples(simd, lengths, hand);
             let mut polynomial = TrigonometricPolynomial::of_samples(&values).of_pose();
             polynomial.noise += NOISE_OF_DEGREE_8 * polynomial.size();
-            polynomial.doubt = polynomial.noise.max(lengths.least_noise);
+            polynomial.doubt = polynomial.noise.max(doubt(lengths, hand, closure));
             polynomial
         },
     )

@@ -12,7 +12,7 @@ use crate::kinematics::pose::angles::sign_of;
 use crate::kinematics::pose::{Pose, translation_z};
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::structure::recognition::{JointFrame, angle, axes, rotation_pose};
-use crate::kinematics::thresholds::{FORM_TOLERANCE, ROTATION_ROUNDING};
+use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::report::{Pattern, Relation, UnknownStructure};
 
 /// The geometry between the shoulder, where axes 1, 2 and 3 meet, and the flange.
@@ -26,11 +26,6 @@ pub(crate) struct SphericalShoulder {
 }
 
 impl SphericalShoulder {
-    /// Upper bound of the rounding of a pose of this arm [m, rad].
-    pub(crate) fn rounding(&self) -> f64 {
-        self.links.position_rounding().max(ROTATION_ROUNDING)
-    }
-
     pub(super) fn theta(&self, q: &[f64; 7]) -> [f64; 7] {
         self.joint_map.theta(q)
     }

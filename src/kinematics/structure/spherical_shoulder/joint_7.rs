@@ -1,5 +1,5 @@
-//! Joint 7: the angles at which an elbow or a wrist is at the edge of its reach, and those at which
-//! axes 1 and 3 may be in line (docs/theory/spherical_shoulder.md, section 5).
+//! Self-motions, and joint 7: the angles at which an elbow or a wrist is at the edge of its reach,
+//! and those at which axes 1 and 3 may be in line (docs/theory/spherical_shoulder.md, section 5).
 
 use core::f64::consts::{FRAC_PI_4, PI};
 
@@ -10,22 +10,17 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::SphericalShoulder;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::thresholds::{FORM_TOLERANCE, TOUCHING};
-
-/// Largest number of edges: four of the elbow, four zeros and three stationary points for each sign
-/// of the wrist.
-pub(crate) const EDGES: usize = 4 + 2 * MOST_ANGLES;
-
-/// Largest number of angles at which axes 1 and 3 may be in line, with the upper arm either way.
-pub(crate) const SINGULAR_ANGLES: usize = 2 * MOST_ANGLES;
+use crate::kinematics::structure::family::{Family, Following, about_y, turned_back, y_to_z};
+use crate::kinematics::structure::self_motions::{
+    EDGES, MOST_ANGLES, SINGULAR_ANGLES, SelfMotions,
+};
+use crate::kinematics::thresholds::{FORM_TOLERANCE, ROTATION_ROUNDING, TOUCHING};
+use crate::report::FreeJoint;
 
 /// Distance of two axes [m], and sine of their angle [1], up to which the curve of self-motion is
 /// found from where they would be in line. Farther off, samples of joint 7 are bisected where the
 /// joints turn.
 pub(crate) const NEARLY_IN_LINE: f64 = 3e-3;
-
-/// Largest number of angles at which a quartic is zero or stationary.
-const MOST_ANGLES: usize = 4 + 3;
 
 /// A length, a cosine, or the square of a length that changes with joint 7: `mean + cos
 /// cos(theta_7) + sin sin(theta_7)` (eq. 69, 70).
@@ -97,10 +92,34 @@ impl Wave {
     }
 }
 
-impl SphericalShoulder {
-    /// The angles of joint 7 [rad], in (-pi, pi], between which no branch begins or ends, for the
-    /// frame of joint 7 before its rotation.
-    pub(crate) fn edges_of_joint_7(&self, t_shoulder_seven: &Pose) -> [Option<f64>; EDGES] {
+impl SelfMotions<7> for SphericalShoulder {
+    fn with_family(
+        &self,
+        t_shoulder_seven: &Pose,
+        [q, rest]: [&[f64; 7]; 2],
+        free: FreeJoint,
+        search: &mut dyn FnMut(&dyn Family<7>),
+    ) {
+        let hand = *self.hand(t_shoulder_seven, q[6]).rotation.matrix();
+        let theta = self.theta(q);
+        let [_, _, _, theta_4, theta_5, theta_6, _] = theta;
+        let (free, left, right) = match free {
+            FreeJoint::Forearm => (4, hand * about_y(-theta_6), about_y(-theta_4)),
+            FreeJoint::Hand => {
+                let seen = turned_back(theta_5, &about_y(-theta_4));
+                (5, hand * y_to_z().transpose(), y_to_z() * seen)
+            }
+            _ => return,
+        };
+        let (map, rest) = (&self.joint_map, self.theta(rest)[0]);
+        search(&Following { map, theta, free, first: 0, left, right, rest, bit: 4 });
+    }
+
+    fn rounding(&self) -> Option<f64> {
+        Some(self.links.position_rounding().max(ROTATION_ROUNDING))
+    }
+
+    fn edges_of_joint_7(&self, t_shoulder_seven: &Pose) -> [Option<f64>; EDGES] {
         let links = &self.links;
         let (upper2, forearm2) = (links.upper * links.upper, links.forearm * links.forearm);
         let (reach2, along_6) = self.waves(t_shoulder_seven);
@@ -129,9 +148,7 @@ impl SphericalShoulder {
         edges.map(|theta| self.joint_7(theta))
     }
 
-    /// The angles of joint 7 [rad], in (-pi, pi], at which axis 3 may be in line with axis 1 (eq.
-    /// 73c), for the frame of joint 7 before its rotation.
-    pub(crate) fn singular_angles_of_joint_7(
+    fn singular_angles_of_joint_7(
         &self,
         t_shoulder_seven: &Pose,
     ) -> [Option<f64>; SINGULAR_ANGLES] {
@@ -178,7 +195,9 @@ impl SphericalShoulder {
         }
         singular
     }
+}
 
+impl SphericalShoulder {
     fn joint_7(&self, theta: Option<f64>) -> Option<f64> {
         let (sign, offset) = (self.joint_map.signs[6], self.joint_map.offsets[6]);
         theta.map(|theta| wrap(sign * (theta + offset)))

@@ -13,7 +13,7 @@ mod solve;
 mod wrist;
 
 pub(crate) use geometry::SphericalShoulder;
-pub(crate) use joint_7::{EDGES, NEARLY_IN_LINE, SINGULAR_ANGLES};
+pub(crate) use joint_7::NEARLY_IN_LINE;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -23,7 +23,6 @@ use geometry::PATTERN;
 
 use super::Structure;
 use super::branches::Branches;
-use super::family::{Family, Following, about_y, turned_back, y_to_z};
 use super::free_choice::FreeChoice;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
@@ -33,7 +32,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::distance_from_half_turns;
 use crate::kinematics::structure::joint_map::JointMap;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
-use crate::report::{FreeJoint, Pattern, UnknownStructure};
+use crate::report::{Pattern, UnknownStructure};
 
 impl Structure<7, 8> for SphericalShoulder {
     const PATTERN: &'static Pattern = &PATTERN;
@@ -99,28 +98,6 @@ impl Structure<7, 8> for SphericalShoulder {
         let signs = self.joint_map.signs[..6].iter().product::<f64>();
         let links = self.links.product() * self.links.elbow_angle(theta_4).sin();
         -signs * links * self.aside(q) * theta_2.sin()
-    }
-
-    fn with_family(
-        &self,
-        t_shoulder_seven: &Pose,
-        [q, rest]: [&[f64; 7]; 2],
-        free: FreeJoint,
-        search: &mut dyn FnMut(&dyn Family<7>),
-    ) {
-        let hand = *self.hand(t_shoulder_seven, q[6]).rotation.matrix();
-        let theta = self.theta(q);
-        let [_, _, _, theta_4, theta_5, theta_6, _] = theta;
-        let (free, left, right) = match free {
-            FreeJoint::Forearm => (4, hand * about_y(-theta_6), about_y(-theta_4)),
-            FreeJoint::Hand => {
-                let seen = turned_back(theta_5, &about_y(-theta_4));
-                (5, hand * y_to_z().transpose(), y_to_z() * seen)
-            }
-            _ => return,
-        };
-        let (map, rest) = (&self.joint_map, self.theta(rest)[0]);
-        search(&Following { map, theta, free, first: 0, left, right, rest, bit: 4 });
     }
 
     /// Determined by the signs of eq. 65.

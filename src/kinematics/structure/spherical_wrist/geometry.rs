@@ -59,13 +59,6 @@ impl SphericalWrist {
         let [elbow, x] = self.planar.elbow_and_end(second, third);
         [elbow, x, fifth.0]
     }
-
-    /// The angle of joint 4, nearest to `q`, at which axis 5 is parallel to axes 2 and 3
-    /// [rad]: 0 or 180 deg for ABB's arms.
-    pub(crate) fn axis_4_in_plane(&self, q: &[f64; 6]) -> f64 {
-        let theta_4 = self.theta(q)[3];
-        q[3] + self.joint_map.signs[3] * (PI * (theta_4 / PI).round() - theta_4)
-    }
 }
 
 /// Sines and cosines of three angles, side by side.

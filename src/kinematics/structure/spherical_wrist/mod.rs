@@ -24,7 +24,7 @@ use super::Structure;
 use super::branches::Branches;
 use super::family::{Family, Following, about_y, turned_back, y_to_z};
 use super::free_choice::FreeChoice;
-use super::singular_wrist::SingularWrist;
+use super::self_motions::{SelfMotions, SingularWrist};
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
@@ -104,7 +104,9 @@ impl Structure<6, 8> for SphericalWrist {
         let behind_lower_arm = elbow < 0.0 && !self.planar.is_straight(self.theta(q)[2]);
         Some(Slot::of_bits([behind_axis_1, behind_lower_arm, wrist < 0.0]))
     }
+}
 
+impl SelfMotions<6> for SphericalWrist {
     fn with_family(
         &self,
         t_shoulder_wrist: &Pose,

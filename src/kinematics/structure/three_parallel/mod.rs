@@ -25,6 +25,7 @@ use super::Structure;
 use super::branches::Branches;
 use super::family::Family;
 use super::free_choice::FreeChoice;
+use super::self_motions::SelfMotions;
 use crate::kinematics::answer::singularity::SingularDistances;
 use crate::kinematics::answer::slot::Slot;
 use crate::kinematics::answer::status::SingularityKind;
@@ -110,7 +111,9 @@ impl Structure<6, 8> for ThreeParallel {
             self.planar.sin_elbow(theta_3) < 0.0 && !met.contains(SingularityKind::ELBOW);
         Some(Slot::of_bits([behind, backwards, theta_5.sin() < 0.0]))
     }
+}
 
+impl SelfMotions<6> for ThreeParallel {
     fn sin_5(&self, q: &[f64; 6]) -> Option<f64> {
         Some(self.joint_map.theta(q)[4].sin())
     }

@@ -29,6 +29,7 @@ const BEYOND_ON_PATH: [f64; 6] = [1e-3, 0.5, 0.999, 1.001, 3.0, 10.0];
 
 #[test]
 #[expect(clippy::cast_precision_loss, reason = "counts")]
+#[ignore = "run by itself: cargo test --lib -- --ignored"]
 fn a_path_has_nothing_to_choose_where_the_lanes_solve_it() {
     on_each_set(|_| {
         let mut random = Rng::new(11);

@@ -9,7 +9,7 @@ use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::lanes::on_each_set;
-use crate::rng::Rng;
+use crate::suite::rng::Rng;
 
 /// Random and structured joint angles of the table, of each kind far from one another.
 fn mixed(rng: &mut Rng, count: usize) -> Vec<[f64; 6]> {
@@ -25,6 +25,7 @@ fn frames(arm: &General, all: &[[f64; 6]]) -> Vec<Frame> {
 }
 
 #[test]
+#[ignore = "run by itself: cargo test --lib -- --ignored"]
 fn a_pose_has_the_bits_in_company_that_it_has_alone() {
     on_each_set(|_| {
         for (name, mdh) in arms() {

@@ -5,9 +5,10 @@ use std::vec::Vec;
 use super::super::split::Split;
 use super::{General, RootKind, degrees, poses_or};
 use crate::kinematics::chain::dh::Mdh;
+use crate::kinematics::structure::Structure as _;
 use crate::kinematics::structure::closure::{Accepted, Configuration};
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::rng::Rng;
+use crate::suite::rng::Rng;
 
 /// An iiwa with joint 2 locked at an angle [deg].
 fn iiwa_without_joint_2(angle: f64) -> Mdh<6> {
@@ -31,7 +32,7 @@ fn splits_of_an_arm_with_a_spherical_wrist_serve_it_at_another_angle() {
     let searched = |arm: &General| arm.splits.iter().map(Split::searched).collect::<Vec<_>>();
     let (mut certified, mut asked) = (0, 0);
     for angle in [-110.0, -60.0, -20.0, 15.0, 30.0, 90.0, 119.0] {
-        let arm = General::like(&iiwa_without_joint_2(angle), &first).unwrap();
+        let arm = first.like(&iiwa_without_joint_2(angle)).unwrap();
         assert_eq!((arm.roots, searched(&arm)), (first.roots, searched(&first)), "{angle}");
         for _ in 0..poses_or(50) {
             let theta = rng.angles();

@@ -21,6 +21,7 @@ fn frames(arm: &OffsetWrist, all: &[[f64; 6]]) -> Vec<Frame> {
 }
 
 #[test]
+#[ignore = "run by itself: cargo test --lib -- --ignored"]
 fn a_pose_has_the_bits_in_company_that_it_has_alone() {
     on_each_set(|_| {
         for (name, arm) in arms() {
@@ -58,7 +59,6 @@ fn nearly_all_random_poses_are_regular() {
         let all: Vec<_> = joints(8).take(50 * asked()).collect();
         let count = regular_of(&arm.constants, &frames(&arm, &all));
         std::println!("{name}: {count} of {} are regular", all.len());
-        let least = if arm.constants.lengths.turns_wrist_point() { 97 } else { 85 };
-        assert!(100 * count > least * all.len(), "{name}: {count} of {}", all.len());
+        assert!(100 * count > 97 * all.len(), "{name}: {count} of {}", all.len());
     }
 }

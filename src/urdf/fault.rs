@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 
 use thiserror::Error;
 
-use super::lists::{Listed, Names};
+use crate::report::{Listed, Names};
 
 /// Why a URDF is refused. Lines and columns count from 1.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -80,6 +80,12 @@ pub enum UrdfFault {
         Listed(.wanted, " or ")
     )]
     SeveralTips { base: String, wanted: Vec<usize>, tips: Names },
+    /// `ends`: those behind the joint and before it, each with its number of revolute joints.
+    #[error(
+        "joint {joint:?} may be a gripper's: revolute joints lead from {base:?} to {ends}; tip must \
+         name the end of the arm"
+    )]
+    MayBeGripper { base: String, joint: String, ends: Names },
     /// The ends of chains, each with the reason why it is not the tip.
     #[error(
         "{} revolute joints lead from {base:?} to no end of a chain: {ends}",
@@ -124,7 +130,19 @@ pub enum UrdfFault {
     NoAxis { joint: String },
     #[error("link {link:?} collision {what}")]
     Shape { link: String, what: String },
-    #[error("the links have more than {bound} collision shapes")]
+    #[error(
+        "link {link:?} has a mesh among its collision shapes, which from_urdf does not read: \
+         irbkin.body.Body.fit makes a body of it"
+    )]
+    MeshOfBody { link: String },
+    /// `what`: the type of the joint, and what is wrong with it.
+    #[error(
+        "link {link:?} hangs beside the arm on joint {joint:?}, which is {what}: a body must \
+         contain it wherever it is (give the joint limits, make it fixed, or choose base and tip \
+         beside it)"
+    )]
+    Beside { link: String, joint: String, what: String },
+    #[error("the links have more than {bound} collision shapes, or too many that are swept")]
     Shapes { bound: usize },
 }
 

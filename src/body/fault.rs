@@ -6,16 +6,22 @@ use alloc::string::String;
 
 use thiserror::Error;
 
-use super::lists::Names;
+use crate::report::Names;
 
 /// Why a shape, a body or a cell is refused. Lengths in meters; links and obstacles count from 0.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BodyFault {
     #[error(
-        "{field}[{index}] is {value}, it must be at most {most:e} in size: are lengths in meters?"
+        "{shape} {field}[{index}] is {value} m, its size must be at most {most} m: is it in \
+         millimeters? Meters are wanted"
     )]
-    Point { field: &'static str, index: usize, value: f64, most: f64 },
+    Point { shape: &'static str, field: &'static str, index: usize, value: f64, most: f64 },
+    #[error(
+        "{shape} {field} is {value} m, it must be at most {most} m: is it in millimeters? Meters \
+         are wanted, and a floor or wall without end is a half space"
+    )]
+    Large { shape: &'static str, field: &'static str, value: f64, most: f64 },
     #[error("{field} is {value} m, it must be {least:e} to {most:e} m")]
     Length { field: &'static str, value: f64, least: f64, most: f64 },
     #[error("normal has length zero: it must point out of the solid, as [0, 0, 1] of a floor does")]
@@ -99,6 +105,8 @@ pub enum BodyFault {
          approximate_body()"
     )]
     NoBody,
+    #[error("the robot has no body: {why}; or give it one by with_body")]
+    NotRead { why: String },
 }
 
 /// An edge that is not used in both senses equally often.

@@ -1,0 +1,50 @@
+//! Lists in messages.
+
+use core::fmt;
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+/// Most names that a message lists.
+const LISTED: usize = 12;
+
+/// Names for a message: the first of them, quoted, and how many more there are.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Names {
+    listed: Vec<String>,
+    more: usize,
+}
+
+impl<T: fmt::Display> FromIterator<T> for Names {
+    fn from_iter<I: IntoIterator<Item = T>>(names: I) -> Self {
+        let mut names = names.into_iter();
+        let listed = names.by_ref().take(LISTED).map(|name| name.to_string()).collect();
+        Self { listed, more: names.count() }
+    }
+}
+
+impl Names {
+    #[cfg(feature = "urdf")]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.listed.is_empty()
+    }
+}
+
+impl fmt::Display for Names {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Listed(&self.listed, ", ").fmt(f)?;
+        if self.more > 0 { write!(f, " and {} more", self.more) } else { Ok(()) }
+    }
+}
+
+/// Elements with a separator between them.
+pub(crate) struct Listed<'a, T>(pub(crate) &'a [T], pub(crate) &'static str);
+
+impl<T: fmt::Display> fmt::Display for Listed<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0
+            .iter()
+            .enumerate()
+            .try_for_each(|(i, element)| write!(f, "{}{element}", if i == 0 { "" } else { self.1 }))
+    }
+}
