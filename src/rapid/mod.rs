@@ -26,7 +26,7 @@
 //!
 //! The layers; each uses only the layers before it:
 //!
-//! 1. `text`: places, tokens, literals and reserved words of a text.
+//! 1. `text`: places, tokens, literals, reserved words and faults of a text.
 //! 2. `data`: types, records, values, declarations, moves, modules, and reasons why something is
 //!    not read.
 //! 3. `expression`: expressions as they are written, and their values.
@@ -51,7 +51,7 @@ mod resolve;
 mod statements;
 #[cfg(test)]
 mod tests;
-mod text;
+pub(crate) mod text;
 
 pub use self::calc::table::{TableRow, calc_moves, calc_targets};
 pub use self::calc::target::{Fallback, calc_joint_t, calc_joint_t_or, calc_rob_t, joint_vector};
@@ -61,8 +61,6 @@ pub use self::calc::wrong::error_name;
 pub(crate) use self::calc::{frames::rapid_pose, target::joint_target};
 pub use self::check::checker::{CheckOptions, Checked, CheckedMove, candidates, check};
 pub use self::check::unused::unused;
-#[cfg(feature = "python")]
-pub(crate) use self::data::class;
 pub use self::data::finding::{Code, Edit, Finding, Severity};
 pub use self::data::module::{Content, Datum, Module, Routine, RoutineKind, Scope, Storage};
 pub use self::data::moves::{Argument, ExtraArgument, Move, MoveKind, MoveOption, Target};
@@ -72,10 +70,14 @@ pub use self::data::records::{
 pub use self::data::settings::{CirPathMode, MotionSettings, SingArea};
 pub use self::data::unread::Skipped;
 pub use self::data::value::{DataType, Value};
-pub use self::expression::reader::DEEPEST_NESTING;
+#[cfg(feature = "python")]
+pub(crate) use self::data::{class, table::Entry};
+pub use self::expression::whole::DEEPEST_NESTING;
 pub use self::module::differences::differing_names;
 pub use self::module::read::{decode, parse, parse_record, read};
 pub use self::module::write::{NewValue, rewrite};
 pub use self::motion::drive::MotionOptions;
 pub use self::motion::routine::{MotionMove, RoutineMotion, motion};
-pub use crate::error::RapidFault;
+pub use self::text::fault::RapidFault;
+#[cfg(feature = "python")]
+pub(crate) use self::{module::read::read_with, statements::faults::Faults};

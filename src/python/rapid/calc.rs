@@ -119,7 +119,7 @@ pub(crate) fn calc_moves(
 ) -> PyResult<TargetTable> {
     let py = robot.py();
     let (arm, module) = (robot.get().arm(), &module.get().module);
-    arm.check_rule()?;
+    on!(arm, robot => robot.configuration_rule().map(drop))?;
     on!(arm, robot => {
         let fallback = read_fallback(arm, fallback, seed)?;
         table(py, &py.detach(|| rapid::calc_moves(robot, module, fallback))?)
@@ -177,7 +177,7 @@ impl Cell {
     ) -> PyResult<Self> {
         let tool = tool.map(|tool| read(tool, "tool")).transpose()?;
         let wobj = wobj.map(|wobj| read(wobj, "wobj")).transpose()?;
-        arm.check_rule()?;
+        on!(arm, robot => robot.configuration_rule().map(drop))?;
         Ok(Self { tool, wobj })
     }
 }

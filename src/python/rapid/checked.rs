@@ -44,6 +44,8 @@ record! {
         /// The corrections: index of the module, first byte and end in its `source` as UTF-8, and
         /// the text that takes their place. Empty if nothing corrects it.
         edits: Py<PyTuple>,
+        /// Where else its cause shows: index of the module, line and column, both from 1.
+        related: Py<PyTuple>,
     }
 }
 
@@ -66,7 +68,7 @@ record! {
         /// The confdata of its target; None for joint angles, or if the target is not known.
         confdata: Option<Configuration>,
         /// The code of the finding for which it is not checked; None if its target, tool and work
-        /// object are known.
+        /// object are known in each pass.
         unchecked: Option<String>,
     }
 }
@@ -77,7 +79,8 @@ record! {
     Checked {
         /// The findings, in the order of the modules and of their texts: a tuple of `Finding`.
         findings: Py<PyTuple>,
-        /// The moves in the same order, each place once: a tuple of `CheckedMove`.
+        /// The moves in the same order, passes of a loop as one; those below a call that they
+        /// depend on have its place, and are as many as there are: a tuple of `CheckedMove`.
         moves: Py<PyTuple>,
     }
 }
@@ -114,6 +117,7 @@ impl Finding {
             value,
             bound,
             edits: PyTuple::new(py, edits)?.unbind(),
+            related: PyTuple::new(py, &finding.related)?.unbind(),
         })
     }
 }

@@ -11,6 +11,7 @@ use crate::python::arm::on;
 use crate::python::cell::PyCell;
 use crate::python::errors::Fault;
 use crate::python::robot::PyRobot;
+use crate::python::signals::detached_until;
 use crate::python::targets::read_pose;
 use crate::python::trajectories::read_limits;
 use crate::rapid::{self, CheckOptions, Code, Module, MotionOptions, Unit, UnitAxis, Units};
@@ -79,6 +80,8 @@ pub(crate) fn check<'py>(
 ///         0, the frame of shape (4, 4) [m], and whether it turns about its z axis or else moves
 ///         along its x axis. An external axis of no unit, which is not at zero, is not checked.
 ///     last_values: Whether a PERS that the program assigns has the value of its declaration.
+///     whole: Whether every module of the task is given: a call of what none declares is an error
+///         then, and a note if some are missing. None if it is not known.
 ///
 /// Returns:
 ///     `Checked`.
@@ -89,7 +92,7 @@ pub(crate) fn check<'py>(
 ///     InvalidModelError: As of `check`.
 #[pyfunction]
 #[pyo3(signature = (robot, modules, *, codes=None, max_velocity=None, step=0.005, turn=None,
-    cell=None, units=None, last_values=false))]
+    cell=None, units=None, last_values=false, whole=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 #[expect(clippy::needless_pass_by_value, reason = "a sequence is extracted by value")]
 pub(crate) fn check_program<'py>(
@@ -102,12 +105,13 @@ pub(crate) fn check_program<'py>(
     cell: Option<&Bound<'py, PyCell>>,
     units: Option<Vec<GivenUnit<'py>>>,
     last_values: bool,
+    whole: Option<bool>,
 ) -> PyResult<Checked> {
     let py = robot.py();
     let units = units.unwrap_or_default().into_iter().map(read_unit);
     let units = Units(units.collect::<PyResult<Vec<_>>>()?);
     let options = (max_velocity, step, turn);
-    let extent = Extent { units, takes_last: last_values };
+    let extent = Extent { units, takes_last: last_values, is_whole: whole };
     let codes = codes.map(read_codes).transpose()?;
     let (mut findings, moves) = checked(robot, &modules, options, cell, &extent)?;
     add_unused(&mut findings, &modules, codes.as_deref());
@@ -138,6 +142,7 @@ fn read_unit((name, is_carrier, is_determined, axes): GivenUnit<'_>) -> PyResult
 struct Extent {
     units: Units,
     takes_last: bool,
+    is_whole: Option<bool>,
 }
 
 /// Findings and moves of a check.
@@ -149,7 +154,7 @@ fn checked(
     extent: &Extent,
 ) -> PyResult<(Vec<rapid::Finding>, Vec<CheckedMove>)> {
     let (py, arm) = (robot.py(), robot.get().arm());
-    arm.check_rule()?;
+    on!(arm, robot => robot.configuration_rule().map(drop))?;
     on!(arm, arm => checked_arm(py, arm, modules, options, cell, extent))
 }
 
@@ -168,10 +173,14 @@ fn checked_arm<const N: usize>(
         cell: cell.map(|cell| &*cell.get().0),
         units: Some(&extent.units),
         takes_last: extent.takes_last,
+        is_whole: extent.is_whole,
+        ..CheckOptions::default()
     };
     let own: Vec<&RapidModule> = modules.iter().map(Bound::get).collect();
     let texts: Vec<_> = own.iter().map(|it| (&it.module, it.source.as_str())).collect();
-    let rapid::Checked { findings, moves } = py.detach(|| rapid::check(arm, &texts, &options))?;
+    let rapid::Checked { findings, moves } = detached_until(py, |interrupt| {
+        rapid::check(arm, &texts, &CheckOptions { interrupt, ..options })
+    })??;
     let moves = moves.into_iter().map(|step| CheckedMove::of(py, step));
     Ok((findings, moves.collect()))
 }

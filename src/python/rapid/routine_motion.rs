@@ -106,7 +106,7 @@ pub(crate) fn motion(
     turn: Option<f64>,
 ) -> PyResult<PyRoutineMotion> {
     let arm = robot.get().arm();
-    arm.check_rule()?;
+    on!(arm, robot => robot.configuration_rule().map(drop))?;
     let given = Given { start, max_velocity, max_acceleration, step, turn };
     match arm {
         Arm::Six(arm) => made(robot, arm, module, routine, &given, ByJoints::Six),

@@ -9,7 +9,8 @@ use super::module::RapidModule;
 use super::values::{Elements, read_content, record};
 use crate::error::Error;
 use crate::python::errors::Fault;
-use crate::rapid::{self, Content, Datum, Module, Storage, Value};
+use crate::python::signals::detached_until;
+use crate::rapid::{self, Content, Datum, Faults, Module, Storage, Value};
 
 /// Return the RAPID text of a record, of a module, or of a mapping of names to values.
 ///
@@ -118,7 +119,7 @@ pub(crate) fn read_module(
     context: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<RapidModule> {
     let source = decoded(content)?;
-    with_context(content.py(), source, context, |source, context| Ok(rapid::read(source, context)))
+    with_context(content.py(), source, context, true)
 }
 
 /// Read the modules of a program in spite of their faults: each knows the data of the others.
@@ -133,16 +134,20 @@ pub(crate) fn read_modules(contents: &Bound<'_, PyAny>) -> PyResult<Vec<Py<Rapid
     let py = contents.py();
     let sources: Vec<String> =
         contents.try_iter()?.map(|content| decoded(&content?)).collect::<PyResult<_>>()?;
-    let (alone, modules) = py.detach(|| {
-        let alone: Vec<Module> = sources.iter().map(|source| rapid::read(source, &[])).collect();
+    let (alone, modules) = detached_until(py, |interrupt| {
+        let read_all = |context: &[&Module]| {
+            let faults = || Faults::new(true, interrupt);
+            let modules = sources.iter().map(|text| rapid::read_with(text, context, faults()));
+            modules.collect::<Result<Vec<_>, _>>()
+        };
+        let alone = read_all(&[])?;
         if alone.len() == 1 {
-            return (Vec::new(), alone);
+            return Ok((Vec::new(), alone));
         }
-        let all: Vec<&Module> = alone.iter().collect();
-        let modules = sources.iter().map(|source| rapid::read(source, &all));
-        let modules: Vec<Module> = modules.collect();
-        (alone, modules)
-    });
+        let modules = read_all(&alone.iter().collect::<Vec<_>>())?;
+        Ok((alone, modules))
+    })?
+    .map_err(Error::Rapid)?;
     let alone = sources
         .iter()
         .zip(alone)
@@ -182,15 +187,15 @@ fn module_of(
             "{source:?} is a path, parse takes the text of a module: use load"
         )));
     }
-    with_context(py, source, context, rapid::parse)
+    with_context(py, source, context, false)
 }
 
-/// The module that `read` makes of a text and of the modules of its context.
+/// The module of a text, in spite of its faults or not, and of the modules of its context.
 fn with_context(
     py: Python<'_>,
     source: String,
     context: Option<&Bound<'_, PyAny>>,
-    read: fn(&str, &[&Module]) -> Result<Module, Error>,
+    is_tolerant: bool,
 ) -> PyResult<RapidModule> {
     let mut others = Vec::new();
     if let Some(context) = context {
@@ -199,7 +204,10 @@ fn with_context(
         }
     }
     let context: Vec<&Module> = others.iter().map(|other| &other.get().module).collect();
-    let module = py.detach(|| read(&source, &context))?;
+    let module = detached_until(py, |interrupt| {
+        rapid::read_with(&source, &context, Faults::new(is_tolerant, interrupt))
+    })?
+    .map_err(Error::Rapid)?;
     let context = others.into_iter().map(Bound::unbind).collect();
     Ok(RapidModule::new(module, source, context))
 }

@@ -64,5 +64,6 @@ pub(in crate::rapid) fn near(over: &Over, wanted: Configuration, found: Configur
         over.angle.to_degrees(),
         over.by.to_degrees(),
     );
-    Finding::new(Code::NearConfdata, words).of_joint(over.joint).with_value(over.by, 0.0)
+    let finding = Finding::new(Code::NearConfdata, words).caused_by(format!("{wanted}{found}"));
+    finding.of_joint(over.joint).with_value(over.by, 0.0)
 }

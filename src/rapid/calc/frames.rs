@@ -1,11 +1,10 @@
 //! The flange pose for a tool pose in a work object: the frames of tooldata and wobjdata.
 
-use alloc::string::ToString;
-
 use super::units::Units;
-use crate::error::{Error, FrameFault};
+use crate::error::Error;
 use crate::kinematics::{Pose, Robot, pose_from_wxyz, pose_to_wxyz};
 use crate::rapid::data::records::{RapidPose, ToolData, WobjData};
+use crate::rapid::text::fault::FrameFault;
 
 /// A tool and a work object, one of which the robot carries while the other is fixed in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,18 +44,12 @@ impl Frames {
         let t_wobj = match wobj {
             Some(wobj) => {
                 let own = pose_in(&wobj.uframe, "uframe")? * pose_in(&wobj.oframe, "oframe")?;
-                if wobj.ufprog {
-                    own
-                } else {
-                    let unit = || FrameFault::Moved { unit: wobj.ufmec.clone() };
-                    units.moved(&wobj.ufmec, extax).ok_or_else(unit)? * own
-                }
+                if wobj.ufprog { own } else { units.moved(&wobj.ufmec, extax)? * own }
             }
             None => Pose::identity(),
         };
-        let unit = || FrameFault::Moved { unit: "that carries the robot".to_string() };
         // The robot is left where it is, the world is displaced.
-        let t_carrier_world = units.carried(extax).ok_or_else(unit)?.inverse();
+        let t_carrier_world = units.carried(extax)?.inverse();
         Ok(if tool_carried {
             Self::Carried { t_flange_tool: t_tool, t_world_wobj: t_carrier_world * t_wobj }
         } else {

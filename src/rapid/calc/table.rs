@@ -11,13 +11,14 @@ use super::units::Units;
 use super::wrong::{
     Found, absent, ambiguous, displaced, nearest_taken, not_solved, outside, unknown_axis,
 };
-use crate::error::{Error, FrameFault};
+use crate::error::Error;
 use crate::kinematics::{Robot, SingularDistances, Solution};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::{Content, Module};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::{JointTarget, NOT_THERE, RobTarget, ToolData, WobjData};
 use crate::rapid::data::value::Value;
+use crate::rapid::text::fault::FrameFault;
 use crate::report::{Configuration, Explanation};
 
 /// The result for one target.
@@ -118,13 +119,16 @@ pub(in crate::rapid) fn frames_of<const N: usize>(
         return Err(unknown_axis(external, extax[external]).into());
     }
     Frames::at(robot, Some(tool), wobj, (units, &extax)).map_err(|error| {
-        match (&error, &step.wobj) {
-            (Error::Frame(FrameFault::Moved { .. }), Some(wobj)) => {
-                let words = format!("work object {}: {error}", wobj.text);
-                Finding::new(Code::UnknownUnit, words).into()
-            }
-            _ => not_solved(&error).into(),
-        }
+        let Error::Frame(fault) = &error else { return not_solved(&error).into() };
+        let cause = error.to_string();
+        let words = match (fault, &step.wobj) {
+            (FrameFault::Moved { .. }, Some(it)) => format!("work object {}: {cause}", it.text),
+            (FrameFault::Carried { .. }, _) => cause.clone(),
+            // Joint angles need no frame.
+            (FrameFault::AxisMissing { .. }, _) if step.kind == MoveKind::MoveAbsJ => cause.clone(),
+            _ => return not_solved(&error).into(),
+        };
+        Finding::new(Code::UnknownUnit, words).caused_by(cause).into()
     })
 }
 

@@ -158,7 +158,7 @@ pub(in crate::rapid) fn with_arm_angle<const N: usize>(
     mut extax: [f64; 6],
 ) -> Result<[f64; 6], Error> {
     if let ConfigurationRule::ArmAngle { .. } = robot.configuration_rule()? {
-        extax[0] = robot.arm_angle_of(q)?.unwrap_or(0.0).to_degrees();
+        extax[0] = robot.arm_angle(q)?.unwrap_or(0.0).to_degrees();
     }
     Ok(extax)
 }

@@ -6,6 +6,8 @@ use alloc::vec::Vec;
 use nalgebra::{Rotation3, Translation3, Vector3};
 
 use crate::kinematics::Pose;
+use crate::rapid::data::records::NOT_THERE;
+use crate::rapid::text::fault::FrameFault;
 
 /// Angle above which an axis does not exist [deg]: no joint turns so far, and RAPID writes 9E9.
 pub(in crate::rapid) const MOST_DEGREES: f64 = 1e6;
@@ -41,11 +43,12 @@ pub struct Unit {
 
 impl Unit {
     /// The frame that it moves, seen from the world, at external axes [deg or mm].
-    fn frame(&self, extax: &[f64; 6]) -> Option<Pose> {
+    fn frame(&self, extax: &[f64; 6]) -> Result<Pose, FrameFault> {
         self.axes.iter().try_fold(Pose::identity(), |frame, axis| {
-            let value = *extax.get(axis.external)?;
+            let value = extax.get(axis.external).copied().unwrap_or(NOT_THERE);
             if value.abs() >= MOST_DEGREES {
-                return None;
+                let axis = EXTERNAL_AXES.get(axis.external).copied().unwrap_or("an axis");
+                return Err(FrameFault::AxisMissing { axis, unit: self.name.clone() });
             }
             let own = if axis.is_rotation {
                 let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), value.to_radians());
@@ -53,7 +56,7 @@ impl Unit {
             } else {
                 Pose::from_parts(Translation3::new(value / 1e3, 0.0, 0.0), Rotation3::identity())
             };
-            Some(frame * axis.frame * own)
+            Ok(frame * axis.frame * own)
         })
     }
 }
@@ -65,18 +68,21 @@ pub struct Units(pub Vec<Unit>);
 impl Units {
     /// The displacement of the robot's base in the world at external axes, from where it is with
     /// all of them at zero; nothing if it is not carried.
-    pub(in crate::rapid) fn carried(&self, extax: &[f64; 6]) -> Option<Pose> {
+    pub(in crate::rapid) fn carried(&self, extax: &[f64; 6]) -> Result<Pose, FrameFault> {
         let Some(carrier) = self.0.iter().find(|unit| unit.is_carrier) else {
-            return Some(Pose::identity());
+            return Ok(Pose::identity());
         };
-        let zero = carrier.frame(&[0.0; 6]).filter(|_| carrier.is_determined)?;
-        Some(carrier.frame(extax)? * zero.inverse())
+        if !carrier.is_determined {
+            return Err(FrameFault::Carried { unit: carrier.name.clone() });
+        }
+        Ok(carrier.frame(extax)? * carrier.frame(&[0.0; 6])?.inverse())
     }
 
     /// The frame that a unit moves.
-    pub(in crate::rapid) fn moved(&self, name: &str, extax: &[f64; 6]) -> Option<Pose> {
-        let mut named = self.0.iter().filter(|unit| unit.is_determined);
-        named.find(|unit| unit.name.eq_ignore_ascii_case(name))?.frame(extax)
+    pub(in crate::rapid) fn moved(&self, name: &str, extax: &[f64; 6]) -> Result<Pose, FrameFault> {
+        let mut known = self.0.iter().filter(|unit| unit.is_determined);
+        let unit = known.find(|unit| unit.name.eq_ignore_ascii_case(name));
+        unit.ok_or_else(|| FrameFault::Moved { unit: name.into() })?.frame(extax)
     }
 
     /// The first external axis, from 0, that is not at zero and belongs to no unit.

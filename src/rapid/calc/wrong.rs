@@ -4,13 +4,15 @@ use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::{String, ToString};
 
-use crate::error::{Error, RapidFault};
+use crate::error::Error;
 use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 use crate::kinematics::{BreakReason, Robot, SingularityKind};
+use crate::rapid::calc::confdata::Over;
 use crate::rapid::calc::units::EXTERNAL_AXES;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::records::NOT_THERE;
 use crate::rapid::data::value::Value;
+use crate::rapid::text::fault::RapidFault;
 use crate::report::Explanation;
 
 /// A result or a finding.
@@ -53,7 +55,19 @@ pub(in crate::rapid) fn not_solved(error: &Error) -> Finding {
     }
 }
 
-/// A target whose configuration no solution has, where the nearest joint angles are taken.
+/// A target whose configuration no solution has, where the joint angles nearest to it are taken.
+pub(in crate::rapid) fn beside_taken(missed: &Error, over: &Over) -> Finding {
+    let words = format!(
+        "{}; the nearest to it is taken, with axis {} {:.2} deg over its quarter",
+        named(missed),
+        over.axis,
+        over.by.to_degrees(),
+    );
+    Finding::new(Code::WrongConfdata, words)
+}
+
+/// A target whose configuration no solution has, nor its branch, where the nearest joint angles are
+/// taken.
 pub(in crate::rapid) fn nearest_taken(missed: &Error) -> Finding {
     let words = format!("{}; the nearest to the joints before is taken", named(missed));
     Finding::new(Code::WrongConfdata, words)
@@ -78,7 +92,7 @@ pub(in crate::rapid) fn unknown_axis(external: usize, position: f64) -> Finding 
     let words = format!(
         "{name} is at {position}: the unit that it drives is not known, and it may carry the robot"
     );
-    Finding::new(Code::UnknownUnit, words)
+    Finding::new(Code::UnknownUnit, words).caused_by(name.to_string())
 }
 
 /// A jointtarget with the angle [deg] of an axis, from 1, that does not exist.

@@ -1,6 +1,6 @@
 //! All moves of a program, checked.
 
-use alloc::collections::BTreeSet;
+use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -8,21 +8,25 @@ use alloc::vec::Vec;
 use super::confdata::{in_wrist_singularity, on_edges, with_nearest};
 use super::corners::Zones;
 use super::fixes::{Demand, Finder, correct};
+use super::undeclared::undeclared;
 use crate::cell::{Cell, Placed};
-use crate::error::{Error, RapidFault, RapidFaultKind};
+use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::kinematics::Robot;
 use crate::rapid::calc::target::with_flange;
 use crate::rapid::calc::units::Units;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
+use crate::rapid::data::table::Entry;
 use crate::rapid::expression::names::predefined_names;
 use crate::rapid::motion::drive::MotionOptions;
-use crate::rapid::motion::goal::Place;
-use crate::rapid::motion::joints::Conf;
+use crate::rapid::motion::goal::{Goal, Place};
+use crate::rapid::motion::joints::{Conf, nearest_written};
 use crate::rapid::motion::routine::{Followed, check as check_options, velocities};
 use crate::rapid::program::walk::runs;
 use crate::rapid::program::walker::Run;
 use crate::rapid::program::whole::Program;
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::report::Configuration;
 
 /// Options of [`check`].
@@ -38,9 +42,15 @@ pub struct CheckOptions<'a, const N: usize = 6> {
     /// Whether a PERS that the program assigns has the value that its text has, the last one that
     /// it had when the program was saved; each such move has a finding.
     pub takes_last: bool,
+    /// Whether every module of the program is here; if that is not known, calls by calculated names
+    /// lead to others. A routine that nothing declares is an error in a whole program.
+    pub is_whole: Option<bool>,
+    /// Ends the check early, with [`Error::Interrupted`].
+    pub interrupt: Interrupt<'a>,
 }
 
-/// A place at which the program moves.
+/// A move of the program: an instruction, and the chain of calls to it where it moves to what they
+/// pass on; its place is the first of these calls then.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckedMove<const N: usize = 6> {
     /// The module among those that are checked, from 0.
@@ -57,7 +67,7 @@ pub struct CheckedMove<const N: usize = 6> {
     pub q: Option<[f64; N]>,
     /// The confdata of its target; `None` for joint angles, or if the target is not known.
     pub confdata: Option<Configuration>,
-    /// Why it is not checked; `None` if its target, tool and work object are known.
+    /// Why it is not checked; `None` if its target, tool and work object are known in each pass.
     pub unchecked: Option<Code>,
 }
 
@@ -66,7 +76,7 @@ pub struct CheckedMove<const N: usize = 6> {
 pub struct Checked<const N: usize = 6> {
     /// The findings, in the order of the modules and of their texts.
     pub findings: Vec<Finding>,
-    /// The moves, in the same order, each place once.
+    /// The moves, in the same order; passes of a loop are one move.
     pub moves: Vec<CheckedMove<N>>,
 }
 
@@ -106,7 +116,11 @@ pub fn check<const N: usize>(
         options: options.motion,
         units: options.units.unwrap_or(&units),
         max_velocity,
-        cell: options.cell.map(|cell| Ok::<_, Error>((cell, Placed::of(robot)?))).transpose()?,
+        cell: match options.cell {
+            Some(cell) => Some((cell, Placed::of(robot)?.until(options.interrupt))),
+            None => None,
+        },
+        interrupt: options.interrupt,
         finder: Finder::new(&program, &sources),
         ends: Vec::new(),
         found: Vec::new(),
@@ -118,8 +132,9 @@ pub fn check<const N: usize>(
         checker.add(run)?;
     }
     checker.found.extend(notes);
+    checker.found.extend(undeclared(&modules, &sources, options.is_whole));
     let Checker { found, demands, moves, .. } = checker;
-    Ok(Checked { findings: sorted(found, &demands), moves: places(moves) })
+    Ok(Checked { findings: sorted(found, &demands), moves: each_once(moves) })
 }
 
 /// Findings in the order of the text, each once, with their corrections.
@@ -130,9 +145,7 @@ fn sorted(mut found: Vec<Finding>, demands: &[Demand]) -> Vec<Finding> {
         (a.module, a.line, a.column, a.code, &a.message)
             == (b.module, b.line, b.column, b.code, &b.message)
     });
-    // A unit is named once, and nothing is said of the way to a target that cannot be met.
-    let mut units = BTreeSet::new();
-    let what = |it: &Finding| it.message.split_once(": ").map(|(_, words)| String::from(words));
+    // Nothing is said of the way to a target that cannot be met.
     let (mut unmet, mut without_path) = (None, None);
     found.retain(|it| {
         let place = (it.module, it.line, it.column);
@@ -141,19 +154,70 @@ fn sorted(mut found: Vec<Finding>, demands: &[Demand]) -> Vec<Finding> {
             Code::NoPath => without_path = Some(place),
             Code::UncertainCircle => return without_path != Some(place),
             Code::PathBlocked | Code::Flip => return unmet != Some(place),
-            Code::UnknownUnit => return units.insert(what(it)),
             _ => {}
         }
         true
     });
-    found
+    of_one_cause(found)
 }
 
-/// Moves in the order of the text, each place once: checked if it is in one of its passes.
-fn places<const N: usize>(mut moves: Vec<CheckedMove<N>>) -> Vec<CheckedMove<N>> {
-    moves.sort_by_key(|it| (it.module, it.line, it.column, it.unchecked));
-    moves.dedup_by_key(|it| (it.module, it.line, it.column));
-    moves
+/// Findings of one cause as the first of them, with the places and the corrections of the others.
+fn of_one_cause(found: Vec<Finding>) -> Vec<Finding> {
+    let mut firsts = BTreeMap::new();
+    let mut kept: Vec<Finding> = Vec::new();
+    for mut finding in found {
+        let cause = core::mem::take(&mut finding.cause);
+        if !cause.is_empty() {
+            let first = *firsts.entry((finding.code, cause)).or_insert(kept.len());
+            if let Some(first) = kept.get_mut(first) {
+                // Passes of a loop are at one place.
+                let place = (finding.module, finding.line, finding.column);
+                let own = (first.module, first.line, first.column);
+                if *first.related.last().unwrap_or(&own) != place {
+                    first.related.push(place);
+                }
+                first.edits.append(&mut finding.edits);
+                continue;
+            }
+        }
+        kept.push(finding);
+    }
+    for finding in &mut kept {
+        finding.edits.sort_by_key(|edit| (edit.module, edit.span.start));
+        finding.edits.dedup();
+        let more = finding.related.len();
+        if more > 0 {
+            let moves = if more == 1 { "move" } else { "moves" };
+            finding.message = format!("{} (and {more} more {moves})", finding.message);
+        }
+    }
+    kept
+}
+
+/// The identity of a move: its place, then the chain of calls, the module and the index
+/// of the instruction.
+type Key = ([usize; 3], [usize; 3]);
+
+/// Moves in the order of the text, each once: not checked if it is not in one of its passes.
+fn each_once<const N: usize>(mut moves: Vec<(Key, CheckedMove<N>)>) -> Vec<CheckedMove<N>> {
+    moves.sort_by_key(|(key, it)| (*key, it.unchecked.is_none(), it.unchecked));
+    moves.dedup_by_key(|(key, _)| *key);
+    moves.into_iter().map(|(_, it)| it).collect()
+}
+
+/// A move that is not followed, as one that is not checked.
+fn unfollowed_move<const N: usize>(finding: &Finding) -> (Key, CheckedMove<N>) {
+    let own = CheckedMove {
+        module: finding.module,
+        line: finding.line,
+        column: finding.column,
+        routine: finding.routine.clone(),
+        target: finding.subject.clone(),
+        q: None,
+        confdata: None,
+        unchecked: Some(finding.code),
+    };
+    (([own.module, own.line, own.column], [0, own.module, usize::MAX]), own)
 }
 
 struct Checker<'a, 'm, const N: usize> {
@@ -163,12 +227,13 @@ struct Checker<'a, 'm, const N: usize> {
     units: &'a Units,
     max_velocity: [f64; N],
     cell: Option<(&'a Cell, Placed<'a, N>)>,
+    interrupt: Interrupt<'a>,
     finder: Finder<'a, 'm>,
     /// The joints at the targets of the moves of each run.
     ends: Vec<Vec<Option<[f64; N]>>>,
     found: Vec<Finding>,
     demands: Vec<Demand>,
-    moves: Vec<CheckedMove<N>>,
+    moves: Vec<(Key, CheckedMove<N>)>,
 }
 
 impl<const N: usize> Checker<'_, '_, N> {
@@ -176,19 +241,11 @@ impl<const N: usize> Checker<'_, '_, N> {
         let start =
             run.from.and_then(|(run, moves)| *self.ends.get(run)?.get(moves.checked_sub(1)?)?);
         let options = MotionOptions { start, max_acceleration: None, ..self.options };
-        let mut followed = Followed::new(self.robots, &run.steps, &options, Some(self.units))?;
+        let mut followed =
+            Followed::new(self.robots, &run.steps, &options, Some(self.units), self.interrupt)?;
         followed.check_speeds(&self.max_velocity);
         let Followed { goals, made, findings, unfollowed, .. } = &followed;
-        self.moves.extend(unfollowed.iter().map(|finding| CheckedMove {
-            module: finding.module,
-            line: finding.line,
-            column: finding.column,
-            routine: finding.routine.clone(),
-            target: finding.message.split(": ").next().unwrap_or_default().into(),
-            q: None,
-            confdata: None,
-            unchecked: Some(finding.code),
-        }));
+        self.moves.extend(unfollowed.iter().map(unfollowed_move));
         self.found.extend(unfollowed.iter().cloned());
         // Where the confdata of a move is wrong.
         let mut wrong: Vec<Option<usize>> = goals.iter().map(|_| None).collect();
@@ -204,6 +261,9 @@ impl<const N: usize> Checker<'_, '_, N> {
                 finding.code,
                 Code::WrongConfdata | Code::OtherConfiguration | Code::NearConfdata
             );
+            if is_wrong && !finding.cause.is_empty() {
+                finding.cause = self.cause_at(goal, &finding);
+            }
             if let Some(q) = made.q.filter(|_| is_wrong) {
                 wrong[index] = Some(self.found.len());
                 finding = with_nearest(self.robots[1], finding, goal, &q);
@@ -220,16 +280,20 @@ impl<const N: usize> Checker<'_, '_, N> {
         for (index, goal) in
             goals.iter().enumerate().filter(|(index, _)| made[*index].as_programmed)
         {
+            self.interrupt.check(0)?;
             let finding = self.collision(followed.along(index));
             let placed = finding.map(|it| it.at(goal.step, index).in_module(goal.stepped.module));
             self.found.extend(placed);
         }
         let zones = Zones { flange: self.robots[1], goals, made };
         for (index, goal) in goals.iter().enumerate() {
-            self.moves.push(CheckedMove {
-                module: goal.stepped.module,
-                line: goal.step.line,
-                column: goal.step.column,
+            self.interrupt.check(index)?;
+            let (module, line, column) = (goal.stepped.module, goal.step.line, goal.step.column);
+            let (home, instruction) = goal.stepped.instruction;
+            let own = CheckedMove {
+                module,
+                line,
+                column,
                 routine: goal.step.routine.clone(),
                 target: goal.step.target.text.clone(),
                 q: made[index].q,
@@ -238,7 +302,9 @@ impl<const N: usize> Checker<'_, '_, N> {
                     _ => None,
                 },
                 unchecked: unchecked[index],
-            });
+            };
+            let by = [goal.stepped.chain, home, instruction];
+            self.moves.push((([module, line, column], by), own));
             let mut found = |finding: Finding| {
                 self.found.push(finding.at(goal.step, index).in_module(goal.stepped.module));
             };
@@ -258,6 +324,9 @@ impl<const N: usize> Checker<'_, '_, N> {
             }
             on_edges(self.robots[1], &q)?.for_each(found);
             let to = self.robots[1].configuration(&q)?;
+            if wrong[index].is_some() && !self.is_nearest_written(goal, to) {
+                continue;
+            }
             let written = self.finder.of(goal.stepped.module, goal.step);
             self.demands.push(Demand {
                 written,
@@ -268,6 +337,24 @@ impl<const N: usize> Checker<'_, '_, N> {
         }
         self.ends.push(made.iter().map(|made| made.q).collect());
         Ok(())
+    }
+
+    /// The cause of a finding on confdata: in a routine, or in the run that is added.
+    fn cause_at(&self, goal: &Goal<'_, N>, finding: &Finding) -> String {
+        let (module, routine, cause) =
+            (goal.stepped.module, goal.step.routine.as_deref(), &finding.cause);
+        match finding.code {
+            Code::NearConfdata => format!("{module} {} {cause}", routine.unwrap_or_default()),
+            _ => format!("{} {cause}", self.ends.len()),
+        }
+    }
+
+    /// Whether a configuration belongs to the joints nearest to the written one of a goal: any other
+    /// is another wrist, or whole turns away, and does not correct it.
+    fn is_nearest_written(&self, goal: &Goal<'_, N>, to: Configuration) -> bool {
+        let Some(Place::Tool(pose, wanted)) = goal.place else { return false };
+        let nearest = nearest_written(self.robots[1], &goal.frames.flange(&pose), &wanted);
+        nearest.is_some_and(|(q, _)| self.robots[1].configuration(&q) == Ok(to))
     }
 
     /// A move that touches something in the cell.
@@ -291,6 +378,11 @@ impl<const N: usize> Checker<'_, '_, N> {
 /// RAPID's own.
 #[must_use]
 pub fn candidates(finding: &Finding, modules: &[&Module]) -> Vec<String> {
+    if finding.code == Code::UnknownRoutine {
+        let routines = modules.iter().flat_map(|module| module.routines());
+        let own = Entry::all().map(|it| String::from(it.0));
+        return routines.map(|routine| routine.name.clone()).chain(own).collect();
+    }
     let data_type = finding.code.data_type();
     let data = modules.iter().flat_map(|module| module.data());
     let fitting = data.filter(|datum| data_type.is_none_or(|wanted| datum.data_type == wanted));

@@ -4,13 +4,14 @@ use alloc::format;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use crate::kinematics::thresholds::LEAST_WAY;
-use crate::kinematics::{Pose, Robot};
+use crate::kinematics::{Pose, Robot, angle_between};
 use crate::paths::ArcOrientation;
 use crate::paths::polyline::Leg;
+use crate::paths::thresholds::LEAST_WAY;
 use crate::rapid::calc::table::external_axes;
 use crate::rapid::calc::units::{EXTERNAL_AXES, MOST_DEGREES};
 use crate::rapid::data::finding::{Code, Finding};
+use crate::rapid::data::value::Value;
 use crate::rapid::motion::drive::Made;
 use crate::rapid::motion::goal::{Goal, Place};
 use crate::rapid::motion::joints::way;
@@ -121,7 +122,7 @@ impl<const N: usize> Zones<'_, '_, N> {
         let [to_via, to_end] =
             [via, end].map(|pose| pose.translation.vector - start.translation.vector);
         let least = to_via.norm().min(to_end.norm());
-        let angle = to_via.angle(&to_end);
+        let angle = angle_between(&to_via, &to_end);
         let found = |words| Some(Finding::new(Code::UncertainCircle, words));
         if least < LEAST_CHORD {
             return found(format!(
@@ -138,7 +139,7 @@ impl<const N: usize> Zones<'_, '_, N> {
             ));
         }
         // An arc is twice the angle that it is seen under from the third point.
-        let turn = 2.0 * (angle + (-to_end).angle(&(to_via - to_end)));
+        let turn = 2.0 * (angle + angle_between(&-to_end, &(to_via - to_end)));
         (turn > MOST_ARC).then(|| {
             let words = format!(
                 "its arc is {:.0} deg long, more than {:.0} deg: program two",
@@ -162,13 +163,12 @@ impl<const N: usize> Zones<'_, '_, N> {
         if zone.position <= bound * (1.0 + ROUNDING) {
             return None;
         }
+        let [zone_mm, way_mm, bound_mm] =
+            [zone.position, way, bound].map(|m| Value::Num((m * 1e6).round() / 1e3));
         let words = format!(
-            "zone {} ({:.1} mm) is over half of the {:.1} mm to {side}: the controller reduces it \
-             to {:.1} mm",
+            "zone {} ({zone_mm} mm) is over half of the {way_mm} mm to {side}: the controller \
+             reduces it to {bound_mm} mm",
             goal.step.zone,
-            zone.position * 1e3,
-            way * 1e3,
-            bound * 1e3
         );
         let finding = Finding::new(Code::ZoneTooLarge, words);
         Some(finding.with_value(zone.position, bound))

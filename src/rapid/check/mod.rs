@@ -4,4 +4,5 @@ pub(super) mod checker;
 mod confdata;
 mod corners;
 mod fixes;
+mod undeclared;
 pub(super) mod unused;

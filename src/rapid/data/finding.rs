@@ -23,7 +23,7 @@ macro_rules! codes {
 
         impl Code {
             /// Every code.
-            pub const ALL: [Self; 34] = [$(Self::$Code),*];
+            pub const ALL: [Self; 37] = [$(Self::$Code),*];
 
             /// The code: a letter for its group and three digits.
             #[must_use]
@@ -95,6 +95,10 @@ codes! {
     UnknownSpeed "N604" "unknown-speed";
     /// A zone is not declared: the target is met.
     UnknownZone "N605" "unknown-zone";
+    /// A procedure or a function that nothing declares and RAPID does not have is called.
+    UnknownRoutine "N606" "unknown-routine";
+    /// A call has other arguments than what it calls.
+    WrongArguments "N607" "wrong-arguments";
     /// A target, a tool or a work object is not a frame, or tool and work object do not go
     /// together.
     InvalidFrame "D701" "invalid-frame";
@@ -116,6 +120,8 @@ codes! {
     NeverRun "U806" "never-run";
     /// Nothing in a program names a target, a tool, a work object or a routine of it.
     Unused "U807" "unused";
+    /// Routines that nothing declares are called, and modules are missing.
+    MissingRoutines "U808" "missing-routines";
 }
 
 /// How much a finding matters.
@@ -156,13 +162,15 @@ impl Code {
     }
 
     /// Whether it is shown unless codes are selected: not where something is unknown or undecided, of
-    /// which the number of moves that are not checked tells.
+    /// which the number of moves that are not checked tells, nor of zones that controllers reduce by
+    /// themselves: of 1,293 in public programs none did harm.
     #[must_use]
     pub fn is_default(self) -> bool {
         !matches!(
             self,
             Self::UnknownValue
                 | Self::NotFollowed
+                | Self::ZoneTooLarge
                 | Self::ConfdataEdge
                 | Self::LastValue
                 | Self::Unused
@@ -209,7 +217,10 @@ pub struct Finding {
     /// Index of the move in the motion, or of the row in the table; for an instruction that is not
     /// read, of the next move.
     pub move_index: usize,
-    /// The instruction and what is wrong with it: the value, the bound and what to do.
+    /// The beginning of the instruction that it is about, or the kind and the name of data or of a
+    /// routine; empty if it was not read from a text.
+    pub subject: String,
+    /// The subject and what is wrong with it: the value, the bound and what to do.
     pub message: String,
     /// The joint that it is about, from 1.
     pub joint: Option<usize>,
@@ -220,6 +231,10 @@ pub struct Finding {
     pub bound: Option<f64>,
     /// The name that nothing declares.
     pub unknown: Option<String>,
+    /// Findings of one code and one cause are one; empty if it stands alone.
+    pub(crate) cause: String,
+    /// Where else its cause shows: modules, lines and columns.
+    pub related: Vec<(usize, usize, usize)>,
     /// The corrections, in the order of the text; empty where nothing corrects it.
     pub edits: Vec<Edit>,
 }
@@ -234,11 +249,14 @@ impl Finding {
             column: 0,
             routine: None,
             move_index: 0,
+            subject: String::new(),
             message: words.into(),
             joint: None,
             value: None,
             bound: None,
             unknown: None,
+            cause: String::new(),
+            related: Vec::new(),
             edits: Vec::new(),
         }
     }
@@ -248,9 +266,15 @@ impl Finding {
         match reason {
             Reason::Reference { name, why: Unresolved::NotDeclared } => {
                 Self { unknown: Some(name.clone()), ..Self::new(code, words) }
+                    .caused_by(name.to_lowercase())
             }
             _ => Self::new(Code::UnknownValue, words),
         }
+    }
+
+    /// With its cause.
+    pub(crate) fn caused_by(self, cause: String) -> Self {
+        Self { cause, ..self }
     }
 
     /// With the joint that it is about, from 1.
@@ -295,14 +319,15 @@ impl Finding {
 
     /// At a place of the text, with the instruction before the words.
     pub(crate) fn placed(
-        mut self,
+        self,
         (line, column): (usize, usize),
         routine: Option<String>,
         move_index: usize,
         what: &str,
     ) -> Self {
-        self.message = format!("{}: {}", excerpt(what), self.message);
-        Self { line, column, routine, move_index, ..self }
+        let subject = excerpt(what);
+        let message = format!("{subject}: {}", self.message);
+        Self { line, column, routine, move_index, subject, message, ..self }
     }
 }
 

@@ -10,7 +10,8 @@ use super::own_types::OwnTypes;
 use super::settings::Setting;
 use super::unread::Skipped;
 use super::value::{DataType, Value};
-use crate::error::RapidFault;
+use crate::rapid::text::fault::RapidFault;
+use crate::rapid::text::tokens::Called;
 use crate::rapid::text::words::words;
 
 words! {
@@ -174,6 +175,8 @@ pub struct Module {
     /// The components of its own data of records that a program defines, by their names in lower
     /// case, such as `station.p`.
     pub(crate) parts: BTreeMap<String, Datum>,
+    /// Calls of routines, and calls of RAPID's own with wrong arguments.
+    pub(crate) calls: Vec<Called>,
     /// Bytes of the text that it was read from.
     pub(crate) text_length: usize,
 }
@@ -239,6 +242,7 @@ impl Module {
     #[must_use]
     pub fn without_positions(mut self) -> Self {
         self.text_length = 0;
+        self.calls.clear();
         for datum in self.data.iter_mut().chain(self.parts.values_mut()) {
             (datum.line, datum.column, datum.value_span) = (0, 0, 0..0);
             datum.element_spans.clear();

@@ -6,7 +6,7 @@ use super::moves::MoveKind::{self, MoveAbsJ, MoveC, MoveExtJ, MoveJ, MoveL};
 
 /// The meaning of a required argument.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Role {
+pub(super) enum Role {
     /// The target; of a circle, the point on it and the target.
     Target,
     Speed,
@@ -17,22 +17,22 @@ enum Role {
 }
 
 /// Required arguments in order; at most one of them is `Others`.
-type Layout = &'static [Role];
+pub(super) type Layout = &'static [Role];
 
-const PLAIN: Layout = &[Target, Speed, Zone, Tool];
+pub(super) const PLAIN: Layout = &[Target, Speed, Zone, Tool];
 /// Without a tool: external axes only.
-const EXTERNAL: Layout = &[Target, Speed, Zone];
+pub(super) const EXTERNAL: Layout = &[Target, Speed, Zone];
 /// An action at the target follows the tool.
-const THEN: Layout = &[Target, Speed, Zone, Tool, Others];
+pub(super) const THEN: Layout = &[Target, Speed, Zone, Tool, Others];
 /// A process follows the speed.
-const ALONG: Layout = &[Target, Speed, Others, Zone, Tool];
+pub(super) const ALONG: Layout = &[Target, Speed, Others, Zone, Tool];
 /// A process follows the speed, and the target is met.
-const STOPS: Layout = &[Target, Speed, Others, Tool];
+pub(super) const STOPS: Layout = &[Target, Speed, Others, Tool];
 /// A signal, and the datum that gets the place where it came.
-const SEARCH: Layout = &[Others, Target, Speed, Tool];
-const SEARCH_EXTERNAL: Layout = &[Others, Target, Speed];
+pub(super) const SEARCH: Layout = &[Others, Target, Speed, Tool];
+pub(super) const SEARCH_EXTERNAL: Layout = &[Others, Target, Speed];
 /// A process comes first.
-const AFTER: Layout = &[Others, Target, Speed, Zone, Tool];
+pub(super) const AFTER: Layout = &[Others, Target, Speed, Zone, Tool];
 
 /// An instruction that moves and is read.
 pub(crate) struct MoveInstruction {
@@ -40,102 +40,10 @@ pub(crate) struct MoveInstruction {
     pub(crate) name: &'static str,
     /// How it moves.
     pub(crate) way: MoveKind,
-    layout: Layout,
+    pub(super) layout: Layout,
+    /// As its row in the table has them.
+    pub(crate) arguments: &'static str,
 }
-
-const fn line(name: &'static str, way: MoveKind, layout: Layout) -> MoveInstruction {
-    MoveInstruction { name, way, layout }
-}
-
-/// Sources: the RAPID reference manual; the application manuals of arc and spot welding,
-/// dispensing, painting, Continuous Application Platform, Externally Guided Motion and force
-/// control.
-#[rustfmt::skip]
-static INSTRUCTIONS: &[MoveInstruction] = &[
-    line("MoveJ", MoveJ, PLAIN),
-    line("MoveL", MoveL, PLAIN),
-    line("MoveC", MoveC, PLAIN),
-    line("MoveAbsJ", MoveAbsJ, PLAIN),
-    line("MoveExtJ", MoveExtJ, EXTERNAL),
-    line("MoveJDO", MoveJ, THEN),
-    line("MoveLDO", MoveL, THEN),
-    line("MoveCDO", MoveC, THEN),
-    line("MoveJAO", MoveJ, THEN),
-    line("MoveLAO", MoveL, THEN),
-    line("MoveCAO", MoveC, THEN),
-    line("MoveJGO", MoveJ, THEN),
-    line("MoveLGO", MoveL, THEN),
-    line("MoveCGO", MoveC, THEN),
-    line("MoveJSync", MoveJ, THEN),
-    line("MoveLSync", MoveL, THEN),
-    line("MoveCSync", MoveC, THEN),
-    line("TriggJ", MoveJ, ALONG),
-    line("TriggL", MoveL, ALONG),
-    line("TriggC", MoveC, ALONG),
-    line("TriggAbsJ", MoveAbsJ, ALONG),
-    line("TriggJIOs", MoveJ, PLAIN),
-    line("TriggLIOs", MoveL, PLAIN),
-    line("SearchL", MoveL, SEARCH),
-    line("SearchC", MoveC, SEARCH),
-    line("SearchExtJ", MoveExtJ, SEARCH_EXTERNAL),
-    line("ArcL", MoveL, ALONG),
-    line("ArcLStart", MoveL, ALONG),
-    line("ArcLEnd", MoveL, ALONG),
-    line("ArcC", MoveC, ALONG),
-    line("ArcCStart", MoveC, ALONG),
-    line("ArcCEnd", MoveC, ALONG),
-    line("ArcL1", MoveL, ALONG),
-    line("ArcL1Start", MoveL, ALONG),
-    line("ArcL1End", MoveL, ALONG),
-    line("ArcC1", MoveC, ALONG),
-    line("ArcC1Start", MoveC, ALONG),
-    line("ArcC1End", MoveC, ALONG),
-    line("ArcL2", MoveL, ALONG),
-    line("ArcL2Start", MoveL, ALONG),
-    line("ArcL2End", MoveL, ALONG),
-    line("ArcC2", MoveC, ALONG),
-    line("ArcC2Start", MoveC, ALONG),
-    line("ArcC2End", MoveC, ALONG),
-    line("ArcCalcL", MoveL, ALONG),
-    line("ArcCalcLStart", MoveL, ALONG),
-    line("ArcCalcLEnd", MoveL, ALONG),
-    line("ArcCalcC", MoveC, ALONG),
-    line("ArcCalcCEnd", MoveC, ALONG),
-    line("ArcAdaptL", MoveL, ALONG),
-    line("ArcAdaptLStart", MoveL, ALONG),
-    line("ArcAdaptLEnd", MoveL, ALONG),
-    line("ArcAdaptC", MoveC, ALONG),
-    line("ArcAdaptCEnd", MoveC, ALONG),
-    line("ArcMoveExtJ", MoveExtJ, EXTERNAL),
-    line("SpotJ", MoveJ, STOPS),
-    line("SpotL", MoveL, STOPS),
-    line("SpotMJ", MoveJ, STOPS),
-    line("SpotML", MoveL, STOPS),
-    line("CalibJ", MoveJ, STOPS),
-    line("CalibL", MoveL, STOPS),
-    line("MeasureWearL", MoveL, STOPS),
-    line("NutJ", MoveJ, STOPS),
-    line("NutL", MoveL, STOPS),
-    line("StudL", MoveL, STOPS),
-    line("DaProcMJ", MoveJ, ALONG),
-    line("DaProcML", MoveL, ALONG),
-    line("DispL", MoveL, ALONG),
-    line("DispC", MoveC, ALONG),
-    line("GlueL", MoveL, ALONG),
-    line("GlueC", MoveC, ALONG),
-    line("PaintL", MoveL, ALONG),
-    line("PaintC", MoveC, ALONG),
-    line("CapL", MoveL, ALONG),
-    line("CapC", MoveC, ALONG),
-    line("ContactL", MoveL, STOPS),
-    line("CSSDeactMoveL", MoveL, STOPS),
-    line("EGMMoveL", MoveL, AFTER),
-    line("EGMMoveC", MoveC, AFTER),
-    line("FCPress1LStart", MoveL, ALONG),
-    line("FCPressL", MoveL, ALONG),
-    line("FCPressC", MoveC, ALONG),
-    line("FCPressEnd", MoveL, STOPS),
-];
 
 /// The places of the required arguments of a move among them, ascending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -148,20 +56,10 @@ pub(crate) struct Places {
 }
 
 impl MoveInstruction {
-    /// The instruction of a name, in any case.
-    pub(crate) fn named(name: &str) -> Option<&'static Self> {
-        INSTRUCTIONS.iter().find(|it| it.name.eq_ignore_ascii_case(name))
-    }
-
-    /// The names of all instructions that only some controllers have.
-    pub(crate) fn optional_names() -> impl Iterator<Item = &'static str> {
-        INSTRUCTIONS.iter().filter(|it| !it.is_basic()).map(|it| it.name)
-    }
-
     /// Whether every controller has it and no routine may take its name: it has its own arguments
     /// and no others.
     pub(crate) fn is_basic(&self) -> bool {
-        self.name == self.way.name()
+        MoveKind::named(self.name).is_some()
     }
 
     /// How many required arguments it must have, besides the ones of a process.

@@ -64,7 +64,7 @@ words! {
 
 impl MotionSettings {
     /// The names of the instructions that set them.
-    pub(crate) const INSTRUCTIONS: [&str; 4] = ["ConfL", "ConfJ", "SingArea", "CirPathMode"];
+    const INSTRUCTIONS: [&str; 4] = ["ConfL", "ConfJ", "SingArea", "CirPathMode"];
 
     /// Set what an instruction with a switch sets; without one it sets the default. Returns whether
     /// there is such an instruction and such a switch.

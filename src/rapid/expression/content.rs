@@ -6,10 +6,10 @@ use core::ops::Range;
 
 use super::evaluate::{Evaluator, Stop, positive_whole};
 use super::tree::{Expression, Form};
-use crate::error::RapidFaultKind;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::{DataType, Value};
+use crate::rapid::text::fault::RapidFaultKind;
 
 /// Most dimensions of an array.
 const MOST_DIMENSIONS: usize = 3;

@@ -5,10 +5,10 @@ use alloc::string::{String, ToString};
 
 use super::names::{At, Names};
 use super::tree::{Expression, Form, Unread, written};
-use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::types::{Atom, Atoms, NUM, Part, Record, Shape, Type};
 use crate::rapid::data::unread::Reason;
 use crate::rapid::data::value::{DataType, Value};
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::literals::unquoted;
 use crate::rapid::text::place::{Place, fault_at};
 

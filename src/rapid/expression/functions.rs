@@ -16,13 +16,13 @@ use super::geometry::{
 };
 use super::names::Found;
 use super::tree::{Call, Expression};
-use crate::error::RapidFaultKind;
 use crate::kinematics::constant_sin_cos;
 use crate::rapid::data::records::{RobTarget, WobjData};
 use crate::rapid::data::types::{
     Atom, Atoms, NUM, ORIENT, POS, POSE, Part, ROBTARGET, Shape, Type, WOBJDATA,
 };
 use crate::rapid::data::unread::Reason;
+use crate::rapid::text::fault::RapidFaultKind;
 
 /// A function that displaces a target and keeps its confdata.
 pub(crate) struct Displacement;

@@ -8,9 +8,9 @@ use alloc::string::String;
 use super::evaluate::{Component, Evaluator, Stop, whole};
 use super::geometry::{cross, difference, product, scaled, sum};
 use super::tree::{Expression, Form, Operator};
-use crate::error::RapidFaultKind;
 use crate::rapid::data::types::{Atoms, ORIENT, POS, Part, Shape};
 use crate::rapid::data::unread::Reason;
+use crate::rapid::text::fault::RapidFaultKind;
 
 /// A value that operators take.
 enum Quantity {

@@ -5,13 +5,13 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use super::tree::{Call, Expression, Form, Operator, Reference, Unread};
-use crate::error::{RapidFault, RapidFaultKind};
-use crate::rapid::text::skipping::{is_unread_operator, not_closed, skip_to_end_of_argument};
+use super::whole::{DEEPEST_NESTING, WholeReader, note};
+use crate::rapid::data::fit::Fit;
+use crate::rapid::data::table::Entry;
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
+use crate::rapid::text::skipping::not_closed;
 use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
 use crate::rapid::text::words::is_reserved;
-
-/// The deepest nesting of brackets and of blocks that is read.
-pub const DEEPEST_NESTING: usize = 64;
 
 /// Initial capacity for the components of an aggregate: most have four or six.
 const USUAL_COMPONENTS: usize = 6;
@@ -43,12 +43,15 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         if self.at_end_of_expression() {
             return Ok(sum);
         }
-        if !is_unread_operator(self.tokens) {
-            return Err(self
-                .tokens
-                .unexpected("an operator, a comma or the end of the expression"));
+        let end = self.tokens.last_end;
+        WholeReader::new(self.tokens, self.depth).rest()?;
+        if self.tokens.last_end == end {
+            // The end of the statement lacks.
+            if self.tokens.peek().kind == TokenKind::Name && self.tokens.is_first_of_line() {
+                return Ok(sum);
+            }
+            return Err(self.tokens.lacking("an operator, a comma or the end of the expression"));
         }
-        skip_to_end_of_argument(self.tokens)?;
         Ok(self.made(start, Form::Unread(Unread::Operator)))
     }
 
@@ -218,7 +221,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
                 Form::Unread(Unread::Unfinished)
             }
             TokenKind::Name => self.name(token)?,
-            _ => return Err(self.tokens.unexpected("a value")),
+            _ => return Err(self.tokens.lacking("a value")),
         };
         Ok(self.made(token.start, form))
     }
@@ -240,18 +243,18 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
             return Ok(Form::Bool(name.eq_ignore_ascii_case("TRUE")));
         }
         if name.eq_ignore_ascii_case("NOT") {
-            skip_to_end_of_argument(self.tokens)?;
+            WholeReader::new(self.tokens, self.depth).expression()?;
             return Ok(Form::Unread(Unread::Negation));
         }
-        if is_reserved(name) {
-            return Err(self.tokens.unexpected("a value"));
+        if is_reserved(name) || self.tokens.begins_statement(false) {
+            return Err(self.tokens.lacking("a value"));
         }
         self.tokens.take()?;
         let next = self.tokens.peek();
         self.collect(name);
         if next.is(b'(') {
             self.tokens.take()?;
-            return Ok(Form::Call(Box::new(self.call(name, next)?)));
+            return Ok(Form::Call(Box::new(self.call(token, next)?)));
         }
         if !next.is(b'{') && !next.is(b'.') {
             return Ok(Form::Name(name));
@@ -271,7 +274,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         let mut components = Vec::new();
         while self.tokens.take_if(b'.')? {
             if self.tokens.peek().kind != TokenKind::Name {
-                return Err(self.tokens.unexpected("the name of a component"));
+                return Err(self.tokens.lacking("the name of a component"));
             }
             let component = self.tokens.take()?;
             components.push(self.tokens.text_of(component));
@@ -279,27 +282,31 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         Ok(components)
     }
 
-    fn call(&mut self, name: &'a str, open: Token) -> Result<Call<'a>, RapidFault> {
+    fn call(&mut self, token: Token, open: Token) -> Result<Call<'a>, RapidFault> {
         self.depth += 1;
         if self.depth > DEEPEST_NESTING {
             return Err(self
                 .tokens
                 .fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
         }
+        let name = self.tokens.text_of(token);
         let mut call =
             Call { name, required: Vec::new(), optional: Vec::new(), components: Vec::new() };
-        while !self.tokens.peek().is(b')') {
+        let mut fit = Fit::of(Entry::function(name));
+        let mut is_more = !self.tokens.peek().is(b')');
+        while is_more {
             if self.tokens.take_if(b'\\')? {
-                call.optional.push(self.optional()?);
+                let (name, value) = self.optional()?;
+                fit.optional(name, value.is_some());
+                call.optional.push((name, value));
             } else {
                 call.required.push(self.argument()?);
+                fit.required();
             }
-            let more = self.tokens.take_if(b',')? || self.tokens.peek().is(b'\\');
-            if !more {
-                break;
-            }
+            is_more = self.tokens.take_if(b',')? || self.tokens.peek().is(b'\\');
         }
         self.close(open, b')')?;
+        note(self.tokens, token, true, fit);
         call.components = self.components()?;
         Ok(call)
     }
@@ -316,8 +323,8 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
 
     /// `Name`, `Name:=value` or `Name?parameter`; the backslash is already read.
     pub(crate) fn optional(&mut self) -> Result<(&'a str, Option<Expression<'a>>), RapidFault> {
-        if self.tokens.peek().kind != TokenKind::Name {
-            return Err(self.tokens.unexpected("the name of an optional argument"));
+        if self.tokens.peek().kind != TokenKind::Name || self.tokens.begins_statement(false) {
+            return Err(self.tokens.lacking("the name of an optional argument"));
         }
         let token = self.tokens.take()?;
         let name = self.tokens.text_of(token);

@@ -8,12 +8,12 @@ use core::ops::Range;
 use super::evaluate::{Component, Evaluator, Stop, positive_whole};
 use super::names::Found;
 use super::tree::{Expression, Form, written};
-use crate::error::RapidFaultKind;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::own_types::DEEPEST_TYPE;
 use crate::rapid::data::types::{Atom, Atoms, LOADDATA, Shape, TOOLDATA, Type};
 use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::Value;
+use crate::rapid::text::fault::RapidFaultKind;
 
 impl Evaluator<'_, '_> {
     /// Append the value of a name with indices and components.

@@ -6,7 +6,8 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use crate::error::{Error, Missing, RapidFault, RapidFaultKind};
+use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::rapid::data::module::{Content, Datum, Module, Routine, RoutineKind};
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::types::are_finite;
@@ -14,6 +15,7 @@ use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::resolve::resolved;
 use crate::rapid::statements::faults::Faults;
 use crate::rapid::statements::reader::StatementReader;
+use crate::rapid::text::fault::{Missing, RapidFault, RapidFaultKind};
 use crate::rapid::text::place::excerpt;
 use crate::rapid::text::words::is_name;
 
@@ -37,24 +39,30 @@ use crate::rapid::text::words::is_name;
 ///
 /// [`Error::Rapid`] when the text is invalid.
 pub fn parse(text: &str, context: &[&Module]) -> Result<Module, Error> {
-    let written = StatementReader::read(text, context, Faults::new(false))?;
-    Ok(resolved(written, context)?)
+    Ok(read_with(text, context, Faults::new(false, Interrupt::none()))?)
+}
+
+/// [`parse`], or with tolerance [`read`], which then has no fault but an interrupt.
+pub(crate) fn read_with(
+    text: &str,
+    context: &[&Module],
+    faults: Faults<'_>,
+) -> Result<Module, RapidFault> {
+    resolved(StatementReader::read(text, context, faults)?, context)
 }
 
 /// Read the text of a module in spite of its faults, which are [`Module::faults`]. A text without
 /// faults is read as by [`parse`].
 ///
-/// An invalid statement is skipped, to its semicolon or to the next line that begins as a statement
-/// does. A datum or a move with an invalid value is skipped. An end that is missing is taken to be
+/// A semicolon that lacks at the end of a line is taken to be there. An invalid statement is
+/// skipped, to its semicolon or to the next line that begins as a statement does. A datum or a move with an invalid value is skipped. An end that is missing is taken to be
 /// before the next routine or the end of a block around it. The lines that git leaves in a conflict
 /// are skipped, and both sides are read: of a name that is declared twice the first declaration
 /// counts. An encoded module, which is not text, has a single fault and is empty.
 #[must_use]
 pub fn read(text: &str, context: &[&Module]) -> Module {
-    let module = StatementReader::read(text, context, Faults::new(true))
-        .and_then(|written| resolved(written, context));
     // With tolerance no fault gets here.
-    module
+    read_with(text, context, Faults::new(true, Interrupt::none()))
         .unwrap_or_else(|fault| Module { faults: Vec::from([fault]), ..Module::empty(text.len()) })
 }
 
@@ -145,6 +153,7 @@ impl Module {
             expressions: BTreeMap::new(),
             types: BTreeMap::new(),
             parts: BTreeMap::new(),
+            calls: Vec::new(),
             text_length,
         }
     }

@@ -7,13 +7,14 @@ use alloc::vec::Vec;
 use core::fmt::{self, Write as _};
 use core::ops::Range;
 
-use crate::error::{Error, Missing, RapidFault, RapidFaultKind};
+use crate::error::Error;
 use crate::rapid::data::module::{Content, Datum, Module, Routine, Scope};
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::settings::Setting;
 use crate::rapid::data::types::are_finite;
 use crate::rapid::data::unread::Skipped;
 use crate::rapid::data::value::Value;
+use crate::rapid::text::fault::{Missing, RapidFault, RapidFaultKind};
 
 impl fmt::Display for Content {
     /// The value as RAPID writes it, with an array's brackets; nothing without a value.

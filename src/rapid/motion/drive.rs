@@ -1,21 +1,23 @@
 //! Go through the moves of a routine in order and follow each of them.
 
-use alloc::format;
 use alloc::vec::Vec;
 
 use super::goal::{Goal, Place};
 use super::joints::{Conf, Path, Samples, joint_line, round_joints, solved, way};
 use crate::error::Error;
-use crate::kinematics::thresholds::{JOINED_MOVES, MOST_REACH, MOST_SAMPLES, NEAR_CONFDATA};
+use crate::interrupt::Interrupt;
+use crate::kinematics::thresholds::MOST_REACH;
 use crate::kinematics::{BreakReason, Pose, Robot, SingularityKind, SingularityMode, largest_step};
 use crate::paths::line::part;
 use crate::paths::polyline::{Corner, Leg, Rounded};
+use crate::paths::thresholds::MOST_SAMPLES;
 use crate::paths::{ArcOrientation, Spacing};
-use crate::rapid::calc::confdata::{near, over_quarters};
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::wrong::{Found, broken, no_path};
-use crate::rapid::data::finding::{Code, Finding};
+use crate::rapid::data::finding::Finding;
 use crate::rapid::data::settings::{CirPathMode, SingArea};
+use crate::rapid::motion::thresholds::JOINED_MOVES;
+use crate::report::Configuration;
 
 /// Least number of steps of a line or an arc with a rounded corner.
 const LEAST_STEPS: usize = 4;
@@ -87,6 +89,10 @@ pub(super) struct Drive<'a, 'm, const N: usize> {
     entry: Option<Entry>,
     /// Whether the last target was not reached.
     is_lost: bool,
+    /// The configuration that the last target has, the other one that it is met with, and the move
+    /// from which on it is so.
+    pub(super) other: Option<(Configuration, Configuration, usize)>,
+    pub(super) interrupt: Interrupt<'a>,
 }
 
 impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
@@ -96,18 +102,32 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         goals: &'a [Goal<'m, N>],
         options: &MotionOptions<N>,
         findings: &'a mut Vec<Finding>,
+        interrupt: Interrupt<'a>,
     ) -> Result<(Samples<N>, Vec<Made<N>>), Error> {
         let (samples, made) = (Samples::default(), Vec::with_capacity(goals.len()));
         let (here, entry, is_lost) = (None, None, false);
         let spacing = Spacing::step(options.step, options.turn)?;
-        let mut drive =
-            Self { robot, flange, goals, spacing, findings, samples, made, here, entry, is_lost };
+        let mut drive = Self {
+            robot,
+            flange,
+            goals,
+            spacing,
+            findings,
+            samples,
+            made,
+            here,
+            entry,
+            is_lost,
+            other: None,
+            interrupt,
+        };
         if let Some(start) = options.start {
             drive.samples.push(start, [0.0; 2]);
             drive.samples.first = 1;
             drive.here = Some(Here { q: start, flange: flange.fk(&start) });
         }
         for index in 0..goals.len() {
+            interrupt.check(index)?;
             let made = drive.make(index)?;
             drive.made.push(made);
             drive.samples.ends.push(drive.samples.q.len());
@@ -139,6 +159,9 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         let goal = &self.goals[index];
         let entry = self.entry.take();
         let is_lost = core::mem::replace(&mut self.is_lost, false) || goal.from_unknown;
+        if !goal.is_cartesian() {
+            self.other = None;
+        }
         let Some(here) = self.here.take() else { return Ok(self.begin(index)) };
         if let (true, false, Some(Place::Tool(end, _))) = (goal.is_cartesian(), is_lost, goal.place)
         {
@@ -261,6 +284,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         };
         let mut poses = Vec::with_capacity(steps + 1);
         for step in 0..=steps {
+            self.interrupt.check(step)?;
             match rounded.at(part(step, steps.max(1))) {
                 Ok(_) if step == steps && exit.is_none() => poses.push(*end),
                 Ok(pose) => poses.push(pose),
@@ -299,7 +323,23 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
             SingArea::LockAxis4 => SingularityMode::LockAxis4,
         };
         let arm_angle = goal.arm_angle();
-        let followed = self.flange.follow_at(&flanges, &here.q, arm_angle, singularity_mode)?;
+        if singularity_mode == SingularityMode::Wrist
+            && let Some(q) = self.turned_over(goal, &flanges, &here.q)
+        {
+            let mut path = Path::default();
+            for (sample, q) in q.into_iter().enumerate().skip(1) {
+                path.push(q, way(&poses[sample - 1], &poses[sample]));
+            }
+            return Ok(Ok(path));
+        }
+        let followed = self.flange.follow_at(
+            &flanges,
+            &here.q,
+            arm_angle,
+            singularity_mode,
+            self.interrupt,
+        )?;
+        self.interrupt.check(0)?;
         let steps = poses.len() - 1;
         if let Some(first) = followed.breaks.first() {
             return Ok(Err(broken(part(first.pose_index, steps), first.reason)));
@@ -318,45 +358,10 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         self.check_singularities(index, here, &path);
         Ok(Ok(path))
     }
-
-    /// The joints at the target of a line or an arc, and whether they have its configuration.
-    fn arrived(&mut self, index: usize, end: &[f64; N], is_rounded: bool) -> [f64; N] {
-        let goal = &self.goals[index];
-        let Some(Place::Tool(pose, wanted)) = goal.place else { return *end };
-        let pose = goal.frames.flange(&pose);
-        let mut q = *end;
-        if is_rounded && let Ok(nearest) = self.flange.ik_nearest_at(&pose, end, wanted.arm_angle) {
-            q = nearest;
-        }
-        if !goal.step.settings.conf_l {
-            return q;
-        }
-        let found = self.flange.configuration(&q).unwrap_or_default();
-        let confdata = wanted.configuration;
-        let is_met = || {
-            self.flange
-                .ik_configured(&pose, wanted.near(q))
-                .is_ok_and(|solution| apart(&solution.q, &q, SingularityMode::Through).is_none())
-        };
-        if found == confdata || is_met() {
-            return q;
-        }
-        let over = over_quarters(self.flange, &q, confdata);
-        if let Some(over) = over.filter(|over| over.by <= NEAR_CONFDATA) {
-            self.found(index, near(&over, confdata, found));
-        } else {
-            let words = format!(
-                "arrives with the configuration {found}, its target has {confdata}: correct its \
-                 confdata, or program ConfL\\Off"
-            );
-            self.found(index, Finding::new(Code::OtherConfiguration, words));
-        }
-        q
-    }
 }
 
 /// The reason if a path does not begin with the joints that the robot has.
-fn apart<const N: usize>(
+pub(super) fn apart<const N: usize>(
     from: &[f64; N],
     to: &[f64; N],
     mode: SingularityMode,

@@ -8,14 +8,15 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::goal::{Goal, Place};
 use crate::error::Error;
-use crate::kinematics::thresholds::{NEAR_CONFDATA, STEP_ROUNDING};
 use crate::kinematics::{ConfigurationRequest, Pose, Robot};
 use crate::paths::Spacing;
 use crate::paths::line::part;
-use crate::rapid::calc::confdata::{near, over_quarters};
+use crate::paths::thresholds::STEP_ROUNDING;
+use crate::rapid::calc::confdata::{Over, near, over_quarters};
 use crate::rapid::calc::frames::Frames;
-use crate::rapid::calc::wrong::{ambiguous, nearest_taken, not_solved};
+use crate::rapid::calc::wrong::{ambiguous, beside_taken, nearest_taken, not_solved};
 use crate::rapid::data::finding::Finding;
+use crate::rapid::motion::thresholds::NEAR_CONFDATA;
 use crate::report::{ConfigurationRule, Explanation};
 
 /// The way of the tool between two samples: a length [m] and an angle [rad].
@@ -120,7 +121,7 @@ pub(super) fn solved<const N: usize>(
         Some(Place::Joints(q)) => return (Some(q), None),
         Some(Place::Tool(pose, wanted)) => (goal.frames.flange(&pose), wanted),
     };
-    let mut missed = None;
+    let (mut missed, mut beside) = (None, None);
     if conf != Conf::Off || seed.is_none() {
         let request = ConfigurationRequest { seed: seed.copied(), ..wanted };
         match named(flange, &pose, &request) {
@@ -129,13 +130,17 @@ pub(super) fn solved<const N: usize>(
                 return (Some(q), (!is_one).then(|| ambiguous(count)));
             }
             Err(error @ (Error::NoConfiguration(_) | Error::InvalidJoints(_))) => {
-                if let Some((q, finding)) = nearly(flange, &pose, &wanted) {
+                beside = nearest_written(flange, &pose, &wanted);
+                if let Some((q, finding)) = beside.and_then(|it| nearly(flange, it, &wanted)) {
                     return (Some(q), Some(finding).filter(|_| conf == Conf::On));
                 }
                 missed = Some(error).filter(|_| conf == Conf::On);
             }
             Err(error) => return (None, Some(not_solved(&error))),
         }
+    }
+    if let Some((q, over)) = beside {
+        return (Some(q), missed.as_ref().map(|missed| beside_taken(missed, &over)));
     }
     match flange.ik_nearest_at(&pose, seed.unwrap_or(&[0.0; N]), wanted.arm_angle) {
         Ok(q) => (Some(q), missed.as_ref().map(nearest_taken)),
@@ -157,22 +162,31 @@ fn named<const N: usize>(
     Ok((first.q, all.len()))
 }
 
-/// Of a target whose configuration no solution has, the solution that is nearest to it, if that is
-/// near: running cells keep targets whose tool or work object was measured again.
-fn nearly<const N: usize>(
+/// The joints inside the limits that are nearest to a configuration that no solution has: on its
+/// branch, and least over its quarters.
+pub(in crate::rapid) fn nearest_written<const N: usize>(
     flange: &Robot<N>,
     pose: &Pose,
     request: &ConfigurationRequest<N>,
-) -> Option<([f64; N], Finding)> {
+) -> Option<([f64; N], Over)> {
     let wanted = request.configuration;
     let inside = flange.ik_inside_at(pose, request.arm_angle).ok()?;
     let over = inside.into_iter().filter_map(|q| {
         let over = over_quarters(flange, &q, wanted)?;
         Some((q, over))
     });
-    let (q, over) = over.min_by(|a, b| a.1.by.total_cmp(&b.1.by))?;
+    over.min_by(|a, b| a.1.by.total_cmp(&b.1.by))
+}
+
+/// Joints that are nearest to a configuration, if they are near: running cells keep targets whose
+/// tool or work object was measured again.
+fn nearly<const N: usize>(
+    flange: &Robot<N>,
+    (q, over): ([f64; N], Over),
+    request: &ConfigurationRequest<N>,
+) -> Option<([f64; N], Finding)> {
     let found = flange.configuration(&q).ok()?;
-    (over.by <= NEAR_CONFDATA).then(|| (q, near(&over, wanted, found)))
+    (over.by <= NEAR_CONFDATA).then(|| (q, near(&over, request.configuration, found)))
 }
 
 /// The straight line in joint space between joints [rad]; `spacing` bounds the steps of a joint as

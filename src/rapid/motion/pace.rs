@@ -8,8 +8,10 @@ use super::drive::Made;
 use super::goal::Goal;
 use super::joints::{Samples, slowest};
 use crate::error::{Error, MotionFault};
-use crate::kinematics::thresholds::{LIMIT_ROUNDING, MOST_DURATION};
+use crate::paths::thresholds::LEAST_WAY;
 use crate::rapid::data::finding::{Code, Finding};
+use crate::rapid::motion::thresholds::JOINED_MOVES;
+use crate::trajectory::thresholds::{LIMIT_ROUNDING, MOST_DURATION};
 use crate::trajectory::{Trajectory, evenly, within_times};
 
 /// A motion to be timed.
@@ -139,6 +141,8 @@ impl<const N: usize> Pace<'_, '_, N> {
             let excess = needed / programmed;
             // Of a speed that was left out nothing can be too fast.
             let is_known = programmed > 0.0 && (length == 0.0 || speed[0].is_finite());
+            // Nor where the rounding of joints is more than what the tool goes.
+            let is_known = is_known && (length > LEAST_WAY || angle > JOINED_MOVES);
             if is_known && excess > most {
                 (most, too_fast) = (excess, Some(TooFast { joint, excess }));
             }

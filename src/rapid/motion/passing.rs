@@ -1,12 +1,19 @@
 //! Singularities that a line or an arc passes.
 
+use alloc::vec::Vec;
+
 use super::drive::{Drive, Here};
+use super::goal::{Goal, Place};
 use super::joints::Path;
-use crate::kinematics::thresholds::{ELBOW_ZONE, SHOULDER_ZONE, WRIST_ZONE};
-use crate::kinematics::{SingularityKind, Slot};
+use crate::kinematics::thresholds::WRIST_ZONE;
+use crate::kinematics::{Pose, SingularityKind, Slot};
 use crate::paths::line::part;
 use crate::rapid::calc::wrong::passes;
 use crate::rapid::data::settings::SingArea;
+use crate::rapid::motion::thresholds::{ELBOW_ZONE, SHOULDER_ZONE};
+
+/// The bit of cfx that is the side of the wrist.
+const WRIST_SIDE: i32 = 1;
 
 impl<const N: usize> Drive<'_, '_, N> {
     /// Report the singularities that a line or an arc passes: of each kind the nearest place.
@@ -38,5 +45,23 @@ impl<const N: usize> Drive<'_, '_, N> {
                 self.found(index, passes(kind, part, distance).with_value(distance, bound));
             }
         }
+    }
+
+    /// The joints along poses of the flange at whose end the wrist is on the other side: its axes
+    /// go evenly to the programmed configuration.
+    pub(super) fn turned_over(
+        &self,
+        goal: &Goal<'_, N>,
+        flanges: &[Pose],
+        from: &[f64; N],
+    ) -> Option<Vec<[f64; N]>> {
+        let (Some(Place::Tool(_, wanted)), true) = (goal.place, goal.step.settings.conf_l) else {
+            return None;
+        };
+        if self.flange.configuration(from).ok()?.cfx ^ wanted.configuration.cfx != WRIST_SIDE {
+            return None;
+        }
+        let to = self.flange.ik_configured(flanges.last()?, wanted.near(*from)).ok()?;
+        self.flange.with_even_wrist(flanges, [from, &to.q], self.interrupt)
     }
 }

@@ -8,7 +8,8 @@ use super::goal::Goal;
 use super::joints::Samples;
 use super::pace::Pace;
 use super::sequence::sequence;
-use crate::error::{Error, MotionFault, RapidFault, RapidFaultKind, RoutineFault};
+use crate::error::{Error, MotionFault};
+use crate::interrupt::Interrupt;
 use crate::kinematics::{Pose, Robot, check_seed};
 use crate::paths::Spacing;
 use crate::rapid::calc::table::external_axes;
@@ -19,6 +20,7 @@ use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::program::walker::Step;
 use crate::rapid::program::whole::Program;
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind, RoutineFault};
 use crate::trajectory::Trajectory;
 
 /// The moves of a routine as one motion of the joints, checked.
@@ -99,7 +101,7 @@ pub fn motion<const N: usize>(
     let program = Program::new(modules);
     let (routine, steps) = sequence(&program, routine)?;
     let flange = with_flange(robot)?;
-    let followed = Followed::new([robot, &flange], &steps, options, None)?;
+    let followed = Followed::new([robot, &flange], &steps, options, None, Interrupt::none())?;
     let Followed { goals, samples, made, mut findings, unfollowed } = followed;
     findings.extend(unfollowed);
     if samples.q.is_empty() || made.iter().all(|made| made.q.is_none()) {
@@ -145,10 +147,11 @@ impl<'m, const N: usize> Followed<'m, N> {
         steps: &'m [Step<'m>],
         options: &MotionOptions<N>,
         units: Option<&Units>,
+        interrupt: Interrupt<'_>,
     ) -> Result<Self, Error> {
         let (mut findings, mut unfollowed) = (Vec::new(), Vec::new());
         let goals = goals(robots[0], steps, units, [&mut findings, &mut unfollowed]);
-        let (samples, made) = Drive::through(robots, &goals, options, &mut findings)?;
+        let (samples, made) = Drive::through(robots, &goals, options, &mut findings, interrupt)?;
         Ok(Self { goals, samples, made, findings, unfollowed })
     }
 

@@ -4,11 +4,12 @@ use alloc::collections::BTreeSet;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use crate::error::{Error, RapidFault, RapidFaultKind, RoutineFault};
+use crate::error::Error;
 use crate::rapid::data::module::Module;
 use crate::rapid::program::walk::steps;
 use crate::rapid::program::walker::Step;
 use crate::rapid::program::whole::Program;
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind, RoutineFault};
 
 /// The steps of a routine of the first module of a program, and its name; `None` for moves outside
 /// routines.

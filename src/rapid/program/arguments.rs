@@ -3,11 +3,11 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::error::RapidFault;
 use crate::rapid::data::module::Routine;
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::Expression;
+use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::{TokenKind, Tokens};
 
 /// A parameter of a routine.
@@ -101,7 +101,7 @@ pub(super) fn assignment(statement: &str) -> Result<(Expression<'_>, Expression<
 
 /// The name of the procedure that a statement calls: its first word or, of a call by name, the text
 /// that is written there.
-pub(super) fn called(statement: &str) -> Option<String> {
+pub(in crate::rapid) fn called(statement: &str) -> Option<String> {
     let mut tokens = Tokens::new(statement).ok()?;
     let first = tokens.take().ok()?;
     let name = if first.is(b'%') { tokens.take().ok()? } else { first };

@@ -13,7 +13,7 @@ use super::frame::{Frame, Site};
 use super::state::{Local, Locals, MOST_KNOWN};
 use super::walker::Walk;
 use super::whole::Program;
-use crate::rapid::data::instructions::written_argument;
+use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::module::{Content, Storage};
 use crate::rapid::data::unread::{NotRead, Reason, Skipped, Unresolved};
 use crate::rapid::expression::tree::Expression;
@@ -117,6 +117,9 @@ impl<'m> Walk<'_, 'm> {
         let site = self.frame.site.clone().or_else(|| Some(own_site()));
         let mut above = self.frame.above.clone();
         above.push((self.frame.module, self.frame.routine.clone()));
+        let next = self.chains.len() + 1;
+        let call = (self.frame.chain, self.frame.module, skipped.start);
+        let chain = *self.chains.entry(call).or_insert(next);
         let before: Locals = given.iter().cloned().collect();
         let locals = self.program.locals_of(home, &name, Some(given));
         self.steps_left = self.steps_left.saturating_sub(locals.len());
@@ -124,6 +127,7 @@ impl<'m> Walk<'_, 'm> {
             module: home,
             routine: name,
             site: site.filter(|_| !parameters.is_empty()),
+            chain,
             exits: Vec::new(),
             absent,
             texts,

@@ -8,7 +8,8 @@ use alloc::vec::Vec;
 use super::arguments::{Parameter, arguments, assignment, called, referred};
 use super::index::{DatumId, Index};
 use super::tree::{Block, Body, Node};
-use crate::rapid::data::instructions::{Effect, written_argument};
+use crate::rapid::data::instructions::Effect;
+use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::unread::{NotRead, Skipped};
 

@@ -27,6 +27,8 @@ pub(super) struct Frame {
     /// Its name in lower case.
     pub(super) routine: String,
     pub(super) site: Option<Site>,
+    /// The number of the chain of calls that leads here, from 1; 0 of a routine that nothing calls.
+    pub(super) chain: usize,
     /// The knowledge at each place where it was left.
     pub(super) exits: Vec<State>,
     /// Its optional parameters that no argument was given for.

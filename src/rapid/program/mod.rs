@@ -5,7 +5,7 @@
 //! branch begins with what is known before it, and behind it is known what all of its parts agree
 //! on. A value that is not determined by the text stays unknown, with the reason.
 
-mod arguments;
+pub(super) mod arguments;
 mod calls;
 mod effects;
 mod frame;

@@ -160,9 +160,9 @@ impl<'m> Walk<'_, 'm> {
             own.to_mut().settings = self.state.settings;
         }
         self.state.displace(&mut own);
-        let mut module = self.frame.module;
+        let (mut module, mut chain) = (self.frame.module, 0);
         if is_passed_on && let Some(site) = self.frame.site.clone() {
-            module = site.module;
+            (module, chain) = (site.module, self.frame.chain);
             self.frame.place(&site, own.to_mut());
         }
         let instruction = (self.frame.module, index);
@@ -171,7 +171,8 @@ impl<'m> Walk<'_, 'm> {
             _ => None,
         };
         let halt = None;
-        let stepped = Stepped { module, instruction, step: own, takes_last, halt, displaced_on };
+        let stepped =
+            Stepped { module, instruction, step: own, chain, takes_last, halt, displaced_on };
         self.push(Step::Move(Box::new(stepped)));
         if let Some(name) = written_by(step) {
             self.put(&name, None);

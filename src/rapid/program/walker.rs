@@ -2,7 +2,7 @@
 
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::cell::Cell;
@@ -36,6 +36,8 @@ pub(in crate::rapid) struct Stepped<'m> {
     /// The module and the index of the instruction.
     pub(in crate::rapid) instruction: (usize, usize),
     pub(in crate::rapid) step: Cow<'m, Move>,
+    /// The chain of calls to it where its place is a call, whose moves it tells apart; else 0.
+    pub(in crate::rapid) chain: usize,
     /// Whether a value is the last one that a PERS had.
     pub(in crate::rapid) takes_last: bool,
     /// The statement behind it at which the program may wait, in words.
@@ -68,6 +70,9 @@ pub(super) struct Walk<'p, 'm> {
     pub(super) frame: Frame,
     /// The routines that were followed, by module and name in lower case.
     pub(super) followed: BTreeSet<(usize, String)>,
+    /// Chains of calls: the number of each by that of the chain before its last call, with the
+    /// module and the first byte of that call.
+    pub(super) chains: BTreeMap<(usize, usize, usize), usize>,
     /// Statements that may still be followed in calls and loops.
     pub(super) steps_left: usize,
 }
@@ -86,6 +91,7 @@ impl<'p, 'm> Walk<'p, 'm> {
             state: State::new(),
             frame: Frame::default(),
             followed: BTreeSet::new(),
+            chains: BTreeMap::new(),
             steps_left: 4 * statements + SPARE_STEPS,
         }
     }

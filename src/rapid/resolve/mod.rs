@@ -10,12 +10,12 @@ use core::cell::RefCell;
 use core::ops::Range;
 
 use self::resolver::{Causes, Resolver};
-use crate::error::RapidFault;
 use crate::rapid::data::module::{Datum, Module, routine_name};
 use crate::rapid::data::unread::{NotRead, Reason, Skipped};
 use crate::rapid::expression::content::Placed;
 use crate::rapid::statements::declarations::Declared;
 use crate::rapid::statements::reader::Written;
+use crate::rapid::text::fault::RapidFault;
 
 /// The module of a text with every name resolved.
 pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Module, RapidFault> {
@@ -35,7 +35,11 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         assignments,
         scopes,
         blocks,
+        mut calls,
     } = written;
+    // What is read twice is noted twice.
+    calls.sort_by_key(|call| call.name.start);
+    calls.dedup_by_key(|call| call.name.start);
     // Data with unknown parts are not resolved yet: none of their reasons is used before.
     let contents = contents.into_iter().map(|known| known.ok_or(Reason::Unfinished)).collect();
     let causes = Causes::new(&assignments, &declared, &scopes, &blocks);
@@ -92,6 +96,7 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
         expressions,
         types,
         parts: of_records,
+        calls,
         text_length: text.len(),
     })
 }

@@ -4,7 +4,6 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::resolver::Resolver;
-use crate::error::RapidFault;
 use crate::rapid::data::module::{Routine, routine_name};
 use crate::rapid::data::moves::{Argument, ExtraArgument, Move, MoveKind, Target};
 use crate::rapid::data::moving::Places;
@@ -14,6 +13,7 @@ use crate::rapid::data::unread::{NotRead, Reason, Skipped};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::tree::Expression;
 use crate::rapid::statements::moves::{Replacement, WrittenMove};
+use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::place::Place;
 
 /// A value, or the reason why it is unknown.
@@ -124,8 +124,9 @@ impl<'a> Resolver<'a> {
     ) -> Result<(Vec<Move>, Vec<Skipped>), RapidFault> {
         let mut moves = Vec::with_capacity(written.len());
         let mut others = Vec::new();
-        for step in written {
-            let name = self.instruction(step);
+        for (index, step) in written.iter_mut().enumerate() {
+            self.faults.interrupt.check(index)?;
+            let name = step.name.to_string();
             let made = if self.is_call(step) { Ok(None) } else { self.step(step, routines) };
             let what = match made {
                 Ok(Some(made)) => {
@@ -153,13 +154,7 @@ impl<'a> Resolver<'a> {
 
     /// Whether a move is a call of a routine that has the name of an instruction.
     fn is_call(&self, step: &WrittenMove<'a>) -> bool {
-        !step.instruction.is_basic() && self.is_routine(step.instruction.name)
-    }
-
-    /// The name of the instruction, as it is written.
-    fn instruction(&self, step: &WrittenMove<'a>) -> String {
-        let name = step.start..step.start + step.instruction.name.len();
-        self.text.get(name).unwrap_or_default().to_string()
+        !step.instruction.is_basic() && self.is_routine(step.name)
     }
 
     /// Name the calls of routines among the instructions that move and are not read.
@@ -198,7 +193,7 @@ impl<'a> Resolver<'a> {
         let wobj = step.wobj.as_ref().map(|wobj| self.argument(step, "work object", wobj));
         Ok(Some(Move {
             kind: way,
-            instruction: self.instruction(step),
+            instruction: step.name.to_string(),
             routine: routine_name(routines, step.at.routine),
             line: step.line,
             column: step.column,

@@ -8,7 +8,6 @@ use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::ops::Range;
 
-use crate::error::{Names as NamesOf, RapidFault, RapidFaultKind};
 use crate::rapid::data::module::{Datum, Module, Scope, Storage};
 use crate::rapid::data::types::{LOADDATA, TOOLDATA, Type};
 use crate::rapid::data::unread::{Reason, Unresolved};
@@ -20,7 +19,9 @@ use crate::rapid::statements::blocks::Blocks;
 use crate::rapid::statements::declarations::Declared;
 use crate::rapid::statements::faults::Faults;
 use crate::rapid::statements::reader::{Assignment, Named, Scopes};
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::{Place, fault_at};
+use crate::report::Names as NamesOf;
 
 /// The state of resolving the data of a module.
 pub(super) struct Resolver<'a> {
@@ -39,7 +40,7 @@ pub(super) struct Resolver<'a> {
     pub(super) elsewhere: RefCell<BTreeMap<String, Option<Elsewhere<'a>>>>,
     /// Whether another module has a routine of a name in lower case, if that was asked before.
     pub(super) routines_elsewhere: RefCell<BTreeMap<String, bool>>,
-    pub(super) faults: Faults,
+    pub(super) faults: Faults<'a>,
 }
 
 impl Names for Resolver<'_> {
@@ -120,6 +121,7 @@ impl<'a> Resolver<'a> {
         // A datum with the number of its names that are resolved.
         let mut open: Vec<(usize, usize)> = Vec::new();
         for datum in 0..self.declared.len() {
+            self.faults.interrupt.check(datum)?;
             if state[datum] == State::New {
                 state[datum] = State::Open;
                 open.push((datum, 0));

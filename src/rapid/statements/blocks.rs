@@ -3,10 +3,10 @@
 use alloc::vec::Vec;
 
 use super::declarations::read_name;
-use crate::error::{RapidFault, RapidFaultKind};
-use crate::rapid::data::moves::MoveKind;
-use crate::rapid::expression::reader::DEEPEST_NESTING;
-use crate::rapid::text::skipping::skip_balanced;
+use crate::rapid::data::fit::Fit;
+use crate::rapid::expression::whole::DEEPEST_NESTING;
+use crate::rapid::expression::whole::WholeReader;
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
 use crate::rapid::text::words::is_reserved;
 
@@ -17,9 +17,6 @@ const BLOCKS: [(&str, &str); 4] =
 /// Words that divide a block or a routine.
 const PARTS: [&str; 7] = ["ELSEIF", "ELSE", "CASE", "DEFAULT", "ERROR", "UNDO", "BACKWARD"];
 
-/// Words between operands.
-const OPERATORS: [&str; 6] = ["AND", "OR", "XOR", "NOT", "DIV", "MOD"];
-
 /// Reserved words with which an instruction begins.
 const INSTRUCTIONS: [&str; 11] = [
     "IF", "FOR", "WHILE", "TEST", "RETURN", "EXIT", "GOTO", "RAISE", "RETRY", "TRYNEXT", "CONNECT",
@@ -28,19 +25,6 @@ const INSTRUCTIONS: [&str; 11] = [
 /// Whether a word in capitals begins, divides or ends a block.
 pub(crate) fn is_flow(word: &str) -> bool {
     BLOCKS.iter().any(|(begin, end)| *begin == word || *end == word) || PARTS.contains(&word)
-}
-
-/// Whether the next token begins another statement at any place.
-pub(crate) fn begins_another(tokens: &Tokens<'_>) -> bool {
-    let token = tokens.peek();
-    if token.kind != TokenKind::Name {
-        return false;
-    }
-    let word = tokens.text_of(token);
-    let is = |other: &str| other.eq_ignore_ascii_case(word);
-    MoveKind::named(word).is_some()
-        || BLOCKS.iter().any(|(begin, end)| is(begin) || is(end))
-        || ["CONST", "PERS", "VAR", "ELSE", "ELSEIF"].into_iter().any(is)
 }
 
 /// The open blocks of a routine, and the loops of a module.
@@ -90,7 +74,7 @@ impl<'a> Blocks<'a> {
                 Ok(())
             }
             "IF" => {
-                skip_condition(tokens)?;
+                condition(tokens)?;
                 // Without THEN it is one instruction, which follows.
                 if tokens.take_word("THEN")? {
                     self.begin(tokens, 0, None, token)
@@ -99,37 +83,49 @@ impl<'a> Blocks<'a> {
                 }
             }
             "ELSEIF" => {
-                skip_condition(tokens)?;
-                if tokens.take_word("THEN")? { Ok(()) } else { Err(tokens.unexpected("THEN")) }
+                condition(tokens)?;
+                demand_word(tokens, "THEN")
             }
             "FOR" => {
                 let variable = read_name(tokens, "the variable of the loop")?;
-                skip_to_do(tokens)?;
+                demand_word(tokens, "FROM")?;
+                condition(tokens)?;
+                demand_word(tokens, "TO")?;
+                condition(tokens)?;
+                if tokens.take_word("STEP")? {
+                    condition(tokens)?;
+                }
+                demand_word(tokens, "DO")?;
                 self.loops.push((variable, self.innermost_loop()));
                 self.begin(tokens, 1, Some(self.loops.len() - 1), token)
             }
             "WHILE" => {
-                skip_to_do(tokens)?;
+                condition(tokens)?;
+                demand_word(tokens, "DO")?;
                 self.begin(tokens, 2, None, token)
             }
             "TEST" => {
-                let at_case = |tokens: &Tokens<'_>| {
-                    ["CASE", "DEFAULT", "ENDTEST"].iter().any(|word| tokens.at_word(word))
-                };
-                skip_balanced(tokens, |tokens, _| at_case(tokens))?;
-                if at_case(tokens) {
+                condition(tokens)?;
+                if ["CASE", "DEFAULT", "ENDTEST"].iter().any(|word| tokens.at_word(word)) {
                     self.begin(tokens, 3, None, token)
                 } else {
-                    Err(tokens.unexpected("CASE"))
+                    Err(tokens.lacking("CASE"))
                 }
             }
             "CASE" | "DEFAULT" => {
-                skip_balanced(tokens, |tokens, _| tokens.peek().is(b':'))?;
+                if word == "CASE" {
+                    condition(tokens)?;
+                    while tokens.take_if(b',')? {
+                        condition(tokens)?;
+                    }
+                }
                 tokens.demand(b':', "a colon")
             }
             // A handler may name the errors that it handles.
             "ERROR" if tokens.peek().is(b'(') => {
-                skip_balanced(tokens, |_, last| last.is_some_and(|last| last.is(b')')))
+                tokens.take()?;
+                WholeReader::of_condition(tokens).arguments(&mut Fit::of(None), None)?;
+                tokens.demand(b')', "a comma or )")
             }
             _ => Ok(()),
         }
@@ -183,27 +179,13 @@ impl<'a> Blocks<'a> {
     }
 }
 
-/// Skip to the end of a condition: a word after an operand that is not an operator begins the next
-/// part.
-fn skip_condition(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
-    skip_balanced(tokens, |tokens, last| {
-        let next = tokens.peek();
-        let is_operator = |token: Token| {
-            OPERATORS.iter().any(|word| word.eq_ignore_ascii_case(tokens.text_of(token)))
-        };
-        let after_operand = last.is_some_and(|last| match last.kind {
-            TokenKind::Name => !is_operator(last),
-            TokenKind::Number(_)
-            | TokenKind::Text
-            | TokenKind::Placeholder
-            | TokenKind::Symbol(b']' | b')' | b'}') => true,
-            _ => false,
-        });
-        after_operand
-            && (next.is(b'%')
-                || next.kind == TokenKind::Placeholder
-                || next.kind == TokenKind::Name && !is_operator(next))
-    })
+/// Read what is between the words of a branch or a loop.
+fn condition(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
+    WholeReader::of_condition(tokens).expression()
+}
+
+pub(super) fn demand_word(tokens: &mut Tokens<'_>, word: &'static str) -> Result<(), RapidFault> {
+    if tokens.take_word(word)? { Ok(()) } else { Err(tokens.lacking(word)) }
 }
 
 /// Check that an instruction follows, not a declaration or an end.
@@ -220,10 +202,5 @@ fn check_instruction(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
         TokenKind::Placeholder => true,
         _ => false,
     };
-    if may { Ok(()) } else { Err(tokens.unexpected("THEN or an instruction")) }
-}
-
-fn skip_to_do(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
-    skip_balanced(tokens, |tokens, _| tokens.at_word("DO"))?;
-    if tokens.take_word("DO")? { Ok(()) } else { Err(tokens.unexpected("DO")) }
+    if may { Ok(()) } else { Err(tokens.lacking("THEN or an instruction")) }
 }

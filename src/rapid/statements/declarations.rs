@@ -4,14 +4,15 @@ use alloc::vec::Vec;
 
 pub(crate) use super::declared::Declared;
 use super::declared::known_at_once;
+use super::faults::{Faults, end_statement};
 use super::parts::{DatumPart, read_parts};
 use super::types::{TypeKind, Types};
-use crate::error::RapidFault;
 use crate::rapid::data::module::{Content, Scope, Storage};
 use crate::rapid::expression::content::{Placed, WrittenContent};
 use crate::rapid::expression::direct::read_direct;
 use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::text::skipping::skip_balanced;
+use crate::rapid::expression::whole::WholeReader;
+use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::{TokenKind, Tokens};
 use crate::rapid::text::words::is_name_token;
 
@@ -53,9 +54,10 @@ pub(crate) fn read_name<'a>(
 /// TASK, at byte `start`. With tolerance an invalid value is left for when names are looked up.
 pub(crate) fn read_declaration<'a>(
     tokens: &mut Tokens<'a>,
+    faults: &mut Faults<'_>,
     start: usize,
     (routine, scope, storage): (usize, Scope, Storage),
-    (types, is_tolerant): (&Types<'_>, bool),
+    types: &Types<'_>,
 ) -> Result<Declaration<'a>, RapidFault> {
     let from = tokens.take()?.start;
     let type_name = read_name(tokens, "a type")?;
@@ -66,10 +68,10 @@ pub(crate) fn read_declaration<'a>(
             let place = (routine, scope, storage);
             let mut parts = Vec::new();
             if let TypeKind::Record(components) = kind {
-                parts = read_parts(tokens, (types, components), start, place, name)?;
+                parts = read_parts((tokens, faults), (types, components), start, place, name)?;
             } else {
-                skip_balanced(tokens, |_, _| false)?;
-                tokens.demand(b';', "a semicolon")?;
+                WholeReader::new(tokens, 0).sizes_and_value()?;
+                end_statement(tokens, faults, "a semicolon")?;
             }
             let unfinished = tokens.unfinished_since(from);
             return Ok(if unfinished {
@@ -91,7 +93,7 @@ pub(crate) fn read_declaration<'a>(
             value = Some(ExpressionReader::collecting(tokens, &mut names).expression()?);
         }
     }
-    tokens.demand(b';', "a semicolon")?;
+    end_statement(tokens, faults, "a semicolon")?;
     if tokens.unfinished_since(from) {
         return Ok(Declaration::Unfinished { name });
     }
@@ -114,6 +116,6 @@ pub(crate) fn read_declaration<'a>(
         return Ok(Declaration::Read(declared, Some(placed)));
     }
     let written = WrittenContent { data_type, sizes, value, value_place };
-    let (declared, content) = known_at_once(tokens.text, declared, written, is_tolerant)?;
+    let (declared, content) = known_at_once(tokens.text, declared, written, faults.is_tolerant)?;
     Ok(Declaration::Read(declared, content))
 }

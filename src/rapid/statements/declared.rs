@@ -3,12 +3,12 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use crate::error::RapidFault;
 use crate::rapid::data::module::{Scope, Storage};
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::content::{Placed, WrittenContent};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::names::{At, Names, NoNames};
+use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::place::Place;
 
 /// A declaration of a type that is read, before its names are looked up.

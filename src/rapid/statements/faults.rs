@@ -2,20 +2,25 @@
 
 use alloc::vec::Vec;
 
-use crate::error::RapidFault;
+use crate::interrupt::Interrupt;
+use crate::rapid::text::fault::RapidFault;
+use crate::rapid::text::skipping::at_line;
+use crate::rapid::text::tokens::Tokens;
 
 /// Most faults of a text that are kept.
 const MOST_FAULTS: usize = 100;
 
 /// The faults of a text. Without tolerance the first one ends the reading.
-pub(crate) struct Faults {
+pub(crate) struct Faults<'a> {
     pub(crate) is_tolerant: bool,
+    /// Ends the reading, too.
+    pub(crate) interrupt: Interrupt<'a>,
     pub(crate) kept: Vec<RapidFault>,
 }
 
-impl Faults {
-    pub(crate) fn new(is_tolerant: bool) -> Self {
-        Self { is_tolerant, kept: Vec::new() }
+impl<'a> Faults<'a> {
+    pub(crate) fn new(is_tolerant: bool, interrupt: Interrupt<'a>) -> Self {
+        Self { is_tolerant, interrupt, kept: Vec::new() }
     }
 
     /// Keep a fault, to go on behind it.
@@ -32,6 +37,19 @@ impl Faults {
     /// Whether no further fault is kept.
     pub(crate) fn is_full(&self) -> bool {
         self.kept.len() >= MOST_FAULTS
+    }
+}
+
+/// Read the semicolon of a statement. If the next token begins another line, the one that lacks is
+/// taken to be at the end of this one.
+pub(super) fn end_statement(
+    tokens: &mut Tokens<'_>,
+    faults: &mut Faults<'_>,
+    wanted: &'static str,
+) -> Result<(), RapidFault> {
+    match tokens.demand(b';', wanted) {
+        Err(fault) if at_line(tokens).is_some() => faults.add(fault),
+        other => other,
     }
 }
 

@@ -1,68 +1,208 @@
-//! Instructions that are not read: those that move the robot, displace its targets, or write to
-//! their arguments.
+//! Instructions: moves, and those that are not read but move the robot, displace its targets, or
+//! write to their arguments.
 
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
-use super::blocks::begins_another;
-use super::reader::{Assignment, StatementReader};
-use crate::error::RapidFault;
-use crate::rapid::data::instructions::{Effect, written_argument};
+use super::blocks::demand_word;
+use super::faults::end_statement;
+use super::moves::{WrittenMove, read_move};
+use super::reader::{Assignment, Named, StatementReader};
+use crate::rapid::data::fit::Fit;
+use crate::rapid::data::instructions::Effect;
+use crate::rapid::data::lookup::written_argument;
+use crate::rapid::data::module::Content;
+use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::settings::Setting;
+use crate::rapid::data::table::Entry;
+use crate::rapid::data::types::Type;
 use crate::rapid::data::unread::NotRead;
-use crate::rapid::text::skipping::skip_balanced;
+use crate::rapid::expression::content::Placed;
+use crate::rapid::expression::tree::Expression;
+use crate::rapid::expression::whole::{WholeReader, note};
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, TokenKind};
 
 impl<'a> StatementReader<'a> {
-    /// An instruction that is not read, a call, an assignment or a label.
-    pub(crate) fn other(&mut self, first: Token) -> Result<(), RapidFault> {
+    /// A call by name: of what a constant text names, or of what is calculated.
+    pub(super) fn late_bound(&mut self, first: Token) -> Result<(), RapidFault> {
         self.tokens.take()?;
-        self.rest_of_other(first)
+        let name = self.tokens.peek();
+        // Two of them begin a header, which is valid at the beginning only.
+        if name.is(b'%') {
+            return Err(self.tokens.unexpected("the name of a procedure"));
+        }
+        WholeReader::new(&mut self.tokens, 0).expression()?;
+        let is_constant = name.kind == TokenKind::Text && self.tokens.last_end == name.end;
+        self.tokens.demand(b'%', "%")?;
+        if is_constant { self.instruction(first, name) } else { self.call(first, None) }
     }
 
+    /// An instruction, behind its name, which may be a text.
+    pub(super) fn instruction(&mut self, first: Token, name: Token) -> Result<(), RapidFault> {
+        let word = self.tokens.text_of(name).trim_matches('"');
+        match MoveInstruction::named(word) {
+            Some(instruction) => self.move_instruction(instruction, first, name),
+            None if first == name => self.rest_of_other(first),
+            None => self.call(first, Some(name)),
+        }
+    }
+
+    fn move_instruction(
+        &mut self,
+        instruction: &'static MoveInstruction,
+        token: Token,
+        name: Token,
+    ) -> Result<(), RapidFault> {
+        let next = self.tokens.peek();
+        // A label or a datum may have the name of an instruction that only some controllers have.
+        let is_other = next.kind == TokenKind::Assign || b":.{".iter().any(|it| next.is(*it));
+        if is_other && !instruction.is_basic() {
+            return self.rest_of_other(token);
+        }
+        let (tokens, faults) = (&mut self.tokens, &mut self.written.faults);
+        let Some(step) = read_move(tokens, faults, instruction, (token.start, name))? else {
+            self.skip_unfinished(token);
+            return Ok(());
+        };
+        let (at, displaced) = (self.at(), self.displaced_by.line(instruction.way));
+        let place = (!instruction.is_basic()).then(|| written_argument(instruction.name)).flatten();
+        let written = place.and_then(|place| step.required.get(place - 1));
+        if let Some(name) = written.and_then(Expression::name) {
+            self.written.assignments.push(Assignment {
+                at,
+                name,
+                components: Vec::new(),
+                line: step.line,
+            });
+        }
+        let settings = self.settings;
+        self.written.moves.push(WrittenMove { at, displaced, settings, ..step });
+        Ok(())
+    }
+
+    /// An instruction that is not read, a call, an assignment or a label, behind its name.
     pub(crate) fn rest_of_other(&mut self, first: Token) -> Result<(), RapidFault> {
         let name = self.tokens.text_of(first);
         let next = self.tokens.peek();
-        let is_assignment = next.kind == TokenKind::Assign || next.is(b'{') || next.is(b'.');
         if next.is(b':') {
             self.tokens.take()?;
             self.skip(first, NotRead::Label { name: name.to_string() });
             return Ok(());
         }
-        if first.kind == TokenKind::Placeholder && !is_assignment {
+        if next.kind == TokenKind::Assign || next.is(b'{') || next.is(b'.') {
+            return self.assignment(first);
+        }
+        if first.kind == TokenKind::Placeholder {
             // With or without a semicolon.
             self.tokens.take_if(b';')?;
             self.skip_unfinished(first);
             return Ok(());
         }
-        // Two of them begin a header, which is valid at the beginning only.
-        if first.is(b'%') && next.is(b'%') {
-            return Err(self.tokens.unexpected("the name of a procedure"));
-        }
-        if !is_assignment && self.setting(first)? {
+        if self.setting(first)? {
             return Ok(());
         }
-        let components = if is_assignment { self.assigned_components()? } else { Vec::new() };
-        let assigned =
-            if is_assignment { Some(name) } else { self.name_in_written_argument(name)? };
-        skip_balanced(&mut self.tokens, |tokens, _| begins_another(tokens))?;
-        self.tokens.demand(b';', "a semicolon")?;
-        let what = {
-            let name = name.to_string();
-            match is_assignment {
-                true => NotRead::Assignment { name },
-                false if Effect::Moves.is_of(&name) => NotRead::Motion { name },
-                false => NotRead::Instruction { name },
-            }
+        self.call(first, Some(first))
+    }
+
+    fn assignment(&mut self, first: Token) -> Result<(), RapidFault> {
+        let name = self.tokens.text_of(first);
+        let is_element = self.tokens.peek().is(b'{');
+        let components = self.assigned_components()?;
+        if self.tokens.peek().kind != TokenKind::Assign {
+            return Err(self.tokens.lacking(":="));
+        }
+        self.tokens.take()?;
+        let mut wrong = None;
+        match self.type_of_assigned(name, is_element, &components) {
+            Some(of) => WholeReader::new(&mut self.tokens, 0).value_of(of, &mut wrong)?,
+            None => WholeReader::new(&mut self.tokens, 0).expression()?,
+        }
+        if let Some((byte, of, found)) = wrong {
+            let (thing, part) = (name.to_string(), of.name.to_string());
+            let (wanted, missing) = (of.components().len(), "");
+            let kind = RapidFaultKind::ComponentCount { thing, part, found, wanted, missing };
+            self.complain(self.tokens.fault(byte, kind))?;
+        }
+        self.end("an operator or a semicolon")?;
+        let line = self.skip(first, NotRead::Assignment { name: name.to_string() });
+        self.written.assignments.push(Assignment { at: self.at(), name, components, line });
+        Ok(())
+    }
+
+    /// The type of what is assigned an aggregate, if the datum is declared above.
+    fn type_of_assigned(
+        &self,
+        name: &str,
+        is_element: bool,
+        components: &[&str],
+    ) -> Option<&'static Type> {
+        if !self.tokens.peek().is(b'[') {
+            return None;
+        }
+        let named = self.written.scopes.find(self.routine, &name.to_lowercase());
+        let Some(Named::Datum(index)) = named else { return None };
+        let is_single = |it: &Placed| match &it.content {
+            Content::Single(_) => true,
+            Content::Uninitialized { sizes } => sizes.is_empty(),
+            Content::Array { .. } => is_element,
+        };
+        self.written.contents.get(*index)?.as_ref().filter(|it| is_single(it))?;
+        let mut of = self.written.declared.get(*index)?.data_type.described();
+        for component in components {
+            (of, _) = of.component(component)?;
+        }
+        Some(of)
+    }
+
+    /// An instruction that begins with a reserved word, in capitals.
+    pub(super) fn reserved(&mut self, word: &str, first: Token) -> Result<(), RapidFault> {
+        self.tokens.take()?;
+        let is_alone = self.tokens.peek().is(b';') || self.tokens.begins_statement(true);
+        let has_value = match word {
+            "RETURN" | "RAISE" => !is_alone,
+            _ => matches!(word, "GOTO" | "CONNECT"),
+        };
+        if has_value {
+            WholeReader::new(&mut self.tokens, 0).expression()?;
+        }
+        if word == "CONNECT" {
+            demand_word(&mut self.tokens, "WITH")?;
+            WholeReader::new(&mut self.tokens, 0).expression()?;
+        }
+        self.end("a semicolon")?;
+        self.skip(first, NotRead::Instruction { name: self.tokens.text_of(first).to_string() });
+        Ok(())
+    }
+
+    /// An instruction or a call, behind its name; without one the name is calculated.
+    pub(super) fn call(&mut self, first: Token, named: Option<Token>) -> Result<(), RapidFault> {
+        let name = named.map(|it| self.tokens.text_of(it).trim_matches('"'));
+        let entry = name.and_then(Entry::instruction);
+        let place = name.and_then(written_argument);
+        let mut fit = Fit::of(entry);
+        let mut reader = WholeReader::new(&mut self.tokens, 0);
+        let assigned = reader.arguments(&mut fit, place)?;
+        self.end("a comma or a semicolon")?;
+        if let Some(name) = named {
+            note(&mut self.tokens, name, false, fit);
+        }
+        let what = match name.filter(|it| Effect::Moves.is_of(it)) {
+            Some(name) => NotRead::Motion { name: name.to_string() },
+            None => NotRead::Instruction { name: self.tokens.text_of(first).to_string() },
         };
         let line = self.skip(first, what);
-        if !is_assignment {
-            self.displaced_by.see(name, line);
-        }
+        self.displaced_by.see(name.unwrap_or_default(), line);
         if let Some(name) = assigned {
-            self.written.assignments.push(Assignment { at: self.at(), name, components, line });
+            let (at, components) = (self.at(), Vec::new());
+            self.written.assignments.push(Assignment { at, name, components, line });
         }
         Ok(())
+    }
+
+    /// Read the end of a statement.
+    fn end(&mut self, wanted: &'static str) -> Result<(), RapidFault> {
+        end_statement(&mut self.tokens, &mut self.written.faults, wanted)
     }
 
     /// Read an instruction that sets how moves are made, whose name is already read. False, with
@@ -93,41 +233,16 @@ impl<'a> StatementReader<'a> {
     /// The names of the component that an assignment is to, behind the name and its indices.
     fn assigned_components(&mut self) -> Result<Vec<&'a str>, RapidFault> {
         if self.tokens.peek().is(b'{') {
-            skip_balanced(&mut self.tokens, |_, last| last.is_some_and(|last| last.is(b'}')))?;
+            WholeReader::new(&mut self.tokens, 0).list(b'}')?;
         }
         let mut components = Vec::new();
-        while self.tokens.take_if(b'.')? && self.tokens.peek().kind == TokenKind::Name {
+        while self.tokens.take_if(b'.')? {
+            if self.tokens.peek().kind != TokenKind::Name {
+                return Err(self.tokens.lacking("the name of a component"));
+            }
             let component = self.tokens.take()?;
             components.push(self.tokens.text_of(component));
         }
         Ok(components)
-    }
-
-    /// The name in the argument that an instruction writes to; reads up to it.
-    fn name_in_written_argument(
-        &mut self,
-        instruction: &str,
-    ) -> Result<Option<&'a str>, RapidFault> {
-        let Some(place) = written_argument(instruction) else { return Ok(None) };
-        let mut required = 0;
-        loop {
-            if !self.tokens.peek().is(b'\\') && self.tokens.peek().kind != TokenKind::End {
-                required += 1;
-            }
-            if required == place {
-                if self.tokens.at_assigned_name() {
-                    self.tokens.take()?;
-                    self.tokens.take()?;
-                }
-                let token = self.tokens.peek();
-                return Ok((token.kind == TokenKind::Name).then(|| self.tokens.text_of(token)));
-            }
-            skip_balanced(&mut self.tokens, |tokens, _| {
-                tokens.peek().is(b',') || begins_another(tokens)
-            })?;
-            if !self.tokens.take_if(b',')? {
-                return Ok(None);
-            }
-        }
     }
 }

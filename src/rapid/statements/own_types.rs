@@ -6,10 +6,10 @@ use alloc::vec::Vec;
 
 use super::declarations::read_name;
 use super::reader::{Named, StatementReader};
-use crate::error::RapidFault;
 use crate::rapid::data::module::Scope;
 use crate::rapid::data::own_types::{Definition, OwnType};
 use crate::rapid::data::unread::{NotRead, Unresolved};
+use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::{Token, TokenKind};
 
 impl StatementReader<'_> {

@@ -6,15 +6,15 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::declared::{Declared, known_at_once};
+use super::faults::{Faults, end_statement};
 use super::types::{TypeKind, Types};
-use crate::error::RapidFault;
 use crate::rapid::data::module::{Scope, Storage};
 use crate::rapid::data::own_types::DEEPEST_TYPE;
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::content::{Placed, WrittenContent};
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Expression, Form};
-use crate::rapid::text::skipping::skip_balanced;
+use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::{TokenKind, Tokens};
 
 /// Most components of a datum that are read: records in records could have any number.
@@ -38,19 +38,14 @@ struct Leaf<'a> {
 /// Read the declaration of a record behind its type and its name, up to its semicolon. Components
 /// of a value that is not an aggregate are not read.
 pub(super) fn read_parts<'a>(
-    tokens: &mut Tokens<'a>,
+    (tokens, faults): (&mut Tokens<'a>, &mut Faults<'_>),
     (types, components): (&Types<'_>, &[(String, String)]),
     start: usize,
     (routine, scope, storage): (usize, Scope, Storage),
     name: &'a str,
 ) -> Result<Vec<DatumPart<'a>>, RapidFault> {
     let mark = tokens.mark();
-    let Ok((dimensions, value_place, value)) = sizes_and_value(tokens) else {
-        tokens.rewind(mark);
-        skip_balanced(tokens, |_, _| false)?;
-        tokens.demand(b';', "a semicolon")?;
-        return Ok(Vec::new());
-    };
+    let (dimensions, value_place, value) = sizes_and_value(tokens, faults)?;
     let end = tokens.last_end;
     let (line, column) = tokens.line_and_column(start);
     let mut leaves = Vec::new();
@@ -89,6 +84,7 @@ pub(super) fn read_parts<'a>(
 /// The number of dimensions, the place for a value and the value, up to the semicolon.
 fn sizes_and_value<'a>(
     tokens: &mut Tokens<'a>,
+    faults: &mut Faults<'_>,
 ) -> Result<(usize, usize, Option<Expression<'a>>), RapidFault> {
     let dimensions = ExpressionReader::new(tokens).sizes()?.len();
     let (place, mut value) = (tokens.last_end, None);
@@ -96,7 +92,7 @@ fn sizes_and_value<'a>(
         tokens.take()?;
         value = Some(ExpressionReader::new(tokens).expression()?);
     }
-    tokens.demand(b';', "a semicolon")?;
+    end_statement(tokens, faults, "a semicolon")?;
     Ok((dimensions, place, value))
 }
 

@@ -11,7 +11,6 @@ use super::declarations::Declared;
 use super::faults::Faults;
 use super::moves::WrittenMove;
 use super::types::Types;
-use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::{Module, Routine};
 use crate::rapid::data::moves::MoveKind;
@@ -20,7 +19,8 @@ use crate::rapid::data::settings::{MotionSettings, Setting};
 use crate::rapid::data::unread::{NotRead, Skipped, Unresolved};
 use crate::rapid::expression::content::Placed;
 use crate::rapid::expression::names::At;
-use crate::rapid::text::tokens::{Token, Tokens};
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
+use crate::rapid::text::tokens::{Called, Token, Tokens};
 
 /// A module as it is written, before names are looked up.
 pub(crate) struct Written<'a> {
@@ -36,16 +36,17 @@ pub(crate) struct Written<'a> {
     pub(crate) types: OwnTypes,
     pub(crate) moves: Vec<WrittenMove<'a>>,
     pub(crate) skipped: Vec<Skipped>,
-    pub(crate) faults: Faults,
+    pub(crate) faults: Faults<'a>,
     pub(crate) settings: Vec<Setting>,
     pub(crate) assignments: Vec<Assignment<'a>>,
     pub(crate) scopes: Scopes,
     pub(crate) blocks: Blocks<'a>,
+    pub(crate) calls: Vec<Called>,
 }
 
 impl<'a> Written<'a> {
     /// An empty module.
-    pub(crate) fn new(text: &'a str, faults: Faults) -> Self {
+    pub(crate) fn new(text: &'a str, faults: Faults<'a>) -> Self {
         Self {
             text,
             name: None,
@@ -62,6 +63,7 @@ impl<'a> Written<'a> {
             assignments: Vec::new(),
             scopes: Scopes::new(),
             blocks: Blocks::new(),
+            calls: Vec::new(),
         }
     }
 }

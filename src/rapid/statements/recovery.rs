@@ -3,8 +3,8 @@
 use alloc::string::ToString;
 
 use super::reader::StatementReader;
-use crate::error::{RapidFault, RapidFaultKind};
 use crate::rapid::data::unread::NotRead;
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::excerpt;
 use crate::rapid::text::skipping::{at_line, end_of_line, is_conflict_marker, next_statement};
 use crate::rapid::text::tokens::{Token, TokenKind, Tokens};

@@ -8,25 +8,21 @@ use alloc::vec::Vec;
 use super::blocks::is_flow;
 use super::declarations::{Declaration, read_declaration, read_name, storage_at};
 use super::faults::{Faults, is_encoded};
-use super::moves::{WrittenMove, read_move};
 use super::parts::DatumPart;
-use super::reader::{Assignment, Named, Stage, StatementReader, Written, is_placeholder};
+use super::reader::{Named, Stage, StatementReader, Written, is_placeholder};
 use super::recovery::skip_to_end;
-use crate::error::{RapidFault, RapidFaultKind};
-use crate::rapid::data::instructions::written_argument;
 use crate::rapid::data::module::{Module, Routine, RoutineKind, Scope};
-use crate::rapid::data::moving::MoveInstruction;
 use crate::rapid::data::unread::{NotRead, Unresolved};
-use crate::rapid::expression::tree::Expression;
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, TokenKind};
-use crate::rapid::text::words::Capitals;
+use crate::rapid::text::words::{Capitals, is_reserved};
 
 impl<'a> StatementReader<'a> {
     /// Read a whole text; with tolerance in spite of its faults.
     pub(crate) fn read(
         text: &'a str,
         context: &'a [&'a Module],
-        faults: Faults,
+        faults: Faults<'a>,
     ) -> Result<Written<'a>, RapidFault> {
         let mut written = Written::new(text, faults);
         if is_encoded(text) {
@@ -35,14 +31,19 @@ impl<'a> StatementReader<'a> {
             return Ok(written);
         }
         let mut reader = Self::new(written, context);
-        while reader.tokens.peek().kind != TokenKind::End {
+        for round in 0.. {
             let first = reader.tokens.peek();
+            if first.kind == TokenKind::End {
+                break;
+            }
+            reader.written.faults.interrupt.check(round)?;
             if let Err(fault) = reader.statement() {
                 reader.recover(first, fault)?;
             }
         }
         reader.check_end()?;
         reader.written.types = reader.types.own;
+        reader.written.calls = reader.tokens.calls;
         Ok(reader.written)
     }
 
@@ -98,10 +99,17 @@ impl<'a> StatementReader<'a> {
             "RECORD" => self.record(token),
             "ALIAS" => self.alias(token),
             _ if is_flow(word) => self.flow(word, token),
-            _ => match MoveInstruction::named(self.tokens.text_of(token)) {
-                Some(instruction) => self.move_instruction(instruction, token),
-                None => self.other(token),
-            },
+            "RETURN" | "RAISE" | "GOTO" | "CONNECT" | "EXIT" | "RETRY" | "TRYNEXT" => {
+                self.reserved(word, token)
+            }
+            _ if is_reserved(word) => {
+                Err(self.tokens.unexpected("a declaration or an instruction"))
+            }
+            _ if token.is(b'%') => self.late_bound(token),
+            _ => {
+                self.tokens.take()?;
+                self.instruction(token, token)
+            }
         }
     }
 
@@ -156,9 +164,8 @@ impl<'a> StatementReader<'a> {
         }
         if let Some(storage) = storage_at(&self.tokens) {
             let place = (self.routine, scope, storage);
-            let is_tolerant = self.written.faults.is_tolerant;
-            let how = (&self.types, is_tolerant);
-            let declaration = read_declaration(&mut self.tokens, first.start, place, how)?;
+            let (tokens, faults) = (&mut self.tokens, &mut self.written.faults);
+            let declaration = read_declaration(tokens, faults, first.start, place, &self.types)?;
             return self.add_declaration(first, declaration);
         }
         match RoutineKind::named(self.tokens.text_of(self.tokens.peek())) {
@@ -213,37 +220,6 @@ impl<'a> StatementReader<'a> {
         }
     }
 
-    fn move_instruction(
-        &mut self,
-        instruction: &'static MoveInstruction,
-        token: Token,
-    ) -> Result<(), RapidFault> {
-        self.tokens.take()?;
-        let next = self.tokens.peek();
-        // A label or a datum may have the name of an instruction that only some controllers have.
-        let is_other = next.kind == TokenKind::Assign || b":.{".iter().any(|it| next.is(*it));
-        if is_other && !instruction.is_basic() {
-            return self.rest_of_other(token);
-        }
-        let Some(step) = read_move(&mut self.tokens, instruction, token.start)? else {
-            self.skip_unfinished(token);
-            return Ok(());
-        };
-        let (at, displaced) = (self.at(), self.displaced_by.line(instruction.way));
-        let written = written_argument(instruction.name).and_then(|it| step.required.get(it - 1));
-        if let Some(name) = written.and_then(Expression::name) {
-            self.written.assignments.push(Assignment {
-                at,
-                name,
-                components: Vec::new(),
-                line: step.line,
-            });
-        }
-        let settings = self.settings;
-        self.written.moves.push(WrittenMove { at, displaced, settings, ..step });
-        Ok(())
-    }
-
     fn flow(&mut self, word: &str, token: Token) -> Result<(), RapidFault> {
         self.tokens.take()?;
         if let Some((outer, wanted)) = self.written.blocks.ended_by(word) {
@@ -290,8 +266,10 @@ impl StatementReader<'_> {
         });
         self.routine = self.written.routines.len();
         (self.displaced_by, self.settings) = Default::default();
-        if self.tokens.peek().is(b'(') {
+        if self.tokens.peek().is(b'(') && kind != RoutineKind::Trap {
             self.parameters(name)?;
+        } else if kind != RoutineKind::Trap {
+            self.complain(self.tokens.lacking("("))?;
         }
         let header = self.written.text[first.start..self.tokens.last_end].to_string();
         if let Some(routine) = self.written.routines.last_mut() {
@@ -324,21 +302,25 @@ impl StatementReader<'_> {
         self.tokens.fault(self.tokens.peek().start, kind)
     }
 
-    /// Read the parameters in parentheses: the name of each is the last word before a comma, a bar
-    /// or a backslash.
+    /// Read the parameters in parentheses: each has perhaps a mode, then a type and a name.
     fn parameters(&mut self, routine: &str) -> Result<(), RapidFault> {
         let open = self.tokens.take()?;
-        let mut last = None;
+        let (mut last, mut count) = (None, 0);
         loop {
             let token = self.tokens.peek();
+            let is_mode = ["INOUT", "VAR", "PERS", "REF"].iter().any(|it| self.tokens.at_word(it));
             match token.kind {
                 TokenKind::End | TokenKind::Symbol(b';') => {
                     return Err(self
                         .tokens
                         .fault(open.start, RapidFaultKind::Unclosed { bracket: '(' }));
                 }
-                TokenKind::Name => last = Some(token),
+                TokenKind::Name if is_mode && count == 0 => {}
+                TokenKind::Name if count < 2 => (last, count) = (Some(token), count + 1),
                 TokenKind::Symbol(b',' | b'|' | b'\\' | b')') => {
+                    if count == 1 && last.is_some() {
+                        return Err(self.tokens.unexpected("the name of a parameter"));
+                    }
                     if let Some(name) = last.take() {
                         let (text, routine) = (self.tokens.text_of(name), routine.to_string());
                         let named = Named::Other(Unresolved::Parameter { routine });
@@ -346,9 +328,16 @@ impl StatementReader<'_> {
                             self.complain(fault)?;
                         }
                     }
+                    count = 0;
                 }
-                TokenKind::Placeholder => last = None,
-                _ => {}
+                TokenKind::Placeholder => (last, count) = (None, count + 1),
+                TokenKind::Symbol(b'{') if last.is_some() => {
+                    self.tokens.take()?;
+                    while self.tokens.take_if(b'*')? && self.tokens.take_if(b',')? {}
+                    self.tokens.demand(b'}', "* or }")?;
+                    continue;
+                }
+                _ => return Err(self.tokens.unexpected("a comma or )")),
             }
             self.tokens.take()?;
             if token.is(b')') {

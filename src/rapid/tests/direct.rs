@@ -5,8 +5,9 @@ use std::string::String;
 use std::vec::Vec;
 
 use super::*;
-use crate::error::{Error, RapidFaultKind};
+use crate::error::Error;
 use crate::rapid::data::unread::NotRead;
+use crate::rapid::text::fault::RapidFaultKind;
 
 /// The types with the shapes of their values: `n` a number, `w` a whole one, `b` a truth value, `s`
 /// a string.

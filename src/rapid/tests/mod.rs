@@ -13,6 +13,7 @@ mod records;
 mod recovery;
 mod texts;
 mod unfinished;
+mod whole;
 
 use std::string::String;
 use std::string::ToString;

@@ -81,17 +81,17 @@ fn a_call_is_followed_with_its_arguments_and_is_where_its_target_is_wrong() {
 #[test]
 fn confdata_that_a_call_passes_on_is_corrected_where_it_is_written() {
     let text = text(&format!(
-        "go [[900,-250,500],[0,0,1,0],[0,0,0,0],{FAR}]; ENDPROC PROC go(robtarget p) \
+        "go [[900,-250,500],[0,0,1,0],[1,0,1,0],{FAR}]; ENDPROC PROC go(robtarget p) \
          MoveJ p,v100,fine,t;"
     ));
     let found = checked(&[&text], &CheckOptions::default());
     assert_eq!(codes(&found.findings), [Code::WrongConfdata]);
     let edits = &found.findings[0].edits;
-    assert_eq!(edits.iter().map(|it| &text[it.span.clone()]).collect::<Vec<_>>(), ["0", "0"]);
+    assert_eq!(edits.iter().map(|it| &text[it.span.clone()]).collect::<Vec<_>>(), ["1", "1"]);
     // The datum of another module, too.
     let main = "MODULE N\nPROC main()\ngo2 near;\nENDPROC\nENDMODULE";
     let other = format!(
-        "MODULE M\n{}CONST robtarget near:=[[900,-250,500],[0,0,1,0],[0,0,0,0],{FAR}];\n\
+        "MODULE M\n{}CONST robtarget near:=[[900,-250,500],[0,0,1,0],[1,0,1,0],{FAR}];\n\
          PROC go2(robtarget p)\nMoveJ p,v100,fine,t;\nENDPROC\nENDMODULE",
         data()
     );
@@ -170,7 +170,7 @@ fn displacements_reach_into_called_routines_and_end() {
     let line = data().lines().count() + 3;
     assert!(message.ends_with(&format!("(displaced on line {line})")), "{message}");
     assert_eq!(outcome(&format!("{up} PDispOff; go; {go}")).0, []);
-    assert_eq!(outcome(&format!("PDispOn \\ExeP:=b, a, t; go; {go}")).0, [Code::WrongConfdata]);
+    assert_eq!(outcome(&format!("PDispOn \\ExeP:=b, a, t; go; {go}")).0, [Code::NearConfdata]);
     assert_eq!(outcome(&format!("PDispOn \\Rot \\ExeP:=x, a, t; go; {go}")).1, 0);
     assert_eq!(outcome(&format!("PDispSet x; go; {go}")).1, 0);
     assert_eq!(outcome(&format!("{up} IF q PDispOff; go; {go}")).1, 0);

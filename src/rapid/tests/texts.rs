@@ -311,7 +311,7 @@ fn the_type_of_a_single_record_follows_from_its_shape() {
     assert_eq!(record("[1,2,3]"), Err(none.to_string()));
     assert_eq!(
         record("[[1,2,3],\n[1,0,0,0]"),
-        Err("line 1, column 1: [ is not closed".to_string())
+        Err("line 2, column 10: expected a comma or ], found the end of the line".to_string())
     );
     for more in [
         "[[1,2,3],[1,0,0,0]]; VAR num y:=5",

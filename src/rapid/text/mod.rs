@@ -1,5 +1,6 @@
 //! The text: lines and columns, tokens, literals, reserved words, and skipping over brackets.
 
+pub(crate) mod fault;
 pub(crate) mod literals;
 pub(crate) mod place;
 pub(crate) mod skipping;

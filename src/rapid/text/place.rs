@@ -2,7 +2,7 @@
 
 use alloc::string::String;
 
-use crate::error::{RapidFault, RapidFaultKind};
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 
 /// Most characters of the text that a message repeats.
 const REPEATED: usize = 40;

@@ -1,93 +1,89 @@
-//! Skip unread text with balanced brackets.
+//! Where a text goes on behind a fault, and lines that are none of RAPID's.
 
-use alloc::vec::Vec;
+use alloc::string::ToString;
 
-use super::tokens::{Token, TokenKind, Tokens};
-use crate::error::{RapidFault, RapidFaultKind};
-
-/// The symbol that closes an opening one, and its name in a message.
-fn closing(open: u8) -> (u8, &'static str) {
-    match open {
-        b'[' => (b']', "]"),
-        b'(' => (b')', ")"),
-        _ => (b'}', "}"),
-    }
-}
+use super::tokens::{Token, TokenKind, Tokens, behind_blanks};
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
+use crate::rapid::text::words::{end_of_word, is_reserved};
 
 /// The error for a missing closing symbol: the bracket is open at the end of the statement, or
 /// something else is in its place.
 pub(crate) fn not_closed(tokens: &Tokens<'_>, open: Token, close: u8) -> RapidFault {
-    match tokens.peek().kind {
-        TokenKind::End | TokenKind::Symbol(b';') => {
+    let wanted = match close {
+        b']' => "a comma or ]",
+        b')' => "a comma or )",
+        _ => "a comma or }",
+    };
+    let next = tokens.peek();
+    match next.kind {
+        TokenKind::Name if !is_reserved(tokens.text_of(next)) && !tokens.is_first_of_line() => {
+            tokens.unexpected(wanted)
+        }
+        // Over several lines the closing one may lack in any of them: most likely in the last.
+        TokenKind::Name | TokenKind::Symbol(b';')
+            if tokens.text[open.start..tokens.last_end].contains('\n') =>
+        {
+            tokens.lacking(wanted)
+        }
+        TokenKind::End | TokenKind::Name | TokenKind::Symbol(b';') => {
             let bracket = tokens.text_of(open).chars().next().unwrap_or('[');
             tokens.fault(open.start, RapidFaultKind::Unclosed { bracket })
         }
-        _ => tokens.unexpected(match close {
-            b']' => "a comma or ]",
-            b')' => "a comma or )",
-            _ => "a comma or }",
-        }),
+        _ => tokens.unexpected(wanted),
     }
 }
 
-/// Whether the next token is an operator that is not evaluated.
-pub(crate) fn is_unread_operator(tokens: &Tokens<'_>) -> bool {
-    let word = |word: &&str| tokens.at_word(word);
-    matches!(tokens.peek().kind, TokenKind::Symbol(b'=' | b'<' | b'>') | TokenKind::Placeholder)
-        || ["AND", "OR", "XOR"].iter().any(word)
-}
+impl Tokens<'_> {
+    /// The error that something lacks behind the previous token: at the end of its line if the next
+    /// token is in another one.
+    pub(crate) fn lacking(&self, wanted: &'static str) -> RapidFault {
+        if self.peek().kind == TokenKind::Invalid || !self.is_first_of_line() {
+            return self.unexpected(wanted);
+        }
+        let found = "the end of the line".to_string();
+        self.fault(self.last_end, RapidFaultKind::Unexpected { found, wanted })
+    }
 
-/// Words that end a statement at any place: one that is not closed before them is invalid.
-fn is_end_of_routine(word: &str) -> bool {
-    ["ENDPROC", "ENDFUNC", "ENDTRAP", "ENDMODULE", "PROC", "FUNC", "TRAP", "MODULE"]
-        .iter()
-        .any(|end| end.eq_ignore_ascii_case(word))
-}
+    /// Whether the next token is the first one of its line, and not of the text.
+    pub(crate) fn is_first_of_line(&self) -> bool {
+        let between =
+            self.text.as_bytes().get(self.last_end..self.peek().start).unwrap_or_default();
+        self.peek().kind != TokenKind::End
+            && self.last_end > 0
+            && between.iter().any(|byte| matches!(byte, b'\n' | b'\r'))
+    }
 
-/// Skip to the comma, semicolon or closing bracket that ends the argument.
-pub(crate) fn skip_to_end_of_argument(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
-    skip_balanced(tokens, |tokens, _| tokens.peek().is(b',') || tokens.peek().is(b'\\'))
-}
-
-/// Skip over balanced brackets until `ends` returns true, or to a semicolon, a closing bracket or
-/// the end; none of these is read.
-///
-/// `ends` gets the last token that was read, and is called outside brackets only.
-pub(crate) fn skip_balanced(
-    tokens: &mut Tokens<'_>,
-    ends: impl Fn(&Tokens<'_>, Option<Token>) -> bool,
-) -> Result<(), RapidFault> {
-    let mut open: Vec<Token> = Vec::new();
-    let mut last = None;
-    loop {
-        let token = tokens.peek();
-        let ended = match token.kind {
-            TokenKind::End | TokenKind::Symbol(b';') => true,
-            TokenKind::Name => is_end_of_routine(tokens.text_of(token)),
-            _ => false,
+    /// Whether the next token, where a value may be, begins a line and a statement: the statement
+    /// before it is not finished. `is_first` is for the first argument of a call, before which no
+    /// comma is.
+    pub(crate) fn begins_statement(&self, is_first: bool) -> bool {
+        if self.peek().kind != TokenKind::Name || !self.is_first_of_line() {
+            return false;
+        }
+        let is_value = ["NOT", "TRUE", "FALSE"].iter().any(|value| self.at_word(value));
+        if is_first && !is_value && is_reserved(self.text_of(self.peek())) {
+            return true;
+        }
+        let indent = |byte: usize| {
+            let line = self.text[..byte].rfind(['\n', '\r']).map_or(0, |at| at + 1);
+            behind_blanks(&self.text.as_bytes()[..byte], line) - line
         };
-        match open.last().copied() {
-            None if ended || ends(tokens, last) => return Ok(()),
-            Some(bracket) if ended => {
-                let character = tokens.text_of(bracket).chars().next().unwrap_or('[');
-                return Err(
-                    tokens.fault(bracket.start, RapidFaultKind::Unclosed { bracket: character })
-                );
+        let rest = &self.text[behind_blanks(self.content(), self.peek().end)..];
+        match rest.as_bytes().first() {
+            Some(b'"' | b'[' | b'0'..=b'9') => true,
+            Some(b'*') => {
+                let behind = behind_blanks(self.content(), self.text.len() - rest.len() + 1);
+                matches!(self.text.as_bytes().get(behind), Some(b',' | b'\\'))
             }
-            _ => {}
-        }
-        match token.kind {
-            TokenKind::Symbol(b'[' | b'(' | b'{') => open.push(token),
-            TokenKind::Symbol(symbol @ (b']' | b')' | b'}')) => {
-                match open.pop().map(|bracket| closing(tokens.text_of(bracket).as_bytes()[0])) {
-                    None => return Ok(()),
-                    Some((wanted, _)) if wanted == symbol => {}
-                    Some((_, wanted)) => return Err(tokens.unexpected(wanted)),
-                }
+            Some(b'\\' | b';' | b'{' | b':') => {
+                let is_colon = rest.starts_with(':') && !rest.starts_with(":=");
+                is_first && !is_colon && indent(self.peek().start) <= indent(self.last_end)
             }
-            _ => {}
+            _ => {
+                let word = &rest[..end_of_word(rest, 0)];
+                !word.is_empty() && !is_reserved(word)
+            }
         }
-        last = Some(tokens.take()?);
     }
 }
 

@@ -1,12 +1,14 @@
 //! RAPID text as tokens: names, numbers, strings and symbols, without blanks and comments.
 
-use alloc::string::ToString;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 use core::cell::Cell;
+use core::ops::Range;
 
 use super::literals::{decimal, number};
 use super::place::{Place, excerpt};
 use super::words::end_of_word;
-use crate::error::{RapidFault, RapidFaultKind};
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 
 /// Most letters of a placeholder; RAPID's own have two or three.
 const LONGEST_PLACEHOLDER: usize = 16;
@@ -69,6 +71,18 @@ pub(crate) struct Tokens<'a> {
     end: usize,
     /// The place that was looked up last.
     place: Cell<Place>,
+    /// Calls that RAPID does not have as they are written, and calls of what it does not have.
+    pub(crate) calls: Vec<Called>,
+}
+
+/// A call of a procedure or of a function that RAPID itself does not have like this.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Called {
+    /// Bytes of its name.
+    pub(crate) name: Range<usize>,
+    pub(crate) is_function: bool,
+    /// The fault of the arguments of one that RAPID has.
+    pub(crate) wrong: Option<String>,
 }
 
 /// A position of the reader, to return to.
@@ -93,8 +107,9 @@ impl<'a> Tokens<'a> {
         let next = Token { kind: TokenKind::End, start: 0, end: 0 };
         let end = text.trim_end_matches(END_OF_FILE).len();
         let place = Cell::new(Place::BEGINNING);
-        let last_placeholder = None;
-        let mut tokens = Self { text, next, last_end: 0, last_placeholder, begin: 0, end, place };
+        let (last_placeholder, begin, calls) = (None, 0, Vec::new());
+        let mut tokens =
+            Self { text, next, last_end: 0, last_placeholder, begin, end, place, calls };
         let bom = text.len() - text.trim_start_matches('\u{feff}').len();
         let start = tokens.skip_blanks(bom);
         tokens.begin = start;
@@ -153,7 +168,7 @@ impl<'a> Tokens<'a> {
 
     /// Read the symbol, or report what is in its place.
     pub(crate) fn demand(&mut self, symbol: u8, wanted: &'static str) -> Result<(), RapidFault> {
-        if self.take_if(symbol)? { Ok(()) } else { Err(self.unexpected(wanted)) }
+        if self.take_if(symbol)? { Ok(()) } else { Err(self.lacking(wanted)) }
     }
 
     /// The text of a token.
