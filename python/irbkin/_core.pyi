@@ -91,9 +91,12 @@ __all__ = [
     "WobjData",
     "ZoneData",
     "__version__",
+    "_between",
     "_restore",
     "_trajectory_of",
     "_urdf_links",
+    "_urdf_swept",
+    "_urdf_text",
     "arc",
     "at_tool_speed",
     "calc_joint_t",
@@ -109,6 +112,7 @@ __all__ = [
     "dump",
     "instruction_set",
     "instruction_sets",
+    "instructions",
     "joint",
     "line",
     "motion",
@@ -240,9 +244,21 @@ def to_xyz_euler_zyx(T: npt.ArrayLike) -> tuple[_Floats, _Floats]:
 def _restore(kind: str, state: bytes) -> Any: ...
 def _urdf_links(
     text_or_path: str | bytes | PathLike[str], base: str | None, tip: str | None
-) -> list[tuple[str, int, _Floats]]: ...
+) -> tuple[list[tuple[str, int, _Floats | None]], str]: ...
+def _urdf_swept(
+    text_or_path: str | bytes | PathLike[str],
+    base: str | None,
+    tip: str | None,
+    name: str,
+    links: list[int],
+    capsules: npt.ArrayLike,
+) -> tuple[_Floats, float]: ...
+def _urdf_text(text: str | bytes) -> str | bytes: ...
 def _trajectory_of(
-    dof: int, knots: list[float], terms: list[list[float]], times: list[float]
+    joints: list[list[list[float]]], duration: float, end: list[float]
+) -> Trajectory: ...
+def _between(
+    start: list[list[float]], end: list[list[float]], limits: list[list[float]]
 ) -> Trajectory: ...
 
 @type_check_only
@@ -869,14 +885,18 @@ class Robot:
         snap: float = 0.0,
     ) -> Robot:
         """Robot from a URDF: the revolute and continuous joints between two links, with their
-        limits and velocities.
+        limits and velocities, and a body of the collision shapes.
+
+        Links behind joints beside the arm, as of a gripper, are in the body wherever these joints
+        may be. With a mesh, or a shape that is not valid, there is no body. See
+        docs/guide/bodies.md.
 
         Args:
             text_or_path: The text, str that begins with "<" or bytes, or the path of a file, of
                 URDF 1.0 to 1.2. Xacro must be expanded first.
             base: Link in whose frame poses are given; the one without a parent when not given.
             tip: Link that poses are of; when not given, the only one at the end of a chain of six
-                or seven joints.
+                or seven joints, if the last of these can be no gripper's.
             name: A name of your own; the URDF's when not given.
             snap: An angle of an origin, or an axis, within this of a multiple of 90 deg is made
                 exact [rad], at most 1e-3: 1e-5 takes 1.5708 for a right angle. Lengths stay as they
@@ -885,8 +905,8 @@ class Robot:
         Raises:
             InvalidModelError: The text is not a URDF, several links could be meant, there are not
                 six or seven joints, a joint between base and tip is not revolute, continuous or
-                fixed, an attribute is none of the version's, or six joints are not independent; the
-                message names what is wrong, and the base and tip that could be passed.
+                fixed, an unknown attribute could move a joint, or six joints are not independent;
+                the message names what is wrong, and the base and tip that could be passed.
             OSError: The file cannot be read.
         """
     def to_urdf(self, visual: bool = False) -> str:
@@ -2429,6 +2449,9 @@ class Finding(_Record):
         """The corrections: index of the module, first byte and end in its `source` as UTF-8, and
         the text that takes their place. Empty if nothing corrects it.
         """
+    @property
+    def related(self) -> tuple[tuple[int, int, int], ...]:
+        """Where else its cause shows: index of the module, line and column, both from 1."""
     def __new__(
         cls,
         code: str,
@@ -2444,6 +2467,7 @@ class Finding(_Record):
         value: float | None,
         bound: float | None,
         edits: tuple[tuple[int, int, int, str], ...],
+        related: tuple[tuple[int, int, int], ...],
     ) -> Finding: ...
 
 @final
@@ -2502,7 +2526,7 @@ class CheckedMove(_Record):
     @property
     def unchecked(self) -> str | None:
         """The code of the finding for which it is not checked; None if its target, tool and work
-        object are known.
+        object are known in each pass.
         """
     def __new__(
         cls,
@@ -2525,7 +2549,9 @@ class Checked(_Record):
         """The findings, in the order of the modules and of their texts: a tuple of `Finding`."""
     @property
     def moves(self) -> tuple[CheckedMove, ...]:
-        """The moves in the same order, each place once: a tuple of `CheckedMove`."""
+        """The moves in the same order, passes of a loop as one; those below a call that they
+        depend on have its place, and are as many as there are: a tuple of `CheckedMove`.
+        """
     def __new__(
         cls,
         findings: tuple[Finding, ...],
@@ -2911,6 +2937,7 @@ def check_program(
     units: Sequence[tuple[str, bool, bool, Sequence[tuple[int, npt.ArrayLike, bool]]]]
     | None = None,
     last_values: bool = False,
+    whole: bool | None = None,
 ) -> Checked:
     """Check every move of a program: modules that know each other.
 
@@ -2927,6 +2954,8 @@ def check_program(
             0, the frame of shape (4, 4) [m], and whether it turns about its z axis or else moves
             along its x axis. An external axis of no unit, which is not at zero, is not checked.
         last_values: Whether a PERS that the program assigns has the value of its declaration.
+        whole: Whether every module of the task is given: a call of what none declares is an error
+            then, and a note if some are missing. None if it is not known.
 
     Returns:
         `Checked`.
@@ -2939,6 +2968,13 @@ def check_program(
 
 def check_codes() -> list[tuple[str, str, str, bool]]:
     """Every code of a check: code, name, severity, whether it is shown without a selection."""
+
+def instructions() -> list[tuple[str, str, str]]:
+    """Return RAPID's own instructions and functions: rows of name, kind and arguments.
+
+    The kind is "instruction" or "function". The arguments are as in the header of a routine, with
+    `...` for those that are not known.
+    """
 
 def motion(
     robot: Robot,
@@ -3063,7 +3099,8 @@ class Shape:
             pose: Pose of its middle, shape (4, 4); the identity when not given.
 
         Raises:
-            InvalidModelError: A length that is not positive, or more than 1e6 m.
+            InvalidModelError: A length that is not positive or more than 100 m, or a pose
+                farther away.
             InvalidPoseError: pose is not a rigid transform.
         """
     @staticmethod
@@ -3075,7 +3112,8 @@ class Shape:
             center: Its center [m], shape (3,).
 
         Raises:
-            InvalidModelError: A radius that is not positive, or more than 1e6 m.
+            InvalidModelError: A radius that is not positive or more than 100 m, or a center
+                farther away.
         """
     @staticmethod
     def capsule(a: npt.ArrayLike, b: npt.ArrayLike, radius: float) -> Shape:
@@ -3087,7 +3125,8 @@ class Shape:
             radius: The radius [m].
 
         Raises:
-            InvalidModelError: A radius that is not positive, or more than 1e6 m.
+            InvalidModelError: A radius that is not positive or more than 100 m, or an end
+                farther away.
         """
     @staticmethod
     def cylinder(radius: float, length: float, pose: npt.ArrayLike | None = None) -> Shape:
@@ -3099,7 +3138,8 @@ class Shape:
             pose: Pose of its middle, shape (4, 4); the identity when not given.
 
         Raises:
-            InvalidModelError: A length that is not positive, or more than 1e6 m.
+            InvalidModelError: A length that is not positive or more than 100 m, or a pose
+                farther away.
             InvalidPoseError: pose is not a rigid transform.
         """
     @staticmethod
@@ -3186,6 +3226,7 @@ class Shape:
             T: Pose of the frame that the shape is in, shape (4, 4).
 
         Raises:
+            InvalidModelError: The shape is more than 100 m away then.
             InvalidPoseError: T is not a rigid transform.
         """
     @staticmethod
@@ -3197,7 +3238,7 @@ class Shape:
             point: A point of the plane [m], shape (3,).
 
         Raises:
-            InvalidModelError: A normal of length zero.
+            InvalidModelError: A normal of length zero, or a point more than 100 m away.
         """
     def __reduce__(self) -> tuple[Callable[[str, bytes], Any], tuple[str, bytes]]: ...
 
@@ -3241,9 +3282,11 @@ class Body:
         closed meshes. It needs `pip install 'irbkin[mesh]'`, and takes some 15 s for an arm.
 
         Of each link, the meshes and shapes of its `collision` elements, or of its `visual` ones
-        where it has none. Links that are not neighbors are kept apart; left out are pairs that
-        touch in all of 2,000 random postures inside the limits, and pairs whose capsules touch in
-        more than 2 % of these and whose meshes do in none. The same body comes out each time.
+        where it has none; of links behind joints beside the arm, as of a gripper, wherever these
+        joints may be. `source` names them. Links that are not neighbors are kept apart; left out
+        are pairs that touch in all of 2,000 random postures inside the limits, and pairs whose
+        capsules touch in more than 2 % of these and whose meshes do in none. The same body comes
+        out each time.
 
         Args:
             urdf: As of `Robot.from_urdf`.
@@ -3257,7 +3300,8 @@ class Body:
                 the URDF when not given.
 
         Raises:
-            InvalidModelError: As `Robot.from_urdf`; a file is no mesh, or no link has a shape.
+            InvalidModelError: As `Robot.from_urdf`; a file is no mesh, no link has a shape, or the
+                joint in front of one has no end.
             FileNotFoundError: A mesh is not found.
             ImportError: trimesh or scipy is not installed.
         """
@@ -3688,7 +3732,8 @@ def retime(
             duration that is not between 1e-9 and 1e9 s, a velocity at an end that is not along the
             path or too fast for it, a joint that leaves `limits` (the message has the joint, the
             time, its angle and the limit) or, with `max_tool_speed`, a part of the path on which
-            the tool only turns.
+            the tool only turns, or a step of a joint above 0.1 rad, between whose samples the tool
+            would leave `T`.
         InvalidJointsError: A wrong shape, or an angle that is not finite.
         InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
     """

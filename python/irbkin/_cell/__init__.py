@@ -8,13 +8,18 @@ from typing import TYPE_CHECKING
 from irbkin.errors import InvalidModelError
 
 if TYPE_CHECKING:
-    from irbkin._core import Cell
+    from irbkin._core import Cell, Shape
 
 __all__ = ["load"]
 
 
 def load(path: str | os.PathLike[str]) -> Cell:
     """Read the cell of a TOML file or of a URDF."""
+    return read(path)[0]
+
+
+def read(path: str | os.PathLike[str]) -> tuple[Cell, dict[str, list[Shape]]]:
+    """Read a cell, and the shapes of tools and parts in the flange frame, by lower-case names."""
     path = os.fspath(path)
     ending = os.path.splitext(path)[1].lower()
     if ending not in (".toml", ".urdf", ".xml"):
@@ -28,7 +33,7 @@ def load(path: str | os.PathLike[str]) -> Cell:
             return cell_of(content, os.path.dirname(path))
         from irbkin._cell.urdf import cell_of_urdf
 
-        return cell_of_urdf(content, path)
+        return cell_of_urdf(content, path), {}
     except InvalidModelError as error:
         raise InvalidModelError(f"{path}: {error}") from None
     except RecursionError:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -16,14 +16,14 @@ from irbkin.errors import InvalidModelError, IrbkinError
 _ORIGIN = np.zeros(3)
 
 
-def cell_of(content: bytes, folder: str) -> Cell:
-    """The cell of a TOML text, beside which its files are in a folder."""
+def cell_of(content: bytes, folder: str) -> tuple[Cell, dict[str, list[Shape]]]:
+    """The cell of a TOML text, and shapes that are carried; its files are in a folder."""
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InvalidModelError(f"is not UTF-8: {error}") from None
     root = Entry(text, folder, (), parsed(text))
-    root.check("margin", "may_touch", "frames", "obstacles", "robots")
+    root.check("margin", "may_touch", "frames", "obstacles", "robots", "tool", "part")
     frames = Frames(root.subs("frames"))
     obstacles = {name: _shape(entry, frames) for name, entry in root.subs("obstacles").items()}
     margin = root.number("margin", 0.0)
@@ -35,9 +35,25 @@ def cell_of(content: bytes, folder: str) -> Cell:
         cell = _with_robot(cell, name, entry, frames)
     pairs = _pairs(root, cell)
     try:
-        return Cell(cell.obstacles, margin, pairs)
+        return Cell(cell.obstacles, margin, pairs), _carried(root)
     except IrbkinError as error:
         root.refuse(error, "may_touch")
+
+
+def _carried(root: Entry) -> dict[str, list[Shape]]:
+    """The shapes of tools and parts by their names: one a table, or one for each table in it."""
+    found: dict[str, list[Shape]] = {}
+    for kind in ("tool", "part"):
+        for name, entry in root.subs(kind).items():
+            parts = entry.table
+            is_one = not parts or not all(isinstance(own, Mapping) for own in parts.values())
+            is_one = is_one or not parts.keys().isdisjoint((*_SHAPES, "pose"))
+            entries = [entry] if is_one else [entry.sub(key) for key in parts]
+            if name.lower() in found:
+                entry.refuse(f"{name} is given twice: RAPID does not know case")
+            # The world's frames are not the flange's.
+            found[name.lower()] = [_shape(own, Frames({})) for own in entries]
+    return found
 
 
 def _pairs(root: Entry, cell: Cell) -> list[tuple[str, int]]:

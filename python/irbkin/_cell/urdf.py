@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._core import Cell, Shape, pose
+from irbkin._core import Cell, Shape, _urdf_text, pose
 from irbkin._mesh_files import triangles
 from irbkin.errors import InvalidModelError, IrbkinError
 
@@ -42,7 +42,7 @@ def cell_of_urdf(content: bytes, path: str) -> Cell:
 
 def _xml(content: bytes) -> ElementTree.Element:
     try:
-        return ElementTree.fromstring(content)
+        return ElementTree.fromstring(_urdf_text(content))
     except ElementTree.ParseError as error:
         raise InvalidModelError(f"is not XML: {error}") from None
 

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._core import Body, Robot
+from irbkin._core import Body, Robot, _urdf_swept
 from irbkin._fit.capsules import fitted
 from irbkin._fit.pairs import pairs_of
 from irbkin._fit.solid import Array, Solid
@@ -56,17 +56,19 @@ def body_of(
     """Return the body of a URDF; see `Body.fit`."""
     check(excess, most)
     robot = Robot.from_urdf(urdf, base, tip)
-    solids = {
-        link: Solid(corners)
-        for link, corners in sorted(links_of(urdf, base, tip, packages or {}).items())
-    }
-    found = {link: fitted(solid, excess, most) for link, solid in solids.items()}
-    links = np.concatenate([np.full(len(rows), link) for link, (rows, _) in found.items()])
-    capsules = np.concatenate([rows for rows, _ in found.values()])
-    outside = np.zeros(max(found) + 1)
-    for link, (_, value) in found.items():
-        outside[link] = value
+    triangles, beside, remark = links_of(urdf, base, tip, packages or {})
+    solids = {link: Solid(corners) for link, corners in sorted(triangles.items())}
+    found = [(link, *fitted(solid, excess, most)) for link, solid in solids.items()]
+    for name, (link, corners) in beside.items():
+        rows, outside = fitted(Solid(corners), excess, most)
+        rows, growth = _urdf_swept(urdf, base, tip, name, [link] * len(rows), rows)
+        found.append((link, rows, outside + growth))
+    links = np.concatenate([np.full(len(rows), link) for link, rows, _ in found])
+    capsules = np.concatenate([rows for _, rows, _ in found])
+    outsides = np.zeros(links.max() + 1)
+    for link, _, outside in found:
+        outsides[link] = max(outsides[link], outside)
     body = Body(links, capsules, [])
-    pairs = pairs_of(robot, body, solids)
-    source = f"capsules fitted to the meshes of {robot.name}"
-    return Body(links, capsules, pairs, source=source, excess=outside)
+    pairs = pairs_of(robot, body, solids, {link for link, _ in beside.values()})
+    source = f"capsules fitted to the meshes of {robot.name}{remark}"
+    return Body(links, capsules, pairs, source=source, excess=outsides)

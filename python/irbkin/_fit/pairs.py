@@ -15,17 +15,20 @@ OFTEN = 0.02
 POINTS = 600
 
 
-def pairs_of(robot: Robot, body: Body, solids: dict[int, Solid]) -> list[tuple[int, int]]:
+def pairs_of(
+    robot: Robot, body: Body, solids: dict[int, Solid], moving: set[int]
+) -> list[tuple[int, int]]:
     """The pairs of links that are not neighbors and whose capsules do not always touch.
 
     Where they touch in more than 2 % of the postures, their meshes are compared: left out are those
-    that touch in none.
+    that touch in none. Links with parts that move are not compared: their meshes are where the
+    joints of these are.
     """
     dof = robot.dof
     lower, upper = np.clip(robot.limits, -np.pi, np.pi).T
     q = np.random.default_rng(1).uniform(lower, upper, (POSTURES, dof))
     frames = frames_of(robot, q)
-    links = sorted(solids)
+    links = np.unique(body.links).tolist()
     found = []
     for one in links:
         # What the flange carries has the neighbors of the last link.
@@ -35,7 +38,7 @@ def pairs_of(robot: Robot, body: Body, solids: dict[int, Solid]) -> list[tuple[i
             touches = Cell().collides(robot.with_body(alone), q)
             if touches.all():
                 continue
-            if touches.mean() > OFTEN:
+            if touches.mean() > OFTEN and moving.isdisjoint((one, other)):
                 places = np.flatnonzero(touches)[:COMPARED]
                 both = [(frames[link][places], solids[link]) for link in (one, other)]
                 if not (meet(*both) or meet(*both[::-1])):

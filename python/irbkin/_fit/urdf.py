@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from irbkin._core import _urdf_links, pose
+from irbkin._core import _urdf_links, _urdf_text, pose
 from irbkin._fit.solid import Array
 from irbkin._mesh_files import triangles
 from irbkin.errors import InvalidModelError
@@ -22,24 +22,33 @@ Packages = Mapping[str, "str | os.PathLike[str]"]
 
 def links_of(
     urdf: str | bytes | os.PathLike[str], base: str | None, tip: str | None, packages: Packages
-) -> dict[int, Array]:
+) -> tuple[dict[int, Array], dict[str, tuple[int, Array]], str]:
     """The triangles of each link by its number, shape (n, 3, 3), in the frame of the link [m].
 
-    Of the collision elements of a URDF link, or of the visual ones where it has no others.
+    Of the collision elements of a URDF link, or of the visual ones where it has no others. Then, by
+    their names, the numbers and triangles, in their own frames, of links behind joints beside the
+    arm; and a remark on these.
     """
     text, folder = text_and_folder(urdf)
-    elements = {link.get("name"): link for link in ElementTree.fromstring(text).findall("link")}
+    root = ElementTree.fromstring(_urdf_text(text))
+    elements = {link.get("name"): link for link in root.findall("link")}
     found: dict[int, list[Array]] = {}
-    for name, number, placed in _urdf_links(urdf, base, tip):
+    beside: dict[str, tuple[int, Array]] = {}
+    links, remark = _urdf_links(urdf, base, tip)
+    for name, number, placed in links:
         link = elements[name]
+        parts = []
         for shape in link.findall("collision") or link.findall("visual"):
             solid = solid_of(shape, name, folder, packages)
-            turned = placed @ origin_of(shape)
-            moved = solid @ turned[:3, :3].T + turned[:3, 3]
-            found.setdefault(number, []).append(moved)
-    if not found:
+            turned = (np.eye(4) if placed is None else placed) @ origin_of(shape)
+            parts.append(solid @ turned[:3, :3].T + turned[:3, 3])
+        if parts and placed is None:
+            beside[name] = number, np.concatenate(parts)
+        elif parts:
+            found.setdefault(number, []).extend(parts)
+    if not found and not beside:
         raise InvalidModelError("the links of the URDF have neither collision nor visual elements")
-    return {number: np.concatenate(parts) for number, parts in found.items()}
+    return {number: np.concatenate(parts) for number, parts in found.items()}, beside, remark
 
 
 def text_and_folder(urdf: str | bytes | os.PathLike[str]) -> tuple[str | bytes, Path | None]:
@@ -68,10 +77,11 @@ def solid_of(
     kind = kinds[0]
 
     def given(name: str) -> Array:
-        values = numbers(kind.get(name, "nan"))
-        if not (values > 0).all():
+        values, wanted = numbers(kind.get(name, "nan")), 3 if name == "size" else 1
+        if len(values) != wanted or not (values > 0).all():
             what = f'{kind.tag} {name} is "{kind.get(name, "")}"'
-            raise InvalidModelError(f'link "{link}" {what}, it must be positive')
+            count = "three positive numbers" if wanted == 3 else "a positive number"
+            raise InvalidModelError(f'link "{link}" {what}, it must be {count}')
         return values
 
     if kind.tag == "mesh":

@@ -10,6 +10,7 @@ docs/guide/backup.md has an example.
 from irbkin.abb.backinfo import BackInfo, parse_backinfo
 from irbkin.abb.backup import Backup, Controller, task_files
 from irbkin.abb.cfg import CfgFile, Instance, parse_cfg
+from irbkin.abb.changes import Change
 from irbkin.abb.differences import Difference, TargetChange, diff
 from irbkin.abb.findings import Finding
 from irbkin.abb.load import load_backup
@@ -21,6 +22,7 @@ __all__ = [
     "BackInfo",
     "Backup",
     "CfgFile",
+    "Change",
     "Controller",
     "Difference",
     "ExternalAxis",

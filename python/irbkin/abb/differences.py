@@ -1,28 +1,36 @@
-"""Differences of two backups: targets in space and in joints, reach, robots, modules."""
+"""Differences of two backups: data, moves, targets in space and in joints, robots, modules."""
 
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from irbkin.abb.backup import Backup
+from irbkin.abb.changes import (
+    DATA,
+    LEAST_ANGLE,
+    LEAST_DISTANCE,
+    Change,
+    data_changes,
+    is_same,
+    move_changes,
+    named,
+    setting_changes,
+    shift,
+)
 from irbkin.abb.external import unit_rows
 from irbkin.abb.load import load_backup
+from irbkin.abb.sides import Declared, Key, Moved, Side
 
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin.abb.external import UnitRow
-    from irbkin.rapid import Program
-
-LEAST_DISTANCE = 1e-3
-"""Distance from which a target has moved [mm]: the last digit that RAPID writes."""
-LEAST_ANGLE = 1e-3
-"""Angle from which it has turned, or a joint has [deg]."""
-UNMET = ("R101", "R102")
-"""Codes of targets that are not reached."""
+TARGETS = ("robtarget", "jointtarget")
+ROBOT: Key = ("", "robot")
+"""Stands for the robot among data."""
+CARRIED = {"tool", "work object"}
+"""Fields of moves that change the joints at their targets."""
 
 
 @dataclass(frozen=True)
@@ -36,8 +44,9 @@ class TargetChange:
     target: str
     """Its name, with the index of an element, or the target of a move as it is written."""
     kind: str
-    """"added", "removed", "moved" (in its work object), "confdata", "joints" (it is as it was, a
-    tool, a work object or the robot is not), "unreachable" or "reachable": now, and not before.
+    """"added", "removed", "moved" (in its work object), "confdata", "external" (axes), "joints" (it
+    is as it was, and no tool, work object or robot explains it), "unreachable" or "reachable": now,
+    and not before.
     """
     distance_mm: float | None = None
     """How far it moved in its work object [mm]."""
@@ -67,21 +76,16 @@ class TargetChange:
 class Difference:
     """The differences of two backups."""
 
+    data: tuple[Change, ...]
+    """Tools, work objects, loads, speeds, zones, robots and motion settings of routines."""
+    moves: tuple[Change, ...]
+    """Moves with another speed, zone, tool, ..: a routine's that differ in one way are one."""
     targets: tuple[TargetChange, ...]
     """Targets, in the order of tasks and modules."""
     robots: tuple[str, ...]
     """A line for each robot whose arm, limits or base differ."""
     modules: tuple[str, ...]
     """A line for each module that only one of them has."""
-
-
-@dataclass(frozen=True, eq=False)
-class Side:
-    """A program with its robot."""
-
-    program: Program
-    robot: Robot | None = None
-    units: Sequence[UnitRow] = ()
 
 
 def diff(old: Backup | str | PathLike[str], new: Backup | str | PathLike[str]) -> Difference:
@@ -99,16 +103,18 @@ def diff(old: Backup | str | PathLike[str], new: Backup | str | PathLike[str]) -
     """
     old, new = (it if isinstance(it, Backup) else load_backup(it) for it in (old, new))
     before, after = _sides(old), _sides(new)
-    targets: list[TargetChange] = []
-    modules: list[str] = []
+    parts, modules = [], list[str]()
     for task in dict.fromkeys([*before, *after]):
         if task not in before or task not in after:
             modules.append(f"{task}: only the {'new' if task in after else 'old'} backup has it")
-            continue
-        own_targets, own_modules = compared(task, before[task], after[task])
-        targets += own_targets
-        modules += own_modules
-    return Difference(tuple(targets), tuple(_robots(old, new)), tuple(modules))
+        else:
+            parts.append(compared(task, before[task], after[task]))
+    robots = tuple(_robots(old, new))
+    data, moves, targets, others = (
+        tuple(it for part in parts for it in getattr(part, name))
+        for name in ("data", "moves", "targets", "modules")
+    )
+    return Difference(data, moves, targets, robots, (*modules, *others))
 
 
 def _sides(backup: Backup) -> dict[str, Side]:
@@ -124,145 +130,105 @@ def _sides(backup: Backup) -> dict[str, Side]:
     return sides
 
 
-def compared(task: str, old: Side, new: Side) -> tuple[list[TargetChange], list[str]]:
-    """Return the targets and the modules in which two programs differ."""
-    before, after = _declared(old.program), _declared(new.program)
-    moves = _met(old), _met(new)
-    changes = []
-    for key in dict.fromkeys([*before, *after, *moves[0], *moves[1]]):
-        change = _change(task, key, (before.get(key), after.get(key)), moves)
-        if change is not None:
-            changes.append(change)
+def compared(task: str, old: Side, new: Side) -> Difference:
+    """Return the differences of two programs; those in their robots are not looked for."""
+    data, moves = data_changes(task, old, new), [*move_changes(task, old, new)]
+    before, after = old.declared(TARGETS), new.declared(TARGETS)
+    met, reasons = (_met(old), _met(new)), _reasons(old, new, data, moves)
+    targets, explained = [], defaultdict[Key | int, list[TargetChange]](list)
+    for key in dict.fromkeys([*before, *after, *met[0], *met[1]]):
+        change = _change(task, key, (before.get(key), after.get(key)), met)
+        if change is not None and change.kind == "joints" and key in reasons:
+            explained[reasons[key]].append(change)
+        elif change is not None:
+            targets.append(change)
+    if ROBOT in explained:
+        data[ROBOT] = Change(task, "", "robot", "changed", "", 0, moves=len(new.moves))
+
+    def complete(reason: Key | int, change: Change) -> Change:
+        if not (own := explained.get(reason)):
+            return change
+        most = max(own, key=lambda it: it.joint_deg or 0.0)
+        return replace(change, targets=len(own), joint=most.joint, joint_deg=most.joint_deg)
+
+    all_data = [complete(key, change) for key, change in data.items()]
+    all_moves = (complete(number, change) for number, (change, _) in enumerate(moves))
     names = [{it.name or "" for it in side.program.modules} for side in (old, new)]
     lines = [f"{task}: module {it} is only in the old backup" for it in sorted(names[0] - names[1])]
     lines += (f"{task}: module {it} is new" for it in sorted(names[1] - names[0]))
-    return changes, lines
+    settings = setting_changes(task, old, new)
+    return Difference((*all_data, *settings), tuple(all_moves), tuple(targets), (), tuple(lines))
 
 
-Key = tuple[str, str]
-"""Module in lower case, target without blanks in lower case."""
-
-
-@dataclass(frozen=True)
-class _Declared:
-    module: str
-    name: str
-    value: Any
-    file: str
-    line: int
-
-
-@dataclass(frozen=True)
-class _Met:
-    """The moves to a target."""
-
-    module: str
-    text: str
-    joints: tuple[float, ...] | None
-    """Joint angles [deg] of the first one that has them."""
-    is_unmet: bool
-    file: str
-    line: int
-
-
-def _declared(program: Program) -> dict[Key, _Declared]:
-    """The robtargets and jointtargets of a program."""
-    found = {}
-    for file, module in zip(program.files, program.modules, strict=True):
-        for it in module.declarations:
-            if it.data_type not in ("robtarget", "jointtarget"):
-                continue
-            for name, value in _elements(it.name, it.value):
-                scope = f"{it.routine}." if it.routine else ""
-                key = ((module.name or "").lower(), f"{scope}{name}".lower())
-                place = (file.path, it.line)
-                found[key] = _Declared(module.name or "", f"{scope}{name}", value, *place)
+def _reasons(
+    old: Side, new: Side, data: Mapping[Key, Change], moves: Sequence[tuple[Change, list[Moved]]]
+) -> dict[Key, Key | int]:
+    """Why the joints at a target may differ: a datum, or the number of a change of moves."""
+    found: dict[Key, Key | int] = {}
+    if None not in (old.robot, new.robot) and old.robot != new.robot:
+        found.update((move.home, ROBOT) for move in new.moves)
+    shifted = (key for key, it in data.items() if it.frames)
+    found.update((move.home, key) for move, key in named(new.moves, shifted, new.declared(DATA)))
+    for number, (change, own) in enumerate(moves):
+        if not CARRIED.isdisjoint(change.was):
+            found.update((move.home, number) for move in own)
     return found
 
 
-def _elements(name: str, value: Any, index: tuple[int, ...] = ()) -> Iterator[tuple[str, Any]]:
-    """The elements of a value with their names."""
-    if isinstance(value, list):
-        for number, element in enumerate(value, 1):
-            yield from _elements(name, element, (*index, number))
-    elif value is not None:
-        yield (f"{name}{{{','.join(map(str, index))}}}" if index else name), value
-
-
-def _met(side: Side) -> dict[Key, _Met]:
-    """The targets of the moves of a program, by the module that declares or else moves."""
-    if side.robot is None:
-        return {}
-    checked = side.program.check(side.robot, codes=UNMET, units=side.units)
-    unmet = {(it.module, it.line, it.column) for it in checked.findings}
-    homes = {
-        name.lower(): (module.name or "")
-        for module in reversed(side.program.modules)
-        for name in module.keys()  # noqa: SIM118 - a module is a mapping that is no dict
-    }
-    found: dict[Key, _Met] = {}
-    for it in checked.moves:
-        module = side.program.modules[it.module]
-        text = "".join(it.target.split())
-        home = module.name or ""
-        if text not in module:
-            home = homes.get(text.lower(), home)
-        key = (home.lower(), text.lower())
-        is_unmet = (it.module, it.line, it.column) in unmet
-        before = found.get(key)
-        q = None if it.q is None or is_unmet else tuple(map(math.degrees, it.q))
-        if before is None or (before.joints is None and q is not None):
-            place = (side.program.files[it.module].path, it.line)
-            found[key] = _Met(home, text, q, is_unmet or bool(before and before.is_unmet), *place)
+def _met(side: Side) -> dict[Key, Moved]:
+    """The first move to each target whose joints are known, else the first; unmet if any is."""
+    found: dict[Key, Moved] = {}
+    for it in side.moves:
+        before = found.get(it.home, it)
+        first = it if before.joints is None and it.joints is not None else before
+        found[it.home] = first._replace(is_unmet=before.is_unmet or it.is_unmet)
     return found
 
 
 def _change(
     task: str,
     key: Key,
-    declared: tuple[_Declared | None, _Declared | None],
-    moves: tuple[Mapping[Key, _Met], Mapping[Key, _Met]],
+    declared: tuple[Declared | None, Declared | None],
+    moves: tuple[Mapping[Key, Moved], Mapping[Key, Moved]],
 ) -> TargetChange | None:
     """The change of a target, if there is one."""
     old, new = declared
     old_met, new_met = (it.get(key) for it in moves)
     known = new or new_met or old or old_met
     assert known is not None
-    name = known.name if isinstance(known, _Declared) else known.text
+    what = (task, known.module, known.text)
     given: dict[str, Any] = {"file": known.file, "line": known.line}
-    if (new or new_met) and not (old or old_met):
-        return TargetChange(task, known.module, name, "added", **given)
-    if (old or old_met) and not (new or new_met):
-        return TargetChange(task, known.module, name, "removed", **given)
+    if (old or old_met) is None or (new or new_met) is None:
+        # Targets that no data are have their moves among the moves.
+        kind = "added" if new else "removed"
+        return TargetChange(*what, kind, **given) if old or new else None
     kind = ""
-    if old and new and type(old.value) is type(new.value) and hasattr(old.value, "trans_mm"):
-        given["distance_mm"] = math.dist(old.value.trans_mm, new.value.trans_mm)
-        given["angle_deg"] = _angle(old.value.rot, new.value.rot)
-        if given["distance_mm"] >= LEAST_DISTANCE or given["angle_deg"] >= LEAST_ANGLE:
-            kind = "moved"
-        elif old.value.robconf != new.value.robconf:
-            kind = "confdata"
+    if old and new and type(old.value) is type(new.value):
+        if hasattr(old.value, "trans_mm"):
+            given["distance_mm"], given["angle_deg"] = by = shift(old.value, new.value)
+            kind = "" if is_same(*by) else "moved"
+            if not kind and old.value.robconf != new.value.robconf:
+                kind = "confdata"
+        else:
+            kind = _turned(given, old.value.robax_deg, new.value.robax_deg)
+        if not kind and old.value.extax != new.value.extax:
+            kind = "external"
     if old_met and new_met:
         if old_met.joints and new_met.joints:
-            turns = [abs(a - b) for a, b in zip(old_met.joints, new_met.joints, strict=True)]
-            if max(turns) >= LEAST_ANGLE:
-                given["joint"], given["joint_deg"] = turns.index(max(turns)) + 1, max(turns)
-                kind = kind or "joints"
+            turned = _turned(given, old_met.joints, new_met.joints)
+            kind = kind or turned
         if old_met.is_unmet != new_met.is_unmet:
             kind = "unreachable" if new_met.is_unmet else "reachable"
-    return TargetChange(task, known.module, name, kind, **given) if kind else None
+    return TargetChange(*what, kind, **given) if kind else None
 
 
-def _angle(one: Sequence[float], other: Sequence[float]) -> float:
-    """The angle between two quaternions [deg], of any length; NaN where one is zero."""
-    norm = math.hypot(*one) * math.hypot(*other)
-    if norm == 0.0:
-        return 0.0 if list(one) == list(other) else math.nan
-    # The sine of a quarter: precise where they are close.
-    sign = math.copysign(1.0, sum(a * b for a, b in zip(one, other, strict=True)))
-    units = [[part / math.hypot(*it) for part in it] for it in (one, other)]
-    chord = math.dist(units[0], [sign * part for part in units[1]])
-    return math.degrees(4.0 * math.asin(min(chord / 2.0, 1.0)))
+def _turned(given: dict[str, Any], old: Sequence[float], new: Sequence[float]) -> str:
+    """Add the joint that differs most [deg] to what is known of a change, and return its kind."""
+    turns = [abs(a - b) for a, b in zip(old, new, strict=True)]
+    if max(turns) < LEAST_ANGLE:
+        return ""
+    given["joint"], given["joint_deg"] = turns.index(max(turns)) + 1, max(turns)
+    return "joints"
 
 
 def _robots(old: Backup, new: Backup) -> Iterator[str]:

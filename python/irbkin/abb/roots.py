@@ -64,8 +64,14 @@ def _root(start: Path, archive: Path | None, unpacked: Path | None) -> Path:
 
 
 def backup_above(path: Path) -> Path | None:
-    """Return the root of the backup that a file is in; None if it is in no backup."""
-    return next((it for it in path.parents[:5] if _parts(it) > 1), None)
+    """Return the root of the backup that a path is or is in; None if it is in no backup."""
+    return next((it for it in (path, *path.parents[:5]) if _parts(it) > 1), None)
+
+
+def backups_of(path: Path) -> list[Path]:
+    """Return the backup that a file or folder is or is in, else those below it."""
+    above = backup_above(path)
+    return [above] if above else _below(path)[0] if path.is_dir() else []
 
 
 def _inside(folder: Path) -> list[os.DirEntry[str]]:

@@ -20,12 +20,11 @@ VERBS = {
     "plan": "the best joints along a path of poses, over branches, turns and tool angles",
     "lsp": "serve findings, hovers and corrections to an editor, while one types",
     "rule": "explain a code of check",
-    "diff": "find which targets moved between two backups, and what else differs",
+    "diff": "find what differs between two backups: data, moves, targets",
     "rapid": "the moves of a RAPID routine as one motion: times, joints, findings",
     "map": "what an arm reaches: a grid of positions, each with many orientations",
     "plot": "draw solutions, paths and reach",
     "view": "show an arm, a program or a scene in the browser",
-    "record": "write an arm, a program or a scene as a file of rerun",
     "urdf": "write an arm as URDF",
 }
 OVERVIEW = """usage: irbkin VERB ... [--help]

@@ -9,8 +9,9 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
+from irbkin._arm_options import robot_of
 from irbkin.cli.errors import CommandError, complain
-from irbkin.cli.numbers import check_euler, check_joints, check_millimeters, number
+from irbkin.cli.numbers import check_joints, number
 
 if TYPE_CHECKING:
     from irbkin import Cell, Robot
@@ -38,7 +39,7 @@ class Parser:
     def parsed(self, given: Sequence[str]) -> argparse.Namespace:
         """The arguments; a negative number is not an option, with an exponent either."""
         words = [f" {it}" if NUMBER.fullmatch(it) else it for it in given]
-        arguments = self.parser.parse_args(words)
+        arguments = self.parser.parse_intermixed_args(words)
         if self.endings is not None and not (arguments.json or arguments.csv):
             _check_ending(arguments.output, self.endings)
         return arguments
@@ -121,31 +122,7 @@ def _check_ending(output: str | None, endings: Sequence[str]) -> None:
 
 def read_robot(arguments: argparse.Namespace) -> Robot:
     """The arm of the arguments, with its tool and base."""
-    from irbkin import InvalidPoseError, Robot
-
-    name: str = arguments.robot.strip()
-    tip, base, snap = arguments.tip, arguments.base_link, arguments.snap
-    if name.lower().endswith(".urdf"):
-        robot = Robot.from_urdf(name, base, tip, snap=snap or 0.0)
-        if helpful := re.search(r"snap=(\S+) gives it a closed form", repr(robot)):
-            complain(f"{name}: its angles are rounded, --snap {helpful[1]} gives it a closed form")
-    elif (tip, base, snap) == (None, None, None):
-        robot = Robot(name)
-    else:
-        raise CommandError(f"--tip, --base-link and --snap go with a .urdf file, not with {name!r}")
-    if arguments.base is not None:
-        robot = robot.with_base(frame(arguments.base, "--base"))
-    if arguments.tool is None:
-        return robot
-    check_millimeters(arguments.tool[:3], "--tool", 1.0)
-    tool = frame(arguments.tool, "--tool")
-    try:
-        return robot.with_tool(tool)
-    except InvalidPoseError:
-        length = math.hypot(*arguments.tool[:3])
-        raise CommandError(
-            f"--tool is {length:g} mm from the flange, more than ten times the size of the arm"
-        ) from None
+    return robot_of(vars(arguments), complain)
 
 
 def read_cell(arguments: argparse.Namespace) -> Cell | None:
@@ -153,27 +130,6 @@ def read_cell(arguments: argparse.Namespace) -> Cell | None:
     from irbkin import Cell
 
     return None if arguments.cell is None else Cell.load(arguments.cell)
-
-
-def frame(numbers: Sequence[float], name: str) -> Floats:
-    """A frame of 3, 6 or 7 numbers, shape (4, 4) [m]."""
-    import numpy as np
-
-    from irbkin import pose
-
-    xyz = np.asarray(numbers[:3], dtype=float) / 1e3
-    turn = list(numbers[3:])
-    if len(numbers) == 3:
-        return pose(xyz)
-    if len(numbers) == 6:
-        check_euler(turn, name)
-        return pose(xyz, euler_zyx=np.radians(turn))
-    if len(numbers) == 7:
-        return pose(xyz, wxyz=turn)
-    raise CommandError(
-        f"{name} takes 3 numbers (x y z [mm]), 6 (with rz ry rx [deg]) or 7 (with w x y z), "
-        f"got {len(numbers)}"
-    )
 
 
 def read_q7(arguments: argparse.Namespace, robot: Robot) -> float | None:

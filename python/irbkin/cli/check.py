@@ -4,28 +4,29 @@ from __future__ import annotations
 
 import argparse
 import io
+import json
 import os
 import sys
 from collections import Counter
-from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from irbkin.cli.arguments import Parser, read_cell, read_robot
-from irbkin.cli.codes import meant, selected
+from irbkin._arm_options import robot_of
+from irbkin.check.checker import Checker
+from irbkin.check.codes import UNUSED
+from irbkin.check.jobs import Job, backup_of, job_of_files, jobs_of_backup
+from irbkin.check.report import ENDINGS, Report, counted, is_colored, rendered, report_of
+from irbkin.check.settings import FORMATS, option_files, schema, settings_of
+from irbkin.cli.arguments import Parser
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.files import STDIN, shown
-from irbkin.cli.findings import Found, coverage
-from irbkin.cli.jobs import Job, is_backup, job_of_files, jobs_of_backup
+from irbkin.cli.files import STDIN, opened, replaced, shown
 from irbkin.cli.numbers import number
-from irbkin.cli.report import ENDINGS, FORMATS, Report, is_colored, rendered
-from irbkin.cli.report.source_text import SourceText
-from irbkin.cli.settings import Settings, settings_of
-from irbkin.cli.sources import checksum_of, write
+from irbkin.cli.progress import Progress
+from irbkin.errors import IrbkinError
 
 if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin.cli.checker import Checker
+    from irbkin.rapid import ModuleFile
 
 HELP = """Every instruction that moves, of every routine, is checked: reach, limits, flips,
 confdata, singularities, joint speeds, zones, names and, with --cell, collisions (--codes lists the
@@ -34,7 +35,8 @@ program: names that a file does not declare are looked for in the others. A back
 needs no --robot: each task is checked with its own, its limits and its base. A comment `! noqa` on
 the line of a move, or `! noqa: C201,S301`, silences it. Options that are not given are taken from
 irbkin.toml or pyproject.toml, the robot from IRBKIN_ROBOT, too. --fix corrects confdata in place
-and changes nothing else. Exit codes: 0 nothing but notes, 1 errors or warnings, 2 wrong usage."""
+and changes nothing else. Exit codes: 0 nothing but notes, 1 errors, warnings, or no move checked,
+2 wrong usage."""
 EXAMPLES = """  irbkin check backups/cell_3
   irbkin check --robot "IRB 2600-12/1.65" program.mod
   irbkin check --robot "IRB 2600-12/1.65" --cell cell.toml program.mod
@@ -42,6 +44,8 @@ EXAMPLES = """  irbkin check backups/cell_3
   irbkin check --robot "IRB 2600-12/1.65" --limits 6 -360 360 --strict programs/
   irbkin check --robot "IRB 2600-12/1.65" --select R,C,N -o report.html program.mod tools.sys
   irbkin check --robot "IRB 2600-12/1.65" --ignore S,Z501 - < program.mod"""
+COUNTED = ("text", "concise", "json")
+"""Formats that --statistics has."""
 
 
 def add_arguments(parser: Parser) -> None:
@@ -52,6 +56,7 @@ def add_arguments(parser: Parser) -> None:
     change = parser.parser.add_mutually_exclusive_group()
     change.add_argument("--fix", action="store_true", help="correct confdata in the files")
     change.add_argument("--diff", action="store_true", help="show what --fix would write")
+    change.add_argument("--watch", action="store_true", help="check again when a file changes")
     form = parser.parser.add_mutually_exclusive_group()
     form.add_argument("--output-format", choices=FORMATS, help="text if not given")
     form.add_argument("--json", action="store_const", const="json", dest="output_format")
@@ -61,8 +66,10 @@ def add_arguments(parser: Parser) -> None:
     add("-q", "--quiet", action="store_true", help="write no summary")
     words = "the routines at a glance: nearest limits, singularities, unused names"
     add("--verdict", action="store_true", help=words)
+    add("--statistics", action="store_true", help="count the findings of each code in their place")
     add_step(parser)
     add("--codes", action="store_true", help="list the codes")
+    add("--schema", action="store_true", help="write the JSON schema of irbkin.toml")
 
 
 def add_step(parser: Parser) -> None:
@@ -76,34 +83,19 @@ def add_arm(parser: Parser) -> None:
     robot = os.environ.get("IRBKIN_ROBOT") or None
     add("--robot", metavar="ROBOT", default=robot, help="name in the catalog, or a .urdf file")
     parser.add_frames()
-    add(
-        "--limits",
-        nargs=3,
-        type=number,
-        action="append",
-        metavar=("AXIS", "LOWER", "UPPER"),
-        help="limits of an axis [deg]; may be repeated",
-    )
-    add(
-        "--linkage-limits",
-        nargs=2,
-        type=number,
-        metavar=("LOWER", "UPPER"),
-        help="limits of q3 - q2 of an arm with a parallelogram linkage [deg]",
-    )
+    bounds, words = ("LOWER", "UPPER"), "limits of an axis [deg]; may be repeated"
+    add("--limits", nargs=3, type=number, action="append", metavar=("AXIS", *bounds), help=words)
+    words = "limits of q3 - q2 of an arm with a parallelogram linkage [deg]"
+    add("--linkage-limits", nargs=2, type=number, metavar=bounds, help=words)
     words = "a PERS that the program assigns has the value in its text"
     add("--last-values", action="store_true", help=words)
     parser.add_cell()
     words = "codes or their beginnings, with commas; ALL for all"
-    add("--select", metavar="CODES", type=_words, help=words)
+    add("--select", metavar="CODES", type=lambda text: text.split(","), help=words)
     words = "codes or their beginnings to leave out"
-    add("--ignore", metavar="CODES", type=_words, help=words)
+    add("--ignore", metavar="CODES", type=lambda text: text.split(","), help=words)
     strict = argparse.BooleanOptionalAction
     add("--strict", action=strict, help="moves that are not checked are errors")
-
-
-def _words(text: str) -> list[str]:
-    return text.split(",")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -113,197 +105,142 @@ def run(arguments: argparse.Namespace) -> int:
 
         print(listed(), end="")
         return FINE
-    if not arguments.files:
+    if arguments.schema:
+        print(json.dumps(schema(), indent=1))
+        return FINE
+    _take_robot(arguments)
+    names: list[str] = arguments.files
+    if not names:
         raise CommandError("no FILE to check (irbkin check --help)")
-    form = _format(arguments)
-    settings = settings_of(arguments.files)
-    settings.fill(arguments)
-    form = form or arguments.output_format or "text"
-    checker = checker_of(arguments)
-    jobs, left_open = _jobs(arguments, settings)
-    checker.ignored = ignored_of((it.path for job in jobs for it in job.program.files), settings)
-    if arguments.diff:
-        return _diff(checker, jobs, arguments.color)
-    fixed = _fix(checker, jobs) if arguments.fix else Counter()
-    is_judged = arguments.verdict or form == "html"
-    report = _report(checker, jobs, fixed, left_open, is_judged=is_judged)
-    report = replace(report, is_quiet=arguments.quiet)
-    if form == "html" and len(jobs) == 1:
-        from irbkin.cli.report.places import places_of
+    if not arguments.watch:
+        return _check(arguments)
+    if STDIN in names:
+        raise CommandError("--watch takes files, not stdin")
+    from irbkin.cli.watch import repeated
 
-        (job,) = jobs
-        names = (shown(file.path) for file in job.program.files)
-        modules = dict(zip(names, job.program.modules, strict=True))
-        report = replace(report, places=places_of(job.robot, modules, report.found))
-    for job in jobs:
-        if job.robot.max_velocity is None and "V401" in checker.codes:
-            name = job.robot.name
-            complain(f"the speeds of the joints of {name} are unknown: V401 is not checked")
-    _write(report, form, arguments)
-    return FOUND if any(it.severity != "note" for it in report.found) else FINE
+    beside = [name for name in (arguments.cell, arguments.robot) if name and os.path.isfile(name)]
+    beside += filter(os.path.isfile, option_files(names))
+    repeated(lambda: _check(arguments), [*names, *beside], arguments.output_file)
 
 
-def checker_of(arguments: argparse.Namespace) -> Checker:
-    """Return the checker of the arguments."""
-    from irbkin.cli.checker import Checker
+def _take_robot(arguments: argparse.Namespace) -> None:
+    """Take the robot from the first name, as other verbs do, if that is no file but an arm."""
+    from irbkin import catalog_entry
+    from irbkin.abb.archives import archive_of
+    from irbkin.rapid.program import ENDINGS, LIST
 
-    is_strict = bool(arguments.strict)
-    codes = selected(arguments.select, arguments.ignore or (), is_strict=is_strict)
-    step = 5.0 if arguments.step is None else arguments.step
-    if not 0.0 < step < float("inf"):
-        raise CommandError(f"--step must be positive and finite [mm], got {step}")
-    cell, takes_last = read_cell(arguments), arguments.last_values
-    return Checker(codes, step / 1e3, cell, is_strict=is_strict, takes_last=takes_last)
-
-
-def _jobs(arguments: argparse.Namespace, settings: Settings) -> tuple[list[Job], list[Found]]:
-    """The programs of the arguments, and what a backup leaves open."""
     names = arguments.files
+    is_given = arguments.robot not in (None, os.environ.get("IRBKIN_ROBOT"))
+    if is_given or not names or names[0] == STDIN or names[0].lower().endswith((*ENDINGS, LIST)):
+        return
+    if not names[0].lower().endswith(".urdf"):
+        if os.path.exists(names[0]) or archive_of(Path(names[0])):
+            return
+        try:
+            catalog_entry(names[0])
+        except IrbkinError as error:
+            raise CommandError(f"{names[0]}: no such file or folder, and no arm: {error}") from None
+    arguments.robot, *arguments.files = names
+
+
+def _check(arguments: argparse.Namespace) -> int:
+    """Check the files once."""
+    names: list[str] = arguments.files
+    form = arguments.output_format or _format_of(arguments.output_file)
+    own = given(arguments)
+    settings = settings_of([name for name in names if name != STDIN])
+    options = {**settings.options, **own}
+    checker = Checker(options, settings)
     if (arguments.fix or arguments.diff) and STDIN in names:
         raise CommandError("--fix and --diff take files, not stdin")
-    if arguments.robot is None and len(names) == 1 and is_backup(names[0]):
-        if arguments.fix and not os.path.isdir(names[0]):
-            raise CommandError(f"{names[0]}: is an archive: unpack it, --fix corrects its folder")
-        jobs, left_open = jobs_of_backup(names[0])
-        if not jobs:
-            reasons = "; ".join(it.message for it in left_open[:3])
-            raise CommandError(f"{names[0]}: has no task whose robot is known: {reasons}")
-        return jobs, left_open
-    return [job_of_files(robot_of(arguments), names, settings)], []
-
-
-def ignored_of(paths: Iterable[str], settings: Settings) -> dict[str, set[str]]:
-    """Return the codes that are not wanted of files."""
-    ignores = {
-        pattern: meant(words)
-        for pattern, words in settings.options.get("per_file_ignores", {}).items()
-    }
-    ignored: dict[str, set[str]] = {}
-    for path in paths if ignores else ():
-        patterns = (it for it in ignores if settings.matches(path, [it]))
-        ignored[path] = set().union(*(ignores[it] for it in patterns))
-    return ignored
-
-
-def _format(arguments: argparse.Namespace) -> str | None:
-    """The format that is given, by the ending of the file too."""
-    form: str | None = arguments.output_format
-    if form is None and arguments.output_file is not None:
-        ending = os.path.splitext(arguments.output_file)[1].lower()
-        if ending not in ENDINGS:
-            raise CommandError(
-                f"--output-file: {arguments.output_file} must end in {', '.join(ENDINGS)}, or "
-                "--output-format must be given"
-            )
-        form = ENDINGS[ending]
-    return form
-
-
-def robot_of(arguments: argparse.Namespace) -> Robot:
-    """Return the robot of the arguments, with its limits."""
-    import math
-
-    if arguments.robot is None:
-        raise CommandError('no robot: give --robot NAME, such as --robot "IRB 2600-12/1.65"')
-    robot = read_robot(arguments)
-    if arguments.limits:
-        limits = robot.limits.copy()
-        for axis, *bounds in arguments.limits:
-            if axis not in range(1, robot.dof + 1):
-                raise CommandError(
-                    f"--limits: axis {axis:g} must be a whole number from 1 to {robot.dof}"
-                )
-            limits[int(axis) - 1] = [math.radians(it) for it in bounds]
-        robot = robot.with_limits(limits)
-    if arguments.linkage_limits is not None:
-        bounds = [math.radians(it) for it in arguments.linkage_limits]
-        robot = robot.with_linkage_limits(bounds)
-    return robot
-
-
-def _report(
-    checker: Checker,
-    jobs: Sequence[Job],
-    fixed: Counter[str],
-    left_open: Sequence[Found],
-    *,
-    is_judged: bool,
-) -> Report:
-    """The report on programs."""
-    from irbkin.cli.progress import Progress
-    from irbkin.cli.verdict import UNUSED, verdict_of
-
+    backup = None if "robot" in options or STDIN in names else backup_of(names)
+    if backup is not None:
+        if arguments.fix and not os.path.isdir(backup):
+            raise CommandError(f"{backup}: is an archive: unpack it, --fix corrects its folder")
+        jobs, left_open = jobs_of_backup(backup, names)
+    else:
+        files = [_stdin() if name == STDIN else name for name in names]
+        jobs, left_open = [job_of_files(robot_of(options, complain), files, settings)], []
+    fixed = _correct(arguments, checker, jobs) if arguments.fix or arguments.diff else Counter()
+    if arguments.diff:
+        if count := fixed.total():
+            complain(f"--fix would remove {counted(count, 'finding')}")
+        return FOUND if count else FINE
+    form = form or options.get("output_format", "text")
+    if arguments.statistics and form not in COUNTED:
+        raise CommandError(f"--statistics is written as {' or '.join(COUNTED)}, not as {form}")
+    is_judged = arguments.verdict or form == "html"
     if is_judged:
         checker.asked.add(UNUSED)
-
-    found = [it for it in left_open if it.code in checker.codes]
-    texts, programs = {}, []
     with Progress("programs", len(jobs)) as progress:
-        for job in jobs:
-            checked = checker.checked(job)
-            kept = (it for it in job.found if it.code in checker.codes)
-            found += (it for it in kept if it.code not in checker.ignored.get(it.file, ()))
-            found += checker.found(job, checked)
-            programs.append((job, checked))
-            for file, module in zip(job.program.files, job.program.modules, strict=True):
-                texts[shown(file.path)] = SourceText(module.source)
-            progress.add(1)
-    title = ", ".join(job.title for job in jobs)
-    # Shared modules are in several programs.
-    found = list(dict.fromkeys(found))
-    whole = coverage((checked, job.unread) for job, checked in programs)
-    verdict = verdict_of(programs, found) if is_judged else None
-    return Report(found, texts, whole, fixed, title, verdict=verdict)
-
-
-def _fix(checker: Checker, jobs: Sequence[Job]) -> Counter[str]:
-    """Write the corrections of programs; count the findings that they remove."""
-    from irbkin.cli.checker import correction
-
-    fixed: Counter[str] = Counter()
+        report = report_of(checker, progress.each(jobs), left_open)
     for job in jobs:
-        corrected = correction(checker, job)
-        for file, before, after in corrected.texts:
-            write(file, before, after)
-            if hashes := checksum_of(file.path):
-                complain(f"{file.path}: is changed, its hash in {hashes} no longer agrees with it")
-        fixed += corrected.fixed
-        job.program = corrected.program
+        if job.robot and job.robot.max_velocity is None and "V401" in checker.codes:
+            name = job.robot.name
+            complain(f"the speeds of the joints of {name} are unknown: V401 is not checked")
+    is_counted = arguments.statistics
+    report = replace(report, fixed=fixed, is_judged=is_judged, is_counted=is_counted)
+    _write(report, form, arguments)
+    is_wrong = any(found.severity != "note" for found in report.findings)
+    return FOUND if is_wrong or (report.reasons and not report.checked) else FINE
+
+
+def given(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Return the options that are given."""
+    return {name: value for name, value in vars(arguments).items() if value is not None}
+
+
+def _format_of(file: str | None) -> str | None:
+    """The format of a file by its ending."""
+    if file is None:
+        return None
+    ending = os.path.splitext(file)[1].lower()
+    if ending not in ENDINGS:
+        raise CommandError(
+            f"--output-file: {file} must end in {', '.join(ENDINGS)}, or --output-format must be "
+            "given"
+        )
+    return ENDINGS[ending]
+
+
+def _stdin() -> ModuleFile:
+    """The module in stdin."""
+    from irbkin.rapid import ModuleFile
+
+    with opened(STDIN) as stream:
+        return ModuleFile("<stdin>", stream.read())
+
+
+def _correct(arguments: argparse.Namespace, checker: Checker, jobs: list[Job]) -> Counter[str]:
+    """Write or show the corrections of programs; count the findings that they remove."""
+    from irbkin.check import fixes
+    from irbkin.check.report.diff import render
+
+    fixed = Counter[str]()
+    is_shown = is_colored(arguments.color, sys.stdout)
+    for index, job in enumerate(jobs):
+        jobs[index], texts, removed = fixes.corrected(checker, job, complain)
+        fixed += removed
+        for file, before, after in texts:
+            if arguments.fix:
+                fixes.write(file, before, after, complain)
+            else:
+                _print(render(shown(file.path), before, after, is_shown))
     return fixed
-
-
-def _diff(checker: Checker, jobs: Sequence[Job], color: str) -> int:
-    """Print the corrections of programs."""
-    from irbkin.cli.checker import correction
-    from irbkin.cli.report.diff import render
-
-    is_shown = is_colored(color, sys.stdout)
-    fixed: Counter[str] = Counter()
-    for job in jobs:
-        corrected = correction(checker, job)
-        for file, before, after in corrected.texts:
-            _print(render(shown(file.path), before, after, is_shown))
-        fixed += corrected.fixed
-    count = fixed.total()
-    if count:
-        complain(f"--fix would remove {count} {'finding' if count == 1 else 'findings'}")
-    return FOUND if count else FINE
 
 
 def _write(report: Report, form: str, arguments: argparse.Namespace) -> None:
     """Write the report to stdout, or to a file with its first and last sentence on stdout."""
-    if arguments.output_file is None:
-        is_shown = is_colored(arguments.color, sys.stdout)
-        _print(rendered(replace(report, is_colored=is_shown), form))
+    file, is_quiet = arguments.output_file, arguments.quiet
+    is_shown = arguments.color == "always" if file else is_colored(arguments.color, sys.stdout)
+    text = rendered(replace(report, is_quiet=is_quiet, is_colored=is_shown), form)
+    if file is None:
+        _print(text)
         return
-    from irbkin.cli.files import replaced
-
-    is_shown = arguments.color == "always"
-    text = rendered(replace(report, is_colored=is_shown), form)
-    with replaced(arguments.output_file) as file:
-        file.write(text.encode("utf-8", "backslashreplace"))
-    if not report.is_quiet:
-        _print(f"{report.coverage.text()}\n{report.conclusion}\n")
+    with replaced(file) as stream:
+        stream.write(text.encode("utf-8", "backslashreplace"))
+    if not is_quiet:
+        _print(f"{report.coverage}\n{report.conclusion}\n")
 
 
 def _print(text: str) -> None:

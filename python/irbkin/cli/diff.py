@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections import Counter
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
+from irbkin.check.jobs import is_backup
 from irbkin.cli.arguments import Parser, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError
 from irbkin.cli.files import shown
-from irbkin.cli.jobs import is_backup
 
 if TYPE_CHECKING:
-    from irbkin.abb import Difference
+    from irbkin.abb import Change, Difference, TargetChange
 
-HELP = """Which targets moved, by how much in space and in joints, which turned unreachable; which
-robots have other limits or another base; which modules are new. Two backups need no --robot. Exit
-codes: 0 nothing differs, 1 something does."""
+HELP = """Which robots, modules, tools, work objects, speeds, zones and motion settings differ, and
+how many moves each touches; which moves have another speed, zone or tool; which targets moved, by
+how much in space and in joints, which turned unreachable. Two backups need no --robot. Exit codes:
+0 nothing differs, 1 something does."""
 EXAMPLES = """  irbkin diff backup_2025 backup_2026
   irbkin diff --robot "IRB 2600-12/1.65" old/ new/
   irbkin diff --json backup_2025.zip backup_2026.zip"""
@@ -39,17 +41,19 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print(json.dumps(asdict(difference), indent=1))
     else:
-        targets = (replace(it, file=shown(it.file)) for it in difference.targets)
-        lines = [*difference.robots, *difference.modules, *map(str, targets)]
+        every: tuple[Change | TargetChange, ...]
+        every = (*difference.data, *difference.moves, *difference.targets)
+        places = (str(replace(it, file=shown(it.file))) for it in every)
+        lines = [*difference.robots, *difference.modules, *places]
         print("".join(f"{line}\n" for line in lines), end="")
         print(_last(difference))
-    is_same = not (difference.robots or difference.modules or difference.targets)
-    return FINE if is_same else FOUND
+    return FOUND if any(vars(difference).values()) else FINE
 
 
 def _difference(arguments: argparse.Namespace) -> Difference:
-    from irbkin.abb import Difference, diff
-    from irbkin.abb.differences import Side, compared
+    from irbkin.abb import diff
+    from irbkin.abb.differences import compared
+    from irbkin.abb.sides import Side
     from irbkin.rapid import load_program
 
     names = (arguments.old, arguments.new)
@@ -60,14 +64,15 @@ def _difference(arguments: argparse.Namespace) -> Difference:
         raise CommandError(f"{' and '.join(names)}: two backups, or two programs with --robot")
     robot = None if arguments.robot is None else read_robot(arguments)
     old, new = (Side(load_program(name), robot) for name in names)
-    targets, modules = compared("", old, new)
-    return Difference(tuple(targets), (), tuple(it.removeprefix(": ") for it in modules))
+    found = compared("", old, new)
+    return replace(found, modules=tuple(it.removeprefix(": ") for it in found.modules))
 
 
 def _last(difference: Difference) -> str:
-    """The last sentence."""
-    kinds: dict[str, int] = {}
-    for it in difference.targets:
-        kinds[it.kind] = kinds.get(it.kind, 0) + 1
+    """The last sentences."""
+    kinds = Counter(it.kind for it in difference.targets)
     words = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
-    return f"Targets: {words}." if words else "No target differs."
+    moves = sum(it.moves for it in difference.moves)
+    counts = {"Data and settings": len(difference.data), "Moves": moves, "Targets": words}
+    found = " ".join(f"{name}: {count}." for name, count in counts.items() if count)
+    return found or ("" if difference.robots or difference.modules else "Nothing differs.")

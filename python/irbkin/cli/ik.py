@@ -6,9 +6,10 @@ import argparse
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from irbkin.cli.arguments import Parser, frame, joints, read_q7, read_robot
+from irbkin._arm_options import check_millimeters, frame
+from irbkin.cli.arguments import Parser, joints, read_q7, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.numbers import angle, check_millimeters, confdata, joint_and_angle, number
+from irbkin.cli.numbers import angle, confdata, joint_and_angle, number
 
 if TYPE_CHECKING:
     import numpy.typing as npt

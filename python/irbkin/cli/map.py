@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from irbkin.cli.arguments import Parser, frame, read_q7, read_robot
+from irbkin._arm_options import frame
+from irbkin.cli.arguments import Parser, read_q7, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError
 from irbkin.cli.numbers import angle, count, number
 
@@ -78,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
     done = 0
     with Progress("positions", positions) as progress:
 
-        def told(ready: int, _: int) -> None:
+        def report(ready: int, _: int) -> None:
             nonlocal done
             progress.add(ready - done)
             done = ready
@@ -92,7 +93,7 @@ def run(arguments: argparse.Namespace) -> int:
             q7=read_q7(arguments, robot),
             output=store,
             threads=arguments.threads,
-            progress=told,
+            progress=report,
         )
     if store is not None:
         arguments.output = None

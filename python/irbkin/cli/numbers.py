@@ -10,10 +10,6 @@ from irbkin.cli.errors import CommandError
 
 MOST_ANGLE = math.degrees(1e5)
 """The largest angle of a joint that the library takes [deg]."""
-MOST_TURN = 360.0
-"""The largest Euler angle that the library takes [deg]."""
-LEAST_LENGTH = 5.0
-"""Coordinates that are all below it may be in meters [mm]."""
 _TOO_LARGE = f"is too large: its size must be at most {MOST_ANGLE:.0f} deg (remove whole turns)"
 
 
@@ -49,25 +45,6 @@ def check_joints(angles: Sequence[float], name: str) -> None:
     for joint, value in enumerate(angles, 1):
         if abs(value) > MOST_ANGLE:
             raise CommandError(f"{name}: joint {joint} at {value:g} deg {_TOO_LARGE}")
-
-
-def check_euler(angles: Sequence[float], name: str) -> None:
-    """Refuse Euler angles rz, ry, rx [deg] that the library does not take."""
-    for axis, value in zip(("rz", "ry", "rx"), angles, strict=True):
-        if abs(value) > MOST_TURN:
-            raise CommandError(
-                f"{name}: {axis} is {value:g} deg, its size must be at most {MOST_TURN:g} deg"
-            )
-
-
-def check_millimeters(lengths: Sequence[float], name: str, least: float = LEAST_LENGTH) -> None:
-    """Refuse lengths [mm] that are in meters: not all zero, and all of them below `least`."""
-    if 0.0 < max(abs(length) for length in lengths) < least:
-        raise CommandError(
-            f"{name}: {' '.join(f'{length:g}' for length in lengths)} mm is below {least:g} mm "
-            "(are these meters? millimeters are wanted; in a file, name the columns x_m, y_m, z_m "
-            "or x_mm, y_mm, z_mm)"
-        )
 
 
 def whole(text: str) -> int:

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 Values: TypeAlias = Sequence[Any] | np.ndarray[Any, Any]
-HEADER = 128
-"""Bytes of the header of an .npy file, whose shape is written when it is known."""
 
 
 class Column(NamedTuple):
@@ -196,23 +194,26 @@ class Npy(Rows):
     """The rows of the array, in radians and meters."""
 
     def begin(self) -> None:
-        """Room for the header."""
+        """Nothing: the header needs the shape of the rows."""
         self.shape: tuple[int, ...] = ()
-        self.put(" " * HEADER)
 
     def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
-        """Some rows."""
+        """Some rows, behind a header if they are the first."""
         assert array is not None, "a verb with --output FILE.npy gives arrays"
-        self.shape = array.shape[1:]
+        if not self.count:
+            self.shape = array.shape[1:]
+            self._head()
         self.count += len(array)
         self.file.write(np.ascontiguousarray(array, dtype="<f8").tobytes())
 
     def end(self) -> None:
-        """The header."""
-        content = {"descr": "<f8", "fortran_order": False, "shape": (self.count, *self.shape)}
-        magic = b"\x93NUMPY\x01\x00" + (HEADER - 10).to_bytes(2, "little")
+        """The header again, with the number of rows: NumPy pads it to the same size."""
         self.file.seek(0)
-        self.file.write(magic + repr(content).ljust(HEADER - 11).encode() + b"\n")
+        self._head()
+
+    def _head(self) -> None:
+        content = {"descr": "<f8", "fortran_order": False, "shape": (self.count, *self.shape)}
+        np.lib.format.write_array_header_1_0(self.file, content)
 
 
 ENDINGS = {".csv": Csv, ".json": Json, ".npy": Npy}

@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from irbkin._arm_options import check_millimeters
 from irbkin.cli.arguments import Parser, joints, read_cell, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.numbers import check_millimeters, count, number
+from irbkin.cli.numbers import count, number
 from irbkin.cli.tool_paths import add_path, fastest, read_path
 
 if TYPE_CHECKING:

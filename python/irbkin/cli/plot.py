@@ -6,7 +6,8 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from irbkin.cli.arguments import Parser, frame, read_q7, read_robot
+from irbkin._arm_options import frame
+from irbkin.cli.arguments import Parser, read_q7, read_robot
 from irbkin.cli.errors import FINE, CommandError
 from irbkin.cli.files import replaced
 from irbkin.cli.numbers import angle, number

@@ -6,8 +6,10 @@ import contextlib
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from typing import TypeVar
 
+T = TypeVar("T")
 AFTER = 1.0
 """How long work must take before it is shown [s]."""
 EVERY = 0.1
@@ -30,6 +32,12 @@ class Progress:
     def __exit__(self, *_: object) -> None:
         if self._is_shown:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+    def each(self, things: Iterable[T]) -> Iterator[T]:
+        """Yield things, each of which is done when the next one is wanted."""
+        for thing in things:
+            yield thing
+            self.add(1)
 
     def add(self, count: int) -> None:
         """So many more are done."""

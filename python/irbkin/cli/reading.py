@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from irbkin import pose
+from irbkin._arm_options import check_euler
 from irbkin.cli.errors import CommandError
 from irbkin.cli.files import opened, shown
-from irbkin.cli.text_rows import PART, Heading, Layout, Text
+from irbkin.cli.text_rows import PART, Layout, read_text
 
 if TYPE_CHECKING:
     from irbkin._arrays import Floats
@@ -19,15 +20,10 @@ MAGIC = b"\x93NUMPY"
 QUATERNION_TOLERANCE = 2e-3
 MOST_EULER = 2.0 * np.pi + 1e-4
 """The largest Euler angle that the library takes [rad]."""
-
-
-_XYZ = (Heading("x", "mm"), Heading("y", "mm"), Heading("z", "mm"))
+_XYZ = ("x_mm", "y_mm", "z_mm")
 POSES = Layout(
     "pose",
-    (
-        (*_XYZ, *map(Heading, ("qw", "qx", "qy", "qz"))),
-        (*_XYZ, Heading("rz", "deg"), Heading("ry", "deg"), Heading("rx", "deg")),
-    ),
+    ((*_XYZ, "qw", "qx", "qy", "qz"), (*_XYZ, "rz_deg", "ry_deg", "rx_deg")),
     (4, 4),
 )
 
@@ -42,8 +38,8 @@ def read_poses(name: str) -> Iterator[Floats]:
 
 def read_joints(name: str, dof: int) -> Iterator[Floats]:
     """Joint angles in parts, shape (k, dof) [rad]."""
-    headings = tuple(Heading(f"q{number + 1}", "deg") for number in range(dof))
-    for rows, _ in _parts(name, Layout("joint vector", (headings,), (dof,))):
+    columns = tuple(f"q{number + 1}_deg" for number in range(dof))
+    for rows, _ in _parts(name, Layout("joint vector", (columns,), (dof,))):
         yield rows
 
 
@@ -56,12 +52,8 @@ def _as_poses(rows: Floats, name: str, before: int) -> Floats:
     """Poses of rows in meters and radians."""
     xyz, turn = rows[:, :3], rows[:, 3:]
     if turn.shape[1] == 3:
-        for row, column in np.argwhere(np.abs(turn) > MOST_EULER)[:1]:
-            axis, degrees = ("rz", "ry", "rx")[column], np.degrees(turn[row, column])
-            raise CommandError(
-                f"{name}: row {before + row + 1}: {axis} is {degrees:g} deg, its size must be at "
-                "most 360 deg"
-            )
+        for row in np.flatnonzero((np.abs(turn) > MOST_EULER).any(axis=1))[:1]:
+            check_euler(np.degrees(turn[row]).tolist(), f"{name}: row {before + row + 1}")
         return pose(xyz, euler_zyx=turn)
     norms = np.linalg.norm(turn, axis=1)
     wrong = ~(np.abs(norms - 1.0) <= QUATERNION_TOLERANCE)
@@ -85,7 +77,7 @@ def _parts(name: str, layout: Layout) -> Iterator[tuple[Floats, bool]]:
         if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
             raise CommandError(f"{shown(name)}: is UTF-16 text; save it as UTF-8")
         is_array = start == MAGIC
-        rows = _array(file, name, layout) if is_array else Text(file, name, layout).rows()
+        rows = _array(file, name, layout) if is_array else read_text(file, name, layout)
         for part in rows:
             count += len(part)
             yield part, is_array

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import textwrap
 
+from irbkin.check.codes import close, code_of, codes, rules
 from irbkin.cli.arguments import Parser
-from irbkin.cli.codes import close, codes, rules
 from irbkin.cli.errors import FINE, CommandError
 
 HELP = """What a code of `irbkin check` means, its cure, and an example of RAPID that has it. Names
@@ -30,12 +30,11 @@ def run(arguments: argparse.Namespace) -> int:
 
 def explained(word: str) -> str:
     """Return the rule of a code or a name."""
-    ids = {code.name: code.id for code in codes().values()}
-    id = ids.get(word.lower(), word.upper())
-    if id not in rules():
+    code = code_of(word)
+    if code not in rules():
         raise CommandError(f"unknown code {word!r}: did you mean {close(word)}? (irbkin rule)")
-    rule = rules()[id]
-    parts = [f"{id} {rule.name} ({codes()[id].severity})", rule.meaning, f"Cure: {rule.cure}"]
+    rule = rules()[code]
+    parts = [f"{code} {rule.name} ({codes()[code].severity})", rule.meaning, f"Cure: {rule.cure}"]
     for language, example in rule.examples:
         label = "Example" if language == "rapid" else language.upper()
         parts.append(f"{label}:\n{textwrap.indent(example.rstrip(), '    ')}")

@@ -1,176 +1,146 @@
-"""Rows of numbers in a text, and the place of what is wrong with them."""
+"""Rows of numbers in CSV, and the place of what is wrong with them."""
 
 from __future__ import annotations
 
 import io
 import math
-import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
 import numpy as np
 
+from irbkin._arm_options import check_millimeters
 from irbkin.cli.errors import CommandError
 from irbkin.cli.files import shown
-from irbkin.cli.numbers import check_millimeters
 
 if TYPE_CHECKING:
     from irbkin._arrays import Floats
 
 PART = 1 << 21
 """Bytes of a part: some ten thousand rows."""
-HEADING = re.compile(r'\s*"?([a-z]+\d*)\s*(?:[ _(\[]\s*(mm|m|deg|rad)[)\]]?)?"?\s*')
 SCALES = {"mm": 1e-3, "m": 1.0, "deg": np.pi / 180, "rad": 1.0, "": 1.0}
+OTHER_UNITS = {"mm": "m", "deg": "rad"}
 
 
-class Heading(NamedTuple):
-    """A column that rows may have: its name, and its unit where none is given."""
-
-    name: str
-    unit: str = ""
-
-
-@dataclass(frozen=True)
-class Layout:
+class Layout(NamedTuple):
     """The meaning of rows."""
 
     what: str
-    choices: tuple[tuple[Heading, ...], ...]
-    """The columns that they may have, without a heading told apart by their number."""
+    choices: tuple[tuple[str, ...], ...]
+    """The columns that they may have, by name and unit: `x_mm`."""
     shape: tuple[int, ...]
     """The shape of a row of an array."""
 
     def words(self) -> str:
         """The columns in words."""
-        named = (
-            ", ".join(f"{it.name}_{it.unit}" if it.unit else it.name for it in choice)
-            for choice in self.choices
+        return " or ".join(", ".join(choice) for choice in self.choices)
+
+
+class _Columns(NamedTuple):
+    """Where the columns are in a row of `width`, and the units of their values [m, rad]."""
+
+    width: int
+    places: Sequence[int]
+    scales: Floats
+    are_named: bool
+
+
+def read_text(file: BinaryIO, name: str, layout: Layout) -> Iterator[Floats]:
+    """The rows of CSV in parts, in meters and radians.
+
+    The first row may name the columns with their units. Without names, the number of columns
+    chooses among the layout's choices.
+    """
+    lines = io.TextIOWrapper(file, encoding="utf-8-sig", errors="surrogateescape")
+    name, number, columns = shown(name), 0, None
+    while part := lines.readlines(PART):
+        rows = [(at, it) for at, it in enumerate(part, number + 1) if it.strip() and it[0] != "#"]
+        number += len(part)
+        if columns is None and rows:
+            columns = _columns(rows[0][1], f"{name}:{rows[0][0]}", layout)
+            rows = rows[columns.are_named :]
+        if columns and rows:
+            values = _numbers(rows, name, columns)
+            if not columns.are_named and layout.choices[0][0] == "x_mm":
+                largest = values[np.abs(values[:, :3]).max(axis=1).argmax(), :3] * 1e3
+                check_millimeters(largest.tolist(), f"{name}: the largest of the rows")
+            yield values
+    # The file belongs to the caller.
+    lines.detach()
+
+
+def _columns(line: str, place: str, layout: Layout) -> _Columns:
+    """The columns by the first row."""
+    fields = [field.strip() for field in line.split(",")]
+    are_named = len(fields) > 1 and not any(map(_is_number, fields))
+    if are_named:
+        found = [[_either(it, fields) for it in choice] for choice in layout.choices]
+        best = min(range(len(found)), key=lambda it: found[it].count(""))
+        columns, choice = found[best], layout.choices[best]
+    else:
+        choice = next((it for it in layout.choices if len(it) == len(fields)), ())
+        columns = list(choice)
+    if columns and "" not in columns:
+        scales = np.array([SCALES[it.partition("_")[2]] for it in columns])
+        places = [fields.index(it) for it in columns] if are_named else range(len(fields))
+        return _Columns(len(fields), places, scales, are_named)
+    lack = _counted(fields)
+    if are_named:
+        name = choice[columns.index("")]
+        lack = f"no column {name} or {_other(name)}" if "_" in name else f"no column {name}"
+    raise CommandError(
+        f"{place}: {_quoted(line)} has {lack}; a {layout.what} has {layout.words()}, separated by "
+        "commas, with decimal points"
+    )
+
+
+def _other(column: str) -> str:
+    """The column in the other unit; itself if it has no unit."""
+    name, _, unit = column.partition("_")
+    return f"{name}_{OTHER_UNITS[unit]}" if unit else name
+
+
+def _either(column: str, fields: Sequence[str]) -> str:
+    """Return the name of a column in a row, in one unit or the other; empty if it has none."""
+    return next((it for it in (column, _other(column)) if it in fields), "")
+
+
+def _numbers(rows: Sequence[tuple[int, str]], name: str, columns: _Columns) -> Floats:
+    try:
+        values = np.loadtxt(
+            [line for _, line in rows],
+            delimiter=",",
+            usecols=columns.places if columns.are_named else None,
+            comments=None,
+            ndmin=2,
         )
-        return " or ".join(named)
+    except ValueError as error:
+        raise _fault(rows, name, columns) or CommandError(f"{name}: {error}") from None
+    if values.shape[1] != len(columns.scales) or not np.isfinite(values).all():
+        raise _fault(rows, name, columns) or CommandError(f"{name}: has no finite rows")
+    return np.asarray(values * columns.scales, dtype=np.float64)
 
 
-class Text:
-    """Rows of a text: separated by commas, semicolons, tabs or blanks, with or without headings."""
-
-    def __init__(self, file: BinaryIO, name: str, layout: Layout) -> None:
-        self.lines = io.TextIOWrapper(file, encoding="utf-8-sig", errors="surrogateescape")
-        self.name, self.layout = shown(name), layout
-        self.separator: str | None = None
-        self.columns: list[int] | None = None
-        self.count = 0
-        self.scales = np.ones(0)
-        self.assumed: list[int] = []
-        self.number = 0
-
-    def rows(self) -> Iterator[Floats]:
-        """The rows, in meters and radians."""
-        is_first = True
-        while lines := self.lines.readlines(PART):
-            begin, self.number = self.number, self.number + len(lines)
-            kept = [line for line in lines if line.strip() and not line.lstrip().startswith("#")]
-            if kept and is_first:
-                is_first = False
-                if self._begin(kept[0], begin + lines.index(kept[0]) + 1):
-                    kept = kept[1:]
-            if kept:
-                rows = self._numbers(kept, lines, begin)
-                if self.assumed:
-                    self._check_millimeters(rows[:, self.assumed])
-                yield rows
-        # The file belongs to the caller.
-        self.lines.detach()
-
-    def _check_millimeters(self, lengths: Floats) -> None:
-        """Refuse the first rows whose lengths [m] have no unit, if all of them are tiny."""
-        largest = lengths[np.abs(lengths).max(axis=1).argmax()] * 1e3
-        check_millimeters(largest.tolist(), f"{self.name}: the largest of the rows")
-        self.assumed = []
-
-    def _split(self, line: str) -> list[str]:
-        fields = line.rstrip("\r\n").split(self.separator)
-        return [field.replace(",", ".") for field in fields] if self.separator == ";" else fields
-
-    def _begin(self, line: str, number: int) -> bool:
-        """Find out about the columns from the first line; whether it is a heading."""
-        self.separator = next((it for it in ",;\t" if it in line), None)
-        if self.separator == "," and ";" in line:
-            self.separator = ";"
-        fields = self._split(line)
-        if not all(_is_number(field) for field in fields) and any(
-            HEADING.fullmatch(field.lower()) for field in fields
-        ):
-            self._name(fields, number)
-            return True
-        for choice in self.layout.choices:
-            if len(choice) == len(fields):
-                self.scales = np.array([SCALES[it.unit] for it in choice])
-                self.assumed = [place for place, it in enumerate(choice) if it.unit == "mm"]
-                self.count = len(fields)
-                return False
-        raise CommandError(
-            f"{self.name}:{number}: {len(fields)} columns; a {self.layout.what} has "
-            f"{self.layout.words()}"
-        )
-
-    def _name(self, fields: Sequence[str], number: int) -> None:
-        """The columns of a heading."""
-        found: dict[str, tuple[int, str]] = {}
-        for place, field in enumerate(fields):
-            if match := HEADING.fullmatch(field.lower()):
-                found.setdefault(match[1].replace("j", "q", 1), (place, match[2] or ""))
-        for choice in self.layout.choices:
-            if all(it.name in found for it in choice):
-                self.columns = [found[it.name][0] for it in choice]
-                self.scales = np.array([SCALES[found[it.name][1] or it.unit] for it in choice])
-                self.assumed = [
-                    place
-                    for place, it in enumerate(choice)
-                    if it.unit == "mm" and not found[it.name][1]
-                ]
-                self.count = len(fields)
-                return
-        missing = next(it.name for it in self.layout.choices[0] if it.name not in found)
-        raise CommandError(
-            f"{self.name}:{number}: no column {missing!r}; a {self.layout.what} has "
-            f"{self.layout.words()}"
-        )
-
-    def _numbers(self, kept: list[str], lines: list[str], begin: int) -> Floats:
-        if self.separator == ";":
-            kept = [line.replace(",", ".") for line in kept]
-        try:
-            rows = np.loadtxt(
-                kept, delimiter=self.separator, usecols=self.columns, comments=None, ndmin=2
+def _fault(rows: Sequence[tuple[int, str]], name: str, columns: _Columns) -> CommandError | None:
+    """Find the first invalid row, and say where and why it is."""
+    for number, line in rows:
+        fields, column = line.rstrip("\r\n").split(","), 1
+        if len(fields) != columns.width:
+            return CommandError(
+                f"{name}:{number}: {_quoted(line)} has {_counted(fields)}, the first row has "
+                f"{columns.width}: separate them by commas, write decimal points"
             )
-        except ValueError as error:
-            self._find_fault(lines, begin)
-            raise CommandError(f"{self.name}: {error}") from None
-        if rows.shape[1] != len(self.scales):
-            self._find_fault(lines, begin)
-        if not np.isfinite(rows).all():
-            self._find_fault(lines, begin)
-        return np.asarray(rows * self.scales, dtype=np.float64)
-
-    def _find_fault(self, lines: list[str], begin: int) -> None:
-        """Complain of the first line that is wrong."""
-        for number, line in enumerate(lines, begin + 1):
-            if not line.strip() or line.lstrip().startswith("#"):
-                continue
-            fields, column = self._split(line), 1
-            if len(fields) != self.count and not (number == 1 and self.columns):
-                raise CommandError(
-                    f"{self.name}:{number}: {len(fields)} columns, the first line has {self.count}"
+        for place, field in enumerate(fields):
+            if place in columns.places and not (_is_number(field) and math.isfinite(float(field))):
+                return CommandError(
+                    f"{name}:{number}:{column}: {_quoted(field)} is not a finite number"
                 )
-            for place, field in enumerate(fields):
-                is_used = self.columns is None or place in self.columns
-                is_heading = number == 1 and self.columns is not None
-                if is_used and not is_heading and not _is_finite(field):
-                    word = field.strip().encode("utf-8", "replace").decode()[:40]
-                    raise CommandError(
-                        f"{self.name}:{number}:{column}: {word!r} is not a finite number"
-                    )
-                column += len(field) + 1
+            column += len(field) + 1
+    return None
+
+
+def _counted(fields: Sequence[str]) -> str:
+    return "1 column" if len(fields) == 1 else f"{len(fields)} columns"
 
 
 def _is_number(field: str) -> bool:
@@ -181,5 +151,5 @@ def _is_number(field: str) -> bool:
     return "_" not in field
 
 
-def _is_finite(field: str) -> bool:
-    return _is_number(field) and math.isfinite(float(field))
+def _quoted(text: str) -> str:
+    return repr(text.strip().encode("utf-8", "replace").decode()[:60])

@@ -1,12 +1,15 @@
 """A language server for RAPID with an arm behind it: `pip install 'irbkin[lsp]'`.
 
-`irbkin lsp` starts it; docs/guide/lsp.md says how editors do.
+`irbkin lsp` starts it; docs/guide/lsp.md shows how to set up editors.
 """
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
+from collections.abc import Mapping
+from typing import Any
 
 try:
     import pygls as _pygls  # noqa: F401
@@ -17,19 +20,20 @@ except ImportError as _missing:
 
 from irbkin.lsp.handlers import register
 from irbkin.lsp.server import Server
-from irbkin.lsp.work import Desk, Task
 
-__all__ = ["Desk", "Server", "Task", "serve"]
+__all__ = ["Server", "serve"]
 
 
-def serve(desk: Desk) -> None:
+def serve(options: Mapping[str, Any]) -> None:
     """Serve an editor over stdin and stdout until it ends.
 
     Args:
-        desk: Gives files their programs and arms.
+        options: As in irbkin.toml, but with underscores; missing ones are read from files.
     """
-    server = Server(desk)
+    server = Server(options)
     register(server)
+    # `Server.fail` says what pygls would print, too.
+    logging.getLogger("pygls").setLevel(logging.CRITICAL)
     # A printed line would be read as a message: it goes to stderr.
     sys.stdout.flush()
     stream = os.fdopen(os.dup(sys.stdout.fileno()), "wb")

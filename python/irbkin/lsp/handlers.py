@@ -2,26 +2,32 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from lsprotocol import types
 
+from irbkin.lsp.completion import MOST, completions, signature
 from irbkin.lsp.hover import hover
-from irbkin.lsp.marks import FIX_ALL, actions, location, symbols
-from irbkin.lsp.server import WAIT, Server, Spot, path_of
+from irbkin.lsp.marks import FIX_ALL, actions, folds, location, places, symbols
+from irbkin.lsp.rename import refusal
+from irbkin.lsp.server import WAIT, Document, Refusal, Server, path_of
 from irbkin.lsp.text import Text
+
+if TYPE_CHECKING:
+    from irbkin.lsp.names import Declared
+    from irbkin.lsp.session import Result
 
 CODE_ACTIONS = types.CodeActionOptions([types.CodeActionKind.QuickFix, FIX_ALL])
 
 
 def register(server: Server) -> None:
     """Register all handlers."""
-    _of_session(server)
-    _of_documents(server)
-    _of_questions(server)
 
-
-def _of_session(server: Server) -> None:
     @server.feature(types.INITIALIZE)
     def initialize(params: types.InitializeParams) -> None:
+        folders = [folder.uri for folder in params.workspace_folders or ()]
+        if root := params.root_uri or next(iter(folders), None):
+            server.programs.folder = path_of(root)
         server.set_options(params.initialization_options)
 
     @server.feature(types.INITIALIZED)
@@ -37,9 +43,8 @@ def _of_session(server: Server) -> None:
     @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
     def files_changed(params: types.DidChangeWatchedFilesParams) -> None:
         changed = types.FileChangeType.Changed
-        paths = [path_of(it.uri) for it in params.changes]
-        is_content = all(it.type == changed for it in params.changes)
-        if is_content and not any(it.lower().endswith((".toml", ".cfg")) for it in paths):
+        others = (".toml", ".cfg")
+        if all(it.type == changed and not it.uri.lower().endswith(others) for it in params.changes):
             for path in server.documents:
                 server.queue.change(path)
         else:
@@ -49,8 +54,6 @@ def _of_session(server: Server) -> None:
     def shutdown(params: None) -> None:
         server.queue.stop()
 
-
-def _of_documents(server: Server) -> None:
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: types.DidOpenTextDocumentParams) -> None:
         of = params.text_document
@@ -62,16 +65,14 @@ def _of_documents(server: Server) -> None:
         of = params.text_document
         _, _, text = server.documents.get(path_of(of.uri), ("", 0, None))
         for change in params.content_changes:
-            if isinstance(change, types.TextDocumentContentChangeWholeDocument):
-                text = Text(change.text)
-            elif text is not None:
-                text = text.changed(change)
+            if text or isinstance(change, types.TextDocumentContentChangeWholeDocument):
+                text = (text or Text("")).changed(change)
         if text is not None:
             server.put(of.uri, of.version, text)
 
     @server.feature(types.TEXT_DOCUMENT_DID_SAVE)
     def saved(params: types.DidSaveTextDocumentParams) -> None:
-        # Another program may have changed what is not open.
+        # Other programs may have changed files that are not open.
         server.queue.change(path_of(params.text_document.uri))
 
     @server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
@@ -82,44 +83,66 @@ def _of_documents(server: Server) -> None:
             del server.documents[path]
         server.queue.close(path)
 
-
-def _of_questions(server: Server) -> None:
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hovered(params: types.HoverParams) -> types.Hover | None:
-        found = await server.place(params)
-        if found is None:
-            return None
-        result, module, offset = found
-        words, span = hover(result, module, offset, server.desk)
-        if not words:
-            return None
-        content = types.MarkupContent(types.MarkupKind.Markdown, words)
-        return types.Hover(content, result.text(module).range(*span))
+        for result, module, text, offset in await server.at(params):
+            words, span = hover(result, module, offset)
+            content = types.MarkupContent(types.MarkupKind.Markdown, words)
+            return types.Hover(content, text.range(*span)) if words else None
+        return None
 
     @server.feature(types.TEXT_DOCUMENT_DEFINITION)
-    async def defined(params: types.DefinitionParams) -> types.Location | None:
-        return await _declared(params)
-
     @server.feature(types.TEXT_DOCUMENT_DECLARATION)
-    async def declared(params: types.DeclarationParams) -> types.Location | None:
-        return await _declared(params)
-
-    async def _declared(params: Spot) -> types.Location | None:
-        found = await server.place(params)
-        if found is None:
-            return None
-        result, module, offset = found
-        text = result.text(module)
-        begin, end = text.word(offset)
-        routine = result.names.routine_at(module, text.place(offset)[0])
-        it = result.names.find(module, routine, text.source[begin:end])
-        return location(result, it) if it else None
+    async def declared(params: Document) -> types.Location | None:
+        return next((location(*own) for own in await named(params)), None)
 
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     async def listed(params: types.DocumentSymbolParams) -> list[types.DocumentSymbol]:
-        begin = types.Position(0, 0)
-        found = await server.place(types.TextDocumentPositionParams(params.text_document, begin))
-        return symbols(*found[:2]) if found else []
+        return [it for own in (await server.at(params))[:1] for it in symbols(*own[:2])]
+
+    @server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
+    async def folded(params: types.FoldingRangeParams) -> list[types.FoldingRange]:
+        return [it for own in (await server.at(params))[:1] for it in folds(*own[:2])]
+
+    async def named(params: Document) -> list[tuple[Result, Declared]]:
+        """The name at a position, in each program of the document."""
+        found = [(own[0], own[0].declared(own[1], own[3])) for own in await server.at(params)]
+        return [(result, declared) for result, declared in found if declared is not None]
+
+    @server.feature(types.TEXT_DOCUMENT_REFERENCES)
+    async def referred(params: types.ReferenceParams) -> list[types.Location]:
+        return places(await named(params), is_whole=params.context.include_declaration)
+
+    @server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
+    async def renamable(params: types.PrepareRenameParams) -> types.Range | None:
+        for _, _, text, offset in await server.at(params) if await named(params) else ():
+            return text.range(*text.word(offset))
+        return None
+
+    @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
+    async def renamed(params: types.RenameParams) -> types.WorkspaceEdit:
+        own, new = await named(params), params.new_name
+        reasons = [refusal(*one, new) for one in own] or ["nothing that is declared is here"]
+        if not await server.queue.rest(path_of(params.text_document.uri), 0.0):
+            reasons.append("the program is still being checked")
+        for reason in filter(None, reasons):
+            raise Refusal(reason)
+        edits: dict[str, list[types.TextEdit]] = {}
+        for it in places(own):
+            edits.setdefault(it.uri, []).append(types.TextEdit(it.range, new))
+        return types.WorkspaceEdit(edits)
+
+    @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions([*" ,=(\\"]))
+    async def completed(params: types.CompletionParams) -> types.CompletionList:
+        trigger = params.context.trigger_character if params.context else None
+        found = await server.at(params, is_now=True)
+        items = completions(found[0], trigger) if found else []
+        return types.CompletionList(len(items) == MOST, items)
+
+    @server.feature(types.TEXT_DOCUMENT_SIGNATURE_HELP, types.SignatureHelpOptions([*" ,(\\"]))
+    async def signed(params: types.SignatureHelpParams) -> types.SignatureHelp | None:
+        found = await server.at(params, is_now=True)
+        return signature(found[0]) if found else None
 
     @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, CODE_ACTIONS)
     async def corrected(params: types.CodeActionParams) -> list[types.CodeAction]:

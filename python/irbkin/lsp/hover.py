@@ -3,72 +3,59 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from irbkin import rapid
+from irbkin.check.codes import rules
+from irbkin.lsp.text import NAME
 
 if TYPE_CHECKING:
     from irbkin import Robot
+    from irbkin.check.findings import Finding
     from irbkin.lsp.names import Declared
-    from irbkin.lsp.work import Desk, Found, Result
+    from irbkin.lsp.session import Result
+    from irbkin.lsp.text import Text
     from irbkin.rapid import CheckedMove, Pose
 
 MOST_MOVES = 3
-"""Moves to one target that are shown."""
+"""Largest number of moves shown for a target."""
 TARGETS = ("robtarget", "jointtarget")
-NAME = re.compile(r"[^\W\d]\w*")
 
 
-def hover(result: Result, module: int, offset: int, desk: Desk) -> tuple[str, tuple[int, int]]:
-    """Return Markdown on the place of an offset in a module, and the part of the text that it is
-    about; empty where there is nothing to say.
+def hover(result: Result, module: int, offset: int) -> tuple[str, tuple[int, int]]:
+    """Return Markdown on the name or the move at an offset in a module, empty without either, and
+    its range.
     """
-    text = result.text(module)
-    begin, end = text.word(offset)
-    line, _ = text.place(offset)
-    name = text.source[begin:end]
-    declared = None
-    if name:
-        declared = result.names.find(module, result.names.routine_at(module, line), name)
-    move = move_at(result, module, offset)
+    text, declared = result.text(module), result.declared(module, offset)
+    span = text.word(offset)
+    moves = ((_span(text, move), move) for move in result.moves.get(module, ()))
+    at = (pair for pair in moves if pair[0][0] <= offset <= pair[0][1])
+    own, move = next(at, (span, None))
     parts: list[str] = []
     if declared is not None:
         parts += [f"```rapid\n{declared.words}\n```", *_value(declared.value)]
-    is_target = declared is not None and declared.kind in TARGETS
-    if is_target and (move is None or not _is_of(move, name)):
-        parts += _moves_to(result, declared)  # type: ignore[arg-type]
-    elif move is not None and (declared is None or is_target):
-        parts += [*_move(result, move), *_rules(result, module, move, desk)]
-        begin, end = (begin, end) if declared else _span(result, module, move)
-    return "\n\n".join(parts), (begin, end)
+    if declared is not None and declared.kind in TARGETS:
+        name = text.source[slice(*span)].lower()
+        if move is None or name not in map(str.lower, NAME.findall(move.target)):
+            return "\n\n".join([*parts, *_moves_to(result, declared)]), span
+    elif declared is not None:
+        move = None
+    if move is not None:
+        parts += [*_move(result, module, move), *_rules(result, module, move)]
+        span = span if declared else own
+    return "\n\n".join(parts), span
 
 
-def move_at(result: Result, module: int, offset: int) -> CheckedMove | None:
-    """Return the move whose statement an offset is in."""
-    for move in result.moves.get(module, ()):
-        begin, end = _span(result, module, move)
-        if begin <= offset <= end:
-            return move
-    return None
-
-
-def _span(result: Result, module: int, move: CheckedMove) -> tuple[int, int]:
+def _span(text: Text, move: CheckedMove) -> tuple[int, int]:
     """The offsets of a statement without its semicolon."""
-    text = result.text(module)
     begin = text.at(move.line, move.column)
     end = text.source.find(";", begin)
     return begin, len(text.source) if end < 0 else end
 
 
-def _is_of(move: CheckedMove, name: str) -> bool:
-    """Whether a name is in the target of a move."""
-    return name.lower() in (it.lower() for it in NAME.findall(move.target))
-
-
 def _moves_to(result: Result, declared: Declared) -> Iterator[str]:
-    """Yield what is known of the moves to a declared target, each joint vector once."""
+    """Yield the moves to a declared target, each joint vector once."""
     seen = set[tuple[float, ...]]()
     lower, total = declared.name.lower(), 0
     for module, moves in result.moves.items():
@@ -78,40 +65,37 @@ def _moves_to(result: Result, declared: Declared) -> Iterator[str]:
             if result.names.find(module, move.routine, move.target) != declared:
                 continue
             total += 1
-            joints = () if move.q is None else tuple(round(float(it), 6) for it in move.q)
+            joints = () if move.q is None else tuple(round(float(angle), 6) for angle in move.q)
             if len(seen) < MOST_MOVES and joints not in seen:
                 seen.add(joints)
-                yield from _move(result, move, result.program.files[module].path)
-    if total == 0 and result.checked is not None:
+                yield from _move(result, module, move, result.job.program.files[module].path)
+    if total == 0 and result.job.robot is not None:
         yield "No checked move goes to it."
 
 
-def _move(result: Result, move: CheckedMove, file: str = "") -> Iterator[str]:
-    """Yield what is known of a move at its target."""
-    robot = result.task.robot
+def _move(result: Result, module: int, move: CheckedMove, file: str = "") -> Iterator[str]:
+    """Yield joints, confdata and margins of a move at its target, or why they are missing."""
+    robot = result.job.robot
     place = f"{file.replace(chr(92), '/').rpartition('/')[2]}:{move.line}: " if file else ""
-    yield f"**{place}{move.target}** ({result.task.title})"
+    yield f"**{place}{move.target}** ({result.job.title})"
     if move.q is None or robot is None:
-        reasons = [it.message for it in _found_at(result, move) if it.code[0] in "RUNDC"]
-        yield "\n".join(f"- {it}" for it in reasons) or "not checked"
+        found = _found_at(result, module, move)
+        reasons = [it.message for it in found if it.code[0] in "RUNDC"]
+        yield "\n".join(f"- {reason}" for reason in reasons) or "not checked"
         return
-    degrees = [math.degrees(it) + 0.0 for it in move.q]
+    degrees = [math.degrees(angle) + 0.0 for angle in move.q]
     head = "|".join(f"J{number}" for number in range(1, len(degrees) + 1))
-    numbers = "|".join(f"{it:.2f}" for it in degrees)
+    numbers = "|".join(f"{angle:.2f}" for angle in degrees)
     yield f"|{head}|\n|{'--:|' * len(degrees)}\n|{numbers}|"
-    lines = [*_confdata(robot, move), _limit(robot, move.q), *_singularity(robot, move.q)]
-    yield "\n".join(f"- {it}" for it in lines)
+    lines = [_confdata(robot, move), _limit(robot, move.q), *_singularity(robot, move.q)]
+    yield "\n".join(f"- {line}" for line in lines)
 
 
-def _confdata(robot: Robot, move: CheckedMove) -> Iterator[str]:
-    of = robot.configuration(move.q)  # type: ignore[arg-type]
-    own = [of.cf1, of.cf4, of.cf6, of.cfx]
-    if move.confdata is None:
-        yield f"confdata {own}"
-        return
-    it = move.confdata
-    written = [it.cf1, it.cf4, it.cf6, it.cfx]
-    yield f"confdata {own}" + (" as written" if own == written else f", written is {written}")
+def _confdata(robot: Robot, move: CheckedMove) -> str:
+    own = [*robot.configuration(move.q)]  # type: ignore[arg-type]
+    written = own if move.confdata is None else [*move.confdata]
+    words = " as written" if move.confdata is not None else ""
+    return f"confdata {own}" + (words if own == written else f", written is {written}")
 
 
 def _limit(robot: Robot, q: Any) -> str:
@@ -121,44 +105,43 @@ def _limit(robot: Robot, q: Any) -> str:
     rooms += [(float(high), axis, "upper") for axis, high in enumerate(upper - q, 1)]
     room, axis, side = min(rooms)
     words = f"J{axis}, {abs(math.degrees(room)):.1f} deg"
-    margin = float(robot.margin(q).limits)
     if room < 0.0:
         return f"outside limits: {words} beyond the {side} limit"
+    margin = float(robot.margin(q).limits)
     return f"nearest limit: {words} to the {side} one (margin {margin:.2f})"
 
 
 def _singularity(robot: Robot, q: Any) -> Iterator[str]:
-    """The distances from singularities, of those that the arm has."""
+    """The distances from the singularities of the arm."""
     at = robot.singularity(q)
-    angles = [
-        f"{name} {math.degrees(value):.1f} deg"
-        for name, value in (("wrist", float(at.wrist)), ("elbow", float(at.elbow)))
-        if math.isfinite(value)
-    ]
-    shoulder = float(at.shoulder)
-    if math.isfinite(shoulder):
-        angles.append(f"shoulder {1e3 * shoulder:.0f} mm")
-    if angles:
-        yield f"from singularities: {', '.join(angles)}"
+    distances = {
+        f"wrist {math.degrees(at.wrist):.1f} deg": at.wrist,
+        f"elbow {math.degrees(at.elbow):.1f} deg": at.elbow,
+        f"shoulder {1e3 * float(at.shoulder):.0f} mm": at.shoulder,
+    }
+    if known := [words for words, distance in distances.items() if math.isfinite(distance)]:
+        yield f"from singularities: {', '.join(known)}"
 
 
-def _rules(result: Result, module: int, move: CheckedMove, desk: Desk) -> Iterator[str]:
+def _rules(result: Result, module: int, move: CheckedMove) -> Iterator[str]:
     """Yield the rules of the findings on a move."""
-    for code in dict.fromkeys(it.code for it in _found_at(result, move)):
-        yield f"**{code}** {desk.rule(code)[1]}"
+    for code in dict.fromkeys(found.code for found in _found_at(result, module, move)):
+        rule = rules()[code]
+        words = " ".join(f"{rule.meaning}\n\nCure: {rule.cure}".split())
+        yield f"**{code}** {rule.name}: {words}"
 
 
-def _found_at(result: Result, move: CheckedMove) -> list[Found]:
-    found = result.found_in.get(result.program.files[move.module].path, ())
+def _found_at(result: Result, module: int, move: CheckedMove) -> list[Finding]:
+    found = result.found_in.get(result.job.program.files[module].path, ())
     return [it for it in found if (it.line, it.column) == (move.line, move.column)]
 
 
 def _value(value: Any) -> Iterator[str]:
-    """Yield the value of a datum, in words where it has a frame."""
+    """Yield the value of a datum; frames in words."""
     if isinstance(value, rapid.ToolData):
         held = "held by the robot" if value.robhold else "stationary"
         load = value.tload
-        cog = ", ".join(f"{it:g}" for it in load.cog_mm)
+        cog = ", ".join(f"{part:g}" for part in load.cog_mm)
         yield f"Tool, {held}: {_frame(value.tframe)}; {load.mass_kg:g} kg at ({cog}) mm"
     elif isinstance(value, rapid.WobjData):
         moved = "" if value.ufprog else f", moved by {value.ufmec or 'an unnamed unit'}"
@@ -171,6 +154,6 @@ def _value(value: Any) -> Iterator[str]:
 
 
 def _frame(pose: Pose) -> str:
-    xyz = ", ".join(f"{it:g}" for it in pose.trans_mm)
-    wxyz = ", ".join(f"{it:g}" for it in pose.rot)
+    xyz = ", ".join(f"{part:g}" for part in pose.trans_mm)
+    wxyz = ", ".join(f"{part:g}" for part in pose.rot)
     return f"({xyz}) mm, [{wxyz}]"

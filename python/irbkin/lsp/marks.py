@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+import re
+from bisect import bisect
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
 
-from irbkin.lsp.names import ROUTINES, Declared, end_of
+from irbkin.check.codes import PAGE, rules
+from irbkin.check.report import span
+from irbkin.lsp.names import ROUTINES, Declared
 from irbkin.lsp.text import Text
 
 if TYPE_CHECKING:
-    from irbkin.lsp.work import Desk, Found, Result
+    from irbkin.check.findings import Finding
+    from irbkin.lsp.session import Result
 
 SOURCE = "irbkin"
-"""How editors name where a diagnostic is from."""
+"""The source of diagnostics, as editors show it."""
 FIX_ALL = "source.fixAll.irbkin"
 SEVERITIES = {
     "error": types.DiagnosticSeverity.Error,
@@ -31,49 +36,40 @@ KINDS = {
     "ALIAS": types.SymbolKind.Struct,
 }
 
+COMMENTS = re.compile(r"^[ \t]*!.*(?:\n[ \t]*!.*)+", re.MULTILINE)
+
+Edits = dict[str, dict[tuple[int, int], types.TextEdit]]
+"""Edits by file and bytes."""
+
 
 def uri_of(path: str) -> str:
-    """Return the address of a file; a document that is not saved keeps its own."""
+    """Return the URI of a file; an unsaved document keeps its own."""
     return Path(path).as_uri() if os.path.isabs(path) else path
 
 
-def diagnostics(results: Iterable[Result], path: str, desk: Desk) -> list[types.Diagnostic]:
-    """Return what is found in a file, once for all its tasks."""
-    marks: dict[tuple[int, int, str, str], types.Diagnostic] = {}
+def found_in(results: Iterable[Result], path: str) -> Iterator[tuple[Result, Finding, types.Range]]:
+    """Yield the findings of all checks of a file, each with its statement."""
     for result in results:
         module = result.modules.get(path)
         text = Text("") if module is None else result.text(module)
-        for it in result.found_in.get(path, ()):
-            key = (it.line, it.column, it.code, it.message)
-            if key not in marks:
-                marks[key] = _diagnostic(it, text, desk)
+        for found in result.found_in.get(path, ()):
+            start = text.at(found.line, 1)
+            begin, end = span(found, text.row(found.line))
+            yield result, found, text.range(start + begin, min(start + end, len(text.source)))
+
+
+def diagnostics(results: Iterable[Result], path: str) -> list[types.Diagnostic]:
+    """Return the findings in a file, without duplicates of several sessions."""
+    marks: dict[tuple[int, int, str, str], types.Diagnostic] = {}
+    for _, found, area in found_in(results, path):
+        key = (found.line, found.column, found.code, found.message)
+        if key not in marks:
+            rule = types.CodeDescription(
+                f"{PAGE.as_uri()}#{found.code.lower()}-{rules()[found.code].name}"
+            )
+            severity = SEVERITIES[found.severity]
+            marks[key] = types.Diagnostic(area, found.message, severity, found.code, rule, SOURCE)
     return list(marks.values())
-
-
-def _diagnostic(it: Found, text: Text, desk: Desk) -> types.Diagnostic:
-    begin, end = it.span(text.row(it.line))
-    start = text.at(it.line, 1)
-    related = [
-        types.DiagnosticRelatedInformation(
-            types.Location(uri_of(os.path.abspath(other.file)), _point(other.line, other.column)),
-            other.message,
-        )
-        for other in it.related
-    ]
-    return types.Diagnostic(
-        text.range(start + begin, min(start + end, len(text.source))),
-        it.message,
-        SEVERITIES[it.severity],
-        it.code,
-        types.CodeDescription(desk.rule(it.code)[0]),
-        SOURCE,
-        related_information=related or None,
-    )
-
-
-def _point(line: int, column: int) -> types.Range:
-    at = types.Position(max(line - 1, 0), max(column - 1, 0))
-    return types.Range(at, at)
 
 
 def actions(
@@ -81,95 +77,110 @@ def actions(
 ) -> list[types.CodeAction]:
     """Return the corrections of the findings in a range of a file, and of all in it."""
     quick: dict[str, types.CodeAction] = {}
-    everything: dict[str, dict[tuple[int, int], types.TextEdit]] = {}
-    for result in results:
-        module = result.modules.get(path)
-        if module is None:
-            continue
-        text = result.text(module)
-        for it in result.found_in.get(path, ()):
-            if not it.edits:
-                continue
-            edits = _edits(result, it)
-            for uri, own in edits.items():
-                everything.setdefault(uri, {}).update(own)
-            start = text.at(it.line, 1)
-            begin, end = it.span(text.row(it.line))
-            if _meets(text.range(start + begin, start + end), params.range):
-                at = [mark for mark in params.context.diagnostics if _is_of(mark, it, text)]
-                title = f"Correct the confdata: {it.message.partition(':')[0]} ({it.code})"
-                kind = types.CodeActionKind.QuickFix
-                edit = _edit(edits)
-                quick[title] = types.CodeAction(title, kind, at, is_preferred=True, edit=edit)
-    found = list(quick.values())
+    everything: Edits = {}
+    for result, found, area in found_in(results, path):
+        edits: Edits = {}
+        for file, begin, end, new in found.edits:
+            edit = types.TextEdit(result.text(result.modules[file]).range_of_bytes(begin, end), new)
+            for own in (edits, everything):
+                own.setdefault(uri_of(file), {})[begin, end] = edit
+        if edits and _meets(area, params.range):
+            at = [
+                mark
+                for mark in params.context.diagnostics
+                if (mark.code, mark.range.start) == (found.code, area.start)
+            ]
+            title = f"Correct the confdata of {_target(result, found)} ({found.code})"
+            kind = types.CodeActionKind.QuickFix
+            quick[title] = types.CodeAction(title, kind, at, is_preferred=True, edit=_edit(edits))
+    offered = list(quick.values())
     if everything:
         title = "Correct all confdata of this file"
-        found.append(types.CodeAction(title, FIX_ALL, edit=_edit(everything)))
-    return [it for it in found if _is_wanted(it, params.context.only)]
+        offered.append(types.CodeAction(title, FIX_ALL, edit=_edit(everything)))
+    return [action for action in offered if _is_wanted(action, params.context.only)]
+
+
+def _target(result: Result, found: Finding) -> str:
+    """The target of the move that a finding is about, as it is written."""
+    moves = result.moves.get(result.modules[found.file], ())
+    own = (it.target for it in moves if (it.line, it.column) == (found.line, found.column))
+    return next(own, "a target")
 
 
 def _is_wanted(action: types.CodeAction, only: Sequence[types.CodeActionKind | str] | None) -> bool:
     """Whether an action is of one of the kinds that an editor asks for, or of a kind in it."""
-    kind = str(getattr(action.kind, "value", action.kind))
-    wanted = [str(getattr(it, "value", it)) for it in only or ()]
-    return only is None or any(kind == it or kind.startswith(f"{it}.") for it in wanted)
+    kind, *wanted = (str(getattr(word, "value", word)) for word in (action.kind, *(only or ())))
+    return only is None or any(kind == word or kind.startswith(f"{word}.") for word in wanted)
 
 
-def _edits(result: Result, it: Found) -> dict[str, dict[tuple[int, int], types.TextEdit]]:
-    """The edits of a finding by file and bytes."""
-    edits: dict[str, dict[tuple[int, int], types.TextEdit]] = {}
-    for file, begin, end, new in it.edits:
-        text = result.text(result.modules[file])
-        edit = types.TextEdit(text.range_of_bytes(begin, end), new)
-        edits.setdefault(uri_of(file), {})[begin, end] = edit
-    return edits
-
-
-def _edit(edits: dict[str, dict[tuple[int, int], types.TextEdit]]) -> types.WorkspaceEdit:
+def _edit(edits: Edits) -> types.WorkspaceEdit:
     return types.WorkspaceEdit({uri: list(own.values()) for uri, own in edits.items()})
 
 
-def _is_of(mark: types.Diagnostic, it: Found, text: Text) -> bool:
-    at = text.position(text.at(it.line, it.column))
-    return (mark.code, mark.range.start) == (it.code, at)
-
-
 def _meets(one: types.Range, other: types.Range) -> bool:
-    def point(at: types.Position) -> tuple[int, int]:
-        return at.line, at.character
-
-    return point(one.start) <= point(other.end) and point(other.start) <= point(one.end)
+    return one.start <= other.end and other.start <= one.end
 
 
 def location(result: Result, declared: Declared) -> types.Location:
-    """Return the place of a declaration."""
+    """Return the location of a declaration."""
     begin, end = declared.span(text := result.text(declared.module))
-    path = result.program.files[declared.module].path
+    path = result.job.program.files[declared.module].path
     return types.Location(uri_of(path), text.range(begin, end))
 
 
 def symbols(result: Result, module: int) -> list[types.DocumentSymbol]:
     """Return the routines and data of a module, the data of routines in these."""
     text, outer = result.text(module), list[types.DocumentSymbol]()
-    routines: dict[str, types.DocumentSymbol] = {}
-    for it in result.names.of_modules[module]:
-        begin, end = it.span(text)
-        start = min(text.at(it.line, it.column), begin)
-        stop = end_of(text, end) if it.kind in ROUTINES else max(_statement_end(text, end), end)
-        kind = KINDS.get(it.kind, types.SymbolKind.Variable)
-        if "CONST" in it.words.upper().split()[:2]:
+    blocks = result.blocks(module)
+    routines: dict[str, list[types.DocumentSymbol]] = {}
+    for declared in result.names.of_modules[module]:
+        is_routine = declared.kind in ROUTINES
+        begin, end = declared.span(text)
+        start = min(text.at(declared.line, declared.column), begin)
+        # LOCAL may be ahead of its block.
+        at = bisect(blocks, (start,))
+        is_block = is_routine and at < len(blocks) and blocks[at][0] < begin
+        stop = blocks[at][1] if is_block else _statement_end(text, end)
+        kind = KINDS.get(declared.kind, types.SymbolKind.Variable)
+        if declared.is_constant:
             kind = types.SymbolKind.Constant
-        detail = "" if it.kind in ROUTINES else it.kind
-        whole, own = text.range(start, stop), text.range(begin, end)
-        symbol = types.DocumentSymbol(it.name, kind, whole, own, detail, children=[])
-        inside = routines.get((it.routine or "").lower())
-        if inside is not None and inside.children is not None:
-            inside.children = [*inside.children, symbol]
-        else:
-            outer.append(symbol)
-        if it.kind in ROUTINES:
-            routines[it.name.lower()] = symbol
+        inside: list[types.DocumentSymbol] = []
+        symbol = types.DocumentSymbol(
+            declared.name,
+            kind,
+            text.range(start, max(stop, end)),
+            text.range(begin, end),
+            "" if is_routine else declared.kind,
+            children=inside,
+        )
+        routines.get((declared.routine or "").lower(), outer).append(symbol)
+        if is_routine:
+            routines[declared.name.lower()] = inside
     return outer
+
+
+def folds(result: Result, module: int) -> list[types.FoldingRange]:
+    """Return the blocks of a module, and its comments of several lines."""
+    text = result.text(module)
+    parts = [(begin, end) for begin, end, _ in result.blocks(module)]
+    parts += [match.span() for match in COMMENTS.finditer(text.source)]
+    rows = ([text.place(offset)[0] - 1 for offset in part] for part in parts)
+    return [types.FoldingRange(begin, end) for begin, end in rows if begin < end]
+
+
+def places(
+    named: Iterable[tuple[Result, Declared]], *, is_whole: bool = True
+) -> list[types.Location]:
+    """Return where something is named, once for all its programs, perhaps without declarations."""
+    found: dict[tuple[str, int], types.Location] = {}
+    for result, declared in named:
+        own = location(result, declared)
+        for module, at in result.references(declared):
+            area = result.text(module).range(at, at + len(declared.name))
+            place = types.Location(uri_of(result.job.program.files[module].path), area)
+            if is_whole or place != own:
+                found[place.uri, at] = place
+    return list(found.values())
 
 
 def _statement_end(text: Text, begin: int) -> int:

@@ -1,4 +1,4 @@
-"""Where the names of a program are declared."""
+"""The declarations of the names of a program."""
 
 from __future__ import annotations
 
@@ -6,18 +6,38 @@ import re
 from bisect import bisect
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from irbkin.lsp.text import Text
     from irbkin.rapid import Module, Program
 
 UNREAD = re.compile(r"(?:(LOCAL|TASK)\s+)?(CONST|PERS|VAR)\s+(\w+)\s+(\w+)", re.IGNORECASE)
-"""A declaration of a type that is not read."""
+"""A declaration of data whose type is not parsed."""
 RECORD = re.compile(r"(LOCAL\s+)?(RECORD|ALIAS)\s+(?:\w+\s+(?=\w+\s*;))?(\w+)", re.IGNORECASE)
 PARAMETER = "parameter"
 ROUTINES = ("PROC", "FUNC", "TRAP")
-END = re.compile(r"^[ \t]*END(?:PROC|FUNC|TRAP)\b[^\n]*", re.IGNORECASE | re.MULTILINE)
+HEADER = re.compile(
+    r"(\\|\|\s*\\?)?\s*((?:(?:INOUT|VAR|PERS|REF)\s+)?\b(\w+)\s+(\w+))", re.IGNORECASE
+)
+
+
+class Parameter(NamedTuple):
+    """A parameter of a routine."""
+
+    name: str
+    kind: str
+    """Its type."""
+    is_optional: bool
+    begin: int
+    end: int
+    """Offsets in the header."""
+
+
+def parameters(header: str) -> list[Parameter]:
+    """Return the parameters of the header of a routine."""
+    found = HEADER.finditer(header, header.find("(") + 1 or len(header))
+    return [Parameter(it[4], it[3].lower(), bool(it[1]), *it.span(2)) for it in found]
 
 
 @dataclass(frozen=True)
@@ -37,6 +57,21 @@ class Declared:
     column: int
     value: Any = None
 
+    @property
+    def type(self) -> str:
+        """The type of its value, in lower case."""
+        if self.kind == PARAMETER:
+            return next(it.kind for it in parameters(self.words) if it.name == self.name)
+        of = (
+            self.words.upper().partition("FUNC ")[2].split() if self.kind == "FUNC" else [self.kind]
+        )
+        return of[0].lower()
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether it is declared as CONST."""
+        return "CONST" in self.words.upper().split()[:2]
+
     def span(self, text: Text) -> tuple[int, int]:
         """Return the offsets of its name in the text of its module."""
         begin = text.at(self.line, self.column)
@@ -50,88 +85,99 @@ class Declared:
 class Names:
     """The declarations of a program."""
 
-    def __init__(self, program: Program) -> None:
+    def __init__(
+        self, program: Program, known: dict[int, tuple[Module, list[Declared]]] | None = None
+    ) -> None:
         self.program = program
+        self._known = {} if known is None else known
+        """The declarations of modules that are perhaps the same as before."""
 
     @cached_property
     def of_modules(self) -> list[list[Declared]]:
         """All declarations of each module, in the order of the text."""
-        return [declarations(it, index) for index, it in enumerate(self.program.modules)]
+        for at, module in enumerate(self.program.modules):
+            if at not in self._known or self._known[at][0] is not module:
+                self._known[at] = (module, declarations(module, at))
+        return [self._known[at][1] for at in range(len(self.program.modules))]
 
     @cached_property
     def _own(self) -> list[dict[tuple[str, str], Declared]]:
         """The declarations of each module by their routines and names in lower case."""
-        tables = []
-        for declared in self.of_modules:
-            table: dict[tuple[str, str], Declared] = {}
-            for it in declared:
-                table.setdefault(((it.routine or "").lower(), it.name.lower()), it)
-            tables.append(table)
-        return tables
+        # The first of several declarations takes precedence.
+        return [
+            {((it.routine or "").lower(), it.name.lower()): it for it in reversed(declared)}
+            for declared in self.of_modules
+        ]
 
     @cached_property
     def _shared(self) -> dict[str, Declared]:
         """The first declaration of each name that all modules see."""
-        shared: dict[str, Declared] = {}
-        for declared in self.of_modules:
-            for it in declared:
-                if it.routine is None and not it.is_local:
-                    shared.setdefault(it.name.lower(), it)
-        return shared
+        return {
+            it.name.lower(): it
+            for declared in reversed(self.of_modules)
+            for it in reversed(declared)
+            if it.routine is None and not it.is_local
+        }
+
+    @cached_property
+    def _routines(self) -> list[list[tuple[int, str]]]:
+        """The lines and names of the routines of each module."""
+        return [[(it.line, it.name) for it in of.routines] for of in self.program.modules]
 
     def routine_at(self, module: int, line: int) -> str | None:
         """Return the routine that a line of a module is in."""
-        routines = self.program.modules[module].routines
-        place = bisect([it.line for it in routines], line)
-        return routines[place - 1].name if place else None
+        routines = self._routines[module]
+        place = bisect(routines, line, key=lambda routine: routine[0])
+        return routines[place - 1][1] if place else None
+
+    def visible(self, module: int, routine: str | None) -> dict[str, Declared]:
+        """Return what a routine of a module sees, by names in lower case."""
+        own, inner = self._own[module], (routine or "").lower()
+        shown = {**self._shared, **{name: it for (of, name), it in own.items() if not of}}
+        shown |= self.parameters(own.get(("", inner)))
+        return {**shown, **{name: it for (of, name), it in own.items() if inner and of == inner}}
 
     def find(self, module: int, routine: str | None, name: str) -> Declared | None:
-        """Return the declaration that a name refers to in a routine of a module."""
-        own, lower = self._own[module], name.lower()
-        inner = own.get((routine.lower(), lower)) if routine else None
-        return inner or self._parameter(module, routine, name) or self.outer(module, lower)
+        """Return the declaration of a name that is used in a routine of a module."""
+        own, lower, of = self._own[module], name.lower(), (routine or "").lower()
+        inner = own.get((of, lower)) or self.parameters(own.get(("", of))).get(lower)
+        return inner or own.get(("", lower)) or self._shared.get(lower)
 
-    def outer(self, module: int, lower: str) -> Declared | None:
-        """Return the declaration that a name in lower case refers to outside routines."""
-        return self._own[module].get(("", lower)) or self._shared.get(lower)
-
-    def _parameter(self, module: int, routine: str | None, name: str) -> Declared | None:
-        """The parameter of a routine."""
-        own = self._own[module].get(("", (routine or "").lower()))
-        if own is None or own.kind not in ROUTINES:
-            return None
-        inside = own.words.partition("(")[2]
-        if not re.search(rf"\w\s+{re.escape(name)}\s*(?:[,){{|]|$)", inside, re.IGNORECASE):
-            return None
-        place = (own.name, True, own.line, own.column)
-        return Declared(module, name, PARAMETER, own.words, *place)
+    def parameters(self, of: Declared | None) -> dict[str, Declared]:
+        """Return the parameters of a routine, by names in lower case."""
+        if of is None or of.kind not in ROUTINES:
+            return {}
+        place, names = (of.name, True, of.line, of.column), [it.name for it in parameters(of.words)]
+        return {it.lower(): Declared(of.module, it, PARAMETER, of.words, *place) for it in names}
 
 
 def declarations(module: Module, index: int) -> list[Declared]:
     """Return the declarations of a module, in the order of the text."""
     found = []
-    for it in module.declarations:
-        words = " ".join(filter(None, (it.scope, it.storage, it.data_type, it.name)))
-        place = (it.routine, it.scope == "LOCAL", it.line, it.column)
-        found.append(Declared(index, it.name, it.data_type, words, *place, it.value))
+    for data in module.declarations:
+        words = " ".join(filter(None, (data.scope, data.storage, data.data_type, data.name)))
+        place = (data.routine, data.scope == "LOCAL", data.line, data.column)
+        found.append(Declared(index, data.name, data.data_type, words, *place, data.value))
     for of in module.routines:
         words = " ".join(of.header.split())
         is_local = words[:6].upper() == "LOCAL "
         found.append(Declared(index, of.name, of.kind, words, None, is_local, of.line, of.column))
     for part in module.skipped:
-        if match := UNREAD.match(part.text):
-            name, kind, scope = match[4], match[3], match[1]
-        elif match := RECORD.match(part.text):
-            name, kind, scope = match[3], match[2].upper(), match[1]
-        else:
-            continue
-        is_local = (scope or "").strip().upper() == "LOCAL"
-        place = (part.routine, is_local, part.line, part.column)
-        found.append(Declared(index, name, kind, " ".join(match[0].split()), *place))
-    return sorted(found, key=lambda it: (it.line, it.column))
+        if (one := unread(part.text)) is not None:
+            name, kind, words, is_local = one
+            place = (part.routine, is_local, part.line, part.column)
+            found.append(Declared(index, name, kind, words, *place))
+    return sorted(found, key=lambda declared: (declared.line, declared.column))
 
 
-def end_of(text: Text, begin: int) -> int:
-    """Return the offset at which the routine that begins at another one ends."""
-    match = END.search(text.source, begin)
-    return match.end() if match else len(text.source.rstrip())
+def unread(statement: str) -> tuple[str, str, str, bool] | None:
+    """Return the name, the kind and the words of a declaration that is not read, and whether it is
+    LOCAL; None for any other statement.
+    """
+    if match := UNREAD.match(statement):
+        name, kind = match[4], match[3]
+    elif match := RECORD.match(statement):
+        name, kind = match[3], match[2].upper()
+    else:
+        return None
+    return name, kind, " ".join(match[0].split()), (match[1] or "").strip().upper() == "LOCAL"

@@ -1,4 +1,4 @@
-"""The programs of open documents, checked one after another in a thread; the latest text counts."""
+"""Checks of the programs of open documents: one at a time in a thread, of the latest text."""
 
 from __future__ import annotations
 
@@ -7,28 +7,27 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from irbkin.lsp.reading import Reading
-from irbkin.lsp.work import Desk, Session
-
-PAUSE = 0.01
-"""Time in which changes come together before a check [s]."""
+from irbkin.lsp.programs import Programs
+from irbkin.lsp.session import Session
+from irbkin.lsp.text import Text
 
 
 class Queue:
     """The sessions of the documents that are open.
 
-    All its methods are called by the event loop. What takes time is done in one thread, so that
-    nothing is read or checked twice at a time.
+    All methods are called in the event loop. One thread reads and checks, so that no two checks run
+    at a time.
     """
 
     def __init__(
         self,
-        desk: Desk,
-        texts: Callable[[], Mapping[str, str]],
+        programs: Programs,
+        texts: Callable[[], Mapping[str, Text]],
         done: Callable[[Session], None],
         failed: Callable[[BaseException], None],
     ) -> None:
-        self._desk, self._texts, self._done, self._failed = desk, texts, done, failed
+        self._programs, self._texts = programs, texts
+        self._done, self._failed = done, failed
         self._pool = ThreadPoolExecutor(1, "irbkin")
         self._sessions: dict[tuple[str, tuple[str, ...]], Session] = {}
         self._of: dict[str, list[Session]] = {}
@@ -37,21 +36,21 @@ class Queue:
         self._worker: asyncio.Task[None] | None = None
 
     def sessions(self, path: str) -> Sequence[Session]:
-        """Return the sessions of a document, as far as they are known."""
+        """Return the sessions of a document that are found so far."""
         return self._of.get(path, ())
 
     def open(self, path: str, options: Mapping[str, Any]) -> None:
-        """Look for the tasks of a document and check them."""
+        """Find the sessions of a document and check them."""
         self._new[path] = options
         self._wake()
 
     def change(self, path: str) -> None:
-        """Check the tasks of a document again."""
+        """Check the sessions of a document again."""
         self._stale.update(dict.fromkeys(self.sessions(path)))
         self._wake()
 
     def close(self, path: str) -> None:
-        """Forget a document; the others are checked with the text of its file."""
+        """Remove a document; sessions that share it continue with the text of its file."""
         self._new.pop(path, None)
         closed = self._of.pop(path, [])
         kept = {session for own in self._of.values() for session in own}
@@ -64,38 +63,40 @@ class Queue:
         self._wake()
 
     def reload(self, paths: Iterable[str], options: Mapping[str, Any]) -> None:
-        """Read options and backups again, and look for the tasks of all documents."""
+        """Reload options and backups, and find the sessions of all documents again."""
         self._sessions.clear()
         self._stale.clear()
         self._new = dict.fromkeys(paths, options)
-        self._pool.submit(self._desk.forget)
+        self._pool.submit(self._programs.forget)
         self._wake()
 
-    async def rest(self, path: str, timeout: float) -> None:
-        """Wait until a document is checked as it is."""
+    async def rest(self, path: str, timeout: float) -> bool:
+        """Wait until the current text of a document is checked; return whether it is in time."""
         loop = asyncio.get_running_loop()
         end = loop.time() + timeout
         while self._worker and not self._worker.done() and self._is_open(path):
             left = end - loop.time()
             if left <= 0.0:
-                return
-            await asyncio.wait({asyncio.ensure_future(asyncio.sleep(min(0.002, left)))})
+                return False
+            await asyncio.sleep(min(0.002, left))
+        return True
 
     def stop(self) -> None:
-        """End the thread when it is done with what it does."""
+        """End the thread after its current check."""
         self._pool.shutdown(wait=False, cancel_futures=True)
 
     def _is_open(self, path: str) -> bool:
-        """Whether something of a document is yet to be done."""
-        return path in self._new or any(it in self._stale for it in self.sessions(path))
+        """Whether a search or a check of a document is pending."""
+        return path in self._new or any(session in self._stale for session in self.sessions(path))
 
     def _wake(self) -> None:
         if self._worker is None or self._worker.done():
             self._worker = asyncio.get_running_loop().create_task(self._work())
 
     async def _work(self) -> None:
-        """Do what there is to do."""
-        await asyncio.sleep(PAUSE)
+        """Run the pending searches and checks."""
+        # Changes that are already here come together.
+        await asyncio.sleep(0)
         while self._new or self._stale:
             try:
                 if self._new:
@@ -109,7 +110,7 @@ class Queue:
     async def _find(self, path: str, options: Mapping[str, Any]) -> None:
         loop = asyncio.get_running_loop()
         try:
-            tasks = await loop.run_in_executor(self._pool, self._desk.tasks, path, options)
+            found = await loop.run_in_executor(self._pool, self._programs.sessions, path, options)
         except Exception:
             self._new.pop(path, None)
             raise
@@ -117,9 +118,8 @@ class Queue:
             return
         del self._new[path]
         self._of[path] = []
-        for task in tasks:
-            session = Session(task, Reading(task.paths))
-            session = self._sessions.setdefault(_key(session), session)
+        for new in found:
+            session = self._sessions.setdefault(_key(new), new)
             self._of[path].append(session)
             self._stale[session] = None
 
@@ -131,7 +131,7 @@ class Queue:
         except Exception:
             self._stale.pop(session, None)
             raise
-        # A text that changed in the meantime is checked again.
+        # A text that changed meanwhile is checked again.
         if session in self._stale and _is_same(texts, self._texts(), session):
             del self._stale[session]
             session.result = result
@@ -139,9 +139,9 @@ class Queue:
 
 
 def _key(session: Session) -> tuple[str, tuple[str, ...]]:
-    return session.task.title, tuple(session.task.paths)
+    return session.job.title, tuple(session.paths)
 
 
-def _is_same(old: Mapping[str, str], new: Mapping[str, str], session: Session) -> bool:
+def _is_same(old: Mapping[str, Text], new: Mapping[str, Text], session: Session) -> bool:
     """Whether the texts of a session are the same objects."""
-    return all(old.get(path) is new.get(path) for path in session.reading.paths)
+    return all(old.get(path) is new.get(path) for path in session.paths)

@@ -1,4 +1,4 @@
-"""Read a program again and again: only what a change affects."""
+"""Incremental reading of a program: only modules that a change affects."""
 
 from __future__ import annotations
 
@@ -6,93 +6,150 @@ import os
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 from irbkin._core import differing_names, read_module
+from irbkin.lsp.code import before
+from irbkin.lsp.names import unread
+from irbkin.lsp.text import NAME
 from irbkin.rapid.program import FileFinding, ModuleFile, program_from
 
 if TYPE_CHECKING:
+    from irbkin.lsp.text import Text
     from irbkin.rapid import Module, Program
 
 MOST_BYTES = 4_000_000
-"""Size of a file that is read while one types: 30,000 moves, which are checked in a second."""
-NAME = re.compile(r"[^\W\d]\w*")
+"""Largest file that is read while editing: 30,000 moves, which are checked in a second."""
+LOCAL = re.compile(r"\bLOCAL\s+(?:CONST|PERS|VAR)\s+\w+\s+(\w+)", re.IGNORECASE)
+BLANKS = {byte: " " for byte in range(128) if not f"a{chr(byte)}".isidentifier()}
+"""Characters that are in no name, as blanks."""
 
 
 @dataclass(eq=False)
 class _Entry:
-    """A file, as it was when it was read."""
+    """A file at the time of its last reading."""
 
     stamp: object
-    """Changes with its content."""
+    """Differs if the content may differ."""
     file: ModuleFile
     content: str | bytes = field(repr=False)
     alone: Module
-    """Without the others."""
+    """Read without the other modules."""
+    names: frozenset[str]
+    """All names in the text, in lower case."""
+    shared: frozenset[str]
+    """Those that it declares for other modules, and its own."""
     module: Module | None = None
-    """With the others; None to read it again."""
-
-    @cached_property
-    def names(self) -> set[str]:
-        """All names in the text, in lower case."""
-        return set(NAME.findall(self.alone.source.lower()))
+    """Read with the other modules; None if that is pending."""
 
 
 class Reading:
-    """The files of a program, read as often as they change."""
+    """The files of a program, each read again when it changes."""
 
     def __init__(self, paths: Iterable[str]) -> None:
         self.paths = list(paths)
+        self.groups: Sequence[Sequence[int]] = ()
+        """The modules of the last program, in groups that have no name in common: what one of them
+        does is the same without the other groups.
+        """
+        self._linked: Sequence[frozenset[str]] = ()
         self._entries: dict[str, _Entry] = {}
 
-    def program(self, texts: Mapping[str, str]) -> Program:
+    def program(self, texts: Mapping[str, Text]) -> Program:
         """Return the program.
 
-        A module is read again if its text is another one, or if it has a name that other modules
-        declare, assign or call in another way than before.
+        A module is read again if its text has changed, or if it contains a name whose declaration,
+        assignments or calls in other modules have changed.
 
         Args:
-            texts: Texts that take the place of files, by path.
+            texts: Texts of open documents by path, which replace their files.
         """
         names, findings = set[str](), list[FileFinding]()
         for path in self.paths:
             names |= self._read(path, texts.get(path), findings)
         entries = [self._entries[path] for path in self.paths if path in self._entries]
-        for entry in entries:
-            if entry.module is None or (names and not names.isdisjoint(entry.names)):
-                context = [other.alone for other in entries if other is not entry]
-                entry.module = read_module(entry.content, context) if context else entry.alone
+        linked = [own for entry in entries for own in (entry.names, entry.shared)]
+        if [*map(id, linked)] != [*map(id, self._linked)]:
+            self._linked, self.groups = linked, _groups(entries)
+        for group in self.groups:
+            for index in group:
+                entry = entries[index]
+                if entry.module is None or (names and not names.isdisjoint(entry.names)):
+                    context = [entries[other].alone for other in group if other != index]
+                    entry.module = read_module(entry.content, context) if context else entry.alone
         modules = [entry.module for entry in entries if entry.module is not None]
         return program_from([entry.file for entry in entries], modules, findings)
 
-    def _read(self, path: str, text: str | None, findings: list[FileFinding]) -> set[str]:
-        """Read a file if it is another one; return the names that differ to other modules."""
+    def _read(self, path: str, text: Text | None, findings: list[FileFinding]) -> set[str]:
+        """Read a file if it has changed; return the names that differ for other modules."""
         old = self._entries.get(path)
         try:
-            stamp: object = _stamp(path) if text is None else text
+            stamp: object = _stamp(path) if text is None else text.source
             if old and old.stamp == stamp:
                 return set()
-            content = _content(path) if text is None else text
+            content = _content(path) if text is None else text.source
         except OSError as error:
-            # A file that was removed is no longer in the program.
+            # A removed file leaves the program without a finding.
             if not isinstance(error, FileNotFoundError):
                 message = f"cannot be read: {error.strerror or error}"
                 findings.append(FileFinding(path, 0, 0, "E002", message))
             self._entries.pop(path, None)
             return differing_names(old.alone, EMPTY) if old else set()
-        alone = read_module(content)
         file = ModuleFile(path, content.encode() if isinstance(content, str) else content)
-        self._entries[path] = _Entry(stamp, file, content, alone)
-        return differing_names(old.alone if old else EMPTY, alone)
+        alone = read_module(content)
+        differing = differing_names(old.alone if old else EMPTY, alone)
+        names = shared = NONE
+        if len(self.paths) > 1:
+            names, shared = _names(alone.source), _shared(alone)
+        if old is not None:
+            # Equal names are the same object: groups are formed anew only if something differs.
+            names = old.names if names == old.names else names
+            shared = old.shared if shared == old.shared else shared
+        self._entries[path] = _Entry(stamp, file, content, alone, names, shared)
+        return differing
 
 
 EMPTY = read_module("")
+NONE: frozenset[str] = frozenset()
 
 
-def is_large(content: Sequence[object]) -> bool:
-    """Whether a text or a file is larger than what is read while one types."""
-    return len(content) > MOST_BYTES
+def _groups(entries: Sequence[_Entry]) -> list[list[int]]:
+    """The indices of modules that are linked by names, in groups."""
+    group = list(range(len(entries)))
+
+    def first(index: int) -> int:
+        while group[index] != index:
+            group[index] = index = group[group[index]]
+        return index
+
+    owners: dict[str, int] = {}
+    for index, entry in enumerate(entries):
+        for name in entry.shared:
+            group[first(owners.setdefault(name, index))] = first(index)
+    for index, entry in enumerate(entries):
+        for name in owners.keys() & entry.names:
+            group[first(owners[name])] = first(index)
+    found: dict[int, list[int]] = {}
+    for index in range(len(entries)):
+        found.setdefault(first(index), []).append(index)
+    return list(found.values())
+
+
+def _names(source: str) -> frozenset[str]:
+    """All names in a text, in lower case."""
+    lower = source.lower()
+    parts = lower.translate(BLANKS).split() if lower.isascii() else NAME.findall(lower)
+    # Digits in front of a name are no part of it.
+    return frozenset(name for part in set(parts) if (name := part.lstrip("0123456789")))
+
+
+def _shared(module: Module) -> frozenset[str]:
+    """The names that a module declares for others, in lower case, and its own."""
+    source = module.source
+    own = {it[1].lower() for it in LOCAL.finditer(source) if before(source, it.start()) is not None}
+    others = [found[0] for part in module.skipped if (found := unread(part.text))]
+    names = (*module.keys(), *(it.name for it in module.routines), *others, module.name or "")
+    return frozenset(map(str.lower, names)) - own
 
 
 def _stamp(path: str) -> tuple[int, int]:

@@ -14,16 +14,18 @@ from pygls.protocol.language_server import LanguageServerProtocol, lsp_method
 from pygls.uris import to_fs_path
 
 from irbkin import __version__
+from irbkin.lsp.completion import Place
 from irbkin.lsp.marks import SOURCE, diagnostics
+from irbkin.lsp.programs import Programs
 from irbkin.lsp.queue import Queue
-from irbkin.lsp.reading import MOST_BYTES, is_large
+from irbkin.lsp.reading import MOST_BYTES
+from irbkin.lsp.session import Result, Session
 from irbkin.lsp.text import Text
-from irbkin.lsp.work import Desk, Result, Session
 
 WAIT = 5.0
-"""How long a question waits until the text is checked as it is [s]; then the last check counts."""
+"""Longest wait of a request for the check of the current text [s]; then the last result is used."""
 WATCHED = ("**/*.{mod,modx,sys,sysx,prg,cfg}", "**/irbkin.toml", "**/pyproject.toml")
-"""Files whose changes count although they are not open."""
+"""Files that are watched although they are not open."""
 
 
 class _Messages(LanguageServerProtocol):
@@ -37,36 +39,41 @@ class _Messages(LanguageServerProtocol):
     def lsp_text_document__did_change(
         self, params: types.DidChangeTextDocumentParams
     ) -> Generator[Any, Any, None]:
-        """Pass a change on."""
+        """Forward a change to its handler."""
         yield self.fm.features[types.TEXT_DOCUMENT_DID_CHANGE], (params,), None
 
 
-class Spot(Protocol):
-    """A question about a position in a document."""
+class Document(Protocol):
+    """A request about a document, perhaps about a position in it."""
 
     text_document: types.TextDocumentIdentifier
-    position: types.Position
+
+
+class Refusal(JsonRpcException):
+    """A request that cannot be fulfilled; editors show why."""
+
+    CODE = types.LSPErrorCodes.RequestFailed
 
 
 class Server(LanguageServer):
     """Findings, hovers, corrections and declarations of RAPID modules."""
 
-    def __init__(self, desk: Desk) -> None:
+    def __init__(self, options: Mapping[str, Any]) -> None:
         super().__init__(SOURCE, __version__, protocol_cls=_Messages)
-        self.desk = desk
+        self.programs = Programs(options)
         self.options: Mapping[str, Any] = {}
         """The settings of the editor: options as in irbkin.toml."""
         self.documents: dict[str, tuple[str, int, Text | None]] = {}
         """Address, version and text of open documents by path; no text if it is too large."""
-        self.queue = Queue(desk, self.texts, self.publish, self.fail)
+        self.queue = Queue(self.programs, self.texts, self.publish, self.fail)
         self._said: set[str] = set()
 
-    def texts(self) -> dict[str, str]:
+    def texts(self) -> dict[str, Text]:
         """Return the texts of open documents by path."""
-        return {path: text.source for path, (_, _, text) in self.documents.items() if text}
+        return {path: text for path, (_, _, text) in self.documents.items() if text}
 
     def set_options(self, settings: object) -> None:
-        """Take options, perhaps in a section `irbkin`; nothing for any other value."""
+        """Set the options, perhaps in a section `irbkin`; ignore a value that is no mapping."""
         own = settings.get(SOURCE, settings) if isinstance(settings, Mapping) else None
         if isinstance(own, Mapping) and own != self.options:
             self.options = dict(own)
@@ -75,7 +82,7 @@ class Server(LanguageServer):
     def put(self, uri: str, version: int, text: Text) -> None:
         """Set the text of a document."""
         path = path_of(uri)
-        if is_large(text.source):
+        if len(text.source) > MOST_BYTES:
             size = f"{len(text.source) / 1e6:.1f} MB, more than {MOST_BYTES / 1e6:g} MB"
             self.say(f"{path} has {size}: it is not checked while it is open (irbkin check does)")
             self.documents[path] = (uri, version, None)
@@ -90,32 +97,38 @@ class Server(LanguageServer):
             self.queue.change(path)
 
     def publish(self, session: Session) -> None:
-        """Show what is found in the open documents of a session."""
-        for note in session.task.notes:
+        """Publish the findings in the open documents of a session."""
+        for note in session.notes:
             self.say(note)
-        for path in session.task.paths:
+        for path in session.paths:
             if path in self.documents:
-                results = self.results(path)
-                self.show(path, diagnostics(results, path, self.desk))
+                self.show(path, diagnostics(self.results(path), path))
 
     def show(self, path: str, marks: Sequence[types.Diagnostic]) -> None:
-        """Show findings in a document."""
+        """Publish findings in a document."""
         uri, version, _ = self.documents[path]
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, marks, version))
 
     def results(self, path: str) -> list[Result]:
-        """Return the last checks of a document, of all its tasks."""
-        return [it.result for it in self.queue.sessions(path) if it.result is not None]
+        """Return the last results of all sessions of a document."""
+        return [own.result for own in self.queue.sessions(path) if own.result is not None]
 
-    async def place(self, params: Spot) -> tuple[Result, int, int] | None:
-        """Return a check of a document as it is, the module, and the offset of a position."""
+    async def at(self, params: Document, *, is_now: bool = False) -> list[Place]:
+        """Return the checks of a document, each with its module, text and the offset of a position;
+        now: without waiting for one of the text as it is now.
+        """
         path = path_of(params.text_document.uri)
-        await self.queue.rest(path, WAIT)
+        if not (is_now and self.results(path)):
+            await self.queue.rest(path, WAIT)
+        _, _, now = self.documents.get(path, ("", 0, None))
+        found = []
         for result in self.results(path):
-            module = result.modules.get(path)
-            if module is not None:
-                return result, module, result.text(module).offset(params.position)
-        return None
+            if path in result.modules:
+                module = result.modules[path]
+                text = (now if is_now else None) or result.text(module)
+                offset = text.offset(getattr(params, "position", types.Position(0, 0)))
+                found.append((result, module, text, offset))
+        return found
 
     def say(self, message: str) -> None:
         """Show a message to the user, once."""
@@ -126,17 +139,18 @@ class Server(LanguageServer):
             )
 
     def fail(self, error: BaseException) -> None:
-        """Log an error, which ends nothing but what it was about."""
+        """Log an error; the server continues."""
         lines = "".join(traceback.format_exception(error))
         self.window_log_message(types.LogMessageParams(types.MessageType.Error, lines))
         self.say(f"internal error, which the log has: {error!r}")
 
     def report_server_error(self, error: Exception, source: object) -> None:
         """Log an error of a handler."""
-        self.fail(error)
+        if not isinstance(error, Refusal):
+            self.fail(error)
 
     async def fetch_options(self) -> None:
-        """Ask the editor for the section `irbkin` of its settings, if it answers."""
+        """Request the section `irbkin` of the editor's settings, if it supports that."""
         workspace = self.client_capabilities.workspace
         if workspace and workspace.configuration:
             items = [types.ConfigurationItem(section=SOURCE)]
@@ -146,19 +160,19 @@ class Server(LanguageServer):
                 self.set_options(found[0] if found else None)
 
     async def watch(self) -> None:
-        """Ask the editor to report changes of files, if it can."""
+        """Register for changes of files, if the editor supports that."""
         workspace = self.client_capabilities.workspace
         watched = workspace.did_change_watched_files if workspace else None
         if watched and watched.dynamic_registration:
-            globs = [types.FileSystemWatcher(it) for it in WATCHED]
+            globs = [types.FileSystemWatcher(pattern) for pattern in WATCHED]
             options = types.DidChangeWatchedFilesRegistrationOptions(globs)
             method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
-            asked = types.RegistrationParams([types.Registration("irbkin", method, options)])
+            params = types.RegistrationParams([types.Registration("irbkin", method, options)])
             with contextlib.suppress(JsonRpcException):
-                await self.client_register_capability_async(asked)
+                await self.client_register_capability_async(params)
 
 
 def path_of(uri: str) -> str:
-    """Return the path of a document; of one that is no file, its address."""
+    """Return the path of a document; its URI if it is no file."""
     path = to_fs_path(uri) if uri.startswith("file:") else None
     return path or uri

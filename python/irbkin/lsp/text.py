@@ -1,15 +1,17 @@
-"""The text of a document, with its places as editors, modules and edits count them."""
+"""The text of a document, with the positions of editors, modules and edits."""
 
 from __future__ import annotations
 
 import re
 from bisect import bisect
 from functools import cached_property
+from itertools import accumulate
 
 from lsprotocol import types
 
 END_OF_LINE = re.compile(r"\r\n|\n|\r")
 """Ends of lines, as the protocol defines them."""
+NAME = re.compile(r"[^\W\d]\w*")
 
 
 class Text:
@@ -21,12 +23,14 @@ class Text:
     @cached_property
     def _starts(self) -> list[int]:
         """The offset of each line."""
+        if "\r" not in self.source:
+            return self._rows
         return [0, *(match.end() for match in END_OF_LINE.finditer(self.source))]
 
     @cached_property
     def _rows(self) -> list[int]:
         """The offset of each line as modules count them: a line feed ends one, nothing else."""
-        return [0, *(match.end() for match in re.finditer("\n", self.source))]
+        return [0, *accumulate(len(row) + 1 for row in self.source.split("\n")[:-1])]
 
     @cached_property
     def _is_ascii(self) -> bool:
@@ -42,7 +46,7 @@ class Text:
         return types.Position(line, _units(self.source[self._starts[line] : offset]))
 
     def offset(self, position: types.Position) -> int:
-        """Return the offset of a position; beyond the end of a line or of the text, that end."""
+        """Return the offset of a position, clamped to the end of its line and of the text."""
         if position.line >= len(self._starts):
             return len(self.source)
         begin = self._starts[position.line]
@@ -51,7 +55,7 @@ class Text:
         if self._is_ascii:
             return begin + min(position.character, len(line))
         units = line.encode("utf-16-le")[: 2 * position.character]
-        # The half of a character is dropped.
+        # Half of a surrogate pair is dropped.
         return begin + len(units.decode("utf-16-le", "ignore"))
 
     def at(self, line: int, column: int) -> int:
@@ -79,7 +83,7 @@ class Text:
     def range_of_bytes(self, begin: int, end: int) -> types.Range:
         """Return the range between two bytes of the text in UTF-8."""
         if not self._is_ascii:
-            begin, end = (len(self._bytes[:it].decode(errors="ignore")) for it in (begin, end))
+            begin, end = (len(self._bytes[:byte].decode(errors="ignore")) for byte in (begin, end))
         return self.range(begin, end)
 
     def changed(self, change: types.TextDocumentContentChangeEvent) -> Text:
@@ -90,9 +94,9 @@ class Text:
         return Text(self.source[:begin] + change.text + self.source[max(begin, end) :])
 
     def word(self, offset: int) -> tuple[int, int]:
-        """Return the begin and the end of the name at an offset, equal without a name."""
+        """Return the begin and the end of the name at an offset; equal if there is none."""
         line, column = self.place(offset)
-        for match in re.finditer(r"[^\W\d]\w*", self.row(line)):
+        for match in NAME.finditer(self.row(line)):
             if match.start() < column <= match.end() + 1:
                 begin = self._rows[line - 1]
                 return begin + match.start(), begin + match.end()
@@ -100,12 +104,12 @@ class Text:
 
 
 def _units(text: str) -> int:
-    """The number of units of a text in UTF-16."""
+    """The number of UTF-16 code units of a text."""
     return len(text) if text.isascii() else len(text.encode("utf-16-le")) // 2
 
 
 def _sound(text: str) -> str:
-    """A text without halves of characters, which no file can have."""
+    """A text without lone surrogates, which no file can contain."""
     try:
         text.encode()
     except UnicodeEncodeError:

@@ -93,7 +93,8 @@ def reach(
     """Map what an arm reaches: for each position of a grid, how many orientations are reached
     inside the limits, in how many ways, and how near to limits and singularities.
 
-    The answer does not depend on blocks or threads. Memory holds the answer and one block.
+    Collisions are not checked, not even with the arm itself: positions in its base count, too. The
+    answer does not depend on blocks or threads. Memory holds the answer and one block.
 
     Args:
         robot: The arm, with its tool and base.

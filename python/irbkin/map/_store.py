@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import hashlib
-import os
 import pickle
 import shutil
 import zipfile
@@ -15,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin._arrays import Floats
+from irbkin._files import replaced
 from irbkin._grids import ReachMap
 
 if TYPE_CHECKING:
@@ -47,6 +47,8 @@ class Store:
         if self._output.suffix != ".npz":
             raise ValueError(f"output must be a file .npz, got {self._output}")
         self._parts = self._output.with_name(self._output.name + ".parts")
+        if self._parts.is_symlink():
+            raise FileExistsError(f"{self._parts} is a link: remove it or choose another output")
         if not self._output.parent.is_dir():
             raise FileNotFoundError(
                 errno.ENOENT, "cannot be written: its folder does not exist", str(self._output)
@@ -101,14 +103,8 @@ class Store:
         shutil.rmtree(self._parts, ignore_errors=True)
 
     def _write(self, path: Path, fields: Mapping[str, Any]) -> None:
-        """Write a file beside its place, then move it there: a file is whole or absent."""
-        beside = path.with_name(f"{path.stem}.{os.getpid()}.tmp")
-        try:
-            with beside.open("wb") as file:
-                np.savez(file, job=np.array(self._job), **fields)
-            os.replace(beside, path)
-        finally:
-            beside.unlink(missing_ok=True)
+        with replaced(path) as file:
+            np.savez(file, job=np.array(self._job), **fields)
 
 
 def _arrays(path: Path) -> dict[str, npt.NDArray[Any]]:

@@ -13,6 +13,7 @@ from matplotlib.animation import FuncAnimation, PillowWriter
 
 from irbkin._arguments import check_robot
 from irbkin._arrays import evenly
+from irbkin._files import replaced, write_by_name
 from irbkin.errors import InvalidMotionError
 from irbkin.plot._bodies import ARROW, corners, draw_body, draw_frame, extent
 from irbkin.plot._picture import Picture
@@ -57,10 +58,11 @@ class Movie:
         """
         ending = os.path.splitext(path)[1].lower()
         if ending == ".gif":
-            self._animation().save(os.fspath(path), writer=PillowWriter(fps=self._whole_fps))
+            writer = PillowWriter(fps=self._whole_fps)
+            write_by_name(path, lambda own: self._animation().save(own, writer=writer))
         elif ending in (".html", ".htm"):
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(self.to_html())
+            with replaced(path) as file:
+                file.write(self.to_html().encode())
         else:
             raise ValueError(f"{os.fspath(path)}: must end in .gif or .html")
 

@@ -74,10 +74,15 @@ def plan_targets(
         units = [1e3 if isinstance(one, Track) else np.degrees(1.0) for one in carriers]
         extax = plan.external * units
     axes = _external(plan, len(q), extax)
-    return [
+    targets = [
         _core.calc_rob_t(_standing(robot, carriers, values), JointTarget.of(row, more), tool, wobj)
         for row, more, values in zip(q.tolist(), axes.tolist(), plan.external, strict=True)
     ]
+    # Of a quaternion and its negative, the one nearer to the target before.
+    for number, own in enumerate(targets[1:], 1):
+        if np.dot(targets[number - 1].rot, own.rot) < 0:
+            targets[number] = own._replace(rot=tuple(0.0 - part for part in own.rot))
+    return targets
 
 
 def plan_module(

@@ -220,6 +220,8 @@ def _listed(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, bytes
             wrong = f"is no module ({', '.join(ENDINGS)})"
         elif not os.path.isfile(target):
             wrong = "does not exist"
+        elif not _is_inside(os.path.realpath(target), os.path.realpath(folder)):
+            wrong = "is a link out of the folder: it is not read"
         if wrong:
             findings.append(FileFinding(path, line, 1, "E002", f"{name}: {wrong}"))
             continue

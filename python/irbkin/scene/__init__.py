@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 from irbkin.scene._arms import arm_of
 from irbkin.scene._data import (
+    FACES,
     Arm,
     Cloud,
     Frame,
@@ -32,6 +33,8 @@ from irbkin.scene._data import (
     Scene,
 )
 from irbkin.scene._makers import of
+from irbkin.scene._page import page
+from irbkin.scene._svg import of_scene
 
 if TYPE_CHECKING:
     from irbkin.scene._widget import View as View
@@ -50,6 +53,22 @@ __all__ = [
     "arm_of",
     "of",
 ]
+
+
+def _view(scene: Scene, height: int) -> View:
+    from irbkin.scene._widget import View
+
+    return View(scene, height=height)
+
+
+def _record(scene: Scene, path: str) -> None:
+    from irbkin.scene._rerun import write
+
+    write(scene, path)
+
+
+# A scene is data: it does not know the faces that know it.
+FACES.update({".html": page, ".htm": page, ".svg": of_scene, ".rrd": _record, "view": _view})
 
 
 def __getattr__(name: str) -> Any:

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
+from irbkin._files import replaced
 from irbkin.scene._plain import plain, read
 
 if TYPE_CHECKING:
     from irbkin.scene._widget import View
 
 FORMAT, VERSION = "irbkin scene", 1
+ENDINGS = (".json", ".html", ".htm", ".svg")
+FACES: dict[str, Callable[..., Any]] = {}
+"""Makers of a scene's files, by their endings, and of its `view`: `irbkin.scene` enters them."""
 Vector = tuple[float, ...]
 Rows = tuple[Vector, ...]
 
@@ -187,9 +192,8 @@ class Scene:
         Args:
             height: Its height [pixels].
         """
-        from irbkin.scene._widget import View
-
-        return View(self, height=height)
+        view: View = FACES["view"](self, height=height)
+        return view
 
     @classmethod
     def from_dict(cls, data: Any) -> Scene:
@@ -221,27 +225,27 @@ class Scene:
         Raises:
             FileNotFoundError: This installation lacks the page's engine.
         """
-        from irbkin.scene._page import page
-
-        return page(self)
+        text: str = FACES[".html"](self)
+        return text
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the scene to a file: a page if the path ends in .html, for the viewer of rerun if
-        it ends in .rrd, which needs `pip install 'irbkin[rerun]'`, else JSON.
+        """Write the scene to a file, by its ending: a page (.html), JSON, a picture of its arms and
+        paths (.svg), or for the viewer of rerun (.rrd), which needs `pip install 'irbkin[rerun]'`.
 
         Raises:
+            ValueError: Another ending; no arm, of a .svg.
             FileNotFoundError: As `to_html`, of a page.
             ImportError: rerun-sdk is not installed, of a .rrd.
         """
-        name = os.fspath(path).lower()
-        if name.endswith(".rrd"):
-            from irbkin.scene._rerun import write
-
-            return write(self, os.fspath(path))
-        is_page = name.endswith((".html", ".htm"))
-        text = self.to_html() if is_page else self.to_json()
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
+        ending = os.path.splitext(path)[1].lower()
+        if ending == ".rrd":
+            FACES[ending](self, os.fspath(path))
+            return
+        if ending not in ENDINGS:
+            raise ValueError(f"{os.fspath(path)}: must end in {', '.join(ENDINGS)} or .rrd")
+        text = self.to_json() if ending == ".json" else FACES[ending](self)
+        with replaced(path) as file:
+            file.write(text.encode())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:

@@ -63,7 +63,8 @@ def engine() -> str:
     if not ENGINE.exists():
         raise FileNotFoundError(
             f"this irbkin was built without {ENGINE.name}, which draws and solves in a browser: "
-            "`make page` in its sources builds it"
+            "`make page` in its sources builds it. Without it, save a scene as a picture (.svg), "
+            "or draw it by irbkin.viewer or irbkin.plot"
         )
     return base64.b64encode(ENGINE.read_bytes()).decode()
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from irbkin._files import write_by_name
 from irbkin.scene._arms import link_frames, start
 from irbkin.scene._look import GHOST, OBSTACLE, PATH, SEVERITIES, link_color, value_colors
 from irbkin.scene._svg import LINES
@@ -41,8 +42,10 @@ def write(scene: Scene, path: str) -> None:
     Raises:
         OSError: The file cannot be written.
     """
-    with open(path, "wb"):
-        pass
+    write_by_name(path, lambda own: _write(scene, own))
+
+
+def _write(scene: Scene, path: str) -> None:
     recording = rr.RecordingStream("irbkin")
     recording.save(path)
     recording.send_recording_name(scene.title or "irbkin")

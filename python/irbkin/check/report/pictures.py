@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Mapping
 from html import escape
 
-from irbkin.cli.codes import LEVELS
-from irbkin.cli.findings import Coverage, Found
+from irbkin.check.codes import LEVELS
+from irbkin.check.findings import Finding
+from irbkin.check.report import Report
 
 WIDTH = 320
 """Width of a picture, in its own units."""
@@ -16,10 +16,10 @@ MOST = 12
 """Bars of a picture."""
 
 
-def share(coverage: Coverage) -> str:
-    """Draw how many moves were checked, and why others were not."""
-    parts = [("checked", coverage.checked, "fine")]
-    parts += [(f"not: {reason}", count, "warning") for reason, count in coverage.reasons.items()]
+def share(report: Report) -> str:
+    """Draw the shares of checked moves and of unchecked ones by reason."""
+    parts = [("checked", report.checked, "fine")]
+    parts += [(f"not: {reason}", count, "warning") for reason, count in report.reasons.items()]
     total = sum(count for _, count, _ in parts)
     if not total:
         return ""
@@ -34,10 +34,10 @@ def share(coverage: Coverage) -> str:
 
 
 def bars(tally: Mapping[str, Counter[str]]) -> str:
-    """Draw numbers of findings by name, a part of each bar for each severity."""
+    """Draw numbers of findings by name as bars, stacked by severity."""
     if not tally:
         return ""
-    ranked = sorted(tally.items(), key=lambda it: -it[1].total())
+    ranked = sorted(tally.items(), key=lambda named: -named[1].total())
     most = ranked[0][1].total()
     room = WIDTH - 30
     drawn = []
@@ -56,7 +56,7 @@ def bars(tally: Mapping[str, Counter[str]]) -> str:
     return svg(drawn, 34 * min(len(ranked), MOST) + (20 if left > 0 else 0))
 
 
-def gauge(found: Found) -> str:
+def gauge(found: Finding) -> str:
     """Draw a value and its bound, if a finding has both."""
     value, bound = found.value, found.bound
     if value is None or not bound or bound < 0 or value < 0:
@@ -69,7 +69,7 @@ def gauge(found: Found) -> str:
         f'<path d="M{tick:.1f} 0V18" stroke="currentColor" stroke-width="2"/>',
         text(WIDTH - 102, 13, f"{100 * value / bound:.0f} % of the bound"),
     ]
-    return re.sub("<svg", '<svg class="gauge"', svg(drawn, 18), count=1)
+    return svg(drawn, 18).replace("<svg", '<svg class="gauge"', 1)
 
 
 def svg(drawn: list[str], height: float) -> str:

@@ -8,23 +8,24 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from irbkin.cli.codes import codes, rules
-from irbkin.cli.findings import Found
-from irbkin.cli.report import Report
+from irbkin.check.codes import codes, rules
+from irbkin.check.findings import Finding
+from irbkin.check.report import Report
 
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
+REGION = ("startLine", "startColumn", "endLine", "endColumn")
 
 
 def render(report: Report) -> str:
     """Return the log."""
     from irbkin import __version__
 
-    driver = {"name": "irbkin", "version": __version__, "rules": [_rule(it) for it in rules()]}
+    driver = {"name": "irbkin", "version": __version__, "rules": [_rule(code) for code in rules()]}
     run = {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
-        "results": [_result(it, report) for it in report.found],
-        "properties": {"robot": report.robot, "moves": report.coverage._asdict()},
+        "results": [_result(found, report) for found in report.findings],
+        "properties": {"robot": report.title, "moves": report.moves},
     }
     return json.dumps({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}, indent=1) + "\n"
 
@@ -45,11 +46,13 @@ def _rule(code: str) -> dict[str, Any]:
     }
 
 
-def _result(found: Found, report: Report) -> dict[str, Any]:
-    begin, end = found.span(report.text_of(found.file).line(found.line))
+def _result(found: Finding, report: Report) -> dict[str, Any]:
+    place: dict[str, Any] = {"artifactLocation": {"uri": _uri(found.file)}}
     # A finding on a whole file has no line.
-    region = _region((found.line, begin + 1), (found.line, end + 1)) if found.line else None
-    location: dict[str, Any] = {"physicalLocation": _physical(found.file, region)}
+    if found.line:
+        _, begin, end = report.place(found)
+        place["region"] = _region((found.line, begin + 1), (found.line, end + 1))
+    location: dict[str, Any] = {"physicalLocation": place}
     if found.routine:
         location["logicalLocations"] = [{"name": found.routine, "kind": "function"}]
     result: dict[str, Any] = {
@@ -62,26 +65,26 @@ def _result(found: Found, report: Report) -> dict[str, Any]:
     if found.related:
         result["relatedLocations"] = [
             {
-                "physicalLocation": _physical(
-                    it.file, {"startLine": it.line, "startColumn": it.column}
-                ),
-                "message": {"text": it.message},
+                "physicalLocation": {
+                    "artifactLocation": {"uri": _uri(file)},
+                    "region": {"startLine": line, "startColumn": column},
+                }
             }
-            for it in found.related
+            for file, line, column in found.related
         ]
     numbers = {key: getattr(found, key) for key in ("joint", "value", "bound")}
-    if known := {key: it for key, it in numbers.items() if it is not None}:
+    if known := {key: number for key, number in numbers.items() if number is not None}:
         result["properties"] = known
     if found.edits:
         result["fixes"] = [_fix(found, report)]
     return result
 
 
-def _fix(found: Found, report: Report) -> dict[str, Any]:
+def _fix(found: Finding, report: Report) -> dict[str, Any]:
     changes: dict[str, list[dict[str, Any]]] = {}
     for file, begin, end, new in found.edits:
-        text = report.text_of(file)
-        region = _region(text.position(begin), text.position(end))
+        position = report.text_of(file).position
+        region = _region(position(begin), position(end))
         replacement = {"deletedRegion": region, "insertedContent": {"text": new}}
         changes.setdefault(file, []).append(replacement)
     artifacts = [
@@ -91,18 +94,8 @@ def _fix(found: Found, report: Report) -> dict[str, Any]:
     return {"description": {"text": "Correct the confdata."}, "artifactChanges": artifacts}
 
 
-def _physical(file: str, region: dict[str, int] | None) -> dict[str, Any]:
-    location: dict[str, Any] = {"artifactLocation": {"uri": _uri(file)}}
-    return location if region is None else {**location, "region": region}
-
-
 def _region(begin: tuple[int, int], end: tuple[int, int]) -> dict[str, int]:
-    return {
-        "startLine": begin[0],
-        "startColumn": begin[1],
-        "endLine": end[0],
-        "endColumn": end[1],
-    }
+    return dict(zip(REGION, (*begin, *end), strict=True))
 
 
 def _uri(file: str) -> str:

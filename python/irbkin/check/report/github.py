@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
-from irbkin.cli.report import Report
+from irbkin.check.report import Report
+from irbkin.check.report.text import heading
 
 COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}
 
 
 def render(report: Report) -> str:
-    """Return one command for each finding."""
+    """Return one command for each finding, and one that says which moves were checked."""
     lines = []
-    for it in report.found:
-        begin, end = it.span(report.text_of(it.file).line(it.line))
+    for found in report.findings:
+        _, begin, end = report.place(found)
         properties = {
-            "title": f"irbkin {it.code} {it.name}",
-            "file": it.file.replace("\\", "/"),
-            "line": it.line,
+            "title": f"irbkin {found.code} {found.name}",
+            "file": found.file.replace("\\", "/"),
+            "line": found.line,
             "col": begin + 1,
-            "endLine": it.line,
+            "endLine": found.line,
             "endColumn": end + 1,
         }
         words = ",".join(f"{key}={_escaped(value, ':,')}" for key, value in properties.items())
-        lines.append(f"::{COMMANDS[it.severity]} {words}::{_escaped(it.text(), '')}\n")
+        text = _escaped(heading(found, is_colored=False), "")
+        lines.append(f"::{COMMANDS[found.severity]} {words}::{text}\n")
+    if not report.is_quiet:
+        lines.append(f"::notice title=irbkin::{_escaped(report.coverage, '')}\n")
     return "".join(lines)
 
 

@@ -1,32 +1,55 @@
-"""The codes of a check: their names, severities and rules, and the choice among them."""
+"""The codes of a check: names, severities, rules and selection."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
-from irbkin.cli.errors import CommandError
+from irbkin.errors import IrbkinError
 
-SYNTAX = "E001"
-"""The code of a text that is broken. It is found while modules are read."""
+UNREAD = "E002"
+"""The code of an unreadable file."""
 BACKUP = "B001"
-"""The code of what the files of a backup leave open."""
+"""The code of findings on the files of a backup."""
 FILES = (
-    (SYNTAX, "syntax", "error", True),
-    ("E002", "unread-file", "error", True),
+    ("E001", "syntax", "error", True),
+    (UNREAD, "unread-file", "error", True),
     ("E003", "doubled-module", "warning", True),
     (BACKUP, "backup", "warning", True),
 )
-"""Codes of files, which are found while they are read."""
+"""Codes of files, found while they are read."""
+TOOLS = (
+    ("T301", "unset-load", "error", True),
+    ("T302", "doubtful-load", "warning", True),
+    ("T303", "tool-without-shape", "note", True),
+)
+"""Codes of the tools of moves."""
 NOT_CHECKED = ("U801", "U802", "U804")
 """Codes of moves that are not checked: errors with --strict."""
+UNUSED = "U807"
+"""The code of unused names, which are searched for on request alone."""
+REASONS = {
+    "U801": "unknown values",
+    "U802": "instructions or calls that are not followed",
+    "U804": "unknown units",
+    "N601": "unknown targets",
+    "N602": "unknown tools",
+    "N603": "unknown work objects",
+    "R106": "absent axes",
+    "D701": "invalid frames",
+}
+"""Why a move is not checked, by the code of the finding on it."""
 LEVELS = ("error", "warning", "note")
 """Severities, the worst first."""
+PAGE = Path(__file__).with_name("rules.md")
+"""The rules, a chapter each."""
 
 
 class Code(NamedTuple):
-    """A code, and whether it is shown unless codes are selected."""
+    """A code, and whether it is in the default selection."""
 
     id: str
     name: str
@@ -35,14 +58,14 @@ class Code(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """The rule behind a code: a chapter of `rules.md`."""
+    """The rule behind a code: a chapter of `PAGE`."""
 
     code: str
     name: str
     meaning: str
     cure: str
     blocks: str
-    """The example, between fences as Markdown has them."""
+    """The example, in fenced blocks of Markdown."""
 
     @property
     def title(self) -> str:
@@ -55,33 +78,19 @@ class Rule(NamedTuple):
         return re.findall(r"^```(\w+)[^\n]*\n(.*?)^```$", self.blocks, re.MULTILINE | re.DOTALL)
 
 
-_codes: dict[str, Code] = {}
-_rules: dict[str, Rule] = {}
-
-
+@cache
 def codes() -> dict[str, Code]:
     """Every code, with the codes of files first."""
-    if not _codes:
-        from irbkin._core import check_codes
+    from irbkin._core import check_codes
 
-        known = [Code(*row) for row in (*FILES, *check_codes())]
-        _codes.update({code.id: code for code in known})
-    return _codes
+    return {row[0]: Code(*row) for row in (*FILES, *TOOLS, *check_codes())}
 
 
+@cache
 def rules() -> dict[str, Rule]:
     """The rule of every code."""
-    if not _rules:
-        _rules.update(_read_rules())
-    return _rules
-
-
-def _read_rules() -> dict[str, Rule]:
-    from pathlib import Path
-
-    text = Path(__file__).with_name("rules.md").read_text(encoding="utf-8")
     found = {}
-    for chapter in re.split(r"^### ", text, flags=re.MULTILINE)[1:]:
+    for chapter in re.split(r"^### ", PAGE.read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]:
         heading, _, body = chapter.partition("\n\n")
         prose, fence, blocks = body.partition("```")
         meaning, _, cure = prose.partition("Cure: ")
@@ -90,48 +99,39 @@ def _read_rules() -> dict[str, Rule]:
     return found
 
 
-def page() -> str:
-    """The rules as the documents have them, with severities."""
-    parts = []
-    for code, rule in rules().items():
-        it = codes()[code]
-        shown = "" if it.is_default else ", only if selected"
-        parts.append(
-            f"### {code} {rule.name}\n\n*{it.severity}{shown}*\n\n{rule.meaning}\n\n"
-            f"Cure: {rule.cure}\n\n{rule.blocks}".rstrip()
-            + "\n"
-        )
-    return "\n".join(parts)
+def code_of(word: str) -> str:
+    """Return the code with this name, or the word in upper case."""
+    return next((code.id for code in codes().values() if code.name == word.lower()), word.upper())
 
 
 def meant(words: Iterable[str]) -> set[str]:
-    """Return the codes of words: codes, their beginnings, names or ALL."""
-    names = {code.name: code.id for code in codes().values()}
+    """Return the codes of words: codes, prefixes, names or ALL."""
     found = set()
     for word in filter(None, (word.strip() for word in words)):
-        begin = names.get(word.lower(), word.upper())
-        these = [it for it in codes() if begin == "ALL" or it.startswith(begin)]
+        begin = code_of(word)
+        these = [code for code in codes() if begin == "ALL" or code.startswith(begin)]
         if not these:
-            raise CommandError(f"unknown code {word!r}: did you mean {close(word)}? (--codes)")
+            raise IrbkinError(f"unknown code {word!r}: did you mean {close(word)}? (--codes)")
         found.update(these)
     return found
 
 
 def close(word: str) -> str:
-    """Return the codes that a word may mean, or the letters of the groups."""
+    """Return the codes closest to a word, or the letters of the groups."""
     import difflib
 
-    names = {code.name: code.id for code in codes().values()}
     near = difflib.get_close_matches(word.upper(), codes(), 3)
-    near = near or [names[it] for it in difflib.get_close_matches(word.lower(), names, 3)]
-    near = near or [it for it in codes() if it[0] == word[:1].upper()]
+    if not near:
+        names = {code.name: code.id for code in codes().values()}
+        near = [names[name] for name in difflib.get_close_matches(word.lower(), names, 3)]
+    near = near or [code for code in codes() if code[0] == word[:1].upper()]
     return ", ".join(near or sorted({code[0] for code in codes()}))
 
 
 def selected(
     select: Iterable[str] | None, ignore: Iterable[str], *, is_strict: bool = False
 ) -> set[str]:
-    """Return the codes that are wanted. Codes of files are found whatever is selected."""
+    """Return the selected codes; codes of files are selected unless they are ignored."""
     wanted = {code.id for code in codes().values() if code.is_default}
     if select is not None:
         wanted = meant(select)
@@ -139,7 +139,7 @@ def selected(
         wanted.update(NOT_CHECKED)
     ignored = meant(ignore)
     if not wanted - ignored:
-        raise CommandError(
+        raise IrbkinError(
             "--select and --ignore leave no code to check: select codes or their beginnings, or "
             "ALL (--codes lists them)"
         )

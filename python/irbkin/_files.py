@@ -1,0 +1,113 @@
+"""Files: how messages name them; written whole or not at all, and never where a link leads."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import stat
+from collections.abc import Callable, Iterator
+from typing import BinaryIO
+
+STREAMS = ("/dev/fd/", "/dev/std", "/proc/")
+"""Names of streams that are open; they are links, perhaps to a file."""
+
+
+def shown(name: str) -> str:
+    """How messages name an input: a path in the working folder is relative."""
+    here = os.path.join(os.getcwd(), "")
+    return name[len(here) :] if os.path.isabs(name) and name.startswith(here) else name
+
+
+@contextlib.contextmanager
+def replaced(path: str | os.PathLike[str], before: bytes | None = None) -> Iterator[BinaryIO]:
+    """A file to write, which takes the place of another one when it is whole.
+
+    It is written beside it, under a name that nobody can foretell, and renamed. Permissions of a
+    file that is there are kept, its owner and group where this user may set them. A link stays a
+    link; one that leads out of its folder is refused. What is not a plain file, such as a pipe, is
+    written directly.
+
+    Args:
+        path: The file.
+        before: What it must still have when its place is taken; anything when not given.
+
+    Raises:
+        OSError: It cannot be written, is a link out of its folder, is read-only, or has changed.
+    """
+    name = os.fspath(path)
+    target = name if name.startswith(STREAMS) else _target(name)
+    old = os.stat(target) if os.path.exists(target) else None
+    if target.startswith(STREAMS) or not (old is None or stat.S_ISREG(old.st_mode)):
+        with open(target, "wb") as file:
+            yield file
+        return
+    # Root may write everywhere: the bits are what the owner wants.
+    if old is not None and not (old.st_mode & 0o222 and os.access(target, os.W_OK)):
+        words = "is read-only: make it writable first, or give another file"
+        raise PermissionError(errno.EACCES, words, name)
+    beside = os.path.join(os.path.dirname(target), f".{os.urandom(8).hex()}.part")
+    flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+    try:
+        # Until it has the permissions of the old file, nobody else may open it.
+        handle = os.open(beside, flags, 0o666 if old is None else 0o600)
+        try:
+            with open(handle, "w+b") as file:
+                if old is not None:
+                    _keep(old, handle, beside)
+                yield file
+                file.flush()
+                os.fsync(handle)
+            if before is not None and _content(target) != before:
+                words = "has changed since it was read: it is left as it is, run this again"
+                raise OSError(errno.EBUSY, words, name)
+            os.replace(beside, target)
+        except BaseException:
+            with contextlib.suppress(OSError):
+                os.unlink(beside)
+            raise
+    except OSError as error:
+        if error.errno is None or error.filename not in (None, beside):
+            raise
+        raise OSError(error.errno, f"cannot be written: {error.strerror}", name) from None
+
+
+def write_by_name(path: str | os.PathLike[str], write: Callable[[str], object]) -> None:
+    """Write a file as `replaced`, by a function that takes nothing but a name."""
+    import shutil
+    import tempfile
+
+    with replaced(path) as file, tempfile.TemporaryDirectory(prefix="irbkin-") as folder:
+        own = os.path.join(folder, os.path.basename(path))
+        write(own)
+        with open(own, "rb") as made:
+            shutil.copyfileobj(made, file)
+
+
+def _target(name: str) -> str:
+    """The file that a name means; of a link, the one that it leads to in its own folder."""
+    target, folder = os.path.realpath(name), os.path.realpath(os.path.dirname(name))
+    if os.path.islink(name) and os.path.dirname(target) != folder:
+        # Who made it may want a file written that the user does not mean.
+        words = f"is a link out of its folder: give {target} itself"
+        raise OSError(errno.ELOOP, words, name)
+    if os.path.isdir(target):
+        raise IsADirectoryError(errno.EISDIR, "is a folder", name)
+    return target
+
+
+def _keep(old: os.stat_result, handle: int, beside: str) -> None:
+    """Give a new file the owner, the group and the permissions of the old one."""
+    if hasattr(os, "fchown"):
+        for owner in (old.st_uid, -1):
+            with contextlib.suppress(OSError):
+                os.fchown(handle, owner, old.st_gid)
+                break
+    mode = old.st_mode & 0o777
+    if os.fstat(handle).st_mode & 0o777 != mode:
+        os.chmod(handle if os.chmod in os.supports_fd else beside, mode)
+
+
+def _content(name: str) -> bytes:
+    with open(name, "rb") as file:
+        return file.read()

@@ -1,0 +1,111 @@
+"""Checks of programs, and the selection among their findings."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from irbkin.check.codes import NOT_CHECKED, REASONS, UNREAD, selected
+from irbkin.check.findings import Finding, of_file
+from irbkin.check.tools import COLLISION, Carried, tool_findings
+from irbkin.errors import IrbkinError
+
+if TYPE_CHECKING:
+    from irbkin import rapid
+    from irbkin.check.jobs import Job
+    from irbkin.check.settings import Settings
+
+NOQA = re.compile(r"!\s*noqa\b(?:\s*:\s*([A-Z0-9, ]+))?", re.IGNORECASE)
+
+
+class Checker:
+    """Checks programs, by the options of a command or an editor.
+
+    Args:
+        options: As in irbkin.toml, but with underscores.
+        settings: The codes that are ignored in some files.
+
+    Raises:
+        IrbkinError: An option is wrong.
+    """
+
+    def __init__(self, options: Mapping[str, Any], settings: Settings) -> None:
+        from irbkin._cell import read
+        from irbkin._core import check_codes
+
+        is_strict = bool(options.get("strict"))
+        codes = selected(options.get("select"), options.get("ignore", ()), is_strict=is_strict)
+        step = options.get("step", 5.0)
+        if not 0.0 < step < float("inf"):
+            raise IrbkinError(f"--step must be positive and finite [mm], got {step}")
+        cell, shapes = read(options["cell"]) if "cell" in options else (None, {})
+        self._carried = Carried(os.path.basename(options["cell"]), shapes) if cell else None
+        last_values = options.get("last_values", False)
+        self._options = {"step": step / 1e3, "cell": cell, "last_values": last_values}
+        self.codes, self._is_strict, self._settings = codes, is_strict, settings
+        self._corrects_notes = options.get("select") is not None
+        self._wanted: dict[str, set[str]] = {}
+        known = {code: is_default for code, _, _, is_default in check_codes()}
+        self.asked = {code for code in known if known[code] or code in REASONS or code in codes}
+
+    def check(self, job: Job) -> tuple[rapid.Checked, list[Finding]]:
+        """Check a program: return its moves, none if its arm is unknown, and the findings."""
+        from irbkin._core import Checked
+
+        program = job.program
+        found = [of_file(own) for own in program.findings if own.code in self.wanted(own.file)]
+        if job.robot is None:
+            return Checked((), ()), found
+        is_whole = job.is_whole
+        if any(own.code == UNREAD for own in program.findings):
+            is_whole = False
+        given = {"codes": self.asked, "units": job.units, "whole": is_whole}
+        options = {**self._options, **given}
+        checked = program.check(job.robot, **options)
+        if self._carried and COLLISION in self.asked:
+            checked = self._carried.checked(checked, program, job.robot, options)
+        files = [file.path for file in program.files]
+        is_silent = silenced(program)
+        found += [
+            self._of_move(own, files)
+            for own in (*tool_findings(program, job.robot, self._carried), *checked.findings)
+            if own.code in self.wanted(files[own.module]) and not is_silent(own)
+        ]
+        return checked, found
+
+    def _of_move(self, found: rapid.Finding, files: Sequence[str]) -> Finding:
+        severity = "error" if self._is_strict and found.code in NOT_CHECKED else found.severity
+        edits = tuple((files[module], *edit) for module, *edit in self.edits(found))
+        what = (found.code, found.name, severity, found.message, edits, found.routine)
+        place = (files[found.module], found.line, found.column)
+        numbers = (found.joint, found.value, found.bound)
+        related = tuple((files[module], *others) for module, *others in found.related)
+        return Finding(*place, *what, *numbers, related)  # type: ignore[arg-type]
+
+    def edits(self, found: rapid.Finding) -> Sequence[tuple[int, int, int, str]]:
+        """Return the corrections of a finding; of a note only if codes are selected."""
+        return found.edits if found.severity != "note" or self._corrects_notes else ()
+
+    def wanted(self, file: str) -> set[str]:
+        """Return the codes that are reported in a file."""
+        if file not in self._wanted:
+            self._wanted[file] = self.codes - self._settings.ignored(file)
+        return self._wanted[file]
+
+
+def silenced(program: rapid.Program) -> Callable[[rapid.Finding], bool]:
+    """Return a predicate: whether a `noqa` comment of a program suppresses a finding."""
+    sources = (module.source for module in program.modules)
+    lines = [source.split("\n") if "noqa" in source.lower() else None for source in sources]
+
+    def is_silent(finding: rapid.Finding) -> bool:
+        own = lines[finding.module]
+        match = NOQA.search(own[finding.line - 1]) if own else None
+        if match is None:
+            return False
+        words = [word.strip().upper() for word in (match[1] or "").split(",")]
+        return match[1] is None or any(word and finding.code.startswith(word) for word in words)
+
+    return is_silent

@@ -1,0 +1,45 @@
+"""Findings in files, of modules, of backups and of moves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from irbkin.check.codes import BACKUP, codes
+
+if TYPE_CHECKING:
+    from irbkin import rapid
+    from irbkin.abb import Backup
+
+
+class Finding(NamedTuple):
+    """An error, a warning or a note at a line and column of a file."""
+
+    file: str
+    line: int
+    column: int
+    code: str
+    name: str
+    severity: str
+    message: str
+    edits: tuple[tuple[str, int, int, str], ...] = ()
+    """File, first byte, end, and the replacement."""
+    routine: str | None = None
+    joint: int | None = None
+    value: float | None = None
+    bound: float | None = None
+    related: tuple[tuple[str, int, int], ...] = ()
+    """Files, lines and columns at which its cause shows, too."""
+
+
+def of_file(found: rapid.FileFinding) -> Finding:
+    """Return a finding on the file of a module."""
+    place = (found.file, found.line, found.column, found.code)
+    return Finding(*place, codes()[found.code].name, found.severity, found.message)
+
+
+def of_backup(backup: Backup) -> list[Finding]:
+    """Return the findings on the files of a backup."""
+    return [
+        Finding(str(backup.origin / it.file), it.line, 1, BACKUP, it.code, it.severity, it.message)
+        for it in backup.findings
+    ]

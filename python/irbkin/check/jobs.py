@@ -1,0 +1,125 @@
+"""Programs to check, each with its arm: of files, or of the tasks of a backup."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from irbkin.check.findings import Finding, of_backup
+from irbkin.errors import IrbkinError
+
+if TYPE_CHECKING:
+    from irbkin import Robot
+    from irbkin.abb import Backup, Task
+    from irbkin.abb.external import UnitRow
+    from irbkin.check.settings import Settings
+    from irbkin.rapid import FileFinding, ModuleFile, Program
+
+
+@dataclass(frozen=True)
+class Job:
+    """A program, and the arm that it moves."""
+
+    robot: Robot | None
+    """None if unknown: only the text is checked."""
+    program: Program
+    title: str
+    """The task and the arm."""
+    units: Sequence[UnitRow] = ()
+    """The units that external axes belong to, as `rapid.check_program` takes them."""
+    is_whole: bool | None = None
+    """Whether every module of the task is there; None if that is not known."""
+
+
+def job_of_files(robot: Robot, given: Sequence[str | ModuleFile], settings: Settings) -> Job:
+    """Return the job of files and folders, without excluded files."""
+    from irbkin.rapid.program import ENDINGS, files_of, program_of
+
+    files: list[ModuleFile] = []
+    wrong: list[FileFinding] = []
+    for name in given:
+        before = len(wrong)
+        own = files_of(name, wrong) if isinstance(name, str) else [name]
+        if not own and len(wrong) == before:
+            raise IrbkinError(f"{name}: has no RAPID modules ({', '.join(ENDINGS)})")
+        files += [file for file in own if not settings.excludes(file.path)]
+    return Job(robot, program_of(files, wrong), robot.name)
+
+
+def job_of_task(backup: Backup, task: Task, program: Program) -> Job:
+    """Return the job of a task of a backup; without a robot if the task moves no known arm."""
+    from irbkin.abb.external import unit_rows
+
+    unit = backup.robots.get(task.robot or "")
+    if task.moves is False or unit is None or unit.robot is None:
+        return Job(None, program, task.name)
+    title = f"{task.name}: {unit.name}, {unit.arm}"
+    is_whole = not any(found.code == "module-missing" for found in backup.findings)
+    return Job(unit.robot, program, title, unit_rows(backup, unit.name), is_whole)
+
+
+def jobs_of_backup(path: str, names: Sequence[str] = ()) -> tuple[list[Job], list[Finding]]:
+    """Return a job for each task of a backup with a known arm, and the findings on its files.
+
+    Args:
+        path: The backup.
+        names: Files or folders: tasks without a file in them are left out.
+    """
+    from irbkin.abb import load_backup
+
+    backup = load_backup(path)
+    programs = [(task, backup.programs[task.name]) for task in backup.tasks if task.modules]
+    wanted = [Path(os.path.abspath(name)) for name in names]
+    if not any(backup.origin.is_relative_to(name) for name in wanted) and wanted:
+        programs = [own for own in programs if _has(own[1], wanted)]
+        if not programs:
+            raise IrbkinError(f"{names[0]}: is in no task of {path}: give --robot, or the backup")
+    jobs = [job for own in programs if (job := job_of_task(backup, *own)).robot is not None]
+    left_open = of_backup(backup)
+    if not jobs:
+        reasons = "; ".join(found.message for found in left_open[:3])
+        raise IrbkinError(f"{path}: has no task whose robot is known: {reasons}")
+    return jobs, left_open
+
+
+def _has(program: Program, paths: Sequence[Path]) -> bool:
+    """Whether a program has a file in some paths."""
+    files = map(Path, (file.path for file in program.files))
+    return any(file.is_relative_to(path) for file in files for path in paths)
+
+
+def backup_of(names: Sequence[str]) -> str | None:
+    """Return the one backup that all paths are, are in, or are above; None if one of them is not.
+
+    Raises:
+        IrbkinError: They are several.
+    """
+    from irbkin.abb.roots import backups_of
+
+    found: dict[str, None] = {}
+    for name in names:
+        path = Path(os.path.abspath(name))
+        roots = [name] if is_backup(name) else list(map(str, backups_of(path)))
+        if not roots:
+            return None
+        found.update(dict.fromkeys(roots))
+    if len(found) > 1:
+        listed = ", ".join(list(found)[:10])
+        raise IrbkinError(f"{' and '.join(names)}: {len(found)} backups, give one: {listed}")
+    return next(iter(found), None)
+
+
+def is_backup(name: str) -> bool:
+    """Whether a path is a backup, or leads into one in an archive."""
+    from irbkin.abb.archives import archive_of
+    from irbkin.abb.roots import PARTS
+
+    if archive_of(Path(name)) is not None:
+        return True
+    if not os.path.isdir(name):
+        return False
+    inside = {inner.upper() for inner in os.listdir(name)}
+    return "SYSPAR" in inside or "BACKINFO" in inside or len(inside & {*PARTS, "HOME"}) > 1

@@ -1,0 +1,225 @@
+"""The report of a check, and its formats: one a file, imported on demand."""
+
+from __future__ import annotations
+
+import importlib
+import os
+from bisect import bisect
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import accumulate
+from typing import IO, TYPE_CHECKING, Any
+
+from irbkin._files import shown
+from irbkin.check.codes import LEVELS, REASONS, UNREAD
+from irbkin.check.findings import Finding
+
+if TYPE_CHECKING:
+    from irbkin.check.checker import Checker
+    from irbkin.check.jobs import Job
+    from irbkin.rapid import Checked
+
+ENDINGS = {
+    ".json": "json",
+    ".sarif": "sarif",
+    ".xml": "junit",
+    ".html": "html",
+    ".htm": "html",
+    ".txt": "text",
+}
+"""The format of a file by its ending."""
+
+
+class SourceText:
+    """The text of a file, split into lines on demand."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    @cached_property
+    def lines(self) -> list[str]:
+        """Its lines, without their ends."""
+        return [line.rstrip("\r") for line in self.text.split("\n")]
+
+    @cached_property
+    def _rows(self) -> list[bytes]:
+        return self.text.encode().split(b"\n")
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        """The first byte of each line."""
+        return list(accumulate((len(row) + 1 for row in self._rows[:-1]), initial=0))
+
+    def line(self, number: int) -> str:
+        """A line by its number from 1, empty beyond the last."""
+        return self.lines[number - 1] if 0 < number <= len(self.lines) else ""
+
+    def position(self, byte: int) -> tuple[int, int]:
+        """Line and column, from 1 and in characters, of a byte of the text in UTF-8."""
+        number = bisect(self._starts, byte)
+        before = self._rows[number - 1][: byte - self._starts[number - 1]]
+        return number, len(before.decode()) + 1
+
+    def corrected(self, edits: Iterable[tuple[int, int, str]]) -> dict[int, str]:
+        """Edited lines by number; each edit lies within one line."""
+        lines: dict[int, bytes] = {}
+        for begin, end, new in sorted(edits, reverse=True):
+            number = bisect(self._starts, begin)
+            start = self._starts[number - 1]
+            line = lines.get(number, self._rows[number - 1])
+            lines[number] = line[: begin - start] + new.encode() + line[end - start :]
+        return {number: lines[number].decode().strip() for number in sorted(lines)}
+
+
+def span(found: Finding, line: str) -> tuple[int, int]:
+    """The columns of a finding in its line, from 0, end exclusive.
+
+    A statement without its semicolon; one character of a syntax error.
+    """
+    begin = min(found.column - 1, len(line))
+    if found.code.startswith("E"):
+        return begin, begin + 1
+    statement = line[begin:].partition(";")[0].partition("!")[0].rstrip()
+    return begin, begin + max(len(statement), 1)
+
+
+@dataclass(frozen=True)
+class Report:
+    """The content of a report, independent of its format."""
+
+    title: str
+    """The arms."""
+    findings: Sequence[Finding]
+    texts: Mapping[str, SourceText]
+    """The text of each file, by the name that findings have."""
+    checked: int
+    """Number of moves that were checked."""
+    reasons: Mapping[str, int] = field(default_factory=dict)
+    """Number of unchecked moves by reason."""
+    unread: int = 0
+    """Number of files that were not read."""
+    fixed: Counter[str] = field(default_factory=Counter)
+    """Number of findings that corrections removed, by severity."""
+    programs: Sequence[tuple[Job, Checked]] = ()
+    is_judged: bool = False
+    """Whether the summary of routines is shown, in formats that have one."""
+    is_counted: bool = False
+    """Whether text and JSON count the findings of each code in their place."""
+    is_quiet: bool = False
+    is_colored: bool = False
+
+    def text_of(self, file: str) -> SourceText:
+        """The text of a file, empty if unknown."""
+        return self.texts.get(file) or SourceText("")
+
+    def place(self, found: Finding) -> tuple[str, int, int]:
+        """The line of a finding, and its columns as in `span`."""
+        line = self.text_of(found.file).line(found.line)
+        return line, *span(found, line)
+
+    def corrected(self, found: Finding) -> dict[int, str]:
+        """Lines of its file, by their numbers, with the edits of a finding."""
+        edits = [edit[1:] for edit in found.edits if edit[0] == found.file]
+        return self.text_of(found.file).corrected(edits)
+
+    @property
+    def moves(self) -> dict[str, Any]:
+        """How many moves were checked, of how many, and why others were not, for programs."""
+        total = self.checked + sum(self.reasons.values())
+        counts = {"checked": self.checked, "total": total}
+        return {**counts, "reasons": dict(self.reasons), "unread": self.unread}
+
+    @property
+    def statistics(self) -> list[dict[str, Any]]:
+        """How many findings each code has, and how many of them a correction, most first."""
+        counts = Counter((it.code, it.name, it.severity) for it in self.findings)
+        fixable = Counter(it.code for it in self.findings if it.edits)
+        rows = sorted(counts.items(), key=lambda row: (-row[1], row[0]))
+        keys = ("code", "name", "severity", "count", "fixable")
+        return [dict(zip(keys, (*of, count, fixable[of[0]]), strict=True)) for of, count in rows]
+
+    @property
+    def coverage(self) -> str:
+        """The first sentence: number of checked moves, and of the others by reason."""
+        left = sum(self.reasons.values())
+        words = f"{self.checked} of {counted(self.checked + left, 'move')} checked"
+        if left:
+            parts = [f"{count} by {reason}" for reason, count in self.reasons.items()]
+            words += f", {left} not: {', '.join(parts)}"
+        if self.unread:
+            words += f"; {counted(self.unread, 'file')} not read"
+        return f"{words}."
+
+    @property
+    def conclusion(self) -> str:
+        """The last sentence: number of findings by severity."""
+        total = Counter(found.severity for found in self.findings) + self.fixed
+        if not total:
+            if self.checked and not (self.reasons or self.unread):
+                return "All checks passed!"
+            return f"No findings in the {counted(self.checked, 'move')} checked."
+        counts = [counted(total[level], level) for level in LEVELS if total[level]]
+        hint = ""
+        if self.fixed:
+            hint = f" ({self.fixed.total()} fixed, {len(self.findings)} remaining)"
+        elif fixable := sum(bool(found.edits) for found in self.findings):
+            hint = f" ({fixable} fixable with --fix)"
+        return f"Found {', '.join(counts)}{hint}."
+
+
+def report_of(checker: Checker, jobs: Iterable[Job], left_open: Iterable[Finding] = ()) -> Report:
+    """Check programs and return the report; `left_open` are findings on the files around them."""
+    found = [finding for finding in left_open if finding.code in checker.codes]
+    texts, programs, reasons, unread = {}, [], Counter[str](), 0
+    for job in jobs:
+        checked, own = checker.check(job)
+        found += own
+        programs.append((job, checked))
+        left = (move.unchecked for move in checked.moves if move.unchecked is not None)
+        reasons.update(REASONS.get(code, code) for code in left)
+        unread += sum(finding.code == UNREAD for finding in job.program.findings)
+        for file, module in zip(job.program.files, job.program.modules, strict=True):
+            texts[shown(file.path)] = SourceText(module.source)
+    moves = sum(len(checked.moves) for _, checked in programs)
+    return Report(
+        ", ".join(job.title for job, _ in programs),
+        # Shared modules are in several programs.
+        list(dict.fromkeys(map(_shown, found))),
+        texts,
+        moves - reasons.total(),
+        dict(reasons.most_common()),
+        unread,
+        programs=programs,
+    )
+
+
+def _shown(found: Finding) -> Finding:
+    """A finding with its files named as in messages, in place of their paths."""
+    edits = tuple((shown(file), *edit) for file, *edit in found.edits)
+    related = tuple((shown(file), *place) for file, *place in found.related)
+    return found._replace(file=shown(found.file), edits=edits, related=related)  # type: ignore[arg-type]
+
+
+def rendered(report: Report, form: str) -> str:
+    """The text of a report in a format."""
+    module = importlib.import_module(f"irbkin.check.report.{form.replace('concise', 'text')}")
+    text: str = module.concise(report) if form == "concise" else module.render(report)
+    return text
+
+
+def is_colored(choice: str, stream: IO[str]) -> bool:
+    """Whether a stream is colored: by choice, NO_COLOR, FORCE_COLOR, or as a terminal."""
+    if choice != "auto":
+        return choice == "always"
+    if os.environ.get("NO_COLOR"):
+        return False
+    if os.environ.get("FORCE_COLOR", "0") not in ("", "0"):
+        return True
+    return stream.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def counted(count: int, word: str) -> str:
+    """A number with its noun in singular or plural."""
+    return f"{count} {word}" if count == 1 else f"{count} {word}s"

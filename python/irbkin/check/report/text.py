@@ -1,0 +1,96 @@
+"""A report to read in a terminal: a line for each finding, its source line with a caret."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from irbkin.check.findings import Finding
+from irbkin.check.report import Report
+from irbkin.check.report.routines import COUNTS, HEADINGS, routines, unused
+
+STYLES = {
+    "bold": "1",
+    "error": "1;31",
+    "warning": "1;33",
+    "note": "1;34",
+    "fix": "36",
+    "added": "32",
+    "removed": "31",
+    "frame": "1;34",
+}
+
+
+def styled(text: str, style: str, is_colored: bool) -> str:
+    """A text in a style of a terminal."""
+    return f"\x1b[{STYLES[style]}m{text}\x1b[0m" if is_colored and text else text
+
+
+def render(report: Report) -> str:
+    """Each finding with its source line."""
+    return _whole(report, [f"{_block(found, report)}\n" for found in report.findings])
+
+
+def concise(report: Report) -> str:
+    """Each finding in one line."""
+    return _whole(report, [heading(found, report.is_colored) for found in report.findings])
+
+
+def _whole(report: Report, lines: Sequence[str]) -> str:
+    if report.is_counted:
+        rows = report.statistics
+        width = max((len(str(row["count"])) for row in rows), default=0)
+        lines = [
+            f"{row['count']:>{width}}  {styled(row['code'], row['severity'], report.is_colored)}  "
+            f"[{'*' if row['fixable'] else ' '}] {row['name']}"
+            for row in rows
+        ]
+    if not report.is_quiet:
+        table = _routines(report) if report.is_judged else ()
+        lines = (report.coverage, *lines, report.conclusion, *table)
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _routines(report: Report) -> Iterator[str]:
+    """The routines as a table."""
+    tables = routines(report)
+    every = [HEADINGS, *(row for rows in tables.values() for row in rows)]
+    widths = [max(map(len, column)) for column in zip(*every, strict=True)]
+    for place, rows in tables.items():
+        yield from ("", place)
+        for row in (HEADINGS, *rows):
+            cells = [
+                f"{cell:>{width}}" if 0 < column < COUNTS else f"{cell:<{width}}"
+                for column, (cell, width) in enumerate(zip(row, widths, strict=True))
+            ]
+            yield "  ".join(cells).rstrip()
+    if words := unused(report):
+        yield from ("", words)
+
+
+def heading(found: Finding, is_colored: bool) -> str:
+    """A finding in one line, as linters print it."""
+    place = f"{found.file}:{found.line}:{found.column}"
+    mark = f"[{styled('*', 'fix', is_colored)}] " if found.edits else ""
+    code = styled(found.code, found.severity, is_colored)
+    return f"{styled(place, 'bold', is_colored)}: {code} {mark}{found.message}"
+
+
+def _block(found: Finding, report: Report) -> str:
+    is_colored = report.is_colored
+    line, begin, end = report.place(found)
+    width = len(str(found.line))
+
+    def margin(number: str, mark: str = "|") -> str:
+        return styled(f"{number:>{width}} {mark}", "frame", is_colored)
+
+    rows = [heading(found, is_colored)]
+    if line.strip():
+        blank = "".join("\t" if own == "\t" else " " for own in line[:begin])
+        caret = styled(f"{'^' * (end - begin)} {found.severity}", found.severity, is_colored)
+        source = "".join(own if own.isprintable() or own == "\t" else "\ufffd" for own in line)
+        rows += [f"{margin(str(found.line))} {source}", f"{margin('')} {blank}{caret}"]
+    rows += (
+        f"{margin('', '=')} fix in line {number}: {new}"
+        for number, new in report.corrected(found).items()
+    )
+    return "\n".join(rows)
