@@ -7,7 +7,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 echo "The crate"
-cargo package --quiet --allow-dirty --no-verify
+cargo package --package irbkin --quiet --allow-dirty --no-verify
 tar xzf target/package/irbkin-*.crate -C "$folder"
 if find "$folder" -name '*.py' | grep .; then
     echo "The crate has Python files" >&2

@@ -4,7 +4,6 @@ import irbkin
 import irbkin.map
 import numpy as np
 from irbkin import paths, placement
-from matplotlib.patches import Rectangle
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 SEAM = paths.line(*(irbkin.pose([0.9, y, 0.7], euler_zyx=[0, 2.8, 0]) for y in (-1, 1)), steps=21)
@@ -22,5 +21,7 @@ def curves(axes):
 
 def shaded(axes):
     """From where to where axes are shaded, from the bottom up."""
+    from matplotlib.patches import Rectangle
+
     patches = [patch for patch in axes.patches if isinstance(patch, Rectangle)]
     return sorted((patch.get_y(), patch.get_y() + patch.get_height()) for patch in patches)

@@ -178,9 +178,8 @@ def used_by() -> dict[str, set[str]]:
     return used
 
 
-def cycles() -> list[list[str]]:
+def cycles(graph: dict[str, set[str]]) -> list[list[str]]:
     """Files that use one another in a circle: the strongly connected components (Tarjan)."""
-    graph = used_by()
     index: dict[str, int] = {}
     low: dict[str, int] = {}
     stack: list[str] = []

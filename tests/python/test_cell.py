@@ -179,6 +179,20 @@ def test_a_contact_far_along_a_path_has_its_row():
     assert 3999 < contact.at < 4000
 
 
+def test_a_contact_is_as_deep_wherever_it_is_in_a_path():
+    """It begins behind row 2046 and is the deepest at row 2080."""
+    start, way = np.array([-0.6, 0.3, 0.2, 0, 0.5, 0]), np.array([1.2, 0, 0, 0, 0, 0])
+    cell = irbkin.Cell({"ball": Shape.sphere(0.02, ROBOT.link_frames(start + way / 2)[5, :3, 3])})
+    first = cell.check_path(ROBOT, [start, start + way]).at
+    before, behind = np.linspace(0, 0.99 * first, 2047), np.linspace(1.01 * first, 0.5, 34)
+    rows = start + np.concatenate([before, behind, behind[::-1]])[:, None] * way
+    whole, rest = cell.check_path(ROBOT, rows), cell.check_path(ROBOT, rows[1000:])
+    assert 2046 < whole.at <= 2047
+    assert whole.depth == rest.depth > 5 * cell.check_path(ROBOT, rows[:2049]).depth
+    assert whole.at == pytest.approx(1000 + rest.at)
+    assert whole.pair == rest.pair
+
+
 def test_paths_of_one_row_of_none_and_in_collision():
     inside = irbkin.Cell({"all": Shape.sphere(3, [0, 0, 0])})
     q = np.zeros((3, 6))

@@ -89,6 +89,21 @@ def test_a_pose_that_is_singular_in_two_directions_has_an_answer(case):
     assert found[0].singularities
 
 
+@pytest.mark.parametrize("name", ["CRX-10iA", "CRX-10iA/L"])
+def test_no_pose_at_which_two_directions_are_free_is_certified(name):
+    """A walk along one of them does not show what the other leads to."""
+    arm = irbkin.Robot(name)
+    quarters = np.array(list(itertools.product(range(-1, 3), repeat=4))) * np.pi / 2
+    q = np.column_stack([np.full(len(quarters), 0.3), quarters, np.full(len(quarters), 0.4)])
+    q = q[np.linalg.svd(arm.jacobian(q), compute_uv=False)[:, 4] < 1e-9]
+    assert len(q) > 40
+    for pose in arm.fk(q):
+        found = arm.ik(pose)
+        assert len(found) > 0
+        assert not found.certified
+        assert "not certified" in str(found.explain())
+
+
 @pytest.mark.parametrize("name", ["GoFa 5", "GoFa 10", "GoFa 12", "xArm6"])
 def test_axes_4_and_6_parallel_to_axis_1_and_a_pose_in_single_precision(name):
     """Three solutions merge there; rounding of the pose leaves one or three of them."""

@@ -1,5 +1,6 @@
 """`irbkin check` and `rapid.check`: codes, places, corrections, manners of a linter."""
 
+import json
 import os
 import re
 from pathlib import Path
@@ -13,9 +14,11 @@ from hypothesis import strategies as st
 from irbkin import rapid
 from irbkin._core import check_codes, check_program
 from irbkin.body import Shape
-from irbkin.cli.checker import Checker, correction
-from irbkin.cli.codes import codes, page, rules, selected
-from irbkin.cli.jobs import Job
+from irbkin.check.checker import Checker
+from irbkin.check.codes import TOOLS, codes, rules, selected
+from irbkin.check.fixes import corrected
+from irbkin.check.jobs import Job
+from irbkin.check.settings import Settings
 from irbkin.rapid.program import ModuleFile, program_of
 
 ROOT = Path(__file__).parents[2]
@@ -45,22 +48,41 @@ def check(file, *arguments):
 
 
 @pytest.mark.parametrize("code", [code for code in BLOCKS if code != "E001"])
-def test_the_example_of_a_code_has_it(code):
+def test_the_example_of_a_code_has_it(code, tmp_path):
     robot, last_values = YUMI if code == "C205" else ROBOT, code == "U805"
-    modules = [rapid.parse(module(BLOCKS[code]))]
-    checked = check_program(robot, modules, codes=[code], cell=CELL, last_values=last_values)
-    assert code in {it.code for it in checked.findings}, checked.findings
+    own = [line for line in BLOCKS[code].splitlines(True) if line.startswith("PERS ")]
+    text = module(BLOCKS[code].replace("".join(own), ""), DATA + "".join(own))
+    if code in CODES:
+        options = {"codes": [code], "cell": CELL, "last_values": last_values}
+        found = check_program(robot, [rapid.parse(text)], **options).findings
+    else:
+        (tmp_path / "cell.toml").write_text("[tool.tGun]\nsphere = 0.01\n")
+        checker = Checker({"select": [code], "cell": str(tmp_path / "cell.toml")}, Settings())
+        _, found = checker.check(Job(robot, program_of([ModuleFile("m.mod", text.encode())]), ""))
+    assert code in {it.code for it in found}, found
 
 
 def test_the_page_has_every_code_with_its_name_in_order():
     headings = re.findall(r"^### (\w\d+) (.*)$", PAGE, re.MULTILINE)
     assert headings == [(it.id, it.name) for it in codes().values()]
-    assert list(BLOCKS) == ["E001", *CODES]
+    assert list(BLOCKS) == ["E001", *(code for code, *_ in TOOLS), *CODES]
+
+
+def page():
+    """The rules as the page has them, with severities."""
+    parts = []
+    for code, rule in rules().items():
+        shown = "" if codes()[code].is_default else ", only if selected"
+        parts.append(
+            f"### {code} {rule.name}\n\n*{codes()[code].severity}{shown}*\n\n{rule.meaning}\n\n"
+            f"Cure: {rule.cure}\n\n{rule.blocks}".rstrip()
+        )
+    return "\n\n".join(parts) + "\n"
 
 
 def test_the_page_has_the_rules_of_the_command():
     path = ROOT / "docs" / "guide" / "check.md"
-    before, mark, own = path.read_text().partition("python/irbkin/cli/rules.md -->\n\n")
+    before, mark, own = path.read_text().partition("python/irbkin/check/rules.md -->\n\n")
     assert mark
     if os.environ.get("IRBKIN_WRITE") == "1":
         path.write_text(before + mark + page())
@@ -101,7 +123,7 @@ def test_a_code_has_a_severity():
     assert {severities[it] for it in severities if it[0] in "RKN"} == {"error"}
     assert {severities[it] for it in severities if it[0] in "SVZ"} == {"warning"}
     notes = {it for it in severities if severities[it] == "note"}
-    assert notes == {"C204", *(it for it in severities if it[0] == "U")}
+    assert notes == {"C204", "T303", *(it for it in severities if it[0] == "U")}
     assert severities["C203"] == severities["D703"] == "warning"
     for it in rapid.check(ROBOT, rapid.parse(SEAM)):
         assert it.severity == severities[it.code]
@@ -175,7 +197,7 @@ def test_a_fix_changes_confdata_and_nothing_else(tmp_path):
         ("latin-1", b""),
     ):
         for newline in ("\n", "\r\n"):
-            text = SEAM.replace("! zeros", "! zeros \xe4\xb5 \t ").replace("\n", newline)
+            text = SEAM.replace("! copied", "! copied \xe4\xb5 \t ").replace("\n", newline)
             file = tmp_path / "seam.mod"
             file.write_bytes(mark + text.encode(encoding))
             file.chmod(0o640)
@@ -187,7 +209,7 @@ def test_a_fix_changes_confdata_and_nothing_else(tmp_path):
             assert last == b"Found 1 error (1 fixed, 0 remaining).", done
             assert done.returncode == 0
             wanted = text.replace(
-                "[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]; ! z", f"[-1,0,-1,0],{FAR}]; ! z"
+                "[1,0,1,0],[9E9,9E9,9E9,9E9,9E9,9E9]]; ! c", f"[-1,0,-1,0],{FAR}]; ! c"
             )
             assert file.read_bytes() == mark + wanted.encode(encoding)
             assert file.stat().st_mode & 0o777 == 0o640
@@ -204,34 +226,45 @@ def test_a_fixed_module_has_right_confdata_and_differs_in_nothing_else(data):
     for number, kind in enumerate(kinds):
         q = np.radians(rng.uniform([-40, -15, -10, -40, 30, -40], [40, 20, 20, 40, 70, 40]))
         T = ROBOT.fk(q)
-        confdata = rng.integers(-2, 3, 4) % [5, 5, 5, 8]
-        target = rapid.RobTarget.of(T, confdata.tolist())
+        confdata = list(ROBOT.configuration(q))
+        if rng.random() < 0.7:
+            confdata[rng.integers(3)] += int(rng.choice([-1, 1]))
+        else:
+            confdata[3] = int(rng.integers(8))
+        target = rapid.RobTarget.of(T, confdata)
         targets.append(f"CONST robtarget p{number}:={rapid.dump(target)}; ! {seed}\r\n")
         moves.append(f"{kind} p{number},v50,fine,tool0;\r\n")
     text = module("".join(moves), "".join(targets))
     job = Job(ROBOT, program_of([ModuleFile("unused.mod", text.encode())]), "main")
     assert job.program.findings == ()
-    checker = Checker(["C201", "C202", "C204"], 0.005)
-    before = checker.found(job, checker.checked(job))
-    assert all(it.edits for it in before), "each target is its own"
-    corrected = correction(checker, job)
-    assert corrected.fixed.total() == len(before)
-    assert checker.found(job, checker.checked(job, corrected.program)) == []
-    after = corrected.program.modules[0].source
-    pattern = re.compile(r"(\[\[[^]]*\],\[[^]]*\],)\[[^]]*\]")
+    checker = Checker({"select": ["C201", "C202", "C204"]}, Settings())
+    _, before = checker.check(job)
+    own, texts, fixed = corrected(checker, job, pytest.fail)
+    _, left = checker.check(own)
+    assert not [it for it in left if it.edits], "each target is its own"
+    assert fixed.total() == len(before) - len(left)
+    after = own.program.modules[0].source
+    assert [new for *_, new in texts] == [after] * (after != text)
+    # The branch that cfx names stays.
+    pattern = re.compile(r"(\[\[[^]]*\],\[[^]]*\],)\[[-0-9]+,[-0-9]+,[-0-9]+(?=,\d\])")
     assert pattern.sub(r"\1", after) == pattern.sub(r"\1", text)
 
 
 def test_a_target_that_another_file_moves_to_is_left(tmp_path):
     one, other = tmp_path / "one.mod", tmp_path / "other.mod"
-    # Both configurations exist: a correction would send the other file's move to another one.
-    target = f"CONST robtarget p:=[[900,-250,500],[0,0,1,0],[-1,2,1,1],{FAR}];\n"
-    one.write_text(module("MoveJ pNear,v100,fine,tGun; MoveL p,v100,fine,tGun;\n", DATA + target))
+    # With the flange the joints are as confdata says; with the tool of the first file axis 6 is
+    # half a turn away.
+    confdata = ROBOT.configuration(
+        ROBOT.ik_nearest(irbkin.pose([0.9, 0.2, 0.5], wxyz=[0, 0, 1, 0]), np.zeros(6))
+    )
+    target = f"CONST robtarget p:=[[900,200,500],[0,0,1,0],{list(confdata)},{FAR}];\n"
+    tool = "PERS tooldata tSide:=[TRUE,[[0,400,0],[0,0,0,1]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n"
+    one.write_text(module("MoveJ p,v100,fine,tSide;\n", DATA + tool + target))
     text = one.read_text()
-    for name, is_left in (("p", True), ("pFar", False)):
+    for name, is_left in (("p", True), ("pNear", False)):
         one.write_text(text)
         other.write_text(
-            f"MODULE Other\nPROC go()\nMoveJ {name},v100,fine,tGun;\nENDPROC\nENDMODULE\n"
+            f"MODULE Other\nPROC go()\nMoveJ {name},v100,fine,tool0;\nENDPROC\nENDMODULE\n"
         )
         done = run("--robot", NAME, "--fix", one, other)
         assert (done.returncode == 1) == is_left, done
@@ -241,11 +274,11 @@ def test_a_target_that_another_file_moves_to_is_left(tmp_path):
 
 def test_a_file_with_bytes_that_are_no_text_is_not_written(tmp_path):
     file = tmp_path / "odd.mod"
-    text = SEAM.replace("! zeros", "! zeros ")
+    text = SEAM.replace("! copied", "! copied ")
     content = b"\xff\xfe" + text.encode("utf-16-le")
     # Half of a character, in a comment.
     content = content.replace(
-        "zeros ".encode("utf-16-le"), "zeros".encode("utf-16-le") + b"\x00\xd8"
+        "copied ".encode("utf-16-le"), "copied".encode("utf-16-le") + b"\x00\xd8"
     )
     file.write_bytes(content)
     done = check(file, "--fix")
@@ -276,16 +309,18 @@ def test_files_are_one_program(tmp_path):
 
 def test_codes_are_selected_and_ignored(tmp_path):
     default = {it for it, _, _, is_default in check_codes() if is_default}
+    tools = {code for code, *_ in TOOLS}
     files = {"E001", "E002", "E003", "B001"}
-    assert selected(None, []) == {*files, *default}
+    assert selected(None, []) == {*files, *tools, *default}
     assert {code for code in CODES if code not in default} == {
+        "Z501",
         "U801",
         "U802",
         "U803",
         "U805",
         "U807",
     }
-    assert selected(["ALL"], []) == {*files, *CODES}
+    assert selected(["ALL"], []) == {*files, *tools, *CODES}
     unknown = rapid.parse("PROC main() MoveJ *,v100,fine,tool0; ENDPROC")
     assert {it.code for it in rapid.check(ROBOT, unknown)} == {"U801"}
     assert rapid.check(ROBOT, unknown, codes=default) == ()
@@ -317,7 +352,8 @@ def test_comments_silence(tmp_path):
         ("! noqa: N601", False),
         ("", False),
     ):
-        file.write_text(module(f"MoveJ pNear,v100,fine,tGum; {comment}\n"))
+        right = "MoveJ pNear,v100,fine,tGun;\n"
+        file.write_text(module(f"{right}MoveJ pNear,v100,fine,tGum; {comment}\n"))
         assert check(file).returncode == (0 if is_silent else 1), comment
 
 
@@ -494,6 +530,20 @@ def test_what_nothing_names_is_unused():
     }  # fmt: skip
 
 
+def test_the_verdict_counts_unused_names_by_their_declarations(tmp_path):
+    (file := tmp_path / "unused.mod").write_text(
+        f"""MODULE M
+    CONST ROBTARGET pOld:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],{FAR}];
+    PERS wobjdata wOld:=[FALSE,TRUE,"",[[1,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+    PROC main() TPWrite ""; ENDPROC
+    PROC tooldata1() VAR jointtarget jOld; VAR tooldata tOld; ENDPROC
+    ENDMODULE"""
+    )
+    *_, last = check(file, "--verdict").stdout.decode().splitlines()
+    words = "2 targets, 1 work object, 1 routine, 1 tool"
+    assert last == f"Nothing in the program names: {words} (--select U807)."
+
+
 def test_the_verdict_has_the_nearest_limit_and_singularity_of_each_routine(tmp_path):
     moves = "MoveJ pNear,v1000,fine,tGun;\nMoveL pFar,v200,fine,tGun;\nMoveJ pOut,v5,fine,tNone;\n"
     file = tmp_path / "two.mod"
@@ -531,3 +581,112 @@ def test_the_verdict_has_the_nearest_limit_and_singularity_of_each_routine(tmp_p
     page = tmp_path / "report.html"
     check(file, "-o", page)
     assert f"<td>J{joint} {rooms.min():.1f} deg" in page.read_text()
+
+
+CALLS = """MODULE M
+VAR num nStack{10};
+VAR num nOff;
+%s
+PROC main()
+    %s
+ENDPROC
+PROC Pick(robtarget p,num z)
+    MoveJ Offs(p,0,0,50),v1000,z10,tGun;
+    MoveL Offs(p,0,0,z),v200,fine,tGun;
+    MoveL Offs(p,0,0,50),v1000,fine,tGun;
+ENDPROC
+%s
+ENDMODULE
+"""
+TWICE = "PROC Twice(robtarget p,num z)\nPick p,10;\nPick p,z;\nENDPROC"
+
+
+@pytest.mark.parametrize(
+    ("calls", "checked", "unchecked"),
+    [
+        ("Pick pNear,nStack{3};", 2, 1),
+        ("nOff:=GInput(giZ);\nPick pNear,nOff;", 2, 1),
+        ("WHILE TRUE DO\nnOff:=nOff+GInput(giZ);\nPick pNear,nOff;\nENDWHILE", 2, 1),
+        ("Twice pNear,nStack{3};", 5, 1),
+        ("Pick pNear,10;\nPick pNear,20;", 6, 0),
+        ("FOR i FROM 1 TO 3 DO\nPick pNear,10*i;\nENDFOR", 3, 0),
+        ("FOR i FROM 1 TO 3 DO\nPick pNear,nStack{i};\nENDFOR", 2, 1),
+    ],
+)
+def test_moves_below_a_call_are_counted_each(tmp_path, calls, checked, unchecked):
+    file = tmp_path / "calls.mod"
+    file.write_text(CALLS % (DATA, calls, TWICE if "Twice" in calls else ""))
+    first, *_, last = check(file).stdout.decode().splitlines()
+    assert first.startswith(f"{checked} of {checked + unchecked} moves checked")
+    assert (last == "All checks passed!") == (unchecked == 0)
+    assert check(file, "--strict").returncode == min(unchecked, 1)
+    [ran] = json.loads(check(file, "--output-format", "sarif").stdout)["runs"]
+    moves = ran["properties"]["moves"]
+    assert (moves["checked"], sum(moves["reasons"].values())) == (checked, unchecked)
+    listed = json.loads(check(file, "--strict", "--output-format", "json").stdout)["findings"]
+    assert ("U801" in {it["code"] for it in listed}) == (unchecked > 0)
+    page = check(file, "--output-format", "html").stdout.decode()
+    assert first in page
+    assert ("All checks passed!" in page) == (unchecked == 0)
+
+
+def test_the_subject_of_a_finding_is_its_whole_instruction():
+    """Also where the instruction has a colon: nothing is read out of the words of a finding."""
+    program = rapid.parse(module('%"weld: "+sSide%;\nMoveJ fFar("a: b"),v100,fine,tGun;\n'))
+    found = check_program(ROBOT, [program])
+    assert [it.target for it in found.moves] == ['%"weld: "+sSide%;', 'fFar("a: b")']
+    assert found.findings[0].message.startswith('%"weld: "+sSide%;: ')
+
+
+TURNS = """MODULE M
+PERS tooldata tG:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
+CONST robtarget pT:=[[%s],[%s],%s,[9E9,9E9,9E9,9E9,9E9,9E9]];
+PROC main()
+MoveAbsJ [%s,[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tG;
+MoveJ pT,v500,fine,tG;
+ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_correction_is_the_configuration_nearest_to_the_written_one(tmp_path):
+    rng, tool = np.random.default_rng(5), irbkin.pose([0, 0, 0.18])
+    low, high = np.degrees(ROBOT.limits).T
+    corrected = 0
+    for number in range(60):
+        # The axis of a taught target, a little over a quarter now.
+        q = rng.uniform(low, high)
+        axis = rng.choice([0, 3, 5])
+        edge = 90 * np.ceil(rng.uniform(low[axis], high[axis]) / 90)
+        q[axis] = edge + rng.uniform(91, 130)
+        if not low[axis] < edge < q[axis] < high[axis]:
+            continue
+        own = ROBOT.configuration(np.radians(q))
+        written = list(own)
+        written[[0, 3, 5].index(axis)] -= 2
+        T = ROBOT.with_tool(tool).fk(np.radians(q))
+        xyz, wxyz = irbkin.to_xyz_wxyz(T)
+        start = rng.uniform(low, high).round(3).tolist()
+        words = [",".join(map(repr, values.tolist())) for values in (xyz * 1e3, wxyz)]
+        source = TURNS % (*words, written, start)
+        found = rapid.check(ROBOT, rapid.parse(source))
+        [finding] = [it for it in found if it.code == "C201"] or [None]
+        if finding is None:
+            # Another posture has what is written.
+            continue
+        assert f"that of the nearest is {list(own)}" in finding.message
+        file = tmp_path / f"{number}.mod"
+        file.write_text(source)
+        assert check(file, "--fix").returncode in (0, 1)
+        text = file.read_text()
+        assert str(list(own)).replace(" ", "") in text.replace(" ", "")
+        assert not [it for it in rapid.check(ROBOT, rapid.parse(text)) if it.code == "C201"]
+        corrected += 1
+    assert corrected >= 10
+    # On a branch without a solution inside the limits: nothing is offered.
+    pose = irbkin.pose([0.9, 0, 0.6], wxyz=[0, 0, 1, 0])
+    inside = {it.slot for it in ROBOT.with_tool(tool).ik(pose).within_limits()}
+    cfx = min(set(range(8)) - inside)
+    source = TURNS % ("900,0,600", "0,0,1,0", [0, 0, 0, cfx], [0] * 6)
+    [finding] = [it for it in rapid.check(ROBOT, rapid.parse(source)) if it.code == "C201"]
+    assert finding.edits == ()

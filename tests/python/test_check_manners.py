@@ -13,13 +13,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from irbkin import rapid
-from irbkin.cli.codes import codes, rules
-from irbkin.cli.findings import Coverage, Found, Related, conclusion
-from irbkin.cli.report import FORMATS, Report, rendered
-from irbkin.cli.report.github import render as github
-from irbkin.cli.report.places import places_of, views
-from irbkin.cli.report.source_text import SourceText
-from irbkin.cli.settings import KEYS
+from irbkin.check.codes import codes, rules
+from irbkin.check.findings import Finding
+from irbkin.check.jobs import Job
+from irbkin.check.report import Report, SourceText, rendered
+from irbkin.check.report.github import render as github
+from irbkin.check.report.places import points_of, views
+from irbkin.check.settings import FORMATS, KEYS
+from irbkin.rapid.program import ModuleFile, program_of
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "guide" / "check.md").read_text()
@@ -38,6 +39,11 @@ def output(*arguments, **options):
     done = run("--robot", NAME, *arguments, **options)
     assert done.stderr == b"", done.stderr
     return done.stdout.decode()
+
+
+def listed(text):
+    """The findings of a report as JSON."""
+    return json.loads(text)["findings"]
 
 
 @pytest.fixture
@@ -62,27 +68,23 @@ def test_each_finding_has_its_line_with_a_caret(seam):
             assert caret.startswith(f"{' ' * (column - 1)}{'^' * len(statement)} ")
     (fix,) = [it for it in lines if "= fix" in it]
     assert fix.startswith(
-        "   = fix in line 5: CONST robtarget pZero:=[[900,-200,500],[0,0,1,0],[-1,0,"
+        "   = fix in line 5: CONST robtarget pCopy:=[[900,-200,500],[0,0,1,0],[-1,0,"
     )
     assert output("-q", "--output-format", "concise", seam).splitlines() == concise[1:-1]
 
 
 def test_a_caret_is_below_its_statement_behind_tabs_and_odd_characters():
-    found = Found("a.mod", 1, 4, "R101", "out-of-reach", "error", "words", related=(RELATED,))
+    found = Finding("a.mod", 1, 4, "R101", "out-of-reach", "error", "words")
     text = rendered(report([found], "\t\u00e4\x1bMoveJ p,v1; MoveJ q;"), "text")
-    _, _, source, caret, note, _, _ = text.split("\n")[:7]
+    _, _, source, caret, _, _ = text.split("\n")[:6]
     assert source == "1 | \t\u00e4\ufffdMoveJ p,v1; MoveJ q;"
     assert caret == "  | \t  ^^^^^^^^^^ error"
-    assert note == "  = note: b.mod:7:3: declared here"
     missing = rendered(report([found._replace(line=9)], ""), "text")
     assert "^" not in missing
 
 
-RELATED = Related("b.mod", 7, 3, "declared here")
-
-
 def report(found, text, **fields):
-    return Report(found, {"a.mod": SourceText(text)}, Coverage(1, {}), Counter(), NAME, **fields)
+    return Report(NAME, found, {"a.mod": SourceText(text)}, 1, **fields)
 
 
 @given(st.text("a\u00e4\u20ac\r\n", max_size=30), st.data())
@@ -115,8 +117,8 @@ def test_colors_are_for_terminals_and_as_chosen(seam):
 
 
 def test_json_has_the_findings(seam):
-    found = json.loads(output("--json", seam))
-    assert json.loads(output("--output-format", "json", seam)) == found
+    found = listed(output("--json", seam))
+    assert listed(output("--output-format", "json", seam)) == found
     plain = output("-q", "--output-format", "concise", seam).splitlines()
     assert len(found) == len(plain) > 3
     for it, line in zip(found, plain, strict=True):
@@ -130,28 +132,33 @@ def test_json_has_the_findings(seam):
     for edit in fixable["edits"]:
         (row, begin), (last, end) = edit["begin"], edit["end"]
         assert row == last == 5
-        assert (line[begin - 1 : end - 1], edit["text"]) == ("0", "-1")
+        assert (line[begin - 1 : end - 1], edit["text"]) == ("1", "-1")
     fast = next(it for it in found if it["code"] == "V401")
     assert (fast["joint"], round(fast["value"], 2), round(fast["bound"], 2)) == (1, 7.78, 3.05)
     nothing = run("--robot", NAME, "--json", "--select", "D", seam)
-    assert (nothing.returncode, json.loads(nothing.stdout)) == (0, [])
+    assert (nothing.returncode, listed(nothing.stdout)) == (0, [])
 
 
 def test_github_gets_a_command_for_each_finding(seam):
-    lines = output("--output-format", "github", seam).splitlines()
+    *lines, last = output("--output-format", "github", seam).splitlines()
+    assert last == "::notice title=irbkin::5 of 6 moves checked, 1 not: 1 by unknown tools."
+    assert output("-q", "--output-format", "github", seam).splitlines() == lines
     pattern = r"::(error|warning|notice) title=irbkin (\w+) ([\w-]+),file=(.*),line=(\d+),col=(\d+)"
     found = [re.match(pattern, line).groups() for line in lines]
     assert [(it[0], it[1]) for it in found][:2] == [("warning", "V401"), ("error", "R103")]
     assert {it[3] for it in found} == {str(seam)}
-    odd = Found("a,b:c%.mod", 3, 5, "U801", "unknown-value", "note", "100 %\r\n::error::x")
+    odd = Finding("a,b:c%.mod", 3, 5, "U801", "unknown-value", "note", "100 %\r\n::error::x")
     assert github(report([odd], "")) == (
         "::notice title=irbkin U801 unknown-value,file=a%2Cb%3Ac%25.mod,line=3,col=1,endLine=3,"
         "endColumn=2::a,b:c%25.mod:3:5: U801 100 %25%0D%0A::error::x\n"
+        "::notice title=irbkin::1 of 1 move checked.\n"
     )
 
 
+@pytest.mark.extra
 def test_sarif_is_valid_and_has_rules_places_and_fixes(seam):
-    jsonschema = pytest.importorskip("jsonschema")
+    import jsonschema
+
     schema = json.loads((ROOT / "tests" / "data" / "sarif-2.1.0.json").read_text())
     validator = jsonschema.validators.validator_for(schema)(schema)
     log = json.loads(output("--output-format", "sarif", "--select", "ALL", seam))
@@ -159,7 +166,7 @@ def test_sarif_is_valid_and_has_rules_places_and_fixes(seam):
     (run_,) = log["runs"]
     known = run_["tool"]["driver"]["rules"]
     assert [it["id"] for it in known] == list(rules())
-    found = json.loads(output("--json", "--select", "ALL", seam))
+    found = listed(output("--json", "--select", "ALL", seam))
     lines = SEAM.splitlines()
     for result, it in zip(run_["results"], found, strict=True):
         assert known[result["ruleIndex"]]["id"] == result["ruleId"] == it["code"]
@@ -180,7 +187,7 @@ def test_sarif_is_valid_and_has_rules_places_and_fixes(seam):
         begin, end = region["startColumn"] - 1, region["endColumn"] - 1
         line = line[:begin] + replacement["insertedContent"]["text"] + line[end:]
     assert "[-1,0,-1,0]" in line
-    odd = Found("a b.mod", 3, 5, "U801", "unknown-value", "note", "it", related=(RELATED,))
+    odd = Finding("a b.mod", 3, 5, "U801", "unknown-value", "note", "it")
     broken = json.loads(rendered(report([odd, odd._replace(line=0, column=0)], ""), "sarif"))
     assert list(validator.iter_errors(broken)) == []
     uri = broken["runs"][0]["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]
@@ -189,22 +196,22 @@ def test_sarif_is_valid_and_has_rules_places_and_fixes(seam):
 
 def test_html_is_one_file_with_every_finding_escaped(seam):
     page = output("--output-format", "html", "--select", "ALL", seam)
-    found = json.loads(output("--json", "--select", "ALL", seam))
+    found = listed(output("--json", "--select", "ALL", seam))
     assert page.count("<article ") == len(found)
     assert not re.search(r"(?:src|href)=|https?:|@import|url\(", page)
     assert "prefers-color-scheme: dark" in page
     assert page.count("<svg") >= 4
     assert "255 % of the bound" in page
-    assert "<pre>CONST robtarget pZero:=[[900,-200,500],[0,0,1,0],[-1,0,-1,0]" in page
+    assert "<pre>CONST robtarget pCopy:=[[900,-200,500],[0,0,1,0],[-1,0,-1,0]" in page
     for opened in ("article", "section", "svg", "pre", "div", "p", "details", "mark"):
         starts = len(re.findall(rf"<{opened}[ >]", page))
         assert starts == page.count(f"</{opened}>"), opened
     words = '<script>alert("&")</script>'
-    odd = Found(f"{words}.mod", 1, 1, "U801", "unknown-value", "note", words, routine=words)
+    odd = Finding(f"{words}.mod", 1, 1, "U801", "unknown-value", "note", words, routine=words)
     texts = {f"{words}.mod": SourceText(words)}
-    whole = Report([odd], texts, Coverage(0, {words: 1}), Counter(), words)
+    whole = Report(words, [odd], texts, 0, {words: 1})
     assert words not in rendered(whole, "html")
-    empty = rendered(Report([], {}, Coverage(3, {}), Counter(), NAME), "html")
+    empty = rendered(Report(NAME, [], {}, 3), "html")
     assert "All checks passed!" in empty
     assert "<article" not in empty
 
@@ -217,22 +224,24 @@ def test_the_picture_of_targets_has_each_place_once_and_the_worst_severity(tmp_p
     moves = [f"MoveJ {record.format(it)},v100,fine,tool0;\n" for it in places]
     moves += [moves[0], moves[0].replace("tool0", "tool0\\WObj:=w")]
     file.write_text(f"{text}PROC main()\n{''.join(moves)}ENDPROC\n")
-    module = rapid.load(file)
     robot = irbkin.Robot(NAME).with_base(irbkin.pose([0.1, 0, 0]))
-    found = [Found("a", 4, 1, "R101", "", it, "") for it in ("error", "note")]
-    points, reach = places_of(robot, {"a": module}, found)
+    program = program_of([ModuleFile("a", file.read_bytes())])
+    found = [Finding("a", 4, 1, "R101", "", it, "") for it in ("error", "note")]
+    own = report(found, "", programs=[(Job(robot, program, ""), rapid.Checked((), ()))])
+    points = points_of(own, robot)
     wanted = [(800, -300, "fine"), (2800, 0, "error"), (800, -300, "fine"), (900, -250, "fine")]
     assert [(round(x), round(y), style) for x, y, _, style in points] == wanted
-    assert reach == 1650
-    assert views(places_of(robot, {"a": module}, found)).count("<circle") == 3 + 1 + 3
-    assert views(places_of(robot, {}, [])) == ""
+    assert views(own).count("<circle") == 3 + 1 + 3
+    assert "circle: reach of 1650 mm" in views(own)
+    assert views(report([], "")) == ""
     page = output("--base", 100, 0, 0, "--output-format", "html", file)
     assert page.count('<circle class="error"') >= 2
 
 
 def test_a_report_goes_to_a_file_in_the_format_of_its_ending(seam, tmp_path):
     for ending, begin in (
-        (".json", "["),
+        (".json", "{"),
+        (".xml", "<?xml"),
         (".sarif", "{"),
         (".html", "<!DOCTYPE"),
         (".txt", "5 of"),
@@ -244,14 +253,13 @@ def test_a_report_goes_to_a_file_in_the_format_of_its_ending(seam, tmp_path):
         assert target.read_text().startswith(begin)
     assert output("-q", "-o", target, "--output-format", "json", seam) == ""
     json.loads(target.read_text())
-    assert "must end in .json" in command.refused("check", "-o", "report.xml", seam)
+    assert "must end in .json" in command.refused("check", "-o", "report.yaml", seam)
 
 
 def test_the_last_line_is_right_about_what_was_checked():
     def last(found=(), fixed=(), checked=4, reasons=None, unread=0):
-        whole = Coverage(checked, reasons or {}, unread)
-        words = [Found("a", 1, 1, "C201", "", it, "") for it in found]
-        return conclusion(words, Counter(fixed), whole)
+        words = [Finding("a", 1, 1, "C201", "", it, "") for it in found]
+        return Report("", words, {}, checked, reasons or {}, unread, Counter(fixed)).conclusion
 
     assert last() == "All checks passed!"
     for fields in ({"reasons": {"calls": 1}}, {"unread": 1}):
@@ -301,7 +309,7 @@ def test_a_fix_in_a_backup_names_the_hash_that_no_longer_agrees(tmp_path):
 def test_an_archive_of_a_backup_is_checked_and_not_corrected(tmp_path):
     archive = Path(make_archive(tmp_path / "cell", "zip", ROOT / "examples" / "backup"))
     done = run("--json", archive)
-    files = {it["file"] for it in json.loads(done.stdout)}
+    files = {it["file"] for it in listed(done.stdout)}
     assert done.returncode == 1
     assert f"{archive}/RAPID/TASK1/PROGMOD/MainModule.mod" in files
     assert f"{archive}/SYSPAR/SYS.cfg" in files
@@ -323,10 +331,10 @@ def test_options_come_from_the_nearest_file(seam, tmp_path):
     (tmp_path / "cell" / "pyproject.toml").write_text("[tool.other]\n")
     assert run("--json", below / "seam.mod").stdout.decode() == plain
     (tmp_path / "irbkin.toml").write_text(f'[check]\nrobot = "{NAME}"\nselect = ["V4"]\n')
-    assert {it["code"] for it in json.loads(run("--json", below / "seam.mod").stdout)} == {"V401"}
+    assert {it["code"] for it in listed(run("--json", below / "seam.mod").stdout)} == {"V401"}
     # The command line counts more, and the environment more than the file.
     both = run("--select", "R", "--json", seam, below / "seam.mod")
-    assert {it["code"] for it in json.loads(both.stdout)} == {"E003", "R101", "R103"}
+    assert {it["code"] for it in listed(both.stdout)} == {"E003", "R101", "R103"}
     assert b"IRB 9999" in run(seam, IRBKIN_ROBOT="IRB 9999").stderr
 
 
@@ -339,7 +347,7 @@ def test_every_option_of_a_file_is_read(seam, tmp_path):
     (tmp_path / "service").mkdir()
     (tmp_path / "service" / "way.mod").write_text(SEAM.replace("Seam", "Way"))
     (tmp_path / "irbkin.toml").write_text(OPTIONS)
-    found = json.loads(run("--json", tmp_path).stdout)
+    found = listed(run("--json", tmp_path).stdout)
     assert {Path(it["file"]).name for it in found} == {"seam.mod", "way.mod"}
     fast = {Path(it["file"]).name for it in found if it["code"] == "V401"}
     assert fast == {"seam.mod"}
@@ -383,6 +391,27 @@ def test_every_option_of_a_file_is_read(seam, tmp_path):
     )
 
 
+def test_a_file_that_ignores_a_code_is_not_corrected_for_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    # Of each module its own data, so that each correction is in the file of its finding.
+    local = SEAM.replace("CONST robtarget", "LOCAL CONST robtarget")
+    for name in "ab":
+        Path(f"{name}.mod").write_text(local.replace("Seam", name).replace("main", f"go_{name}"))
+    Path("irbkin.toml").write_text(
+        f'[check]\nrobot = "{NAME}"\n[check.per-file-ignores]\n"a.mod" = ["C201"]\n'
+    )
+    before = {name: Path(f"{name}.mod").read_bytes() for name in "ab"}
+    done = run("--diff", ".")
+    assert re.findall(rb"^\+\+\+ .*?(\w)\.mod", done.stdout, re.MULTILINE) == [b"b"]
+    assert done.stderr == b"irbkin: --fix would remove 1 finding\n"
+    run("--fix", ".")
+    assert Path("a.mod").read_bytes() == before["a"]
+    assert Path("b.mod").read_bytes() != before["b"]
+    Path("irbkin.toml").write_text(f'[check]\nrobot = "{NAME}"\n')
+    run("--fix", ".")
+    assert Path("a.mod").read_bytes() != before["a"]
+
+
 def test_everything_may_be_excluded(seam, tmp_path):
     (tmp_path / "irbkin.toml").write_text(f'[check]\nrobot = "{NAME}"\nexclude = ["*.mod"]\n')
     done = run(seam)
@@ -412,7 +441,7 @@ def test_limits_of_the_machine_count(tmp_path):
 def test_the_problem_matcher_of_the_page_matches_every_finding(seam):
     matchers = json.loads(TASKS)["tasks"][0]["problemMatcher"]
     lines = output("--output-format", "concise", "--select", "ALL", seam).splitlines()
-    found = json.loads(output("--json", "--select", "ALL", seam))
+    found = listed(output("--json", "--select", "ALL", seam))
 
     def matched(line):
         fits = []
@@ -439,8 +468,10 @@ def test_the_problem_matcher_of_the_page_matches_every_finding(seam):
     )
 
 
+@pytest.mark.extra
 def test_the_hook_for_pre_commit_runs(seam, tmp_path, monkeypatch):
-    yaml = pytest.importorskip("yaml")
+    import yaml
+
     (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
     assert hook["id"] == "irbkin-check"
     for name in ("a.mod", "A.MODX", "b.sys", "c.SysX", "d.prg"):
@@ -462,7 +493,9 @@ def test_every_format_takes_a_broken_file(form, tmp_path):
     done = run("--robot", NAME, "--output-format", form, tmp_path / "broken.mod")
     assert done.returncode == 1
     assert b"E001" in done.stdout
-    assert run("--robot", NAME, "--ignore", "E", tmp_path).returncode == 0
+    done = run("--robot", NAME, "--ignore", "E", tmp_path)
+    # No move is checked.
+    assert (done.returncode, b"E001" in done.stdout) == (1, False)
 
 
 def test_findings_of_python_have_severities():

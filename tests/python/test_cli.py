@@ -16,6 +16,7 @@ from irbkin.cli.arguments import Parser
 from irbkin.cli.tool_paths import ZONES
 
 EVERY_VERB = list(VERBS)
+NAMES = "x_mm,y_mm,z_mm,rz_deg,ry_deg,rx_deg\n"
 
 
 @pytest.fixture
@@ -232,17 +233,14 @@ def test_json_has_the_rows_and_nulls():
     "content",
     [
         "900,0,600,0,160,0\n800,0,600,0,160,0\n",
-        "x_mm,y_mm,z_mm,rz_deg,ry_deg,rx_deg\n900,0,600,0,160,0\n800,0,600,0,160,0\n",
-        "\ufeffx,y,z,rz,ry,rx\r\n900,0,600,0,160,0\r\n800,0,600,0,160,0",
-        "# made by hand\n\n900 0 600 0 160 0\n\n800 0 600 0 160 0\n",
-        "900;0,0;600;0;160;0\n800;0;600;0;160;0\n",
-        "900\t0\t600\t0\t160\t0\n800\t0\t600\t0\t160\t0\n",
-        "ry [deg],rz [deg],rx [deg],name,z [m],y [m],x [m]\n160,0,0,a,.6,0,.9\n160,0,0,b,.6,0,.8\n",
+        "\ufeffx_mm,y_mm,z_mm,rz_deg,ry_deg,rx_deg\r\n900,0,600,0,160,0\r\n800,0,600,0,160,0",
+        "# made by hand\n\n900, 0, 600, 0, 160, 0\n\n800, 0, 600, 0, 160, 0\n",
+        "ry_deg,rz_deg,rx_deg,name,z_m,y_m,x_m\n160,0,0,a,.6,0,.9\n160,0,0,b,.6,0,.8\n",
         "x_m,y_m,z_m,rz_rad,ry_rad,rx_rad\n.9,0,.6,0,2.792526803190927,0\n.8,0,.6,0,2.792526803190927,0",
-        "x,y,z,qw,qx,qy,qz\n900,0,600,0.17364818,0,0.98480775,0\n800,0,600,0.17364818,0,0.98480775,0\n",
+        "x_mm,y_mm,z_mm,qw,qx,qy,qz\n900,0,600,0.17364818,0,0.98480775,0\n800,0,600,0.17364818,0,0.98480775,0\n",
     ],
 )
-def test_rows_are_read_as_people_write_them(content):
+def test_rows_are_csv_with_names_or_without(content):
     done = run("ik", NAME, "-", "--seed", *[0] * 6, "--csv", stdin=content)
     poses = irbkin.pose([[0.9, 0, 0.6], [0.8, 0, 0.6]], euler_zyx=np.radians([0, 160, 0]))
     wanted = np.degrees(ROBOT.ik_nearest(poses, np.zeros(6)))
@@ -253,12 +251,35 @@ def test_rows_are_read_as_people_write_them(content):
     ("content", "message"),
     [
         ("900,0,600,0,160,0\n900,O,600,0,160,0\n", "stdin:2:5: 'O' is not a finite number"),
-        ("900,0,600,0,160,0\n\n900,0,600,0,160\n", "stdin:3: 5 columns, the first line has 6"),
-        ("x,y,z,rz,ry,rx\n900,0,600,,160,0\n", "stdin:2:11: '' is not a finite number"),
-        ("x,y,z,rz,ry\n900,0,600,0,160\n", "stdin:1: no column 'qw'"),
-        ("900,0\n", "stdin:1: 2 columns; a pose has x_mm, y_mm, z_mm, qw"),
+        ("900,0,600,0,160,0\n\n900,0,600,0,160\n", "stdin:3: '900,0,600,0,160' has 5 columns, "),
+        (
+            f"{NAMES}900,0,600,,160,0\n",
+            "stdin:2:11: '' is not a finite number",
+        ),
+        (
+            "x,y,z,rz,ry,rx\n900,0,600,0,160,0\n",
+            "stdin:1: 'x,y,z,rz,ry,rx' has no column x_mm or x_m; a pose has x_mm, y_mm, z_mm, qw",
+        ),
+        (
+            "x_mm,y_mm,z_mm,rz_deg,ry_deg\n900,0,600,0,160\n",
+            "stdin:1: 'x_mm,y_mm,z_mm,rz_deg,ry_deg' has no column rx_deg or rx_rad; a pose has",
+        ),
+        ("900,0\n", "stdin:1: '900,0' has 2 columns; a pose has x_mm, y_mm, z_mm, qw"),
+        (
+            "900;0;600;0;160;0\n",
+            "stdin:1: '900;0;600;0;160;0' has 1 column; a pose has x_mm, y_mm, z_mm, qw, qx, qy, "
+            "qz or x_mm, y_mm, z_mm, rz_deg, ry_deg, rx_deg, separated by commas, with decimal "
+            "points",
+        ),
+        ("900 0 600 0 160 0\n", "stdin:1: '900 0 600 0 160 0' has 1 column"),
+        ("900\t0\t600\t0\t160\t0\n", "separated by commas"),
+        (
+            "900,5;0,5;600;0;160;0\n",
+            "stdin:1: '900,5;0,5;600;0;160;0' has 3 columns; a pose has",
+        ),
+        ("900,0,600,0,160,0\n800;0;600;0;160;0\n", "stdin:2: '800;0;600;0;160;0' has 1 column, "),
         ("", "stdin: has no rows"),
-        ("x,y,z,rz,ry,rx\n", "stdin: has no rows"),
+        (NAMES, "stdin: has no rows"),
         ("900,0,600,2,0,0,0\n", "stdin: row 1: the quaternion qw, qx, qy, qz has norm 2"),
         ("900,0,1_0,0,160,0\n", "'1_0' is not a finite number"),
         (b"900,0,600,0,160,0\n900,\xff,600,0,160,0\n", "stdin:2:5: '?' is not a finite number"),
@@ -397,8 +418,8 @@ def test_a_pose_far_beyond_reach_is_explained_in_millimeters():
     assert b"(arguments and CSV are in millimeters, .npy files in meters)" in done.stderr
 
 
+@pytest.mark.extra
 def test_a_pose_without_solutions_is_not_drawn(tmp_path):
-    pytest.importorskip("matplotlib")
     done = run("plot", NAME, "solutions", "--xyz", 8500, 0, 0, "-o", tmp_path / "ik.svg")
     assert done.stderr.startswith(b"irbkin: the pose has no solution to draw: wrist center ")
 
@@ -557,8 +578,8 @@ def test_rapid_takes_the_speeds_of_the_joints(tmp_path):
     assert "0 must be positive" in refused("rapid", longer, file, "--max-velocity", 0)
 
 
+@pytest.mark.extra
 def test_plots_are_files_of_their_format(tmp_path, joints_csv):
-    pytest.importorskip("matplotlib")
     for kind, words, ending, start in (
         ("solutions", XYZ, "svg", b"<?xml"),
         ("path", [joints_csv], "png", b"\x89PNG"),
@@ -643,9 +664,8 @@ def test_lengths_in_meters_are_asked_for(tmp_path):
     assert "are these meters?" in refused(*words, "0.85", "0.32", "0.64")
     assert run(*words, "0", "0", "0").returncode == 0
     file = tmp_path / "poses.csv"
-    for heading in ("", "x,y,z,qw,qx,qy,qz\n"):
-        file.write_text(f"{heading}0.85,0.32,0.64,0.2588190,0,0.9659258,0\n")
-        assert "are these meters?" in refused("ik", NAME, file)
+    file.write_text("0.85,0.32,0.64,0.2588190,0,0.9659258,0\n")
+    assert "are these meters?" in refused("ik", NAME, file)
     for unit, factor in (("m", 1), ("mm", 1e3)):
         x, y, z = (factor * it for it in (0.85, 0.32, 0.64))
         head = ",".join(f"{axis}_{unit}" for axis in "xyz")

@@ -21,7 +21,8 @@ NAMES = ("ARCHITECTURE", "CONTRIBUTING", "CHANGELOG", "RELEASING", "SECURITY")
 PAGES = [README, *(ROOT / f"{name}.md" for name in NAMES), *DOCS]
 BLOCK = re.compile(r"^```python\n(.*?)^```$(?:\n\n```text\n(.*?)^```$)?", re.MULTILINE | re.DOTALL)
 FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
-RUN = [page for page in PAGES if BLOCK.search(page.read_text())]
+# Pages whose blocks need an extra.
+EXTRA = ("calibrate.md", "plot.md", "general.md")
 # Transcripts of a shell, and the files that they read: their names stand behind the fence.
 TRANSCRIBED = [ROOT / "docs" / "guide" / f"{name}.md" for name in ("cli", "check", "backup")]
 SHELL = re.compile(
@@ -29,11 +30,18 @@ SHELL = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 README_WORDS = 600
-# Packages of the group "recipes" that a page needs.
-NEEDED = {"recipes.md": ("jax", "polars", "xarray", "distributed")}
 # Folders of the checkout that a page reads, copied beside it.
 GIVEN = {"backup.md": ROOT / "examples" / "backup"}
 LINE = 100
+
+
+def marked(page):
+    """A page with the mark of what its blocks need."""
+    marks = [pytest.mark.recipes] * (page.name == "recipes.md")
+    return pytest.param(page, marks=marks + [pytest.mark.extra] * (page.name in EXTRA))
+
+
+RUN = [marked(page) for page in PAGES if BLOCK.search(page.read_text())]
 
 
 def given(page, folder):
@@ -46,8 +54,6 @@ def given(page, folder):
 def test_the_blocks_of_a_page_run_top_to_bottom_and_print_what_it_shows(
     page, tmp_path, monkeypatch
 ):
-    for package in NEEDED.get(page.name, ()):
-        pytest.importorskip(package, reason=f"{package} is missing: make test-recipes installs it")
     # An empty folder: no block reads another file of the checkout.
     given(page, tmp_path)
     monkeypatch.chdir(tmp_path)
@@ -85,9 +91,9 @@ def transcript(console, folder):
     return "".join(lines)
 
 
+@pytest.mark.extra
 @pytest.mark.parametrize("page", TRANSCRIBED, ids=lambda page: page.name)
 def test_the_transcripts_of_a_page_are_what_a_shell_prints(page, tmp_path):
-    pytest.importorskip("matplotlib", reason="a transcript draws")
     given(page, tmp_path)
     text = page.read_text()
 

@@ -100,3 +100,54 @@ def test_a_step_is_far_shorter_than_a_millisecond():
     for pose in path:
         follower.step(pose)
     assert (time.perf_counter() - start) / len(path) < 1e-4
+
+
+def continued(robot, start, end, q, parts):
+    """The joints to which Newton's steps lead on a straight way between two poses; None where a
+    step is no small one."""
+    for pose in irbkin.paths.line(start, end, steps=parts + 1)[1:]:
+        for _ in range(8):
+            tool = robot.fk(q)
+            turn = pose[:3, :3] @ tool[:3, :3].T
+            sines = [turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]
+            missing = np.r_[pose[:3, 3] - tool[:3, 3], np.array(sines) / 2]
+            if abs(missing).max() < 1e-12:
+                break
+            step = np.linalg.solve(robot.jacobian(q), missing)
+            if abs(step).max() > 0.2:
+                return None
+            q = q + step
+        else:
+            return None
+    return q
+
+
+def test_a_large_step_without_a_break_ends_where_the_way_leads():
+    rng, large = np.random.default_rng(1), 0
+    for name in ("UR5e", "IRB 2600-12/1.65", "IRB 120-3/0.58", "GoFa 5"):
+        robot = irbkin.Robot(name)
+        low, high = np.clip(robot.limits, -6.28, 6.28).T
+        for _ in range(120):
+            start = rng.uniform(low, high)
+            end = np.clip(start + rng.uniform(-0.3, 0.3, 6), low, high)
+            line = irbkin.paths.line(robot.fk(start), robot.fk(end), step=0.005)
+            followed = robot.follow(line, start)
+            if followed.breaks:
+                continue
+            for row in np.nonzero(abs(np.diff(followed.q, axis=0)).max(axis=1) > 0.5)[0]:
+                arrived = continued(robot, line[row], line[row + 1], followed.q[row], 5000)
+                if arrived is not None:
+                    large += 1
+                    np.testing.assert_allclose(arrived, followed.q[row + 1], atol=1e-6)
+    assert large >= 5
+
+
+def test_a_step_to_another_branch_is_a_break_with_its_reason():
+    # Steps of 0.13, 0.32, 1.03 rad before: growth alone does not show the jump of 2.3 rad.
+    robot = irbkin.Robot("UR5e")
+    start = [5.8706, -0.6777, -3.7195, 3.9383, -3.3205, -6.2325]
+    end = [6.2832, -0.7472, -3.9316, 3.9228, -3.0129, -6.2168]
+    line = irbkin.paths.line(robot.fk(start), robot.fk(end), step=0.005)
+    [broken] = robot.follow(line, start).breaks
+    assert (broken.pose_index, broken.kind) == (15, BreakReason.JUMP)
+    assert "must turn by" in broken.reason

@@ -6,7 +6,8 @@ from html.parser import HTMLParser
 import irbkin
 import numpy as np
 import pytest
-from irbkin import trajectory
+from irbkin import scene, trajectory
+from irbkin.scene import _svg
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
@@ -85,3 +86,33 @@ def test_a_trajectory_shows_its_peaks():
     np.testing.assert_allclose(
         [float(it) for it in cells[1:7]], np.degrees(MOVE.peaks().velocity), atol=0.05
     )
+
+
+@pytest.mark.parametrize("ends", [(-52.85, 40.0), (-179.9, 179.9), (-1.234e-5, 0.0), (-1e7, 1e-9)])
+def test_labels_of_curves_are_inside_the_picture(ends):
+    text = _svg.curves(np.array([0.0, 1.0]), np.array([[ends[0]], [ends[1]]]), "s", "deg")
+    labels = re.findall(r'<text x="([^"]+)"[^>]*text-anchor="end">([^<]*)<', text)
+    assert len(labels) == 3
+    for x, words in labels:
+        # Sans-serif digits of 10 units are 5.6 to 6.4 wide.
+        assert float(x) - 6.4 * len(words) >= 0.0
+        assert float(x) <= _svg.SIZE
+
+
+@pytest.mark.extra
+def test_joints_of_a_view_are_any_array_of_their_number(monkeypatch):
+    monkeypatch.setattr("irbkin.scene._page.engine", lambda: "")
+    import traitlets
+
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    view = scene.of(robot).view()
+    q = np.radians([10, 20, -10, 5, 30, 5])
+    for given in (q, list(q), tuple(q), robot.ik_nearest(robot.fk(q), q)):
+        view.q = given
+        np.testing.assert_allclose(view.q, q, atol=1e-9)
+        assert isinstance(view.q, list)
+        np.testing.assert_allclose(view.T, robot.fk(view.q), atol=1e-12)
+    for wrong in ([1, 2, 3], np.zeros(7), np.zeros((1, 6)), "abcdef", 1.0, [np.nan] * 6, None):
+        with pytest.raises(traitlets.TraitError, match=r"q must be 6 finite joint angles \[rad\]"):
+            view.q = wrong
+        np.testing.assert_allclose(view.q, q, atol=1e-9)

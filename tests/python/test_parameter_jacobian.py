@@ -1,5 +1,7 @@
 """`parameter_jacobian` and `with_corrections` against a product of matrices in NumPy."""
 
+import itertools
+
 import irbkin
 import numpy as np
 import pytest
@@ -62,14 +64,15 @@ def by_matrices(robot, q, corrections):
     """
     product = factors(robot, q, corrections)
     matrices = [matrix_of(factor) for factor in product]
-    pose = np.linalg.multi_dot(matrices)
+    befores = list(itertools.accumulate(matrices, np.matmul, initial=np.eye(4)))
+    backwards = itertools.accumulate(matrices[::-1], lambda behind, one: one @ behind)
+    behinds = list(backwards)[::-1]
+    pose = befores[-1]
     jacobian = np.zeros((6, len(corrections)))
     for place, (index, generator, _) in enumerate(product):
         if index is None:
             continue
-        before = np.linalg.multi_dot([np.eye(4), np.eye(4), *matrices[:place]])
-        behind = np.linalg.multi_dot([np.eye(4), np.eye(4), *matrices[place:]])
-        rate = before @ GENERATORS[generator] @ behind
+        rate = befores[place] @ GENERATORS[generator] @ behinds[place]
         spin = rate[:3, :3] @ pose[:3, :3].T
         jacobian[:, index] = [*rate[:3, 3], spin[2, 1], spin[0, 2], spin[1, 0]]
     return pose, jacobian

@@ -402,3 +402,54 @@ def test_seven_joints_are_planned_with_their_redundancy():
     assert timed.q.shape == (3, 7)
     with pytest.raises(irbkin.InvalidMotionError, match="redundancy"):
         panda.plan(T, redundancy=1)
+
+
+@pytest.mark.parametrize(
+    "turns",
+    [(-242, 242), (-65, 2), (-70, 70), (0, 255), (-1000, 2), (-15900, 15900)],
+    ids=lambda turns: f"{turns[0]}..{turns[1]}",
+)
+@pytest.mark.parametrize("joints", [[5], [3, 5]])
+@pytest.mark.parametrize("name", ["IRB 120-3/0.58", "UR5e", "GoFa 5"])
+def test_limits_may_be_any_number_of_turns_apart(name, joints, turns):
+    robot = irbkin.Robot(name)
+    limits = robot.limits.copy()
+    limits[joints] = 2 * np.pi * np.array(turns)
+    robot = robot.with_limits(limits)
+    start = np.array([0.3, 0.4, 0.2, 0.5, 0.7, 0.4])
+    end = start + 0.1
+    line = irbkin.paths.line(robot.fk(start), robot.fk(end), steps=12)
+    for ends in ({}, {"start": start}, {"start": start, "end": end}):
+        plan = robot.plan(line, **ends)
+        assert not plan.breaks
+        assert ((plan.q >= limits[:, 0]) & (plan.q <= limits[:, 1])).all()
+        for row, given in ((0, ends.get("start")), (-1, ends.get("end"))):
+            if given is not None:
+                np.testing.assert_allclose(plan.q[row], given, atol=1e-9)
+    plan = robot.plan(line, start=start, limit_cost=1.0)
+    np.testing.assert_allclose(plan.q[0], start, atol=1e-9)
+    if name != "GoFa 5":
+        # A whole turn of the tool, whose turns have to be counted.
+        end = start.copy()
+        end[5] += 2 * np.pi
+        around = irbkin.ToolRotation(12)
+        plan = robot.plan(line[:1].repeat(40, 0), rotation=around, start=start, end=end)
+        np.testing.assert_allclose(plan.q[-1], end, atol=1e-9)
+        assert abs(np.diff(plan.q, axis=0)).max() < 1.0
+
+
+def test_right_joints_are_a_start_with_a_cone():
+    # A tool whose orientation is met to a rounding: nothing of the rotation between may be NaN.
+    robot, refused = irbkin.Robot("IRB 2600-12/1.65"), []
+    rng = np.random.default_rng(0)
+    for _ in range(300):
+        turn = np.radians(rng.uniform(-180, 180, 3))
+        seam = np.array([irbkin.pose([0.96, y, 1], euler_zyx=turn) for y in (0.1, 0.11)])
+        for start in robot.ik(seam[0]).within_limits().q:
+            try:
+                robot.plan(seam, start=start, tolerance=irbkin.ToolCone(0.1))
+            except irbkin.PathError:
+                pass
+            except irbkin.InvalidMotionError as error:
+                refused.append(str(error))
+    assert refused == []

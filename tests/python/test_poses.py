@@ -175,8 +175,10 @@ def test_translations_alone_are_poses_too():
     assert made.shape == (2, 3, 4, 4)
 
 
+@pytest.mark.extra
 def test_a_scipy_rotation_is_taken():
-    Rotation = pytest.importorskip("scipy.spatial.transform").Rotation
+    from scipy.spatial.transform import Rotation
+
     turns = orientations(MANY)
     many = Rotation.from_quat(turns["xyzw"].reshape(-1, 4))
     made = irbkin.pose(np.zeros(3), rotation=many)

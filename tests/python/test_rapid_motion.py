@@ -406,5 +406,5 @@ def test_a_motion_is_written_back_as_a_module_of_joint_targets():
 def test_the_example_is_one_motion():
     module = rapid.load("examples/pick_and_place.mod")
     motion = rapid.motion(ROBOT, module)
-    assert names(motion) == ["other-configuration", "wrong-confdata", "out-of-reach"]
+    assert names(motion) == ["near-confdata", "near-confdata", "out-of-reach"]
     assert [step.as_programmed for step in motion.moves] == [True] * 10 + [False]

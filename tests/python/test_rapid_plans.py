@@ -156,3 +156,16 @@ def test_a_carrier_fills_the_external_axes():
         assert turns == pytest.approx(np.degrees(values[1:]))
     with pytest.raises(irbkin.RapidError, match="carrier has 1 axes"):
         rapid.plan_targets(ROBOT, plan, carrier=carrier[0])
+
+
+def test_quaternions_go_on_without_a_change_of_sign():
+    # A tool that points down: w is nearly 0, and its sign is a rounding's.
+    down = [irbkin.pose([0.9, y, 0.7], euler_zyx=[0, np.pi, 0.1 * y]) for y in (-0.3, 0.3)]
+    path = irbkin.paths.line(*down, steps=80)
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    plan = robot.plan(path, rotation=36)
+    module = rapid.plan_module(robot, plan)
+    targets = [module[f"p{number}"] for number in range(1, 81)]
+    rot = np.array([target.rot for target in targets])
+    assert (np.einsum("ij,ij->i", rot[1:], rot[:-1]) > 0).all()
+    np.testing.assert_allclose(rapid.calc_moves(robot, module).q, plan.q, atol=1e-4)

@@ -249,7 +249,7 @@ def test_a_target_that_is_refused_changes_nothing():
 
 
 def test_threads_share_the_last_solution():
-    """Two publishers in ROS 1 are two threads: each target starts at the end of another."""
+    """Two publishers may be two threads: each target starts at the end of another."""
     kinematics = ros.Kinematics(ROBOT)
     targets = [stamped(ROBOT.fk([a, *Q[1:]])) for a in np.linspace(-1.0, 1.0, 200)]
     ends = []

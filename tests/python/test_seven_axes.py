@@ -164,6 +164,7 @@ def test_an_unreachable_pose_is_reported(robot):
     assert np.isnan(robot.ik_nearest(far[None], np.zeros(7))).all()
 
 
+@pytest.mark.extra
 def test_frankik_finds_no_further_solution():
     """It lists solutions inside its limits, and not all of them."""
     frankik = pytest.importorskip("frankik")

@@ -13,8 +13,10 @@ B = irbkin.pose([0.8, 0.3, 0.7], euler_zyx=[1.0, 2.5, -0.4])
 C = irbkin.pose([0.5, 0.4, 0.9], euler_zyx=[0.5, 2.0, 0.0])
 
 
+@pytest.mark.extra
 def test_a_line_is_that_of_scipy_s_slerp():
-    transform = pytest.importorskip("scipy.spatial.transform")
+    from scipy.spatial import transform
+
     both = transform.Rotation.from_matrix([A[:3, :3], B[:3, :3]])
     slerp = transform.Slerp([0, 1], both)(np.linspace(0, 1, 30)).as_matrix()
     np.testing.assert_allclose(paths.line(A, B, steps=30)[:, :3, :3], slerp, rtol=0, atol=1e-14)
@@ -42,8 +44,10 @@ def test_a_corner_is_passed_at_the_distance_that_is_said(zone):
     np.testing.assert_array_equal(path[[0, -1]], [A, C])
 
 
+@pytest.mark.extra
 def test_a_spline_is_that_of_scipy_over_its_chords():
-    interpolate = pytest.importorskip("scipy.interpolate")
+    from scipy import interpolate
+
     rng = np.random.default_rng(5)
     met = np.tile(A, (7, 1, 1))
     met[:, :3, 3] = rng.uniform(-0.5, 0.5, (7, 3))

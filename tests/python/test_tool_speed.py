@@ -112,6 +112,11 @@ def test_retiming_keeps_the_speed_of_the_tool_and_the_limits(speed):
             "speed is NaN",
         ),
         (
+            lambda: trajectory.retime(Q[::60], VELOCITY, 1.0, T=LINE[::60], max_tool_speed=0.1),
+            InvalidMotionError,
+            r"joint \d steps by -?0\.\d+ rad to row \d+ of q, more than 0\.1 rad: .*nearer",
+        ),
+        (
             lambda: trajectory.retime(Q, VELOCITY, 1.0, T=LINE, max_tool_speed=-0.1),
             InvalidMotionError,
             "max_tool_speed is -0.1",

@@ -16,8 +16,10 @@ START = np.radians([0, -90, 0, 0, 90, -180])
 END = np.radians([90, -100, 40, 10, 60, -120])
 
 
+@pytest.mark.extra
 def test_the_article_s_quintic_is_that_of_roboticstoolbox():
-    toolbox = pytest.importorskip("roboticstoolbox")
+    import roboticstoolbox as toolbox
+
     reference = toolbox.jtraj(START, END, np.linspace(0, 1, 50))
     move = trajectory.joint(START, END, steps=50)
     np.testing.assert_allclose(move.t, np.linspace(0, 1, 50), rtol=0, atol=1e-15)
@@ -48,7 +50,7 @@ def test_given_ends_are_met():
 
 def duration_of_toppra(path, velocity, acceleration):
     """Of a path on the same spline, with 1,000 points of its grid."""
-    toppra = pytest.importorskip("toppra")
+    import toppra
     from toppra import algorithm, constraint
 
     toppra.setup_logging("ERROR")
@@ -66,6 +68,7 @@ def duration_of_toppra(path, velocity, acceleration):
     return solver.compute_trajectory().duration
 
 
+@pytest.mark.extra
 def test_a_line_retimed_is_as_fast_as_toppra():
     robot = irbkin.Robot("IRB 2600-12/1.65")
     start = irbkin.pose([0.85, -0.4, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
@@ -76,6 +79,7 @@ def test_a_line_retimed_is_as_fast_as_toppra():
     assert move.duration <= 1.01 * duration_of_toppra(path, velocity, acceleration)
 
 
+@pytest.mark.extra
 @pytest.mark.parametrize("count", [5, 20, 100])
 def test_random_waypoints_retimed_are_as_fast_as_toppra_which_exceeds_limits(count):
     robot = irbkin.Robot("IRB 2600-12/1.65")
@@ -284,6 +288,10 @@ LIMITS = np.array([[-1.0, 1.0], [-0.5, 1.0]])
 INSIDE = np.array([[0, -0.5], [1, -0.5], [1, 0.2], [1, 0.9]])
 TOOL = np.repeat(np.eye(4)[None], 4, axis=0)
 TOOL[:, 0, 3] = np.arange(4)
+_SWINGING = trajectory.spline(INSIDE)
+FINE = _SWINGING.sample(np.linspace(0, _SWINGING.duration, 200)).q
+FINE_TOOL = np.repeat(np.eye(4)[None], 200, axis=0)
+FINE_TOOL[:, 0, 3] = np.linspace(0, 3, 200)
 MAKERS = {
     "joint": lambda limits: trajectory.joint(
         [0, 0], [0, 0.1], start_velocity=[0, -3], limits=limits
@@ -294,7 +302,7 @@ MAKERS = {
     ),
     "retime": lambda limits: trajectory.retime(INSIDE, 2.0, 8.0, limits=limits),
     "retime with a tool": lambda limits: trajectory.retime(
-        INSIDE, 2.0, 8.0, T=TOOL, max_tool_speed=0.1, limits=limits
+        FINE, 2.0, 8.0, T=FINE_TOOL, max_tool_speed=0.1, limits=limits
     ),
     "at_tool_speed": lambda limits: trajectory.at_tool_speed(INSIDE, TOOL, 0.1, 2.0, limits=limits),
 }

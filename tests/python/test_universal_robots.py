@@ -37,6 +37,7 @@ def test_follow_meets_a_path_and_refuses_what_needs_a_spherical_wrist():
             robot.follow(robot.fk(joints), joints[0], singularity_mode=mode)
 
 
+@pytest.mark.extra
 @pytest.mark.parametrize("name", NAMES)
 def test_ur_analytic_ik_has_the_same_arm_and_no_further_solution(name):
     module = pytest.importorskip("ur_analytic_ik")

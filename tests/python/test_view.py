@@ -2,11 +2,14 @@
 
 import json
 from pathlib import Path
+from xml.etree import ElementTree
 
 import command
 import irbkin
 import numpy as np
+import pytest
 from irbkin import scene
+from irbkin.scene import _page
 from irbkin.scene._page import ENGINE, SCRIPTS, page, scripts
 
 NAME = "IRB 2600-12/1.65"
@@ -35,6 +38,50 @@ def test_a_module_is_written_with_its_source_and_findings(tmp_path):
     assert motion.lines == tuple(made.lines)
     assert len(written.marks) == len(made.findings) > 0
     assert written.title == MODULE.name
+
+
+def test_without_the_engine_the_arm_is_a_picture(tmp_path, monkeypatch):
+    opened = []
+    monkeypatch.setattr(_page, "ENGINE", tmp_path / "irbkin.wasm.gz")
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    _page.engine.cache_clear()
+    done = command.run("view", NAME)
+    assert done.returncode == 0
+    assert done.stderr.count(b"\n") == 1
+    assert b"make page" in done.stderr
+    (address,) = opened
+    file = Path(done.stdout.decode().strip())
+    assert address == f"file://{file}"
+    assert ElementTree.parse(file).getroot().tag.endswith("svg")
+    assert "(.svg)" in command.refused("view", NAME, "-o", tmp_path / "arm.html")
+    own, words = scene.of(ROBOT), r"make page.*picture \(\.svg\).*irbkin\.viewer"
+    for write in (own.to_html, lambda: own.save(tmp_path / "arm.html")):
+        with pytest.raises(FileNotFoundError, match=words):
+            write()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_picture_has_the_arms_and_the_way_of_the_tool(tmp_path):
+    made = irbkin.rapid.motion(ROBOT, irbkin.rapid.load(MODULE))
+    two = scene.of(made, ROBOT) + scene.of(ROBOT.with_base([2.0, 0, 0]))
+    counts = []
+    for own in (scene.of(ROBOT), two):
+        own.save(tmp_path / "arm.svg")
+        tags = [it.tag.rpartition("}")[2] for it in ElementTree.parse(tmp_path / "arm.svg").iter()]
+        counts.append((tags.count("path"), tags.count("polyline")))
+    (arm, _), (both, ways) = counts
+    assert both == 2 * arm > 0
+    assert ways > 0
+    with pytest.raises(ValueError, match="no arm"):
+        scene.Scene().save(tmp_path / "none.svg")
+    assert not (tmp_path / "none.svg").exists()
+
+
+@pytest.mark.parametrize("name", ["a.png", "a.pdf", "a", "a.json.txt", "a.xml"])
+def test_an_ending_that_is_unknown_is_refused_with_those_known(tmp_path, name):
+    with pytest.raises(ValueError, match=r"must end in \.json, \.html, \.htm, \.svg or \.rrd"):
+        scene.of(ROBOT).save(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_page_is_written_or_its_engine_is_asked_for(tmp_path):

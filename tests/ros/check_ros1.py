@@ -14,26 +14,21 @@ import checks
 import rospy
 import rosservice
 from checks import KINDS, Process, wait_for
-from client import Client
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import Pose
 from irbkin_interfaces import srv
-from sensor_msgs.msg import JointState
 
 INSTALLED = Path(__file__).parents[2] / "target/ros1/install_isolated"
 NODE = INSTALLED / "lib/irbkin_ros1/kinematics"
 
 
-class Node(Client):
+class Node:
     """The node as a client sees it."""
 
+    pose = Pose
+
     def __init__(self, process):
-        super().__init__(process)
         self.proxies = {}
-        self.targets = rospy.Publisher("/target_pose", PoseStamped, queue_size=10)
-        states = rospy.Subscriber("/joint_states", JointState, self.states.append)
         assert wait_for(lambda: self.services() >= checks.SERVICES), process.text()
-        for end in (self.targets, states):
-            assert wait_for(end.get_num_connections), process.text()
 
     def services(self):
         return set(rosservice.get_service_list())
@@ -49,12 +44,6 @@ class Node(Client):
 
     def response(self, kind):
         return getattr(srv, f"{kind}Response")()
-
-    def stamp(self, message):
-        return message.header.stamp.to_sec()
-
-    def seconds(self, duration):
-        return duration.to_sec()
 
 
 def free_port():
@@ -115,7 +104,7 @@ def main(folder):
         rospy.init_node("check", disable_signals=True)
         node = Node(node_process)
         print(f"  master and node are up: {time.perf_counter() - began:.2f} s")
-        checks.run(node)
+        checks.run(node, checks.CHECKS)
         prefix = checks.PREFIX
         assert prefix in shell(["rosservice", "list"], env)
         fk = shell(["rosservice", "call", f"{prefix}/fk", "[0, 0, 0, 0, 0, 0]"], env)

@@ -12,9 +12,8 @@ from pathlib import Path
 
 import checks
 import rclpy
-from checks import KINDS, Process, wait_for
-from client import Client
-from geometry_msgs.msg import PoseStamped
+from checks import KINDS, Process, fill, wait_for
+from geometry_msgs.msg import Pose, PoseArray, PoseStamped
 from irbkin_interfaces import srv
 from rcl_interfaces.srv import DescribeParameters
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -50,11 +49,14 @@ node.main()
 """
 
 
-class Node(Client):
+class Node:
     """The node as a client sees it."""
 
+    pose = Pose
+
     def __init__(self, process):
-        super().__init__(process)
+        self.log = process.text
+        self.states = []
         self.clients = {}
         self.node = rclpy.create_node("check")
         self.targets = self.node.create_publisher(PoseStamped, "/target_pose", 10)
@@ -62,7 +64,9 @@ class Node(Client):
         # A client's `call` is answered by a thread that spins; it is ten times as fast as
         # `spin_until_future_complete`.
         threading.Thread(target=self.spin).start()
-        assert wait_for(lambda: self.services() >= checks.SERVICES, 20), process.text()
+        assert wait_for(lambda: self.services() >= {*checks.SERVICES, "/plan_path"}, 20), (
+            process.text()
+        )
         assert wait_for(lambda: self.node.count_subscribers("/target_pose"), 20), process.text()
         assert wait_for(lambda: self.node.count_publishers("/joint_states"), 20), process.text()
 
@@ -93,6 +97,22 @@ class Node(Client):
 
     def response(self, kind):
         return getattr(srv, kind).Response()
+
+    def publish(self, pose, frame):
+        message = PoseStamped(pose=pose)
+        message.header.frame_id = frame
+        self.targets.publish(message)
+
+    def pose_array(self, poses, frame):
+        message = PoseArray(poses=[fill(Pose(), T) for T in poses])
+        message.header.frame_id = frame
+        return message
+
+    def clear(self):
+        self.states.clear()
+
+    def joint_state(self, seconds):
+        return self.states[-1] if wait_for(lambda: self.states, seconds) else None
 
     def stamp(self, message):
         return self.seconds(message.header.stamp)
@@ -157,7 +177,7 @@ def main(folder):
         rclpy.init()
         node = Node(process)
         print(f"  node is up and discovered: {time.perf_counter() - began:.2f} s")
-        checks.run(node)
+        checks.run(node, [*checks.CHECKS, *checks.PATH_CHECKS])
         parameters_are_described(node)
         assert process.end() == 0, process.text()
         assert "Traceback" not in process.text(), process.text()

@@ -12,9 +12,8 @@ skip() {
 
 packages=(
     build-essential catkin ros-message-generation ros-message-runtime
-    lib{std,geometry,sensor,trajectory}-msgs-dev ros-{std,geometry,sensor,trajectory}-msgs
-    python3-{rospy,rosmaster,roslaunch,rosservice,rostopic,genpy,rospkg,numpy}
-    python3-{std,sensor,geometry,trajectory}-msgs
+    lib{std,geometry}-msgs-dev ros-{std,geometry}-msgs python3-{std,geometry}-msgs
+    python3-{rospy,rosmaster,roslaunch,rosservice,genpy,rospkg,numpy}
 )
 if ! dpkg -s "${packages[@]}" >/dev/null 2>&1; then
     command -v apt-get >/dev/null || skip "ROS 1 comes from Debian's packages, and there is no apt-get"

@@ -9,7 +9,7 @@ import pytest
 from irbkin import InvalidModelError, Robot
 from reference import rounding, turn
 
-DATA = Path(__file__).parents[1] / "data"
+DATA = Path(__file__).parents[2] / "data"
 TEXTS = {path.stem: path.read_text() for path in DATA.glob("*.urdf")}
 # (base, tip) of each; the tip is given where there are several.
 CHAINS = {

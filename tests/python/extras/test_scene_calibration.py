@@ -6,8 +6,6 @@ import pytest
 from irbkin import calibration, scene
 from irbkin.scene._arms import link_frames
 
-pytest.importorskip("scipy")
-
 RNG = np.random.default_rng(11)
 ROBOT = irbkin.Robot("IRB 2600-12/1.65").with_tool(irbkin.pose([0.05, 0, 0.35]))
 Q = RNG.uniform(*ROBOT.limits.clip(-3, 3).T, size=(40, 6))

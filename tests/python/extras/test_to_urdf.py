@@ -1,11 +1,17 @@
-"""The URDF of a robot: Pinocchio, yourdfpy and MuJoCo have the same forward kinematics."""
+"""The URDF of a robot: programs that read it have the same forward kinematics."""
 
 import io
+import tempfile
+import warnings
+from pathlib import Path
 
+import ikpy.chain
+import lxml.etree
 import mujoco
 import numpy as np
 import pinocchio
 import pytest
+import roboticstoolbox
 import yourdfpy
 from irbkin import Robot, catalog
 from reference import random_pose, reach, rounding
@@ -67,6 +73,37 @@ def by_mujoco(robot, tip):
     return fk
 
 
+def in_a_file(robot, read):
+    """What a reader of files makes of the text."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "arm.urdf")
+        path.write_text(robot.to_urdf())
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return read(str(path))
+
+
+def by_ikpy(robot, tip):
+    root = "base_link" if (robot.base == np.eye(4)).all() else "world"
+    chain = in_a_file(robot, lambda path: ikpy.chain.Chain.from_urdf_file(path, [root]))
+    turning = [i for i, link in enumerate(chain.links) if link.joint_type != "fixed"]
+    assert chain.links[-1].name.endswith(f"-{tip}")
+    assert len(turning) == robot.dof
+
+    def fk(q):
+        joints = np.zeros(len(chain.links))
+        joints[turning] = q
+        return chain.forward_kinematics(joints)
+
+    return fk
+
+
+def by_robotics_toolbox(robot, tip):
+    model = in_a_file(robot, roboticstoolbox.Robot.URDF)
+    assert model.ee_links[0].name == tip
+    return lambda q: model.fkine(q).A
+
+
 def assert_agrees(robot, build, tip="tool0"):
     fk, rng = build(robot, tip), np.random.default_rng(1)
     far = reach(robot.mdh) + sum(np.linalg.norm(end[:3, 3]) for end in (robot.base, robot.tool))
@@ -83,6 +120,20 @@ def test_every_arm_of_the_catalog_has_its_forward_kinematics(build):
     assert len(names) > 100
     for name in names:
         assert_agrees(Robot(name), build)
+
+
+# They choose the end themselves, and know no mimic.
+@pytest.mark.parametrize("build", [by_ikpy, by_robotics_toolbox])
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "UR5e", "GoFa 5", "CRX-10iA", "Panda"])
+def test_programs_that_choose_the_end_take_the_tool(build, name):
+    robot = Robot(name)
+    assert_agrees(robot, build)
+    rng = np.random.default_rng(4)
+    assert_agrees(robot.with_base(random_pose(rng)).with_tool([0.1, 0, 0.2]), build, "tool")
+
+
+def test_the_text_is_read_as_a_str():
+    assert lxml.etree.fromstring(Robot("UR5e").to_urdf(visual=True)).tag == "robot"
 
 
 @pytest.mark.parametrize("build", [by_pinocchio, by_yourdfpy, by_mujoco])
@@ -154,7 +205,7 @@ def test_links_have_the_names_of_ros_industrial():
     model = yourdfpy.URDF.load(
         io.BytesIO(Robot("IRB 2600-12/1.65").to_urdf().encode()), load_meshes=False
     )
-    links = ["base_link", "base", *(f"link_{i}" for i in range(1, 7)), "flange", "tool0"]
+    links = ["base_link", *(f"link_{i}" for i in range(1, 7)), "flange", "tool0", "base"]
     assert list(model.link_map) == links
     joints = {
         "base_link-base": "fixed",

@@ -6,8 +6,6 @@ import pytest
 from irbkin import CalibrationError, InvalidJointsError
 from irbkin.calibration import PlaneContact, SphereContact, calibrate_contact
 
-pytest.importorskip("scipy")
-
 CENTERS = np.array([[0.55, 0.0, 0.35], [0.3, 0.45, 0.5], [0.35, -0.45, 0.25]])
 LENGTH = 0.15
 NAMES = ("IRB 1200-5/0.9", "UR5e")

@@ -1,13 +1,21 @@
 """Parts of the language server: texts, programs read in parts, the queue of checks."""
 
+import re
+
 import irbkin
 import pytest
 from editor import WHOLE, offset, position
 from hypothesis import given
 from hypothesis import strategies as st
+from irbkin._core import check_codes
+from irbkin.check.checker import Checker
+from irbkin.check.jobs import Job
+from irbkin.check.settings import Settings
 from irbkin.lsp import reading as reading_module
+from irbkin.lsp.code import blocks, calls_at, occurrences
 from irbkin.lsp.queue import Queue
 from irbkin.lsp.reading import Reading
+from irbkin.lsp.session import Session
 from irbkin.lsp.text import Text
 from irbkin.rapid.program import ModuleFile, program_of
 from lsprotocol import types
@@ -16,21 +24,20 @@ ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 FAR = "[9E9,9E9,9E9,9E9,9E9,9E9]"
 
 
-class Desk:
-    """Tasks of one file that fail as often as is wanted."""
-
-    title, robot, notes = "", None, ()
+class Failing(Checker):
+    """The programs of one file, whose checks fail as often as is wanted."""
 
     def __init__(self, fails):
-        self.fails, self.paths = fails, ["a.mod"]
+        super().__init__({}, Settings())
+        self.fails = fails
 
-    def tasks(self, path, options):
+    def sessions(self, path, options):
         self.fail()
-        return [self]
+        return [Session(Job(None, program_of([]), ""), [path], self)]
 
-    def check(self, program):
+    def check(self, job):
         self.fail()
-        return None, ()
+        return super().check(job)
 
     def fail(self):
         if self.fails:
@@ -41,8 +48,8 @@ class Desk:
 @pytest.mark.asyncio
 @pytest.mark.parametrize("fails", range(3))
 async def test_an_error_ends_nothing_but_what_it_is_about(fails):
-    errors, done, texts = [], [], {"a.mod": "MODULE a\nENDMODULE"}
-    queue = Queue(Desk(fails), lambda: texts, done.append, errors.append)
+    errors, done, texts = [], [], {"a.mod": Text("MODULE a\nENDMODULE")}
+    queue = Queue(Failing(fails), lambda: texts, done.append, errors.append)
     for _ in range(3):
         queue.open("a.mod", {})
         await queue.rest("a.mod", 10)
@@ -50,7 +57,7 @@ async def test_an_error_ends_nothing_but_what_it_is_about(fails):
     await queue.rest("a.mod", 10)
     queue.stop()
     assert [str(it) for it in errors] == [str(it) for it in reversed(range(fails))]
-    assert done[-1].result.program.modules[0].name == "a"
+    assert done[-1].result.job.program.modules[0].name == "a"
 
 
 def module(name, *lines):
@@ -83,6 +90,10 @@ PARTS = {
 VERSIONS = st.fixed_dictionaries({name: st.sampled_from(it) for name, it in PARTS.items()})
 
 
+def typed(texts):
+    return {name: Text(text) for name, text in texts.items()}
+
+
 def seen(program):
     """All that a program shows of itself."""
     checked = program.check(ROBOT)
@@ -97,7 +108,7 @@ def test_a_program_read_in_parts_is_the_one_read_at_once(versions):
     for texts in versions:
         texts = {name: texts[name] for name in PARTS if texts[name] is not None}
         whole = program_of([ModuleFile(name, text.encode()) for name, text in texts.items()])
-        assert seen(reading.program(texts)) == seen(whole)
+        assert seen(reading.program(typed(texts))) == seen(whole)
 
 
 def test_only_what_a_change_affects_is_read_again(monkeypatch):
@@ -110,16 +121,16 @@ def test_only_what_a_change_affects_is_read_again(monkeypatch):
 
     monkeypatch.setattr(reading_module, "read_module", counted)
     reading = Reading(PARTS)
-    first = reading.program(texts)
+    first = reading.program(typed(texts))
     read.clear()
-    assert reading.program(texts).modules == first.modules
+    assert reading.program(typed(texts)).modules == first.modules
     assert read == []
     texts["a.mod"] = texts["a.mod"].replace("num n", "! comment\nnum n")
-    reading.program(texts)
+    reading.program(typed(texts))
     assert read == [("a", False), ("a", True)]
     read.clear()
     texts["a.mod"] = texts["a.mod"].replace("100", "101")
-    reading.program(texts)
+    reading.program(typed(texts))
     assert read == [("a", False), ("a", True), ("b", True)]
 
 
@@ -153,6 +164,106 @@ def test_a_change_replaces_its_range(source, new, data):
     assert text.changed(WHOLE(new)).source == new
 
 
+WORDS = [":=", ";", "(", ")", "{", "]", ",", "\\", ".", ":", '"', "!", "\n", "\r\n", "1", "é"]
+WORDS += [
+    "IF",
+    "THEN",
+    "ENDIF",
+    "FOR",
+    "ENDFOR",
+    "RECORD",
+    "ENDRECORD",
+    "PROC",
+    "VAR",
+    "MoveL",
+    "a",
+]
+
+
+@given(st.lists(st.sampled_from(WORDS), max_size=12).map(" ".join), st.data())
+def test_any_text_may_be_typed(source, data):
+    offset = data.draw(st.integers(0, len(source)))
+    assert calls_at(source, offset)
+    for begin, end, _ in blocks(source):
+        assert source[begin:end].split()[0] in WORDS
+    before = [at for at in occurrences(source, "a") if at < offset]
+    assert all(source[at] == "a" for at in before)
+
+
 def test_halves_of_characters_are_replaced():
     assert Text("a\ud83db").source == "a\ufffdb"
     assert offset("a😀b", types.Position(0, 3)) == 2
+
+
+def checks_of(paths):
+    """A session of files that counts the groups that are checked."""
+    checker = Failing(0)
+    checker.codes = {code for code, _, _, _ in check_codes()}
+    session = Session(Job(ROBOT, program_of([]), ""), paths, checker)
+    checked, check = [], checker.check
+
+    def counted(job):
+        checked.extend([[it.name for it in job.program.modules]] if job.robot else [])
+        return check(job)
+
+    checker.check = counted
+    return session, checker, checked
+
+
+SPELLED = re.compile(r"; did you mean [^']*\?")
+"""Names that are spelled alike are looked for in the group of a module alone."""
+
+
+def shown(findings):
+    return sorted(SPELLED.sub("", str(it)) for it in findings)
+
+
+def moved(moves):
+    """Moves with the modules that they are in, whatever these are counted among."""
+    return sorted((module, repr(it).partition("line=")[2]) for module, it in moves)
+
+
+def all_of(result):
+    """The findings and the moves of a result."""
+    found = shown(it for own in result.found_in.values() for it in own)
+    return found, moved((module, it) for module, own in result.moves.items() for it in own)
+
+
+@given(st.lists(VERSIONS, min_size=2, max_size=5))
+def test_a_program_checked_in_groups_is_the_one_checked_at_once(versions):
+    session, checker, _ = checks_of(list(PARTS))
+    for texts in versions:
+        texts = {name: texts[name] for name in PARTS if texts[name] is not None}
+        files = [ModuleFile(name, text.encode()) for name, text in texts.items()]
+        checked, found = Checker.check(checker, Job(ROBOT, program_of(files), ""))
+        moves = moved((it.module, it) for it in checked.moves)
+        assert all_of(session.check(typed(texts))) == (shown(found), moves)
+
+
+def test_only_groups_that_a_change_affects_are_checked_again():
+    names = [f"m{number}.mod" for number in range(4)]
+    texts = {
+        name: module(f"m{at}", f"CONST {TARGET.format(at, FAR)}", *(it.format(at) for it in MOVE))
+        for at, name in enumerate(names)
+    }
+    texts = {
+        name: text.replace("p1", f"p{at}_").replace("tGun", f"t{at}").replace("p2", f"p{at}_")
+        for at, (name, text) in enumerate(texts.items())
+    }
+    session, _, checked = checks_of(names)
+    session.check(typed(texts))
+    assert checked == [["m0"], ["m1"], ["m2"], ["m3"]]
+    checked.clear()
+    session.check(typed(texts))
+    assert checked == []
+    texts["m1.mod"] = texts["m1.mod"].replace("900", "901")
+    session.check(typed(texts))
+    assert checked == [["m1"]]
+    checked.clear()
+    texts["m1.mod"] = texts["m1.mod"].replace("ENDPROC", "r3;\nENDPROC")
+    session.check(typed(texts))
+    assert checked == [["m1", "m3"]]
+    checked.clear()
+    texts["m3.mod"] = texts["m3.mod"].replace("900", "901")
+    session.check(typed(texts))
+    assert checked == [["m1", "m3"]]

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException
 from pytest_lsp import ClientServerConfig, client_capabilities
 
 SECONDS = 30.0
@@ -44,6 +45,13 @@ class Editor:
         area = types.Range(position(text, begin), position(text, begin + len(old)))
         self.texts[uri] = (version + 1, text.replace(old, new, 1))
         self.send(uri, types.TextDocumentContentChangePartial(area, new))
+
+    def insert(self, uri, before, new):
+        """Type something before the first place of a part of the text."""
+        version, text = self.texts[uri]
+        at = position(text, text.index(before))
+        self.texts[uri] = (version + 1, text.replace(before, new + before, 1))
+        self.send(uri, types.TextDocumentContentChangePartial(types.Range(at, at), new))
 
     def write(self, uri, text):
         """Replace the text."""
@@ -100,10 +108,49 @@ class Editor:
         params = types.CodeActionParams(document, area, context)
         return await self.client.text_document_code_action_async(params)
 
-    def apply(self, action):
-        """Apply an action to open documents; return the texts of other files."""
+    async def completions(self, uri, part, shift=0, trigger=None):
+        """What is offered at a place, in the order in which editors show it."""
+        kind = types.CompletionTriggerKind.TriggerCharacter
+        context = types.CompletionContext(kind, trigger) if trigger else None
+        params = types.CompletionParams(*self.spot(uri, part, shift), context)
+        found = await self.client.text_document_completion_async(params)
+        return sorted(found.items, key=lambda it: it.sort_text or it.label)
+
+    async def labels(self, uri, part, shift=0, trigger=None):
+        return [it.label for it in await self.completions(uri, part, shift, trigger)]
+
+    async def parameter(self, uri, part, shift=0):
+        """The header of what is called at a place, and the parameter that is there."""
+        params = types.SignatureHelpParams(*self.spot(uri, part, shift))
+        found = await self.client.text_document_signature_help_async(params)
+        if found is None:
+            return None
+        (one,) = found.signatures
+        spans = [one.label[slice(*it.label)] for it in one.parameters]
+        return one.label, spans[found.active_parameter] if found.active_parameter < len(
+            spans
+        ) else ""
+
+    async def references(self, uri, part, shift=0, *, is_whole=True):
+        """The files and lines from 1 at which a name is."""
+        context = types.ReferenceContext(is_whole)
+        params = types.ReferenceParams(context, *self.spot(uri, part, shift))
+        found = await self.client.text_document_references_async(params)
+        places = [(Path(it.uri).name, it.range.start.line + 1) for it in found]
+        return sorted(places)
+
+    async def rename(self, uri, part, new, shift=0):
+        """Rename something; return the texts of files that are not open, or why it is refused."""
+        params = types.RenameParams(*self.spot(uri, part, shift), new)
+        try:
+            return self.apply(await self.client.text_document_rename_async(params))
+        except JsonRpcException as refused:
+            return refused.message
+
+    def apply(self, edit):
+        """Apply an edit to open documents; return the texts of other files."""
         others = {}
-        for uri, edits in action.edit.changes.items():
+        for uri, edits in edit.changes.items():
             is_open = uri in self.texts
             text = self.texts[uri][1] if is_open else Path(uri.removeprefix("file://")).read_text()
             for edit in sorted(edits, key=lambda it: offset(text, it.range.start), reverse=True):

@@ -1,4 +1,4 @@
-"""`irbkin record`: a file of rerun has the scene that every face draws."""
+"""Files of rerun: `Scene.save("x.rrd")` has the scene that every face draws."""
 
 import itertools
 import sys
@@ -27,19 +27,16 @@ def test_without_rerun_the_extra_is_named(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "rerun", None)
     monkeypatch.delitem(sys.modules, "irbkin.scene._rerun", raising=False)
     file = tmp_path / "arm.rrd"
-    assert "pip install 'irbkin[rerun]'" in command.refused("record", NAME, "-o", file)
+    with pytest.raises(ImportError, match=r"pip install 'irbkin\[rerun\]'"):
+        scene.of(ROBOT).save(file)
     assert not file.exists()
-
-
-def test_another_ending_is_refused(tmp_path):
-    assert "must end in .rrd" in command.refused("record", NAME, "-o", "arm.html")
 
 
 @pytest.fixture
 def chunk():
-    return pytest.importorskip(
-        "rerun.chunk", reason="rerun-sdk is missing: make test-recipes installs it"
-    )
+    import rerun.chunk
+
+    return rerun.chunk
 
 
 class Recorded:
@@ -69,13 +66,14 @@ class Recorded:
         return places[:, 0], turns.reshape(-1, 3, 3).swapaxes(1, 2)
 
 
+@pytest.mark.recipes
 def test_a_program_is_recorded_with_its_motion_source_and_findings(chunk, tmp_path):
-    file = tmp_path / "program.rrd"
-    assert command.run("record", NAME, MODULE, "-o", file).returncode == 0
+    played, file = tmp_path / "program.json", tmp_path / "program.rrd"
+    assert command.run("view", NAME, MODULE, "-o", played).returncode == 0
+    own = scene.Scene.load(played)
+    own.save(file)
     recorded = Recorded(chunk, file)
-    module = rapid.load(MODULE)
-    made = rapid.motion(irbkin.Robot(NAME), module)
-    own = scene.of(made, irbkin.Robot(NAME))
+    made = rapid.motion(irbkin.Robot(NAME), rapid.load(MODULE))
     motion = own.arms[0].motion
     frames = irbkin.Robot(NAME).link_frames(np.array(motion.q))
     for index, entity in enumerate([*(f"/arm_0/link_{i}" for i in range(1, 7)), "/arm_0/tool"]):
@@ -95,15 +93,14 @@ def test_a_program_is_recorded_with_its_motion_source_and_findings(chunk, tmp_pa
     np.testing.assert_allclose(places, [it.point for it in own.marks], rtol=0, atol=SINGLE)
 
 
+@pytest.mark.recipes
 def test_solutions_and_their_cell_are_recorded(chunk, tmp_path):
     T = ROBOT.fk([0.3, 0.2, 0.1, 0.4, 0.5, 0.6])
     solutions = ROBOT.ik(T)
     cloud = scene.Cloud("reach", ((0.0, 0.0, 1.0), (1.0, 0.0, 1.0)), (0.0, 1.0))
     own = scene.of([solutions, CELL], ROBOT, q=solutions[0].q) + scene.Scene(clouds=(cloud,))
     own += scene.Scene(paths=(scene.Path("way", ((0.0, 0.0, 1.0), (1.0, 0.5, 1.0))),))
-    file = tmp_path / "own.json"
-    own.save(file)
-    assert command.run("record", file, "-o", tmp_path / "own.rrd").returncode == 0
+    own.save(tmp_path / "own.rrd")
     recorded = Recorded(chunk, tmp_path / "own.rrd")
     places, turns = recorded.frames("/arm_0/tool")
     np.testing.assert_allclose(places, [T[:3, 3]], rtol=0, atol=SINGLE)
@@ -123,5 +120,7 @@ def test_solutions_and_their_cell_are_recorded(chunk, tmp_path):
     assert "/arm_0/joints" not in recorded.entities
 
 
+@pytest.mark.recipes
 def test_a_folder_that_is_missing_is_named(chunk, tmp_path):
-    assert "No such file" in command.refused("record", NAME, "-o", tmp_path / "no" / "arm.rrd")
+    with pytest.raises(FileNotFoundError, match=r"arm\.rrd"):
+        scene.of(ROBOT).save(tmp_path / "no" / "arm.rrd")

@@ -5,9 +5,8 @@ import sys
 import irbkin
 import numpy as np
 import pytest
+import ruckig
 from irbkin import trajectory
-
-ruckig = pytest.importorskip("ruckig")
 
 DOF = 6
 LIMITS = {"max_velocity": 2.0, "max_acceleration": 8.0, "max_jerk": 60.0}
@@ -194,14 +193,32 @@ def test_units_do_not_matter(scale):
         np.testing.assert_allclose(other.duration * scale, move.duration, rtol=1e-7)
 
 
+class Fails:
+    """ruckig, where it finds nothing."""
+
+    def __init__(self, dof):
+        pass
+
+    def calculate(self, asked, solved):
+        raise ruckig.RuckigError("[ruckig] words that nobody reads")
+
+
+def test_where_ruckig_fails_an_end_at_rest_is_reached_as_fast(monkeypatch):
+    rng = np.random.default_rng(9)
+    cases = [random_case(rng) for _ in range(100)]
+    for _, _, rates in cases:
+        del rates["end_velocity"], rates["end_acceleration"]
+    found = [trajectory.state_to_state(*ends, **limits, **rates) for ends, limits, rates in cases]
+    monkeypatch.setattr(ruckig, "Ruckig", Fails)
+    for move, (ends, limits, rates) in zip(found, cases, strict=True):
+        own = trajectory.state_to_state(*ends, **limits, **rates)
+        np.testing.assert_allclose(own.duration, move.duration, rtol=1e-9)
+        for peak, limit in zip(own.peaks(), limits.values(), strict=True):
+            assert (peak <= limit * (1 + 1e-9)).all()
+        np.testing.assert_allclose(own.q[[0, -1]], ends, rtol=0, atol=1e-12)
+
+
 def test_where_ruckig_fails_the_joints_stop_and_start_again(monkeypatch):
-    class Fails:
-        def __init__(self, dof):
-            pass
-
-        def calculate(self, asked, solved):
-            raise ruckig.RuckigError("[ruckig] words that nobody reads")
-
     monkeypatch.setattr(ruckig, "Ruckig", Fails)
     rng = np.random.default_rng(8)
     for _ in range(100):

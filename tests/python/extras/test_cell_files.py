@@ -121,7 +121,7 @@ def test_a_file_is_the_cell_that_it_describes(folder):
 
 
 def test_the_file_of_the_guide_is_read(folder):
-    guide = Path(__file__).parents[2] / "docs" / "guide" / "cell.md"
+    guide = Path(__file__).parents[3] / "docs" / "guide" / "cell.md"
     text = re.search(r"```toml\n(.*?)```", guide.read_text(), re.DOTALL)[1]
     trimesh.creation.box([100, 100, 100]).export(folder / "part.stl")
     cell = load(folder, text)
@@ -142,6 +142,11 @@ def test_a_file_may_be_empty(folder):
         ("[obstacles.a]\nbox = [1, 1]", r"line 2, obstacles.a.box: is \[1, 1\].* 3 numbers"),
         ("[obstacles.a]\nbox = [1, 1, 0]", "line 1, obstacles.a: size is 0 m"),
         ("[obstacles.a]\nbox = [1, 1, nan]", "obstacles.a: size is NaN m"),
+        ("[obstacles.a]\nbox = [800, 1200, 50]", "a: box size is 800 m, .* 100 m: is it in milli"),
+        (
+            "[obstacles.a]\nsphere = 1\npose = { xyz = [850, 0, 0] }",
+            "obstacles.a.*is 850 m, .*100 m",
+        ),
         ("[obstacles.a]\nsphere = true", "is True, it must be a number"),
         ("[obstacles.a]\ncylinder = { radius = 1 }", "a.cylinder: length is missing"),
         ("[obstacles.a]\ncylinder = [1, 2]", "cylinder: is .* must be a table"),
@@ -242,11 +247,26 @@ def test_what_stands_still_in_a_urdf_is_an_obstacle(folder):
 
 
 @pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('<link name="world"/>', '<link name="world"><drake:of a="1"/></link>'),
+        ('<robot name="cell">', '<!DOCTYPE robot>\n<robot name="A & B" sim:of="c">'),
+    ],
+)
+def test_what_is_of_no_shape_stops_no_urdf(folder, old, new):
+    assert old in URDF
+    cell = load(folder, URDF.replace(old, new).strip(), "cell.urdf")
+    assert cell == load(folder, URDF, "cell.urdf")
+
+
+@pytest.mark.parametrize(
     ("old", "new", "words"),
     [
         ("<box size", "<bx size", "link table: unknown shape bx; known: box"),
         ('size="1 2 0.1"', 'size="1 2"', "link table: size of box is '1 2', it must be 3 numbers"),
         ('size="1 2 0.1"', 'size="1 2 0"', "link table: size is 0 m"),
+        ('size="1 2 0.1"', 'size="800 1200 50"', "link table: box size is 800 m, .*in millimeters"),
+        ('xyz="0 0 -0.1"', 'xyz="0 0 -250"', r"link table: .*\[2\] is -250 m, .*in millimeters"),
         ("cube.obj", "cub.obj", r"link fixture: the mesh package://cell/cub\.obj is neither"),
         ('<link name="world"/>', "", "no link world"),
         ('<child link="tool"/>', '<child link="link_1"/>', "root link|two joints lead"),

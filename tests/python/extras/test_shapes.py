@@ -268,3 +268,54 @@ def test_motions_are_checked_between_meshes_too():
 def test_shapes_and_cells_that_cannot_be_are_named(call, words):
     with pytest.raises(irbkin.InvalidModelError, match=words):
         call()
+
+
+FAR = irbkin.pose([0, 100.1, 0])
+SHAPES = [
+    ("box size is 800 m", lambda: Shape.box([800, 1200, 50], irbkin.pose([1000, 0, 400]))),
+    (r"box pose\[0\] is 1000 m", lambda: Shape.box([1, 1, 1], irbkin.pose([1000, 0, 400]))),
+    ("sphere radius is 101 m", lambda: Shape.sphere(101, [0, 0, 0])),
+    (r"sphere center\[2\] is -500 m", lambda: Shape.sphere(1, [0, 0, -500])),
+    ("capsule radius is 150 m", lambda: Shape.capsule([0, 0, 0], [0, 0, 1], 150)),
+    (r"capsule a\[1\] is 200 m", lambda: Shape.capsule([0, 200, 0], [0, 0, 0], 1)),
+    (r"capsule b\[0\] is 900 m", lambda: Shape.capsule([0, 0, 0], [900, 0, 0], 1)),
+    ("cylinder radius is 250 m", lambda: Shape.cylinder(250, 1)),
+    ("cylinder length is 1000 m", lambda: Shape.cylinder(1, 1000)),
+    (r"cylinder pose\[1\] is 100.1 m", lambda: Shape.cylinder(1, 1, FAR)),
+    (r"half space point\[0\] is 1500 m", lambda: Shape.half_space([-1, 0, 0], [1500, 0, 0])),
+    (r"convex hull pose\[1\]", lambda: Shape.convex(PART[:, 0], FAR)),
+    (r"convex hull points\[2\] is", lambda: Shape.convex(PART[:, 0] + np.array([0, 0, 400]))),
+    (r"mesh pose\[1\]", lambda: Shape.mesh(PART, FAR)),
+    (r"mesh triangles\[0\] is", lambda: Shape.mesh(PART + np.array([700, 0, 0]))),
+    (r"point cloud points\[0\]", lambda: Shape.points([[300, 0, 0]], 0.1)),
+    ("point cloud radius is 300 m", lambda: Shape.points([[0, 0, 0]], 300)),
+    (r"moved shape middle\[1\]", lambda: Shape.box([1, 1, 1]).moved(FAR)),
+    (r"moved shape middle\[1\]", lambda: Shape.mesh(PART).moved(FAR).moved(FAR)),
+    (r"half space point\[1\]", lambda: Shape.half_space([0, 1, 0], [0, 0, 0]).moved(FAR)),
+    (
+        r"moved shape middle\[1\]",
+        lambda: Shape.union([Shape.sphere(1, [0, 0, 0]), Shape.box([1, 1, 1])]).moved(FAR),
+    ),
+    (r"capsule b\[2\] is 400 m", lambda: Body([1], [[0, 0, 0, 0, 0, 400, 80]], [])),
+]
+
+
+@pytest.mark.parametrize(("words", "make"), SHAPES, ids=[words for words, _ in SHAPES])
+def test_a_shape_in_millimeters_is_asked_about(words, make):
+    with pytest.raises(irbkin.InvalidModelError, match=words) as refused:
+        make()
+    assert "at most 100 m: is it in millimeters? Meters are wanted" in str(refused.value)
+
+
+def test_a_large_cell_in_meters_is_taken():
+    pose = irbkin.pose([100, -100, 100])
+    shapes = [
+        Shape.box([100, 100, 100], pose),
+        Shape.cylinder(100, 100, pose),
+        Shape.sphere(100, [100, 100, -100]),
+        Shape.half_space([3e5, 0, 4e5], [100, 0, 0]),
+        # Beside the origin of its frame, which is beyond the bound.
+        Shape.sphere(1, [-90, 0, 0]).moved(irbkin.pose([150, 0, 0])),
+    ]
+    cell = irbkin.Cell({str(number): shape for number, shape in enumerate(shapes)})
+    assert cell.collides(ROBOT, np.zeros(6))

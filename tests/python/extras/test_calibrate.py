@@ -8,8 +8,6 @@ import pytest
 from irbkin.calibration import Residuals
 from reference import random_pose, rotation_apart
 
-pytest.importorskip("scipy")
-
 IRB2600, UR5 = irbkin.Robot("IRB 2600-12/1.65"), irbkin.Robot("UR5")
 PANDA = irbkin.Robot("Panda")
 ROBOTS = {robot.name: robot for robot in (IRB2600, UR5, PANDA)}

@@ -1,11 +1,8 @@
 """Capsules fitted to meshes: they contain every triangle, and the pairs that are kept apart."""
 
+import irbkin
 import numpy as np
 import pytest
-
-pytest.importorskip("trimesh")
-
-import irbkin
 import trimesh
 from irbkin import Robot
 from irbkin._fit import capsules, solid
@@ -131,6 +128,45 @@ def test_a_fitted_body_misses_nothing_of_its_meshes(urdf):
         for at in (frame[:3, :3] @ local + frame[:3, 3:]).T[:5]:
             ball = irbkin.Cell({"ball": irbkin.body.Shape.sphere(1e-6, at)})
             assert ball.collides(robot, q)
+
+
+FINGER = """<link name="finger"><visual><origin xyz="0 0 0.05"/><geometry><box size="{}"/>
+</geometry></visual></link><joint name="slide" type="{}"><parent link="{}"/><child link="finger"/>
+<origin xyz="0 0.01 0.02"/><axis xyz="0 1 0"/><limit lower="0" upper="0.05"/></joint></robot>"""
+
+
+@pytest.mark.parametrize("kind", ["prismatic", "revolute"])
+def test_a_finger_is_in_a_fitted_body_wherever_its_joint_is(urdf, kind):
+    finger = FINGER.format("0.02 0.03 0.1", kind, "tool0")
+    # A prefix that is not declared, and an & alone: what reads the shapes takes them, too.
+    text = urdf.read_text().replace("</robot>", "<drake:of a='1' b=' & '/>" + finger)
+    path = urdf.with_name(f"{kind}.urdf")
+    path.write_text(text)
+    body = Body.fit(path, tip="tool0", most=1)
+    assert 'wherever their joints are: "finger"' in body.source
+    assert body.excess[7] > 0.005
+    assert {(0, 7), (2, 7)} <= set(body.pairs)
+    rows = body.capsules[body.links == 7]
+    corners = np.array([*np.ndindex(2, 2, 2)]) * [0.02, 0.03, 0.1] - [0.01, 0.015, 0]
+    for value in np.linspace(0, 0.05, 21):
+        pose = irbkin.pose([0, value, 0]) if kind == "prismatic" else np.eye(4)
+        if kind == "revolute":
+            c, s = np.cos(value), np.sin(value)
+            pose[:3, :3] = [[c, 0, s], [0, 1, 0], [-s, 0, c]]
+        points = corners @ pose[:3, :3].T + pose[:3, 3] + [0, 0.01, 0.02]
+        assert outside(points, rows) <= 1e-9
+
+
+def test_what_a_fitted_body_cannot_contain_is_named(urdf):
+    fit = lambda *finger: Body.fit(  # noqa: E731
+        urdf.read_text().replace("</robot>", FINGER.format("0.02 0.02 0.1", *finger)),
+        tip="tool0",
+        most=1,
+        packages={"rods": urdf.parent.parent},
+    )
+    with pytest.raises(irbkin.InvalidModelError, match=r'"finger" .* "slide", which is planar'):
+        fit("planar", "tool0")
+    assert fit("revolute", "base_link").source.endswith('; left out: "finger"')
 
 
 @pytest.mark.parametrize(
