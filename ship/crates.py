@@ -28,7 +28,8 @@ def cargo(*arguments: str) -> str:
 def linked() -> list[Crate]:
     """The tree of the crates that are linked on any platform, irbkin first."""
     tree = cargo(
-        *("tree", "--features", "python", "--target", "all", "--edges", "normal,no-proc-macro"),
+        *("tree", "--package", "irbkin", "--features", "python"),
+        *("--target", "all", "--edges", "normal,no-proc-macro"),
         *("--prefix", "depth", "--format", "|{p}|{l}"),
     )
     crates = []

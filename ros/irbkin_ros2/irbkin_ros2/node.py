@@ -84,7 +84,7 @@ def trajectory_point(
 
 
 def main() -> None:
-    """Run the node until it is told to end, by Ctrl-C or SIGTERM."""
+    """Run the node until Ctrl-C or SIGTERM."""
     rclpy.init()
     try:
         executor = SingleThreadedExecutor()
