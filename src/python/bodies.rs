@@ -65,10 +65,7 @@ impl PyRobot {
         excess: Option<f64>,
     ) -> PyResult<Self> {
         let pose = pose.map_or(Ok(Pose::identity()), |pose| read_single_pose(pose, "pose"))?;
-        let shapes: Vec<Shape> = match shapes {
-            Shapes::One(shape) => Vec::from([shape.get().0.clone()]),
-            Shapes::Many(shapes) => shapes.iter().map(|shape| shape.get().0.clone()).collect(),
-        };
+        let shapes = shapes.read();
         Ok(on!(self.arm(), robot => {
             Arm::from(Robot::clone(robot).with_attached(&shapes, &pose, excess)?)
         })
@@ -78,7 +75,17 @@ impl PyRobot {
 
 /// A shape or several.
 #[derive(FromPyObject)]
-enum Shapes<'py> {
+pub(crate) enum Shapes<'py> {
     One(Bound<'py, PyShape>),
     Many(Vec<Bound<'py, PyShape>>),
+}
+
+impl Shapes<'_> {
+    pub(crate) fn read(self) -> Vec<Shape> {
+        let shapes = match self {
+            Shapes::One(shape) => Vec::from([shape]),
+            Shapes::Many(shapes) => shapes,
+        };
+        shapes.iter().map(|shape| shape.get().0.clone()).collect()
+    }
 }

@@ -59,7 +59,7 @@ def test_a_load_is_above_zero_and_at_most_the_payload(tmp_path, mass, code):
     gripped = module(load + TOOL.format("tGun", 150, 1), f"GripLoad lPart;\n{move}")
     assert [it[0] for it in checked(tmp_path, gripped)] == ([code] if code else [])
     # What the program assigns or nothing uses has no load in the text.
-    for text in (f"tGun.tload.mass:=2;\n{move}", "! tGun"):
+    for text in (f"tGun.tload.mass:=2;\n{move}", "! tGun", 'TPWrite "tGun";'):
         assert not checked(tmp_path, module(TOOL.format("tGun", 150, mass), text), code="T301")
 
 
@@ -80,7 +80,8 @@ def test_a_move_is_checked_with_the_shape_of_its_own_tool(tmp_path):
     found = checked(tmp_path, text, "--cell", cell)
     hit = [it for it in found if it[0] == "K901"]
     assert [it[1] for it in hit] == moves[1:]
-    assert [it[2].split(":")[0] for it in found if it[0] == "T303"] == ["tooldata tLong"]
+    (other,) = (it[2] for it in found if it[0] == "T303")
+    assert other.startswith("tooldata tLong: it has no shape in cell.toml, which has those of tgun")
     # As the arm with this tool on its flange.
     arm, bare = ROBOT.with_attached(FLANGE), Cell.load(cell)
     own = rapid.check(arm, rapid.parse(text), cell=bare, codes=["K901"])
@@ -104,6 +105,15 @@ def test_a_call_has_the_tool_that_it_is_given_or_that_its_routine_has(tmp_path):
         outer = routine + "PROC Outer(PERS tooldata t)\n" + call + "\nENDPROC\n"
         text = module(data + bare + point, "Outer tBare;", outer)
         assert "K901" in [it[0] for it in checked(tmp_path, text, "--cell", cell)]
+    # A parameter that is passed on has the shape of what is given, and no other.
+    bare = TOOL.format("tBare", 300, 2)
+    outer = go.format(",PERS tooldata t", "t") + (
+        "PROC Outer(robtarget p,PERS tooldata u)\nGo p,u;\nENDPROC\n"
+    )
+    for tool, codes in (("tGun", ["K901"]), ("tBare", [])):
+        text = module(data + bare + point, f"Outer pA,{tool};", outer)
+        found = checked(tmp_path, text, "--cell", cell)
+        assert [it[0] for it in found if it[0] != "T303"] == codes
     bare = module(data + point.replace(",320]", ",620]"), "Go pA;", go.format("", "tool0"))
     assert checked(tmp_path, bare, "--cell", cell) == []
 
@@ -120,6 +130,10 @@ def test_a_part_is_carried_with_its_work_object(tmp_path):
     assert not checked(tmp_path, text, "--cell", cell, code="K901")
     cell.write_text(TABLE.replace("0.3] }", "0.9] }") + part)
     assert checked(tmp_path, text, "--cell", cell, code="K901")
+    # What stands beside the robot is an obstacle, and not on its flange.
+    cell.write_text(TABLE.replace("0.3] }", "0.9] }") + part.replace("part.wPart", "tool.tFixed"))
+    assert not checked(tmp_path, text, "--cell", cell, code="K901")
+    assert not checked(tmp_path, text, "--cell", cell, code="T303")
 
 
 def test_a_shape_that_no_flange_carries_is_refused_by_its_tool(tmp_path):

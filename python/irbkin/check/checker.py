@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from irbkin.check.codes import NOT_CHECKED, REASONS, UNREAD, selected
 from irbkin.check.findings import Finding, of_file
-from irbkin.check.tools import COLLISION, Carried, tool_findings
-from irbkin.errors import IrbkinError
+from irbkin.check.tools import tool_findings
+from irbkin.errors import InvalidModelError, IrbkinError
 
 if TYPE_CHECKING:
     from irbkin import rapid
@@ -40,8 +40,8 @@ class Checker:
         step = options.get("step", 5.0)
         if not 0.0 < step < float("inf"):
             raise IrbkinError(f"--step must be positive and finite [mm], got {step}")
-        cell, shapes = read(options["cell"]) if "cell" in options else (None, {})
-        self._carried = Carried(os.path.basename(options["cell"]), shapes) if cell else None
+        cell, self._shapes = read(options["cell"]) if "cell" in options else (None, {})
+        self._cell = os.path.basename(options.get("cell", ""))
         last_values = options.get("last_values", False)
         self._options = {"step": step / 1e3, "cell": cell, "last_values": last_values}
         self.codes, self._is_strict, self._settings = codes, is_strict, settings
@@ -61,16 +61,19 @@ class Checker:
         is_whole = job.is_whole
         if any(own.code == UNREAD for own in program.findings):
             is_whole = False
+        for name, shapes in self._shapes.items():
+            try:
+                job.robot.with_attached(shapes)
+            except InvalidModelError as error:
+                raise InvalidModelError(f"{self._cell}: {name}: {error}") from None
         given = {"codes": self.asked, "units": job.units, "whole": is_whole}
-        options = {**self._options, **given}
-        checked = program.check(job.robot, **options)
-        if self._carried and COLLISION in self.asked:
-            checked = self._carried.checked(checked, program, job.robot, options)
+        checked = program.check(job.robot, **self._options, **given, carried=self._shapes)
         files = [file.path for file in program.files]
         is_silent = silenced(program)
+        of_tools = tool_findings(program, job.robot, self._cell, self._shapes)
         found += [
             self._of_move(own, files)
-            for own in (*tool_findings(program, job.robot, self._carried), *checked.findings)
+            for own in (*of_tools, *checked.findings)
             if own.code in self.wanted(files[own.module]) and not is_silent(own)
         ]
         return checked, found

@@ -4,124 +4,28 @@ from __future__ import annotations
 
 import math
 import re
-from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
-from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections import Counter
+from collections.abc import Collection, Iterator
+from typing import TYPE_CHECKING, Any
 
 from irbkin.check.codes import TOOLS
-from irbkin.errors import InvalidModelError, UnknownRobotError
+from irbkin.errors import UnknownRobotError
 
 if TYPE_CHECKING:
-    from irbkin import Robot, rapid
-    from irbkin.body import Shape
-    from irbkin.rapid import Checked, Finding, Move, Program
+    from irbkin import Robot
+    from irbkin.rapid import Finding, Program
 
 WORD = re.compile(r"[^\W\d]\w*")
-COMMENT = re.compile(r'("[^"\n]*")|![^\n]*')
+NO_CODE = re.compile(r'"[^"\n]*"|![^\n]*')
 SET = re.compile(r"^[ \t]*(\w+)(?:\.\w+)*[ \t]*:=", re.MULTILINE)
-COLLISION = "K901"
 UNSET, DOUBTFUL, SHAPELESS = (code for code, *_ in TOOLS)
 FLANGE = "tool0"
 """The tool that has no shape."""
 
 
-class Carried(NamedTuple):
-    """Shapes of tools and parts that moves carry."""
-
-    file: str
-    """The file that they are in."""
-    shapes: Mapping[str, Sequence[Shape]]
-    """In the flange frame, by the names of tool and work object in lower case."""
-
-    def checked(
-        self, checked: Checked, program: Program, robot: Robot, options: Mapping[str, Any]
-    ) -> Checked:
-        """Return a result with the collisions of each move with what it carries.
-
-        The program is checked again with each tool on the flange, for the moves that have it.
-        """
-        carrying = _Carrying(program, self.shapes)
-        found = [it for it in checked.findings if it.code != COLLISION or not carrying.of(it)]
-        for group in carrying.groups(checked):
-            try:
-                own = robot.with_attached([it for name in group for it in self.shapes[name]])
-            except InvalidModelError as error:
-                names = ", ".join(sorted(group))
-                raise InvalidModelError(f"{self.file}: {names}: {error}") from None
-            again = program.check(own, **{**options, "codes": [COLLISION]})
-            found += (it for it in again.findings if group in carrying.of(it))
-        found.sort(key=lambda it: (it.module, it.line, it.column))
-        return type(checked)(tuple(found), checked.moves)
-
-
-class _Carrying:
-    """Finds the tools and parts that the moves of a program carry."""
-
-    def __init__(self, program: Program, names: Iterable[str]) -> None:
-        self._names, self._cached = frozenset(names), cache(self._within)
-        self._sources = [module.source.split("\n") for module in program.modules]
-        self._written = {
-            (index, it.line, it.column): it
-            for index, module in enumerate(program.modules)
-            for it in module.moves
-        }
-        declared = (it for module in program.modules for it in module.declarations)
-        self._tools = {FLANGE, *(it.name.lower() for it in declared if it.data_type == "tooldata")}
-        self._moves: dict[str, list[str]] = defaultdict(list)
-        self._others: dict[str, list[str]] = defaultdict(list)
-        for module in program.modules:
-            for it in module.moves:
-                self._moves[(it.routine or "").lower()].append(_of(it))
-            for other in module.skipped:
-                self._others[(other.routine or "").lower()].append(other.text)
-
-    def _in(self, text: str) -> frozenset[str]:
-        return self._names.intersection(WORD.findall(text.lower()))
-
-    def _by(self, text: str, given: Set[str]) -> Set[str]:
-        """What a move with a tool and a work object carries: what is given, by a parameter."""
-        is_known = text.partition(" ")[0].lower() in self._tools
-        return self._in(text) or (frozenset() if is_known else given)
-
-    def _within(self, routine: str, given: frozenset[str]) -> Set[str]:
-        """What the moves of a routine, and of those that it calls, carry."""
-        found, left, seen = set[str](), [routine], set[str]()
-        while left:
-            if (name := left.pop()) not in seen:
-                seen.add(name)
-                found.update(*(self._by(text, given) for text in self._moves[name]))
-                for text in self._others[name]:
-                    found |= self._in(text)
-                    left += WORD.findall(text.lower())[:1]
-        return found
-
-    def of(self, at: Finding | rapid.CheckedMove) -> set[frozenset[str]]:
-        """Return what is carried at a place: of a call each tool that it, or a routine, has."""
-        if it := self._written.get((at.module, at.line, at.column)):
-            if own := self._in(_of(it)):
-                return {frozenset(own)}
-            return {frozenset([name]) for name in self._by(_of(it), self._names)}
-        lines = self._sources[at.module]
-        text = "\n".join([lines[at.line - 1][at.column - 1 :], *lines[at.line : at.line + 20]])
-        call = text.partition(";")[0]
-        words = WORD.findall(call.lower())
-        if own := self._in(call):
-            return {frozenset([name]) for name in own}
-        # Without a tool in the call a parameter may be any.
-        given = self._names if self._tools.isdisjoint(words) else frozenset[str]()
-        return {frozenset([name]) for own in words[:1] for name in self._cached(own, given)}
-
-    def groups(self, checked: Checked) -> set[frozenset[str]]:
-        """Return what is carried together anywhere."""
-        return {group for move in checked.moves for group in self.of(move)}
-
-
-def _of(move: Move) -> str:
-    return f"{move.tool.text} {move.wobj.text if move.wobj else ''}"
-
-
-def tool_findings(program: Program, robot: Robot, carried: Carried | None) -> Iterator[Finding]:
+def tool_findings(
+    program: Program, robot: Robot, cell: str, shapes: Collection[str]
+) -> Iterator[Finding]:
     """Yield findings on the loads that a program uses, and on tools without a shape in a cell."""
     from irbkin import catalog_entry
     from irbkin.rapid import Finding
@@ -130,7 +34,7 @@ def tool_findings(program: Program, robot: Robot, carried: Carried | None) -> It
         payload = catalog_entry(robot.name).payload or math.inf
     except UnknownRobotError:
         payload = math.inf
-    codes = [COMMENT.sub(lambda it: it[1] or "", module.source) for module in program.modules]
+    codes = [NO_CODE.sub("", module.source) for module in program.modules]
     uses = Counter(name for code in codes for name in WORD.findall(code.lower()))
     assigned = {name.lower() for code in codes for name in SET.findall(code)}
     declared = [
@@ -155,8 +59,10 @@ def tool_findings(program: Program, robot: Robot, carried: Carried | None) -> It
             elif mass > payload:
                 words = f"its mass is {mass:g} kg, more than the {payload:g} kg of {robot.name}"
                 wrong[DOUBTFUL] = (words, mass, payload)
-        if carried and it.data_type == "tooldata" and name not in (*carried.shapes, FLANGE):
-            words = f"it has no shape in {carried.file}: it is not part of the proof"
+        is_tool = it.data_type == "tooldata" and name != FLANGE and name not in shapes
+        if cell and is_tool and any(value.robhold for value in _values(it.value)):
+            others = f", which has those of {', '.join(shapes)}" if shapes else ""
+            words = f"it has no shape in {cell}{others}: it is not part of the proof"
             wrong[SHAPELESS] = (words, None, None)
         for code, own, severity, _ in TOOLS:
             if code in wrong:

@@ -1,5 +1,7 @@
 //! `irbkin.rapid.check`: the moves of a module, checked.
 
+use std::collections::BTreeMap;
+
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedStr;
 use pyo3::types::PyTuple;
@@ -8,13 +10,16 @@ use super::checked::{Checked, CheckedMove, Finding};
 use super::module::{RapidModule, close_names};
 use crate::kinematics::Robot;
 use crate::python::arm::on;
+use crate::python::bodies::Shapes;
 use crate::python::cell::PyCell;
 use crate::python::errors::Fault;
 use crate::python::robot::PyRobot;
 use crate::python::signals::detached_until;
 use crate::python::targets::read_pose;
 use crate::python::trajectories::read_limits;
-use crate::rapid::{self, CheckOptions, Code, Module, MotionOptions, Unit, UnitAxis, Units};
+use crate::rapid::{
+    self, Carried, CheckOptions, Code, Module, MotionOptions, Unit, UnitAxis, Units,
+};
 
 /// Check every move of a module, of all routines.
 ///
@@ -80,6 +85,8 @@ pub(crate) fn check<'py>(
 ///         0, the frame of shape (4, 4) [m], and whether it turns about its z axis or else moves
 ///         along its x axis. An external axis of no unit, which is not at zero, is not checked.
 ///     last_values: Whether a PERS that the program assigns has the value of its declaration.
+///     carried: The shapes, in the flange frame, that the flange carries in moves with a tool or
+///         a work object, by its name: a `Shape`, or several.
 ///     whole: Whether every module of the task is given: a call of what none declares is an error
 ///         then, and a note if some are missing. None if it is not known.
 ///
@@ -92,7 +99,7 @@ pub(crate) fn check<'py>(
 ///     InvalidModelError: As of `check`.
 #[pyfunction]
 #[pyo3(signature = (robot, modules, *, codes=None, max_velocity=None, step=0.005, turn=None,
-    cell=None, units=None, last_values=false, whole=None))]
+    cell=None, units=None, last_values=false, whole=None, carried=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 #[expect(clippy::needless_pass_by_value, reason = "a sequence is extracted by value")]
 pub(crate) fn check_program<'py>(
@@ -106,12 +113,15 @@ pub(crate) fn check_program<'py>(
     units: Option<Vec<GivenUnit<'py>>>,
     last_values: bool,
     whole: Option<bool>,
+    carried: Option<BTreeMap<String, Shapes<'py>>>,
 ) -> PyResult<Checked> {
     let py = robot.py();
     let units = units.unwrap_or_default().into_iter().map(read_unit);
     let units = Units(units.collect::<PyResult<Vec<_>>>()?);
     let options = (max_velocity, step, turn);
-    let extent = Extent { units, takes_last: last_values, is_whole: whole };
+    let carried = carried.into_iter().flatten();
+    let carried = carried.map(|(name, shapes)| (name.to_lowercase(), shapes.read())).collect();
+    let extent = Extent { units, takes_last: last_values, is_whole: whole, carried };
     let codes = codes.map(read_codes).transpose()?;
     let (mut findings, moves) = checked(robot, &modules, options, cell, &extent)?;
     add_unused(&mut findings, &modules, codes.as_deref());
@@ -143,6 +153,7 @@ struct Extent {
     units: Units,
     takes_last: bool,
     is_whole: Option<bool>,
+    carried: Carried,
 }
 
 /// Findings and moves of a check.
@@ -174,6 +185,7 @@ fn checked_arm<const N: usize>(
         units: Some(&extent.units),
         takes_last: extent.takes_last,
         is_whole: extent.is_whole,
+        carried: Some(&extent.carried),
         ..CheckOptions::default()
     };
     let own: Vec<&RapidModule> = modules.iter().map(Bound::get).collect();

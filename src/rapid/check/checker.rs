@@ -5,6 +5,7 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use super::carried::{Carried, carried_by, carriers};
 use super::confdata::{in_wrist_singularity, on_edges, with_nearest};
 use super::corners::Zones;
 use super::fixes::{Demand, Finder, correct};
@@ -17,6 +18,7 @@ use crate::rapid::calc::target::with_flange;
 use crate::rapid::calc::units::Units;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
+use crate::rapid::data::moves::Move;
 use crate::rapid::data::table::Entry;
 use crate::rapid::expression::names::predefined_names;
 use crate::rapid::motion::drive::MotionOptions;
@@ -37,6 +39,8 @@ pub struct CheckOptions<'a, const N: usize = 6> {
     /// The cell in which each move is proven to touch nothing, each joint moving evenly between two
     /// samples; without it collisions are not looked for.
     pub cell: Option<&'a Cell>,
+    /// What moves carry in the cell.
+    pub carried: Option<&'a Carried>,
     /// The units that the external axes of targets belong to.
     pub units: Option<&'a Units>,
     /// Whether a PERS that the program assigns has the value that its text has, the last one that
@@ -111,15 +115,18 @@ pub fn check<const N: usize>(
     let (modules, sources): (Vec<&Module>, Vec<&str>) = modules.iter().copied().unzip();
     let program = Program::new(&modules);
     let units = Units::default();
+    let (runs, notes) = runs(&program, options.takes_last);
+    let carried = options.carried.unwrap_or(const { &Carried::new() });
+    let arms = options.cell.map(|_| carriers(robot, &runs, carried)).transpose()?;
+    let place = |(names, arm)| Ok((names, Placed::of(arm)?.until(options.interrupt)));
+    let placed = arms.iter().flatten().map(place).collect::<Result<_, Error>>()?;
     let mut checker = Checker {
         robots: [robot, &flange],
         options: options.motion,
         units: options.units.unwrap_or(&units),
         max_velocity,
-        cell: match options.cell {
-            Some(cell) => Some((cell, Placed::of(robot)?.until(options.interrupt))),
-            None => None,
-        },
+        cell: options.cell.map(|cell| (cell, placed)),
+        carried,
         interrupt: options.interrupt,
         finder: Finder::new(&program, &sources),
         ends: Vec::new(),
@@ -127,7 +134,6 @@ pub fn check<const N: usize>(
         demands: Vec::new(),
         moves: Vec::new(),
     };
-    let (runs, notes) = runs(&program, options.takes_last);
     for run in &runs {
         checker.add(run)?;
     }
@@ -226,7 +232,8 @@ struct Checker<'a, 'm, const N: usize> {
     options: MotionOptions<N>,
     units: &'a Units,
     max_velocity: [f64; N],
-    cell: Option<(&'a Cell, Placed<'a, N>)>,
+    cell: Option<(&'a Cell, BTreeMap<&'a Vec<String>, Placed<'a, N>>)>,
+    carried: &'a Carried,
     interrupt: Interrupt<'a>,
     finder: Finder<'a, 'm>,
     /// The joints at the targets of the moves of each run.
@@ -281,7 +288,7 @@ impl<const N: usize> Checker<'_, '_, N> {
             goals.iter().enumerate().filter(|(index, _)| made[*index].as_programmed)
         {
             self.interrupt.check(0)?;
-            let finding = self.collision(followed.along(index));
+            let finding = self.collision(goal.step, followed.along(index));
             let placed = finding.map(|it| it.at(goal.step, index).in_module(goal.stepped.module));
             self.found.extend(placed);
         }
@@ -358,8 +365,9 @@ impl<const N: usize> Checker<'_, '_, N> {
     }
 
     /// A move that touches something in the cell.
-    fn collision(&mut self, along: &[[f64; N]]) -> Option<Finding> {
-        let (cell, placed) = self.cell.as_mut()?;
+    fn collision(&mut self, step: &Move, along: &[[f64; N]]) -> Option<Finding> {
+        let (cell, arms) = self.cell.as_mut()?;
+        let placed = arms.get_mut(&carried_by(step, self.carried))?;
         let contact = cell.contact(placed, along)?;
         #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 samples")]
         let part = contact.at / along.len().saturating_sub(1).max(1) as f64;

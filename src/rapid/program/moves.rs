@@ -78,7 +78,12 @@ impl Scope<'_, '_> {
         }
         let text = argument.text.strip_prefix('?').unwrap_or(&argument.text);
         match self.record(text) {
-            Ok(value) => argument.value = Ok(value),
+            Ok(value) => {
+                argument.value = Ok(value);
+                if let Some((given, ..)) = frame.texts.get(&text.trim().to_lowercase()) {
+                    argument.text.clone_from(given);
+                }
+            }
             // The reader knows better why, except of parameters.
             Err(reason) => {
                 if argument.value.is_ok() || is_parameter(&argument.value) {
