@@ -2955,8 +2955,7 @@ def check_program(
             0, the frame of shape (4, 4) [m], and whether it turns about its z axis or else moves
             along its x axis. An external axis of no unit, which is not at zero, is not checked.
         last_values: Whether a PERS that the program assigns has the value of its declaration.
-        carried: The shapes, in the flange frame, that the flange carries in moves with a tool or
-            a work object, by its name: a `Shape`, or several.
+        carried: Shapes in the flange frame, by the name of the tool or work object they move with.
         whole: Whether every module of the task is given: a call of what none declares is an error
             then, and a note if some are missing. None if it is not known.
 

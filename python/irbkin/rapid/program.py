@@ -93,8 +93,7 @@ class Program:
 
         Args:
             robot: The arm. Work objects are given in the world, in which the robot's base is.
-            options: As of `rapid.check`, and `units`, `last_values` and `carried`: see
-                docs/guide/check.md.
+            options: As of `rapid.check`; units, last_values, carried: docs/guide/check.md.
 
         Returns:
             `Checked`, whose `module` numbers are indices of `modules`.
