@@ -169,3 +169,51 @@ def test_quaternions_go_on_without_a_change_of_sign():
     rot = np.array([target.rot for target in targets])
     assert (np.einsum("ij,ij->i", rot[1:], rot[:-1]) > 0).all()
     np.testing.assert_allclose(rapid.calc_moves(robot, module).q, plan.q, atol=1e-4)
+
+
+def test_a_motion_is_a_module_of_joint_targets():
+    torch = irbkin.body.Shape.cylinder(0.04, 0.3, irbkin.pose([0, 0, 0.15]))
+    wall = irbkin.Cell(
+        {"wall": irbkin.body.Shape.box([0.6, 0.05, 1.6], irbkin.pose([1.1, 0, 0.8]))}
+    )
+    robot = ROBOT.with_attached(torch)
+    way = robot.go([-0.6, 0.3, 0.2, 0, 0.6, 0], [0.6, 0.3, 0.2, 0, 0.6, 0], wall)
+    read = rapid.parse(rapid.dump(rapid.plan_module(robot, way)))
+    assert {move.kind for move in read.moves} == {"MoveAbsJ"}
+    assert [move.zone for move in read.moves] == ["fine", *["z1"] * (len(way.q) - 2), "fine"]
+    motion = rapid.motion(robot, read)
+    np.testing.assert_allclose([move.q for move in motion.moves], way.q, atol=1e-8)
+    assert not rapid.check(robot, read, cell=wall, codes=["K901"])
+    assert wall.check_path(robot, way.q[[0, -1]]) is not None
+    tracked = rapid.plan_module(robot, way, extax=np.zeros((len(way.q), 1)))
+    assert tracked.moves[3].target.value.extax[0] == 0.0
+    with pytest.raises(irbkin.RapidError, match=r"extax must have shape \(100, k\)"):
+        rapid.plan_module(robot, way, extax=np.zeros((3, 1)))
+
+
+def test_a_plan_that_a_controller_would_not_repeat_is_refused():
+    """Few poses, few rotations: between two targets the tool turns otherwise than in the plan."""
+    robot, rng = irbkin.Robot("IRB 120-3/0.58"), np.random.default_rng(1)
+    lower, upper = np.transpose(robot.limits) * 0.8
+    refused = written = 0
+    for _ in range(900):
+        first = robot.fk(rng.uniform(lower, upper))
+        last = (
+            irbkin.pose(first[:3, 3] + rng.uniform(-0.4, 0.4, 3))
+            @ irbkin.pose(-first[:3, 3])
+            @ first
+        )
+        path = irbkin.paths.line(first, last, steps=int(rng.integers(3, 7)))
+        try:
+            plan = robot.plan(path, rotation=int(rng.integers(3, 9)))
+            module = rapid.plan_module(robot, plan)
+        except irbkin.PathError:
+            continue
+        except irbkin.RapidError as error:
+            refused += "a controller would not move as planned: MoveL p" in str(error)
+            continue
+        written += 1
+        found = rapid.check(robot, module)
+        assert not [it for it in found if it.severity == "error" and it.code[0] in "CR"]
+    assert refused >= 1
+    assert written >= 50

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from irbkin import Plan, Robot
-    from irbkin._core import Module
+    from irbkin._core import Module, Trajectory
 
 MOST_EXTERNAL = 6
 
@@ -73,7 +73,7 @@ def plan_targets(
     if carriers and extax is None:
         units = [1e3 if isinstance(one, Track) else np.degrees(1.0) for one in carriers]
         extax = plan.external * units
-    axes = _external(plan, len(q), extax)
+    axes = _external(np.shape(plan.external)[1], len(q), extax)
     targets = [
         _core.calc_rob_t(_standing(robot, carriers, values), JointTarget.of(row, more), tool, wobj)
         for row, more, values in zip(q.tolist(), axes.tolist(), plan.external, strict=True)
@@ -87,7 +87,7 @@ def plan_targets(
 
 def plan_module(
     robot: Robot,
-    plan: Plan,
+    plan: Plan | Trajectory,
     name: str = "Planned",
     *,
     tool: ToolData | None = None,
@@ -100,11 +100,15 @@ def plan_module(
     r"""Return a module that moves along a plan in `main`: MoveJ to its first pose, then MoveL.
 
     `dump` writes it, `calc_moves` gives the joints of the plan again, `motion` times it. Targets
-    have the digits of a controller: 0.001 mm, quaternions 1e-7, external axes 1e-6.
+    have the digits of a controller: 0.001 mm, quaternions 1e-7, external axes 1e-6. The moves are
+    followed as a controller follows them before they are returned.
+
+    Of a motion as of `robot.go` it is a MoveAbsJ to each sample, between which the joints move
+    evenly: `cell.check_path` proves that its samples are near enough to one another.
 
     Args:
         robot: The arm of the plan.
-        plan: The answer of `robot.plan`, without breaks.
+        plan: The answer of `robot.plan`, without breaks, or a `Trajectory` of six joints.
         name: Name of the module.
         tool: The tool, declared as tPlan; by default the robot's own.
         wobj: The work object, declared as wPlan; without it the moves have no \WObj.
@@ -117,18 +121,25 @@ def plan_module(
         The module: the targets are p1 to pm.
 
     Raises:
-        RapidError: As `plan_targets`; a name, speed or zone that RAPID does not read.
+        RapidError: As `plan_targets`; a name, speed or zone that RAPID does not read; moves that do
+            not arrive with the joints of the plan.
         InvalidModelError: As `plan_targets`.
     """
-    targets = [
-        target._replace(
-            trans_mm=np.round(target.trans_mm, 3),
-            rot=np.round(target.rot, 7),
-            extax=np.round(target.extax, 6),
-        )
-        for target in plan_targets(robot, plan, tool, wobj, extax=extax, carrier=carrier)
-    ]
-    data: Mapping[str, ToolData | WobjData | RobTarget] = {
+    targets: Sequence[RobTarget | JointTarget]
+    if isinstance(plan, _core.Trajectory):
+        q = as_array(plan.q, "plan.q", (None, 6), RapidError)
+        axes = _external(0, len(q), extax)
+        targets = [JointTarget.of(*both) for both in zip(q.tolist(), axes.tolist(), strict=True)]
+    else:
+        targets = [
+            target._replace(
+                trans_mm=np.round(target.trans_mm, 3),
+                rot=np.round(target.rot, 7),
+                extax=np.round(target.extax, 6),
+            )
+            for target in plan_targets(robot, plan, tool, wobj, extax=extax, carrier=carrier)
+        ]
+    data: Mapping[str, ToolData | WobjData | RobTarget | JointTarget] = {
         "tPlan": ToolData(tframe=Pose.of(robot.tool)) if tool is None else tool,
         **({} if wobj is None else {"wPlan": wobj}),
         **{f"p{number}": target for number, target in enumerate(targets, 1)},
@@ -140,6 +151,8 @@ def plan_module(
     moves = []
     for number in range(1, len(targets) + 1):
         kind = "MoveJ" if number == 1 else "MoveL"
+        if isinstance(plan, _core.Trajectory):
+            kind = "MoveAbsJ"
         end = "fine" if number in (1, len(targets)) else zone
         moves.append(f"        {kind} p{number},{speed},{end},{frames};")
     declared = _core.dump(dict(data), name).rstrip().removesuffix("ENDMODULE").rstrip()
@@ -156,6 +169,12 @@ def plan_module(
         raise RapidError(
             f"speed {speed!r} and zone {zone!r} make no move: {module.skipped[0].what}"
         )
+    for found in _core.check(robot, module):
+        if found.severity == "error" and found.code[0] in "CR":
+            raise RapidError(
+                f"a controller would not move as planned: {found.message}; plan with more poses "
+                "around it, or with another rotation"
+            )
     return module
 
 
@@ -193,9 +212,8 @@ def _standing(
     return robot.with_base(base)
 
 
-def _external(plan: Plan, count: int, extax: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
+def _external(planned: int, count: int, extax: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
     """Return the six external axes of each pose, 9e9 for an axis that does not exist."""
-    planned = np.shape(plan.external)[1]
     axes = np.full((count, MOST_EXTERNAL), NOT_THERE)
     if extax is None:
         if planned:

@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::{String, ToString};
 
-use crate::error::Error;
+use crate::error::{Error, MotionFault};
 use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 use crate::kinematics::{BreakReason, Robot, SingularityKind};
 use crate::rapid::calc::confdata::Over;
@@ -130,6 +130,10 @@ pub(in crate::rapid) fn outside<const N: usize>(robot: &Robot<N>, q: &[f64; N]) 
 pub(in crate::rapid) fn no_path(error: &Error) -> Box<Finding> {
     let words = match error {
         Error::Rapid(RapidFault { kind, .. }) => format!("{kind}"),
+        Error::InvalidMotion(MotionFault::HalfTurn { angle, .. }) => format!(
+            "the tool turns by {:.1} deg, there are two ways: program a target between",
+            angle.to_degrees()
+        ),
         error => format!("{error}"),
     };
     Finding::new(Code::NoPath, words).into()
