@@ -60,7 +60,8 @@ pub use self::calc::wrong::error_name;
 #[cfg(feature = "python")]
 pub(crate) use self::calc::{frames::rapid_pose, target::joint_target};
 pub use self::check::carried::Carried;
-pub use self::check::checker::{CheckOptions, Checked, CheckedMove, candidates, check};
+pub use self::check::checker::{CheckOptions, Checked, CheckedMove, check};
+pub use self::check::undeclared::candidates;
 pub use self::check::unused::unused;
 pub use self::data::finding::{Code, Edit, Finding, Severity};
 pub use self::data::module::{Content, Datum, Module, Routine, RoutineKind, Scope, Storage};

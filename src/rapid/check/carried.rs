@@ -1,7 +1,6 @@
 //! Arms with the shapes of the tools and parts that moves carry.
 
 use alloc::collections::BTreeMap;
-use alloc::collections::btree_map::Entry;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -27,19 +26,20 @@ pub(super) fn carried_by(step: &Move, carried: &Carried) -> Vec<String> {
     names.filter(|name| carried.contains_key(name)).collect()
 }
 
-/// The arms that the moves of a program are made with, by the names of what they carry.
+/// The arms that the moves of a program are made with, beside the names of what they carry.
 pub(super) fn carriers<const N: usize>(
     robot: &Robot<N>,
     runs: &[Run<'_>],
     carried: &Carried,
-) -> Result<BTreeMap<Vec<String>, Robot<N>>, Error> {
-    let mut arms = BTreeMap::from([(Vec::new(), robot.clone())]);
+) -> Result<Vec<(Vec<String>, Robot<N>)>, Error> {
+    let mut arms = Vec::from([(Vec::new(), robot.clone())]);
     for step in runs.iter().flat_map(|run| &run.steps) {
         let Step::Move(stepped) = step else { continue };
         let names = carried_by(&stepped.step, carried);
-        let shapes: Vec<Shape> = names.iter().flat_map(|name| &carried[name]).cloned().collect();
-        if let Entry::Vacant(own) = arms.entry(names) {
-            own.insert(robot.clone().with_attached(&shapes, &Pose::identity(), None)?);
+        if arms.iter().all(|(own, _)| *own != names) {
+            let shapes: Vec<Shape> =
+                names.iter().flat_map(|name| &carried[name]).cloned().collect();
+            arms.push((names, robot.clone().with_attached(&shapes, &Pose::identity(), None)?));
         }
     }
     Ok(arms)

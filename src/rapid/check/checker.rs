@@ -19,8 +19,6 @@ use crate::rapid::calc::units::Units;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
-use crate::rapid::data::table::Entry;
-use crate::rapid::expression::names::predefined_names;
 use crate::rapid::motion::drive::MotionOptions;
 use crate::rapid::motion::goal::{Goal, Place};
 use crate::rapid::motion::joints::{Conf, nearest_written};
@@ -118,14 +116,18 @@ pub fn check<const N: usize>(
     let (runs, notes) = runs(&program, options.takes_last);
     let carried = options.carried.unwrap_or(const { &Carried::new() });
     let arms = options.cell.map(|_| carriers(robot, &runs, carried)).transpose()?;
-    let place = |(names, arm)| Ok((names, Placed::of(arm)?.until(options.interrupt)));
-    let placed = arms.iter().flatten().map(place).collect::<Result<_, Error>>()?;
+    let arms = arms.unwrap_or_default();
+    let mut placed = Vec::with_capacity(arms.len());
+    for (names, arm) in &arms {
+        placed.push((names, Placed::of(arm)?.until(options.interrupt)));
+    }
     let mut checker = Checker {
         robots: [robot, &flange],
         options: options.motion,
         units: options.units.unwrap_or(&units),
         max_velocity,
-        cell: options.cell.map(|cell| (cell, placed)),
+        cell: options.cell,
+        arms: placed,
         carried,
         interrupt: options.interrupt,
         finder: Finder::new(&program, &sources),
@@ -232,7 +234,8 @@ struct Checker<'a, 'm, const N: usize> {
     options: MotionOptions<N>,
     units: &'a Units,
     max_velocity: [f64; N],
-    cell: Option<(&'a Cell, BTreeMap<&'a Vec<String>, Placed<'a, N>>)>,
+    cell: Option<&'a Cell>,
+    arms: Vec<(&'a Vec<String>, Placed<'a, N>)>,
     carried: &'a Carried,
     interrupt: Interrupt<'a>,
     finder: Finder<'a, 'm>,
@@ -366,8 +369,9 @@ impl<const N: usize> Checker<'_, '_, N> {
 
     /// A move that touches something in the cell.
     fn collision(&mut self, step: &Move, along: &[[f64; N]]) -> Option<Finding> {
-        let (cell, arms) = self.cell.as_mut()?;
-        let placed = arms.get_mut(&carried_by(step, self.carried))?;
+        let cell = self.cell?;
+        let names = carried_by(step, self.carried);
+        let (_, placed) = self.arms.iter_mut().find(|(own, _)| **own == names)?;
         let contact = cell.contact(placed, along)?;
         #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 samples")]
         let part = contact.at / along.len().saturating_sub(1).max(1) as f64;
@@ -380,21 +384,4 @@ impl<const N: usize> Checker<'_, '_, N> {
         );
         Some(Finding::new(Code::Collision, words))
     }
-}
-
-/// The names that could be meant by the unknown name of a finding: of data of the modules, and
-/// RAPID's own.
-#[must_use]
-pub fn candidates(finding: &Finding, modules: &[&Module]) -> Vec<String> {
-    if finding.code == Code::UnknownRoutine {
-        let routines = modules.iter().flat_map(|module| module.routines());
-        let own = Entry::all().map(|it| String::from(it.0));
-        return routines.map(|routine| routine.name.clone()).chain(own).collect();
-    }
-    let data_type = finding.code.data_type();
-    let data = modules.iter().flat_map(|module| module.data());
-    let fitting = data.filter(|datum| data_type.is_none_or(|wanted| datum.data_type == wanted));
-    let mut names: Vec<String> = fitting.map(|datum| datum.name.clone()).collect();
-    names.extend(data_type.map(predefined_names).unwrap_or_default());
-    names
 }

@@ -5,5 +5,5 @@ pub(super) mod checker;
 mod confdata;
 mod corners;
 mod fixes;
-mod undeclared;
+pub(super) mod undeclared;
 pub(super) mod unused;

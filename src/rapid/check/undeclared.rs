@@ -11,6 +11,7 @@ use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::{Module, Routine};
 use crate::rapid::data::table::Entry;
 use crate::rapid::data::unread::NotRead;
+use crate::rapid::expression::names::predefined_names;
 use crate::rapid::expression::whole::WholeReader;
 use crate::rapid::program::arguments::called;
 use crate::rapid::text::fault::RapidFaultKind;
@@ -21,6 +22,23 @@ const LONGEST_PARAMETERS: usize = 1000;
 
 /// Most unknown names that are compared with the known ones.
 const MOST_COMPARED: usize = 100;
+
+/// The names that could be meant by the unknown name of a finding: of data of the modules, and
+/// RAPID's own.
+#[must_use]
+pub fn candidates(finding: &Finding, modules: &[&Module]) -> Vec<String> {
+    if finding.code == Code::UnknownRoutine {
+        let routines = modules.iter().flat_map(|module| module.routines());
+        let own = Entry::all().map(|it| String::from(it.0));
+        return routines.map(|routine| routine.name.clone()).chain(own).collect();
+    }
+    let data_type = finding.code.data_type();
+    let data = modules.iter().flat_map(|module| module.data());
+    let fitting = data.filter(|datum| data_type.is_none_or(|wanted| datum.data_type == wanted));
+    let mut names: Vec<String> = fitting.map(|datum| datum.name.clone()).collect();
+    names.extend(data_type.map(predefined_names).unwrap_or_default());
+    names
+}
 
 /// Whether an unknown routine is an error, or may be in a module that is missing: without
 /// `is_whole`, in one that a calculated name leads to.
