@@ -6,6 +6,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Collection, Iterator
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from irbkin.check.codes import TOOLS
@@ -15,9 +16,7 @@ if TYPE_CHECKING:
     from irbkin import Robot
     from irbkin.rapid import Finding, Program
 
-WORD = re.compile(r"[^\W\d]\w*")
 NO_CODE = re.compile(r'"[^"\n]*"|![^\n]*')
-SET = re.compile(r"^[ \t]*(\w+)(?:\.\w+)*[ \t]*:=", re.MULTILINE)
 UNSET, DOUBTFUL, SHAPELESS = (code for code, *_ in TOOLS)
 FLANGE = "tool0"
 """The tool that has no shape."""
@@ -34,22 +33,25 @@ def tool_findings(
         payload = catalog_entry(robot.name).payload or math.inf
     except UnknownRobotError:
         payload = math.inf
-    codes = [NO_CODE.sub("", module.source) for module in program.modules]
-    uses = Counter(name for code in codes for name in WORD.findall(code.lower()))
-    assigned = {name.lower() for code in codes for name in SET.findall(code)}
     declared = [
         (index, it)
         for index, module in enumerate(program.modules)
         for it in module.declarations
         if it.data_type in ("tooldata", "loaddata") and it.value is not None
     ]
-    uses.subtract(it.name.lower() for _, it in declared)
+    times = Counter(it.name.lower() for _, it in declared)
+
+    @cache
+    def codes() -> list[str]:
+        return [NO_CODE.sub("", module.source).lower() for module in program.modules]
+
+    def count(pattern: str) -> int:
+        return sum(len(re.findall(pattern, code, re.MULTILINE)) for code in codes())
+
     for index, it in declared:
         name = it.name.lower()
-        if uses[name] <= 0:
-            continue
         wrong: dict[str, tuple[str, float | None, float | None]] = {}
-        for value in _values(it.value) if name not in assigned else ():
+        for value in _values(it.value):
             mass = getattr(value, "tload", value).mass_kg
             if mass < 0.0:
                 words = f"its mass is {mass:g} kg, as of new data: a controller refuses to move"
@@ -59,11 +61,15 @@ def tool_findings(
             elif mass > payload:
                 words = f"its mass is {mass:g} kg, more than the {payload:g} kg of {robot.name}"
                 wrong[DOUBTFUL] = (words, mass, payload)
+        if wrong and count(rf"^[ \t]*{name}(?:\.\w+)*[ \t]*:="):
+            wrong = {}
         is_tool = it.data_type == "tooldata" and name != FLANGE and name not in shapes
         if cell and is_tool and any(value.robhold for value in _values(it.value)):
             others = f", which has those of {', '.join(shapes)}" if shapes else ""
             words = f"it has no shape in {cell}{others}: it is not part of the proof"
             wrong[SHAPELESS] = (words, None, None)
+        if wrong and count(rf"\b{name}\b") <= times[name]:
+            continue
         for code, own, severity, _ in TOOLS:
             if code in wrong:
                 words, number, bound = wrong[code]
