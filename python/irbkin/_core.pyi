@@ -507,7 +507,8 @@ class Margin(_Record):
     def singularities(self) -> _Floats:
         """The least of three distances, each at most 1, shape (...): from the wrist and from the
         elbow singularity as a part of 90 deg, from the shoulder singularity as a part of half
-        the length of upper arm and forearm. NaN if the structure of the arm is unknown.
+        the length of upper arm and forearm. Of six joints of another structure the distance in
+        joint space to first order, as a part of 90 deg. NaN of other arms.
         """
     def __new__(cls, limits: _Floats, singularities: _Floats) -> Margin: ...
 
@@ -1446,7 +1447,7 @@ class Robot:
             limit_cost: What a joint at its limit costs [rad^2/s^2], added to the sum: as much as
                 one of weight 1 that moves with the root of it [rad/s]. Half way from the middle to
                 the limit it costs a quarter. Without `times` the path takes one second.
-            singularity_cost: The same of each of the singularities of wrist, elbow and shoulder.
+            singularity_cost: The same of each singularity that `Margin` counts.
                 Nothing for arms without a closed form.
             objective: "time": of the best paths in either order from each branch of the first pose,
                 the one whose motion `irbkin.trajectory.retime` makes the shortest, everything that

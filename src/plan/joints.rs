@@ -264,8 +264,14 @@ impl<'a> NodeCost<'a> {
 
     /// The cost of joint angles at which a step ends that takes `time` [s].
     pub(super) fn at(&self, q: &[f64; 6], time: f64) -> f64 {
-        let [limits, singularities] = self.robot.nearness(q);
-        (self.limits * limits + self.singularities * singularities) * time * time
+        let mut cost = 0.0;
+        if self.limits > 0.0 {
+            cost += self.limits * self.robot.nearness_to_limits(q);
+        }
+        if self.singularities > 0.0 {
+            cost += self.singularities * self.robot.nearness_to_singularities(q);
+        }
+        cost * time * time
     }
 }
 

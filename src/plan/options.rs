@@ -66,8 +66,8 @@ pub struct PlanOptions<const N: usize = 6> {
     /// Cost of a joint at its limit [rad^2/s^2]: as much as one of weight 1 that moves with the
     /// root of it. Half way from the middle to the limit it costs a quarter.
     pub limit_cost: f64,
-    /// The cost of being at one of the singularities of wrist, elbow and shoulder [rad^2/s^2];
-    /// nothing of an arm whose structure does not have these.
+    /// The cost of being at one of the singularities of wrist, elbow and shoulder, or of another
+    /// structure at any [rad^2/s^2]: see [`Margin`](crate::Margin).
     pub singularity_cost: f64,
     /// Limits of the accelerations of the joints [rad/s^2], then of the external axes: then the
     /// plan is the one whose motion takes the shortest time with

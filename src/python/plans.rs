@@ -75,7 +75,7 @@ impl PyRobot {
     ///     limit_cost: What a joint at its limit costs [rad^2/s^2], added to the sum: as much as
     ///         one of weight 1 that moves with the root of it [rad/s]. Half way from the middle to
     ///         the limit it costs a quarter. Without `times` the path takes one second.
-    ///     singularity_cost: The same of each of the singularities of wrist, elbow and shoulder.
+    ///     singularity_cost: The same of each singularity that `Margin` counts.
     ///         Nothing for arms without a closed form.
     ///     objective: "time": of the best paths in either order from each branch of the first pose,
     ///         the one whose motion `irbkin.trajectory.retime` makes the shortest, everything that

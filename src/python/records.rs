@@ -149,7 +149,8 @@ record! {
         limits: Array,
         /// The least of three distances, each at most 1, shape (...): from the wrist and from the
         /// elbow singularity as a part of 90 deg, from the shoulder singularity as a part of half
-        /// the length of upper arm and forearm. NaN if the structure of the arm is unknown.
+        /// the length of upper arm and forearm. Of six joints of another structure the distance in
+        /// joint space to first order, as a part of 90 deg. NaN of other arms.
         singularities: Array,
     }
 }

@@ -77,3 +77,18 @@ def test_an_arm_without_these_singularities_has_no_cost_of_them():
     plain = robot.plan(T, order="sum")
     assert robot.plan(T, order="sum", singularity_cost=1e3) == plain
     assert plain.cost <= (np.diff(q, axis=0) ** 2).sum() * (1 + 1e-9)
+
+
+def test_an_offset_wrist_stays_away_from_its_singularities_if_these_cost():
+    robot = irbkin.Robot("CRB 15000-5/0.95")
+    gained = []
+    for y in (0.1, 0.2, 0.3):
+        ends = [irbkin.pose([0.5, side * y, 0.4], euler_zyx=[0, 2.9, 0]) for side in (-1, 1)]
+        path = irbkin.paths.line(*ends, steps=21)
+        plain, apart = (
+            robot.plan(path, rotation=24, singularity_cost=cost, order="sum") for cost in (0, 50)
+        )
+        least = [np.mean(robot.margin(plan.q).singularities) for plan in (plain, apart)]
+        assert least[1] >= least[0] - 1e-9
+        gained.append(least[1] - least[0])
+    assert max(gained) > 0.05

@@ -2,7 +2,11 @@
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
 use super::Robot;
+use crate::kinematics::JacobianFrame;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::lanes::nearest_whole;
 
@@ -16,7 +20,9 @@ pub struct Margin {
     pub limits: f64,
     /// The least of three distances, each at most 1: that from the wrist singularity and that from
     /// the elbow singularity as a part of 90 deg, and that from the shoulder singularity as a part
-    /// of half the length of upper arm and forearm. NaN if the structure of the arm is unknown.
+    /// of half the length of upper arm and forearm. Of six joints of another structure, such as an
+    /// offset wrist, the distance in joint space to first order, as a part of 90 deg. NaN of other
+    /// arms.
     pub singularities: f64,
 }
 
@@ -41,19 +47,48 @@ impl<const N: usize> Robot<N> {
         }
     }
 
-    /// How near `q` is to each limit and to each singularity: the sums of the squares of 1 minus
-    /// its margin.
-    pub(crate) fn nearness(&self, q: &[f64; N]) -> [f64; 2] {
-        let square = |margin: f64| (1.0 - margin.min(1.0)) * (1.0 - margin.min(1.0));
-        let singularities = self.of_singularities(q).unwrap_or([1.0; 3]);
-        [of_limits(&self.limits, q).map(square).sum(), singularities.into_iter().map(square).sum()]
+    /// How near `q` is to each limit: the sum of the squares of 1 minus its margin.
+    pub(crate) fn nearness_to_limits(&self, q: &[f64; N]) -> f64 {
+        of_limits(&self.limits, q).map(squared_lack).sum()
+    }
+
+    /// How near `q` is to each singularity, likewise.
+    pub(crate) fn nearness_to_singularities(&self, q: &[f64; N]) -> f64 {
+        self.of_singularities(q).into_iter().flatten().map(squared_lack).sum()
     }
 
     /// The margins to the singularities of wrist, elbow and shoulder; some are more than 1.
     fn of_singularities(&self, q: &[f64; N]) -> Option<[f64; 3]> {
-        let distances = self.singular_distances(q)?;
+        let Some(distances) = self.singular_distances(q) else {
+            return Some([self.first_order_distance(q)? / FRAC_PI_2, 1.0, 1.0]);
+        };
         let shoulder = distances.shoulder / (0.5 * self.reach_of_wrist());
         Some([distances.wrist / FRAC_PI_2, distances.elbow / FRAC_PI_2, shoulder])
+    }
+
+    /// How far six joints are from the nearest singularity, to first order [rad]: |w| / |grad w| of
+    /// w = det J, with dw/dq_k = w tr(J^-1 dJ/dq_k). Column i of dJ/dq_k is (z_k x v_i, z_k x z_i)
+    /// for k <= i and else (z_i x v_k, 0), with v the linear and z the angular rows of J.
+    /// Reference: Haviland and Corke, Manipulator differential kinematics, part 2, 2024.
+    fn first_order_distance(&self, q: &[f64; N]) -> Option<f64> {
+        if N != 6 || self.coupling() != 0.0 {
+            return None;
+        }
+        let jacobian = self.jacobian(q, JacobianFrame::Base).fixed_view::<6, 6>(0, 0).into_owned();
+        let Some(inverse) = jacobian.try_inverse() else { return Some(0.0) };
+        let linear = |joint| jacobian.fixed_view::<3, 1>(0, joint).into_owned();
+        let angular = |joint| jacobian.fixed_view::<3, 1>(3, joint).into_owned();
+        let slope = |k: usize| -> f64 {
+            let of_column = |i: usize| {
+                let [first, last] = [k.min(i), k.max(i)];
+                let moved = inverse.fixed_view::<1, 3>(i, 0) * angular(first).cross(&linear(last));
+                let turned = inverse.fixed_view::<1, 3>(i, 3) * angular(k).cross(&angular(i));
+                moved.x + if k < i { turned.x } else { 0.0 }
+            };
+            (0..N).map(of_column).sum()
+        };
+        let squares: f64 = (0..N).map(|k| slope(k) * slope(k)).sum();
+        Some(if squares.is_finite() { 1.0 / squares.sqrt() } else { 0.0 })
     }
 
     /// [`Self::margin`] with each joint at the 2 pi equivalent that leaves the most room.
@@ -75,6 +110,10 @@ fn of_limits<const N: usize>(limits: &JointLimits<N>, q: &[f64; N]) -> impl Iter
         part_of_half(range, (lower - angle).max(angle - upper))
     });
     joints.chain(linkage)
+}
+
+fn squared_lack(margin: f64) -> f64 {
+    (1.0 - margin.min(1.0)) * (1.0 - margin.min(1.0))
 }
 
 /// The room to the nearer end of a range as a part of its half. One that has no ends, or no width,
@@ -125,6 +164,52 @@ mod tests {
         let Margin { limits, singularities } = robot.margin(&q);
         assert!((singularities - 0.3 / FRAC_PI_2).abs() < 1e-12);
         assert_eq!(robot.margin(&q).least(), limits.min(singularities));
+    }
+
+    #[test]
+    fn the_margin_of_an_offset_wrist_is_its_distance_in_joint_space() {
+        let mut rng = Rng::new(12);
+        let mut crossings = 0;
+        for name in ["CRB 15000-5/0.95", "CRX-10iA", "xArm6"] {
+            let robot: Robot<6> = Robot::named(name).unwrap();
+            let det = |q: &[f64; 6]| robot.jacobian_determinant(q).unwrap();
+            let distance = |q: &[f64; 6]| FRAC_PI_2 * robot.margin(q).singularities;
+            for _ in 0..200 {
+                let [q, end] = [rng.inside(robot.limits()), rng.inside(robot.limits())];
+                // Its definition, by central differences.
+                let step = 1e-5;
+                let slope = |joint: usize| {
+                    let at = |by: f64| {
+                        det(&core::array::from_fn(|i| q[i] + if i == joint { by } else { 0.0 }))
+                    };
+                    (at(step) - at(-step)) / (2.0 * step)
+                };
+                let gradient = (0..6).map(|joint| slope(joint).powi(2)).sum::<f64>().sqrt();
+                let wanted = (det(&q) / gradient).abs();
+                let found = distance(&q);
+                assert!(
+                    (found - wanted.min(FRAC_PI_2)).abs() <= 1e-6 * wanted + 1e-7,
+                    "{name} {found} {wanted}"
+                );
+                // Along a line through a singularity it falls to zero, no faster than the way to it.
+                let at = |part: f64| core::array::from_fn(|i| q[i] + part * (end[i] - q[i]));
+                let [mut low, mut high] = [0.0, 1.0];
+                if det(&at(low)) * det(&at(high)) >= 0.0 {
+                    continue;
+                }
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    let is_before = det(&at(low)) * det(&at(middle)) > 0.0;
+                    if is_before { low = middle } else { high = middle }
+                }
+                crossings += 1;
+                let length = (0..6).map(|i| (end[i] - q[i]).powi(2)).sum::<f64>().sqrt();
+                assert!(distance(&at(low)) < 1e-6, "{name} {}", distance(&at(low)));
+                let near = distance(&at(low + 1e-4 / length));
+                assert!(near <= 1.01e-4, "{name} {near}");
+            }
+        }
+        assert!(crossings > 100, "{crossings}");
     }
 
     #[test]
