@@ -910,6 +910,29 @@ class Robot:
                 the message names what is wrong, and the base and tip that could be passed.
             OSError: The file cannot be read.
         """
+    @staticmethod
+    def from_robotstudio(
+        path: str | PathLike[str], name: str | None = None, *, coupled_limits: bool = True
+    ) -> Robot:
+        """Robot from a file of ABB's RobotStudio: its table, base frame, flange and limits.
+
+        A station that only refers to ABB's libraries has the axes alone: the robot then has no
+        limits, its flange is the frame of the last axis, and its name says so. See
+        docs/guide/conventions.md.
+
+        Args:
+            path: A library, .rslib, a station, .rsstn, .rsstnx or .rspag, or an export, .glb, which
+                is taken only if its table reproduces its own nodes.
+            name: Name of the arm in the file; needed if the file has several.
+            coupled_limits: False to leave out limits that couple axes. Only a robot with a linkage
+                can have them, and only of axes 2 and 3: of any other they are an error.
+
+        Raises:
+            InvalidModelError: The file has another format, is broken or too large, no arm or
+                several could be meant, a joint is not revolute or follows others, or the file
+                contradicts itself; the message names the element and the bound.
+            OSError: The file cannot be read.
+        """
     def to_urdf(self, visual: bool = False) -> str:
         """Return the text of a URDF of the robot, which `from_urdf` reads back.
 

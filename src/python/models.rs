@@ -159,6 +159,35 @@ impl PyRobot {
         Ok(if name.is_empty() { arm } else { named(&arm, name) }.into())
     }
 
+    /// Robot from a file of ABB's RobotStudio: its table, base frame, flange and limits.
+    ///
+    /// A station that only refers to ABB's libraries has the axes alone: the robot then has no
+    /// limits, its flange is the frame of the last axis, and its name says so. See
+    /// docs/guide/conventions.md.
+    ///
+    /// Args:
+    ///     path: A library, .rslib, a station, .rsstn, .rsstnx or .rspag, or an export, .glb, which
+    ///         is taken only if its table reproduces its own nodes.
+    ///     name: Name of the arm in the file; needed if the file has several.
+    ///     coupled_limits: False to leave out limits that couple axes. Only a robot with a linkage
+    ///         can have them, and only of axes 2 and 3: of any other they are an error.
+    ///
+    /// Raises:
+    ///     InvalidModelError: The file has another format, is broken or too large, no arm or
+    ///         several could be meant, a joint is not revolute or follows others, or the file
+    ///         contradicts itself; the message names the element and the bound.
+    ///     OSError: The file cannot be read.
+    #[staticmethod]
+    #[pyo3(signature = (path, name=None, *, coupled_limits=true))]
+    fn from_robotstudio(
+        path: &Bound<'_, PyAny>,
+        name: Option<&str>,
+        coupled_limits: bool,
+    ) -> PyResult<Py<Self>> {
+        let module = path.py().import("irbkin._robotstudio")?;
+        Ok(module.call_method1("robot_of", (path, name, coupled_limits))?.extract()?)
+    }
+
     /// Return the robot with other joint limits; limits of a linkage stay.
     ///
     /// Args:

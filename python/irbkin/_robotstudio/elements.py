@@ -1,0 +1,157 @@
+"""XML of unknown spelling: attributes, children with a `Value` or texts, in any case and namespace.
+
+Names are given in lower case.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from xml.etree import ElementTree
+
+import numpy as np
+import numpy.typing as npt
+
+from irbkin.errors import InvalidModelError
+
+Array = npt.NDArray[np.float64]
+Element = ElementTree.Element
+SKEW = 1e-5
+"""How far a rotation may be from an orthonormal one [1]."""
+
+
+def elements_of(content: bytes, *wanted: str) -> Iterator[Element]:
+    """The elements of these names; all else is dropped while it is read.
+
+    Raises:
+        InvalidModelError: It is not XML in UTF-8, or has a document type, which can declare
+            entities.
+    """
+    try:
+        text = content.decode("utf-8-sig")
+        if "<!DOCTYPE" in text:
+            raise InvalidModelError("has a <!DOCTYPE>, RobotStudio writes none: remove it")
+        # The text may declare another encoding.
+        parser = ElementTree.XMLParser(encoding="utf-8")
+        inside = 0
+        for event, element in ElementTree.iterparse(
+            io.BytesIO(text.encode()), ("start", "end"), parser
+        ):
+            is_wanted = local(element) in wanted
+            if event == "start":
+                inside += is_wanted
+            elif is_wanted:
+                inside -= 1
+                yield element
+            elif not inside:
+                element.clear()
+    except UnicodeDecodeError as error:
+        raise InvalidModelError(f"is not UTF-8 at byte {error.start}") from None
+    except ElementTree.ParseError as error:
+        raise InvalidModelError(f"is not XML: {error}") from None
+
+
+def local(element: Element) -> str:
+    """The name of an element."""
+    return element.tag.rpartition("}")[2].lower()
+
+
+def child(element: Element | None, *names: str) -> Element | None:
+    """The first child of one of these names."""
+    return next((it for it in element if local(it) in names), None) if element is not None else None
+
+
+def parts(element: Element, name: str) -> list[Element]:
+    """The children of the first child of a name."""
+    found = child(element, name)
+    return [] if found is None else [*found]
+
+
+def word(element: Element | None, *names: str) -> str:
+    """An attribute, or what a child holds; empty if there is neither."""
+    attributes = {} if element is None else element.attrib
+    for key, value in attributes.items():
+        if key.rpartition("}")[2].lower() in names:
+            return value.strip()
+    found = child(element, *names)
+    return "" if found is None else (word(found, "value") or found.text or "").strip()
+
+
+def number(element: Element, *names: str) -> float:
+    """A finite number by its name."""
+    text = word(element, *names)
+    values = floats(text)
+    if len(values) != 1 or not np.isfinite(values[0]):
+        raise InvalidModelError(f"{names[0]} of {local(element)} is {text!r}, it must be a number")
+    return values[0]
+
+
+def integer(element: Element, *names: str) -> int:
+    """A whole number by its name."""
+    value = number(element, *names)
+    if value != int(value):
+        raise InvalidModelError(f"{names[0]} of {local(element)} is {value:g}, not a whole number")
+    return int(value)
+
+
+def numbers(element: Element | None) -> list[float]:
+    """All numbers in an element in their order; none of no element.
+
+    Raises:
+        InvalidModelError: One is not finite, or they are not as many as NumRows and NumCols say.
+    """
+    if element is None:
+        return []
+    found = [value for text in _texts(element) for value in floats(text)]
+    size = [integer(element, it) for it in ("numrows", "numcols") if word(element, it)]
+    if not np.isfinite(found).all() or (size and len(found) != np.prod(size)):
+        raise InvalidModelError(
+            f"{local(element)} must have {' x '.join(map(str, size)) or 'only'} finite numbers"
+        )
+    return found
+
+
+def _texts(element: Element) -> Iterator[str]:
+    yield word(element, "value") or element.text or ""
+    for part in element:
+        if local(part) not in ("numrows", "numcols"):
+            yield from _texts(part)
+        yield part.tail or ""
+
+
+def floats(text: str) -> list[float]:
+    """The numbers of a text; none if it is another one."""
+    try:
+        return [float(part) for part in text.replace(",", " ").split()]
+    except ValueError:
+        return []
+
+
+def transform(element: Element) -> Array:
+    """A rigid transform: RowX, RowY, RowZ, RowT, which are images of the axes and the origin, or
+    numbers.
+    """
+    rows = [it for it in element if local(it) in ("rowx", "rowy", "rowz", "rowt")]
+    given = [number(row, axis) for row in rows for axis in "xyzw"] or numbers(element)
+    return rigid(given, local(element))
+
+
+def rigid(values: list[float], name: str) -> Array:
+    """A rigid transform of 16 numbers, by columns or by rows, or of a translation [m]."""
+    if len(values) not in (3, 16):
+        raise InvalidModelError(f"{name} has {len(values)} numbers, a transform has 16 or 3")
+    found = np.eye(4)
+    if len(values) == 3:
+        found[:3, 3] = values
+    else:
+        found = np.reshape(values, (4, 4))
+        # glTF and RobotStudio have the translation last: then the zeros are in the last column.
+        found = found.T if (found[:, 3] == [0.0, 0.0, 0.0, 1.0]).all() else found
+    skew = np.abs(found[:3, :3] @ found[:3, :3].T - np.eye(3)).max()
+    is_turn = skew <= SKEW and np.linalg.det(found[:3, :3]) > 0.0
+    if not is_turn or (found[3] != [0.0, 0.0, 0.0, 1.0]).any():
+        raise InvalidModelError(
+            f"{name} is not a rigid transform: its axes are {skew:.1e} from orthonormal, at most "
+            f"{SKEW:g}, or left-handed, or 0 0 0 1 is missing"
+        )
+    return found

@@ -1,0 +1,318 @@
+"""Robots from RobotStudio's files: what is in them is read, what contradicts itself is refused."""
+
+import numpy as np
+import pytest
+import robotstudio_files as files
+from irbkin import Robot
+from irbkin._robotstudio import containers
+from irbkin.errors import InvalidModelError
+
+SPELLINGS = ("attributes", "values", "texts")
+ENDINGS = ("rslib", "rsstn", "rsstnx", "rspag")
+STATION = (files.definition(), files.instance())
+# At (10, 20, 30, 40, 50, 60) deg: calculated by other means than this package.
+AT_Q = np.array(
+    [
+        [-0.159316396, 0.855331306, 0.492977324],
+        [-0.121310106, 0.478609755, -0.869607130],
+        [0.724727799, 0.172789065, 0.407480470],
+    ]
+)
+
+
+def written(folder, content, name="arm.rsstnx"):
+    path = folder / name
+    path.write_bytes(content)
+    return path
+
+
+def refused(folder, content, words, name="arm.rsstnx", **options):
+    """The message on a file, which begins with its path."""
+    path = written(folder, content, name)
+    with pytest.raises(InvalidModelError, match=words) as caught:
+        Robot.from_robotstudio(path, **options)
+    assert str(caught.value).startswith(f"{path}: ")
+    return str(caught.value)
+
+
+def is_the_arm(robot, limits=files.LIMITS):
+    pose = robot.fk(files.Q)
+    found = np.stack([pose[:3, 0], pose[:3, 2], pose[:3, 3]])
+    np.testing.assert_allclose(found, AT_Q, atol=2e-9)
+    assert robot.structure == "spherical wrist"
+    np.testing.assert_allclose(robot.limits, limits, atol=1e-12)
+    assert len(robot.ik(pose)) == 8
+
+
+@pytest.mark.parametrize("spelling", SPELLINGS[:2])
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_the_arm_of_a_file_is_the_arm(tmp_path, ending, spelling):
+    content = files.pim(*STATION, spelling=spelling)
+    if ending in ("rslib", "rsstn"):
+        content = files.archive({"PIM.xml": content, "Streams/1.gfx": b"\0" * 100})
+    if ending == "rspag":
+        inner = files.archive({"PIM.xml": content})
+        content = files.archive({"Stations/My cell.rsstn": inner, "Other/a.txt": b"x"})
+    robot = Robot.from_robotstudio(written(tmp_path, content, f"arm.{ending}"))
+    is_the_arm(robot)
+    assert robot.name == "SYN6_5_120__01"
+    assert Robot.from_robotstudio(tmp_path / f"arm.{ending}", "syn6_5_120__01") == robot
+
+
+def test_a_library_without_an_instance_is_named_by_its_model(tmp_path):
+    robot = Robot.from_robotstudio(written(tmp_path, files.pim(files.definition())))
+    is_the_arm(robot)
+    assert robot.name == "SYN6_5_120"
+
+
+def test_a_station_that_refers_to_a_library_has_axes_alone_and_says_so(tmp_path):
+    station = files.pim(files.instance(document=1), more=files.REFERENCE)
+    robot = Robot.from_robotstudio(written(tmp_path, station))
+    assert robot.name == "SYN6_5_120__01 (without limits and flange)"
+    assert np.isinf(robot.limits).all()
+    np.testing.assert_allclose(robot.fk(files.Q), files.poses(files.Q)[-1], atol=1e-12)
+    # A pose that is older than its joints does not matter.
+    old = files.instance(document=1, q=files.Q, at=[np.eye(4), *files.poses(files.POSE)])
+    again = Robot.from_robotstudio(written(tmp_path, files.pim(old, more=files.REFERENCE)))
+    assert again == robot
+
+
+def test_a_number_in_another_file_is_no_definition_of_its_own(tmp_path):
+    content = files.pim(files.definition(base=np.eye(4)), files.instance(document=3))
+    robot = Robot.from_robotstudio(written(tmp_path, content), "SYN6_5_120__01")
+    assert robot.name.endswith("(without limits and flange)")
+
+
+def test_limits_that_a_station_edits_are_its_own(tmp_path):
+    limits = files.LIMITS * 0.5
+    edited = files.instance(document=1, limits=files.matrix_of(limits))
+    robot = Robot.from_robotstudio(written(tmp_path, files.pim(edited, more=files.REFERENCE)))
+    assert robot.name == "SYN6_5_120__01 (without flange)"
+    np.testing.assert_allclose(robot.limits, limits, atol=1e-12)
+    edited = files.pim(files.definition(), files.instance(limits=files.matrix_of(limits)))
+    is_the_arm(Robot.from_robotstudio(written(tmp_path, edited)), limits)
+
+
+def test_a_library_that_is_packed_beside_its_station_is_read(tmp_path):
+    station = files.pim(files.instance(document=1), more=files.REFERENCE)
+    library = files.archive({"PIM.xml": files.pim(*STATION)})
+    members = {"Libraries/SYN6_5_120__01.rslib": library, "Station/s.rsstnx": station}
+    path = written(tmp_path, files.archive(members), "all.rspag")
+    is_the_arm(Robot.from_robotstudio(path))
+
+
+def test_of_several_arms_one_is_named(tmp_path):
+    # Of one model, too.
+    other = files.instance(key=100, name="SYN6_5_120__02")
+    content = files.pim(*STATION, other, spelling="attributes")
+    said = refused(tmp_path, content, "several arms, pass name= to choose one")
+    assert '"SYN6_5_120__01" of 6 joints, "SYN6_5_120__02" of 6 joints' in said
+    is_the_arm(Robot.from_robotstudio(tmp_path / "arm.rsstnx", name="SYN6_5_120__02"))
+    with pytest.raises(InvalidModelError, match="no arm 'x' of 6 or 7 joints; it has \"SYN6"):
+        Robot.from_robotstudio(tmp_path / "arm.rsstnx", name="x")
+
+
+def test_what_is_no_arm_is_listed(tmp_path):
+    def only(**options):
+        return refused(tmp_path, files.pim(files.definition(**options)), "no arm of 6 or 7 joints")
+
+    assert '"SYN6_5_120" of 4 joints' in only(
+        active=4, rows=files.ROWS[:4], limits=files.matrix_of()
+    )
+    empty = np.empty((0, 0)), np.empty(0)
+    assert '"tool" of 0 joints' in only(active=0, flange=None, model="tool", limits=empty)
+    refused(tmp_path, files.pim(), "it has no mechanism")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"kinds": [True] * 5 + [False]}, "joint 6 is prismatic"),
+        ({"following": [1, 2, 3, 4, 5, 1]}, "two links lead to one joint: closed loops"),
+        ({"following": [1, 2, 3, 4, 5, 0]}, "two links lead to one joint|closed|loop"),
+        ({"custom": "true"}, "a UsingCustomFwdKin .as closed loops have., which is not supported"),
+        ({"dependency": np.diag([1, 1, 1, 1, 1, 0.7])}, "do not follow the 6 active ones"),
+        ({"rows": [(0, 0, 0, 0), *np.multiply(files.ROWS[1:], [1, 1e3, 1, 1e3])]}, "millimeters"),
+        ({"base": np.diag([1.0, 1.0, -1.0, 1.0])}, "element is not a rigid transform"),
+        ({"limits": (np.eye(6), np.ones(6))}, "an upper and a lower limit of each"),
+        ({"limits": (np.eye(6), np.ones(5))}, "36 numbers for 5 bounds"),
+        ({"following": [1, 2, -1, 4, 5, -1]}, "behind 3 joints; an arm has 6 or 7"),
+    ],
+)
+def test_a_table_that_is_no_arm_is_refused(tmp_path, options, words):
+    refused(tmp_path, files.pim(files.definition(**options)), words)
+
+
+@pytest.mark.parametrize(
+    ("joint", "column", "by"), [(1, 1, 1e-4), (3, 3, -1e-4), (4, 2, np.radians(1))]
+)
+def test_a_table_that_its_own_links_contradict_is_refused(tmp_path, joint, column, by):
+    rows = np.array(files.ROWS)
+    rows[joint, column] += by
+    content = files.pim(files.definition(rows=rows), files.instance())
+    refused(tmp_path, content, f"link {joint + 1} .Link{joint + 1}. is .* from where the file")
+
+
+def test_limits_that_couple_axes_are_a_linkages_or_an_error(tmp_path):
+    limits = files.matrix_of(coupled=files.COUPLED)
+    content = files.pim(files.definition(limits=limits))
+    refused(tmp_path, content, r"its limit 1 q2 \+ 1 q3 <= 140 deg couples axes")
+    is_the_arm(Robot.from_robotstudio(tmp_path / "arm.rsstnx", coupled_limits=False))
+    # Joint 3 of the table is turned by -q2: the controller's is measured from the base.
+    linkage = np.eye(6)
+    linkage[2, 1] = -1.0
+    rod = [([0, -1, 1, 0, 0, 0], 70.0), ([0, 1, -1, 0, 0, 0], 40.0)]
+    for own, wanted in ((rod, [-40, 70]), ((), None)):
+        limits = files.matrix_of(coupled=own)
+        content = files.pim(files.definition(dependency=linkage, limits=limits))
+        robot = Robot.from_robotstudio(written(tmp_path, content))
+        assert robot.is_coupled
+        np.testing.assert_allclose(robot.limits, files.LIMITS, atol=1e-12)
+        serial = files.Q - [0, 0, files.Q[1], 0, 0, 0]
+        np.testing.assert_allclose(
+            robot.fk(files.Q), files.poses(serial)[-1] @ files.OFFSET, atol=1e-12
+        )
+        if wanted:
+            np.testing.assert_allclose(np.degrees(robot.linkage_limits), wanted, atol=1e-9)
+    other = files.matrix_of(coupled=[([0, 1, 1, 0, 0, 0], 70.0)])
+    content = files.pim(files.definition(dependency=linkage, limits=other))
+    refused(tmp_path, content, "couples axes")
+
+
+def test_rods_of_a_station_show_the_linkage_or_are_an_error(tmp_path):
+    serial = files.Q - [0, 0, files.Q[1], 0, 0, 0]
+    turned = [np.eye(4), *files.poses(serial)]
+    own = files.instance(document=1, q=files.Q, at=turned, extra=["LinkS1"])
+    robot = Robot.from_robotstudio(written(tmp_path, files.pim(own)))
+    assert robot.is_coupled
+    np.testing.assert_allclose(robot.fk(files.Q), turned[-1], atol=1e-12)
+    at_zero = files.pim(files.instance(document=1, extra=["LinkS1"]))
+    refused(tmp_path, at_zero, "whether LinkS1 turns joint 3 with joint 2: save the station")
+    # Links of a hose are none of its own.
+    Robot.from_robotstudio(written(tmp_path, files.pim(files.instance(document=1, extra=["c1"]))))
+
+
+@pytest.mark.parametrize("spelling", SPELLINGS)
+def test_the_arm_of_a_glb_is_the_arm(tmp_path, spelling):
+    content = files.glb(files.nodes(files.kinematics(spelling)))
+    robot = Robot.from_robotstudio(written(tmp_path, content, "line.glb"))
+    is_the_arm(robot)
+    assert robot.name == "SYN6_5_120__01"
+
+
+@pytest.mark.parametrize("offset", [[0, 0, 0.09], files.OFFSET.ravel().tolist(), "0 0 0.09"])
+def test_a_flange_is_spelled_in_many_ways(tmp_path, offset):
+    content = files.glb(files.nodes(files.kinematics(), offset=offset))
+    is_the_arm(Robot.from_robotstudio(written(tmp_path, content, "line.glb")))
+
+
+def test_a_glb_without_a_mount_has_no_flange(tmp_path):
+    own = files.nodes(files.kinematics(), ABB_ro_int_mountLinkIndex=None, offset=[])
+    robot = Robot.from_robotstudio(written(tmp_path, files.glb(own), "line.glb"))
+    assert robot.name == "SYN6_5_120__01 (without flange)"
+    np.testing.assert_allclose(robot.fk(files.Q), files.poses(files.Q)[-1], atol=1e-9)
+
+
+def changed(joint, column, by=0.0, factor=1.0):
+    rows = np.array(files.ROWS)
+    rows[joint, column] = rows[joint, column] * factor + by
+    return files.nodes(files.kinematics(rows=rows))
+
+
+TOOL = files.nodes(
+    "<ForwardKinematics NumActiveJoints='0' NumLinks='1'/>", name="T_Vacuum", links=False
+)
+STANDARD = [(-HALF, 0.12, 0.0, 0.0) for HALF in [np.pi / 2]] + files.ROWS[1:]
+
+
+@pytest.mark.parametrize(
+    ("nodes", "words"),
+    [
+        (changed(2, 1, factor=1000), "must be at most 10 m or rad .is it in millimeters"),
+        (changed(2, 1, factor=10), r"link 3 .Link3. is 4.8 m and .* at most 0.0001"),
+        (changed(4, 2, by=np.radians(1)), "link 5 .Link5. is .* and 0.015 of its axes"),
+        (files.nodes(files.kinematics(rows=STANDARD)), "link 1 .Link1."),
+        (files.nodes(files.kinematics(), links=False), "no node of link 1 that proves its table"),
+        (
+            files.nodes(files.kinematics(), ABB_ro_int_jointvalues=[0.0] * 5),
+            "jointvalues has 5 numbers, not 6",
+        ),
+        (TOOL, 'no arm of 6 or 7 joints; it has "T_Vacuum" of 0 joints'),
+        ([{"name": "mesh"}], "it has no mechanism"),
+        (
+            files.nodes(files.kinematics()) + files.nodes(files.kinematics(), 9, "SYN6_5_120__02"),
+            "several arms, pass name=",
+        ),
+        (files.nodes(files.kinematics(coupled=files.COUPLED)), "couples axes"),
+        (files.nodes(files.kinematics(active=5)), "no arm|do not follow"),
+        (files.nodes("<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>"), "has a <!DOCTYPE>"),
+        (files.nodes("<ForwardKinematics"), "is not XML"),
+    ],
+)
+def test_a_glb_that_its_nodes_do_not_prove_is_refused(tmp_path, nodes, words):
+    refused(tmp_path, files.glb(nodes), words, "line.glb")
+
+
+def test_of_a_line_of_glb_one_arm_is_named(tmp_path):
+    own = files.nodes(files.kinematics()) + files.nodes(files.kinematics(), 9, "SYN6_5_120__02")
+    path = written(tmp_path, files.glb(own), "line.glb")
+    is_the_arm(Robot.from_robotstudio(path, "SYN6_5_120__02"))
+
+
+def test_a_broken_file_is_an_error_of_models(tmp_path):
+    whole = {
+        "arm.glb": files.glb(files.nodes(files.kinematics())),
+        "arm.rslib": files.archive({"PIM.xml": files.pim(*STATION)}),
+        "arm.rsstnx": files.pim(*STATION),
+    }
+    rng = np.random.default_rng(7)
+    for name, content in whole.items():
+        for length in rng.integers(0, len(content), 40):
+            refused(tmp_path, content[:length], "arm", name)
+        for _ in range(150):
+            broken = bytearray(content)
+            for at in rng.integers(0, len(content), 3):
+                broken[at] = rng.integers(256)
+            path = written(tmp_path, bytes(broken), name)
+            try:
+                robot = Robot.from_robotstudio(path)
+            except InvalidModelError:
+                continue
+            assert robot.dof == 6
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "is no .rslib, .rsstn, .rspag, .rsstnx or .glb"),
+        (b"version https://git-lfs.github.com/spec/v1", "is no .rslib"),
+        (b"PK\3\4broken", "is a broken archive"),
+        (b"<!DOCTYPE a [<!ENTITY b 'bb'>]><a>&b;</a>", "has a <!DOCTYPE>"),
+        ("<?xml version='1.0' encoding='utf-16'?><!DOCTYPE a><a/>".encode("utf-16"), "is no"),
+        (b"<a>\xff</a>", "is not UTF-8 at byte 3"),
+        (b"<a>" * 100_000, "is not XML"),
+        (b"glTF" + bytes(16), "is GLB 0 with 0 of 0 bytes of JSON"),
+    ],
+)
+def test_what_is_none_of_these_files_is_refused(tmp_path, content, words):
+    refused(tmp_path, content, words)
+
+
+def test_sizes_are_checked_before_they_are_read(tmp_path, monkeypatch):
+    monkeypatch.setattr(containers, "MOST_XML", 10_000)
+    held = files.archive({"PIM.xml": b"<a>" + b" " * 50_000_000 + b"</a>"})
+    assert len(held) < 100_000
+    said = refused(tmp_path, held, "PIM.xml has 50000007 bytes, at most 10000 are read", "a.rslib")
+    assert said
+    # A size that is too small is no way around.
+    lie = held.replace((50_000_007).to_bytes(4, "little"), (100).to_bytes(4, "little"))
+    refused(tmp_path, lie, "broken archive|not XML", "a.rslib")
+    refused(tmp_path, b"<a>" + b" " * 20_000 + b"</a>", "more than 10000 bytes")
+    monkeypatch.setattr(containers, "MOST_BYTES", 10_000)
+    several = {f"Libraries/{i}.rslib": files.archive({"PIM.xml": bytes(6_000)}) for i in range(3)}
+    refused(tmp_path, files.archive(several), "a", "a.rspag")
+
+
+def test_a_missing_file_is_an_error_of_the_system(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        Robot.from_robotstudio(tmp_path / "none.rslib")
