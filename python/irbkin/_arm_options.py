@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 MOST_TURN = 360.0
 """The largest Euler angle that the library takes [deg]."""
+ROBOTSTUDIO = re.compile(r"(.+\.(?:rslib|rsstnx?|rspag|glb))(?::(.+))?", re.IGNORECASE)
+"""A file of RobotStudio, and behind a colon an arm in it."""
 LEAST_LENGTH = 5.0
 """Coordinates that are all below it may be in meters [mm]."""
 
@@ -23,9 +25,9 @@ def robot_of(options: Mapping[str, Any], say: Callable[[str], object]) -> Robot:
     """Return the robot of options, with its tool, base and limits.
 
     Args:
-        options: `robot`, a name in the catalog or a .urdf file, of which `tip`, `base_link` and
-            `snap` are; `tool` and `base`, 3, 6 or 7 numbers; `limits`, rows of an axis and its
-            bounds; `linkage_limits`.
+        options: `robot`, a name in the catalog, a .urdf file, of which `tip`, `base_link` and
+            `snap` are, or one of `ROBOTSTUDIO`; `tool` and `base`, 3, 6 or 7 numbers; `limits`,
+            rows of an axis and its bounds; `linkage_limits`.
         say: Takes a message on a .urdf file that another option would read better.
 
     Raises:
@@ -45,7 +47,8 @@ def robot_of(options: Mapping[str, Any], say: Callable[[str], object]) -> Robot:
         if helpful := re.search(r"snap=(\S+) gives it a closed form", repr(robot)):
             say(f"{name}: its angles are rounded, --snap {helpful[1]} gives it a closed form")
     elif (base, tip, snap) == (None, None, None):
-        robot = Robot(name)
+        found = ROBOTSTUDIO.fullmatch(name)
+        robot = Robot.from_robotstudio(*found.groups()) if found else Robot(name)
     else:
         raise IrbkinError(f"--tip, --base-link and --snap go with a .urdf file, not with {name!r}")
     if given("base") is not None:
@@ -64,6 +67,11 @@ def robot_of(options: Mapping[str, Any], say: Callable[[str], object]) -> Robot:
     if given("linkage_limits") is not None:
         robot = robot.with_linkage_limits(np.radians(options["linkage_limits"]))
     return robot
+
+
+def is_arm_file(name: str) -> bool:
+    """Whether the name of a robot is a file."""
+    return name.lower().endswith(".urdf") or ROBOTSTUDIO.fullmatch(name) is not None
 
 
 def _with_tool(robot: Robot, numbers: Sequence[float]) -> Robot:

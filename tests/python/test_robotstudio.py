@@ -1,5 +1,8 @@
 """Robots from RobotStudio's files: what is in them is read, what contradicts itself is refused."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import robotstudio_files as files
@@ -316,3 +319,19 @@ def test_sizes_are_checked_before_they_are_read(tmp_path, monkeypatch):
 def test_a_missing_file_is_an_error_of_the_system(tmp_path):
     with pytest.raises(FileNotFoundError):
         Robot.from_robotstudio(tmp_path / "none.rslib")
+
+
+def test_commands_take_such_a_file_in_place_of_a_name(tmp_path):
+    def fk(robot):
+        words = [sys.executable, "-m", "irbkin", "fk", robot, *map(str, range(10, 70, 10)), "--csv"]
+        return subprocess.run(words, capture_output=True, text=True, timeout=60)
+
+    other = files.instance(key=100, name="SYN6_5_120__02", of=40)
+    path = written(tmp_path, files.pim(*STATION, other, files.definition(key=40)))
+    done = fk(f"{path}:SYN6_5_120__02")
+    assert done.returncode == 0, done.stderr
+    row = [float(word) for word in done.stdout.splitlines()[1].split(",")[:3]]
+    np.testing.assert_allclose(row, AT_Q[2] * 1e3, atol=1e-5)
+    done = fk(str(path))
+    assert done.returncode == 2
+    assert 'several arms, give FILE:NAME to choose one: "SYN6_5_120__01" of' in done.stderr

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from irbkin._arm_options import is_arm_file
 from irbkin.check.codes import codes, meant
 from irbkin.errors import InvalidModelError, IrbkinError
 
@@ -108,7 +109,7 @@ def _options(entry: Entry) -> dict[str, Any]:
 
 def _robot(entry: Entry, key: str) -> str:
     name = entry.name(key)
-    return _path(entry, key) if name.lower().endswith(".urdf") else name
+    return _path(entry, key) if is_arm_file(name) else name
 
 
 def _path(entry: Entry, key: str) -> str:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from irbkin import Cell, Robot
     from irbkin._arrays import Floats
 
+ROBOT_HELP = "name in the catalog, or a .urdf or RobotStudio file"
 TABLES = (".csv", ".json", ".npy", ".txt")
 NUMBER = re.compile(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
@@ -46,7 +47,7 @@ class Parser:
 
     def add_robot(self) -> None:
         """The arm, and what it carries."""
-        self.add("robot", metavar="ROBOT", help="name in the catalog, or a .urdf file")
+        self.add("robot", metavar="ROBOT", help=ROBOT_HELP)
         self.add_frames()
 
     def add_frames(self) -> None:

@@ -12,13 +12,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from irbkin._arm_options import robot_of
+from irbkin._arm_options import is_arm_file, robot_of
 from irbkin.check.checker import Checker
 from irbkin.check.codes import UNUSED
 from irbkin.check.jobs import Job, backup_of, job_of_files, jobs_of_backup
 from irbkin.check.report import ENDINGS, Report, counted, is_colored, rendered, report_of
 from irbkin.check.settings import FORMATS, option_files, schema, settings_of
-from irbkin.cli.arguments import Parser
+from irbkin.cli.arguments import ROBOT_HELP, Parser
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.files import STDIN, opened, replaced, shown
 from irbkin.cli.numbers import number
@@ -81,7 +81,7 @@ def add_arm(parser: Parser) -> None:
     """The arm, and the codes that are wanted."""
     add = parser.add
     robot = os.environ.get("IRBKIN_ROBOT") or None
-    add("--robot", metavar="ROBOT", default=robot, help="name in the catalog, or a .urdf file")
+    add("--robot", metavar="ROBOT", default=robot, help=ROBOT_HELP)
     parser.add_frames()
     bounds, words = ("LOWER", "UPPER"), "limits of an axis [deg]; may be repeated"
     add("--limits", nargs=3, type=number, action="append", metavar=("AXIS", *bounds), help=words)
@@ -133,7 +133,8 @@ def _take_robot(arguments: argparse.Namespace) -> None:
     is_given = arguments.robot not in (None, os.environ.get("IRBKIN_ROBOT"))
     if is_given or not names or names[0] == STDIN or names[0].lower().endswith((*ENDINGS, LIST)):
         return
-    if not names[0].lower().endswith(".urdf"):
+    # A station that is packed may have backups in it, which can be checked.
+    if not is_arm_file(names[0]) or names[0].lower().endswith(".rspag"):
         if os.path.exists(names[0]) or archive_of(Path(names[0])):
             return
         try:

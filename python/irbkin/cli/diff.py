@@ -9,7 +9,7 @@ from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
 from irbkin.check.jobs import is_backup
-from irbkin.cli.arguments import Parser, read_robot
+from irbkin.cli.arguments import ROBOT_HELP, Parser, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError
 from irbkin.cli.files import shown
 
@@ -30,7 +30,7 @@ def add_arguments(parser: Parser) -> None:
     add = parser.add
     add("old", metavar="OLD", help="the earlier backup, a module or a folder of modules")
     add("new", metavar="NEW", help="the later one")
-    add("--robot", metavar="ROBOT", help="name in the catalog, or a .urdf file")
+    add("--robot", metavar="ROBOT", help=ROBOT_HELP)
     parser.add_frames()
     add("--json", action="store_true", help="write JSON")
 

@@ -28,6 +28,10 @@ OWN_WORDS = {
     "catalog() lists all, from_urdf and from_mdh take other arms": (
         "irbkin catalog lists all; another arm is given by a .urdf file"
     ),
+    "pass name= to choose one:": "give FILE:NAME to choose one:",
+    "pass coupled_limits=False to leave such limits out, and check them yourself": (
+        "Robot.from_robotstudio(FILE, coupled_limits=False).to_urdf() leaves such limits out"
+    ),
     " (did you pass degrees? otherwise remove whole turns)": " (remove whole turns)",
     "base must name the one to begin at": "--base-link must name the one to begin at",
     "tip must name the one to take": "--tip must name the one to take",
