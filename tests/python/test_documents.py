@@ -31,7 +31,10 @@ SHELL = re.compile(
 )
 README_WORDS = 600
 # Folders of the checkout that a page reads, copied beside it.
-GIVEN = {"backup.md": ROOT / "examples" / "backup"}
+GIVEN = {
+    "backup.md": ROOT / "examples" / "backup",
+    "conventions.md": ROOT / "examples" / "robotstudio",
+}
 LINE = 100
 
 
