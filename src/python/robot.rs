@@ -19,8 +19,8 @@ use crate::kinematics::{AnyRobot, Robot, pose_to_rows};
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
 ///
 /// Frozen, hashable, equal by value, picklable. Other arms come from `from_mdh`, `from_sdh`,
-/// `from_opw` and `from_urdf`. Its arrays are read-only: change a copy, and pass that to
-/// `with_limits`, `with_tool` or `with_base`.
+/// `from_opw`, `from_urdf` and `from_robotstudio`. Its arrays are read-only: change a copy, and
+/// pass that to `with_limits`, `with_tool` or `with_base`.
 ///
 /// Args:
 ///     name: Catalog name or alias, the maker's name before it or not; case, blanks, -, _, /,

@@ -5,6 +5,7 @@ from pathlib import Path
 import irbkin
 import numpy as np
 import pytest
+import robotstudio_files
 from irbkin import scene
 from irbkin.body import Shape
 from mangling import INPUTS, dice, mangled
@@ -39,6 +40,11 @@ def read_cell(content, path):
     irbkin.Cell.load(path)
 
 
+def read_studio(content, path):
+    path.write_bytes(content)
+    irbkin.Robot.from_robotstudio(path)
+
+
 def sound_scene():
     cell = irbkin.Cell({"post": Shape.box([0.1, 0.1, 1.0])})
     move = irbkin.trajectory.joint(np.zeros(6), np.full(6, 0.3), steps=3)
@@ -46,10 +52,15 @@ def sound_scene():
     return whole.to_json().replace(",", ",\n").encode()
 
 
+STATION = robotstudio_files.pim(robotstudio_files.definition(), robotstudio_files.instance())
+NODES = robotstudio_files.nodes(robotstudio_files.kinematics())
 READERS = {
     "urdf": (read_urdf, (DATA / "ur5e.urdf").read_bytes(), irbkin.IrbkinError),
     "scene": (read_scene, sound_scene(), ValueError),
     "cell": (read_cell, CELL, irbkin.IrbkinError),
+    "station": (read_studio, STATION.replace(b"><", b">\n<"), irbkin.IrbkinError),
+    "library": (read_studio, robotstudio_files.archive({"PIM.xml": STATION}), irbkin.IrbkinError),
+    "glb": (read_studio, robotstudio_files.glb(NODES), irbkin.IrbkinError),
 }
 
 

@@ -16,7 +16,7 @@ from irbkin._robotstudio.elements import Array, Element
 from irbkin.errors import InvalidModelError
 
 MOST_NUMBER = 10.0
-"""The largest number of a row [m, rad]: links are up to 2 m long, angles up to 2 pi."""
+"""The largest number of a row, and of a position [m, rad]: arms reach up to 5 m."""
 MOST_JOINTS = 7
 _NUMBERS = ("twist", "length", "rotation", "offset")
 
@@ -66,11 +66,7 @@ def check_pose(name: str, found: Array, wanted: Array, most: float) -> None:
 
 
 def arm_of(kinematics: Element, flange_link: int | None) -> Arm:
-    """The chain from the base to a link; to the only end of all joints when not given.
-
-    Raises:
-        InvalidModelError: The table is broken, is no chain, or has joints that do not turn alone.
-    """
+    """The chain from the base to a link; to the only end of all joints when not given."""
     active = xml.integer(kinematics, "numactivekjoints", "numactivejoints")
     rows, is_revolute = _rows(kinematics)
     starts = _starts(kinematics)
@@ -152,12 +148,11 @@ def _path(link: int | None, rows: dict[int, _Row], before: dict[int, int]) -> li
 
 def _linkage(kinematics: Element, joints: list[int], active: int, count: int) -> float:
     """The multiple of joint 2 that turns joint 3; apart from it, each joint must turn alone."""
-    given = xml.numbers(xml.child(kinematics, "jointdependency"))
-    if given and len(given) != count * active:
-        raise InvalidModelError(f"JointDependency has {len(given)} numbers, not {count} x {active}")
-    # RobotStudio writes columns. Without the matrix the first joints are the active ones.
-    follows = np.reshape(given, (active, count)).T if given else np.eye(count, active)
-    own, alone = follows[joints], np.eye(len(joints))
+    own, alone = np.eye(count, active)[joints], np.eye(len(joints))
+    # Without the matrix the first joints are the active ones. RobotStudio writes columns.
+    if given := xml.numbers(xml.child(kinematics, "jointdependency")):
+        is_whole = len(given) == count * active
+        own = np.reshape(given, (active, count)).T[joints] if is_whole else np.empty(0)
     if own.shape == alone.shape and own[2, 1] in (-1.0, 1.0):
         alone[2, 1] = own[2, 1]
     if own.shape != alone.shape or (own != alone).any():

@@ -17,11 +17,7 @@ MOST_BYTES = 2**29
 
 
 def documents(path: str) -> Iterator[tuple[str, bytes]]:
-    """The XML documents of a file, with the lower-case name of the library or station.
-
-    Raises:
-        InvalidModelError: The file has another format, is broken, encrypted or too large.
-    """
+    """The XML documents of a file, with the lower-case name of the library or station."""
     with open(path, "rb") as file:
         yield from _documents(file, os.path.basename(path).lower(), [MOST_BYTES], True)
 

@@ -21,11 +21,8 @@ SKEW = 1e-5
 
 
 def elements_of(content: bytes, *wanted: str) -> Iterator[Element]:
-    """The elements of these names; all else is dropped while it is read.
-
-    Raises:
-        InvalidModelError: It is not XML in UTF-8, or has a document type, which can declare
-            entities.
+    """The elements of these names; all else is dropped while it is read. A document type, which
+    can declare entities, is refused.
     """
     try:
         text = content.decode("utf-8-sig")
@@ -95,11 +92,7 @@ def integer(element: Element, *names: str) -> int:
 
 
 def numbers(element: Element | None) -> list[float]:
-    """All numbers in an element in their order; none of no element.
-
-    Raises:
-        InvalidModelError: One is not finite, or they are not as many as NumRows and NumCols say.
-    """
+    """All numbers in an element in their order, as many as its sizes say; none of no element."""
     if element is None:
         return []
     found = [value for text in _texts(element) for value in floats(text)]

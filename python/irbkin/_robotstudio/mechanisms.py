@@ -9,7 +9,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from irbkin._core import Robot, to_xyz_euler_zyx
-from irbkin._robotstudio.chains import Arm, check_pose, poses_of
+from irbkin._robotstudio.chains import MOST_NUMBER, Arm, check_pose, poses_of
 from irbkin._robotstudio.elements import Array
 from irbkin.errors import InvalidModelError
 
@@ -53,6 +53,9 @@ def robot_of_arm(arm: Arm, name: str, coupled_limits: bool) -> Robot:
     if lacks := [what for what in ("limits", "flange") if getattr(arm, what) is None]:
         name += f" (without {' and '.join(lacks)})"
     end = arm.frames[-1] if arm.flange is None else arm.flange
+    if not (far := np.abs([*arm.frames[:, :3, 3], end[:3, 3]]).max()) <= MOST_NUMBER:
+        where = f"an axis or its flange {far:.3g} m from its base, at most {MOST_NUMBER:g} m"
+        raise InvalidModelError(f"has {where} (is it in millimeters?)")
     robot = Robot.from_urdf(_urdf([*arm.frames, end], name), snap=SNAP)
     if arm.linkage:
         robot = robot.coupled()
