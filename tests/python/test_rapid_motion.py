@@ -163,7 +163,7 @@ def test_a_path_that_is_none_is_found():
     turned = target(B, (0, 1, 0, 0), conf=(0, 0, 0, 0))
     half = moved(f"{start}MoveL {turned},v100,fine,t;")
     assert names(half) == ["no-path"]
-    assert "the tool turns by 180.000000 deg" in half.findings[0].message
+    assert "the tool turns by 180.0 deg, there are two ways: program" in half.findings[0].message
     line = moved(f"{start}MoveC {target((900, 0, 600))},{target(B)},v100,fine,t;")
     assert names(line) == ["no-path"]
     assert "must not lie on a line" in line.findings[0].message
