@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from irbkin._core import check_program, read_modules
@@ -171,8 +172,7 @@ def _contents(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, byt
     if os.path.isdir(path):
         for name in modules_in(path):
             try:
-                with open(name, "rb") as file:
-                    content = file.read()
+                content = Path(name).read_bytes()
             except OSError as error:
                 message = f"cannot be read: {error.strerror}"
                 findings.append(FileFinding(name, 0, 0, "E002", message))
@@ -206,8 +206,7 @@ def _is_inside(path: str, root: str) -> bool:
 
 def _listed(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, bytes]]:
     """Yield the files that a .pgf lists."""
-    with open(path, "rb") as file:
-        text = file.read().decode("utf-8", "replace")
+    text = Path(path).read_bytes().decode("utf-8", "replace")
     folder = os.path.dirname(path)
     for match in LISTED.finditer(text):
         name = match[1].strip().replace("\\", "/")
@@ -225,8 +224,7 @@ def _listed(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, bytes
         if wrong:
             findings.append(FileFinding(path, line, 1, "E002", f"{name}: {wrong}"))
             continue
-        with open(target, "rb") as file:
-            yield target, file.read()
+        yield target, Path(target).read_bytes()
 
 
 def _doubled(files: Sequence[ModuleFile], modules: Sequence[Module]) -> Iterator[FileFinding]:

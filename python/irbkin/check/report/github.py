@@ -5,8 +5,6 @@ from __future__ import annotations
 from irbkin.check.report import Report
 from irbkin.check.report.text import heading
 
-COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}
-
 
 def render(report: Report) -> str:
     """Return one command for each finding, and one that says which moves were checked."""
@@ -23,7 +21,7 @@ def render(report: Report) -> str:
         }
         words = ",".join(f"{key}={_escaped(value, ':,')}" for key, value in properties.items())
         text = _escaped(heading(found, is_colored=False), "")
-        lines.append(f"::{COMMANDS[found.severity]} {words}::{text}\n")
+        lines.append(f"::{found.severity.replace('note', 'notice')} {words}::{text}\n")
     if not report.is_quiet:
         lines.append(f"::notice title=irbkin::{_escaped(report.coverage, '')}\n")
     return "".join(lines)

@@ -120,10 +120,8 @@ def _excerpt(found: Finding, report: Report) -> str:
         return ""
     lines = report.text_of(found.file).lines
     rows = []
-    for number in range(found.line - AROUND, found.line + AROUND + 1):
-        if not 0 < number <= len(lines):
-            continue
-        line = lines[number - 1]
+    first = max(found.line - AROUND, 1)
+    for number, line in enumerate(lines[first - 1 : found.line + AROUND], first):
         text = escape(line)
         if number == found.line:
             _, begin, end = report.place(found)

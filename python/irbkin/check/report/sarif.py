@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -47,7 +48,7 @@ def _rule(code: str) -> dict[str, Any]:
 
 
 def _result(found: Finding, report: Report) -> dict[str, Any]:
-    place: dict[str, Any] = {"artifactLocation": {"uri": _uri(found.file)}}
+    place: dict[str, Any] = _artifact(found.file)
     # A finding on a whole file has no line.
     if found.line:
         _, begin, end = report.place(found)
@@ -64,13 +65,8 @@ def _result(found: Finding, report: Report) -> dict[str, Any]:
     }
     if found.related:
         result["relatedLocations"] = [
-            {
-                "physicalLocation": {
-                    "artifactLocation": {"uri": _uri(file)},
-                    "region": {"startLine": line, "startColumn": column},
-                }
-            }
-            for file, line, column in found.related
+            {"physicalLocation": {**_artifact(file), "region": _region(begin, ())}}
+            for file, *begin in found.related
         ]
     numbers = {key: getattr(found, key) for key in ("joint", "value", "bound")}
     if known := {key: number for key, number in numbers.items() if number is not None}:
@@ -88,16 +84,16 @@ def _fix(found: Finding, report: Report) -> dict[str, Any]:
         replacement = {"deletedRegion": region, "insertedContent": {"text": new}}
         changes.setdefault(file, []).append(replacement)
     artifacts = [
-        {"artifactLocation": {"uri": _uri(file)}, "replacements": replacements}
-        for file, replacements in changes.items()
+        {**_artifact(file), "replacements": replacements} for file, replacements in changes.items()
     ]
     return {"description": {"text": "Correct the confdata."}, "artifactChanges": artifacts}
 
 
-def _region(begin: tuple[int, int], end: tuple[int, int]) -> dict[str, int]:
-    return dict(zip(REGION, (*begin, *end), strict=True))
+def _region(begin: Sequence[int], end: Sequence[int]) -> dict[str, int]:
+    return dict(zip(REGION, (*begin, *end), strict=False))
 
 
-def _uri(file: str) -> str:
-    """A relative path stays relative: viewers look for it where they run."""
-    return Path(file).as_uri() if os.path.isabs(file) else quote(file.replace(os.sep, "/"))
+def _artifact(file: str) -> dict[str, Any]:
+    """A file; a relative path stays relative: viewers look for it where they run."""
+    uri = Path(file).as_uri() if os.path.isabs(file) else quote(file.replace(os.sep, "/"))
+    return {"artifactLocation": {"uri": uri}}

@@ -16,7 +16,6 @@ STYLES = {
     "fix": "36",
     "added": "32",
     "removed": "31",
-    "frame": "1;34",
 }
 
 
@@ -81,7 +80,7 @@ def _block(found: Finding, report: Report) -> str:
     width = len(str(found.line))
 
     def margin(number: str, mark: str = "|") -> str:
-        return styled(f"{number:>{width}} {mark}", "frame", is_colored)
+        return styled(f"{number:>{width}} {mark}", "note", is_colored)
 
     rows = [heading(found, is_colored)]
     if line.strip():
