@@ -239,7 +239,7 @@ def test_a_fixed_module_has_right_confdata_and_differs_in_nothing_else(data):
     assert job.program.findings == ()
     checker = Checker({"select": ["C201", "C202", "C204"]}, Settings())
     _, before = checker.check(job)
-    own, texts, fixed = corrected(checker, job, pytest.fail)
+    (own,), texts, fixed = corrected(checker, [job], pytest.fail)
     _, left = checker.check(own)
     assert not [it for it in left if it.edits], "each target is its own"
     assert fixed.total() == len(before) - len(left)

@@ -58,38 +58,40 @@ class Checker:
         found = [of_file(own) for own in program.findings if own.code in self.wanted(own.file)]
         if job.robot is None:
             return Checked((), ()), found
-        is_whole = job.is_whole
-        if any(own.code == UNREAD for own in program.findings):
-            is_whole = False
+        is_unread = any(own.code == UNREAD for own in program.findings)
         for name, shapes in self._shapes.items():
             try:
                 job.robot.with_attached(shapes)
             except InvalidModelError as error:
                 raise InvalidModelError(f"{self._cell}: {name}: {error}") from None
-        given = {"codes": self.asked, "units": job.units, "whole": is_whole}
+        given = {
+            "codes": self.asked,
+            "units": job.units,
+            "whole": False if is_unread else job.is_whole,
+        }
         checked = program.check(job.robot, **self._options, **given, carried=self._shapes)
         files = [file.path for file in program.files]
-        is_silent = silenced(program)
+        is_silent = _silenced(program)
         of_tools = tool_findings(program, job.robot, self._cell, self._shapes)
         found += [
-            self._of_move(own, files)
+            self._of_move(own, job, files)
             for own in (*of_tools, *checked.findings)
             if own.code in self.wanted(files[own.module]) and not is_silent(own)
         ]
         return checked, found
 
-    def _of_move(self, found: rapid.Finding, files: Sequence[str]) -> Finding:
+    def _of_move(self, found: rapid.Finding, job: Job, files: Sequence[str]) -> Finding:
+        """A finding of a program; a note has corrections only if codes are selected."""
         severity = "error" if self._is_strict and found.code in NOT_CHECKED else found.severity
-        edits = tuple((files[module], *edit) for module, *edit in self.edits(found))
+        edits = tuple((files[module], *edit) for module, *edit in found.edits)
+        is_corrected = found.severity != "note" or self._corrects_notes
+        if not (is_corrected and all(job.is_given(files[module]) for module, *_ in found.edits)):
+            edits = ()
         what = (found.code, found.name, severity, found.message, edits, found.routine)
         place = (files[found.module], found.line, found.column)
         numbers = (found.joint, found.value, found.bound)
         related = tuple((files[module], *others) for module, *others in found.related)
         return Finding(*place, *what, *numbers, related)  # type: ignore[arg-type]
-
-    def edits(self, found: rapid.Finding) -> Sequence[tuple[int, int, int, str]]:
-        """Return the corrections of a finding; of a note only if codes are selected."""
-        return found.edits if found.severity != "note" or self._corrects_notes else ()
 
     def wanted(self, file: str) -> set[str]:
         """Return the codes that are reported in a file."""
@@ -98,7 +100,7 @@ class Checker:
         return self._wanted[file]
 
 
-def silenced(program: rapid.Program) -> Callable[[rapid.Finding], bool]:
+def _silenced(program: rapid.Program) -> Callable[[rapid.Finding], bool]:
     """Return a predicate: whether a `noqa` comment of a program suppresses a finding."""
     sources = (module.source for module in program.modules)
     lines = [source.split("\n") if "noqa" in source.lower() else None for source in sources]

@@ -4,95 +4,111 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from irbkin._files import replaced, shown
-from irbkin.check.checker import Checker, silenced
 from irbkin.errors import IrbkinError
 
 if TYPE_CHECKING:
+    from irbkin.check.checker import Checker
+    from irbkin.check.findings import Finding
     from irbkin.check.jobs import Job
-    from irbkin.rapid import Checked, ModuleFile, Program
+    from irbkin.rapid import Checked, ModuleFile
 
 PASSES = 10
 """Iterations of correction and check, beyond one for each file."""
 
 
+Text = tuple["ModuleFile", str, str]
+"""A file, its text before and after corrections."""
+Edits = dict[str, dict[int, tuple[int, str]]]
+"""The end and the replacement of each edit, by file and first byte."""
+Checks = Sequence[tuple["Checked", Sequence["Finding"]]]
+
+
 def corrected(
-    checker: Checker, job: Job, say: Callable[[str], object]
-) -> tuple[Job, list[tuple[ModuleFile, str, str]], Counter[str]]:
-    """Return the job with its program corrected, each changed file with its text before and
-    after, and the number of removed findings of each severity.
+    checker: Checker, jobs: Sequence[Job], say: Callable[[str], object]
+) -> tuple[list[Job], list[Text], Counter[str]]:
+    """Return jobs with their programs corrected, the files that change, and the number of removed
+    findings of each severity.
 
-    A file is not corrected if that causes a new error or warning; the reason is reported by `say`.
+    A file, which may be in several programs, is not corrected if that causes a new error or warning
+    in one of them; the reason is reported by `say`.
     """
-    program, refused = job.program, set[int]()
-    checked, before = checker.check(job)
-    left = before
-    for _ in range(PASSES + len(program.files)):
-        edited = _edited(program, checker, checked, refused)
-        if edited is None:
+    before: Checks = [checker.check(job) for job in jobs]
+    own, left, refused = list(jobs), before, set[str]()
+    for _ in range(PASSES + sum(len(job.program.files) for job in own)):
+        edits = _edits(left, refused)
+        if not edits:
             break
-        after, found = checker.check(replace(job, program=edited))
-        if worse := sorted(_places(after) - _places(checked)):
-            module, line, code = worse[0]
-            names = [shown(file.path) for file in program.files]
-            for index in _changes(program, edited):
-                where = "" if index == module else f" of {names[module]}"
-                say(f"{names[index]}: is not corrected, line {line}{where} would have {code}")
-                refused.add(index)
+        tried = [_edited(job, edits) for job in own]
+        after = [checker.check(job) for job in tried]
+        if worse := sorted(_places(tried, after) - _places(own, left)):
+            _, line, code, other = worse[0]
+            for file in map(shown, edits):
+                where = "" if file == other else f" of {other}"
+                say(f"{file}: is not corrected, line {line}{where} would have {code}")
+            refused.update(edits)
         else:
-            program, checked, left = edited, after, found
-    old, new = (Counter(one.severity for one in found) for found in (before, left))
-    texts = [
-        (job.program.files[index], job.program.modules[index].source, program.modules[index].source)
-        for index in _changes(job.program, program)
-    ]
-    return replace(job, program=program), texts, old - new
+            own, left = tried, after
+    texts = {
+        os.path.realpath(file.path): (file, old.source, new.source)
+        for one, other in zip(jobs, own, strict=True)
+        for file, old, new in zip(
+            one.program.files, one.program.modules, other.program.modules, strict=True
+        )
+        if old.source != new.source
+    }
+    return own, list(texts.values()), _severities(before) - _severities(left)
 
 
-def _changes(old: Program, new: Program) -> list[int]:
-    """Return the indices of the modules that differ."""
-    pairs = enumerate(zip(old.modules, new.modules, strict=True))
-    return [index for index, (before, after) in pairs if before.source != after.source]
+def _severities(checks: Checks) -> Counter[str]:
+    """The number of findings of each severity; those in shared modules are in several programs."""
+    return Counter(found.severity for found in {own for _, all_own in checks for own in all_own})
 
 
-def _places(checked: Checked) -> set[tuple[int, int, str]]:
-    """Modules, lines and codes of errors and warnings; notes are left out."""
-    wrong = [found for found in checked.findings if found.severity != "note"]
-    own = {(found.module, found.line, found.code) for found in wrong}
-    return own | {(place[0], place[1], found.code) for found in wrong for place in found.related}
+def _places(jobs: Sequence[Job], checks: Checks) -> set[tuple[int, int, str, str]]:
+    """Programs, lines, codes and files of errors and warnings; notes are left out."""
+    return {
+        (index, line, found.code, shown(job.program.files[module].path))
+        for index, (job, (checked, _)) in enumerate(zip(jobs, checks, strict=True))
+        for found in checked.findings
+        for module, line, *_ in ((found.module, found.line), *found.related)
+        if found.severity != "note"
+    }
 
 
-def _edited(
-    program: Program, checker: Checker, checked: Checked, refused: Collection[int]
-) -> Program | None:
-    """The program with the edits of selected findings, except in refused modules; None without."""
+def _edits(checks: Checks, refused: Collection[str]) -> Edits:
+    """The corrections in files that are not refused, without those that contradict each other."""
+    rows = [own.edits for _, found in checks for own in found]
+    wanted = Counter(edit[:2] for edit in {edit for row in rows for edit in row})
+    edits: Edits = {}
+    for row in rows:
+        if all(wanted[edit[:2]] == 1 and edit[0] not in refused for edit in row):
+            for file, begin, end, text in row:
+                edits.setdefault(file, {})[begin] = (end, text)
+    return edits
+
+
+def _edited(job: Job, edits: Edits) -> Job:
+    """A job with its program edited."""
     from irbkin.rapid.program import program_of
 
-    is_silent = silenced(program)
-    edits: dict[int, set[tuple[int, int, str]]] = {}
-    for finding in checked.findings:
-        wanted = checker.wanted(program.files[finding.module].path)
-        if finding.code in wanted and not is_silent(finding):
-            for module, *edit in checker.edits(finding):
-                if module not in refused:
-                    edits.setdefault(module, set()).add(tuple(edit))  # type: ignore[arg-type]
-    if not edits:
-        return None
+    program = job.program
     files = [
-        replace(file, content=file.encoded(edited(module.source, sorted(edits.get(index, ())))))
-        for index, (file, module) in enumerate(zip(program.files, program.modules, strict=True))
+        replace(file, content=file.encoded(edited(module.source, edits.get(file.path, {}))))
+        for file, module in zip(program.files, program.modules, strict=True)
     ]
-    return replace(program_of(files), findings=program.findings)
+    return replace(job, program=replace(program_of(files), findings=program.findings))
 
 
-def edited(source: str, edits: Sequence[tuple[int, int, str]]) -> str:
-    """A text after edits, which are sorted by their first bytes."""
+def edited(source: str, edits: Mapping[int, tuple[int, str]]) -> str:
+    """A text after edits."""
     content, parts, copied = source.encode(), [], 0
-    for begin, end, text in edits:
+    for begin, (end, text) in sorted(edits.items()):
         parts += [content[copied:begin], text.encode()]
         copied = end
     return b"".join([*parts, content[copied:]]).decode()
@@ -105,25 +121,18 @@ def write(file: ModuleFile, before: str, after: str, say: Callable[[str], object
             f"{shown(file.path)}: has bytes that are no {file.encoding} text, so it cannot be "
             "written back as it is: repair them first"
         )
-    with open(file.path, "rb") as stream:
-        # A file in several tasks of a backup is corrected by the first of them.
-        is_done = stream.read() == file.encoded(after)
-    if not is_done:
-        with replaced(file.path, file.content) as stream:
-            stream.write(file.encoded(after))
+    with replaced(file.path, file.content) as stream:
+        stream.write(file.encoded(after))
     if hashes := _checksum_of(file.path):
         say(f"{file.path}: is changed, its hash in {hashes} no longer agrees with it")
 
 
-def _checksum_of(name: str) -> str | None:
+def _checksum_of(name: str) -> Path | None:
     """The checksum list of the backup that a file is in; None if the file is not listed."""
-    path = os.path.abspath(name)
-    root = os.path.dirname(path)
-    while not os.path.isfile(file := os.path.join(root, "BACKINFO", "checksum.txt")):
-        if root == os.path.dirname(root):
-            return None
-        root = os.path.dirname(root)
-    own = f"/{os.path.relpath(path, root)}".replace("\\", "/").lower()
-    with open(file, encoding="latin-1") as lines:
-        is_in = any(line.strip().replace("\\", "/").lower() == own for line in lines)
-    return file if is_in else None
+    path = Path(os.path.abspath(name))
+    for root in path.parents:
+        if (file := root / "BACKINFO" / "checksum.txt").is_file():
+            own = f"/{path.relative_to(root).as_posix()}".lower()
+            lines = file.read_text(encoding="latin-1").replace("\\", "/").lower().splitlines()
+            return file if own in map(str.strip, lines) else None
+    return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,6 +32,12 @@ class Job:
     """The units that external axes belong to, as `rapid.check_program` takes them."""
     is_whole: bool | None = None
     """Whether every module of the task is there; None if that is not known."""
+    given: Sequence[Path] = ()
+    """Files and folders of the backup that alone are corrected; all if empty."""
+
+    def is_given(self, file: str) -> bool:
+        """Whether a file may be corrected."""
+        return not self.given or any(Path(file).is_relative_to(own) for own in self.given)
 
 
 def job_of_files(robot: Robot, given: Sequence[str | ModuleFile], settings: Settings) -> Job:
@@ -66,29 +72,25 @@ def jobs_of_backup(path: str, names: Sequence[str] = ()) -> tuple[list[Job], lis
 
     Args:
         path: The backup.
-        names: Files or folders: tasks without a file in them are left out.
+        names: Files or folders: tasks without a file in them are left out, and of the others no
+            other file is corrected.
     """
     from irbkin.abb import load_backup
 
     backup = load_backup(path)
     programs = [(task, backup.programs[task.name]) for task in backup.tasks if task.modules]
-    wanted = [Path(os.path.abspath(name)) for name in names]
-    if not any(backup.origin.is_relative_to(name) for name in wanted) and wanted:
-        programs = [own for own in programs if _has(own[1], wanted)]
-        if not programs:
-            raise IrbkinError(f"{names[0]}: is in no task of {path}: give --robot, or the backup")
-    jobs = [job for own in programs if (job := job_of_task(backup, *own)).robot is not None]
+    given = [Path(os.path.abspath(name)) for name in names]
+    given = [] if any(backup.origin.is_relative_to(name) for name in given) else given
+    every = [replace(job_of_task(backup, *own), given=given) for own in programs]
+    asked = [job for job in every if any(job.is_given(it.path) for it in job.program.files)]
+    if given and not asked:
+        raise IrbkinError(f"{names[0]}: is in no task of {path}: give --robot, or the backup")
+    jobs = [job for job in asked if job.robot is not None]
     left_open = of_backup(backup)
     if not jobs:
         reasons = "; ".join(found.message for found in left_open[:3])
         raise IrbkinError(f"{path}: has no task whose robot is known: {reasons}")
     return jobs, left_open
-
-
-def _has(program: Program, paths: Sequence[Path]) -> bool:
-    """Whether a program has a file in some paths."""
-    files = map(Path, (file.path for file in program.files))
-    return any(file.is_relative_to(path) for file in files for path in paths)
 
 
 def backup_of(names: Sequence[str]) -> str | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import io
 import json
 import os
@@ -13,10 +14,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from irbkin._arm_options import is_arm_file, robot_of
+from irbkin.check import fixes
 from irbkin.check.checker import Checker
 from irbkin.check.codes import UNUSED
-from irbkin.check.jobs import Job, backup_of, job_of_files, jobs_of_backup
+from irbkin.check.jobs import backup_of, job_of_files, jobs_of_backup
 from irbkin.check.report import ENDINGS, Report, counted, is_colored, rendered, report_of
+from irbkin.check.report.diff import render
 from irbkin.check.settings import FORMATS, option_files, schema, settings_of
 from irbkin.cli.arguments import ROBOT_HELP, Parser
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
@@ -26,6 +29,9 @@ from irbkin.cli.progress import Progress
 from irbkin.errors import IrbkinError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from irbkin.check.fixes import Text
     from irbkin.rapid import ModuleFile
 
 HELP = """Every instruction that moves, of every routine, is checked: reach, limits, flips,
@@ -147,10 +153,16 @@ def _take_robot(arguments: argparse.Namespace) -> None:
 def _check(arguments: argparse.Namespace) -> int:
     """Check the files once."""
     names: list[str] = arguments.files
-    form = arguments.output_format or _format_of(arguments.output_file)
-    own = given(arguments)
     settings = settings_of([name for name in names if name != STDIN])
-    options = {**settings.options, **own}
+    options = {**settings.options, **given(arguments)}
+    form = arguments.output_format or _format_of(arguments.output_file)
+    if arguments.diff and (form or arguments.statistics or arguments.verdict):
+        raise CommandError(
+            "--diff has no report: leave out its format, -o, --statistics and --verdict"
+        )
+    form = form or options.get("output_format", "text")
+    if arguments.statistics and form not in COUNTED:
+        raise CommandError(f"--statistics is written as {' or '.join(COUNTED)}, not as {form}")
     checker = Checker(options, settings)
     if (arguments.fix or arguments.diff) and STDIN in names:
         raise CommandError("--fix and --diff take files, not stdin")
@@ -162,14 +174,19 @@ def _check(arguments: argparse.Namespace) -> int:
     else:
         files = [_stdin() if name == STDIN else name for name in names]
         jobs, left_open = [job_of_files(robot_of(options, complain), files, settings)], []
-    fixed = _correct(arguments, checker, jobs) if arguments.fix or arguments.diff else Counter()
+    if not any(job.program.files or job.program.findings for job in jobs):
+        complain(f"{' and '.join(names)}: excluded by {settings.file}: nothing is checked")
+    texts: list[Text] = []
+    fixed = Counter[str]()
+    if arguments.fix or arguments.diff:
+        jobs, texts, fixed = fixes.corrected(checker, jobs, complain)
     if arguments.diff:
+        is_shown = is_colored(arguments.color, sys.stdout)
+        for file, before, after in texts:
+            _print(render(shown(file.path), before, after, is_shown))
         if count := fixed.total():
             complain(f"--fix would remove {counted(count, 'finding')}")
-        return FOUND if count else FINE
-    form = form or options.get("output_format", "text")
-    if arguments.statistics and form not in COUNTED:
-        raise CommandError(f"--statistics is written as {' or '.join(COUNTED)}, not as {form}")
+        return FOUND if texts else FINE
     is_judged = arguments.verdict or form == "html"
     if is_judged:
         checker.asked.add(UNUSED)
@@ -181,9 +198,8 @@ def _check(arguments: argparse.Namespace) -> int:
             complain(f"the speeds of the joints of {name} are unknown: V401 is not checked")
     is_counted = arguments.statistics
     report = replace(report, fixed=fixed, is_judged=is_judged, is_counted=is_counted)
-    _write(report, form, arguments)
-    is_wrong = any(found.severity != "note" for found in report.findings)
-    return FOUND if is_wrong or (report.reasons and not report.checked) else FINE
+    _write(report, form, arguments, texts)
+    return FOUND if report.is_wrong else FINE
 
 
 def given(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -212,36 +228,21 @@ def _stdin() -> ModuleFile:
         return ModuleFile("<stdin>", stream.read())
 
 
-def _correct(arguments: argparse.Namespace, checker: Checker, jobs: list[Job]) -> Counter[str]:
-    """Write or show the corrections of programs; count the findings that they remove."""
-    from irbkin.check import fixes
-    from irbkin.check.report.diff import render
-
-    fixed = Counter[str]()
-    is_shown = is_colored(arguments.color, sys.stdout)
-    for index, job in enumerate(jobs):
-        jobs[index], texts, removed = fixes.corrected(checker, job, complain)
-        fixed += removed
-        for file, before, after in texts:
-            if arguments.fix:
-                fixes.write(file, before, after, complain)
-            else:
-                _print(render(shown(file.path), before, after, is_shown))
-    return fixed
-
-
-def _write(report: Report, form: str, arguments: argparse.Namespace) -> None:
-    """Write the report to stdout, or to a file with its first and last sentence on stdout."""
-    file, is_quiet = arguments.output_file, arguments.quiet
-    is_shown = arguments.color == "always" if file else is_colored(arguments.color, sys.stdout)
+def _write(report: Report, form: str, arguments: argparse.Namespace, texts: Sequence[Text]) -> None:
+    """Write corrected files, and the report to stdout, or to a file with its first and last
+    sentence on stdout.
+    """
+    output, is_quiet = arguments.output_file, arguments.quiet
+    is_shown = arguments.color == "always" if output else is_colored(arguments.color, sys.stdout)
     text = rendered(replace(report, is_quiet=is_quiet, is_colored=is_shown), form)
-    if file is None:
-        _print(text)
-        return
-    with replaced(file) as stream:
-        stream.write(text.encode("utf-8", "backslashreplace"))
-    if not is_quiet:
-        _print(f"{report.coverage}\n{report.conclusion}\n")
+    # A report that cannot be written leaves all files as they are.
+    with replaced(output) if output else contextlib.nullcontext() as stream:
+        for file, before, after in texts:
+            fixes.write(file, before, after, complain)
+        if stream:
+            stream.write(text.encode("utf-8", "backslashreplace"))
+            text = "" if is_quiet else f"{report.coverage}\n{report.conclusion}\n"
+    _print(text)
 
 
 def _print(text: str) -> None:

@@ -132,6 +132,12 @@ class Report:
         return {**counts, "reasons": dict(self.reasons), "unread": self.unread}
 
     @property
+    def is_wrong(self) -> bool:
+        """Whether it has an error or a warning, or no move was checked."""
+        is_found = any(found.severity != "note" for found in self.findings)
+        return is_found or bool(self.reasons and not self.checked)
+
+    @property
     def statistics(self) -> list[dict[str, Any]]:
         """How many findings each code has, and how many of them a correction, most first."""
         counts = Counter((it.code, it.name, it.severity) for it in self.findings)

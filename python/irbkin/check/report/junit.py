@@ -31,7 +31,9 @@ def render(report: Report) -> str:
         if not found[file]:
             _case(suite, "no findings", file)
     suite = _suite(root, "moves")
-    _case(suite, f"{counted(report.checked, 'move')} checked", report.title)
+    case = _case(suite, f"{counted(report.checked, 'move')} checked", report.title)
+    if report.is_wrong and root.find(".//failure") is None:
+        SubElement(case, "failure", message=_text(report.coverage))
     for reason, count in report.reasons.items():
         case = _case(suite, f"{counted(count, 'move')} not checked by {reason}", report.title)
         SubElement(case, "skipped", message=report.coverage)
