@@ -1,11 +1,13 @@
 """`irbkin diff`: what differs first, with the moves that it touches; then moves; then targets."""
 
 import json
+from pathlib import Path
 
 import pytest
-from command import NAME, run
+from command import NAME, refused, run
 from irbkin import abb, rapid
 
+EXAMPLE = Path(__file__).parents[2] / "examples" / "backup"
 TOOL = "PERS tooldata tWeld:=[TRUE,[[0,0,{z}],[1,0,0,0]],[{mass},[0,0,50],[1,0,0,0],0,0,0]];"
 COUNT = 60
 POINTS = [(f"p{n}", 900 + n, -300 + 5 * n, 500) for n in range(COUNT)]
@@ -37,7 +39,7 @@ def compared(tmp_path):
         record = run("diff", "--json", *robot, *names)
         assert done.returncode == record.returncode
         lines = done.stdout.decode().replace(f"{tmp_path}/", "").splitlines()
-        return done.returncode, lines, json.loads(record.stdout)
+        return done.returncode, lines, json.loads(record.stdout, parse_constant=pytest.fail)
 
     return compare
 
@@ -110,6 +112,38 @@ def test_data_and_settings_have_the_number_of_their_moves(compared, change, word
     count = "1 move" if moves == 1 else f"{moves} moves"
     assert lines[0].split(": ", 1)[1] == f"{words} ({count})"
     assert record["data"][0]["moves"] == moves
+
+
+@pytest.mark.parametrize("robot", [(), ROBOT])
+@pytest.mark.parametrize("is_back", [False, True])
+def test_a_quaternion_of_length_zero_is_said_to_be_no_rotation(compared, robot, is_back):
+    sides = [module(), module().replace("[0,0,1,0]", "[0,0,0,0]", 1)]
+    code, lines, record = compared(*reversed(sides) if is_back else sides, *robot)
+    assert code == 1
+    assert ": p0: " in lines[0]
+    if robot:
+        assert record["targets"][0]["kind"] in ("moved", "unreachable", "reachable")
+    assert "by 0.000 mm and its orientation is no rotation" in lines[0]
+    assert record["targets"][0]["angle_deg"] is None
+    sides = [module(), module().replace("[0,0,180],[1,0,0,0]", "[0,0,180],[0,0,0,0]")]
+    code, lines, record = compared(*reversed(sides) if is_back else sides, *robot)
+    words = f": tool tWeld: TCP moved by 0.000 mm, its orientation is no rotation ({COUNT} moves)"
+    assert lines[0].endswith(words)
+    assert record["data"][0]["frames"] == {"TCP": [0.0, None]}
+
+
+def test_the_robot_may_come_first(tmp_path):
+    names = [tmp_path / "old.mod", tmp_path / "new.mod"]
+    for name, z in zip(names, (180, 200), strict=True):
+        name.write_text(module(z=z))
+    expected = run("diff", *ROBOT, *names)
+    assert b"J" in expected.stdout
+    assert run("diff", NAME, *names) == expected
+    assert run("diff", names[0], "--json", *ROBOT, names[1]) == run("diff", "--json", NAME, *names)
+    assert "a robot is given twice" in refused("diff", NAME, *names, *ROBOT)
+    assert 'unknown robot "IRB 2600"' in refused("diff", "IRB 2600", *names)
+    words = "give two backups and no robot, or two programs"
+    assert words in refused("diff", NAME, EXAMPLE, EXAMPLE)
 
 
 def test_moves_that_differ_in_one_way_are_one_line(compared):

@@ -57,8 +57,8 @@ class Change:
     """Fields that differ, by their names, as they were."""
     now: Mapping[str, Any] = field(default_factory=dict)
     """As they are."""
-    frames: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """How far frames moved [mm] and turned [deg]."""
+    frames: Mapping[str, tuple[float, float | None]] = field(default_factory=dict)
+    """How far frames moved [mm] and turned [deg]; None for a quaternion of length zero."""
     moves: int = 0
     """Number of moves that it touches."""
     targets: int = 0
@@ -71,7 +71,7 @@ class Change:
     def __str__(self) -> str:
         """Write it as linters do."""
         parts = [
-            f"{it} moved by {mm:.3f} mm, {deg:.3f} deg" for it, (mm, deg) in self.frames.items()
+            f"{it} moved by {mm:.3f} mm, {angle_text(deg)}" for it, (mm, deg) in self.frames.items()
         ]
         parts += [f"{it} was {_shown(self.was[it])}, is {_shown(self.now[it])}" for it in self.was]
         words = f"{', '.join(parts or [self.kind])} ({self.moves} move{'s' * (self.moves != 1)}"
@@ -80,6 +80,11 @@ class Change:
             words += f"J{self.joint} by up to {self.joint_deg:.3f} deg"
         place = f"{self.file}:{self.line}: " if self.file else ""
         return f"{place}{self.subject}: {words})"
+
+
+def angle_text(degrees: float | None) -> str:
+    """How far something turned, in words."""
+    return "its orientation is no rotation" if degrees is None else f"{degrees:.3f} deg"
 
 
 def _shown(value: Any) -> str:
@@ -144,21 +149,21 @@ def _parts(value: Any) -> tuple[dict[str, Any], dict[str, Any]]:
     return fields, frames
 
 
-def shift(old: Any, new: Any) -> tuple[float, float]:
+def shift(old: Any, new: Any) -> tuple[float, float | None]:
     """How far a pose or a target moved [mm] and turned [deg]."""
     return math.dist(old.trans_mm, new.trans_mm), _angle(old.rot, new.rot)
 
 
-def is_same(distance: float, angle: float) -> bool:
+def is_same(distance: float, angle: float | None) -> bool:
     """Whether that is within the digits of RAPID."""
-    return distance < LEAST_DISTANCE and angle < LEAST_ANGLE
+    return distance < LEAST_DISTANCE and angle is not None and angle < LEAST_ANGLE
 
 
-def _angle(one: Sequence[float], other: Sequence[float]) -> float:
-    """The angle between two quaternions [deg], of any length; NaN where one is zero."""
+def _angle(one: Sequence[float], other: Sequence[float]) -> float | None:
+    """The angle between two quaternions [deg], of any length; None where one is zero."""
     norm = math.hypot(*one) * math.hypot(*other)
     if norm == 0.0:
-        return 0.0 if list(one) == list(other) else math.nan
+        return 0.0 if list(one) == list(other) else None
     # The sine of a quarter: precise where they are close.
     sign = math.copysign(1.0, sum(a * b for a, b in zip(one, other, strict=True)))
     units = [[part / math.hypot(*it) for part in it] for it in (one, other)]
@@ -177,12 +182,8 @@ def setting_changes(task: str, old: Side, new: Side) -> Iterator[Change]:
             _, line, module, name = own[0]
             count = sum(it.routine == key and it.line > line for it in side.moves)
             was, now = ({"text": "; ".join(it[0] for it in part) or "none"} for part in parts)
-            what = (
-                task,
-                side.program.modules[module].name or "",
-                f"settings of {name or 'the module'}",
-                "changed",
-            )
+            owner = side.program.modules[module].name or ""
+            what = (task, owner, f"settings of {name or 'the module'}", "changed")
             place = (side.program.files[module].path, line)
             yield Change(*what, *place, was, now, moves=count)
 

@@ -15,6 +15,7 @@ from irbkin.abb.changes import (
     LEAST_ANGLE,
     LEAST_DISTANCE,
     Change,
+    angle_text,
     data_changes,
     is_same,
     move_changes,
@@ -51,7 +52,7 @@ class TargetChange:
     distance_mm: float | None = None
     """How far it moved in its work object [mm]."""
     angle_deg: float | None = None
-    """How far it turned there [deg]."""
+    """How far it turned there [deg]; None for a quaternion of length zero."""
     joint: int | None = None
     """The joint that differs most at the moves to it, from 1."""
     joint_deg: float | None = None
@@ -64,8 +65,8 @@ class TargetChange:
     def __str__(self) -> str:
         """Write it as linters do."""
         parts = []
-        if self.distance_mm is not None and self.angle_deg is not None:
-            parts.append(f"by {self.distance_mm:.3f} mm and {self.angle_deg:.3f} deg")
+        if self.distance_mm is not None:
+            parts.append(f"by {self.distance_mm:.3f} mm and {angle_text(self.angle_deg)}")
         if self.joint is not None:
             parts.append(f"J{self.joint} by {self.joint_deg:.3f} deg")
         words = f" {', '.join(parts)}" if parts else ""

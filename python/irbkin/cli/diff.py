@@ -18,19 +18,21 @@ if TYPE_CHECKING:
 
 HELP = """Which robots, modules, tools, work objects, speeds, zones and motion settings differ, and
 how many moves each touches; which moves have another speed, zone or tool; which targets moved, by
-how much in space and in joints, which turned unreachable. Two backups need no --robot. Exit codes:
-0 nothing differs, 1 something does."""
+how much in space and in joints, which turned unreachable. Two backups need no robot; of two modules
+or folders of modules it is the first name, or --robot. Exit codes: 0 nothing differs, 1 something
+does."""
 EXAMPLES = """  irbkin diff backup_2025 backup_2026
-  irbkin diff --robot "IRB 2600-12/1.65" old/ new/
+  irbkin diff "IRB 2600-12/1.65" old/ new/
   irbkin diff --json backup_2025.zip backup_2026.zip"""
 
 
 def add_arguments(parser: Parser) -> None:
     """The arguments of the verb."""
     add = parser.add
+    add("arm", metavar="ROBOT", nargs="?", help=f"of programs: {ROBOT_HELP}")
     add("old", metavar="OLD", help="the earlier backup, a module or a folder of modules")
     add("new", metavar="NEW", help="the later one")
-    add("--robot", metavar="ROBOT", help=ROBOT_HELP)
+    add("--robot", metavar="ROBOT", help="the same")
     parser.add_frames()
     add("--json", action="store_true", help="write JSON")
 
@@ -57,11 +59,14 @@ def _difference(arguments: argparse.Namespace) -> Difference:
     from irbkin.rapid import load_program
 
     names = (arguments.old, arguments.new)
+    if None not in (arguments.arm, arguments.robot):
+        raise CommandError(f"a robot is given twice: {arguments.arm} and --robot {arguments.robot}")
+    arguments.robot = arguments.arm or arguments.robot
     are_backups = [is_backup(name) for name in names]
     if all(are_backups) and arguments.robot is None:
         return diff(*names)
     if any(are_backups):
-        raise CommandError(f"{' and '.join(names)}: two backups, or two programs with --robot")
+        raise CommandError(f"{' and '.join(names)}: give two backups and no robot, or two programs")
     robot = None if arguments.robot is None else read_robot(arguments)
     old, new = (Side(load_program(name), robot) for name in names)
     found = compared("", old, new)
