@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 
 import command
 import irbkin
+import numpy as np
 import pytest
 from irbkin.check.codes import codes
 from irbkin.check.findings import Finding
@@ -183,20 +184,72 @@ def until(file, count):
     return text
 
 
+def watching(log, *given):
+    with log.open("wb") as stream:
+        # Behind an `&` of a shell SIGINT would be ignored.
+        return subprocess.Popen(
+            [*command.COMMAND, "check", "--watch", *given],
+            stdout=stream,
+            stderr=stream,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        )
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals")
+def test_what_options_and_cells_name_is_watched(tmp_path):
+    (tmp_path / "meshes").mkdir()
+    (tmp_path / "programs").mkdir()
+    (mesh := tmp_path / "meshes" / "post.npy").write_bytes(b"")
+    toml, cell = tmp_path / "irbkin.toml", tmp_path / "own.toml"
+    (file := tmp_path / "programs" / "seam.mod").write_text(SEAM)
+    process = watching(log := tmp_path / "log", NAME, file)
+    try:
+        assert "5 of 6 moves checked" in until(log, 1)
+        toml.write_text("[check]\ncell = 'own.toml'\n")
+        assert "own.toml: No such file" in until(log, 2)
+        cell.write_text("[obstacles.post]\npoints = 'meshes/post.npy'\nradius = 0.05\n")
+        assert "points: " in until(log, 3)
+        np.save(mesh, [[0.9, 0.0, height] for height in np.linspace(0.0, 0.8, 41)])
+        assert "K901" in until(log, 4)
+        np.save(mesh, [[9.0, 9.0, 9.0]])
+        assert "K901" not in until(log, 5).rpartition("moves checked")[2]
+        file.rename(away := file.with_name("seam.txt"))
+        assert "seam.mod: No such file" in until(log, 6)
+        away.rename(file)
+        until(log, 7)
+    finally:
+        process.kill()
+        process.wait()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals")
+def test_the_whole_backup_of_a_file_is_watched(tmp_path):
+    copytree(EXAMPLE, backup := tmp_path / "backup")
+    process = watching(log := tmp_path / "log", backup / "RAPID" / "TASK1")
+    try:
+        until(log, 1)
+        with (backup / "HOME" / "cell" / "CellData.sys").open("a") as stream:
+            # What is written for a while is read when that is over.
+            for _ in range(10):
+                stream.write("\n")
+                stream.flush()
+                time.sleep(0.1)
+        until(log, 2)
+        (backup / "SYSPAR" / "MOC.cfg").unlink()
+        until(log, 3)
+    finally:
+        process.kill()
+        process.wait()
+    assert log.read_text().count("Ctrl-C ends") == 3
+
+
 @pytest.mark.skipif(os.name == "nt", reason="signals")
 def test_a_check_that_watches_is_made_again_for_each_change(tmp_path):
     folder, log = tmp_path / "cell", tmp_path / "log"
     folder.mkdir()
     (folder / "seam.mod").write_text(SEAM)
-    given = ["check", "--watch", "--robot", NAME, "--statistics", "-o", folder / "r.txt", folder]
-    with log.open("wb") as stream:
-        # Behind an `&` of a shell SIGINT would be ignored.
-        process = subprocess.Popen(
-            [*command.COMMAND, *given],
-            stdout=stream,
-            stderr=stream,
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-        )
+    given = ["--robot", NAME, "--statistics", "-o", folder / "r.txt", folder]
+    process = watching(log, *given)
     try:
         assert until(log, 1).startswith("5 of 6 moves checked")
         (folder / "seam.mod").write_text(SEAM.replace("tGum", "tGun"))

@@ -145,7 +145,7 @@ def _file_or_rows(entry: Entry, key: str) -> Any:
         if not os.path.isfile(path):
             entry.refuse(f"there is no file {path}", key)
         return np.load(path) if path.endswith(".npy") else path
-    except (TypeError, ValueError) as error:
+    except (EOFError, TypeError, ValueError) as error:
         if isinstance(error, IrbkinError):
             raise
         entry.refuse("must be rows of numbers, or the name of a file", key)

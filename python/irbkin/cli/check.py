@@ -29,8 +29,6 @@ from irbkin.cli.progress import Progress
 from irbkin.errors import IrbkinError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from irbkin.check.fixes import Text
     from irbkin.rapid import ModuleFile
 
@@ -122,11 +120,12 @@ def run(arguments: argparse.Namespace) -> int:
         return _check(arguments)
     if STDIN in names:
         raise CommandError("--watch takes files, not stdin")
+    from irbkin.abb.roots import backup_above
     from irbkin.cli.watch import repeated
 
-    beside = [name for name in (arguments.cell, arguments.robot) if name and os.path.isfile(name)]
-    beside += filter(os.path.isfile, option_files(names))
-    repeated(lambda: _check(arguments), [*names, *beside], arguments.output_file)
+    roots = () if arguments.robot else map(backup_above, map(Path, map(os.path.abspath, names)))
+    beside = filter(None, (arguments.cell, arguments.robot, *roots, *option_files(names)))
+    repeated(lambda: _check(arguments), [*names, *map(str, beside)], arguments.output_file)
 
 
 def _take_robot(arguments: argparse.Namespace) -> None:
@@ -196,8 +195,7 @@ def _check(arguments: argparse.Namespace) -> int:
         if job.robot and job.robot.max_velocity is None and "V401" in checker.codes:
             name = job.robot.name
             complain(f"the speeds of the joints of {name} are unknown: V401 is not checked")
-    is_counted = arguments.statistics
-    report = replace(report, fixed=fixed, is_judged=is_judged, is_counted=is_counted)
+    report = replace(report, fixed=fixed, is_judged=is_judged, is_counted=arguments.statistics)
     _write(report, form, arguments, texts)
     return FOUND if report.is_wrong else FINE
 
@@ -213,10 +211,8 @@ def _format_of(file: str | None) -> str | None:
         return None
     ending = os.path.splitext(file)[1].lower()
     if ending not in ENDINGS:
-        raise CommandError(
-            f"--output-file: {file} must end in {', '.join(ENDINGS)}, or --output-format must be "
-            "given"
-        )
+        words = f"must end in {', '.join(ENDINGS)}, or --output-format must be given"
+        raise CommandError(f"--output-file: {file} {words}")
     return ENDINGS[ending]
 
 
@@ -228,10 +224,8 @@ def _stdin() -> ModuleFile:
         return ModuleFile("<stdin>", stream.read())
 
 
-def _write(report: Report, form: str, arguments: argparse.Namespace, texts: Sequence[Text]) -> None:
-    """Write corrected files, and the report to stdout, or to a file with its first and last
-    sentence on stdout.
-    """
+def _write(report: Report, form: str, arguments: argparse.Namespace, texts: list[Text]) -> None:
+    """Write corrected files, and the report to stdout or, but for two sentences, to a file."""
     output, is_quiet = arguments.output_file, arguments.quiet
     is_shown = arguments.color == "always" if output else is_colored(arguments.color, sys.stdout)
     text = rendered(replace(report, is_quiet=is_quiet, is_colored=is_shown), form)

@@ -60,6 +60,8 @@ class _Terminated(BaseException):
 
 def complain(message: object) -> None:
     """Print a line on stderr."""
+    if isinstance(message, OSError) and message.filename:
+        message = f"{message.filename}: {message.strerror}"
     line = " ".join(str(message).split())
     for words, own in OWN_WORDS.items():
         line = line.replace(words, own)
@@ -96,7 +98,7 @@ def guarded(run: Callable[[], int]) -> int:
         complain(error)
         return WRONG
     except OSError as error:
-        complain(f"{error.filename}: {error.strerror}" if error.filename else error)
+        complain(error)
         _give_up(sys.stdout)
         return WRONG
     except MemoryError:

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import os
+import re
+import stat
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
 from typing import NoReturn
 
+from irbkin.abb.archives import archive_of
+from irbkin.check.report import counted
 from irbkin.cli.errors import CommandError, complain
 from irbkin.errors import IrbkinError
 
@@ -16,23 +21,27 @@ EVERY = 0.3
 SHARE = 20.0
 """A look that takes long is made after this many times its duration."""
 MOST_FILES = 20_000
+NAMING = (".toml", ".urdf", ".xml", ".pgf")
+"""Endings of options, cells, robots and lists of modules."""
+NAMED = re.compile(rb"""["'>]\s*([^"'<>\0\n]+?)\s*["'<]""")
 CLEAR = "\x1b[H\x1b[2J"
 
 
-def repeated(run: Callable[[], int], names: Iterable[str], output: str | None) -> NoReturn:
+def repeated(run: Callable[[], int], names: Sequence[str], output: str | None) -> NoReturn:
     """Run something, and again whenever files or files in folders change, until Ctrl-C.
 
     Args:
         run: What ends the first time by an error ends the command; later errors are printed.
-        names: Files and folders.
+        names: Files and folders, those that may come, too.
         output: A file that it writes, which is not looked at.
     """
-    names, seen = list(names), None
+    seen = last = None
     while True:
         began = time.monotonic()
         now = _stamps(names, os.path.realpath(output) if output else "")
         took = time.monotonic() - began
-        if now != seen:
+        # A change counts when it is over: files are not read half written.
+        if now != seen and (seen is None or now == last):
             if sys.stdout.isatty():
                 print(CLEAR, end="")
             try:
@@ -43,33 +52,37 @@ def repeated(run: Callable[[], int], names: Iterable[str], output: str | None) -
                 complain(error)
             seen = now
             sys.stdout.flush()
-            complain(f"watching {len(now)} {'file' if len(now) == 1 else 'files'}, Ctrl-C ends")
+            complain(f"watching {counted(len(now), 'file')}, Ctrl-C ends")
+        last = now
         time.sleep(max(EVERY, SHARE * took))
 
 
 def _stamps(names: Iterable[str], output: str) -> dict[str, tuple[int, int, int]]:
-    """Return what changes with the content of files, by their paths."""
-    found = {}
-    for path in _files(names):
+    """Return what changes with the content of files, and of files that they name, by paths."""
+    found: dict[str, tuple[int, int, int]] = {}
+    left = [os.path.realpath(archive_of(Path(name)) or name) for name in names]
+    while left:
+        path = left.pop()
         try:
             of = os.stat(path)
+            if stat.S_ISDIR(of.st_mode):
+                # Neither hidden folders nor those behind links.
+                inside = [it for it in os.scandir(path) if not (it.is_dir() and it.is_symlink())]
+                left += (it.path for it in inside if it.name[0] != "." or it.is_file())
+            elif path not in found and path != output:
+                found[path] = (of.st_mtime_ns, of.st_size, of.st_ino)
+                left += _named(path) if path.lower().endswith(NAMING) else ()
         except OSError:
             continue
-        if path != output:
-            found[path] = (of.st_mtime_ns, of.st_size, of.st_ino)
         if len(found) > MOST_FILES:
             raise CommandError(f"--watch: there are more than {MOST_FILES} files, give fewer")
     return found
 
 
-def _files(names: Iterable[str]) -> Iterator[str]:
-    for name in names:
-        path = os.path.realpath(name)
-        # A path in an archive, or a file that an editor is about to write.
-        while not os.path.exists(path):
-            path = os.path.dirname(path)
-        if not os.path.isdir(path):
-            yield path
-        for folder, inside, files in os.walk(path):
-            inside[:] = (own for own in inside if not own.startswith("."))
-            yield from (os.path.join(folder, own) for own in files)
+def _named(path: str) -> Iterator[str]:
+    """The files that a file names."""
+    folder = os.path.dirname(path)
+    for match in NAMED.finditer(Path(path).read_bytes()):
+        own = os.path.join(folder, os.fsdecode(match[1]).replace("\\", "/"))
+        if os.path.isfile(own):
+            yield os.path.realpath(own)
