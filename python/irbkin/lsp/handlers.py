@@ -12,6 +12,7 @@ from irbkin.lsp.marks import FIX_ALL, actions, folds, location, places, symbols
 from irbkin.lsp.rename import refusal
 from irbkin.lsp.server import WAIT, Document, Refusal, Server, path_of
 from irbkin.lsp.text import Text
+from irbkin.rapid.program import ENDINGS
 
 if TYPE_CHECKING:
     from irbkin.lsp.names import Declared
@@ -43,8 +44,7 @@ def register(server: Server) -> None:
     @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
     def files_changed(params: types.DidChangeWatchedFilesParams) -> None:
         changed = types.FileChangeType.Changed
-        others = (".toml", ".cfg")
-        if all(it.type == changed and not it.uri.lower().endswith(others) for it in params.changes):
+        if all(it.type == changed and it.uri.lower().endswith(ENDINGS) for it in params.changes):
             for path in server.documents:
                 server.queue.change(path)
         else:
@@ -109,9 +109,22 @@ def register(server: Server) -> None:
         found = [(own[0], own[0].declared(own[1], own[3])) for own in await server.at(params)]
         return [(result, declared) for result, declared in found if declared is not None]
 
+    async def everywhere(params: Document) -> list[tuple[Result, Declared]]:
+        """The name at a position, in every program that shares a file in which it is."""
+        found, seen = await named(params), set[str]()
+        for result, declared in found:
+            for module, at in result.references(declared):
+                path = result.job.program.files[module].path
+                if path not in seen and server.programs.is_shared(path):
+                    others = await server.queue.results(path, server.options)
+                    pairs = ((own, own.declared(own.modules[path], at)) for own in others)
+                    found += ((own, other) for own, other in pairs if other is not None)
+                seen.add(path)
+        return found
+
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     async def referred(params: types.ReferenceParams) -> list[types.Location]:
-        return places(await named(params), is_whole=params.context.include_declaration)
+        return places(await everywhere(params), is_whole=params.context.include_declaration)
 
     @server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
     async def renamable(params: types.PrepareRenameParams) -> types.Range | None:
@@ -121,7 +134,7 @@ def register(server: Server) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_RENAME, types.RenameOptions(prepare_provider=True))
     async def renamed(params: types.RenameParams) -> types.WorkspaceEdit:
-        own, new = await named(params), params.new_name
+        own, new = await everywhere(params), params.new_name
         reasons = [refusal(*one, new) for one in own] or ["nothing that is declared is here"]
         if not await server.queue.rest(path_of(params.text_document.uri), 0.0):
             reasons.append("the program is still being checked")

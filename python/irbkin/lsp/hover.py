@@ -57,11 +57,9 @@ def _span(text: Text, move: CheckedMove) -> tuple[int, int]:
 def _moves_to(result: Result, declared: Declared) -> Iterator[str]:
     """Yield the moves to a declared target, each joint vector once."""
     seen = set[tuple[float, ...]]()
-    lower, total = declared.name.lower(), 0
+    total = 0
     for module, moves in result.moves.items():
         for move in moves:
-            if move.target.lower() != lower:
-                continue
             if result.names.find(module, move.routine, move.target) != declared:
                 continue
             total += 1

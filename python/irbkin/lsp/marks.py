@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lsprotocol import types
 
-from irbkin.check.codes import PAGE, rules
+from irbkin.check.codes import LEVELS, PAGE, rules
 from irbkin.check.report import span
 from irbkin.lsp.names import ROUTINES, Declared
 from irbkin.lsp.text import Text
@@ -23,11 +23,6 @@ if TYPE_CHECKING:
 SOURCE = "irbkin"
 """The source of diagnostics, as editors show it."""
 FIX_ALL = "source.fixAll.irbkin"
-SEVERITIES = {
-    "error": types.DiagnosticSeverity.Error,
-    "warning": types.DiagnosticSeverity.Warning,
-    "note": types.DiagnosticSeverity.Information,
-}
 KINDS = {
     "PROC": types.SymbolKind.Function,
     "FUNC": types.SymbolKind.Function,
@@ -67,7 +62,7 @@ def diagnostics(results: Iterable[Result], path: str) -> list[types.Diagnostic]:
             rule = types.CodeDescription(
                 f"{PAGE.as_uri()}#{found.code.lower()}-{rules()[found.code].name}"
             )
-            severity = SEVERITIES[found.severity]
+            severity = types.DiagnosticSeverity(LEVELS.index(found.severity) + 1)
             marks[key] = types.Diagnostic(area, found.message, severity, found.code, rule, SOURCE)
     return list(marks.values())
 
@@ -145,14 +140,9 @@ def symbols(result: Result, module: int) -> list[types.DocumentSymbol]:
         if declared.is_constant:
             kind = types.SymbolKind.Constant
         inside: list[types.DocumentSymbol] = []
-        symbol = types.DocumentSymbol(
-            declared.name,
-            kind,
-            text.range(start, max(stop, end)),
-            text.range(begin, end),
-            "" if is_routine else declared.kind,
-            children=inside,
-        )
+        areas = text.range(start, max(stop, end)), text.range(begin, end)
+        words = "" if is_routine else declared.kind
+        symbol = types.DocumentSymbol(declared.name, kind, *areas, words, children=inside)
         routines.get((declared.routine or "").lower(), outer).append(symbol)
         if is_routine:
             routines[declared.name.lower()] = inside

@@ -62,10 +62,8 @@ class Declared:
         """The type of its value, in lower case."""
         if self.kind == PARAMETER:
             return next(it.kind for it in parameters(self.words) if it.name == self.name)
-        of = (
-            self.words.upper().partition("FUNC ")[2].split() if self.kind == "FUNC" else [self.kind]
-        )
-        return of[0].lower()
+        kind = self.words.upper().partition("FUNC ")[2] if self.kind == "FUNC" else self.kind
+        return kind.split()[0].lower()
 
     @property
     def is_constant(self) -> bool:

@@ -83,6 +83,11 @@ class Programs:
         note = f"{path} is in no task of its backup, only its text is checked"
         return found or [Session(Job(None, UNREAD, path), [path], checker, [note])]
 
+    def is_shared(self, path: str) -> bool:
+        """Whether several tasks of a backup have a file."""
+        tasks = (task for backup in [*self._backups.values()] for task in backup.tasks)
+        return sum(Path(path) in {own.path for own in task.modules} for task in tasks) > 1
+
     def forget(self) -> None:
         """Read backups again."""
         self._backups.clear()

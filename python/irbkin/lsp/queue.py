@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from irbkin.lsp.programs import Programs
-from irbkin.lsp.session import Session
+from irbkin.lsp.session import Result, Session
 from irbkin.lsp.text import Text
 
 
@@ -81,6 +81,12 @@ class Queue:
             await asyncio.sleep(min(0.002, left))
         return True
 
+    async def results(self, path: str, options: Mapping[str, Any]) -> list[Result]:
+        """Check all programs of a file, which need not be open."""
+        loop, texts = asyncio.get_running_loop(), dict(self._texts())
+        found = await loop.run_in_executor(self._pool, self._programs.sessions, path, options)
+        return [await loop.run_in_executor(self._pool, own.check, texts) for own in found]
+
     def stop(self) -> None:
         """End the thread after its current check."""
         self._pool.shutdown(wait=False, cancel_futures=True)
@@ -132,7 +138,8 @@ class Queue:
             self._stale.pop(session, None)
             raise
         # A text that changed meanwhile is checked again.
-        if session in self._stale and _is_same(texts, self._texts(), session):
+        now = self._texts()
+        if session in self._stale and all(texts.get(it) is now.get(it) for it in session.paths):
             del self._stale[session]
             session.result = result
             self._done(session)
@@ -140,8 +147,3 @@ class Queue:
 
 def _key(session: Session) -> tuple[str, tuple[str, ...]]:
     return session.job.title, tuple(session.paths)
-
-
-def _is_same(old: Mapping[str, Text], new: Mapping[str, Text], session: Session) -> bool:
-    """Whether the texts of a session are the same objects."""
-    return all(old.get(path) is new.get(path) for path in session.paths)

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from irbkin._core import differing_names, read_module
-from irbkin.lsp.code import before
 from irbkin.lsp.names import unread
 from irbkin.lsp.text import NAME
 from irbkin.rapid.program import FileFinding, ModuleFile, program_from
@@ -20,7 +18,6 @@ if TYPE_CHECKING:
 
 MOST_BYTES = 4_000_000
 """Largest file that is read while editing: 30,000 moves, which are checked in a second."""
-LOCAL = re.compile(r"\bLOCAL\s+(?:CONST|PERS|VAR)\s+\w+\s+(\w+)", re.IGNORECASE)
 BLANKS = {byte: " " for byte in range(128) if not f"a{chr(byte)}".isidentifier()}
 """Characters that are in no name, as blanks."""
 
@@ -145,9 +142,8 @@ def _names(source: str) -> frozenset[str]:
 
 def _shared(module: Module) -> frozenset[str]:
     """The names that a module declares for others, in lower case, and its own."""
-    source = module.source
-    own = {it[1].lower() for it in LOCAL.finditer(source) if before(source, it.start()) is not None}
-    others = [found[0] for part in module.skipped if (found := unread(part.text))]
+    own = {it.name.lower() for it in module.declarations if it.scope == "LOCAL"}
+    others = [found[0] for part in module.skipped if (found := unread(part.text)) and not found[3]]
     names = (*module.keys(), *(it.name for it in module.routines), *others, module.name or "")
     return frozenset(map(str.lower, names)) - own
 

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 LONGEST = 32
 """Characters of a name in RAPID."""
+ENTRY = "main"
+"""The procedure that a controller calls."""
 
 
 def refusal(result: Result, declared: Declared, new: str) -> str | None:
@@ -27,6 +29,8 @@ def refusal(result: Result, declared: Declared, new: str) -> str | None:
         return f"{new} has {len(new)} characters, more than RAPID's {LONGEST}"
     if new.lower() == declared.name.lower():
         return None
+    if declared.kind == "PROC" and ENTRY in (declared.name.lower(), new.lower()):
+        return f"a controller begins at {ENTRY}: no procedure gets or loses this name"
     if new.lower() in known():
         return f"{new} is a name of RAPID itself"
     # It would lead to something else where it is named now, even if that is out of sight.
@@ -35,9 +39,7 @@ def refusal(result: Result, declared: Declared, new: str) -> str | None:
         text, file = result.text(module), result.job.program.files[module].path
         for at in occurrences(text.source, new):
             line, _ = text.place(at)
-            is_near = (
-                not routine or (result.names.routine_at(module, line) or "").lower() == routine
-            )
-            if is_near and before(text.source, at) not in ("\\", "."):
+            of = (result.names.routine_at(module, line) or "").lower()
+            if routine in ("", of) and before(text.source, at) not in ("\\", "."):
                 return f"{new} is taken: {file}:{line}"
     return None

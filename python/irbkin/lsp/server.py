@@ -24,8 +24,8 @@ from irbkin.lsp.text import Text
 
 WAIT = 5.0
 """Longest wait of a request for the check of the current text [s]; then the last result is used."""
-WATCHED = ("**/*.{mod,modx,sys,sysx,prg,cfg}", "**/irbkin.toml", "**/pyproject.toml")
-"""Files that are watched although they are not open."""
+WATCHED = ("**/*.{mod,modx,sys,sysx,prg,pgf,cfg,toml,urdf,npy,stl,obj,ply}", "**/BACKINFO/*.txt")
+"""Files that are watched although they are not open: of programs, backups, options, cells."""
 
 
 class _Messages(LanguageServerProtocol):

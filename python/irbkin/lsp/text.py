@@ -110,8 +110,5 @@ def _units(text: str) -> int:
 
 def _sound(text: str) -> str:
     """A text without lone surrogates, which no file can contain."""
-    try:
-        text.encode()
-    except UnicodeEncodeError:
-        return text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "replace")
-    return text
+    units = b"" if text.isascii() else text.encode("utf-16-le", "surrogatepass")
+    return units.decode("utf-16-le", "replace") or text

@@ -7,8 +7,10 @@ import sys
 from pathlib import Path
 
 import irbkin
+import numpy as np
 import pytest
 from editor import editing, part_of
+from irbkin.lsp.server import WATCHED
 from lsprotocol import types
 
 ROOT = Path(__file__).parents[3]
@@ -187,6 +189,37 @@ async def test_wrong_options_are_a_message(seam):
         )
         while await editor.codes(seam.as_uri()) == []:
             await editor.client.wait_for_notification("textDocument/publishDiagnostics")
+
+
+@pytest.mark.asyncio
+async def test_a_cell_and_a_mesh_that_change_are_read_again(seam):
+    folder, files = seam.parent, []
+    (folder / "irbkin.toml").write_text('[check]\ncell = "own.toml"\nselect = ["K"]\n')
+    (folder / "own.toml").write_text("")
+
+    async def after(editor, name, content):
+        path = folder / name
+        path.write_text(content) if isinstance(content, str) else np.save(path, content)
+        files.append(path)
+        event = types.FileEvent(path.as_uri(), types.FileChangeType.Changed)
+        before = len(editor.published)
+        params = types.DidChangeWatchedFilesParams([event])
+        editor.client.workspace_did_change_watched_files(params)
+        while len(editor.published) == before:
+            await editor.client.wait_for_notification("textDocument/publishDiagnostics")
+        return [it.code for it in editor.published[-1].diagnostics]
+
+    async with editing(folder, options=OPTIONS) as editor:
+        assert await editor.codes(editor.open(seam)) == []
+        post = "[obstacles.post]\nsphere = 3.0\n"
+        assert "K901" in await after(editor, "own.toml", post)
+        np.save(folder / "far.npy", [[9.0, 9.0, 9.0]])
+        points = '[obstacles.post]\npoints = "far.npy"\nradius = 3.0\n'
+        assert await after(editor, "own.toml", points) == []
+        assert "K901" in await after(editor, "far.npy", [[0.0, 0.0, 0.0]])
+    others = ("A.cfg", "p.pgf", "irbkin.toml", "pyproject.toml", "a.stl")
+    for path in (*files, *map(Path, others)):
+        assert path.suffix[1:] in re.search(r"\*\.\{(.*)\}", WATCHED[0])[1].split(",")
 
 
 @pytest.mark.asyncio

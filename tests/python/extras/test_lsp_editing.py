@@ -1,6 +1,7 @@
 """What `irbkin lsp` does while one edits, asked by a client as editors do."""
 
 import pytest
+from backups import backinfo, cfg, written
 from editor import editing, part_of
 from lsprotocol import types
 
@@ -257,6 +258,8 @@ async def test_a_name_is_changed_over_the_program(program):
         ("pLocal;", "pNear", "pNear is taken: "),
         ("TPWrite", "pNew", "nothing that is declared is here"),
         ("pNear is a", "pNew", "nothing that is declared is here"),
+        ("main()", "rMain", "a controller begins at main: "),
+        ("rOther()", "Main", "a controller begins at main: "),
     ],
 )
 @pytest.mark.asyncio
@@ -266,6 +269,39 @@ async def test_a_name_that_cannot_be_is_refused(program, part, new, why):
         assert why in await editor.rename(uri, part, new)
         assert editor.texts[uri][1] == MAIN
         assert editor.messages() == []
+
+
+@pytest.mark.asyncio
+async def test_a_name_is_changed_in_all_tasks_that_share_its_module(tmp_path):
+    record = f"[[900,-300,500],[0,0,1,0],[-1,0,-1,0],{FAR}]"
+    shared = f"MODULE Shared\n CONST robtarget pBoth:={record};\n"
+    shared += " PROC rBoth()\n  rTask;\n  MoveL pBoth,v5,fine,tool0;\n ENDPROC\nENDMODULE\n"
+    files = {"HOME/Shared.sys": shared}
+    for n, own in ((1, "One"), (2, "Two"), (3, "Three")):
+        text = f"MODULE {own}\n PROC rTask()\n  MoveL pBoth,v5,fine,tool0;\n ENDPROC\nENDMODULE\n"
+        files[f"RAPID/TASK{n}/PROGMOD/{own}.mod"] = text
+    tasks = [f'-Name "T{n}" -Type "NORMAL"' for n in (1, 2, 3)]
+    both = [f'-File "HOME:/Shared.sys" -ModName "Shared" -Task "T{n}"' for n in (1, 2)]
+    files["SYSPAR/SYS.cfg"] = cfg("SYS", "6:0", CAB_TASKS=tasks, CAB_TASK_MODULES=both)
+    files["BACKINFO/backinfo.txt"] = backinfo(("T1",), ("T2",), ("T3",))
+    paths = {name: written(tmp_path, files) / name for name in files if name.endswith(("od", "ys"))}
+    for part, new, name in (("pBoth", "pNew", "Shared.sys"), ("rTask", "rOwn", "One.mod")):
+        first = next(path for path in paths.values() if path.name == name)
+        async with editing() as editor:
+            uri = editor.open(first)
+            await editor.marks(uri)
+            others = await editor.rename(uri, part, new)
+            texts = {path: others.get(path.as_uri(), files[it]) for it, path in paths.items()}
+            texts[first] = editor.texts[uri][1]
+        for it, path in paths.items():
+            text = files[it] if "Three" in it else files[it].replace(part, new)
+            assert texts[path] == text, path
+    (two,) = (path for path in paths.values() if path.name == "Two.mod")
+    two.write_text(two.read_text().replace("PROC rTask", "PROC pTaken() ENDPROC PROC rTask"))
+    async with editing() as editor:
+        uri = editor.open(paths["RAPID/TASK1/PROGMOD/One.mod"])
+        await editor.marks(uri)
+        assert f"pTaken is taken: {two}:2" in await editor.rename(uri, "rTask", "pTaken")
 
 
 @pytest.mark.asyncio
