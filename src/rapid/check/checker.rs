@@ -1,6 +1,5 @@
 //! All moves of a program, checked.
 
-use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -8,7 +7,8 @@ use alloc::vec::Vec;
 use super::carried::{Carried, carried_by, carriers};
 use super::confdata::{in_wrist_singularity, on_edges, with_nearest};
 use super::corners::Zones;
-use super::fixes::{Demand, Finder, correct};
+use super::findings::{Seen, add_once, sorted};
+use super::fixes::{Demand, Finder};
 use super::undeclared::undeclared;
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
@@ -133,6 +133,7 @@ pub fn check<const N: usize>(
         finder: Finder::new(&program, &sources),
         ends: Vec::new(),
         found: Vec::new(),
+        seen: Seen::new(),
         demands: Vec::new(),
         moves: Vec::new(),
     };
@@ -143,63 +144,6 @@ pub fn check<const N: usize>(
     checker.found.extend(undeclared(&modules, &sources, options.is_whole));
     let Checker { found, demands, moves, .. } = checker;
     Ok(Checked { findings: sorted(found, &demands), moves: each_once(moves) })
-}
-
-/// Findings in the order of the text, each once, with their corrections.
-fn sorted(mut found: Vec<Finding>, demands: &[Demand]) -> Vec<Finding> {
-    correct(demands, &mut found);
-    found.sort_by_key(|it| (it.module, it.line, it.column, it.code));
-    found.dedup_by(|a, b| {
-        (a.module, a.line, a.column, a.code, &a.message)
-            == (b.module, b.line, b.column, b.code, &b.message)
-    });
-    // Nothing is said of the way to a target that cannot be met.
-    let (mut unmet, mut without_path) = (None, None);
-    found.retain(|it| {
-        let place = (it.module, it.line, it.column);
-        match it.code {
-            Code::OutOfReach | Code::OutsideLimits => unmet = Some(place),
-            Code::NoPath => without_path = Some(place),
-            Code::UncertainCircle => return without_path != Some(place),
-            Code::PathBlocked | Code::Flip => return unmet != Some(place),
-            _ => {}
-        }
-        true
-    });
-    of_one_cause(found)
-}
-
-/// Findings of one cause as the first of them, with the places and the corrections of the others.
-fn of_one_cause(found: Vec<Finding>) -> Vec<Finding> {
-    let mut firsts = BTreeMap::new();
-    let mut kept: Vec<Finding> = Vec::new();
-    for mut finding in found {
-        let cause = core::mem::take(&mut finding.cause);
-        if !cause.is_empty() {
-            let first = *firsts.entry((finding.code, cause)).or_insert(kept.len());
-            if let Some(first) = kept.get_mut(first) {
-                // Passes of a loop are at one place.
-                let place = (finding.module, finding.line, finding.column);
-                let own = (first.module, first.line, first.column);
-                if *first.related.last().unwrap_or(&own) != place {
-                    first.related.push(place);
-                }
-                first.edits.append(&mut finding.edits);
-                continue;
-            }
-        }
-        kept.push(finding);
-    }
-    for finding in &mut kept {
-        finding.edits.sort_by_key(|edit| (edit.module, edit.span.start));
-        finding.edits.dedup();
-        let more = finding.related.len();
-        if more > 0 {
-            let moves = if more == 1 { "move" } else { "moves" };
-            finding.message = format!("{} (and {more} more {moves})", finding.message);
-        }
-    }
-    kept
 }
 
 /// The identity of a move: its place, then the chain of calls, the module and the index
@@ -242,6 +186,7 @@ struct Checker<'a, 'm, const N: usize> {
     /// The joints at the targets of the moves of each run.
     ends: Vec<Vec<Option<[f64; N]>>>,
     found: Vec<Finding>,
+    seen: Seen,
     demands: Vec<Demand>,
     moves: Vec<(Key, CheckedMove<N>)>,
 }
@@ -256,7 +201,9 @@ impl<const N: usize> Checker<'_, '_, N> {
         followed.check_speeds(&self.max_velocity);
         let Followed { goals, made, findings, unfollowed, .. } = &followed;
         self.moves.extend(unfollowed.iter().map(unfollowed_move));
-        self.found.extend(unfollowed.iter().cloned());
+        for finding in unfollowed {
+            add_once(&mut self.found, &mut self.seen, finding.clone());
+        }
         // Where the confdata of a move is wrong.
         let mut wrong: Vec<Option<usize>> = goals.iter().map(|_| None).collect();
         // Why a move is not checked.
@@ -271,21 +218,16 @@ impl<const N: usize> Checker<'_, '_, N> {
                 finding.code,
                 Code::WrongConfdata | Code::OtherConfiguration | Code::NearConfdata
             );
-            if is_wrong && !finding.cause.is_empty() {
-                finding.cause = self.cause_at(goal, &finding);
-            }
             if let Some(q) = made.q.filter(|_| is_wrong) {
                 wrong[index] = Some(self.found.len());
                 finding = with_nearest(self.robots[1], finding, goal, &q);
             }
-            if let Some(name) = finding.unknown.clone() {
-                let words = format!("{name} is not declared");
-                finding.message = Finding::new(finding.code, words).at(goal.step, index).message;
+            let finding = self.worded(finding, goal, is_wrong).in_module(goal.stepped.module);
+            if is_wrong {
+                self.found.push(finding);
+            } else {
+                add_once(&mut self.found, &mut self.seen, finding);
             }
-            if let Some(line) = goal.stepped.displaced_on {
-                finding.message = format!("{} (displaced on line {line})", finding.message);
-            }
-            self.found.push(finding.in_module(goal.stepped.module));
         }
         for (index, goal) in
             goals.iter().enumerate().filter(|(index, _)| made[*index].as_programmed)
@@ -316,7 +258,8 @@ impl<const N: usize> Checker<'_, '_, N> {
             let by = [goal.stepped.chain, home, instruction];
             self.moves.push((([module, line, column], by), own));
             let mut found = |finding: Finding| {
-                self.found.push(finding.at(goal.step, index).in_module(goal.stepped.module));
+                let finding = finding.at(goal.step, index).in_module(goal.stepped.module);
+                add_once(&mut self.found, &mut self.seen, finding);
             };
             zones.checked(index).for_each(&mut found);
             if goal.stepped.takes_last {
@@ -347,6 +290,21 @@ impl<const N: usize> Checker<'_, '_, N> {
         }
         self.ends.push(made.iter().map(|made| made.q).collect());
         Ok(())
+    }
+
+    /// A finding on a goal with what the program has to do with it.
+    fn worded(&self, mut finding: Finding, goal: &Goal<'_, N>, is_wrong: bool) -> Finding {
+        if is_wrong && !finding.cause.is_empty() {
+            finding.cause = self.cause_at(goal, &finding);
+        }
+        if let Some(name) = &finding.unknown {
+            let words = format!("{name} is not declared");
+            finding.message = Finding::new(finding.code, words).at(goal.step, 0).message;
+        }
+        if let Some(line) = goal.stepped.displaced_on {
+            finding.message = format!("{} (displaced on line {line})", finding.message);
+        }
+        finding
     }
 
     /// The cause of a finding on confdata: in a routine, or in the run that is added.

@@ -4,6 +4,7 @@ pub(super) mod carried;
 pub(super) mod checker;
 mod confdata;
 mod corners;
+mod findings;
 mod fixes;
 pub(super) mod undeclared;
 pub(super) mod unused;

@@ -73,8 +73,8 @@ impl<'m> Walk<'_, 'm> {
             Some(format!("{name} calls itself"))
         } else if self.frame.above.len() >= DEEPEST_CALLS {
             Some(format!("more than {DEEPEST_CALLS} calls within calls"))
-        } else if self.steps_left == 0 {
-            Some("the program has too many calls".to_string())
+        } else if self.steps_left == 0 || self.moves_left == 0 {
+            Some("the program has too many calls within calls to follow each".to_string())
         } else {
             None
         };

@@ -23,7 +23,7 @@ impl<'m> Walk<'_, 'm> {
         let before = name.as_ref().and_then(|name| self.state.locals.get(name).cloned());
         if let Some((name, passes)) = &counted
             && !passes.is_empty()
-            && passes.len().saturating_mul(size(body)) <= self.steps_left
+            && passes.len().saturating_mul(size(body)) <= self.steps_left.min(self.moves_left)
             && (self.is_one || mentions(body, name))
         {
             for value in passes {

@@ -12,7 +12,7 @@ use super::frame::Frame;
 use super::loops::never_holds;
 use super::state::{Displacement, Here, State};
 use super::tree::{Block, Node};
-use super::walker::{Run, Step, Stepped, Uncertain, Walk, word_of};
+use super::walker::{Filled, Run, Step, Stepped, Uncertain, Walk, word_of};
 use super::whole::Program;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
@@ -147,13 +147,13 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// A move, with the values that it has here.
-    fn step(&mut self, index: usize, step: &'m Move) {
+    fn step(&mut self, index: usize, written: &'m Move) {
         // The robot stays.
-        if step.kind == MoveKind::MoveExtJ {
+        if written.kind == MoveKind::MoveExtJ {
             return;
         }
         let scope = self.scope();
-        let mut own = Cow::Borrowed(step);
+        let mut own = Cow::Borrowed(written);
         let is_passed_on = scope.fill(&mut own, &self.frame);
         let takes_last = scope.has_taken.get();
         if own.settings != self.state.settings {
@@ -171,10 +171,14 @@ impl<'m> Walk<'_, 'm> {
             _ => None,
         };
         let halt = None;
-        let stepped =
-            Stepped { module, instruction, step: own, chain, takes_last, halt, displaced_on };
+        let step = match own {
+            Cow::Borrowed(step) => Filled::Same(step),
+            Cow::Owned(step) => Filled::Other(Box::new(step)),
+        };
+        self.moves_left = self.moves_left.saturating_sub(1);
+        let stepped = Stepped { module, instruction, step, chain, takes_last, halt, displaced_on };
         self.push(Step::Move(Box::new(stepped)));
-        if let Some(name) = written_by(step) {
+        if let Some(name) = written_by(written) {
             self.put(&name, None);
         }
     }

@@ -1,11 +1,11 @@
 //! The state of going through a program, and the steps that it finds.
 
-use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::cell::Cell;
+use core::ops::Deref;
 
 use super::frame::Frame;
 use super::state::{Here, State};
@@ -17,8 +17,12 @@ use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::unread::{NotRead, Skipped};
 
-/// Statements that are followed beyond four for each one that the program has.
-const SPARE_STEPS: usize = 10_000;
+/// Statements, and moves, that are followed for each statement of the program, and beyond these: a
+/// routine is followed again for each of its callers. Witness: a production cell of 3,297
+/// statements needs more than 300 and 32.
+const STEPS: usize = 600;
+const MOVES: usize = 40;
+const SPARE: usize = 10_000;
 
 /// A step of a program.
 pub(in crate::rapid) enum Step<'m> {
@@ -35,7 +39,7 @@ pub(in crate::rapid) struct Stepped<'m> {
     pub(in crate::rapid) module: usize,
     /// The module and the index of the instruction.
     pub(in crate::rapid) instruction: (usize, usize),
-    pub(in crate::rapid) step: Cow<'m, Move>,
+    pub(in crate::rapid) step: Filled<'m>,
     /// The chain of calls to it where its place is a call, whose moves it tells apart; else 0.
     pub(in crate::rapid) chain: usize,
     /// Whether a value is the last one that a PERS had.
@@ -44,6 +48,23 @@ pub(in crate::rapid) struct Stepped<'m> {
     pub(in crate::rapid) halt: Option<String>,
     /// The line of what displaces its target by a known pose.
     pub(in crate::rapid) displaced_on: Option<usize>,
+}
+
+/// A move of a module, or one with other values.
+pub(in crate::rapid) enum Filled<'m> {
+    Same(&'m Move),
+    Other(Box<Move>),
+}
+
+impl Deref for Filled<'_> {
+    type Target = Move;
+
+    fn deref(&self) -> &Move {
+        match self {
+            Self::Same(step) => step,
+            Self::Other(step) => step,
+        }
+    }
 }
 
 /// Steps that follow one another.
@@ -73,8 +94,9 @@ pub(super) struct Walk<'p, 'm> {
     /// Chains of calls: the number of each by that of the chain before its last call, with the
     /// module and the first byte of that call.
     pub(super) chains: BTreeMap<(usize, usize, usize), usize>,
-    /// Statements that may still be followed in calls and loops.
+    /// Statements, and moves among them, that may still be followed in calls and loops.
     pub(super) steps_left: usize,
+    pub(super) moves_left: usize,
 }
 
 impl<'p, 'm> Walk<'p, 'm> {
@@ -92,7 +114,8 @@ impl<'p, 'm> Walk<'p, 'm> {
             frame: Frame::default(),
             followed: BTreeSet::new(),
             chains: BTreeMap::new(),
-            steps_left: 4 * statements + SPARE_STEPS,
+            steps_left: STEPS * statements + SPARE,
+            moves_left: MOVES * statements + SPARE,
         }
     }
 

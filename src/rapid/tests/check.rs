@@ -293,3 +293,23 @@ fn what_cannot_be_checked_is_an_error() {
     let other_arm = check(&other_arm, &[(&module, &text(""))], &options).unwrap_err();
     assert!(matches!(other_arm, Error::InvalidModel(_)), "{other_arm}");
 }
+
+#[test]
+fn calls_that_double_at_each_level_are_bounded_and_each_finding_is_there_once() {
+    let routine = |level: usize| {
+        let next = format!("r{};\n", level + 1);
+        format!("PROC r{level}()\n{next}{next}MoveJ out,v5,fine,t;\nENDPROC\n")
+    };
+    let routines: String = (0..25).map(routine).collect();
+    let text = format!(
+        "MODULE M\n{DATA}\nPROC main()\nr0;\nENDPROC\n{routines}PROC r25()\nENDPROC\nENDMODULE"
+    );
+    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let module = parse(&text, &[]).unwrap();
+    let options = CheckOptions::default();
+    let Checked { findings, moves } = check(&robot, &[(&module, &text)], &options).unwrap();
+    let of = |code| findings.iter().filter(|it| it.code == code).count();
+    assert_eq!(of(Code::OutOfReach), 25);
+    assert!((1..=50).contains(&of(Code::NotFollowed)), "{}", of(Code::NotFollowed));
+    assert_eq!(moves.iter().filter(|it| it.unchecked.is_none()).count(), 25);
+}
