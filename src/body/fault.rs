@@ -43,7 +43,7 @@ pub enum BodyFault {
     Flat { thickness: f64, least: f64 },
     /// `senses`: how many triangles use the edge in one sense and in the other.
     #[error(
-        "the mesh is not closed: {}; {count} edges are open. Close it, fill it by Shape.convex, or \
+        "the mesh is not closed: {}; {count} edges are open, by more than a micrometer. Close it, fill it by Shape.convex, or \
          take its surface alone by solid=False", OpenEdge(.edge, *.senses)
     )]
     Open { edge: [[f64; 3]; 2], senses: [u32; 2], count: usize },

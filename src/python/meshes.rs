@@ -43,9 +43,10 @@ impl PyShape {
     /// A triangle mesh: what is inside belongs to it.
     ///
     /// Args:
-    ///     triangles: The corners of its triangles [m], shape (n, 3, 3); or a file (STL, OBJ, DAE
-    ///         and what else trimesh reads). A solid mesh is closed; its corners are
-    ///         counterclockwise, seen from outside.
+    ///     triangles: The corners of its triangles [m], shape (n, 3, 3); or a file (STL, OBJ, DAE,
+    ///         PLY, OFF, GLB, glTF, 3MF). A solid mesh is closed; its corners are counterclockwise,
+    ///         seen from outside. If it is not, corners within 1e-6 m, or a millionth of its size,
+    ///         are made one: it is off by as much.
     ///     pose: Pose of the frame of the mesh, shape (4, 4); the identity when not given.
     ///     scale: Meters of a unit of the mesh: 0.001 of millimeters. A file that states its unit
     ///         is converted to meters first.

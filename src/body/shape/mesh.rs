@@ -10,9 +10,10 @@ use nalgebra::{ComplexField as _, RealField as _};
 use super::capsule::{Capsule, Separation};
 use super::checks::check_points;
 use super::segment::{Nearest, Segment, nearer};
-use super::surface::{check_closed, check_volume, crossings};
+use super::surface::{check_volume, crossings};
 use super::tree::{Bounds, Tree, above};
 use super::triangle::{Triangle, segment_and, square_outside};
+use super::weld::closed;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 
@@ -67,8 +68,8 @@ impl TryFrom<Stored> for Mesh {
 
 impl Mesh {
     /// A mesh by the corners of its triangles [m]. A solid one is closed: every edge of a triangle
-    /// is an edge of another one in the opposite sense. Corners are the same if their coordinates
-    /// are. Several solids may overlap if the corners of all are counterclockwise, seen from
+    /// is an edge of another one in the opposite sense. Where it is not, corners within
+    /// [`SAME_CORNER`](super::weld::SAME_CORNER) are made one. Several solids may overlap if the corners of all are counterclockwise, seen from
     /// outside, or of all clockwise.
     pub(super) fn new(
         triangles: &[[[f64; 3]; 3]],
@@ -77,9 +78,9 @@ impl Mesh {
     ) -> Result<Self, Error> {
         let corners = check_points("mesh", "triangles", triangles.as_flattened(), 3)?;
         let (rows, _) = corners.as_chunks::<3>();
-        let triangles = rows.to_vec();
+        let mut triangles = rows.to_vec();
         if is_solid {
-            check_closed(&triangles, interrupt)?;
+            triangles = closed(triangles, interrupt)?;
             check_volume(&triangles)?;
         }
         let boxes: Vec<_> = triangles.iter().map(Bounds::of).collect();

@@ -13,6 +13,7 @@ mod surface;
 mod tests;
 mod tree;
 mod triangle;
+mod weld;
 
 pub use self::capsule::Capsule;
 pub(crate) use self::capsule::Separation;

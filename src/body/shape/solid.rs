@@ -157,12 +157,13 @@ impl Shape {
     }
 
     /// A mesh by the corners of its triangles [m] in the frame of `pose`. What is inside a solid one
-    /// belongs to it; of another one only the surface does.
+    /// belongs to it; of another one only the surface does. If a solid one is not closed, corners
+    /// that are within a micrometer, or a millionth of its size, are made one.
     ///
     /// # Errors
     ///
     /// [`Error::InvalidBody`] for corners that are not finite or more than 100 m apart, and for a
-    /// solid mesh that is not closed, or without volume; [`Error::InvalidPose`].
+    /// solid mesh that is still not closed, or without volume; [`Error::InvalidPose`].
     pub fn mesh(triangles: &[[[f64; 3]; 3]], is_solid: bool, pose: &Pose) -> Result<Self, Error> {
         Self::mesh_until(triangles, is_solid, pose, Interrupt::none())
     }

@@ -11,15 +11,18 @@ use super::checks::LEAST;
 use super::triangle::{Triangle, edges};
 use crate::body::fault::BodyFault;
 use crate::error::Error;
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, Interrupted};
 
 /// Bound of the rounding of a product of three vectors, relative to the product of their lengths
 /// [1]: more than 10 roundings.
 const ROUNDING: f64 = 4e-15;
 
-/// Check that every edge is used in one sense as often as in the other, so that every ray leaves
-/// the surface as often as it enters it.
-pub(super) fn check_closed(triangles: &[Triangle], interrupt: Interrupt<'_>) -> Result<(), Error> {
+/// Where triangles are open: an edge that is not used in one sense as often as in the other. If
+/// there is no such edge, every ray leaves the surface as often as it enters it.
+pub(super) fn opening(
+    triangles: &[Triangle],
+    interrupt: Interrupt<'_>,
+) -> Result<Option<BodyFault>, Interrupted> {
     let mut numbers = BTreeMap::new();
     let mut senses: BTreeMap<[usize; 2], [u32; 2]> = BTreeMap::new();
     let mut places = Vec::new();
@@ -40,9 +43,9 @@ pub(super) fn check_closed(triangles: &[Triangle], interrupt: Interrupt<'_>) -> 
         }
     }
     let mut open = senses.iter().filter(|(_, [along, back])| along != back);
-    let Some((edge, [along, back])) = open.next() else { return Ok(()) };
+    let Some((edge, [along, back])) = open.next() else { return Ok(None) };
     let edge = edge.map(|at| places[at].into());
-    Err(BodyFault::Open { edge, senses: [*along, *back], count: 1 + open.count() }.into())
+    Ok(Some(BodyFault::Open { edge, senses: [*along, *back], count: 1 + open.count() }))
 }
 
 /// Check that triangles enclose a volume.

@@ -314,6 +314,55 @@ fn overlapping_solids_are_full_and_rooms_are_empty() {
     assert_eq!(distance(&room, &ball([0.45, 0.0, 0.0])), -1e-3);
 }
 
+/// Triangles each of whose corners is off by up to `by` [m].
+fn parted(triangles: &[[[f64; 3]; 3]], by: f64, rng: &mut Rng) -> Vec<[[f64; 3]; 3]> {
+    let off = |rng: &mut Rng| triple(rng, 1.0).normalize() * (by * rng.between(0.0, 1.0));
+    let all = triangles.iter();
+    let mut corner = |own: [f64; 3]| (Vector3::from(own) + off(rng)).into();
+    all.map(|corners| corners.map(&mut corner)).collect()
+}
+
+#[test]
+fn corners_within_a_micrometer_are_one() {
+    let mut rng = Rng::new(7);
+    let ring = torus(30);
+    let whole = Shape::mesh(&ring, true, &Pose::identity()).unwrap();
+    for (size, by) in [(1.0, 1e-15), (1.0, 2e-9), (1.0, 4.9e-7), (20.0, 6e-6)] {
+        let scale = |corners: &[[f64; 3]; 3]| corners.map(|corner| corner.map(|it| size * it));
+        let parted = parted(&ring.iter().map(scale).collect::<Vec<_>>(), by, &mut rng);
+        let mesh = Mesh::new(&parted, true, Interrupt::none()).unwrap();
+        let again = Mesh::new(&mesh.triangles().collect::<Vec<_>>(), true, Interrupt::none());
+        assert_eq!(again.unwrap(), mesh);
+        for (kept, given) in mesh.triangles().zip(&parted) {
+            for (kept, given) in kept.iter().zip(given) {
+                assert!((Vector3::from(*kept) - Vector3::from(*given)).norm() <= 2.0 * by);
+            }
+        }
+        for _ in 0..300 {
+            let own = capsule(&mut rng, 0.9, 0.05);
+            let [a, b] = own.ends.map(|end| (end * size).into());
+            let large = Capsule::new(a, b, 0.05 * size).unwrap();
+            let (one, other) = (mesh.separation(&large).distance, distance(&whole, &own) * size);
+            // A corner is off by itself and by the weld.
+            assert!(
+                (one - other).abs() <= 3.0 * by + ABOVE,
+                "size {size}, by {by}: {one}, {other}"
+            );
+        }
+    }
+    let fault = Shape::mesh(&parted(&ring, 4e-6, &mut rng), true, &Pose::identity()).unwrap_err();
+    assert!(fault.to_string().contains("open, by more than a micrometer"), "{fault}");
+}
+
+#[test]
+fn a_closed_mesh_keeps_its_corners() {
+    // Its edges are shorter than what makes corners one.
+    let small: Vec<_> =
+        torus(30).iter().map(|row| row.map(|point| point.map(|it| 2e-5 * it))).collect();
+    let mesh = Mesh::new(&small, true, Interrupt::none()).unwrap();
+    assert!(mesh.triangles().zip(small).all(|(kept, given)| kept == given));
+}
+
 #[test]
 fn shapes_that_cannot_be_are_named() {
     let none = Pose::identity();

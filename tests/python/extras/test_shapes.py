@@ -319,3 +319,19 @@ def test_a_large_cell_in_meters_is_taken():
     ]
     cell = irbkin.Cell({str(number): shape for number, shape in enumerate(shapes)})
     assert cell.collides(ROBOT, np.zeros(6))
+
+
+def test_corners_of_a_file_within_a_micrometer_are_one(tmp_path):
+    # In the thousandths of a millimeter that a file may have.
+    rng, path = np.random.default_rng(5), tmp_path / "part.stl"
+    for by in (1e-9, 1e-7, 4e-7):
+        way = rng.normal(size=PART.shape)
+        way *= by / np.linalg.norm(way, axis=2, keepdims=True)
+        trimesh.Trimesh(**trimesh.triangles.to_kwargs(PART + way)).export(path)
+        own = Shape.mesh(path, PLACE)
+        assert own.data()["solid"]
+        q = near_postures(200)
+        off = distances(own, q) - distances(Shape.mesh(PART, PLACE), q)
+        assert np.abs(off).max() < 3 * by + 2e-7
+    with pytest.raises(irbkin.InvalidModelError, match=r"not closed: .* by more than a micrometer"):
+        Shape.mesh(PART + rng.choice([-2e-6, 2e-6], PART.shape))
