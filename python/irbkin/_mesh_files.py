@@ -7,10 +7,26 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._core import Shape
 from irbkin.errors import InvalidModelError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+
+ENDINGS = (".stl", ".obj", ".dae", ".ply", ".off", ".glb", ".gltf", ".3mf")
+"""Formats that are read. An archive may unpack to anything."""
+
+
+def mesh(
+    triangles: npt.ArrayLike | str | os.PathLike[str], solid: bool, *, scale: float = 1.0
+) -> Shape:
+    """A solid mesh; unless `solid`, its surface if it is not closed or has no volume."""
+    try:
+        return Shape.mesh(triangles, scale=scale)
+    except InvalidModelError:
+        if solid:
+            raise
+    return Shape.mesh(triangles, scale=scale, solid=False)
 
 
 def triangles(path: str | os.PathLike[str]) -> npt.NDArray[np.float64]:
@@ -26,11 +42,18 @@ def triangles(path: str | os.PathLike[str]) -> npt.NDArray[np.float64]:
     path = os.fspath(path)
     if not os.path.isfile(path):
         raise FileNotFoundError(f"there is no file of a mesh at {path}")
+    if not path.lower().endswith(ENDINGS):
+        raise InvalidModelError(f"{path}: a mesh is in a file that ends in {', '.join(ENDINGS)}")
     try:
         scene = trimesh.load_scene(path, process=False)
     # Its readers raise whatever a damaged file makes them raise.
     except Exception as error:
         raise InvalidModelError(f"{path} is no mesh that trimesh reads: {error}") from error
+    for part in scene.geometry.values():
+        faces, count = np.asarray(getattr(part, "faces", [])), len(part.vertices)
+        if faces.size and not 0 <= faces.min() <= faces.max() < count:
+            found = f"{faces.min()} to {faces.max()}"
+            raise InvalidModelError(f"{path} has corners 0 to {count - 1}, triangles of {found}")
     if scene.units not in (None, "m", "meter", "meters"):
         scene = scene.convert_units("meters")
     mesh = scene.to_mesh()

@@ -64,6 +64,8 @@ impl PyCell {
     ///
     /// Args:
     ///     path: A file that ends in .toml, .urdf or .xml.
+    ///     solid: False to take a mesh that is not closed by its surface alone. Inside of it is
+    ///         free. Meshes that are closed are solid as before.
     ///
     /// Raises:
     ///     InvalidModelError: An unknown key or frame, a shape that cannot be; the message names
@@ -71,9 +73,10 @@ impl PyCell {
     ///     ImportError: A mesh is in the file and trimesh is not installed.
     ///     OSError: The file cannot be read.
     #[staticmethod]
-    fn load(path: &Bound<'_, PyAny>) -> PyResult<Py<Self>> {
+    #[pyo3(signature = (path, *, solid=true))]
+    fn load(path: &Bound<'_, PyAny>, solid: bool) -> PyResult<Py<Self>> {
         let module = path.py().import("irbkin._cell")?;
-        Ok(module.call_method1("load", (path,))?.extract()?)
+        Ok(module.call_method1("load", (path, solid))?.extract()?)
     }
 
     /// Return the cell with another arm in it, which stands still.

@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 __all__ = ["load"]
 
 
-def load(path: str | os.PathLike[str]) -> Cell:
+def load(path: str | os.PathLike[str], solid: bool = True) -> Cell:
     """Read the cell of a TOML file or of a URDF."""
-    return read(path)[0]
+    return read(path, solid)[0]
 
 
-def read(path: str | os.PathLike[str]) -> tuple[Cell, dict[str, list[Shape]]]:
+def read(path: str | os.PathLike[str], solid: bool = True) -> tuple[Cell, dict[str, list[Shape]]]:
     """Read a cell, and the shapes of tools and parts in the flange frame, by lower-case names."""
     path = os.fspath(path)
     ending = os.path.splitext(path)[1].lower()
@@ -30,10 +30,10 @@ def read(path: str | os.PathLike[str]) -> tuple[Cell, dict[str, list[Shape]]]:
         if ending == ".toml":
             from irbkin._cell.tables import cell_of
 
-            return cell_of(content, os.path.dirname(path))
+            return cell_of(content, os.path.dirname(path), solid)
         from irbkin._cell.urdf import cell_of_urdf
 
-        return cell_of_urdf(content, path), {}
+        return cell_of_urdf(content, path, solid), {}
     except InvalidModelError as error:
         raise InvalidModelError(f"{path}: {error}") from None
     except RecursionError:

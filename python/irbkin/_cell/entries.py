@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
+import reprlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, NoReturn
@@ -20,12 +21,13 @@ class EntryError(InvalidModelError):
 
 @dataclass(frozen=True)
 class Entry:
-    """A table of a file, with the keys that lead to it and the folder of the file."""
+    """A table of a file, with the keys that lead to it, the folder, and if meshes are solid."""
 
     text: str
     folder: str
     keys: tuple[str, ...]
     table: Mapping[str, Any]
+    solid: bool = True
 
     def refuse(self, cause: str | IrbkinError, key: str = "") -> NoReturn:
         """Raise an error that names the entry and its line; an error that does is raised again."""
@@ -48,7 +50,7 @@ class Entry:
         table = self.table.get(key, {})
         if not isinstance(table, Mapping):
             self.refuse(f"is {table!r}, it must be a table", key)
-        return Entry(self.text, self.folder, (*self.keys, key), table)
+        return Entry(self.text, self.folder, (*self.keys, key), table, self.solid)
 
     def subs(self, key: str) -> dict[str, Entry]:
         """The tables in the table of a key, by their names."""
@@ -61,7 +63,7 @@ class Entry:
         if value is None:
             self.refuse(f"{key} is missing, a number")
         if not _is_number(value):
-            self.refuse(f"is {value!r}, it must be a number", key)
+            self.refuse(f"is {reprlib.repr(value)}, it must be a number", key)
         return float(value)
 
     def numbers(self, key: str, count: int) -> npt.NDArray[np.float64]:
@@ -70,7 +72,7 @@ class Entry:
         if value is None:
             self.refuse(f"{key} is missing, a list of {count} numbers")
         if not isinstance(value, list) or len(value) != count or not all(map(_is_number, value)):
-            self.refuse(f"is {value!r}, it must be a list of {count} numbers", key)
+            self.refuse(f"is {reprlib.repr(value)}, it must be a list of {count} numbers", key)
         return np.array(value, dtype=float)
 
     def name(self, key: str) -> str:
@@ -110,12 +112,13 @@ def parsed(text: str) -> dict[str, Any]:
             ) from missing
     try:
         return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    # Python refuses whole numbers of thousands of digits.
+    except ValueError as error:
         raise InvalidModelError(f"is not TOML: {error}") from None
 
 
 def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
+    return isinstance(value, float) or (type(value) is int and abs(value) < 1e308)
 
 
 def close(name: str, known: Iterable[str]) -> str:

@@ -11,18 +11,19 @@ import numpy as np
 from irbkin._cell.entries import Entry, close, parsed
 from irbkin._cell.frames import Frames
 from irbkin._core import Cell, Robot, Shape
+from irbkin._mesh_files import mesh
 from irbkin.errors import InvalidModelError, IrbkinError
 
 _ORIGIN = np.zeros(3)
 
 
-def cell_of(content: bytes, folder: str) -> tuple[Cell, dict[str, list[Shape]]]:
+def cell_of(content: bytes, folder: str, solid: bool) -> tuple[Cell, dict[str, list[Shape]]]:
     """The cell of a TOML text, and shapes that are carried; its files are in a folder."""
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InvalidModelError(f"is not UTF-8: {error}") from None
-    root = Entry(text, folder, (), parsed(text))
+    root = Entry(text, folder, (), parsed(text), solid)
     root.check("margin", "may_touch", "frames", "obstacles", "robots", "tool", "part")
     frames = Frames(root.subs("frames"))
     obstacles = {name: _shape(entry, frames) for name, entry in root.subs("obstacles").items()}
@@ -60,9 +61,10 @@ def _pairs(root: Entry, cell: Cell) -> list[tuple[str, int]]:
     pairs = root.table.get("may_touch", [])
     if not isinstance(pairs, list) or not all(map(_is_pair, pairs)):
         root.refuse('must be pairs of an obstacle and a link, as [["table", 1]]', "may_touch")
+    obstacles = cell.obstacles
     for name, _ in pairs:
-        if name not in cell.obstacles:
-            hint = close(name, cell.obstacles)
+        if name not in obstacles:
+            hint = close(name, obstacles)
             root.refuse(f"there is no obstacle {name}; {hint}", "may_touch")
     return [(name, link) for name, link in pairs]
 
@@ -115,8 +117,10 @@ def _convex(entry: Entry) -> Shape:
 
 
 def _mesh(entry: Entry) -> Shape:
-    scale, solid = entry.number("scale", 1.0), entry.truth("solid", True)
-    return Shape.mesh(_file_or_rows(entry, "mesh"), scale=scale, solid=solid)
+    given, scale = _file_or_rows(entry, "mesh"), entry.number("scale", 1.0)
+    if "solid" in entry.table:
+        return Shape.mesh(given, scale=scale, solid=entry.truth("solid", True))
+    return mesh(given, entry.solid, scale=scale)
 
 
 _SHAPES: dict[str, tuple[Callable[[Entry], Shape], tuple[str, ...]]] = {
@@ -144,8 +148,11 @@ def _file_or_rows(entry: Entry, key: str) -> Any:
         path = os.path.join(entry.folder, value)
         if not os.path.isfile(path):
             entry.refuse(f"there is no file {path}", key)
-        return np.load(path) if path.endswith(".npy") else path
-    except (EOFError, TypeError, ValueError) as error:
+        if not path.endswith(".npy"):
+            return path
+        # A map is not larger than its file, whatever its header says.
+        return np.array(np.load(path, mmap_mode="r"), dtype=float)
+    except (EOFError, OverflowError, TypeError, ValueError) as error:
         if isinstance(error, IrbkinError):
             raise
         entry.refuse("must be rows of numbers, or the name of a file", key)

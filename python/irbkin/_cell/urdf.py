@@ -13,13 +13,13 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin._core import Cell, Shape, _urdf_text, pose
-from irbkin._mesh_files import triangles
+from irbkin._mesh_files import mesh, triangles
 from irbkin.errors import InvalidModelError, IrbkinError
 
 _LAST_LINK = 7
 
 
-def cell_of_urdf(content: bytes, path: str) -> Cell:
+def cell_of_urdf(content: bytes, path: str, solid: bool) -> Cell:
     """The cell of a URDF, and of an SRDF of its name beside it."""
     root = _xml(content)
     below: dict[str, list[ElementTree.Element]] = {}
@@ -35,7 +35,8 @@ def cell_of_urdf(content: bytes, path: str) -> Cell:
     poses, numbers = _walk(tops[0], below)
     shapes = {}
     for name, at in poses.items():
-        if name not in numbers and (parts := _shapes(links[name], os.path.dirname(path))):
+        folder = os.path.dirname(path)
+        if name not in numbers and (parts := _shapes(links[name], folder, solid)):
             shapes[name] = Shape.union(parts).moved(at)
     return Cell(shapes, 0.0, _pairs(os.path.splitext(path)[0] + ".srdf", shapes, numbers))
 
@@ -79,20 +80,20 @@ def _walk(
     return poses, numbers
 
 
-def _shapes(link: ElementTree.Element, folder: str) -> list[Shape]:
+def _shapes(link: ElementTree.Element, folder: str, solid: bool) -> list[Shape]:
     shapes = []
     for collision in link.findall("collision"):
         try:
             geometry = collision.find("geometry")
             if geometry is None or len(geometry) != 1:
                 raise InvalidModelError("geometry must have one shape")
-            shapes.append(_shape(geometry[0], folder).moved(_origin(collision)))
+            shapes.append(_shape(geometry[0], folder, solid).moved(_origin(collision)))
         except IrbkinError as error:
             raise InvalidModelError(f"link {_attribute(link, 'name')}: {error}") from None
     return shapes
 
 
-def _shape(element: ElementTree.Element, folder: str) -> Shape:
+def _shape(element: ElementTree.Element, folder: str, solid: bool) -> Shape:
     if element.tag == "box":
         return Shape.box(_numbers(element, "size", 3))
     if element.tag == "sphere":
@@ -104,7 +105,7 @@ def _shape(element: ElementTree.Element, folder: str) -> Shape:
         return Shape.capsule(-half, half, _number(element, "radius"))
     if element.tag == "mesh":
         scale = _numbers(element, "scale", 3) if "scale" in element.attrib else np.ones(3)
-        return Shape.mesh(triangles(_file(_attribute(element, "filename"), folder)) * scale)
+        return mesh(triangles(_file(_attribute(element, "filename"), folder)) * scale, solid)
     raise InvalidModelError(
         f"unknown shape {element.tag}; known: box, sphere, cylinder, capsule, mesh"
     )

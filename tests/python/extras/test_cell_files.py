@@ -2,6 +2,7 @@
 
 import re
 import textwrap
+import time
 from pathlib import Path
 
 import irbkin
@@ -21,6 +22,22 @@ def write_cube(path, half):
     faces = (f"f {a} {b} {c} {d}" for a, b, c, d in FACES)
     path.write_text("\n".join([*corners, *faces]))
 
+
+# A triangle, the last corner of which is to be filled in.
+PLY = """ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0
+1 0 0
+0 1 0
+3 0 1 {}
+"""
 
 CELL = """
 margin = 0.01
@@ -175,11 +192,45 @@ def test_a_file_may_be_empty(folder):
         ("[robots.left]\nname = 'IRB 120-3/0.58'\nq = [1]", "must be a list of 6 numbers"),
         ("[robots.left]\nname = 'IRB 120-3/0.58'", "one of q .rad. and q_deg"),
         ("margin = 1\nb = = 2", "is not TOML: .*line 2"),
+        ("[obstacles.a]\nbox = [" + "9" * 4000 + ", 1, 1]", "a.box: is .* 3 numbers"),
+        ("[obstacles.a]\nsphere = " + "9" * 400, "a.sphere: is 9+.* it must be a number"),
+        ("[obstacles.a]\nsphere = " + "9" * 5000, "is not TOML: .*4300 digits"),
+        ("[obstacles.a]\nconvex = [[" + "9" * 400 + "]]", "rows of numbers, or the name of a file"),
+        ("[obstacles.a]\nmesh = 'far.ply'", r"far\.ply has corners 0 to 2, triangles of 0 to 7"),
+        ("[obstacles.a]\nmesh = 'less.ply'\nsolid = false", "triangles of -1 to 1"),
+        ("[obstacles.a]\nmesh = 'cube.zip'", r"cube\.zip: a mesh is in a file that ends in \.stl"),
+        *(
+            (f"[obstacles.a]\npoints = '{name}.npy'\nradius = 1", "a.points: must be rows of num")
+            for name in ("empty", "endless", "many", "words")
+        ),
     ],
 )
 def test_bad_files_are_named(folder, text, words):
+    for name, corner in (("far", 7), ("less", -1)):
+        (folder / f"{name}.ply").write_text(PLY.format(corner))
+    (folder / "cube.zip").write_bytes(b"PK")
+    (folder / "empty.npy").write_bytes(b"")
+    header = (
+        b"\x93NUMPY\x01\x00v\x00{'descr': '<f8', 'fortran_order': False, 'shape': (10**11, 3), }"
+    )
+    (folder / "endless.npy").write_bytes(
+        header.replace(b"10**11", b"1" + b"0" * 11).ljust(127) + b"\n"
+    )
+    np.savez(folder / "many.npz", np.zeros((1, 3)))
+    (folder / "many.npz").rename(folder / "many.npy")
+    np.save(folder / "words.npy", np.array([["a", "b", "c"]]))
     with pytest.raises(irbkin.InvalidModelError, match=words):
         load(folder, text)
+
+
+def test_a_hundred_thousand_obstacles_are_a_cell():
+    # Spheres of a scan. In quadratic time it would take minutes.
+    shape = Shape.sphere(0.1, np.zeros(3))
+    obstacles = {f"b{k}": shape.moved(irbkin.pose([k % 50, 0, 0])) for k in range(100_000)}
+    start = time.perf_counter()
+    cell = irbkin.Cell(obstacles, may_touch=[(f"b{k}", 1) for k in range(100_000)])
+    assert time.perf_counter() - start < 5
+    assert len(cell.obstacles) == len(cell.may_touch) == 100_000
 
 
 def test_files_that_are_no_cells(folder):
@@ -287,3 +338,34 @@ def test_one_arm_is_in_a_urdf_and_moves(folder):
     text = URDF.replace('name="b" type="fixed"', 'name="b" type="prismatic"')
     with pytest.raises(irbkin.InvalidModelError, match=r"the joints . and . both begin an arm"):
         load(folder, text, "cell.urdf")
+
+
+def test_an_open_mesh_of_a_file_is_a_surface_only_when_that_is_asked_for(folder):
+    write_cube(folder / "closed.obj", 200)
+    (folder / "cube.obj").write_text((folder / "cube.obj").read_text().rpartition("\n")[0])
+    text = """
+        [obstacles.open]
+        mesh = "cube.obj"
+        scale = 0.001
+        [obstacles.closed]
+        mesh = "closed.obj"
+        scale = 0.001
+    """
+    for content, name in ((text, "cell.toml"), (URDF, "cell.urdf")):
+        with pytest.raises(irbkin.InvalidModelError, match=r"not closed: .*solid=False"):
+            load(folder, content, name)
+        cell = irbkin.Cell.load(folder / name, solid=False)
+        kinds = {own: shape.data() for own, shape in cell.obstacles.items()}
+        if name == "cell.toml":
+            assert not kinds["open"]["solid"]
+            assert kinds["closed"]["solid"]
+        else:
+            assert not kinds["fixture"]["shapes"][0]["solid"]
+    # What a file says counts, and other faults are errors.
+    (folder / name).write_text(URDF.replace("1e-3 1e-3 2e-3", "1e3 1e3 1e3"))
+    with pytest.raises(irbkin.InvalidModelError, match="millimeters"):
+        irbkin.Cell.load(folder / name, solid=False)
+    solid = text.replace("scale = 0.001", "scale = 0.001\nsolid = true")
+    (folder / "cell.toml").write_text(textwrap.dedent(solid))
+    with pytest.raises(irbkin.InvalidModelError, match="not closed"):
+        irbkin.Cell.load(folder / "cell.toml", solid=False)
