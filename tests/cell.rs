@@ -57,6 +57,23 @@ fn asked(cell: &Cell, robot: &AnyRobot, q: &[f64]) -> (bool, f64) {
 }
 
 #[test]
+fn two_obstacles_of_one_name_and_names_of_none_are_refused() {
+    let ball = || Shape::sphere(0.1, [0.0; 3]).unwrap();
+    let named = |names: &[&str]| {
+        Cell::new(names.iter().map(|name| ((*name).to_owned(), ball())).collect(), 0.0)
+    };
+    let twice = named(&["a", "b", "c", "b", "a"]).unwrap_err().to_string();
+    assert_eq!(twice, "obstacle 3 has the name of another one: each must have its own");
+    let cell = named(&["a", "b"]).unwrap();
+    let pairs = [("b", 2), ("a", 1), ("b", 7)];
+    let both = cell.clone().with_may_touch(&pairs).unwrap();
+    assert_eq!(both.may_touch().collect::<Vec<_>>(), [("a", 1), ("b", 2), ("b", 7)]);
+    assert_eq!(cell.clone().with_may_touch::<&str>(&[]).unwrap(), cell);
+    let none = cell.with_may_touch(&[("c", 1)]).unwrap_err().to_string();
+    assert!(none.contains("no obstacle has the name \"c\", there are: \"a\", \"b\""), "{none}");
+}
+
+#[test]
 fn no_collision_of_the_meshes_is_missed() {
     let mut counts: BTreeMap<&str, [usize; 4]> = BTreeMap::new();
     for line in COLLISIONS.lines().filter(|line| !line.starts_with('#')).skip(1) {

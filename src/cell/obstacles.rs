@@ -1,5 +1,6 @@
 //! A cell: obstacles in the frame of the world.
 
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
@@ -30,10 +31,9 @@ impl Cell {
     /// finite.
     pub fn new(obstacles: Vec<(String, Shape)>, margin: f64) -> Result<Self, Error> {
         check_length("margin", margin, 0.0)?;
-        for (index, (name, _)) in obstacles.iter().enumerate() {
-            if obstacles[..index].iter().any(|(other, _)| other == name) {
-                return Err(BodyFault::TwoNames { index }.into());
-            }
+        let mut names = BTreeSet::new();
+        if let Some(index) = obstacles.iter().position(|(name, _)| !names.insert(name)) {
+            return Err(BodyFault::TwoNames { index }.into());
         }
         Ok(Self { obstacles, margin, may_touch: Vec::new() })
     }
@@ -58,16 +58,21 @@ impl Cell {
     /// [`Error::InvalidBody`] for a name that no obstacle has, and a link other than 1 to 8: link 0,
     /// on which an arm stands, is never compared.
     pub fn with_may_touch<S: AsRef<str>>(mut self, pairs: &[(S, usize)]) -> Result<Self, Error> {
+        if pairs.is_empty() {
+            return Ok(self);
+        }
+        let names = self.obstacles.iter().map(|(name, _)| &**name).zip(0..);
+        let places: BTreeMap<&str, usize> = names.collect();
+        self.may_touch.resize(self.obstacles.len(), 0);
         for (name, link) in pairs {
             let name = name.as_ref();
-            let Some(obstacle) = self.obstacles.iter().position(|(own, _)| own == name) else {
+            let Some(&obstacle) = places.get(name) else {
                 let existing = self.obstacles.iter().map(|(own, _)| format!("{own:?}")).collect();
                 return Err(BodyFault::NoObstacle { name: name.to_string(), existing }.into());
             };
             if !(1..=LAST_LINK).contains(link) {
                 return Err(BodyFault::NoMovingLink { name: name.to_string(), link: *link }.into());
             }
-            self.may_touch.resize(self.obstacles.len(), 0);
             self.may_touch[obstacle] |= 1 << link;
         }
         Ok(self)
