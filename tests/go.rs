@@ -144,6 +144,11 @@ fn what_cannot_be_is_refused_as_that() {
     assert!(to(at(9.0, 0.0, 0.0)).starts_with("goal is not reached: wrist center "));
     let outside = [0.0, 3.0, 0.0, 0.0, 0.0, 0.0];
     assert!(to(End::Joints(outside)).starts_with("goal: joint 2 is 3.000000 rad, its limits are "));
+    let words = to(End::Joints(outside));
+    assert!(words.contains(" rad, exceeded by ") && words.ends_with(" rad"), "{words}");
+    let upper = robot.limits().to_array()[1][1];
+    let words = to(End::Joints([0.0, upper + 1.2e-6, 0.0, 0.0, 0.0, 0.0]));
+    assert!(words.ends_with(" rad, exceeded by 1.2e-6 rad"), "{words}");
     assert!(to(End::Joints([f64::NAN; 6])).contains("finite"));
     let limits = GoOptions { max_velocity: Some([0.0; 6]), ..GoOptions::default() };
     let ends = [End::Joints(free); 2];

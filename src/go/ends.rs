@@ -10,8 +10,7 @@ use crate::body::fault::BodyFault;
 use crate::cell::{Cell, Nearest, Placed};
 use crate::error::Error;
 use crate::go::fault::GoFault;
-use crate::kinematics::thresholds::LIMIT_TOLERANCE;
-use crate::kinematics::{Pose, Robot, Solutions, check_seed, checked_pose};
+use crate::kinematics::{Pose, Robot, Solutions, at_limit, check_seed, checked_pose};
 use crate::trajectory::distance;
 
 /// Angles of joint 7 of which the solutions are taken.
@@ -61,10 +60,7 @@ impl<const N: usize> Candidates<'_, N> {
         end: &End<N>,
     ) -> Result<Vec<[f64; N]>, Error> {
         let (solutions, is_all) = match end {
-            End::Joints(q) => {
-                check_inside(robot, self.field, q)?;
-                (vec![*q], true)
-            }
+            End::Joints(q) => (vec![inside(robot, self.field, q)?], true),
             End::Pose(pose) => self.solutions(robot, &checked_pose(pose)?)?,
         };
         let is_free = cell.free_postures(placed, &solutions);
@@ -167,24 +163,31 @@ impl<const N: usize> Candidates<'_, N> {
     }
 }
 
-/// Check joint angles: a locked joint is at its angle, the others are inside their limits.
-fn check_inside<const N: usize>(
+/// Joint angles, checked: a locked joint is at its angle, the others are inside their limits, or at
+/// a limit that they exceed by at most
+/// [`START_TOLERANCE`](crate::kinematics::thresholds::START_TOLERANCE).
+fn inside<const N: usize>(
     robot: &Robot<N>,
     field: &'static str,
     q: &[f64; N],
-) -> Result<(), Error> {
+) -> Result<[f64; N], Error> {
     check_seed(field, q)?;
     let mut limits = robot.limits().to_array();
     if let Some((joint, angle)) = robot.locked_joint() {
         limits[joint - 1] = [angle; 2];
     }
-    for (joint, (value, bounds)) in q.iter().copied().zip(limits).enumerate() {
-        if value < bounds[0] - LIMIT_TOLERANCE || value > bounds[1] + LIMIT_TOLERANCE {
-            return Err(GoFault::Outside { field, joint: joint + 1, value, bounds }.into());
-        }
+    let mut inside = *q;
+    for (joint, (angle, bounds)) in inside.iter_mut().zip(limits).enumerate() {
+        let value = *angle;
+        *angle = at_limit(value, bounds).ok_or(GoFault::Outside {
+            field,
+            joint: joint + 1,
+            value,
+            bounds,
+        })?;
     }
-    match robot.limits().linkage_excess(q) {
-        0.0 => Ok(()),
+    match robot.limits().linkage_excess(&inside) {
+        0.0 => Ok(inside),
         excess => Err(GoFault::Linkage { field, excess }.into()),
     }
 }

@@ -4,19 +4,20 @@ use alloc::string::String;
 
 use thiserror::Error;
 
-use crate::report::Explanation;
+use crate::report::{Explanation, excess};
 
 /// Why there is no free motion. `field` is "start" or "goal"; joints count from 1.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum GoFault {
     #[error(
-        "{field}: joint {joint} is {value:.6} rad, its limits are {:.6} to {:.6} rad",
-        .bounds[0], .bounds[1]
+        "{field}: joint {joint} is {value:.6} rad, its limits are {:.6} to {:.6} rad, exceeded {} rad",
+        .bounds[0], .bounds[1], excess(*.value, *.bounds)
     )]
     Outside { field: &'static str, joint: usize, value: f64, bounds: [f64; 2] },
     #[error(
-        "{field}: the linkage of axes 2 and 3 is {:.3} deg outside its limits", .excess.to_degrees()
+        "{field}: the linkage of axes 2 and 3 is outside its limits {} deg",
+        crate::report::excess(.excess.to_degrees(), [0.0; 2])
     )]
     Linkage { field: &'static str, excess: f64 },
     #[error("{field} is not reached: {reason}")]

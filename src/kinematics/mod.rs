@@ -30,6 +30,7 @@ pub use chain::joint_axes::JointAxis;
 #[cfg(feature = "urdf")]
 pub(crate) use chain::joint_axes::unit;
 pub use chain::limits::JointLimits;
+pub(crate) use chain::limits::at_limit;
 #[cfg(feature = "python")]
 pub(crate) use path::follow::Progress;
 pub use path::follow::{Break, BreakReason, Followed, Follower};

@@ -130,6 +130,10 @@ pub(crate) const SOLUTION_OFF: f64 = 1e-6;
 /// must not be lost to rounding.
 pub const LIMIT_TOLERANCE: f64 = 1e-9;
 
+/// How far given joint angles at an end of a motion may exceed a limit and be moved to it [rad]: a
+/// controller reports them with six or seven digits.
+pub const START_TOLERANCE: f64 = 1e-6;
+
 /// How far outside its limits a joint may be computed that rounding leaves undetermined at a
 /// singular pose, and still be moved inside them, if that reaches the pose [rad]: ten times the
 /// uncertainty of a joint whose lever is [`SEEDED_FREE`].

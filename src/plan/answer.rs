@@ -6,7 +6,7 @@ use core::fmt;
 
 use crate::error::Error;
 use crate::kinematics::SingularityKind;
-use crate::report::Explanation;
+use crate::report::{Explanation, excess};
 
 /// A joint path along a path of poses.
 #[derive(Clone, Debug, PartialEq)]
@@ -169,13 +169,19 @@ impl fmt::Display for StrandReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unreachable(explanation) => explanation.fmt(f),
-            Self::Limit { joint, value, bounds: [lower, upper] } => write!(
-                f,
-                "J{joint} would have to be at {:.1} deg, its limits are {:.1} to {:.1} deg",
-                value.to_degrees(),
-                lower.to_degrees(),
-                upper.to_degrees()
-            ),
+            Self::Limit { joint, value, bounds } => {
+                let [value, lower, upper] = [*value, bounds[0], bounds[1]].map(f64::to_degrees);
+                write!(
+                    f,
+                    "J{joint} would have to be at {value:.1} deg, its limits are {lower:.1} to \
+                     {upper:.1} deg"
+                )?;
+                // With one decimal both may look equal.
+                if value < lower - 0.2 || value > upper + 0.2 {
+                    return Ok(());
+                }
+                write!(f, ", exceeded {} deg", excess(value, [lower, upper]))
+            }
             Self::Speed { joint, ratio } => {
                 write!(f, "J{joint} would have to move at {ratio:.2} of its velocity limit")
             }

@@ -6,8 +6,7 @@ use super::graph::{Own, Values, Waypoint};
 use super::nodes::Arm;
 use super::options::PlanOptions;
 use crate::error::Error;
-use crate::kinematics::thresholds::LIMIT_TOLERANCE;
-use crate::kinematics::{Pose, PoseDifference, check_seed, nearest_turn};
+use crate::kinematics::{Pose, PoseDifference, at_limit, check_seed, nearest_turn};
 use crate::lanes::nearest_whole;
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::{MOST_FREE_AXES, PLAN_END_OFF};
@@ -45,12 +44,11 @@ impl Given {
         pose: &Pose,
     ) -> Result<Self, Error> {
         check_seed(field, q)?;
-        for (joint, [lower, upper]) in arm.robot.limits().to_array().into_iter().enumerate() {
+        let mut inside = *q;
+        for (joint, bounds) in arm.robot.limits().to_array().into_iter().enumerate() {
             let value = q[joint];
-            if value < lower - LIMIT_TOLERANCE || value > upper + LIMIT_TOLERANCE {
-                let bounds = [lower, upper];
-                return Err(PlanFault::EndOutside { field, joint: joint + 1, value, bounds }.into());
-            }
+            let outside = PlanFault::EndOutside { field, joint: joint + 1, value, bounds };
+            inside[joint] = at_limit(value, bounds).ok_or(outside)?;
         }
         if external.len() != arm.freedom.external {
             let (found, wanted) = (external.len(), arm.freedom.external);
@@ -67,11 +65,11 @@ impl Given {
             return Err(PlanFault::EndOff { field, position, rotation, bound }.into());
         }
         let cell = nearest_cell(arm, field, &mut values)?;
-        let slot = match arm.robot.slot_of(q) {
+        let slot = match arm.robot.slot_of(&inside) {
             Some(slot) => slot.index(),
-            None => arm.ordinal(q)?,
+            None => arm.ordinal(&inside)?,
         };
-        Ok(Self { q: *q, slot, own: Own { cell, values } })
+        Ok(Self { q: inside, slot, own: Own { cell, values } })
     }
 }
 

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::error::input::PoseFault;
+use crate::report::excess;
 
 /// Why an argument of a plan is refused. Lengths in meters, angles in radians, times in seconds;
 /// poses and axes count from 0, joints from 1; `bounds` are the least and the largest value.
@@ -34,8 +35,10 @@ pub enum PlanFault {
     )]
     EndOff { field: &'static str, position: f64, rotation: f64, bound: f64 },
     #[error(
-        "{field} turns the tool by {:.3} deg, the tool rotation allows {:.3} to {:.3} deg",
-        .angle.to_degrees(), .bounds[0].to_degrees(), .bounds[1].to_degrees()
+        "{field} turns the tool by {:.3} deg, the tool rotation allows {:.3} to {:.3} deg, exceeded \
+         {} rad",
+        .angle.to_degrees(), .bounds[0].to_degrees(), .bounds[1].to_degrees(),
+        excess(*.angle, *.bounds)
     )]
     EndAngle { field: &'static str, angle: f64, bounds: [f64; 2] },
     /// In rad^2/s^2.
@@ -87,8 +90,8 @@ pub enum PlanFault {
     )]
     Nodes { found: usize, most: usize },
     #[error(
-        "{field}: joint {joint} is {value:.6} rad, its limits are {:.6} to {:.6} rad",
-        .bounds[0], .bounds[1]
+        "{field}: joint {joint} is {value:.6} rad, its limits are {:.6} to {:.6} rad, exceeded {} rad",
+        .bounds[0], .bounds[1], excess(*.value, *.bounds)
     )]
     EndOutside { field: &'static str, joint: usize, value: f64, bounds: [f64; 2] },
     #[error(

@@ -13,8 +13,7 @@ use super::options::{Accept, Caller, PlanOptions, Test};
 use super::tested::Tests;
 use crate::error::{Error, JointFault, ModelFault};
 use crate::interrupt::Interrupt;
-use crate::kinematics::thresholds::LIMIT_TOLERANCE;
-use crate::kinematics::{Pose, Robot, Slot, check_weights};
+use crate::kinematics::{Pose, Robot, Slot, at_limit, check_weights};
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::MOST_EXTERNAL;
 use crate::trajectory::Retiming;
@@ -176,8 +175,8 @@ impl Seven<'_> {
         }
         external.extend(&options.external);
         let end = |field, q: Option<[f64; 7]>, own: &[f64]| {
-            let Some(q) = q else { return Ok((None, own.to_vec())) };
-            self.check_end(field, &q)?;
+            let Some(mut q) = q else { return Ok((None, own.to_vec())) };
+            q[self.joint()] = self.check_end(field, &q)?;
             let free = &q[self.joint()..][..usize::from(self.is_free)];
             Ok::<_, Error>((Some(self.locked.others(&q)), [free, own].concat()))
         };
@@ -221,18 +220,16 @@ impl Seven<'_> {
             .map(Some)
     }
 
-    /// Check the joint that is not one of the six at an end of the path.
-    fn check_end(&self, field: &'static str, q: &[f64; 7]) -> Result<(), Error> {
+    /// The joint that is not one of the six at an end of the path, checked.
+    fn check_end(&self, field: &'static str, q: &[f64; 7]) -> Result<f64, Error> {
         let joint = self.joint();
         let bounds = match self.locked.locked_joint() {
             Some((_, angle)) if !self.is_free => [angle; 2],
             _ => self.locked.limits().to_array()[joint],
         };
         let value = q[joint];
-        if (bounds[0] - LIMIT_TOLERANCE..=bounds[1] + LIMIT_TOLERANCE).contains(&value) {
-            return Ok(());
-        }
-        Err(PlanFault::EndOutside { field, joint: joint + 1, value, bounds }.into())
+        let outside = PlanFault::EndOutside { field, joint: joint + 1, value, bounds };
+        Ok(at_limit(value, bounds).ok_or(outside)?)
     }
 
     /// The accelerations of the six joints, then of the external axes.

@@ -7,7 +7,7 @@ mod unknown_structure;
 
 pub use answer::{Approach, Configuration, ConfigurationRule, Explanation, Reach};
 pub use free_joint::FreeJoint;
-pub(crate) use names::{Listed, Names};
+pub(crate) use names::{Listed, Names, excess};
 pub use unknown_structure::UnknownStructure;
 pub(crate) use unknown_structure::{
     Columns, Convention, Freedom, MOST_CONDITIONS, ORDERS, Pattern, Reading, Relation, Snap,

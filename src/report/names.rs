@@ -1,7 +1,8 @@
-//! Lists in messages.
+//! Lists and sizes in messages.
 
 use core::fmt;
 
+use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -47,4 +48,10 @@ impl<T: fmt::Display> fmt::Display for Listed<'_, T> {
             .enumerate()
             .try_for_each(|(i, element)| write!(f, "{}{element}", if i == 0 { "" } else { self.1 }))
     }
+}
+
+/// How far a value is beyond its bounds, in words: both may look equal.
+pub(crate) fn excess(value: f64, [lower, upper]: [f64; 2]) -> String {
+    let size = (lower - value).max(value - upper);
+    if size < 1e-3 { format!("by {size:.1e}") } else { format!("by {size:.3}") }
 }

@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 
     _Floats = npt.NDArray[np.float64]
 
-# How far a start may exceed a limit [rad], as everywhere: rounding of what was taught there.
-LIMIT_TOLERANCE = 1e-9
+# How far a start may exceed a limit [rad], as everywhere: rounding of what was reported there. It
+# is moved to the limit.
+START_TOLERANCE = 1e-6
 
 _A = TypeVar("_A", bound=Answer)
 
@@ -243,12 +244,13 @@ def _start(start: npt.ArrayLike | None, robot: Robot) -> _Floats:
         inside: _Floats = np.clip(np.zeros(robot.dof), lower, upper)
         return inside
     q = finite(start, "start", (robot.dof,), InvalidJointsError)
-    for index in np.flatnonzero((q < lower - LIMIT_TOLERANCE) | (q > upper + LIMIT_TOLERANCE)):
+    excess = np.maximum(lower - q, q - upper)
+    for index in np.flatnonzero(excess > START_TOLERANCE):
         raise InvalidJointsError(
             f"start[{index}] is {q[index]:.4g} rad, joint {index + 1} must be "
-            f"{lower[index]:.4g} to {upper[index]:.4g} rad"
+            f"{lower[index]:.4g} to {upper[index]:.4g} rad, exceeded by {excess[index]:.2g} rad"
         )
-    return q
+    return np.clip(q, lower, upper)
 
 
 def _weights(weights: npt.ArrayLike, robot: Robot) -> _Floats:

@@ -4,7 +4,7 @@ use core::f64::consts::{PI, TAU};
 
 use crate::error::{Error, ModelFault};
 use crate::kinematics::pose::angles::nearest_turn;
-use crate::kinematics::thresholds::{DEGREE_LIMITS, LIMIT_TOLERANCE, MOST_ANGLE};
+use crate::kinematics::thresholds::{DEGREE_LIMITS, LIMIT_TOLERANCE, MOST_ANGLE, START_TOLERANCE};
 use crate::lanes::{nearest_whole, whole_above, whole_below};
 
 /// Lower and upper limit of each joint [rad]; infinite where a joint has none.
@@ -129,6 +129,19 @@ impl<const N: usize> JointLimits<N> {
         (self.lower[joint] - angle).max(angle - self.upper[joint]).max(0.0)
     }
 
+    /// A joint vector that exceeds limits by rounding, at most [`START_TOLERANCE`], at these limits;
+    /// `None` of any other.
+    pub(crate) fn rounded_in(&self, q: &[f64; N]) -> Option<[f64; N]> {
+        if (0..N).all(|joint| self.holds(joint, q[joint])) {
+            return None;
+        }
+        let mut inside = *q;
+        for (angle, limits) in inside.iter_mut().zip(self.to_array()) {
+            *angle = at_limit(*angle, limits)?;
+        }
+        Some(inside)
+    }
+
     /// How far an angle of joint `joint` (from 0), at its best 2 pi equivalent, exceeds its limits
     /// [rad]; negative inside.
     pub(crate) fn overrun(&self, joint: usize, angle: f64) -> f64 {
@@ -235,6 +248,12 @@ impl<const N: usize> JointLimits<N> {
             if first.is_finite() && last.is_finite() { (first, last) } else { (0.0, 0.0) }
         })
     }
+}
+
+/// An angle inside its limits, or at the one that it exceeds by at most [`START_TOLERANCE`].
+pub(crate) fn at_limit(angle: f64, [lower, upper]: [f64; 2]) -> Option<f64> {
+    let is_near = angle >= lower - START_TOLERANCE && angle <= upper + START_TOLERANCE;
+    is_near.then(|| angle.max(lower).min(upper))
 }
 
 /// Check limits, each a number or infinite: minus infinity below, infinity above.

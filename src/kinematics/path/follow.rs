@@ -178,6 +178,10 @@ impl<'a, const N: usize> Follower<'a, N> {
 
     /// The solution nearest to where the joints are heading.
     fn nearest(&self, pose: &Pose) -> Result<Result<Solution<N>, Explanation>, Error> {
+        let start = self.at.last.is_none().then(|| self.robot.at_limits(pose, &self.at.q));
+        if let Some(start) = start.flatten() {
+            return Ok(Ok(start));
+        }
         // A joint that swings while it passes a singularity does not continue to swing, nor do seven
         // joints drift along their self-motion.
         let steady = self.robot.redundancy().is_none() && largest(&self.at.velocity) <= STEADY_STEP;

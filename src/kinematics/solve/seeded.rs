@@ -14,13 +14,15 @@ use crate::kinematics::solve::self_motion::meets;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::lanes::Choice;
 use crate::kinematics::structure::locked::others;
+use crate::kinematics::thresholds::SOLUTION_OFF;
 #[cfg(feature = "python")]
 use crate::report::Explanation;
 
 impl<const N: usize> Robot<N> {
     /// The solution inside the limits that is nearest to `seed` [rad] among all 2 pi equivalents,
     /// all members of a self-motion and, for an arm of seven joints, all angles of joint 7; or all
-    /// that have a locked joint at its angle.
+    /// that have a locked joint at its angle. A seed at the pose that exceeds limits by rounding, at
+    /// most [`START_TOLERANCE`](crate::thresholds::START_TOLERANCE), is the answer, at these limits.
     ///
     /// # Errors
     ///
@@ -48,6 +50,9 @@ impl<const N: usize> Robot<N> {
         if let Some(lock) = self.lock() {
             return self.nearest_locked(lock, &pose, seed, weights);
         }
+        if let Some(there) = self.at_limits(&pose, seed) {
+            return Ok(there);
+        }
         if let Some(arm) = self.redundancy() {
             return arm.nearest_along_redundancy(&pose, seed, weights, &|_| true);
         }
@@ -68,6 +73,17 @@ impl<const N: usize> Robot<N> {
             _ => nearest,
         };
         nearest.ok_or_else(|| Error::Unreachable(solutions.explain()))
+    }
+
+    /// A seed at the pose that exceeds limits by rounding, at these limits: the arm is there, so
+    /// another branch would be a swing.
+    pub(crate) fn at_limits(&self, pose: &Pose, seed: &[f64; N]) -> Option<Solution<N>> {
+        let q = self.limits().rounded_in(seed)?;
+        let is_there = self.residual(seed, pose).largest() <= SOLUTION_OFF
+            && self.limits().linkage_excess(&q) == 0.0;
+        let status = Status::FOUND | Status::WITHIN_LIMITS;
+        let slot = self.slot_of(&q).unwrap_or(Slot::new(0));
+        is_there.then_some(Solution { q, slot, status, free_joint: None })
     }
 
     /// [`Self::ik_nearest`] among the solutions that satisfy a condition. Of seven joints none of
@@ -177,7 +193,14 @@ impl<const N: usize> Robot<N> {
             q.fill(self.nearest_row(&poses[row], &seeds[row], weights));
         };
         match self.inverse().filter(|_| N == 6) {
-            Some(inverse) => inverse.nearest_rows(poses, seeds, choice, q, &mut by_itself),
+            Some(inverse) => {
+                inverse.nearest_rows(poses, seeds, choice, q, &mut by_itself);
+                for (row, seed) in seeds.iter().enumerate() {
+                    if self.limits().rounded_in(seed).is_some() {
+                        q[row] = self.nearest_row(&poses[row], seed, weights);
+                    }
+                }
+            }
             None => {
                 for (row, q) in q.iter_mut().enumerate() {
                     by_itself(row, core::slice::from_mut(q), &mut []);
