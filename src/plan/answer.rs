@@ -4,6 +4,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
 
+use crate::cell::Near;
 use crate::error::Error;
 use crate::kinematics::SingularityKind;
 use crate::report::{Explanation, excess};
@@ -46,7 +47,7 @@ pub struct PlanBreak {
 }
 
 /// Where and why a branch ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StrandEnd {
     /// Its slot.
     pub slot: usize,
@@ -57,7 +58,7 @@ pub struct StrandEnd {
 }
 
 /// Why a branch ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StrandReason {
     /// It has no solution inside the limits at that pose.
@@ -99,8 +100,17 @@ pub enum StrandReason {
     Ended,
     /// The bound on the work was reached before the motion to that pose was known to be continuous.
     Unknown,
-    /// The caller's own test rejected it, or it collides.
+    /// The caller's own test rejected it.
     Rejected,
+    /// It collides.
+    Collides {
+        /// The link.
+        link: usize,
+        /// The other link or the obstacle.
+        near: Near,
+        /// Whether it does so between the pose before and that pose.
+        is_between: bool,
+    },
     /// It does not lead to the joint angles that were asked for at the end.
     NotAtEnd,
 }
@@ -200,7 +210,11 @@ impl fmt::Display for StrandReason {
             Self::Unknown => f.write_str(
                 "the search was given up before the motion to this pose was known to be continuous",
             ),
-            Self::Rejected => f.write_str("rejected by accept or cell"),
+            Self::Rejected => f.write_str("rejected by accept"),
+            Self::Collides { link, near, is_between } => {
+                write!(f, "link {link} and {near}")?;
+                f.write_str(if *is_between { ", on the way from the pose before" } else { "" })
+            }
             Self::NotAtEnd => f.write_str("does not lead to the joint angles at the end"),
         }
     }

@@ -19,6 +19,9 @@ pub(super) type Window = [[usize; 2]; MOST_FREE_AXES];
 /// Two nodes of neighboring layers, by their numbers.
 pub(super) type Edge = [usize; 2];
 
+/// Joint angles [rad], with the values of the free axes.
+pub(super) type Posture = ([f64; 6], Values);
+
 /// The cost of moving the free axes: a part of a velocity limit, and a square (eq. 4).
 #[derive(Clone, Copy, Default)]
 pub(super) struct Moved {
@@ -244,16 +247,15 @@ pub(super) struct Layer {
     pub(super) q: Vec<[Column; 6]>,
     /// Nodes that the caller accepted.
     pub(super) accepted: Vec<usize>,
-    /// Nodes that the caller rejected.
-    pub(super) rejected: Vec<usize>,
+    /// Nodes that the caller rejected, as edges from themselves, and edges whose motion from the
+    /// pose before does not pass its test: each with these joint angles [rad] and free axes.
+    pub(super) failed: Vec<(Edge, Vec<Posture>)>,
     /// How the orientation turns from the layer before; `None` of the first one.
     pub(super) turn: Option<Turn>,
     /// Edges from the layer before that lead from one branch to another, through a singularity.
     pub(super) crossings: Vec<Edge>,
     /// Edges from the layer before that are not continuous.
     pub(super) refused: Vec<Edge>,
-    /// Edges of these whose motion does not pass its test.
-    pub(super) blocked: Vec<Edge>,
     /// Steps from the layer before, by their joint angles, that were shown to be continuous.
     pub(super) proven: Vec<[[f64; 6]; 2]>,
     /// Edges from the layer before with a larger bottleneck are not continuous; negative where the
@@ -274,11 +276,10 @@ impl Layer {
             own: None,
             q: vec![[[f64::NAN; LANES]; 6]; grid.len() / LANES],
             accepted: Vec::new(),
-            rejected: Vec::new(),
+            failed: Vec::new(),
             turn: None,
             crossings: Vec::new(),
             refused: Vec::new(),
-            blocked: Vec::new(),
             proven: Vec::new(),
             cap: f64::INFINITY,
             is_examined: false,

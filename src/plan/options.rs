@@ -3,6 +3,7 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
+use super::answer::StrandReason;
 use super::axes::{ExternalAxis, ToolCone, ToolOffset, ToolRotation};
 use super::graph::Values;
 use crate::cell::Cell;
@@ -174,6 +175,9 @@ pub(super) trait Test {
 
     /// Whether the motion from each joint vector to the next one passes.
     fn motions(&mut self, q: &[[f64; 6]], values: &[Values]) -> Vec<bool>;
+
+    /// The reason why a joint vector, or the motion between two, does not pass.
+    fn reason(&mut self, q: &[[f64; 6]], values: &[Values]) -> StrandReason;
 }
 
 /// A caller: its tests, if it has any, and whether it ends the plan.

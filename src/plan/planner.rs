@@ -301,7 +301,9 @@ impl<'a> Planner<'a> {
         let grid = self.grid;
         let number = |step: usize| (path.from + step, grid.number(path.nodes[step]));
         let is_new = |layers: &[Layer], (layer, node): &(usize, usize)| -> bool {
-            !layers[*layer].accepted.contains(node) && !layers[*layer].rejected.contains(node)
+            let layer = &layers[*layer];
+            let is_failed = layer.failed.iter().any(|(edge, _)| *edge == [*node; 2]);
+            !is_failed && !layer.accepted.contains(node)
         };
         let mut open: Vec<_> = (0..path.nodes.len()).map(number).collect();
         open.retain(|key| is_new(&self.layers, key));
@@ -339,9 +341,10 @@ impl<'a> Planner<'a> {
             (0..layers.len()).filter(|at| layers[*at].index.is_some()).collect();
         let q: Vec<_> = poses.iter().map(|at| path.q[*at]).collect();
         let values = poses.iter().map(|at| layers[*at].values(&self.grid, path.nodes[*at].cell));
-        let passed = tests.motions(&q, &values.collect::<Vec<_>>());
+        let values: Vec<_> = values.collect();
+        let passed = tests.motions(&q, &values);
         let mut all = true;
-        for (ends, passed) in poses.windows(2).zip(passed) {
+        for (first, (ends, passed)) in poses.windows(2).zip(passed).enumerate() {
             let [from, to] =
                 [ends[0], ends[1]].map(|at| self.layers[path.from + at].index.unwrap_or_default());
             if passed || to != from + 1 {
@@ -351,7 +354,8 @@ impl<'a> Planner<'a> {
             let at = path.from + ends[1];
             let edge = [ends[1] - 1, ends[1]].map(|step| self.grid.number(path.nodes[step]));
             self.layers[at].refused.push(edge);
-            self.layers[at].blocked.push(edge);
+            let motion = (first..first + 2).map(|end| (q[end], values[end])).collect();
+            self.layers[at].failed.push((edge, motion));
         }
         all
     }
@@ -373,12 +377,13 @@ impl<'a> Planner<'a> {
         let verdicts = tests.postures(q, &values).filter(|verdicts| verdicts.len() == q.len());
         let verdicts = verdicts.ok_or(PlanError::Stopped)?;
         let mut rejected = Vec::new();
-        for ((layer, number), is_accepted) in keys.iter().zip(verdicts) {
+        let parts = q.iter().copied().zip(values);
+        for (((layer, number), part), is_accepted) in keys.iter().zip(parts).zip(verdicts) {
             let at = &mut self.layers[*layer];
             if is_accepted {
                 at.accepted.push(*number);
             } else {
-                at.rejected.push(*number);
+                at.failed.push(([*number; 2], Vec::from([part])));
                 at.put(&self.grid, self.grid.node(*number), None);
                 rejected.push((*layer, *number));
             }

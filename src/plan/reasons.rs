@@ -6,7 +6,8 @@ use core::f64::consts::{PI, TAU};
 use super::answer::{StrandEnd, StrandReason};
 use super::best::JointPath;
 use super::branches::nearest_solution;
-use super::graph::{Layer, Node};
+use super::graph::{Layer, Node, Posture};
+use super::options::Caller;
 use super::planner::Planner;
 use super::search::SlotReach;
 use crate::error::Error;
@@ -19,7 +20,11 @@ type Step = (Node, Node, [f64; 6]);
 
 impl Planner<'_> {
     /// Where and why each branch that begins at the first layer of a joint path ends.
-    pub(super) fn branch_ends(&self, path: &JointPath) -> Result<Vec<StrandEnd>, Error> {
+    pub(super) fn branch_ends(
+        &self,
+        path: &JointPath,
+        caller: &mut Caller<'_>,
+    ) -> Result<Vec<StrandEnd>, Error> {
         let mut ends = Vec::new();
         for slot in 0..self.grid.slots {
             let reach = &path.slots[slot];
@@ -30,7 +35,10 @@ impl Planner<'_> {
             }
             let pose_index = self.index_of(layer.min(self.layers.len() - 1));
             let reason = if layer < self.layers.len() {
-                self.reason(slot, reach)?
+                match self.reason(slot, reach)? {
+                    StrandReason::Rejected => self.rejection(slot, layer, caller),
+                    reason => reason,
+                }
             } else {
                 StrandReason::NotAtEnd
             };
@@ -53,7 +61,7 @@ impl Planner<'_> {
             return Ok(StrandReason::Unknown);
         }
         if after.of_slot(&self.grid, slot).is_empty() {
-            if after.rejected.iter().any(|number| self.grid.node(*number).slot == slot) {
+            if self.failed(slot, after).is_some() {
                 return Ok(StrandReason::Rejected);
             }
             if after.own.is_some() {
@@ -71,7 +79,7 @@ impl Planner<'_> {
         }
         let edge = [first, to].map(|node| self.grid.number(node));
         let q = before.joints(&self.grid, first).unwrap_or_default();
-        if after.blocked.contains(&edge) {
+        if after.failed.iter().any(|(failed, _)| *failed == edge) {
             return Ok(StrandReason::Rejected);
         }
         if after.refused.contains(&edge) || largest(&steps) > CROSSING_JUMP {
@@ -89,7 +97,25 @@ impl Planner<'_> {
                 | self.kinds_between(&q, &next);
             return Ok(StrandReason::Jump { joint: joint + 1, by: steps[joint], kinds });
         }
-        Ok(self.at_limit(&q, &steps))
+        let at_limit = self.at_limit(&q, &steps);
+        let is_outside = matches!(at_limit, StrandReason::Limit { joint, value, .. }
+            if self.arm.robot.limits().excess(joint - 1, value) > 0.0);
+        let is_rejected = !is_outside && self.failed(slot, after).is_some();
+        Ok(if is_rejected { StrandReason::Rejected } else { at_limit })
+    }
+
+    /// The part of a branch that does not pass the caller's tests at a layer.
+    fn failed<'a>(&self, slot: usize, layer: &'a Layer) -> Option<&'a [Posture]> {
+        let own = layer.failed.iter().find(|(edge, _)| self.grid.node(edge[1]).slot == slot);
+        own.map(|(_, parts)| &parts[..])
+    }
+
+    /// Why a branch does not pass the caller's tests at a layer.
+    fn rejection(&self, slot: usize, layer: usize, caller: &mut Caller<'_>) -> StrandReason {
+        let parts = self.failed(slot, &self.layers[layer]).unwrap_or_default();
+        let (q, values): (Vec<_>, Vec<_>) = parts.iter().copied().unzip();
+        let tests = caller.tests.as_mut();
+        tests.map_or(StrandReason::Rejected, |tests| tests.reason(&q, &values))
     }
 
     /// The singularity that is next to a jump: the nearest one of the joint angles.
@@ -198,13 +224,12 @@ impl Planner<'_> {
     }
 
     /// Why no branch has a node at the first layer, if none has.
-    pub(super) fn none_at_start(&self) -> Result<Vec<StrandEnd>, Error> {
+    pub(super) fn none_at_start(&self, caller: &mut Caller<'_>) -> Result<Vec<StrandEnd>, Error> {
         let first = &self.layers[0];
         let slots = (0..self.grid.slots).filter(|slot| first.of_slot(&self.grid, *slot).is_empty());
         let end = |slot| {
-            let reason = if first.rejected.iter().any(|number| self.grid.node(*number).slot == slot)
-            {
-                StrandReason::Rejected
+            let reason = if self.failed(slot, first).is_some() {
+                self.rejection(slot, 0, caller)
             } else {
                 self.unreachable(slot, [first, first])?
             };

@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::answer::{NoPlan, Plan, PlanBreak, PlanError};
+use super::answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd};
 use super::best::JointPath;
 use super::ends::Given;
 use super::freedom::Freedom;
@@ -131,9 +131,13 @@ impl Robot<6> {
         }
         let plan = planner.plan_of(&parts)?;
         let end_index = reached_from_the_end(arm, &path, options, caller)?;
-        Err(PlanError::NoPlan(Box::new(planner.gap(&parts, plan, end_index)?)))
+        let (pose_index, ends) = planner.gap(&parts, caller)?;
+        Err(PlanError::NoPlan(Box::new(NoPlan { pose_index, end_index, ends, plan })))
     }
 }
+
+/// The first pose that is not reached, and why each branch ends.
+type Gap = (usize, Vec<StrandEnd>);
 
 /// Poses of which the last gap is searched first, and how many times more each next time.
 const FEW: usize = 16;
@@ -265,12 +269,11 @@ impl Planner<'_> {
     }
 
     /// Where and why the first joint path ends.
-    fn gap(&self, parts: &[JointPath], plan: Plan, end_index: usize) -> Result<NoPlan, Error> {
+    fn gap(&self, parts: &[JointPath], caller: &mut Caller<'_>) -> Result<Gap, Error> {
         let Some(part) = parts.first().filter(|part| part.from == 0) else {
-            let ends = self.none_at_start()?;
-            return Ok(NoPlan { pose_index: 0, end_index, ends, plan });
+            return Ok((0, self.none_at_start(caller)?));
         };
         let pose_index = self.index_of((part.reached() + 1).min(self.layers.len() - 1));
-        Ok(NoPlan { pose_index, end_index, ends: self.branch_ends(part)?, plan })
+        Ok((pose_index, self.branch_ends(part, caller)?))
     }
 }

@@ -128,6 +128,11 @@ impl Test for TestsOfSix<'_, '_, '_, '_> {
         let q = self.all(q, values);
         self.tests.motions(&q)
     }
+
+    fn reason(&mut self, q: &[[f64; 6]], values: &[Values]) -> StrandReason {
+        let q = self.all(q, values);
+        self.tests.reason(&q)
+    }
 }
 
 impl Seven<'_> {

@@ -3,9 +3,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::answer::StrandReason;
 use super::graph::Values;
 use super::options::{Accept, PlanOptions, Test};
-use crate::cell::{Cell, Placed};
+use crate::cell::{Cell, Contact, Nearest, Placed};
 use crate::error::Error;
 use crate::kinematics::Robot;
 use crate::plan::fault::PlanFault;
@@ -58,6 +59,19 @@ impl<'a, 'b, const N: usize> Tests<'a, 'b, N> {
     }
 }
 
+impl<const N: usize> Tests<'_, '_, N> {
+    /// The reason why a joint vector, or the motion between two, does not pass.
+    pub(super) fn reason(&mut self, q: &[[f64; N]]) -> StrandReason {
+        let cell = self.cell.as_mut();
+        match cell.and_then(|(cell, placed)| cell.contact(placed, q)) {
+            Some(Contact { nearest: Nearest { link, near, .. }, .. }) => {
+                StrandReason::Collides { link, near, is_between: q.len() > 1 }
+            }
+            None => StrandReason::Rejected,
+        }
+    }
+}
+
 impl Test for Tests<'_, '_, 6> {
     fn postures(&mut self, q: &[[f64; 6]], _: &[Values]) -> Option<Vec<bool>> {
         self.postures(q)
@@ -65,5 +79,9 @@ impl Test for Tests<'_, '_, 6> {
 
     fn motions(&mut self, q: &[[f64; 6]], _: &[Values]) -> Vec<bool> {
         self.motions(q)
+    }
+
+    fn reason(&mut self, q: &[[f64; 6]], _: &[Values]) -> StrandReason {
+        self.reason(q)
     }
 }

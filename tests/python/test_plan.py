@@ -2,10 +2,12 @@
 
 import os
 import pickle
+import re
 
 import irbkin
 import numpy as np
 import pytest
+from irbkin.body import Shape
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65").with_tool(irbkin.pose([0.05, 0, 0.35]))
 
@@ -199,8 +201,44 @@ def test_accept_is_asked_in_blocks_and_obeyed():
         ROBOT.plan(T, accept=broken)
     with pytest.raises(ValueError, match="60 truth values"):
         ROBOT.plan(T, accept=lambda q: True)
-    with pytest.raises(irbkin.PathError, match="rejected by accept"):
+    with pytest.raises(irbkin.PathError, match="rejected by accept;"):
         ROBOT.plan(T, accept=lambda q: np.zeros(len(q), bool))
+
+
+def seats(robot, T, index):
+    """A small obstacle at a pose of the tool's path."""
+    return irbkin.Cell({"seat": Shape.box([0.2, 0.02, 0.2], irbkin.pose(T[index][:3, 3]))})
+
+
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "Panda"])
+def test_a_path_that_a_cell_blocks_says_who_touches_whom_and_where(name):
+    robot = irbkin.Robot(name)
+    size = 0.9 if robot.dof == 6 else 0.5
+    A, B = (irbkin.pose([size, y, 0.6], euler_zyx=[0, 2.8, 0]) for y in (-0.3, 0.3))
+    T = irbkin.paths.line(A, B, steps=61)
+    cell = seats(robot, T, 40)
+    with pytest.raises(irbkin.PathError) as refused:
+        robot.plan(T, cell=cell)
+    assert "accept" not in str(refused.value)
+    colliding = [end for end in refused.value.reasons if " and " in end.reason]
+    assert colliding
+    assert f"slot {colliding[0].slot} at pose {colliding[0].pose_index}: " in str(refused.value)
+    for end in colliding:
+        words = r"link \d and (seat|link \d)(, on the way from the pose before)?"
+        assert re.fullmatch(words, end.reason)
+    # The caller's own test and the cell's are told apart.
+    with pytest.raises(irbkin.PathError) as refused:
+        robot.plan(T, cell=irbkin.Cell(), accept=lambda q: np.zeros(len(q), bool))
+    assert {end.reason for end in refused.value.reasons} >= {"rejected by accept"}
+    assert " and seat" not in str(refused.value)
+
+
+def test_of_a_motion_between_poses_too():
+    # A thin wall between two poses, which the arm passes in one step.
+    A, B = (irbkin.pose([0.9, y, 0.7], euler_zyx=[0, 2.8, 0]) for y in (-0.4, 0.4))
+    wall = irbkin.Cell({"wall": Shape.box([1.0, 1e-3, 3.0], irbkin.pose([1.2, 0.0, 0.7]))})
+    with pytest.raises(irbkin.PathError, match=r"link \d and wall, on the way from the pose bef"):
+        ROBOT.plan(np.array([A, B]), cell=wall)
 
 
 def test_bad_input_is_refused_with_its_place():
