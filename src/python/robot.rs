@@ -92,7 +92,15 @@ impl PyRobot {
     /// Names of the joints as messages and tables have them: "J1" .., of a URDF too.
     #[getter]
     fn joint_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, (0..self.arm.dof()).map(|index| format!("J{}", index + 1)))
+        let names = self._file_joint_names();
+        let numbered = || (1..=self.arm.dof()).map(|joint| format!("J{joint}")).collect();
+        PyTuple::new(py, names.unwrap_or_else(numbered))
+    }
+
+    /// The names that a file gives the joints; None without a file.
+    #[getter]
+    pub(super) fn _file_joint_names(&self) -> Option<Vec<String>> {
+        on!(&self.arm, robot => robot.joint_names().map(<[String]>::to_vec))
     }
 
     /// Kinematic structure: "spherical wrist", "three parallel axes", "spherical shoulder", "offset
@@ -295,9 +303,9 @@ impl PyRobot {
             }
             let quoted = if name.is_empty() { String::new() } else { format!(" {name:?}") };
             let coupled = if robot.is_coupled() { ", coupled" } else { "" };
-            let snap = robot.missing_form().and_then(|missing| missing.snap());
-            let snap = snap.map_or_else(String::new, |snap| {
-                format!(" (by rounded angles: snap={snap:e} gives it a closed form)")
+            let snap = robot.missing_form().and_then(|missing| missing.helpful_snap());
+            let snap = snap.map_or_else(String::new, |(snap, gives)| {
+                format!(" (by rounded angles: snap={snap:e} {gives})")
             });
             let (dof, structure) = (self.arm.dof(), robot.structure());
             format!("<Robot{quoted}: {dof} joints, {structure}{snap}{coupled}>")

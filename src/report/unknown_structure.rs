@@ -1,6 +1,7 @@
 //! The conditions of a kinematic structure on the axes of an arm, and the ones that an arm does not
 //! meet.
 
+use core::f64::consts::FRAC_PI_2;
 use core::fmt;
 
 use thiserror::Error;
@@ -87,8 +88,9 @@ pub(crate) enum Freedom {
 enum Hint {
     #[error("")]
     Nothing,
-    #[error("{0}")]
-    Snap(Snap),
+    /// `closed`: whether it gives the arm a closed form, and not an offset wrist.
+    #[error("{snap}{}", if *.closed { "" } else { ", as an offset wrist" })]
+    Snap { snap: Snap, closed: bool },
     #[error("{0}")]
     Reading(Reading),
 }
@@ -160,9 +162,10 @@ impl UnknownStructure {
         Self { reason, hint: Hint::Nothing }
     }
 
-    /// Propose a `snap` with which the arm would have a known structure.
-    pub(crate) fn proposing(self, snap: Option<f64>) -> Self {
-        Self { hint: snap.map_or(Hint::Nothing, |snap| Hint::Snap(Snap(snap))), ..self }
+    /// Propose a `snap` with which the arm would have a closed form, or an offset wrist.
+    pub(crate) fn proposing(self, snap: Option<f64>, closed: bool) -> Self {
+        let hint = |snap| Hint::Snap { snap: Snap(snap), closed };
+        Self { hint: snap.map_or(Hint::Nothing, hint), ..self }
     }
 
     /// Propose another reading of the table.
@@ -170,13 +173,20 @@ impl UnknownStructure {
         Self { hint: reading.map_or(Hint::Nothing, Hint::Reading), ..self }
     }
 
-    /// The least power of ten [rad] that, given as `snap`, gives the arm a known structure.
+    /// The least power of ten [rad] that, given as `snap`, gives the arm a closed form.
     #[must_use]
     pub fn snap(&self) -> Option<f64> {
         match self.hint {
-            Hint::Snap(Snap(snap)) => Some(snap),
-            Hint::Nothing | Hint::Reading(_) => None,
+            Hint::Snap { snap: Snap(snap), closed: true } => Some(snap),
+            _ => None,
         }
+    }
+
+    /// A `snap` [rad] and what it does, in words.
+    #[cfg(feature = "python")]
+    pub(crate) fn helpful_snap(&self) -> Option<(f64, &'static str)> {
+        let Hint::Snap { snap: Snap(snap), closed } = self.hint else { return None };
+        Some((snap, if closed { "gives it a closed form" } else { "makes it an offset wrist" }))
     }
 
     /// Whether a link is too short.
@@ -215,7 +225,11 @@ impl fmt::Display for Missed<'_> {
                     Relation::Coplanar => "lie in one plane",
                 };
                 write!(f, "{between} axes {i} and {j} must {wanted}, they ")?;
+                // As far off as can be is the other of both.
+                let is_other = (off - FRAC_PI_2).abs() < 1e-6;
                 match relation {
+                    Relation::Perpendicular if is_other => f.write_str("are parallel"),
+                    Relation::Parallel if is_other => f.write_str("are at right angles"),
                     Relation::Perpendicular | Relation::Parallel => {
                         write!(f, "are {} deg off", Figure(off.to_degrees()))
                     }

@@ -196,7 +196,17 @@ impl UrdfArm {
             SNAPS.into_iter().find(|snap| is_taken(*snap))
         };
         let robot = match self.table::<N>(snap).and_then(Robot::of_table) {
-            Ok(robot) if robot.missing_form().is_some() => robot.proposing(proposal()),
+            Ok(robot) if robot.missing_form().is_some() => match proposal() {
+                None if robot.structure() == "general" => {
+                    // To recognize it takes milliseconds: the largest is tried first.
+                    let table = |snap| self.table::<N>(snap).and_then(Robot::of_table);
+                    let is_wrist =
+                        |snap: &f64| table(*snap).is_ok_and(|it| it.structure() == "offset wrist");
+                    let largest = SNAPS.last().filter(|snap| is_wrist(snap));
+                    robot.proposing(largest.and(SNAPS.into_iter().find(is_wrist)), false)
+                }
+                closed => robot.proposing(closed, true),
+            },
             Err(Error::InvalidModel(ModelFault::NearlyParallel {
                 axes,
                 off,

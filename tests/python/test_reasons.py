@@ -185,3 +185,13 @@ def test_a_table_without_a_closed_form_says_what_is_missing(build, rows, words):
 def test_a_table_in_text_is_made_exact(off, is_exact):
     robot = Robot.from_mdh(changed(5, 1, off))
     assert (robot.structure == "spherical wrist") is is_exact
+
+
+def test_axes_as_far_off_as_can_be_are_called_what_they_are():
+    rows = Robot("Panda").mdh.copy()
+    rows[3, 0] = 0.0
+    words = str(Robot.from_mdh(rows))
+    assert words.endswith("axes 3 and 4 must be at right angles, they are parallel"), words
+    rows[3, 0] = 1e-3
+    words = str(Robot.from_mdh(rows))
+    assert "axes 3 and 4 must be at right angles, they are 89.942704 deg off" in words

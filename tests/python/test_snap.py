@@ -77,3 +77,12 @@ def test_an_exact_arm_is_the_same_with_any_snap():
     robot = irbkin.Robot("IRB 2600-12/1.65")
     for snap in (0.0, 1e-9, 1e-3):
         np.testing.assert_array_equal(Robot.from_mdh(robot.mdh, snap=snap).mdh, robot.mdh)
+
+
+def test_a_snap_that_gives_a_faster_structure_is_proposed_too():
+    text = irbkin.Robot("CRB 15000-5/0.95").to_urdf()
+    start, name, rest = text.partition('<joint name="joint_2"')
+    rounded = start + name + rest.replace('rpy="0 0 0"', 'rpy="0.0002 0 0"', 1)
+    robot = Robot.from_urdf(rounded)
+    assert "general (by rounded angles: snap=1e-3 makes it an offset wrist)" in repr(robot)
+    assert Robot.from_urdf(rounded, snap=1e-3).structure == "offset wrist"

@@ -142,7 +142,7 @@ impl<const N: usize> Robot<N> {
         let mut robot = Self::new(count, Definition::Mdh(mdh), recognized);
         robot.check_reach()?;
         if let Some(missing) = robot.missing_form {
-            robot.missing_form = Some(missing.proposing(robot.helpful_snap()));
+            robot.missing_form = Some(missing.proposing(robot.helpful_snap(), true));
         }
         Ok(robot)
     }
@@ -183,10 +183,10 @@ impl<const N: usize> Robot<N> {
         })
     }
 
-    /// Propose another `snap`, if the arm has no closed form.
+    /// Propose another `snap`, for a closed form or an offset wrist.
     #[cfg(feature = "urdf")]
-    pub(crate) fn proposing(mut self, snap: Option<f64>) -> Self {
-        self.missing_form = self.missing_form.map(|missing| missing.proposing(snap));
+    pub(crate) fn proposing(mut self, snap: Option<f64>, closed: bool) -> Self {
+        self.missing_form = self.missing_form.map(|missing| missing.proposing(snap, closed));
         self
     }
 
