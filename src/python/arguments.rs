@@ -82,6 +82,18 @@ pub(super) fn read_steps(steps: &Bound<'_, PyAny>) -> PyResult<usize> {
     })
 }
 
+/// The seed of random samples.
+pub(super) fn read_seed(seed: &Bound<'_, PyAny>) -> PyResult<u64> {
+    let py = seed.py();
+    seed.extract().map_err(|error: PyErr| {
+        if error.is_instance_of::<PyOverflowError>(py) {
+            PyValueError::new_err(format!("seed is {seed}, it must be 0 to {}", u64::MAX))
+        } else {
+            error
+        }
+    })
+}
+
 /// A number of threads; 0 is one a core.
 pub(super) fn thread_count(threads: isize) -> PyResult<Option<NonZeroUsize>> {
     match usize::try_from(threads) {

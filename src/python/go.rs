@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use pyo3::prelude::*;
 
+use super::arguments::read_seed;
 use super::arm::Arm;
 use super::arrays::{matrix4, vector};
 use super::cell::PyCell;
@@ -63,7 +64,7 @@ impl PyRobot {
         goal: &Bound<'_, PyAny>,
         cell: Option<&Bound<'_, PyCell>>,
         seconds: f64,
-        seed: u64,
+        #[pyo3(from_py_with = read_seed)] seed: u64,
         max_velocity: Option<&Bound<'_, PyAny>>,
         max_acceleration: Option<&Bound<'_, PyAny>>,
         steps: usize,

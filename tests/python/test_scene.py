@@ -152,6 +152,26 @@ def test_what_is_no_scene_is_refused_with_its_place():
     ):
         with pytest.raises(ValueError, match=words):
             scene.Scene.from_dict({**data, **change})
+    ball = {"kind": "sphere", "radius": 0.1, "center": [0, 0, 1]}
+    union = {"kind": "union", "shapes": [ball]}
+    for shape, words in (
+        ({"kind": 5}, r"obstacles\[0\].shape: kind is 5, it must be one of sphere, capsule"),
+        ({"kind": "moved"}, "kind is 'moved'"),
+        ({"radius": 1}, "kind is None"),
+        ({"kind": "sphere", "radius": 0.1}, r"obstacles\[0\].shape: .*center"),
+        ({**ball, "radius": "a"}, r"obstacles\[0\].shape: "),
+        ({**ball, "radius": -1.0}, "radius is -1 m"),
+        ({"kind": "union"}, "shapes"),
+        ({"kind": "union", "shapes": [3]}, r"obstacles\[0\].shape: "),
+    ):
+        with pytest.raises(ValueError, match=words):
+            scene.Scene.from_dict({**data, "obstacles": [{"name": "a", "shape": shape}]})
+    for shape in (ball, union):
+        scene.Scene.from_dict({**data, "obstacles": [{"name": "a", "shape": shape}]})
+    deep = '{"kind":"union","shapes":[' * 20_000
+    for text in ("[" * 50_000, f'{{"obstacles":[{{"name":"a","shape":{deep}'):
+        with pytest.raises(ValueError, match=r"nested too deeply|Expecting"):
+            scene.Scene.from_json(text)
     with pytest.raises(TypeError, match="q is given, but a Solutions has its own joint angles"):
         scene.of(ROBOT.ik(T), ROBOT, q=np.zeros(6))
     with pytest.raises(TypeError, match="robot is missing: a Trajectory does not know its arm"):

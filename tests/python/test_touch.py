@@ -73,6 +73,9 @@ def test_a_work_object_is_fitted_to_nominal_points():
     np.testing.assert_allclose(work_object(seen(flat), flat).frame, FRAME, rtol=0, atol=1e-13)
 
 
+SOLID = np.random.default_rng(2).uniform(-0.5, 0.5, (7, 3))
+
+
 @pytest.mark.parametrize(
     ("points", "nominal", "error", "words"),
     [
@@ -83,6 +86,13 @@ def test_a_work_object_is_fitted_to_nominal_points():
         ([[0, 0, 0], [1, 0, 0], [0, np.nan, 0]], None, InvalidPoseError, "finite"),
         (np.eye(3), np.ones((3, 3)), CalibrationError, "nominal are on one line"),
         (np.eye(3), np.ones((4, 3)), InvalidPoseError, "shape"),
+        (
+            SOLID * [-1, 1, 1],
+            SOLID,
+            CalibrationError,
+            "points and nominal do not fit: half are",
+        ),
+        (SOLID[::-1], SOLID, CalibrationError, "do not fit"),
     ],
 )
 def test_points_that_span_no_frame_are_refused(points, nominal, error, words):

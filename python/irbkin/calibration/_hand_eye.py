@@ -10,7 +10,7 @@ from irbkin._arguments import check_scipy
 from irbkin.calibration._loss import check_weights, outlying
 from irbkin.calibration._measurements import read_poses
 from irbkin.calibration._start import nearest_rotation, turns
-from irbkin.calibration._touch import check_meters
+from irbkin.calibration._touch import check_meters, check_near
 from irbkin.errors import CalibrationError
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def hand_eye(
     Raises:
         ImportError: scipy is not installed.
         InvalidPoseError: A wrong shape, or a matrix that is not a pose.
-        CalibrationError: Too few moves, or all rotations about parallel axes.
+        CalibrationError: Too few moves, rotations about parallel axes, or half of them far off.
         ValueError: Another `loss` or standard deviation.
     """
     hands, eyes = _pairs(a, b, 2)
@@ -115,7 +115,7 @@ def robot_world(
     Raises:
         ImportError: scipy is not installed.
         InvalidPoseError: A wrong shape, or a matrix that is not a pose.
-        CalibrationError: Too few poses, or all turned about one axis.
+        CalibrationError: Too few poses, all turned about one axis, or half of them far off.
         ValueError: Another `loss` or standard deviation.
     """
     hands, seen = _pairs(a, b, 3)
@@ -176,6 +176,7 @@ def _differences(left: Floats, right: Floats) -> tuple[Floats, Floats]:
 
 def _hand_eye(x: Floats, y: Floats | None, left: Floats, right: Floats) -> HandEye:
     shift, turn = (np.linalg.norm(it, axis=1) for it in _differences(left, right))
+    check_near(float(np.median(shift)), float(np.median(turn)), right[:, :3, 3], "a and b")
     return HandEye(x, y, shift, turn, right[:, :3, 3], left[:, :3, 3])
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from irbkin._arrays import as_array
+from irbkin.calibration._calibrate import FAR_ANGLE, FAR_LENGTH, FAR_PART
 from irbkin.calibration._measurements import check_finite, read_poses
 from irbkin.calibration._start import nearest_rotation
 from irbkin.errors import CalibrationError, InvalidPoseError
@@ -106,7 +107,7 @@ def work_object(points: npt.ArrayLike, nominal: npt.ArrayLike | None = None) -> 
 
     Raises:
         InvalidPoseError: A wrong shape, or a coordinate that is not finite.
-        CalibrationError: Points that are near to one line, or coordinates in millimeters.
+        CalibrationError: Points near to one line, in millimeters, or half of them far off.
     """
     if nominal is None:
         measured = _points(points, "points", 3)
@@ -130,6 +131,8 @@ def work_object(points: npt.ArrayLike, nominal: npt.ArrayLike | None = None) -> 
     frame[:3, :3] = nearest_rotation(off.T @ own)
     frame[:3, 3] = measured.mean(axis=0) - frame[:3, :3] @ wanted.mean(axis=0)
     places = wanted @ frame[:3, :3].T + frame[:3, 3]
+    far = float(np.median(np.linalg.norm(places - measured, axis=1)))
+    check_near(far, 0.0, measured, "points and nominal")
     return WorkObject(frame, np.linalg.norm(places - measured, axis=1), measured, places)
 
 
@@ -149,6 +152,16 @@ def check_meters(positions: Floats, name: str) -> None:
         raise CalibrationError(
             f"{name} has a coordinate of {largest:g} m, its size must be at most {FARTHEST:g} m "
             "(did you pass millimeters?)"
+        )
+
+
+def check_near(distance: float, angle: float, positions: Floats, names: str) -> None:
+    """Refuse data of which half are farther off than any measurement."""
+    bound = max(FAR_PART * float(np.linalg.norm(np.ptp(positions, axis=0))), FAR_LENGTH)
+    if distance > bound or angle > FAR_ANGLE:
+        raise CalibrationError(
+            f"{names} do not fit: half are {distance:.2g} m and {angle:.2g} rad off, at most "
+            f"{bound:.2g} m and {FAR_ANGLE} rad is taken (is one inverted, swapped or mirrored?)"
         )
 
 

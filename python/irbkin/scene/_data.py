@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
+from irbkin._core import Shape
 from irbkin._files import replaced
 from irbkin.scene._plain import plain, read
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from irbkin.scene._widget import View
 
 FORMAT, VERSION = "irbkin scene", 1
+KINDS = ("sphere", "capsule", "box", "cylinder", "half_space", "convex", "mesh", "points")
 ENDINGS = (".json", ".html", ".htm", ".svg")
 FACES: dict[str, Callable[..., Any]] = {}
 """Makers of a scene's files, by their endings, and of its `view`: `irbkin.scene` enters them."""
@@ -208,6 +210,11 @@ class Scene:
             raise ValueError(f"version is {data.get('version')!r}, this irbkin reads {VERSION}")
         own = {key: value for key, value in data.items() if key not in ("format", "version")}
         scene: Scene = read(cls, own, "scene")
+        for index, obstacle in enumerate(scene.obstacles):
+            try:
+                _shape(obstacle.shape)
+            except (AttributeError, KeyError, TypeError, ValueError) as error:
+                raise ValueError(f"scene.obstacles[{index}].shape: {error}") from None
         return scene
 
     @classmethod
@@ -217,7 +224,10 @@ class Scene:
         Raises:
             ValueError: The text is not JSON, or as `from_dict`.
         """
-        return cls.from_dict(json.loads(text))
+        try:
+            return cls.from_dict(json.loads(text))
+        except RecursionError:
+            raise ValueError("not a scene: it is nested too deeply") from None
 
     def to_html(self) -> str:
         """Return the scene as a page that opens in any browser, without a network: it solves, too.
@@ -257,3 +267,14 @@ class Scene:
         """
         with open(path, encoding="utf-8") as file:
             return cls.from_json(file.read())
+
+
+def _shape(data: dict[str, Any]) -> Shape:
+    """The shape of `Shape.data`."""
+    own = {key: value for key, value in data.items() if key != "kind"}
+    if data.get("kind") == "union":
+        return Shape.union([_shape(part) for part in own["shapes"]])
+    if data.get("kind") not in KINDS:
+        raise ValueError(f"kind is {data.get('kind')!r}, it must be one of {', '.join(KINDS)}")
+    shape: Shape = getattr(Shape, data["kind"])(**own)
+    return shape

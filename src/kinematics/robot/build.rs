@@ -254,7 +254,14 @@ impl<const N: usize> Robot<N> {
     ///
     /// [`Error::InvalidPose`] when the base is not a rigid transform.
     pub fn with_base(mut self, t_world_base: &Pose) -> Result<Self, Error> {
-        self.chain = self.chain.with_base(checked_pose(t_world_base)?);
+        let base = checked_pose(t_world_base)?;
+        // Every pose that the arm reaches from there is one.
+        let (index, bound) = (base.translation.vector.iamax(), 0.5 * MOST_LENGTH);
+        let value = base.translation.vector[index];
+        if value.abs() > bound {
+            return Err(PoseFault::TooFar { field: "base", index, value, bound }.into());
+        }
+        self.chain = self.chain.with_base(base);
         Ok(self.joined())
     }
 

@@ -14,6 +14,7 @@ A = ROBOT.fk(RNG.uniform(*ROBOT.limits.clip(-2, 2).T, (20, 6)))
 B = np.linalg.inv(Y) @ A @ X
 # The camera in the hand sees a fixed target.
 SEEN = np.linalg.inv(B)
+MIRROR = np.diag([-1.0, 1, 1, 1])
 MOVES = np.linalg.inv(A[1:]) @ A[:-1], SEEN[1:] @ np.linalg.inv(SEEN[:-1])
 
 
@@ -56,6 +57,11 @@ def test_a_robust_loss_bears_an_outlier(loss):
         (lambda: robot_world(2 * A, B), InvalidPoseError, "row"),
         (lambda: hand_eye(*MOVES, loss="none"), ValueError, "loss must be one of"),
         (lambda: hand_eye(*MOVES, position_std=0), ValueError, "position_std is 0"),
+        # Inverted, in another order, mirrored.
+        (lambda: hand_eye(MOVES[0], np.linalg.inv(MOVES[1])), CalibrationError, "inverted"),
+        (lambda: hand_eye(MOVES[0], MOVES[1][::-1]), CalibrationError, "half are"),
+        (lambda: robot_world(A, SEEN), CalibrationError, "a and b do not fit"),
+        (lambda: robot_world(A, MIRROR @ B @ MIRROR), CalibrationError, "mirrored"),
     ],
 )
 def test_what_determines_no_transform_is_refused(call, error, words):
