@@ -103,7 +103,7 @@ fn a_continuous_joint_has_no_limits_and_an_absent_limit_is_zero() {
 fn a_velocity_that_is_no_positive_number_is_unknown() {
     let velocity = "velocity=\"8.726646259971648\"";
     assert!(IRB2600.contains(velocity));
-    for unknown in ["", "0", "-0.0", "-2", "inf", "nan", "1 3", "${v}"] {
+    for unknown in ["", "0", "-0.0", "-2", "1e5", "inf", "nan", "1 3", "${v}"] {
         let unknown =
             if unknown.is_empty() { String::new() } else { format!("velocity='{unknown}'") };
         let robot = six(&IRB2600.replace(velocity, &unknown), None, None).unwrap();
@@ -129,6 +129,10 @@ fn what_moves_no_axis_stops_no_file() {
         ),
         ("<robot name", "<!DOCTYPE robot PUBLIC \"-//A//B\" 'http://a/b.dtd'>\n<robot name"),
         ("<robot", "<!-- a & b --><robot"),
+        ("<robot", "<!-- a -- b\n --><robot"),
+        ("<robot name", "<robot version='1.0.0' name"),
+        (axis, "<drake:limit lower='0'/><drake:axis xyz='1 2 3'/><axis"),
+        ("<link", "<drake:joint type='fixed'/><drake:link/><link"),
     ] {
         let at = IRB2600.find(from).unwrap();
         let text = format!("{}{}", &IRB2600[..at], IRB2600[at..].replacen(from, to, 1));

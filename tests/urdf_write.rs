@@ -90,6 +90,16 @@ fn a_seven_axis_arm_is_read_back_with_its_solutions() {
     assert!(found >= CASES);
 }
 
+/// Zero is a limit to some readers, and some need the attribute.
+#[test]
+fn an_unknown_velocity_is_written_as_one_that_does_not_bind() {
+    let robot: Robot<6> = Robot::named("UR5e").unwrap();
+    let unknown = robot.clone().with_max_velocity(None).unwrap().to_urdf();
+    assert_eq!(unknown.matches("velocity=\"100000\"").count(), 6);
+    assert!(!unknown.contains("velocity=\"0\"") && !unknown.contains("velocity=\"inf\""));
+    assert!(!robot.to_urdf().contains("velocity=\"100000\""));
+}
+
 #[test]
 fn base_and_tool_are_links_of_their_own() {
     let mut rng = Rng::new(4);

@@ -203,8 +203,8 @@ impl PyRobot {
     /// Return the text of a URDF of the robot, which `from_urdf` reads back.
     ///
     /// Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it);
-    /// `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 0 if unknown. A
-    /// parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
+    /// `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 1e5 if unknown.
+    /// A parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
     /// See docs/guide/conventions.md.
     ///
     /// Args:

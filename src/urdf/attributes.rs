@@ -28,7 +28,7 @@ const ATTRIBUTES: &[(&str, &[(&str, Version)])] = &[
 pub(super) fn version_of(robot: Node<'_, '_>) -> Result<Version, UrdfFault> {
     let Some(text) = robot.attribute("version") else { return Ok(0) };
     let minor = match text.trim().split_once('.') {
-        Some(("1", minor)) => minor.parse().ok(),
+        Some(("1", minor)) => minor.strip_suffix(".0").unwrap_or(minor).parse().ok(),
         None if text.trim() == "1" => Some(0),
         _ => None,
     };

@@ -12,7 +12,7 @@ use core::fmt::Write as _;
 use nalgebra::Vector3;
 use roxmltree::Node;
 
-use super::joint::{Joint, Placed};
+use super::joint::{Joint, Placed, is_own};
 use super::sweep::{Carrier, Sweep};
 use super::tree::Tree;
 use crate::body::{Body, Capsule, LinkCapsule, Shape};
@@ -48,7 +48,7 @@ pub(super) fn solids(
     base: usize,
     chain: &[&Joint<'_>],
 ) -> Result<(Vec<Solid>, String), UrdfFault> {
-    let links: Vec<_> = robot.children().filter(|node| node.has_tag_name("link")).collect();
+    let links: Vec<_> = robot.children().filter(|node| is_own(*node, "link")).collect();
     let collisions = |link: usize| links[link].children().filter(|it| it.has_tag_name("collision"));
     let has_shapes = shaped(robot, &["collision"]);
     if !has_shapes.contains(&true) {
@@ -80,7 +80,7 @@ pub(super) fn solids(
 /// Of each link, whether it has one of these elements.
 pub(super) fn shaped(robot: Node<'_, '_>, elements: &[&str]) -> Vec<bool> {
     let has = |node: Node<'_, '_>| elements.contains(&node.tag_name().name());
-    let links = robot.children().filter(|node| node.has_tag_name("link"));
+    let links = robot.children().filter(|node| is_own(*node, "link"));
     links.map(|link| link.children().any(has)).collect()
 }
 

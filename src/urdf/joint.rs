@@ -261,8 +261,8 @@ impl<'a> Joint<'a> {
     }
 
     /// Limits, infinite for a continuous joint, and velocity. A missing limit is zero, as the
-    /// format defines; one beyond [`MOST_ANGLE`] is none. A velocity that is no positive number is
-    /// not known: it concerns no pose.
+    /// format defines; one beyond [`MOST_ANGLE`] is none. A velocity that is no positive number below
+    /// that is not known: it concerns no pose.
     fn limit(&self) -> Result<([f64; 2], Option<f64>), UrdfFault> {
         let unlimited = [f64::NEG_INFINITY, f64::INFINITY];
         let Some(limit) = self.element("limit")? else {
@@ -270,7 +270,7 @@ impl<'a> Joint<'a> {
             return if self.kind == "continuous" { Ok((unlimited, None)) } else { Err(fault) };
         };
         let velocity = limit.attribute("velocity").and_then(|text| text.trim().parse().ok());
-        let velocity = velocity.filter(|value: &f64| *value > 0.0 && value.is_finite());
+        let velocity = velocity.filter(|value: &f64| *value > 0.0 && *value < MOST_ANGLE);
         if self.kind == "continuous" {
             return Ok((unlimited, velocity));
         }
@@ -333,14 +333,20 @@ impl<'a> Joint<'a> {
     }
 }
 
+/// Whether a node is an element of a name, and not another program's, which has another namespace.
+pub(super) fn is_own(node: Node<'_, '_>, name: &str) -> bool {
+    let root = node.document().root_element().tag_name();
+    let tag = node.tag_name();
+    node.is_element() && tag.name() == name && tag.namespace() == root.namespace()
+}
+
 /// The only element with that name in a joint.
 fn element<'a>(
     node: Node<'a, 'a>,
     joint: &str,
     name: &'static str,
 ) -> Result<Option<Node<'a, 'a>>, UrdfFault> {
-    let mut found =
-        node.children().filter(|child| child.is_element() && child.tag_name().name() == name);
+    let mut found = node.children().filter(|child| is_own(*child, name));
     match (found.next(), found.next()) {
         (_, Some(_)) => Err(UrdfFault::Twice { joint: joint.to_owned(), element: name }),
         (first, None) => Ok(first),

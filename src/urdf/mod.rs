@@ -48,7 +48,8 @@ where
     /// `N` revolute joints. Joints are numbered from base to tip; fixed joints, and joints that are
     /// not between them, are not counted. A joint turns in the sense of its axis. Limits and
     /// velocities are the text's; a limit beyond 1e5 rad is none. A velocity that is no positive
-    /// number is unknown, and one unknown velocity leaves the robot without velocities. A joint
+    /// number below 1e5 rad/s is unknown, and one unknown velocity leaves the robot without
+    /// velocities. [`Robot::joint_names`] are the text's. A joint
     /// that takes joint 2 back on the axis of joint 3, by mimicking it with the multiplier -1, or 1
     /// about the reverse axis, and any offset, is a parallelogram linkage: the arm is then
     /// [`Robot::coupled`].

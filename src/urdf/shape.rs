@@ -40,8 +40,8 @@ pub(super) fn check_shape(text: &str) -> Result<(), UrdfFault> {
 }
 
 /// A text that a parser refuses for what is of no arm, without that, if it can be told apart: a
-/// prefix without a namespace gets one, `&` that begins no reference is one, and a document type
-/// that declares nothing is left out. Entities stay. Lines stay where they are.
+/// prefix without a namespace gets one, `&` that begins no reference is one, comments that hold `--`
+/// are emptied, and a document type that declares nothing is left out. Entities stay. Lines stay where they are.
 pub(super) fn mended(text: &str, error: &roxmltree::Error) -> Option<String> {
     match error {
         roxmltree::Error::UnknownNamespace(prefix, _) if prefix != "xacro" => {
@@ -55,6 +55,15 @@ pub(super) fn mended(text: &str, error: &roxmltree::Error) -> Option<String> {
             let lines: String = kind.matches('\n').collect();
             (!kind.contains('['))
                 .then(|| format!("{}{lines}{}", &text[..start], &text[start + kind.len()..]))
+        }
+        roxmltree::Error::InvalidComment(_) => {
+            let (start, part) = text.split_once("<!--")?;
+            let emptied = |part: &str| {
+                let (comment, rest) = part.split_once("-->")?;
+                Some(comment.matches('\n').collect::<String>() + rest)
+            };
+            let parts: Option<String> = part.split("<!--").map(emptied).collect();
+            parts.map(|parts| start.to_owned() + &parts)
         }
         roxmltree::Error::MalformedEntityReference(_) => {
             let mut parts = text.split('&');

@@ -22,7 +22,8 @@ pub(super) struct Hinge {
     pub(super) axis: Vector3<f64>,
     /// Lower and upper limit [rad], infinite for none.
     pub(super) limits: [f64; 2],
-    /// Largest velocity [rad/s].
+    /// Largest velocity [rad/s]; if it is unknown, a file has [`MOST_ANGLE`], which every reader
+    /// takes: some take zero for a limit, and some need the attribute.
     pub(super) velocity: Option<f64>,
 }
 
@@ -129,7 +130,7 @@ impl Text {
         self.begin(name, hinge.kind(), links, hinge.origin.into(), [0.0; 3]);
         let axis = numbers(hinge.axis.into());
         self.line(format_args!("    <axis xyz=\"{axis}\"/>"));
-        let velocity = hinge.velocity.unwrap_or(0.0);
+        let velocity = hinge.velocity.unwrap_or(MOST_ANGLE).min(MOST_ANGLE);
         let rest = format_args!("effort=\"0\" velocity=\"{velocity}\"");
         if hinge.kind() == "continuous" {
             return self.line(format_args!("    <limit {rest}/>"));

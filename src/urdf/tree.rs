@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 use roxmltree::{Document, Node};
 
 use super::attributes::{Version, version_of};
-use super::joint::Joint;
+use super::joint::{Joint, is_own};
 use super::shape::{check_shape, mended};
 use crate::report::Names;
 use crate::urdf::fault::UrdfFault;
@@ -81,9 +81,7 @@ impl<'a> Tree<'a> {
     /// Read names and connections; the numbers of a joint are read if it is between base and tip.
     pub(super) fn new(document: &'a Document<'a>, skipped: usize) -> Result<Self, UrdfFault> {
         let robot = document.root_element();
-        let elements = |name| {
-            robot.children().filter(move |node| node.is_element() && node.tag_name().name() == name)
-        };
+        let elements = |name| robot.children().filter(move |node| is_own(*node, name));
         let mut tree = Self {
             skipped,
             name: robot.attribute("name").unwrap_or_default(),

@@ -23,15 +23,15 @@ use crate::on;
 
 /// The first lines of a file without shapes.
 const KINEMATICS: &str =
-    "<!-- Kinematics only, in meters and radians: no masses, no shapes. An effort or a velocity of";
+    "<!-- Kinematics only, in meters and radians: no masses, no shapes. An effort of 0, a velocity";
 
 /// The first lines of a file with shapes.
 const SHAPES: &str =
-    "<!-- In meters and radians. Shapes are capsules, no masses. An effort or a velocity of";
+    "<!-- In meters and radians. Shapes are capsules, no masses. An effort of 0, a velocity";
 
 /// The lines that follow.
 const HEAD: &[&str] = &[
-    "     0 is unknown. At zero joint angles every link but tool0 is parallel to base_link. -->",
+    "     of 100000 is unknown. At zero every link but tool0 is parallel to base_link. -->",
     "<!-- MuJoCo accepts no moving link without a mass; other programs ignore this. -->",
     "<mujoco><compiler fusestatic=\"false\" boundmass=\"0.001\" boundinertia=\"0.001\"/></mujoco>",
 ];
