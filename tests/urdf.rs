@@ -196,7 +196,7 @@ fn the_joint_of_a_gripper_is_not_counted_silently() {
     }
     // A frame before the last joint: then both ends are of six or seven joints, or one is shorter.
     let both = seven(jaw("j7") + &behind("l6", "tcp", "f", "fixed"));
-    assert!(both.contains("several ends: \"moving\", \"tcp\""), "{both}");
+    assert!(both.contains("several ends: \"moving\" (7), \"tcp\" (6)"), "{both}");
     let text = versioned("", "", &behind("l5", "tcp", "f", "fixed"));
     assert_eq!(words(&text), asked("j6", "\"l6\" (6), \"tcp\" (5)"));
     let text = versioned("", "", &behind("l4", "tcp", "f", "fixed"));
@@ -296,9 +296,9 @@ fn a_message_names_the_links_to_pass() {
 #[test]
 fn a_tip_is_never_guessed() {
     assert_eq!(
-        words(UR5E),
-        "URDF: 6 revolute joints lead from \"base_link\" to several ends: \"ft_frame\", \
-         \"tool0\"; tip must name the one to take"
+        words(&UR5E.replace("tool0", "tcp")),
+        "URDF: 6 revolute joints lead from \"base_link\" to several ends: \"ft_frame\" (6), \
+         \"tcp\" (6); tip must name the one to take"
     );
     assert_eq!(
         words(SEVEN),
@@ -311,6 +311,48 @@ fn a_tip_is_never_guessed() {
         words(PANDA),
         format!("URDF: 6 revolute joints lead from \"panda_link0\" to no end of a chain: {ends}")
     );
+}
+
+/// Only where all ends are fixed to the last link: anything else is a question.
+#[test]
+fn tool0_is_the_tip_among_frames_of_one_link() {
+    assert_eq!(six(UR5E, None, None), six(UR5E, None, Some("tool0")));
+    let fixed = |link: &str, child: &str| {
+        format!(
+            "<link name='{child}'/><joint name='{child}_joint' type='fixed'>\
+             <parent link='{link}'/><child link='{child}'/></joint>"
+        )
+    };
+    let tool = fixed("l6", "flange") + &fixed("flange", "tool0");
+    let frames = versioned("", "", &(tool.clone() + &fixed("l6", "camera")));
+    assert_eq!(six(&frames, None, None), six(&frames, None, Some("tool0")));
+    let jaw = "<link name='jaw'/><joint name='j7' type='revolute'><parent link='l6'/>\
+               <child link='jaw'/><limit lower='0' upper='1'/></joint>";
+    let any = |more: &str| irbkin::AnyRobot::from_urdf(&versioned("", "", more), None, None);
+    for more in [jaw.to_owned() + &tool, fixed("l5", "camera") + &tool + &fixed("l6", "a")] {
+        let asked = any(&more).unwrap_err().to_string();
+        assert!(asked.contains("\"tool0\" (6)"), "{asked}");
+        assert!(asked.contains("\"jaw\" (7)") || asked.contains("\"camera\" (5)"), "{asked}");
+        assert!(asked.contains("tip must name"), "{asked}");
+    }
+}
+
+#[test]
+fn joints_have_the_names_of_the_file() {
+    let names = |robot: &Robot<6>| robot.joint_names().map(<[String]>::to_vec);
+    let robot = six(UR5E, None, None).unwrap();
+    let wanted = ["shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"];
+    assert_eq!(names(&robot).unwrap(), wanted.map(|name| format!("{name}_joint")));
+    let tool = irbkin::pose::from_euler_zyx([0.0, 0.0, 0.1], [0.0; 3]).unwrap();
+    let mut corrections = irbkin::Corrections::NONE;
+    corrections.rows[1][0] = 1e-4;
+    for other in [
+        robot.clone().with_tool(&tool).unwrap().with_name("own"),
+        robot.with_corrections(&corrections).unwrap(),
+    ] {
+        assert_eq!(names(&other), names(&robot));
+    }
+    assert_eq!(names(&Robot::named("UR5e").unwrap()), None);
 }
 
 #[test]

@@ -130,7 +130,8 @@ def of_joint_trajectory(
 ) -> dict[str, Any]:
     """The message of `Trajectory.to_joint_trajectory`."""
     dof = trajectory.dof
-    names = [f"joint_{joint + 1}" for joint in range(dof)] if joint_names is None else joint_names
+    numbered = [f"joint_{joint + 1}" for joint in range(dof)]
+    names = joint_names if joint_names is not None else trajectory._joint_names or numbered
     if len(names) != dof:
         raise InvalidJointsError(f"joint_names has {len(names)} names, the motion has {dof} joints")
     rows = zip(trajectory.t, trajectory.q, trajectory.dq, trajectory.ddq, strict=True)

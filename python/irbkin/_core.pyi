@@ -937,8 +937,8 @@ class Robot:
         """Return the text of a URDF of the robot, which `from_urdf` reads back.
 
         Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it);
-        `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 0 if unknown. A
-        parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
+        `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 1e5 if unknown.
+        A parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
         See docs/guide/conventions.md.
 
         Args:
@@ -956,7 +956,12 @@ class Robot:
         """Number of joints."""
     @property
     def joint_names(self) -> tuple[str, ...]:
-        """Names of the joints as messages and tables have them: "J1" .., of a URDF too."""
+        """Names of the joints, as in the URDF that the robot was read from; "J1" .. of any
+        other.
+        """
+    @property
+    def _file_joint_names(self) -> list[str] | None:
+        """The names that a file gives the joints; None without a file."""
     @property
     def structure(
         self,
@@ -3199,9 +3204,10 @@ class Shape:
         """A triangle mesh: what is inside belongs to it.
 
         Args:
-            triangles: The corners of its triangles [m], shape (n, 3, 3); or a file (STL, OBJ, DAE
-                and what else trimesh reads). A solid mesh is closed; its corners are
-                counterclockwise, seen from outside.
+            triangles: The corners of its triangles [m], shape (n, 3, 3); or a file (STL, OBJ, DAE,
+                PLY, OFF, GLB, glTF, 3MF). A solid mesh is closed; its corners are counterclockwise,
+                seen from outside. If it is not, corners within 1e-6 m, or a millionth of its size,
+                are made one: it is off by as much.
             pose: Pose of the frame of the mesh, shape (4, 4); the identity when not given.
             scale: Meters of a unit of the mesh: 0.001 of millimeters. A file that states its unit
                 is converted to meters first.
@@ -3384,11 +3390,13 @@ class Cell:
         may_touch: Sequence[tuple[str, int]] | None = None,
     ) -> Cell: ...
     @staticmethod
-    def load(path: str | PathLike[str]) -> Cell:
+    def load(path: str | PathLike[str], *, solid: bool = True) -> Cell:
         """Read a cell from a file: TOML as described in docs/guide/cell.md, or a URDF.
 
         Args:
             path: A file that ends in .toml, .urdf or .xml.
+            solid: False to take a mesh that is not closed by its surface alone. Inside of it is
+                free. Meshes that are closed are solid as before.
 
         Raises:
             InvalidModelError: An unknown key or frame, a shape that cannot be; the message names
@@ -3490,6 +3498,9 @@ class Trajectory:
     """
 
     @property
+    def _joint_names(self) -> list[str] | None:
+        """Names of the joints, of a robot with a file."""
+    @property
     def t(self) -> _Floats:
         """Times of the samples [s], shape (m,)."""
     @property
@@ -3573,8 +3584,8 @@ class Trajectory:
         ROS; `rosidl_runtime_py.set_message_fields` fills a message with it.
 
         Args:
-            joint_names: Names of the joints in ROS; `joint_1` .. as in `robot.to_urdf()` when not
-                given.
+            joint_names: Names of the joints in ROS; when not given, as in the file of the robot
+                whose `go` made the motion, else `joint_1` .. as in `robot.to_urdf()`.
 
         Returns:
             {"joint_names": [..], "points": [..]}. A point has `positions` [rad], `velocities`

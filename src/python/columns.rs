@@ -125,8 +125,8 @@ impl PyTrajectory {
     /// ROS; `rosidl_runtime_py.set_message_fields` fills a message with it.
     ///
     /// Args:
-    ///     joint_names: Names of the joints in ROS; `joint_1` .. as in `robot.to_urdf()` when not
-    ///         given.
+    ///     joint_names: Names of the joints in ROS; when not given, as in the file of the robot
+    ///         whose `go` made the motion, else `joint_1` .. as in `robot.to_urdf()`.
     ///
     /// Returns:
     ///     {"joint_names": [..], "points": [..]}. A point has `positions` [rad], `velocities`

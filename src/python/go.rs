@@ -81,7 +81,7 @@ impl PyRobot {
             Arm::Six(robot) => asked.motion(robot, cell),
             Arm::Seven(robot) => asked.motion(robot, cell),
         };
-        PyTrajectory::even(start.py(), motion?, steps)
+        Ok(PyTrajectory::even(start.py(), motion?, steps)?.with_names(self.file_joint_names()))
     }
 }
 

@@ -119,8 +119,8 @@ fn restore<'py>(py: Python<'py>, kind: &str, state: &[u8]) -> PyResult<Bound<'py
         "Body" => PyBody(read(kind, state, |_| true)?).into_bound_py_any(py),
         "Cell" => PyCell(read(kind, state, |_| true)?).into_bound_py_any(py),
         "Trajectory" => {
-            let (motion, times) = read(kind, state, |_| true)?;
-            PyTrajectory::new(py, motion, times)?.into_bound_py_any(py)
+            let (motion, times, names) = read(kind, state, |_| true)?;
+            PyTrajectory::new(py, motion, times)?.with_names(names).into_bound_py_any(py)
         }
         _ => Err(Fault::Model.error(format_args!("the pickled {kind} is damaged: unknown class"))),
     }

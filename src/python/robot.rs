@@ -89,17 +89,17 @@ impl PyRobot {
         self.arm.dof()
     }
 
-    /// Names of the joints as messages and tables have them: "J1" .., of a URDF too.
+    /// Names of the joints, as in the URDF that the robot was read from; "J1" .. of any other.
     #[getter]
     fn joint_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let names = self._file_joint_names();
+        let names = self.file_joint_names();
         let numbered = || (1..=self.arm.dof()).map(|joint| format!("J{joint}")).collect();
         PyTuple::new(py, names.unwrap_or_else(numbered))
     }
 
     /// The names that a file gives the joints; None without a file.
-    #[getter]
-    pub(super) fn _file_joint_names(&self) -> Option<Vec<String>> {
+    #[getter(_file_joint_names)]
+    pub(super) fn file_joint_names(&self) -> Option<Vec<String>> {
         on!(&self.arm, robot => robot.joint_names().map(<[String]>::to_vec))
     }
 
@@ -308,7 +308,8 @@ impl PyRobot {
                 format!(" (by rounded angles: snap={snap:e} {gives})")
             });
             let (dof, structure) = (self.arm.dof(), robot.structure());
-            format!("<Robot{quoted}: {dof} joints, {structure}{snap}{coupled}>")
+            let remark = robot.tip_remark().map_or_else(String::new, |it| format!(", {it}"));
+            format!("<Robot{quoted}: {dof} joints, {structure}{snap}{coupled}{remark}>")
         })
     }
 

@@ -22,6 +22,9 @@ use crate::trajectory::{AxisLimits, AxisState, Trajectory};
 #[pyclass(name = "Trajectory", module = "irbkin.trajectory", frozen)]
 pub(super) struct PyTrajectory {
     motion: Arc<Trajectory>,
+    /// Names of the joints, of a robot with a file.
+    #[pyo3(get, name = "_joint_names")]
+    names: Option<Vec<String>>,
     /// Times of the samples [s], shape (m,).
     #[pyo3(get)]
     t: Py<PyArray1<f64>>,
@@ -41,7 +44,12 @@ impl PyTrajectory {
         let states = states(py, &motion, &times, &[times.len(), motion.dof()])?;
         let [q, dq, ddq] = states.map(read_only);
         let t = read_only(PyArray1::from_vec(py, times));
-        Ok(Self { motion: Arc::new(motion), t, q, dq, ddq })
+        Ok(Self { motion: Arc::new(motion), names: None, t, q, dq, ddq })
+    }
+
+    /// The trajectory with names of its joints.
+    pub(super) fn with_names(self, names: Option<Vec<String>>) -> Self {
+        Self { names, ..self }
     }
 
     /// `steps` samples, evenly over the duration.
@@ -185,7 +193,7 @@ impl PyTrajectory {
             (None, Some(dt)) => motion.steps_of(dt)?,
             _ => return Err(PyTypeError::new_err("resampled takes steps, or dt [s]")),
         };
-        Self::even(py, motion, steps)
+        Ok(Self::even(py, motion, steps)?.with_names(self.names.clone()))
     }
 
     /// Return the motion at another pace.
@@ -198,7 +206,7 @@ impl PyTrajectory {
     fn stretched(&self, py: Python<'_>, factor: f64) -> PyResult<Self> {
         let motion = (*self.motion).clone().stretched(factor)?;
         let times = self.times(py)?.into_iter().map(|time| time * factor).collect();
-        Self::new(py, motion, times)
+        Ok(Self::new(py, motion, times)?.with_names(self.names.clone()))
     }
 
     /// The part between two times, which begins at t = 0.
@@ -217,7 +225,7 @@ impl PyTrajectory {
         let inner = self.times(py)?.into_iter().filter(|time| start < *time && *time < end);
         let times = [0.0].into_iter().chain(inner.map(|time| time - start));
         let times = times.chain([motion.duration()]).collect();
-        Self::new(py, motion, times)
+        Ok(Self::new(py, motion, times)?.with_names(self.names.clone()))
     }
 
     /// This motion, then another one that begins where it ends.
@@ -227,7 +235,7 @@ impl PyTrajectory {
         let offset = self.motion.duration();
         let mut times = self.times(py)?;
         times.extend(next.times(py)?.into_iter().skip(1).map(|time| offset + time));
-        Self::new(py, motion, times)
+        Ok(Self::new(py, motion, times)?.with_names(self.names.clone()))
     }
 
     fn __len__(&self, py: Python<'_>) -> usize {
@@ -254,7 +262,7 @@ impl PyTrajectory {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        reduced(py, "Trajectory", &(&*self.motion, self.times(py)?))
+        reduced(py, "Trajectory", &(&*self.motion, self.times(py)?, &self.names))
     }
 }
 

@@ -21,23 +21,26 @@ const FEW: usize = 12;
 /// Number of joints of the longest arm: part of a longer chain is one, part of such an arm is not.
 const MOST_JOINTS: usize = 7;
 
+/// The link that ROS-Industrial's convention names for the tool's frame of an arm.
+const TOOL: &str = "tool0";
+
 /// Number of ends of chains up to which a message looks for chains that could be taken.
 const MOST_ENDS: usize = 64;
 
 /// The base, and the joints from there to the tip, all of them revolute or fixed; the number of
-/// revolute ones is in `wanted`.
+/// revolute ones is in `wanted`. Then a remark on how the tip was chosen among several.
 pub(super) fn chain_between<'t, 'a>(
     tree: &'t Tree<'a>,
     base: Option<&str>,
     tip: Option<&str>,
     wanted: &[usize],
-) -> Result<(usize, Vec<&'t Joint<'a>>), UrdfFault> {
+) -> Result<(usize, Vec<&'t Joint<'a>>, String), UrdfFault> {
     let base = match base {
         Some(name) => named(tree, "base", name)?,
         None => only_root(tree)?,
     };
-    let tip = match tip {
-        Some(name) => named(tree, "tip", name)?,
+    let (tip, remark) = match tip {
+        Some(name) => (named(tree, "tip", name)?, String::new()),
         None => only_tip(tree, base, wanted)?,
     };
     let mut chain = Vec::new();
@@ -53,7 +56,7 @@ pub(super) fn chain_between<'t, 'a>(
     }
     chain.reverse();
     let fault = match chain.iter().try_fold(Way::default(), |way, joint| way.through(joint)) {
-        Ok(way) if wanted.contains(&way.turning) => return Ok((base, chain)),
+        Ok(way) if wanted.contains(&way.turning) => return Ok((base, chain, remark)),
         Ok(Way { turning: found, .. }) => {
             let [base, tip] = [base, tip].map(|link| tree.links[link].to_owned());
             let count = UrdfFault::JointCount { base, tip, found, wanted: wanted.to_vec() };
@@ -215,9 +218,10 @@ fn is_of_gripper(tree: &Tree<'_>, joint: &Joint<'_>) -> bool {
 }
 
 /// The only link at the end of a chain whose number of joints is in `wanted`. A frame is never
-/// guessed: if there are several, none is chosen. Nor if the last joint may be a gripper's: its
-/// name has a word of one, or another end is on a link before it.
-fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, UrdfFault> {
+/// guessed: if there are several, none is chosen, except [`TOOL`] if all of them are fixed to one
+/// link, which the remark says then. Nor if the last joint may be a gripper's: its name has a word
+/// of one, or another end is on a link before it.
+fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<(usize, String), UrdfFault> {
     let mut ways = vec![Way::default(); tree.links.len()];
     // The link behind the last joint above each link that is not fixed.
     let mut carriers: Vec<usize> = (0..tree.links.len()).collect();
@@ -252,19 +256,30 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<usize, Urd
     };
     let shorter: Vec<usize> = ends.iter().filter(is_before).copied().collect();
     let named = |link: usize| remark(tree, link, ways[link]);
-    match (last, ends.iter().find(can_be), ends.iter().filter(can_be).count()) {
-        (Some(last), Some(&tip), 1) if is_of_gripper(tree, last) || !shorter.is_empty() => {
+    let tips: Vec<usize> = ends.iter().filter(can_be).copied().collect();
+    let chosen = match tips[..] {
+        [tip] => Some(tip),
+        _ if tips.iter().all(|tip| carriers[*tip] == carriers[tips[0]]) => {
+            tips.iter().copied().find(|tip| tree.links[*tip] == TOOL)
+        }
+        _ => None,
+    };
+    match (last, chosen) {
+        (Some(last), Some(tip)) if is_of_gripper(tree, last) || !shorter.is_empty() => {
             let shorter = if shorter.is_empty() { vec![last.parent] } else { shorter };
             let ends = core::iter::once(tip).chain(shorter).map(named).collect();
             Err(UrdfFault::MayBeGripper { base, joint: last.name.to_owned(), ends })
         }
-        (_, Some(&tip), 1) => Ok(tip),
-        (_, Some(_), _) => {
-            let tips = ends.iter().filter(can_be).map(|&link| quoted(tree.links[link]));
-            let tips = tips.chain(shorter.into_iter().map(named)).collect();
+        (_, Some(tip)) => {
+            let others = tree.quoted(tips.into_iter().filter(|it| *it != tip));
+            let remark = format!("tip {:?}, beside it {others}", tree.links[tip]);
+            Ok((tip, if others.is_empty() { String::new() } else { remark }))
+        }
+        (Some(_), None) => {
+            let tips = tips.into_iter().chain(shorter).map(named).collect();
             Err(UrdfFault::SeveralTips { base, wanted: wanted_counts, tips })
         }
-        (_, None, _) => {
+        (None, None) => {
             let remarks = ends.iter().map(|&link| remark(tree, link, ways[link])).collect();
             let fault = UrdfFault::NoTip { base, wanted: wanted_counts, ends: remarks };
             Err(proposing(fault, tree, base_link, &ends, wanted))

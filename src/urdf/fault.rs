@@ -74,6 +74,7 @@ pub enum UrdfFault {
     NoSuchLink { field: &'static str, name: String, links: Names },
     #[error("tip {tip:?} is not below base {base:?}: no joints lead from base to tip")]
     NotBelow { tip: String, base: String },
+    /// `tips`: each with its number of revolute joints.
     #[error(
         "{} revolute joints lead from {base:?} to several ends: {tips}; tip must name the one to \
          take",

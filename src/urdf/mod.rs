@@ -45,7 +45,7 @@ where
     ///
     /// `base` is the link in whose frame poses are given; by default the link without a parent.
     /// `tip` is the link whose poses are given; by default the only one at the end of a chain of
-    /// `N` revolute joints. Joints are numbered from base to tip; fixed joints, and joints that are
+    /// `N` revolute joints, or `tool0` if all such ends are fixed to one link. Joints are numbered from base to tip; fixed joints, and joints that are
     /// not between them, are not counted. A joint turns in the sense of its axis. Limits and
     /// velocities are the text's; a limit beyond 1e5 rad is none. A velocity that is no positive
     /// number below 1e5 rad/s is unknown, and one unknown velocity leaves the robot without
@@ -119,6 +119,7 @@ type Moving = (String, usize, Carrier);
 /// The arm of a URDF, with any number of joints.
 pub(crate) struct UrdfArm {
     name: String,
+    labels: (Vec<String>, String),
     joints: Vec<Placed>,
     /// The shapes of its links, if all are read, and a remark on those beside the chain.
     solids: Result<(Vec<Solid>, String), UrdfFault>,
@@ -134,11 +135,13 @@ impl UrdfArm {
     ) -> Result<Self, Error> {
         read_document(text, |document, skipped| {
             let tree = Tree::new(document, skipped)?;
-            let (base, chain) = chain_between(&tree, base, tip, wanted)?;
+            let (base, chain, remark) = chain_between(&tree, base, tip, wanted)?;
             let solids = solids(&tree, document.root_element(), base, &chain);
+            let turning = chain.iter().filter(|joint| joint.turns());
+            let names = turning.map(|joint| joint.name.to_string()).collect();
             let placed = |joint: &Joint<'_>| joint.placed(tree.version);
             let joints = chain.into_iter().map(placed).collect::<Result<_, _>>()?;
-            Ok(Self { name: tree.name.to_string(), joints, solids })
+            Ok(Self { name: tree.name.to_string(), labels: (names, remark), joints, solids })
         })
     }
 
@@ -153,7 +156,7 @@ impl UrdfArm {
         let places = on!(arm.any_robot(0.0)?, robot => places(&robot, &arm.joints, 0.0));
         read_document(text, |document, skipped| {
             let tree = Tree::new(document, skipped)?;
-            let (base, chain) = chain_between(&tree, base, tip, &[6, 7])?;
+            let (base, chain, _) = chain_between(&tree, base, tip, &[6, 7])?;
             let carriers = carriers(&tree, base, &chain);
             let has_shapes = shaped(document.root_element(), &["collision", "visual"]);
             let remark = remark(&tree, &carriers, &has_shapes);
@@ -274,6 +277,7 @@ impl UrdfArm {
             robot = robot.coupled()?.with_linkage_limits(linkage.limits)?;
         }
         robot
+            .with_labels(Some(self.labels.clone()))
             .with_name(self.name.clone())
             .with_limits(JointLimits::new(limits)?)
             .with_max_velocity(all_known.then_some(velocities))

@@ -8,7 +8,7 @@ import re
 import irbkin
 import numpy as np
 import pytest
-from irbkin import paths, rapid, trajectory
+from irbkin import paths, rapid, ros, trajectory
 from irbkin.errors import InvalidJointsError, InvalidModelError, InvalidMotionError
 
 IRB = "IRB 2600-12/1.65"
@@ -70,6 +70,17 @@ def test_a_linkage_without_room_is_an_error():
 def test_joints_have_names():
     assert ROBOT.joint_names == ("J1", "J2", "J3", "J4", "J5", "J6")
     assert irbkin.Robot("Panda").joint_names[-1] == "J7"
+    named = irbkin.Robot.from_urdf(ROBOT.to_urdf().replace("joint_4", "elbow"))
+    named = named.with_body(ROBOT.body)
+    own = ("joint_1", "joint_2", "joint_3", "elbow", "joint_5", "joint_6")
+    tool = named.with_tool([0, 0, 0.1])
+    for robot in (named, tool, pickle.loads(pickle.dumps(named)), named.with_limits(named.limits)):
+        assert robot.joint_names == own
+    motion = tool.go(np.zeros(6) + 0.1, np.zeros(6) + 0.2)
+    for other in (motion, motion.resampled(5), motion.stretched(2.0), motion.slice(0.0, 0.01)):
+        assert other.to_joint_trajectory()["joint_names"] == list(own)
+    assert pickle.loads(pickle.dumps(motion)).to_joint_trajectory()["joint_names"] == list(own)
+    assert ros.Kinematics(named).joint_names == list(own)
 
 
 def test_a_robot_takes_its_tool_and_base():

@@ -44,7 +44,8 @@ class Kinematics:
     Args:
         robot: The arm. Poses are of its tool, in `base_frame`.
         base_frame: Frame in which poses are given.
-        joint_names: Names of its joints; `joint_1` .. as in `robot.to_urdf()` when not given.
+        joint_names: Names of its joints; when not given, as in the URDF that the robot was read
+            from, else `joint_1` .. as in `robot.to_urdf()`.
         start: Joint vector [rad] to which the first target pose's solution is the nearest, shape
             (n,); zeros, moved inside the limits, when not given.
         weights: Cost of moving each joint, shape (n,); ones when not given.
@@ -78,7 +79,8 @@ class Kinematics:
         check_robot(robot)
         self.robot = robot
         self.base_frame = base_frame
-        self.joint_names = list(joint_names or (f"joint_{i + 1}" for i in range(robot.dof)))
+        numbered = [f"joint_{i + 1}" for i in range(robot.dof)]
+        self.joint_names = list(joint_names or robot._file_joint_names or numbered)
         if len(self.joint_names) != robot.dof:
             raise InvalidJointsError(
                 f"joint_names has {len(self.joint_names)} names, {robot.name} has {robot.dof} "

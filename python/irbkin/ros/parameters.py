@@ -48,7 +48,11 @@ PARAMETERS = (
     _text("base_frame", "base_link", "Frame of poses; the base link of robot_description"),
     _numbers("tool", "Tool center point in the flange: x y z [m] and quaternion x y z w"),
     Parameter(
-        "joint_names", str, True, "", "Names of the joints; joint_1 .. if empty, as in to_urdf"
+        "joint_names",
+        str,
+        True,
+        "",
+        "Names of the joints; if empty as in robot_description, else joint_1 ..",
     ),
     _numbers("start", "Joints to which the first target's solution is near [rad]; zeros if empty"),
     _numbers("weights", "Cost of moving each joint; ones if empty"),
@@ -74,11 +78,7 @@ def kinematics_of(values: Mapping[str, Any]) -> Kinematics:
         IrbkinError: A value is invalid; the message names the parameter.
     """
     read = {parameter.name: _value(parameter, values) for parameter in PARAMETERS}
-    base_frame, joint_names, prefix = (
-        read["base_frame"],
-        read["joint_names"],
-        read["service_prefix"],
-    )
+    base_frame, prefix = read["base_frame"], read["service_prefix"]
     if prefix and not re.fullmatch(r"/?[A-Za-z]\w*(/[A-Za-z]\w*)*", prefix, re.ASCII):
         raise IrbkinError(
             f"service_prefix is {prefix!r}, it must be a name: letters, digits and underscores, a "
@@ -90,10 +90,6 @@ def kinematics_of(values: Mapping[str, Any]) -> Kinematics:
         robot = robot.with_tool(pose(tool[:3], xyzw=tool[3:]))
     options = ("joint_names", "start", "weights", "max_velocity", "max_acceleration")
     given = {name: read[name] for name in options if len(read[name])}
-    if not read["robot"] and not joint_names:
-        raise InvalidModelError(
-            "joint_names is empty: with robot_description it must name the joints from base to tip"
-        )
     if len(read["track"]):
         x, y, z, lower, upper, velocity, acceleration = finite(
             read["track"], "track", (7,), InvalidMotionError

@@ -209,6 +209,7 @@ impl<const N: usize> Robot<N> {
             lock: None,
             body: None,
             no_body: None,
+            labels: None,
         }
     }
 

@@ -33,7 +33,8 @@ impl<const N: usize> Robot<N> {
         let robot = if is_zero(corrections.rows.as_flattened()) {
             self.clone()
         } else {
-            Self::recognized(corrections.table(self.mdh()), self.count, recognize)?
+            let corrected = Self::recognized(corrections.table(self.mdh()), self.count, recognize)?;
+            Self { labels: self.labels.clone(), ..corrected }
                 .with_coupling_of(self)?
                 .with_name(self.name.clone())
                 .with_max_velocity(self.max_velocity)?

@@ -1,9 +1,35 @@
-//! A robot as text.
+//! A robot as text, and names of its file.
 
 use core::fmt;
 
+use alloc::string::String;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+
 use super::Robot;
 use crate::kinematics::pose::Pose;
+
+/// Names of the joints, and how the tip was chosen among several, if it was.
+pub(super) type Labels = (Vec<String>, String);
+
+impl<const N: usize> Robot<N> {
+    /// The names that the file of the arm gives its joints; `None` of an arm without a file.
+    #[must_use]
+    pub fn joint_names(&self) -> Option<&[String]> {
+        self.labels.as_ref().map(|labels| &labels.0[..])
+    }
+
+    /// How its tip was chosen among several in its file.
+    #[cfg(feature = "python")]
+    pub(crate) fn tip_remark(&self) -> Option<&str> {
+        self.labels.as_ref().map(|labels| &labels.1[..]).filter(|remark| !remark.is_empty())
+    }
+
+    #[cfg(any(feature = "urdf", feature = "serde"))]
+    pub(crate) fn with_labels(self, labels: Option<Labels>) -> Self {
+        Self { labels: labels.map(Arc::new), ..self }
+    }
+}
 
 impl<const N: usize> fmt::Display for Robot<N> {
     /// Name, number of joints and structure; also coupling, base and tool, if the arm has them.

@@ -70,6 +70,8 @@ pub struct Robot<const N: usize> {
     body: Option<Arc<(Body, Outline)>>,
     /// Why the shapes of its links make no body, if they do not; no part of its value.
     no_body: Option<Arc<str>>,
+    /// No part of its value.
+    labels: Option<Arc<display::Labels>>,
 }
 
 /// A locked joint, with the robot of the six others.

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Definition, Joints, Robot};
+use super::{Definition, Joints, Robot, display};
 use crate::body::Body;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::limits::JointLimits;
@@ -34,6 +34,9 @@ struct Stored<const N: usize> {
     /// The shapes of its links.
     #[serde(default)]
     body: Option<Body>,
+    /// The names of its joints in its file, and a remark on its tip.
+    #[serde(default)]
+    labels: Option<display::Labels>,
 }
 
 impl<const N: usize> Serialize for Robot<N> {
@@ -50,6 +53,7 @@ impl<const N: usize> Serialize for Robot<N> {
             rule: self.own_rule(),
             locked: self.locked_joint(),
             body: self.body().cloned(),
+            labels: self.labels.as_deref().cloned(),
         }
         .serialize(serializer)
     }
@@ -83,6 +87,7 @@ where
             None => None,
         };
         robot
+            .with_labels(self.labels)
             .with_name(self.name)
             .with_limits(self.limits)
             .with_linkage_limits(self.limits.linkage())?
