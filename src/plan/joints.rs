@@ -106,7 +106,7 @@ impl PlannedJoints {
     /// Whether limits, as those of an axis 6 that may turn hundreds of times, are so far apart that
     /// the costs of its turns are one.
     pub(super) fn is_wide(&self, joint: usize) -> bool {
-        self.counts[joint] > WIDE_TURNS
+        self.counts[joint] >= WIDE_TURNS
     }
 
     /// The 2 pi equivalent of an angle with which its turns are counted from 0: the first one

@@ -491,3 +491,23 @@ def test_right_joints_are_a_start_with_a_cone():
             except irbkin.InvalidMotionError as error:
                 refused.append(str(error))
     assert refused == []
+
+
+@pytest.mark.parametrize("name", ["IRB 120-3/0.58", "UR5e"])
+@pytest.mark.parametrize(
+    "limits", [(-242 * 2 * np.pi, 242 * 2 * np.pi), (-403, 10), (-1e5, 1e5), (-1e5, 3)]
+)
+def test_wide_limits_of_a_joint_hide_no_path(name, limits):
+    q = np.array([0.3, 0.4, 0.2, 0.5, 0.7, -0.4])
+    for joint in range(6):
+        robot = irbkin.Robot(name)
+        wide = robot.limits.copy()
+        wide[joint] = limits
+        robot = robot.with_limits(wide)
+        T = robot.fk(q + np.linspace(0, 0.1, 12)[:, None])
+        assert not robot.follow(T, q).breaks
+        for options in ({}, {"rotation": 12}, {"limit_cost": 1.0}):
+            plan = robot.plan(T, start=q, **options)
+            assert plan.certified
+            # Turns of 1e5 rad are taken off.
+            np.testing.assert_allclose(plan.q[0], q, rtol=0, atol=3e-11)
