@@ -81,7 +81,7 @@ def test_a_move_is_checked_with_the_shape_of_its_own_tool(tmp_path):
     hit = [it for it in found if it[0] == "K901"]
     assert [it[1] for it in hit] == moves[1:]
     (other,) = (it[2] for it in found if it[0] == "T303")
-    assert other.startswith("tooldata tLong: it has no shape in cell.toml, which has those of tgun")
+    assert other.startswith("tooldata tLong: it has no shape in cell.toml, which has tgun")
     # As the arm with this tool on its flange.
     arm, bare = ROBOT.with_attached(FLANGE), Cell.load(cell)
     own = rapid.check(arm, rapid.parse(text), cell=bare, codes=["K901"])

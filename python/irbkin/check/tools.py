@@ -65,7 +65,7 @@ def tool_findings(
             wrong = {}
         is_tool = it.data_type == "tooldata" and name != FLANGE and name not in shapes
         if cell and is_tool and any(value.robhold for value in _values(it.value)):
-            others = f", which has those of {', '.join(shapes)}" if shapes else ""
+            others = f", which has {', '.join(shapes)}" if shapes else ""
             words = f"it has no shape in {cell}{others}: it is not part of the proof"
             wrong[SHAPELESS] = (words, None, None)
         if wrong and count(rf"\b{name}\b") <= times[name]:

@@ -1,4 +1,4 @@
-//! Findings in the order of the text, each once, those of one cause together.
+//! Findings in the order of the text, each once and in one for each cause.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::format;
