@@ -103,7 +103,7 @@ impl<'m> Walk<'_, 'm> {
         bound: Bound,
         parameters: &[Parameter],
     ) {
-        let Bound { given, absent, texts, names } = bound;
+        let Bound { given, absent, present, texts, names } = bound;
         let own_site = || Site {
             module: self.frame.module,
             line: skipped.line,
@@ -130,6 +130,7 @@ impl<'m> Walk<'_, 'm> {
             chain,
             exits: Vec::new(),
             absent,
+            present,
             texts,
             above,
         };
@@ -217,16 +218,20 @@ impl<'m> Walk<'_, 'm> {
         value: Option<Expression<'_>>,
         bound: &mut Bound,
     ) {
+        let name = parameter.name.clone();
+        let text = value.as_ref().and_then(|it| skipped.text.get(it.start..it.end));
+        let text = text.unwrap_or_default();
+        // \Name?parameter passes on an argument, if there is one.
+        let passed = text.strip_prefix('?').map(|passed| passed.trim().to_lowercase());
+        match &passed {
+            Some(passed) if self.frame.absent.contains(passed) => bound.absent.insert(name),
+            Some(passed) if !self.frame.present.contains(passed) => false,
+            _ => bound.present.insert(name),
+        };
         let (Some(value), Some(data_type)) = (value, parameter.data_type) else {
             return bound.give(parameter, Err(Unresolved::ValueNotKnown));
         };
-        let text = skipped.text.get(value.start..value.end).unwrap_or_default();
-        // \Name?parameter passes on an argument, if there is one.
-        if let Some(passed) = text.strip_prefix('?') {
-            let passed = passed.trim().to_lowercase();
-            if self.frame.absent.contains(&passed) {
-                bound.absent.insert(parameter.name.clone());
-            }
+        if let Some(passed) = passed {
             let local = self.state.locals.get(&passed);
             let content = local.map_or(Err(Unresolved::ValueNotKnown), |it| it.content.clone());
             bound.texts.extend(
@@ -274,6 +279,7 @@ impl<'m> Walk<'_, 'm> {
 struct Bound {
     given: Vec<(String, Local)>,
     absent: BTreeSet<String>,
+    present: BTreeSet<String>,
     texts: BTreeMap<String, (String, usize, Range<usize>)>,
     /// Parameters by reference, with the names of their arguments.
     names: Vec<(String, String)>,

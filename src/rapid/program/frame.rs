@@ -31,8 +31,9 @@ pub(super) struct Frame {
     pub(super) chain: usize,
     /// The knowledge at each place where it was left.
     pub(super) exits: Vec<State>,
-    /// Its optional parameters that no argument was given for.
+    /// Its optional parameters that no argument was given for, and its others that have one.
     pub(super) absent: BTreeSet<String>,
+    pub(super) present: BTreeSet<String>,
     /// The text of its arguments, with their modules and bytes, by the names of its parameters.
     pub(super) texts: BTreeMap<String, (String, usize, Range<usize>)>,
     /// The routines that are being followed.

@@ -85,6 +85,21 @@ pub(super) fn never_holds(head: &str) -> bool {
         && words.get(1).is_none_or(|word| word == "THEN" || word == "DO")
 }
 
+/// The optional parameter that a condition asks for alone, in lower case, and whether it must be
+/// there: `IF Present(x)`, `IF NOT Present(x)`.
+pub(super) fn asked_for(head: &str) -> Option<(String, bool)> {
+    let (condition, rest) = head.split_once(')')?;
+    let (ahead, name) = condition.split_once('(')?;
+    let words: Vec<String> = ahead.split_whitespace().map(str::to_ascii_uppercase).collect();
+    let is_there = match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["IF", "PRESENT"] => true,
+        ["IF", "NOT", "PRESENT"] => false,
+        _ => return None,
+    };
+    let is_alone = matches!(rest.trim().to_ascii_uppercase().as_str(), "" | "THEN");
+    is_alone.then(|| (name.trim().to_lowercase(), is_there))
+}
+
 /// The values of a loop between bounds: from, to and step.
 fn values_of(bounds: [Option<f64>; 3]) -> Vec<f64> {
     let [Some(from), Some(to), step] = bounds else { return Vec::new() };

@@ -3,13 +3,14 @@
 
 use alloc::borrow::Cow;
 use alloc::boxed::Box;
+use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::effects::written_by;
 use super::frame::Frame;
-use super::loops::never_holds;
+use super::loops::{asked_for, never_holds};
 use super::state::{Displacement, Here, State};
 use super::tree::{Block, Node};
 use super::walker::{Filled, Run, Step, Stepped, Uncertain, Walk, word_of};
@@ -37,6 +38,7 @@ pub(in crate::rapid) fn runs<'m>(
             walk.root(name);
         }
     }
+    walk.note_left();
     (walk.runs, walk.notes)
 }
 
@@ -104,14 +106,24 @@ impl<'m> Walk<'_, 'm> {
                         self.decides(head.line, word_of(head));
                     }
                     let entry = self.state.clone();
-                    let mut ends = Vec::from_iter((!is_complete).then(|| entry.clone()));
+                    let holds = self.holds(&head.text);
+                    let is_passed = !is_complete && holds != Some(true);
+                    let mut ends = Vec::from_iter(is_passed.then(|| entry.clone()));
                     let mut parts = parts.iter();
-                    if never_holds(&head.text)
+                    if holds == Some(false)
+                        && let Some(other) = parts.next()
+                    {
+                        self.left_out(other);
+                    } else if never_holds(&head.text)
                         && let Some(never) = parts.next()
                     {
                         self.never_run(head, never);
                     }
-                    for part in parts {
+                    for (index, part) in parts.enumerate() {
+                        if holds == Some(true) && index > 0 {
+                            self.left_out(part);
+                            continue;
+                        }
                         self.state = entry.clone();
                         self.block(part);
                         ends.push(self.state.clone());
@@ -121,6 +133,41 @@ impl<'m> Walk<'_, 'm> {
                 Node::Loop { head, body } if never_holds(&head.text) => self.never_run(head, body),
                 Node::Loop { head, body } => self.repeat(head, body),
             }
+        }
+    }
+
+    /// Whether a condition holds in the call that is followed, if it asks for an argument alone.
+    fn holds(&self, head: &str) -> Option<bool> {
+        let (name, is_wanted) = asked_for(head)?;
+        let is_there = self.frame.present.contains(&name);
+        (is_there || self.frame.absent.contains(&name)).then_some(is_there == is_wanted)
+    }
+
+    /// A block that the call that is followed does not execute.
+    fn left_out(&mut self, block: &Block<'m>) {
+        for node in block {
+            match node {
+                Node::Move(index, step) => {
+                    self.left.insert((self.frame.module, *index), *step);
+                }
+                Node::Branches { parts, .. } => parts.iter().for_each(|part| self.left_out(part)),
+                Node::Loop { body, .. } => self.left_out(body),
+                _ => {}
+            }
+        }
+    }
+
+    /// Report the moves that no call executes.
+    fn note_left(&mut self) {
+        let made = self.runs.iter().flat_map(|run| &run.steps).filter_map(|step| match step {
+            Step::Move(own) => Some(own.instruction),
+            Step::NotFollowed { .. } => None,
+        });
+        let made: BTreeSet<(usize, usize)> = made.collect();
+        for (place, step) in self.left.iter().filter(|(place, _)| !made.contains(place)) {
+            let words = "is never executed: no call has the arguments that it asks for";
+            let finding = Finding::new(Code::NeverRun, words).at(step, 0);
+            self.notes.push(finding.in_module(place.0));
         }
     }
 

@@ -87,6 +87,8 @@ pub(super) struct Walk<'p, 'm> {
     pub(super) takes_last: bool,
     pub(super) runs: Vec<Run<'m>>,
     pub(super) notes: Vec<Finding>,
+    /// Moves, by module and index, that some call does not execute.
+    pub(super) left: BTreeMap<(usize, usize), &'m Move>,
     pub(super) state: State,
     pub(super) frame: Frame,
     /// The routines that were followed, by module and name in lower case.
@@ -110,6 +112,7 @@ impl<'p, 'm> Walk<'p, 'm> {
             takes_last,
             runs: Vec::new(),
             notes: Vec::new(),
+            left: BTreeMap::new(),
             state: State::new(),
             frame: Frame::default(),
             followed: BTreeSet::new(),

@@ -2,6 +2,7 @@
 
 use std::format;
 use std::string::{String, ToString};
+use std::vec;
 use std::vec::Vec;
 
 use crate::kinematics::{Pose, Robot};
@@ -209,6 +210,30 @@ fn external_axes_are_not_checked_unless_their_units_are_known() {
     let options = CheckOptions { units: Some(&units), ..CheckOptions::default() };
     let found = checked(&[&text("MoveJ e,v100,fine,t\\WObj:=w;")], &options);
     assert_eq!((codes(&found.findings), found.moves[0].unchecked), (Vec::new(), None));
+}
+
+#[test]
+fn a_branch_that_asks_for_an_argument_is_followed_if_the_call_has_it() {
+    let routine = "ENDPROC PROC Go(robtarget p\\num up\\switch fast)
+        IF Present(up) THEN MoveL Offs(p,0,0,up),v5,fine,t; ELSE MoveL p,v5,fine,t; ENDIF
+        IF NOT Present(fast) MoveL Offs(p,0,0,10),v5,fine,t;
+        ";
+    let far = "ENDPROC PROC Far(robtarget p\\num up) Go p\\up?up\\fast;";
+    for (calls, found, known) in [
+        ("Go a;", vec![Code::NeverRun], 2),
+        ("Go a\\up:=20;", vec![Code::NeverRun], 2),
+        ("Go a\\up:=5000;", vec![Code::OutOfReach, Code::NeverRun], 2),
+        ("Go a\\up:=20\\fast;", vec![Code::NeverRun; 2], 1),
+        ("Far a;", vec![Code::NeverRun; 2], 1),
+        ("Far a\\up:=20;", vec![Code::NeverRun; 2], 1),
+        ("Go a; Go a\\up:=20;", vec![], 4),
+    ] {
+        // A routine that nothing calls is followed with arguments that are not known.
+        let far = if calls.starts_with("Far") { far } else { "" };
+        let (mut codes, checked, _) = outcome(&format!("{calls} {routine} {far}"));
+        codes.retain(|code| [Code::NeverRun, Code::OutOfReach].contains(code));
+        assert_eq!((codes, checked), (found, known), "{calls}");
+    }
 }
 
 #[test]
