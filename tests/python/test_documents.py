@@ -113,6 +113,18 @@ def test_the_transcripts_of_a_page_are_what_a_shell_prints(page, tmp_path):
     assert text == own, "IRBKIN_WRITE=1 pytest tests/python/test_documents.py writes it"
 
 
+def test_the_check_that_readme_shows_is_what_a_shell_prints(tmp_path):
+    shutil.copy(ROOT / "examples" / "pick_and_place.mod", tmp_path)
+    text = README.read_text()
+    (shown,) = re.findall(
+        r"^```console\n(\$ irbkin check .*?)^```$", text, re.MULTILINE | re.DOTALL
+    )
+    own = transcript(shown, tmp_path)
+    if os.environ.get("IRBKIN_WRITE") == "1":
+        README.write_text(text.replace(shown, own))
+    assert shown == own, "IRBKIN_WRITE=1 pytest tests/python/test_documents.py writes it"
+
+
 def notebook(text):
     """A page as a notebook (nbformat 4.5) that has been run: its Python and what that prints."""
     prose, cells = 0, []
