@@ -9,10 +9,11 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from irbkin._core import _urdf_links, _urdf_text, pose
+from irbkin._core import _urdf_links, _urdf_text
 from irbkin._fit.solid import Array
 from irbkin._mesh_files import triangles
-from irbkin.errors import InvalidModelError
+from irbkin._urdf_elements import numbers_of, origin_of
+from irbkin.errors import InvalidModelError, IrbkinError
 
 # Sides of the prism around a cylinder.
 SIDES = 32
@@ -39,8 +40,11 @@ def links_of(
         link = elements[name]
         parts = []
         for shape in link.findall("collision") or link.findall("visual"):
-            solid = solid_of(shape, name, folder, packages)
-            turned = (np.eye(4) if placed is None else placed) @ origin_of(shape)
+            try:
+                solid = solid_of(shape, name, folder, packages)
+                turned = (np.eye(4) if placed is None else placed) @ origin_of(shape)
+            except IrbkinError as error:
+                raise InvalidModelError(f'link "{name}": {error}') from None
             parts.append(solid @ turned[:3, :3].T + turned[:3, 3])
         if parts and placed is None:
             beside[name] = number, np.concatenate(parts)
@@ -59,33 +63,24 @@ def text_and_folder(urdf: str | bytes | os.PathLike[str]) -> tuple[str | bytes, 
     return path.read_bytes().strip(), path.resolve().parent
 
 
-def origin_of(shape: ElementTree.Element) -> Array:
-    """The pose of a shape in its link."""
-    origin = shape.find("origin")
-    given = {} if origin is None else origin.attrib
-    xyz, rpy = numbers(given.get("xyz", "0 0 0")), numbers(given.get("rpy", "0 0 0"))
-    return pose(xyz, euler_zyx=rpy[::-1])
-
-
 def solid_of(
     shape: ElementTree.Element, link: str, folder: Path | None, packages: Packages
 ) -> Array:
     """The triangles of a shape in its own frame."""
     kinds = [*shape.iterfind("geometry/*")]
     if not kinds:
-        raise InvalidModelError(f'link "{link}" has a shape without geometry')
+        raise InvalidModelError("has a shape without geometry")
     kind = kinds[0]
 
     def given(name: str) -> Array:
-        values, wanted = numbers(kind.get(name, "nan")), 3 if name == "size" else 1
-        if len(values) != wanted or not (values > 0).all():
+        values = numbers_of(kind, name, 3 if name == "size" else 1)
+        if not (values > 0).all():
             what = f'{kind.tag} {name} is "{kind.get(name, "")}"'
-            count = "three positive numbers" if wanted == 3 else "a positive number"
-            raise InvalidModelError(f'link "{link}" {what}, it must be {count}')
+            raise InvalidModelError(f"{what}, it must be positive")
         return values
 
     if kind.tag == "mesh":
-        scale = numbers(kind.get("scale", "1 1 1"))
+        scale = numbers_of(kind, "scale", 3, 1.0)
         path = path_of(kind.get("filename", ""), link, folder, packages)
         return triangles(path) * scale
     if kind.tag == "box":
@@ -97,7 +92,7 @@ def solid_of(
         points = ball() if kind.tag == "capsule" else ring()
         ends = [points * [radius, radius, radius] + [0, 0, half * sign] for sign in (-1, 1)]
         return hull(np.concatenate(ends))
-    raise InvalidModelError(f'link "{link}" has a shape <{kind.tag}>, which is not known')
+    raise InvalidModelError(f"has a shape <{kind.tag}>, which is not known")
 
 
 def signs() -> Iterator[tuple[int, int, int]]:
@@ -149,11 +144,3 @@ def path_of(name: str, link: str, folder: Path | None, packages: Packages) -> Pa
         f'the mesh {name} of link "{link}" is not found: pass the folder of its package as '
         "packages={name: folder}"
     )
-
-
-def numbers(text: str) -> Array:
-    """Numbers of an attribute."""
-    try:
-        return np.array([float(word) for word in text.split()])
-    except ValueError:
-        raise InvalidModelError(f"{text!r} must be numbers") from None

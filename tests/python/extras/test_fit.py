@@ -1,5 +1,7 @@
 """Capsules fitted to meshes: they contain every triangle, and the pairs that are kept apart."""
 
+import math
+
 import irbkin
 import numpy as np
 import pytest
@@ -184,6 +186,24 @@ def test_what_cannot_be_fitted_is_named(urdf, change, error, words):
         Body.fit(urdf, **change)
 
 
+def test_a_shape_is_turned_by_a_quaternion_as_by_angles(urdf):
+    whole = urdf.read_text()
+    place = '<origin xyz="0.15 0 0"'
+    assert whole.count(place) == 1
+    bodies = [
+        Body.fit(
+            whole.replace(place, f"{place} {turn}"), most=1, packages={"rods": urdf.parents[1]}
+        )
+        for turn in ('rpy="0 0 1.2"', f'quat_xyzw="0 0 {math.sin(0.6)} {math.cos(0.6)}"')
+    ]
+    np.testing.assert_allclose(bodies[0].capsules, bodies[1].capsules, atol=1e-6)
+    with pytest.raises(irbkin.InvalidModelError, match="has rpy and quat_xyzw"):
+        Body.fit(
+            whole.replace(place, f'{place} rpy="0 0 0" quat_xyzw="0 0 0 1"'),
+            packages={"rods": urdf.parents[1]},
+        )
+
+
 def test_shapes_of_links_are_named():
     def with_shape(shape):
         text = f'<link name="link_2"><collision><geometry>{shape}</geometry></collision></link>'
@@ -193,7 +213,9 @@ def test_shapes_of_links_are_named():
         Body.fit(ARM.to_urdf())
     for shape, words in [
         ("<plane/>", "shape <plane>"),
-        ('<box size="1 1"/>', "size"),
+        ('<box size="1 1"/>', r'link "link_2": size of box is .1 1., it must be 3 numbers'),
+        ('<box size="1 1 0"/>', 'link "link_2".* size'),
+        ('<mesh filename="a.stl" scale="1 1"/>', r'"link_2": scale of mesh is .1 1., .* 3 numbers'),
         ("", "without geometry|has no geometry"),
     ]:
         with pytest.raises(irbkin.InvalidModelError, match=words):
