@@ -1,43 +1,54 @@
 """Cells from URDF: the collision geometry of all that stands still.
 
-Links that fixed joints hold at the root are obstacles. The first joint that moves begins the arm:
-its parent is link 0, what is below it moves.
+Links at the root are obstacles, behind fixed joints and behind those whose positions are given. One
+joint that is not may begin the arm: its parent is link 0, what is below it moves.
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
+from typing import NoReturn
 from xml.etree import ElementTree
 
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._core import Cell, Shape, _urdf_text, pose
+from irbkin._cell.joints import described, follows, motion_of, positions_of
+from irbkin._core import Cell, Shape, _urdf_text
 from irbkin._mesh_files import mesh, triangles
+from irbkin._urdf_elements import attribute_of, number_of, numbers_of, origin_of
 from irbkin.errors import InvalidModelError, IrbkinError
 
 _LAST_LINK = 7
+# Joints of the shortest arm that irbkin solves.
+_LEAST_JOINTS = 6
 
 
-def cell_of_urdf(content: bytes, path: str, solid: bool) -> Cell:
-    """The cell of a URDF, and of an SRDF of its name beside it."""
+def cell_of_urdf(content: bytes, path: str, joints: Mapping[str, float], solid: bool) -> Cell:
+    """The cell of a URDF with some joints at positions, and of an SRDF of its name beside it."""
     root = _xml(content)
     below: dict[str, list[ElementTree.Element]] = {}
     for joint in root.findall("joint"):
         below.setdefault(_end(joint, "parent"), []).append(joint)
     children = {_end(joint, "child") for joints in below.values() for joint in joints}
-    links = {_attribute(link, "name"): link for link in root.findall("link")}
+    links, joint_of = _by_name(root, "link"), _by_name(root, "joint")
     if unknown := sorted({*below, *children} - {*links}):
         raise InvalidModelError(f"there is no link {unknown[0]}, of which a joint is")
     tops = [name for name in links if name not in children]
     if len(tops) != 1:
         raise InvalidModelError(f"must have one root link, has {tops}")
-    poses, numbers = _walk(tops[0], below)
-    shapes = {}
+    movable = {name: it for name, it in joint_of.items() if attribute_of(it, "type") != "fixed"}
+    poses, numbers = _walk(tops[0], below, movable, positions_of(movable, joints))
+    if lost := sorted({*links} - {*poses, *numbers}):
+        raise InvalidModelError(f"the link {lost[0]} hangs on itself, by joints in a circle")
+    shapes, folder = {}, os.path.dirname(path)
     for name, at in poses.items():
-        folder = os.path.dirname(path)
         if name not in numbers and (parts := _shapes(links[name], folder, solid)):
             shapes[name] = Shape.union(parts).moved(at)
+    seen = [own for own in poses if own not in numbers and links[own].find("visual") is not None]
+    if seen and not shapes:
+        raise InvalidModelError(f"only visual shapes stand still, none of collision: {seen[0]}")
     return Cell(shapes, 0.0, _pairs(os.path.splitext(path)[0] + ".srdf", shapes, numbers))
 
 
@@ -48,36 +59,69 @@ def _xml(content: bytes) -> ElementTree.Element:
         raise InvalidModelError(f"is not XML: {error}") from None
 
 
+def _by_name(root: ElementTree.Element, tag: str) -> dict[str, ElementTree.Element]:
+    found: dict[str, ElementTree.Element] = {}
+    for element in root.findall(tag):
+        if found.setdefault(name := attribute_of(element, "name"), element) is not element:
+            raise InvalidModelError(f"two {tag}s have the name {name}")
+    return found
+
+
 def _walk(
-    top: str, below: dict[str, list[ElementTree.Element]]
+    top: str,
+    below: dict[str, list[ElementTree.Element]],
+    movable: dict[str, ElementTree.Element],
+    at: dict[str, float],
 ) -> tuple[dict[str, npt.NDArray[np.float64]], dict[str, int]]:
     """The poses of links that stand still, and the numbers of the links of the arm."""
     poses: dict[str, npt.NDArray[np.float64]] = {top: np.eye(4)}
     numbers: dict[str, int] = {}
-    first, seen, waiting = None, {top}, [top]
+    # The joint that each link is behind which moves, and the most joints behind each of these.
+    first: dict[str, str] = {}
+    most: dict[str, int] = {}
+    seen, waiting = {top}, [top]
     while waiting:
-        name = waiting.pop(0)
-        for joint in below.get(name, []):
-            child, kind = _end(joint, "child"), _attribute(joint, "type")
+        parent = waiting.pop(0)
+        for joint in below.get(parent, []):
+            child, name = _end(joint, "child"), attribute_of(joint, "name")
             if child in seen:
                 raise InvalidModelError(f"two joints lead to the link {child}")
             seen.add(child)
             waiting.append(child)
-            if kind == "fixed" and name in poses:
-                poses[child] = poses[name] @ _origin(joint)
-            elif kind == "fixed":
-                numbers[child] = numbers[name]
-            else:
-                if name in poses:
-                    own = _attribute(joint, "name")
-                    if first is not None:
-                        raise InvalidModelError(
-                            f"the joints {first} and {own} both begin an arm: a cell is around one "
-                            "arm; make the joints of the others fixed"
-                        )
-                    first, numbers[name] = own, 0
-                numbers[child] = numbers[name] + 1
+            moves = name in movable and name not in at
+            if parent in poses and not moves:
+                motion = motion_of(joint, at[name]) if name in at else np.eye(4)
+                poses[child] = poses[parent] @ origin_of(joint) @ motion
+                continue
+            first[child] = first.get(parent, name)
+            numbers[child] = numbers.setdefault(parent, 0) + moves
+            most[first[child]] = max(most.get(first[child], 0), numbers[child])
+    arms = [name for name, count in most.items() if count >= _LEAST_JOINTS]
+    if len(most) > len(arms) or len(arms) > 1:
+        given = {
+            name: joint
+            for name, joint in movable.items()
+            if name not in at
+            and not (len(arms) == 1 and first.get(_end(joint, "child")) == arms[0])
+        }
+        own = [name for name in most if not follows(movable[name], movable)]
+        _ask(own or [*most], given, movable)
     return poses, numbers
+
+
+def _ask(
+    names: list[str],
+    given: dict[str, ElementTree.Element],
+    movable: dict[str, ElementTree.Element],
+) -> NoReturn:
+    """Ask for the positions of joints, of which some begin what moves."""
+    free = [joint for joint in given.values() if not follows(joint, movable)]
+    begin = f"{' and '.join(names)} {['begins', 'both begin', 'all begin'][min(len(names), 3) - 1]}"
+    raise InvalidModelError(
+        f"the joint{'s' * (len(names) > 1)} {begin} an arm or what moves beside it: a cell is "
+        f"around one arm, of {_LEAST_JOINTS} joints or more. Give where the others are, as "
+        f'joints={{"{next(iter(given))}": 0}}: {", ".join(map(described, free))}'
+    )
 
 
 def _shapes(link: ElementTree.Element, folder: str, solid: bool) -> list[Shape]:
@@ -87,31 +131,31 @@ def _shapes(link: ElementTree.Element, folder: str, solid: bool) -> list[Shape]:
             geometry = collision.find("geometry")
             if geometry is None or len(geometry) != 1:
                 raise InvalidModelError("geometry must have one shape")
-            shapes.append(_shape(geometry[0], folder, solid).moved(_origin(collision)))
+            shapes.append(_shape(geometry[0], folder, solid).moved(origin_of(collision)))
         except IrbkinError as error:
-            raise InvalidModelError(f"link {_attribute(link, 'name')}: {error}") from None
+            raise InvalidModelError(f"link {attribute_of(link, 'name')}: {error}") from None
     return shapes
 
 
 def _shape(element: ElementTree.Element, folder: str, solid: bool) -> Shape:
     if element.tag == "box":
-        return Shape.box(_numbers(element, "size", 3))
+        return Shape.box(numbers_of(element, "size", 3))
     if element.tag == "sphere":
-        return Shape.sphere(_number(element, "radius"), np.zeros(3))
+        return Shape.sphere(number_of(element, "radius"), np.zeros(3))
     if element.tag == "cylinder":
-        return Shape.cylinder(_number(element, "radius"), _number(element, "length"))
+        return Shape.cylinder(number_of(element, "radius"), number_of(element, "length"))
     if element.tag == "capsule":
-        half = np.array([0.0, 0.0, 0.5 * _number(element, "length")])
-        return Shape.capsule(-half, half, _number(element, "radius"))
+        half = np.array([0.0, 0.0, 0.5 * number_of(element, "length")])
+        return Shape.capsule(-half, half, number_of(element, "radius"))
     if element.tag == "mesh":
-        scale = _numbers(element, "scale", 3) if "scale" in element.attrib else np.ones(3)
-        return mesh(triangles(_file(_attribute(element, "filename"), folder)) * scale, solid)
+        scale = numbers_of(element, "scale", 3, 1.0)
+        return mesh(triangles(file_of(attribute_of(element, "filename"), folder)) * scale, solid)
     raise InvalidModelError(
         f"unknown shape {element.tag}; known: box, sphere, cylinder, capsule, mesh"
     )
 
 
-def _file(name: str, folder: str) -> str:
+def file_of(name: str, folder: str) -> str:
     """The path of a mesh: of package://name/path, beside the URDF or in a folder above it."""
     scheme, _, rest = name.rpartition("://")
     if scheme == "file":
@@ -126,7 +170,7 @@ def _file(name: str, folder: str) -> str:
                 return path
         above = os.path.dirname(here)
         if scheme != "package" or above == here:
-            raise InvalidModelError(f"the mesh {name} is neither beside the URDF nor above it")
+            raise InvalidModelError(f"the mesh {name} is neither beside the file nor above it")
         here = above
 
 
@@ -138,46 +182,15 @@ def _pairs(path: str, shapes: dict[str, Shape], numbers: dict[str, int]) -> list
         root = _xml(file.read())
     pairs = []
     for disabled in root.findall("disable_collisions"):
-        one, other = _attribute(disabled, "link1"), _attribute(disabled, "link2")
+        one, other = attribute_of(disabled, "link1"), attribute_of(disabled, "link2")
         for obstacle, link in [(one, other), (other, one)]:
             if obstacle in shapes and 1 <= numbers.get(link, 0) <= _LAST_LINK:
                 pairs.append((obstacle, numbers[link]))
     return pairs
 
 
-def _origin(element: ElementTree.Element) -> npt.NDArray[np.float64]:
-    origin = element.find("origin")
-    if origin is None:
-        return np.eye(4)
-    xyz = _numbers(origin, "xyz", 3) if "xyz" in origin.attrib else np.zeros(3)
-    roll_pitch_yaw = _numbers(origin, "rpy", 3) if "rpy" in origin.attrib else np.zeros(3)
-    return pose(xyz, euler_zyx=roll_pitch_yaw[::-1])
-
-
 def _end(joint: ElementTree.Element, which: str) -> str:
     end = joint.find(which)
     if end is None:
-        raise InvalidModelError(f"the joint {_attribute(joint, 'name')} has no {which}")
-    return _attribute(end, "link")
-
-
-def _attribute(element: ElementTree.Element, key: str) -> str:
-    value = element.get(key)
-    if value is None:
-        raise InvalidModelError(f"{element.tag} has no {key}")
-    return value
-
-
-def _number(element: ElementTree.Element, key: str) -> float:
-    return float(_numbers(element, key, 1)[0])
-
-
-def _numbers(element: ElementTree.Element, key: str, count: int) -> npt.NDArray[np.float64]:
-    text = _attribute(element, key)
-    try:
-        numbers = np.array([float(word) for word in text.split()])
-    except ValueError:
-        numbers = np.empty(0)
-    if len(numbers) != count:
-        raise InvalidModelError(f"{key} of {element.tag} is {text!r}, it must be {count} numbers")
-    return numbers
+        raise InvalidModelError(f"the joint {attribute_of(joint, 'name')} has no {which}")
+    return attribute_of(end, "link")

@@ -259,6 +259,7 @@ URDF = """
   <link name="base_link"><collision><geometry><sphere radius="0.3"/></geometry></collision></link>
   <link name="link_1"><collision><geometry><sphere radius="0.3"/></geometry></collision></link>
   <link name="link_2"/><link name="tool"/>
+  <link name="link_3"/><link name="link_4"/><link name="link_5"/><link name="link_6"/>
   <joint name="a" type="fixed"><parent link="world"/><child link="table"/>
     <origin xyz="1 0 0.3"/></joint>
   <joint name="b" type="fixed"><parent link="table"/><child link="fixture"/>
@@ -267,6 +268,10 @@ URDF = """
   <joint name="d" type="revolute"><parent link="base_link"/><child link="link_1"/></joint>
   <joint name="e" type="revolute"><parent link="link_1"/><child link="link_2"/></joint>
   <joint name="f" type="fixed"><parent link="link_2"/><child link="tool"/></joint>
+  <joint name="g" type="revolute"><parent link="link_2"/><child link="link_3"/></joint>
+  <joint name="h" type="revolute"><parent link="link_3"/><child link="link_4"/></joint>
+  <joint name="i" type="revolute"><parent link="link_4"/><child link="link_5"/></joint>
+  <joint name="j" type="revolute"><parent link="link_5"/><child link="link_6"/></joint>
 </robot>
 """
 SRDF = """<robot name="cell">
