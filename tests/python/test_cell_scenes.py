@@ -1,4 +1,8 @@
-"""Scenes of others as cells: URDF with doors and drawers."""
+"""Scenes of others as cells: URDF with doors and drawers, MoveIt's messages and texts."""
+
+import array
+import re
+from types import SimpleNamespace
 
 import irbkin
 import numpy as np
@@ -10,7 +14,7 @@ from irbkin.body import Body, Shape
 BALL = Body([6], [[0, 0, 0, 0, 0, 0, 1e-3]], [])
 ROBOT = irbkin.Robot("IRB 2600-12/1.65").with_body(BALL)
 Q = np.random.default_rng(5).uniform(-2, 2, (400, 6))
-NAN = float("nan")
+NAN, INF = float("nan"), float("inf")
 
 
 def assert_same(cell, obstacles):
@@ -186,3 +190,340 @@ def test_joints_are_of_a_urdf_alone(tmp_path):
     path.write_text("")
     with pytest.raises(irbkin.InvalidModelError, match=r"joints are of a URDF, not of .*\.toml"):
         _cell.load(path, joints={"a": 1})
+    with pytest.raises(irbkin.InvalidModelError, match="joints are of a URDF, and this is a"):
+        _cell.load({"world": {"collision_objects": []}}, joints={"a": 1})
+
+
+TETRAHEDRON = [[0, 0, 0], [0.3, 0, 0], [0, 0.3, 0], [0, 0, 0.3]]
+FACES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
+BOX = {"type": "box", "dimensions": [0.3, 0.4, 0.5]}
+AT = {"position": [1.0, 0.2, 0.3], "orientation": [0.0, 0.0, 0.6, 0.8]}
+T_AT = shift(1, 0.2, 0.3) @ turn(2 * np.arctan2(0.6, 0.8), (0, 0, 1))
+SHELF = {"position": {"x": 0.1, "y": 0.0, "z": -0.2}, "orientation": {"x": 0.6, "w": 0.8}}
+T_SHELF = shift(0.1, 0, -0.2) @ turn(2 * np.arctan2(0.6, 0.8), (1, 0, 0))
+
+
+def scene(*objects, **more):
+    return {"world": {"collision_objects": list(objects)}, **more}
+
+
+def box(name="box", **more):
+    return {"id": name, "pose": AT, "primitives": [BOX]} | more
+
+
+OBJECTS = [
+    # A pose beside the poses of shapes is that of the object: they are in its frame.
+    {"id": "box", "pose": AT, "primitives": [BOX], "primitive_poses": [SHELF]},
+    {
+        "id": "both",
+        "primitives": [
+            {"type": 2, "dimensions": [0.2]},
+            {"type": "Cylinder", "dimensions": [0.5, 0.1]},
+        ],
+        "primitive_poses": [AT, SHELF],
+    },
+    {
+        "id": "mesh",
+        "pose": AT,
+        "meshes": [
+            {
+                "vertices": [dict(zip("xyz", row, strict=True)) for row in TETRAHEDRON],
+                "triangles": [{"vertex_indices": row} for row in FACES],
+            }
+        ],
+    },
+    {"id": "plane", "planes": [{"coef": [0.0, 0.0, 2.0, 1.0]}], "plane_poses": [{}]},
+]
+EXPECTED = {
+    "box": Shape.box([0.3, 0.4, 0.5], T_AT @ T_SHELF),
+    "both": Shape.union([Shape.sphere(0.2, T_AT[:3, 3]), Shape.cylinder(0.1, 0.5, T_SHELF)]),
+    "mesh": Shape.mesh(np.array(TETRAHEDRON)[FACES], T_AT),
+    "plane": Shape.half_space([0, 0, 1], [0, 0, -0.5]),
+}
+
+
+class Ros2:
+    """A message of rclpy: its slots are private, its fields are listed."""
+
+    def __init__(self, **fields):
+        self._fields = {key: ros2(own) for key, own in fields.items()}
+
+    def get_fields_and_field_types(self):
+        return dict.fromkeys(self._fields, "")
+
+    def __getattr__(self, name):
+        if name not in self._fields:
+            raise AttributeError(name)
+        return self._fields[name]
+
+
+def ros2(value):
+    if isinstance(value, dict):
+        return Ros2(**value)
+    if isinstance(value, list):
+        is_numbers = value and all(isinstance(own, float) for own in value)
+        return array.array("d", value) if is_numbers else tuple(map(ros2, value))
+    return value
+
+
+def plain(value):
+    """A message of ROS 1, whose fields are attributes."""
+    if isinstance(value, dict):
+        return SimpleNamespace(**{key: plain(own) for key, own in value.items()})
+    return [plain(own) for own in value] if isinstance(value, list) else value
+
+
+@pytest.mark.parametrize("form", [dict, plain, Ros2], ids=["dict", "ros1", "ros2"])
+def test_a_planning_scene_is_the_cell_that_it_describes(form):
+    message = scene(*OBJECTS)
+    if form is not dict:
+        message = plain(message) if form is plain else ros2(message)
+    assert_same(irbkin.Cell.load(message), EXPECTED)
+    world = message["world"] if form is dict else message.world
+    assert irbkin.Cell.load(world) == irbkin.Cell.load(message)
+
+
+@pytest.mark.parametrize("remove", [1, "remove", b"\x01", "\x01"])
+def test_operations_are_done_in_their_order(remove):
+    gone = {"id": "box", "operation": remove}
+    cell = irbkin.Cell.load(scene(box(), box("left"), gone, box(operation=b"\x00")))
+    assert list(cell.obstacles) == ["left", "box"]
+    assert irbkin.Cell.load(scene(box(), {"operation": remove})) == irbkin.Cell()
+    more = box(operation="append", primitives=[{"type": "sphere", "dimensions": [0.6]}])
+    both = Shape.union([Shape.box([0.3, 0.4, 0.5], T_AT), Shape.sphere(0.6, T_AT[:3, 3])])
+    assert_same(irbkin.Cell.load(scene(box(), more)), {"box": both})
+
+
+def framed(frame, **more):
+    return box(header={"frame_id": frame}, **more)
+
+
+def fixed(frame, planning="world"):
+    transform = {"translation": SHELF["position"], "rotation": SHELF["orientation"]}
+    return {
+        "header": {"frame_id": frame},
+        "child_frame_id": planning,
+        "transform": transform,
+    }
+
+
+def test_an_object_in_a_known_frame_is_placed_by_it():
+    """MoveIt names the planning frame as the child of the others."""
+    there = Shape.box([0.3, 0.4, 0.5], T_SHELF @ T_AT)
+    here = Shape.box([0.3, 0.4, 0.5], T_AT)
+    frames = [fixed("shelf"), fixed("world")]
+    for frame, shape in [("shelf", there), ("/world", here), ("", here)]:
+        message = scene(framed(frame), fixed_frame_transforms=frames)
+        assert_same(irbkin.Cell.load(message), {"box": shape})
+    # One frame of all objects is the world where nothing else says what is.
+    assert_same(irbkin.Cell.load(scene(framed("base"))), {"box": here})
+
+
+DEFAULT = {"default_entry_names": ["box"], "default_entry_values": [True]}
+ACM = {"entry_names": ["link", "box"], "entry_values": [[False, True], {"enabled": [True, False]}]}
+
+
+@pytest.mark.parametrize(
+    ("message", "words"),
+    [
+        (scene(box(primitives=[{"type": 4, "dimensions": [1, 1]}])), "box.*type: is 'cone'; known"),
+        (scene(box(primitives=[{"type": 9, "dimensions": [1, 1]}])), "type: is 9; known: box"),
+        (scene(box(primitives=[{"dimensions": [1, 1]}])), r"box\.primitives\[0\]\.type: is ''"),
+        (scene(box(primitives=[BOX | {"dimensions": [1, 1]}])), r"box.*\[1, 1\].* 3 numbers"),
+        (scene(box(primitives=[BOX | {"dimensions": [1, 1, 0]}])), "box: size is 0 m"),
+        (scene(box(primitives=[BOX | {"dimensions": [1, -1, 1]}])), "box: size is -1 m"),
+        (scene(box(primitives=[BOX | {"dimensions": [1, NAN, 1]}])), "box: size is NaN m"),
+        (scene(box(primitives=[BOX | {"dimensions": [800, 1, 1]}])), "box.*800 m.*millimeters"),
+        (scene(box(pose={"position": [850.0, 0, 0]})), "box: moved .* 850 m, .*millimeters"),
+        (scene(box(pose={"position": [INF, 0, 0]})), r"box\.pose: xyz\[0\] is inf"),
+        (scene(box(pose={"orientation": [0, 0, 1, 1]})), r"box\.pose: quaternion norm"),
+        (scene(box(pose={"positon": [0, 0, 0]})), "positon: unknown key; did you mean position"),
+        (scene(box(primitive_poses=[AT, AT])), "has 1 primitives and 2 primitive_poses"),
+        (scene({"id": "box", "primitives": [BOX]}), "has 1 primitives and 0 primitive_poses"),
+        (scene(box(primitives=[])), "box: has no shape"),
+        (scene(box(size=[1, 1, 1])), "box.size: unknown key"),
+        (scene(box(""), box()), r"collision_objects\[0\]: has no id"),
+        (scene(box(), box()), "box: is added twice"),
+        (scene(box(operation=3)), "box.operation: is 'move'"),
+        (scene({"id": "bx", "operation": 1}), "bx: is removed, but was not added"),
+        (scene(framed("tool0"), framed("base")), "box: is in the frame tool0; .* not known"),
+        (
+            scene(framed("tool0"), fixed_frame_transforms=[fixed("shelf")]),
+            "box: is in the frame tool0; .* are world, shelf",
+        ),
+        (
+            scene(framed("odom"), robot_state={"joint_state": {"header": {"frame_id": "map"}}}),
+            "box: is in the frame odom; .* are map",
+        ),
+        (scene(fixed_frame_transforms=[fixed("a"), fixed("b", "c")]), "in c, another one in world"),
+        (
+            scene(
+                robot_state={"attached_collision_objects": [{"link_name": "l", "object": box()}]}
+            ),
+            "box is attached to l and moves with the arm: .* robot.with_attached",
+        ),
+        (
+            {"world": {"octomap": {"octomap": {"data": [1]}}}},
+            "octomap: is not read: .*Shape.points",
+        ),
+        (
+            scene(box(), link_padding=[{"link_name": "l", "padding": 0.1}]),
+            "of l is 0.1: a cell has",
+        ),
+        (
+            scene(box(), link_scale=[{"link_name": "l", "scale": 1.1}]),
+            "of l is 1.1: a cell has a m",
+        ),
+        (scene(box(), allowed_collision_matrix=ACM), r"lets box be touched: .* may_touch=..\"box"),
+        (scene(box(), wrld=1), "wrld: unknown key; did you mean world"),
+        ({"start_state": {}}, "is no PlanningScene: it has no world"),
+        ({"world": {"collision_objects": [3]}}, r"collision_objects\[0\] is 3, it must be a table"),
+        ({"world": {"collision_objects": {}}}, "is {}, it must be a list"),
+        (
+            scene({"id": "m", "pose": {}, "meshes": [{"vertices": [[0, 0, 0]]}]}),
+            "m.*must have vert",
+        ),
+        (
+            scene(
+                {
+                    "id": "m",
+                    "pose": {},
+                    "meshes": [{"vertices": TETRAHEDRON, "triangles": [[0, 1, -1]]}],
+                }
+            ),
+            "must have vertices of three numbers, and triangles of three of their numbers",
+        ),
+        (
+            scene({"id": "p", "pose": {}, "planes": [{"coef": [0, 0, 0, 1]}]}),
+            "p: normal has length",
+        ),
+    ],
+)
+def test_what_a_scene_has_and_a_cell_cannot_is_named(message, words):
+    with pytest.raises(irbkin.InvalidModelError, match=words):
+        irbkin.Cell.load(message)
+
+
+def test_what_of_a_robot_says_nothing_of_obstacles_is_passed_over():
+    message = scene(
+        box(type={"key": "", "db": ""}, subframe_names=[], subframe_poses=[]),
+        name="(noname)+",
+        robot_model_name="panda",
+        robot_state={"joint_state": {"name": ["j"], "position": [0.1]}},
+        link_padding=[{"link_name": "l", "padding": 0.0}],
+        link_scale=[{"link_name": "l", "scale": 1.0}],
+        object_colors=[],
+        is_diff=True,
+        allowed_collision_matrix=ACM | {"entry_names": ["link", "link_2"]},
+    )
+    assert_same(irbkin.Cell.load(message), {"box": Shape.box([0.3, 0.4, 0.5], T_AT)})
+
+
+def test_what_is_no_scene_is_a_type_error():
+    with pytest.raises(TypeError, match="a path, a PlanningScene or its dict, not int"):
+        irbkin.Cell.load(3)
+
+
+NEW = """(noname)+
+* big box
+1 0.2 0.3
+0 0 0.6 0.8
+1
+box
+0.3 0.4 0.5
+0.1 0 -0.2
+0.6 0 0 0.8
+0 0 0 0
+1
+top
+0 0 1
+0 0 0 1
+* both
+0 0 0
+0 0 0 1
+2
+sphere
+0.2
+1 0.2 0.3
+0 0 0.6 0.8
+0 0 0 0
+cylinder
+0.1 0.5
+0.1 0 -0.2
+0.6 0 0 0.8
+0.5 0 0 1
+0
+* mesh
+1 0.2 0.3
+0 0 0.6 0.8
+1
+mesh
+4 4
+0 0 0
+0.3 0 0
+0 0.3 0
+0 0 0.3
+0 2 1
+0 1 3
+1 2 3
+0 3 2
+0 0 0
+0 0 0 1
+0 0 0 0
+0
+* plane
+0 0 0
+0 0 0 1
+1
+plane
+0 0 2 1
+0 0 0
+0 0 0 1
+0 0 0 0
+0
+.
+"""
+OLD = (
+    re.sub(r"(\* .*\n).*\n.*\n", r"\1", NEW.split("* mesh")[0])
+    .replace("1\ntop\n0 0 1\n0 0 0 1\n", "")
+    .replace("0.5 0 0 1\n0\n", "0.5 0 0 1\n.\n")
+)
+
+
+def text(folder, content):
+    path = folder / "cell.scene"
+    path.write_text(content)
+    return irbkin.Cell.load(path)
+
+
+def test_a_text_of_moveit_is_the_cell_that_it_describes(tmp_path):
+    expected = {"big box" if name == "box" else name: it for name, it in EXPECTED.items()}
+    assert_same(text(tmp_path, NEW), expected)
+    # Before MoveIt 1.1 an object had no pose and no subframes.
+    expected = {
+        "big box": Shape.box([0.3, 0.4, 0.5], T_SHELF),
+        "both": expected["both"],
+    }
+    assert_same(text(tmp_path, OLD), expected)
+    assert text(tmp_path, "empty\n.\n") == irbkin.Cell()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        (".\n", "", r"does not end with the line \. .*cut off"),
+        ("sphere\n0.2", "cone\n0.2 0.3", "both: unknown shape cone; known: box, sphere, cylin"),
+        ("0.3 0.4 0.5", "0.3 0.4 x", "big box: '0.3 0.4 x' must be 3 numbers"),
+        ("0.3 0.4 0.5", "0.3 0.4 0", "big box: size is 0 m"),
+        ("0.3 0.4 0.5", "300 400 500", "big box: box size is 300 m, .*in millimeters"),
+        ("0 0 0.6 0.8", "0 0 0.6 0.6", r"big box\.pose: quaternion norm"),
+        ("2\nsphere", "two\nsphere", "both: 'two' must be a count"),
+        ("2\nsphere", "1\nsphere", "both: '.*' (must be|is behind)"),
+        ("0 2 1\n", "0 2 7\n", "mesh.*triangles of three of their numbers"),
+        ("* both", "* big box", "big box: is added twice"),
+    ],
+)
+def test_bad_texts_are_named(tmp_path, old, new, words):
+    assert old in NEW
+    with pytest.raises(irbkin.InvalidModelError, match=words):
+        text(tmp_path, NEW.replace(old, new, 1) if old != ".\n" else NEW[:-2])

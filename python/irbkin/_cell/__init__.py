@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from irbkin.errors import InvalidModelError
 
@@ -14,38 +14,65 @@ if TYPE_CHECKING:
 
 __all__ = ["load"]
 
+_URDF = (".urdf", ".xml")
+_MOVEIT = (".scene", ".yaml", ".yml")
 
-def load(
-    path: str | os.PathLike[str], solid: bool = True, joints: Mapping[str, float] | None = None
-) -> Cell:
-    """Read the cell of a TOML file or of a URDF.
+
+def load(source: Any, solid: bool = True, joints: Mapping[str, float] | None = None) -> Cell:
+    """Read the cell of a file, or of a PlanningScene message of ROS or its dict.
 
     `joints` has the positions of joints of a URDF by their names [rad or m].
     """
-    return read(path, solid, joints)[0]
+    if isinstance(source, str | bytes | os.PathLike):
+        return read(source, solid, joints)[0]
+    from irbkin._cell.moveit import cell_of_message
+
+    if joints is not None:
+        raise InvalidModelError("joints are of a URDF, and this is a message")
+    return cell_of_message(source, solid)
 
 
 def read(
-    path: str | os.PathLike[str], solid: bool = True, joints: Mapping[str, float] | None = None
+    path: str | os.PathLike[str] | bytes,
+    solid: bool = True,
+    joints: Mapping[str, float] | None = None,
 ) -> tuple[Cell, dict[str, list[Shape]]]:
     """Read a cell, and the shapes of tools and parts in the flange frame, by lower-case names."""
-    path = os.fspath(path)
+    path = os.fsdecode(path)
     ending = os.path.splitext(path)[1].lower()
-    if ending not in (".toml", ".urdf", ".xml"):
-        raise InvalidModelError(f"{path}: a cell is in a file that ends in .toml, .urdf or .xml")
-    if joints is not None and ending == ".toml":
+    if ending not in (".toml", *_URDF, *_MOVEIT):
+        raise InvalidModelError(
+            f"{path}: a cell is in a file that ends in .toml, .urdf or .xml, or in .scene, .yaml "
+            "or .yml of MoveIt"
+        )
+    if joints is not None and ending not in _URDF:
         raise InvalidModelError(f"{path}: joints are of a URDF, not of a file in {ending}")
     with open(path, "rb") as file:
         content = file.read()
     try:
-        if ending == ".toml":
-            from irbkin._cell.tables import cell_of
-
-            return cell_of(content, os.path.dirname(path), solid)
-        from irbkin._cell.urdf import cell_of_urdf
-
-        return cell_of_urdf(content, path, joints or {}, solid), {}
+        return _read(content, path, ending, solid, joints or {})
     except InvalidModelError as error:
         raise InvalidModelError(f"{path}: {error}") from None
     except RecursionError:
         raise InvalidModelError(f"{path}: values or frames are nested too deeply") from None
+
+
+def _read(
+    content: bytes, path: str, ending: str, solid: bool, joints: Mapping[str, float]
+) -> tuple[Cell, dict[str, list[Shape]]]:
+    folder = os.path.dirname(path)
+    if ending == ".toml":
+        from irbkin._cell.tables import cell_of
+
+        return cell_of(content, folder, solid)
+    if ending in _URDF:
+        from irbkin._cell.urdf import cell_of_urdf
+
+        return cell_of_urdf(content, path, joints, solid), {}
+    if ending == ".scene":
+        from irbkin._cell.scene_text import cell_of_text
+
+        return cell_of_text(content, folder, solid), {}
+    from irbkin._cell.moveit import cell_of_yaml
+
+    return cell_of_yaml(content, folder, solid), {}

@@ -71,7 +71,7 @@ class Parser:
 
     def add_cell(self) -> None:
         """The cell around the arm."""
-        self.add("--cell", metavar="FILE", help="what the arm must not touch: .toml or .urdf")
+        self.add("--cell", metavar="FILE", help="what the arm must not touch: .toml, .urdf, .scene")
 
     def add_rows(self, what: str, *, optional: bool = True) -> None:
         """A file of rows."""
