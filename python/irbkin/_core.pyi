@@ -3390,18 +3390,18 @@ class Cell:
         may_touch: Sequence[tuple[str, int]] | None = None,
     ) -> Cell: ...
     @staticmethod
-    def load(path: str | PathLike[str], *, solid: bool = True) -> Cell:
-        """Read a cell from a file: TOML as described in docs/guide/cell.md, or a URDF.
+    def load(path: Any, *, joints: Mapping[str, float] | None = None, solid: bool = True) -> Cell:
+        """Read a cell of TOML, of URDF or of MoveIt, as described in docs/guide/cell.md.
 
         Args:
-            path: A file that ends in .toml, .urdf or .xml.
-            solid: False to take a mesh that is not closed by its surface alone. Inside of it is
-                free. Meshes that are closed are solid as before.
+            path: A file in .toml, .urdf, .xml, .scene or .yaml, or a PlanningScene or its dict.
+            joints: Where the joints of a URDF are that are of no arm, by name [rad or m].
+            solid: False to take open meshes by their surface alone, inside of which is free.
 
         Raises:
             InvalidModelError: An unknown key or frame, a shape that cannot be; the message names
                 the entry and, where there is one, the line.
-            ImportError: A mesh is in the file and trimesh is not installed.
+            ImportError: A mesh is in the file and trimesh is not installed, or YAML without PyYAML.
             OSError: The file cannot be read.
         """
     def with_robot(self, name: str, robot: Robot, q: npt.ArrayLike | Solution) -> Cell:

@@ -60,23 +60,27 @@ impl PyCell {
         Ok(Self(Arc::new(cell)))
     }
 
-    /// Read a cell from a file: TOML as described in docs/guide/cell.md, or a URDF.
+    /// Read a cell of TOML, of URDF or of MoveIt, as described in docs/guide/cell.md.
     ///
     /// Args:
-    ///     path: A file that ends in .toml, .urdf or .xml.
-    ///     solid: False to take a mesh that is not closed by its surface alone. Inside of it is
-    ///         free. Meshes that are closed are solid as before.
+    ///     path: A file in .toml, .urdf, .xml, .scene or .yaml, or a PlanningScene or its dict.
+    ///     joints: Where the joints of a URDF are that are of no arm, by name [rad or m].
+    ///     solid: False to take open meshes by their surface alone, inside of which is free.
     ///
     /// Raises:
     ///     InvalidModelError: An unknown key or frame, a shape that cannot be; the message names
     ///         the entry and, where there is one, the line.
-    ///     ImportError: A mesh is in the file and trimesh is not installed.
+    ///     ImportError: A mesh is in the file and trimesh is not installed, or YAML without PyYAML.
     ///     OSError: The file cannot be read.
     #[staticmethod]
-    #[pyo3(signature = (path, *, solid=true))]
-    fn load(path: &Bound<'_, PyAny>, solid: bool) -> PyResult<Py<Self>> {
+    #[pyo3(signature = (path, *, joints=None, solid=true))]
+    fn load(
+        path: &Bound<'_, PyAny>,
+        joints: Option<&Bound<'_, PyAny>>,
+        solid: bool,
+    ) -> PyResult<Py<Self>> {
         let module = path.py().import("irbkin._cell")?;
-        Ok(module.call_method1("load", (path, solid))?.extract()?)
+        Ok(module.call_method1("load", (path, solid, joints))?.extract()?)
     }
 
     /// Return the cell with another arm in it, which stands still.

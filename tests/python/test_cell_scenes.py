@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import irbkin
 import numpy as np
 import pytest
-from irbkin import _cell
 from irbkin.body import Body, Shape
 
 # Its body is a ball at the flange: what is nearest is an obstacle, not the arm itself.
@@ -87,7 +86,7 @@ ARM_TOO = joint("stand", "fixed", "world", "foot") + arm()
 def urdf(folder, content, joints=None):
     path = folder / "scene.urdf"
     path.write_text(f"<robot name='scene'>{content}</robot>")
-    return _cell.load(path, joints=joints)
+    return irbkin.Cell.load(path, joints=joints)
 
 
 def turn(angle, axis):
@@ -189,9 +188,9 @@ def test_joints_are_of_a_urdf_alone(tmp_path):
     path = tmp_path / "cell.toml"
     path.write_text("")
     with pytest.raises(irbkin.InvalidModelError, match=r"joints are of a URDF, not of .*\.toml"):
-        _cell.load(path, joints={"a": 1})
+        irbkin.Cell.load(path, joints={"a": 1})
     with pytest.raises(irbkin.InvalidModelError, match="joints are of a URDF, and this is a"):
-        _cell.load({"world": {"collision_objects": []}}, joints={"a": 1})
+        irbkin.Cell.load({"world": {"collision_objects": []}}, joints={"a": 1})
 
 
 TETRAHEDRON = [[0, 0, 0], [0.3, 0, 0], [0, 0.3, 0], [0, 0, 0.3]]
