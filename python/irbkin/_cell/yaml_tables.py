@@ -35,4 +35,11 @@ def parsed(content: bytes) -> Any:
         raise InvalidModelError(f"is not YAML: {error}") from None
     if len(documents) != 1:
         raise InvalidModelError(f"has {len(documents)} documents, it must have one PlanningScene")
+    # Without aliases there are no more parts than bytes.
+    left, parts = len(content), documents[:]
+    while parts:
+        part, left = parts.pop(), left - 1
+        if left < 0:
+            raise InvalidModelError("repeats its parts by aliases (*name): write them out")
+        parts += part.values() if isinstance(part, dict) else part if isinstance(part, list) else ()
     return documents[0]

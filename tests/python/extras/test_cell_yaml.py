@@ -97,3 +97,10 @@ def test_the_error_names_the_extra(folder, monkeypatch):
     monkeypatch.setitem(sys.modules, "yaml", None)
     with pytest.raises(ImportError, match=r"read by PyYAML: pip install 'irbkin\[yaml\]'"):
         load(folder, SCENE)
+
+
+def test_aliases_do_not_make_a_scene_larger_than_its_text(tmp_path):
+    levels = "\n".join(f"b{n}: &b{n} [{', '.join([f'*b{n - 1}'] * 9)}]" for n in range(1, 6))
+    (file := tmp_path / "scene.yaml").write_text(f"b0: &b0 [1, 2]\n{levels}\nworld: *b5\n")
+    with pytest.raises(irbkin.InvalidModelError, match="repeats its parts by aliases"):
+        irbkin.Cell.load(file)
