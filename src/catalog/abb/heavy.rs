@@ -1,23 +1,14 @@
 //! IRB 6700 to 8700.
 
-use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
+use super::{ABB, lengths};
+use crate::catalog::{CatalogArm, Linkage};
 
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
         name: "IRB 6700-150/3.2",
-        maker: "ABB",
         payload: Some(150.0),
         reach: Some(3.2),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1280.0,
-            c3: 1592.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1280.0, 1592.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -29,22 +20,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 5,
         provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE, abb_motion_program_exec; a1 is 377 mm in ARTE",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6700-150/3.2 (LeanID)",
-        maker: "ABB",
         payload: Some(150.0),
         reach: Some(3.2),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1280.0,
-            c3: 1592.5,
-            c4: 350.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1280.0, 1592.5, 350.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -56,22 +38,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6700-155/2.85",
-        maker: "ABB",
         payload: Some(155.0),
         reach: Some(2.85),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1125.0,
-            c3: 1392.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1125.0, 1392.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -83,22 +56,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[110.0, 110.0, 110.0, 190.0, 150.0, 210.0]),
         sources: 3,
         provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; c3 is 1393 mm in visose/Robots",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6700-175/3.05",
-        maker: "ABB",
         payload: Some(175.0),
         reach: Some(3.05),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1135.0,
-            c3: 1592.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1135.0, 1592.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -110,22 +74,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6700-200/2.6",
-        maker: "ABB",
         payload: Some(200.0),
         reach: Some(2.6),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1125.0,
-            c3: 1142.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1125.0, 1142.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -137,22 +92,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[110.0, 110.0, 110.0, 190.0, 150.0, 210.0]),
         sources: 4,
         provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6700-205/2.8",
-        maker: "ABB",
         payload: Some(205.0),
         reach: Some(2.8),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1280.0,
-            c3: 1182.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1280.0, 1182.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -164,22 +110,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6700-220/2.65 (MH6, LeanID)",
-        maker: "ABB",
         payload: Some(220.0),
         reach: Some(2.65),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1135.0,
-            c3: 1182.5,
-            c4: 350.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1135.0, 1182.5, 350.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -191,22 +128,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[100.0, 100.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 1,
         provenance: "visose/Robots",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6700-235/2.65",
-        maker: "ABB",
         payload: Some(235.0),
         reach: Some(2.65),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1135.0,
-            c3: 1182.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1135.0, 1182.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -218,22 +146,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 3,
         provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6790-205/2.8",
-        maker: "ABB",
         payload: Some(205.0),
         reach: Some(2.8),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1280.0,
-            c3: 1182.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1280.0, 1182.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -245,22 +164,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "RobotComponents",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6790-235/2.65",
-        maker: "ABB",
         payload: Some(235.0),
         reach: Some(2.65),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1135.0,
-            c3: 1182.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1135.0, 1182.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -272,22 +182,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "RobotComponents",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 7600-150/3.5",
-        maker: "ABB",
         payload: Some(150.0),
         reach: Some(3.5),
-        geometry: CatalogGeometry::Abb {
-            a1: 410.0,
-            a2: -165.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 2012.0,
-            c4: 250.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([410.0, -165.0, 780.0, 1075.0, 2012.0, 250.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-60.0, 85.0],
@@ -299,22 +200,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[100.0, 60.0, 60.0, 100.0, 100.0, 190.0]),
         sources: 4,
         provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 5 is +-130 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 7600-325/3.1",
-        maker: "ABB",
         payload: Some(325.0),
         reach: Some(3.1),
-        geometry: CatalogGeometry::Abb {
-            a1: 410.0,
-            a2: -165.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1556.0,
-            c4: 250.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([410.0, -165.0, 780.0, 1075.0, 1556.0, 250.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-60.0, 85.0],
@@ -326,22 +218,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 7600-340/2.8",
-        maker: "ABB",
         payload: Some(340.0),
         reach: Some(2.8),
-        geometry: CatalogGeometry::Abb {
-            a1: 410.0,
-            a2: -165.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1306.0,
-            c4: 250.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([410.0, -165.0, 780.0, 1075.0, 1306.0, 250.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-60.0, 85.0],
@@ -353,22 +236,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 7600-400/2.55",
-        maker: "ABB",
         payload: Some(400.0),
         reach: Some(2.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 410.0,
-            a2: -165.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1056.0,
-            c4: 250.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([410.0, -165.0, 780.0, 1075.0, 1056.0, 250.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-60.0, 85.0],
@@ -380,22 +254,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 7600-500/2.3",
-        maker: "ABB",
         payload: Some(500.0),
         reach: Some(2.3),
-        geometry: CatalogGeometry::Abb {
-            a1: 410.0,
-            a2: -165.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 806.0,
-            c4: 250.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([410.0, -165.0, 780.0, 1075.0, 806.0, 250.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-60.0, 85.0],
@@ -407,22 +272,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; axis 5 is +-100 deg in three sources of the other 7600s",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 7600-500/2.55",
-        maker: "ABB",
         payload: Some(500.0),
         reach: Some(2.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 410.0,
-            a2: -165.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1056.0,
-            c4: 250.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([410.0, -165.0, 780.0, 1075.0, 1056.0, 250.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-60.0, 85.0],
@@ -434,22 +290,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 8700-550/4.2",
-        maker: "ABB",
         payload: Some(550.0),
         reach: Some(4.2),
-        geometry: CatalogGeometry::Abb {
-            a1: 420.0,
-            a2: -310.0,
-            c1: 1000.0,
-            c2: 1580.0,
-            c3: 2175.0,
-            c4: 310.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([420.0, -310.0, 1000.0, 1580.0, 2175.0, 310.0], Linkage::LimitsUnknown),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 90.0],
@@ -461,22 +308,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[75.0, 60.0, 60.0, 85.0, 85.0, 115.0]),
         sources: 2,
         provenance: "robotkinematicscatalogue, work-r-labs/robots (lengths); ABB's data sheet (text in rox-architecture/RODEOS) and work-r-labs/robots (axis 3, measured from the base; speeds); axis 3 is -155..222 deg in robotkinematicscatalogue, which is no range from the base; axis 1 is +-220 deg as an option",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 8700-800/3.5",
-        maker: "ABB",
         payload: Some(800.0),
         reach: Some(3.5),
-        geometry: CatalogGeometry::Abb {
-            a1: 420.0,
-            a2: -310.0,
-            c1: 1000.0,
-            c2: 1580.0,
-            c3: 1475.0,
-            c4: 310.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([420.0, -310.0, 1000.0, 1580.0, 1475.0, 310.0], Linkage::LimitsUnknown),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 90.0],
@@ -488,5 +326,6 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[75.0, 60.0, 60.0, 85.0, 85.0, 115.0]),
         sources: 2,
         provenance: "robotkinematicscatalogue, work-r-labs/robots (lengths but for 5.8 mm in its wrist); ABB's data sheet (text in rox-architecture/RODEOS) and work-r-labs/robots (axis 3, measured from the base; speeds); axis 3 is -155..222 deg in robotkinematicscatalogue, which is no range from the base; axis 1 is +-220 deg as an option",
+        ..ABB
     },
 ];

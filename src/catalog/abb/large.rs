@@ -1,23 +1,14 @@
 //! IRB 5710 to 6660.
 
-use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
+use super::{ABB, lengths};
+use crate::catalog::{CatalogArm, Linkage};
 
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
         name: "IRB 5710-70/2.7 LID",
-        maker: "ABB",
         payload: Some(70.0),
         reach: Some(2.7),
-        geometry: CatalogGeometry::Abb {
-            a1: 280.0,
-            a2: -180.0,
-            c1: 670.0,
-            c2: 950.0,
-            c3: 1460.0,
-            c4: 290.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([280.0, -180.0, 670.0, 950.0, 1460.0, 290.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-75.0, 145.0],
@@ -29,22 +20,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "RobotComponents",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 5710-90/2.3 LID",
-        maker: "ABB",
         payload: Some(90.0),
         reach: Some(2.3),
-        geometry: CatalogGeometry::Abb {
-            a1: 280.0,
-            a2: -180.0,
-            c1: 670.0,
-            c2: 950.0,
-            c3: 1055.0,
-            c4: 333.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([280.0, -180.0, 670.0, 950.0, 1055.0, 333.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-75.0, 145.0],
@@ -56,22 +38,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "RobotComponents",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 5710-90/2.7",
-        maker: "ABB",
         payload: Some(90.0),
         reach: Some(2.7),
-        geometry: CatalogGeometry::Abb {
-            a1: 280.0,
-            a2: -180.0,
-            c1: 670.0,
-            c2: 950.0,
-            c3: 1460.0,
-            c4: 160.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([280.0, -180.0, 670.0, 950.0, 1460.0, 160.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-75.0, 145.0],
@@ -83,22 +56,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue; a1 is 286 mm in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 5710-110/2.3",
-        maker: "ABB",
         payload: Some(110.0),
         reach: Some(2.3),
-        geometry: CatalogGeometry::Abb {
-            a1: 280.0,
-            a2: -180.0,
-            c1: 670.0,
-            c2: 950.0,
-            c3: 1055.0,
-            c4: 167.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([280.0, -180.0, 670.0, 950.0, 1055.0, 167.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-75.0, 145.0],
@@ -110,22 +74,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 5720-90/3.0 LID",
-        maker: "ABB",
         payload: Some(90.0),
         reach: Some(3.0),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 670.0,
-            c2: 1120.0,
-            c3: 1547.5,
-            c4: 333.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 670.0, 1120.0, 1547.5, 333.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-75.0, 145.0],
@@ -137,22 +92,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "RobotComponents",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 5720-125/3.0",
-        maker: "ABB",
         payload: Some(125.0),
         reach: Some(3.0),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 670.0,
-            c2: 1120.0,
-            c3: 1547.5,
-            c4: 167.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 670.0, 1120.0, 1547.5, 167.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-75.0, 145.0],
@@ -164,22 +110,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "RobotComponents",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 5720-155/2.6 LID",
-        maker: "ABB",
         payload: Some(155.0),
         reach: Some(2.6),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 670.0,
-            c2: 1120.0,
-            c3: 1142.5,
-            c4: 346.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 670.0, 1120.0, 1142.5, 346.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-75.0, 145.0],
@@ -191,22 +128,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "RobotComponents",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 5720-180/2.6",
-        maker: "ABB",
         payload: Some(180.0),
         reach: Some(2.6),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 670.0,
-            c2: 1120.0,
-            c3: 1142.5,
-            c4: 180.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 670.0, 1120.0, 1142.5, 180.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-75.0, 145.0],
@@ -218,22 +146,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6400/2.4-120",
-        maker: "ABB",
         payload: Some(120.0),
         reach: Some(2.4),
-        geometry: CatalogGeometry::Abb {
-            a1: 188.0,
-            a2: -225.0,
-            c1: 900.0,
-            c2: 950.0,
-            c3: 1300.0,
-            c4: 200.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([188.0, -225.0, 900.0, 950.0, 1300.0, 200.0], Linkage::LimitsUnknown),
         limits: &[
             [-170.0, 170.0],
             [-70.0, 70.0],
@@ -245,22 +164,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6400R/2.5-150",
-        maker: "ABB",
         payload: Some(150.0),
         reach: Some(2.5),
-        geometry: CatalogGeometry::Abb {
-            a1: 240.0,
-            a2: -225.0,
-            c1: 800.0,
-            c2: 1050.0,
-            c3: 1175.0,
-            c4: 200.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([240.0, -225.0, 800.0, 1050.0, 1175.0, 200.0], Linkage::LimitsUnknown),
         limits: &[
             [-180.0, 180.0],
             [-70.0, 85.0],
@@ -272,22 +182,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6400R/2.8-200",
-        maker: "ABB",
         payload: Some(200.0),
         reach: Some(2.8),
-        geometry: CatalogGeometry::Abb {
-            a1: 240.0,
-            a2: -225.0,
-            c1: 800.0,
-            c2: 1050.0,
-            c3: 1520.0,
-            c4: 200.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([240.0, -225.0, 800.0, 1050.0, 1520.0, 200.0], Linkage::LimitsUnknown),
         limits: &[
             [-170.0, 170.0],
             [-70.0, 70.0],
@@ -299,22 +200,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6600-175/2.8",
-        maker: "ABB",
         payload: Some(175.0),
         reach: Some(2.8),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1392.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1075.0, 1392.0, 200.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-60.0, 80.0],
@@ -326,22 +218,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6600-175/2.55",
-        maker: "ABB",
         payload: Some(175.0),
         reach: Some(2.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1142.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1075.0, 1142.0, 200.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-65.0, 85.0],
@@ -353,22 +236,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "a controller's backup, yrndimo/RobotStudio:progetti-riferimento/SYSPAR/MOC.cfg (limits); its jointtargets and robtargets of one pose agree within 0.023 mm and 0.0013 deg with the lengths of the IRB 6600-225/2.55, whose axes 2, 3 and 6 have other limits",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6600-225/2.55",
-        maker: "ABB",
         payload: Some(225.0),
         reach: Some(2.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1142.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1075.0, 1142.0, 200.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-65.0, 80.0],
@@ -380,22 +254,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[100.0, 90.0, 90.0, 150.0, 120.0, 190.0]),
         sources: 2,
         provenance: "ros-industrial/abb, robotkinematicscatalogue; axis 2 is -60..80 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6620-150/2.2",
-        maker: "ABB",
         payload: Some(150.0),
         reach: Some(2.2),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 680.0,
-            c2: 975.0,
-            c3: 887.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 680.0, 975.0, 887.0, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 140.0],
@@ -407,22 +272,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[100.0, 90.0, 90.0, 150.0, 120.0, 190.0]),
         sources: 4,
         provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; robotkinematicscatalogue has the limits of a 6400 (axis 1 +-180, axis 2 -70..85, axis 3 -28..110, axis 5 +-120 deg); in ARTE a1 is 317, a2 -195, c1 683, c2 976, c3 902 and c4 195 mm",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6640-130/3.2",
-        maker: "ABB",
         payload: Some(130.0),
         reach: Some(3.2),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1280.0,
-            c3: 1592.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1280.0, 1592.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -434,22 +290,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6640-180/2.55",
-        maker: "ABB",
         payload: Some(180.0),
         reach: Some(2.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1142.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1075.0, 1142.0, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -461,22 +308,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6640-185/2.8",
-        maker: "ABB",
         payload: Some(185.0),
         reach: Some(2.8),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1392.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1075.0, 1392.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -488,22 +326,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 140.0, 190.0]),
         sources: 4,
         provenance: "RobotComponents, visose/Robots, ros-industrial/abb, robotkinematicscatalogue; c3 is 1392 mm in ros-industrial/abb and robotkinematicscatalogue (rounded); axis 1 has 105 and axis 5 120 deg/s in visose/Robots",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6640-205/2.75",
-        maker: "ABB",
         payload: Some(205.0),
         reach: Some(2.75),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1280.0,
-            c3: 1142.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1280.0, 1142.0, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -515,22 +344,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; a forearm of 1280 mm in IFRA's URDF would reach 2.9 m, which the name contradicts",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6640-235/2.55",
-        maker: "ABB",
         payload: Some(235.0),
         reach: Some(2.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1142.5,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1075.0, 1142.5, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -542,22 +362,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[100.0, 90.0, 90.0, 170.0, 120.0, 190.0]),
         sources: 3,
         provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; the forearm is 1142 mm in two sources (rounded); visose Nagami.xml has a1 175 and c1 495, those of a 4600",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6640ID-170/2.75",
-        maker: "ABB",
         payload: Some(170.0),
         reach: Some(2.75),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1280.0,
-            c3: 1142.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1280.0, 1142.0, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -569,22 +380,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; the lengths are those of the 6640-205/2.75",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6640ID-200/2.55",
-        maker: "ABB",
         payload: Some(200.0),
         reach: Some(2.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1075.0,
-            c3: 1142.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1075.0, 1142.0, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -596,22 +398,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; the lengths are those of the 6640-180/2.55",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6650-125/3.2",
-        maker: "ABB",
         payload: Some(125.0),
         reach: Some(3.2),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1280.0,
-            c3: 1592.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1280.0, 1592.0, 200.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-65.0, 85.0],
@@ -623,22 +416,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue; c2 is 1275 mm in robotkinematicscatalogue; axis 2 is -40..160 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6650-200/2.75",
-        maker: "ABB",
         payload: Some(200.0),
         reach: Some(2.75),
-        geometry: CatalogGeometry::Abb {
-            a1: 320.0,
-            a2: -200.0,
-            c1: 780.0,
-            c2: 1280.0,
-            c3: 1142.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([320.0, -200.0, 780.0, 1280.0, 1142.0, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-65.0, 85.0],
@@ -650,22 +434,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "RobotComponents",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6650S-90/3.9",
-        maker: "ABB",
         payload: Some(90.0),
         reach: Some(3.9),
-        geometry: CatalogGeometry::Abb {
-            a1: 600.0,
-            a2: -200.0,
-            c1: 630.0,
-            c2: 1280.0,
-            c3: 2042.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([600.0, -200.0, 630.0, 1280.0, 2042.0, 200.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-40.0, 160.0],
@@ -677,22 +452,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[100.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 4,
         provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6650S-125/3.5",
-        maker: "ABB",
         payload: Some(125.0),
         reach: Some(3.5),
-        geometry: CatalogGeometry::Abb {
-            a1: 600.0,
-            a2: -200.0,
-            c1: 630.0,
-            c2: 1280.0,
-            c3: 1592.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([600.0, -200.0, 630.0, 1280.0, 1592.0, 200.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-40.0, 160.0],
@@ -704,22 +470,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[110.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 5,
         provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6650S-200/3.0",
-        maker: "ABB",
         payload: Some(200.0),
         reach: Some(3.0),
-        geometry: CatalogGeometry::Abb {
-            a1: 600.0,
-            a2: -200.0,
-            c1: 630.0,
-            c2: 1280.0,
-            c3: 1142.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([600.0, -200.0, 630.0, 1280.0, 1142.0, 200.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-40.0, 160.0],
@@ -731,22 +488,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[110.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 3,
         provenance: "RobotComponents, robotkinematicscatalogue, ARTE; ARTE has the forearm of the 3.9 m arm (2042); speeds of ABB's data sheet (text in rox-architecture/RODEOS)",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6660-130/3.1",
-        maker: "ABB",
         payload: Some(130.0),
         reach: Some(3.1),
-        geometry: CatalogGeometry::Abb {
-            a1: 300.0,
-            a2: -280.0,
-            c1: 814.5,
-            c2: 1280.0,
-            c3: 1505.5,
-            c4: 200.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([300.0, -280.0, 814.5, 1280.0, 1505.5, 200.0], Linkage::LimitsUnknown),
         limits: &[
             [-180.0, 180.0],
             [-42.0, 85.0],
@@ -758,22 +506,16 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 6660-205/1.9",
-        maker: "ABB",
         payload: Some(205.0),
         reach: Some(1.9),
-        geometry: CatalogGeometry::Abb {
-            a1: 300.0,
-            a2: -280.0,
-            c1: 814.5,
-            c2: 700.0,
-            c3: 893.0,
-            c4: 200.0,
-            linkage: Linkage::Limits([-70.0, 70.0]),
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths(
+            [300.0, -280.0, 814.5, 700.0, 893.0, 200.0],
+            Linkage::Limits([-70.0, 70.0]),
+        ),
         limits: &[
             [-180.0, 180.0],
             [-42.0, 85.0],
@@ -785,5 +527,6 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue (lengths); a controller's configuration, SDEBEUL/Kraker1:SYSPAR/MOC.cfg (limits: axis 3 to 120.5 deg, upper_joint_coupl_bound 70 deg); axis 3 ends at 120 deg in robotkinematicscatalogue, which has no limits of the linkage",
+        ..ABB
     },
 ];

@@ -1,23 +1,14 @@
 //! IRB 2400 to 4600.
 
-use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
+use super::{ABB, lengths};
+use crate::catalog::{CatalogArm, Linkage};
 
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
         name: "IRB 2400-10/1.55",
-        maker: "ABB",
         payload: Some(10.0),
         reach: Some(1.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 100.0,
-            a2: -135.0,
-            c1: 615.0,
-            c2: 705.0,
-            c3: 755.0,
-            c4: 85.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([100.0, -135.0, 615.0, 705.0, 755.0, 85.0], Linkage::LimitsUnknown),
         limits: &[
             [-180.0, 180.0],
             [-100.0, 110.0],
@@ -29,22 +20,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[150.0, 150.0, 150.0, 360.0, 360.0, 450.0]),
         sources: 4,
         provenance: "ros-industrial/abb, robotkinematicscatalogue, ARTE, rs-opw-kinematics",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 2400-12/1.55",
-        maker: "ABB",
         payload: Some(12.0),
         reach: Some(1.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 100.0,
-            a2: -135.0,
-            c1: 615.0,
-            c2: 705.0,
-            c3: 755.0,
-            c4: 85.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([100.0, -135.0, 615.0, 705.0, 755.0, 85.0], Linkage::LimitsUnknown),
         limits: &[
             [-180.0, 180.0],
             [-100.0, 110.0],
@@ -56,22 +38,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[150.0, 150.0, 150.0, 360.0, 360.0, 450.0]),
         sources: 1,
         provenance: "ros-industrial/abb",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 2400-16/1.55",
-        maker: "ABB",
         payload: Some(16.0),
         reach: Some(1.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 100.0,
-            a2: -135.0,
-            c1: 615.0,
-            c2: 705.0,
-            c3: 755.0,
-            c4: 85.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([100.0, -135.0, 615.0, 705.0, 755.0, 85.0], Linkage::LimitsUnknown),
         limits: &[
             [-180.0, 180.0],
             [-100.0, 110.0],
@@ -83,22 +56,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[150.0, 150.0, 150.0, 360.0, 360.0, 450.0]),
         sources: 2,
         provenance: "visose/Robots, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 2400L-7/1.8",
-        maker: "ABB",
         payload: Some(7.0),
         reach: Some(1.8),
-        geometry: CatalogGeometry::Abb {
-            a1: 100.0,
-            a2: -150.0,
-            c1: 615.0,
-            c2: 855.0,
-            c3: 870.0,
-            c4: 65.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([100.0, -150.0, 615.0, 855.0, 870.0, 65.0], Linkage::LimitsUnknown),
         limits: &[
             [-180.0, 180.0],
             [-65.0, 78.1],
@@ -110,22 +74,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; axis 2 is -100..110 deg on the other 2400s, in more sources",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 2600-12/1.65",
-        maker: "ABB",
         payload: Some(12.0),
         reach: Some(1.65),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -115.0,
-            c1: 445.0,
-            c2: 700.0,
-            c3: 795.0,
-            c4: 85.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -115.0, 445.0, 700.0, 795.0, 85.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-95.0, 155.0],
@@ -137,22 +92,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
         sources: 6,
         provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE, rs-opw-kinematics; ros-industrial/abb_experimental has axis 2 as -155..95 deg (sign turned) and axis 3 as -155..75 deg",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 2600-12/1.85",
-        maker: "ABB",
         payload: Some(12.0),
         reach: Some(1.85),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -115.0,
-            c1: 445.0,
-            c2: 900.0,
-            c3: 795.0,
-            c4: 85.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -115.0, 445.0, 900.0, 795.0, 85.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-95.0, 155.0],
@@ -164,22 +110,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 2600-20/1.65",
-        maker: "ABB",
         payload: Some(20.0),
         reach: Some(1.65),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -115.0,
-            c1: 445.0,
-            c2: 700.0,
-            c3: 795.0,
-            c4: 85.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -115.0, 445.0, 700.0, 795.0, 85.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-95.0, 155.0],
@@ -191,22 +128,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
         sources: 3,
         provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 2600ID-8/2.0",
-        maker: "ABB",
         payload: Some(8.0),
         reach: Some(2.0),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -150.0,
-            c1: 445.0,
-            c2: 900.0,
-            c3: 938.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -150.0, 445.0, 900.0, 938.0, 200.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-95.0, 155.0],
@@ -218,22 +146,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 2600ID-15/1.85",
-        maker: "ABB",
         payload: Some(15.0),
         reach: Some(1.85),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -150.0,
-            c1: 445.0,
-            c2: 900.0,
-            c3: 786.0,
-            c4: 135.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -150.0, 445.0, 900.0, 786.0, 135.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-95.0, 155.0],
@@ -245,22 +164,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 3,
         provenance: "RobotComponents, robotkinematicscatalogue, ARTE; ARTE has the forearm of the 2600-12/1.85 (a2 -115, c3 795, c4 85)",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 4400-45/1.96 (M94A)",
-        maker: "ABB",
         payload: Some(45.0),
         reach: Some(1.96),
-        geometry: CatalogGeometry::Abb {
-            a1: 200.0,
-            a2: -150.0,
-            c1: 680.0,
-            c2: 890.0,
-            c3: 880.0,
-            c4: 140.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([200.0, -150.0, 680.0, 890.0, 880.0, 140.0], Linkage::LimitsUnknown),
         limits: &[
             [-165.0, 165.0],
             [-70.0, 95.0],
@@ -272,22 +182,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; axis 3 is -60..65 deg on the 4400-60/1.96, in three sources",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 4400-60/1.96",
-        maker: "ABB",
         payload: Some(60.0),
         reach: Some(1.96),
-        geometry: CatalogGeometry::Abb {
-            a1: 200.0,
-            a2: -150.0,
-            c1: 680.0,
-            c2: 890.0,
-            c3: 880.0,
-            c4: 140.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([200.0, -150.0, 680.0, 890.0, 880.0, 140.0], Linkage::LimitsUnknown),
         limits: &[
             [-165.0, 165.0],
             [-70.0, 95.0],
@@ -299,22 +200,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[150.0, 120.0, 120.0, 225.0, 250.0, 330.0]),
         sources: 3,
         provenance: "visose/Robots, robotkinematicscatalogue, ARTE",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 4400L-30/2.43",
-        maker: "ABB",
         payload: Some(30.0),
         reach: Some(2.43),
-        geometry: CatalogGeometry::Abb {
-            a1: 200.0,
-            a2: -150.0,
-            c1: 680.0,
-            c2: 890.0,
-            c3: 1380.0,
-            c4: 140.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([200.0, -150.0, 680.0, 890.0, 1380.0, 140.0], Linkage::LimitsUnknown),
         limits: &[
             [-165.0, 165.0],
             [-70.0, 95.0],
@@ -326,22 +218,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[150.0, 120.0, 120.0, 225.0, 250.0, 330.0]),
         sources: 2,
         provenance: "ros-industrial/abb, robotkinematicscatalogue; axis 3 is +-165 deg in robotkinematicscatalogue; tool0 is not turned by 90 deg about y in ros-industrial/abb; the lengths reach 2.48 m, not the 2.43 of the name",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 4600-20/2.5",
-        maker: "ABB",
         payload: Some(20.0),
         reach: Some(2.5),
-        geometry: CatalogGeometry::Abb {
-            a1: 175.0,
-            a2: -175.0,
-            c1: 495.0,
-            c2: 1095.0,
-            c3: 1230.5,
-            c4: 85.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([175.0, -175.0, 495.0, 1095.0, 1230.5, 85.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 150.0],
@@ -353,22 +236,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
         sources: 4,
         provenance: "RobotComponents, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue; axis 5 is -125..120 deg in ROS-Industrial and PickNik; robotkinematicscatalogue has the forearm of the 40/2.55 arm (1270/135)",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 4600-40/2.55",
-        maker: "ABB",
         payload: Some(40.0),
         reach: Some(2.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 175.0,
-            a2: -175.0,
-            c1: 495.0,
-            c2: 1095.0,
-            c3: 1270.0,
-            c4: 135.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([175.0, -175.0, 495.0, 1095.0, 1270.0, 135.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 150.0],
@@ -380,22 +254,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[175.0, 175.0, 175.0, 250.0, 250.0, 360.0]),
         sources: 7,
         provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, ARTE, compas_fab; axis 5 is -120..125 deg in RobotComponents and +-120 deg in robotkinematicscatalogue; ARTE has the upper arm and forearm of the 2.05 m arm (900, 960); c3 is 1271 mm in compas_fab",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 4600-45/2.05",
-        maker: "ABB",
         payload: Some(45.0),
         reach: Some(2.05),
-        geometry: CatalogGeometry::Abb {
-            a1: 175.0,
-            a2: -175.0,
-            c1: 495.0,
-            c2: 900.0,
-            c3: 960.0,
-            c4: 135.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([175.0, -175.0, 495.0, 900.0, 960.0, 135.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 150.0],
@@ -407,22 +272,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[175.0, 175.0, 175.0, 250.0, 250.0, 360.0]),
         sources: 3,
         provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; axis 5 is +-120 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 4600-60/2.05",
-        maker: "ABB",
         payload: Some(60.0),
         reach: Some(2.05),
-        geometry: CatalogGeometry::Abb {
-            a1: 175.0,
-            a2: -175.0,
-            c1: 495.0,
-            c2: 900.0,
-            c3: 960.0,
-            c4: 135.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([175.0, -175.0, 495.0, 900.0, 960.0, 135.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 150.0],
@@ -434,5 +290,6 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[175.0, 175.0, 175.0, 250.0, 250.0, 360.0]),
         sources: 6,
         provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, rs-opw-kinematics; axis 5 is +-120 deg in robotkinematicscatalogue",
+        ..ABB
     },
 ];

@@ -16,7 +16,27 @@ mod yumi;
 
 pub(super) use yumi::RULES as YUMI_RULES;
 
-use super::CatalogArm;
+use super::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
+
+/// What all rows share.
+const ABB: CatalogArm = CatalogArm {
+    name: "",
+    maker: "ABB",
+    payload: None,
+    reach: None,
+    geometry: lengths([0.0; 6], Linkage::None),
+    angles: AngleUnit::Degrees,
+    limits: &[],
+    max_velocity: None,
+    sources: 0,
+    provenance: "",
+};
+
+/// The geometry of an arm by a1, a2, c1, c2, c3, c4 [mm].
+const fn lengths(mm: [f64; 6], linkage: Linkage) -> CatalogGeometry {
+    let [a1, a2, c1, c2, c3, c4] = mm;
+    CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, linkage }
+}
 
 pub(super) const SERIES: [&[CatalogArm]; 5] =
     [small::ARMS, medium::ARMS, large::ARMS, heavy::ARMS, yumi::ARMS];

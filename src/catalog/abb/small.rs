@@ -1,23 +1,14 @@
 //! IRB arms with type numbers below 2000.
 
-use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
+use super::{ABB, lengths};
+use crate::catalog::{CatalogArm, Linkage};
 
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
         name: "IRB 52-7/1.2",
-        maker: "ABB",
         payload: Some(7.0),
         reach: Some(1.2),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: 0.0,
-            c1: 486.5,
-            c2: 475.0,
-            c3: 600.0,
-            c4: 65.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, 0.0, 486.5, 475.0, 600.0, 65.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-63.0, 110.0],
@@ -29,22 +20,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "ros-industrial/abb_experimental, ARTE; speeds are 180 180 180 320 400 460 deg/s in work-r-labs/robots, and in no other source",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 52-7/1.45",
-        maker: "ABB",
         payload: Some(7.0),
         reach: Some(1.45),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: 0.0,
-            c1: 486.5,
-            c2: 700.0,
-            c3: 600.0,
-            c4: 65.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, 0.0, 486.5, 700.0, 600.0, 65.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 120.0],
@@ -56,22 +38,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "ros-industrial/abb_experimental; work-r-labs/robots has -63..110 and -235..55 deg for axes 2 and 3, the limits of the 1.2 m arm: unsettled; speeds are 180 180 180 320 400 460 deg/s there, and in no other source",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 120-3/0.58",
-        maker: "ABB",
         payload: Some(3.0),
         reach: Some(0.58),
-        geometry: CatalogGeometry::Abb {
-            a1: 0.0,
-            a2: -70.0,
-            c1: 290.0,
-            c2: 270.0,
-            c3: 302.0,
-            c4: 72.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([0.0, -70.0, 290.0, 270.0, 302.0, 72.0], Linkage::None),
         limits: &[
             [-165.0, 165.0],
             [-110.0, 110.0],
@@ -83,22 +56,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[250.0, 250.0, 250.0, 320.0, 320.0, 420.0]),
         sources: 5,
         provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 4 is +-150 deg in visose/Robots, axis 3 -90 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 120T-3/0.58",
-        maker: "ABB",
         payload: Some(3.0),
         reach: Some(0.58),
-        geometry: CatalogGeometry::Abb {
-            a1: 0.0,
-            a2: -70.0,
-            c1: 290.0,
-            c2: 270.0,
-            c3: 302.0,
-            c4: 72.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([0.0, -70.0, 290.0, 270.0, 302.0, 72.0], Linkage::None),
         limits: &[
             [-165.0, 165.0],
             [-110.0, 110.0],
@@ -110,22 +74,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[250.0, 250.0, 250.0, 420.0, 590.0, 600.0]),
         sources: 1,
         provenance: "ros-industrial/abb_experimental",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 140-6/0.81",
-        maker: "ABB",
         payload: Some(6.0),
         reach: Some(0.81),
-        geometry: CatalogGeometry::Abb {
-            a1: 70.0,
-            a2: 0.0,
-            c1: 352.0,
-            c2: 360.0,
-            c3: 380.0,
-            c4: 65.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([70.0, 0.0, 352.0, 360.0, 380.0, 65.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 110.0],
@@ -137,22 +92,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[200.0, 200.0, 260.0, 360.0, 360.0, 450.0]),
         sources: 4,
         provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 5 is +-120 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1010-1.5/0.37",
-        maker: "ABB",
         payload: Some(1.5),
         reach: Some(0.37),
-        geometry: CatalogGeometry::Abb {
-            a1: 0.0,
-            a2: 0.0,
-            c1: 190.0,
-            c2: 185.0,
-            c3: 185.0,
-            c4: 45.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([0.0, 0.0, 190.0, 185.0, 185.0, 45.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-75.0, 125.0],
@@ -164,22 +110,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[320.0, 320.0, 375.0, 500.0, 470.0, 500.0]),
         sources: 4,
         provenance: "RobotComponents, robotkinematicscatalogue, work-r-labs/robots, ABB's data sheet (text in rox-architecture/RODEOS) (axis 6, speeds); axis 6 is +-242 deg in RobotComponents, perhaps the number of turns to which it may be set",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1100-4/0.475",
-        maker: "ABB",
         payload: Some(4.0),
         reach: Some(0.475),
-        geometry: CatalogGeometry::Abb {
-            a1: 0.0,
-            a2: -10.0,
-            c1: 327.0,
-            c2: 225.0,
-            c3: 250.0,
-            c4: 64.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([0.0, -10.0, 327.0, 225.0, 250.0, 64.0], Linkage::None),
         limits: &[
             [-230.0, 230.0],
             [-115.0, 113.0],
@@ -191,22 +128,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue; speeds are 460 360 280 560 420 750 deg/s in work-r-labs/robots, and in no other source",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1100-4/0.58",
-        maker: "ABB",
         payload: Some(4.0),
         reach: Some(0.58),
-        geometry: CatalogGeometry::Abb {
-            a1: 0.0,
-            a2: -10.0,
-            c1: 327.0,
-            c2: 280.0,
-            c3: 300.0,
-            c4: 64.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([0.0, -10.0, 327.0, 280.0, 300.0, 64.0], Linkage::None),
         limits: &[
             [-230.0, 230.0],
             [-115.0, 113.0],
@@ -218,22 +146,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue; speeds are 460 360 280 560 420 750 deg/s in work-r-labs/robots, and in no other source",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1200-5/0.9",
-        maker: "ABB",
         payload: Some(5.0),
         reach: Some(0.9),
-        geometry: CatalogGeometry::Abb {
-            a1: 0.0,
-            a2: -42.0,
-            c1: 399.1,
-            c2: 448.0,
-            c3: 451.0,
-            c4: 82.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([0.0, -42.0, 399.1, 448.0, 451.0, 82.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-100.0, 130.0],
@@ -245,22 +164,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
         sources: 6,
         provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents, visose/Robots and three controllers' configurations (panin-anan/abb_SAMXL_Grinding_RAPID:SYSPAR/MOC.cfg), +-360 deg in the others; speeds of axes 2 and 3 are 224 and 297 deg/s in work-r-labs/robots: unsettled",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1200-7/0.7",
-        maker: "ABB",
         payload: Some(7.0),
         reach: Some(0.7),
-        geometry: CatalogGeometry::Abb {
-            a1: 0.0,
-            a2: -42.0,
-            c1: 399.1,
-            c2: 350.0,
-            c3: 351.0,
-            c4: 82.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([0.0, -42.0, 399.1, 350.0, 351.0, 82.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-100.0, 135.0],
@@ -272,22 +182,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
         sources: 4,
         provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 2 is to 130 deg and axis 6 +-400 deg in work-r-labs/robots, as of the IRB 1200-5/0.9; speeds of axes 2 and 3 are 224 and 297 deg/s there, too: unsettled",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1300-7/1.4",
-        maker: "ABB",
         payload: Some(7.0),
         reach: Some(1.4),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -40.0,
-            c1: 544.0,
-            c2: 575.0,
-            c3: 675.0,
-            c4: 90.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -40.0, 544.0, 575.0, 675.0, 90.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-95.0, 155.0],
@@ -299,22 +200,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1300-10/1.15",
-        maker: "ABB",
         payload: Some(10.0),
         reach: Some(1.15),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -40.0,
-            c1: 544.0,
-            c2: 575.0,
-            c3: 425.0,
-            c4: 90.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -40.0, 544.0, 575.0, 425.0, 90.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-95.0, 155.0],
@@ -326,22 +218,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[280.0, 228.0, 336.0, 500.0, 415.0, 720.0]),
         sources: 3,
         provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1300-11/0.9",
-        maker: "ABB",
         payload: Some(11.0),
         reach: Some(0.9),
-        geometry: CatalogGeometry::Abb {
-            a1: 50.0,
-            a2: -40.0,
-            c1: 544.0,
-            c2: 425.0,
-            c3: 425.0,
-            c4: 90.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([50.0, -40.0, 544.0, 425.0, 425.0, 90.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-100.0, 130.0],
@@ -353,22 +236,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "RobotComponents, robotkinematicscatalogue; axis 2 is -100..133 deg in robotkinematicscatalogue; axis 6 is +-242 deg in robotkinematicscatalogue",
+        ..ABB
     },
     CatalogArm {
         name: "CRB 1300-7/1.4",
-        maker: "ABB",
         payload: Some(7.0),
         reach: Some(1.4),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -40.0,
-            c1: 544.0,
-            c2: 575.0,
-            c3: 675.0,
-            c4: 90.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -40.0, 544.0, 575.0, 675.0, 90.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-95.0, 155.0],
@@ -380,22 +254,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; axis 6 is likely +-400 deg as on the IRB 1300, whose wrist it has: the source has +-242 deg for the IRB 1300-11/0.9, too, where RobotComponents has +-400",
+        ..ABB
     },
     CatalogArm {
         name: "CRB 1300-10/1.15",
-        maker: "ABB",
         payload: Some(10.0),
         reach: Some(1.15),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -40.0,
-            c1: 544.0,
-            c2: 575.0,
-            c3: 425.0,
-            c4: 90.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -40.0, 544.0, 575.0, 425.0, 90.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-95.0, 155.0],
@@ -407,22 +272,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; axis 6 is likely +-400 deg as on the IRB 1300, whose wrist it has: the source has +-242 deg for the IRB 1300-11/0.9, too, where RobotComponents has +-400",
+        ..ABB
     },
     CatalogArm {
         name: "CRB 1300-11/0.9",
-        maker: "ABB",
         payload: Some(11.0),
         reach: Some(0.9),
-        geometry: CatalogGeometry::Abb {
-            a1: 50.0,
-            a2: -40.0,
-            c1: 544.0,
-            c2: 425.0,
-            c3: 425.0,
-            c4: 90.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([50.0, -40.0, 544.0, 425.0, 425.0, 90.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-100.0, 130.0],
@@ -434,22 +290,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; axis 6 is likely +-400 deg as on the IRB 1300, whose wrist it has: the source has +-242 deg for the IRB 1300-11/0.9, too, where RobotComponents has +-400",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1410-4/1.45",
-        maker: "ABB",
         payload: Some(4.0),
         reach: Some(1.45),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -120.0,
-            c1: 475.0,
-            c2: 600.0,
-            c3: 720.0,
-            c4: 85.0,
-            linkage: Linkage::LimitsUnknown,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -120.0, 475.0, 600.0, 720.0, 85.0], Linkage::LimitsUnknown),
         limits: &[
             [-170.0, 170.0],
             [-70.0, 70.0],
@@ -461,22 +308,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "robotkinematicscatalogue, ARTE; in ARTE c1 is 465 and c4 75 mm; its table is also printed under the name of an IRB 1600-6/1.45",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1520ID-4/1.5",
-        maker: "ABB",
         payload: Some(4.0),
         reach: Some(1.5),
-        geometry: CatalogGeometry::Abb {
-            a1: 160.0,
-            a2: -200.0,
-            c1: 453.0,
-            c2: 590.0,
-            c3: 723.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([160.0, -200.0, 453.0, 590.0, 723.0, 200.0], Linkage::None),
         limits: &[
             [-170.0, 170.0],
             [-90.0, 150.0],
@@ -488,22 +326,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 3,
         provenance: "RobotComponents, robotkinematicscatalogue, ARTE; speeds are 130 140 140 320 380 460 deg/s in work-r-labs/robots, and in no other source",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1600-6/1.2",
-        maker: "ABB",
         payload: Some(6.0),
         reach: Some(1.2),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: 0.0,
-            c1: 486.5,
-            c2: 475.0,
-            c3: 600.0,
-            c4: 65.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, 0.0, 486.5, 475.0, 600.0, 65.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-63.0, 110.0],
@@ -515,22 +344,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[150.0, 160.0, 170.0, 320.0, 400.0, 460.0]),
         sources: 4,
         provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 2 of the 1.2 m arms goes to 136 deg in ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-100 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged; speed of axis 6 of the data sheet and work-r-labs/robots: it is 450 deg/s in the other sources that have one",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1600-6/1.45",
-        maker: "ABB",
         payload: Some(6.0),
         reach: Some(1.45),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: 0.0,
-            c1: 486.5,
-            c2: 700.0,
-            c3: 600.0,
-            c4: 65.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, 0.0, 486.5, 700.0, 600.0, 65.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 120.0],
@@ -542,22 +362,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[150.0, 160.0, 170.0, 320.0, 400.0, 460.0]),
         sources: 4,
         provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 2 goes to 150 deg in visose/Robots and ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-95 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arm exchanged; speeds of the data sheet: those of the other sources, 180 180 185 385 400 460 deg/s, are of the 10 kg arm",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1600-8/1.2",
-        maker: "ABB",
         payload: Some(8.0),
         reach: Some(1.2),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: 0.0,
-            c1: 486.5,
-            c2: 475.0,
-            c3: 600.0,
-            c4: 65.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, 0.0, 486.5, 475.0, 600.0, 65.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-63.0, 110.0],
@@ -569,22 +380,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "robotkinematicscatalogue; axis 2 of the 1.2 m arms goes to 136 deg in ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-100 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1600-8/1.45",
-        maker: "ABB",
         payload: Some(8.0),
         reach: Some(1.45),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: 0.0,
-            c1: 486.5,
-            c2: 700.0,
-            c3: 600.0,
-            c4: 65.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, 0.0, 486.5, 700.0, 600.0, 65.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 120.0],
@@ -596,22 +398,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[180.0, 180.0, 200.0, 400.0, 400.0, 460.0]),
         sources: 2,
         provenance: "ros-industrial/abb_experimental, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-95 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1600-10/1.2",
-        maker: "ABB",
         payload: Some(10.0),
         reach: Some(1.2),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: 0.0,
-            c1: 486.5,
-            c2: 475.0,
-            c3: 600.0,
-            c4: 65.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, 0.0, 486.5, 475.0, 600.0, 65.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-63.0, 110.0],
@@ -623,22 +416,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
         sources: 1,
         provenance: "RobotComponents; axis 2 of the 1.2 m arms goes to 136 deg in ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-100 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged; speeds of the data sheet",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1600-10/1.45",
-        maker: "ABB",
         payload: Some(10.0),
         reach: Some(1.45),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: 0.0,
-            c1: 486.5,
-            c2: 700.0,
-            c3: 600.0,
-            c4: 65.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, 0.0, 486.5, 700.0, 600.0, 65.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 120.0],
@@ -650,22 +434,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
         sources: 3,
         provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-95 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1600ID-4/1.5",
-        maker: "ABB",
         payload: Some(4.0),
         reach: Some(1.5),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -110.0,
-            c1: 486.5,
-            c2: 700.0,
-            c3: 640.0,
-            c4: 200.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -110.0, 486.5, 700.0, 640.0, 200.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 150.0],
@@ -677,22 +452,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 2,
         provenance: "robotkinematicscatalogue, ARTE",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1660ID-4/1.55",
-        maker: "ABB",
         payload: Some(4.0),
         reach: Some(1.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -110.0,
-            c1: 486.5,
-            c2: 700.0,
-            c3: 678.0,
-            c4: 135.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -110.0, 486.5, 700.0, 678.0, 135.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 150.0],
@@ -704,22 +470,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 3,
         provenance: "RobotComponents, robotkinematicscatalogue, ARTE; a2 is -108 mm in ARTE",
+        ..ABB
     },
     CatalogArm {
         name: "IRB 1660ID-6/1.55",
-        maker: "ABB",
         payload: Some(6.0),
         reach: Some(1.55),
-        geometry: CatalogGeometry::Abb {
-            a1: 150.0,
-            a2: -110.0,
-            c1: 486.5,
-            c2: 700.0,
-            c3: 678.0,
-            c4: 135.0,
-            linkage: Linkage::None,
-        },
-        angles: AngleUnit::Degrees,
+        geometry: lengths([150.0, -110.0, 486.5, 700.0, 678.0, 135.0], Linkage::None),
         limits: &[
             [-180.0, 180.0],
             [-90.0, 150.0],
@@ -731,5 +488,6 @@ pub(super) const ARMS: &[CatalogArm] = &[
         max_velocity: None,
         sources: 1,
         provenance: "RobotComponents",
+        ..ABB
     },
 ];
