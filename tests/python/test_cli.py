@@ -364,6 +364,10 @@ def test_the_catalog_is_listed_and_filtered():
     assert run("catalog", "irb2600-12/1.65").stdout == run("catalog", NAME).stdout
     assert "close" in refused("catalog", "IRB 99999")
     assert run("catalog", "irb2600-12/1.65", "--payload", 5).returncode == 0
+    conditional = (
+        b"\n- conditional, not modeled: axis 2 goes to 136 deg while axis 1 is within +-100 deg"
+    )
+    assert conditional in run("catalog", "IRB 1600-8/1.2").stdout
 
 
 def test_a_filter_that_leaves_no_arm_says_so():

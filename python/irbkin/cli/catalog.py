@@ -146,4 +146,5 @@ def _show_one(arguments: argparse.Namespace, entry: CatalogEntry) -> None:
         rows.write([names, limits[:, 0], limits[:, 1], speeds], entry.limits)
         for other in entry.aliases:
             rows.note("alias", other, f"also {other}")
-        rows.note("provenance", entry.provenance, f"sources: {entry.provenance}")
+        provenance = entry.provenance.replace("; ", "\n- ")
+        rows.note("provenance", entry.provenance, f"sources: {provenance}")
