@@ -585,10 +585,12 @@ class CatalogEntry(_Record):
         """Whether a parallelogram linkage couples axes 2 and 3."""
     @property
     def sources(self) -> int:
-        """Number of independent sources of the figures."""
+        """Number of independent sources of the lengths: the confidence in them."""
     @property
     def provenance(self) -> str:
-        """The sources, and where they disagree."""
+        """These sources; after semicolons, of other figures, what disagrees, what is not
+        modeled.
+        """
     def __new__(
         cls,
         name: str,

@@ -37,7 +37,8 @@ const PANDA: CatalogArm = CatalogArm {
     ],
     max_velocity: Some(&[2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61]),
     sources: 2,
-    provenance: "Franka control parameters; limits are general knowledge of the data sheet",
+    provenance: "Franka control parameters, petercorke/robotics-toolbox-matlab#107 (a recorded pose); \
+        limits are general knowledge of the data sheet",
 };
 
 const FR3: CatalogArm = CatalogArm {
@@ -58,6 +59,6 @@ const FR3: CatalogArm = CatalogArm {
     ],
     max_velocity: None,
     sources: 2,
-    provenance: "Franka control parameters: the Panda's geometry; limits are general knowledge of \
-        the data sheet",
+    provenance: "Franka control parameters, petercorke/robotics-toolbox-matlab#107 (of the Panda: its \
+        geometry); limits are general knowledge of the data sheet",
 };

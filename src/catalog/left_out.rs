@@ -34,6 +34,47 @@ const ENTRIES: &[Entry] = &[
         "unsettled: its one source has a forearm of 1705 mm, which reaches 3.01 m and not 2.8",
     ),
     entry(
+        "IRB 1090-3.5/0.58",
+        &["IRB 1090"],
+        "one source, without limits: a program with the lengths of the IRB 1100-4/0.58",
+    ),
+    entry(
+        "IRB 1300-12/1.4",
+        &["IRB 1300-12"],
+        "no source has its limits; work-r-labs/robots has the lengths of the IRB 1300-7/1.4, but \
+         for c4",
+    ),
+    entry(
+        "IRB 6710-210/2.65",
+        &["IRB 6710"],
+        "one source, a student's: a1 320, a2 -200, c1 780, c2 1185, c3 1142, c4 180, limits of the \
+         IRB 6760-200/3.2",
+    ),
+    entry(
+        "IRB 6730S-150/4.0",
+        &["IRB 6730S"],
+        "no source has its lengths. RobotStudio has +-170, -40..160, -180..70, +-300, +-130, +-360 \
+         deg; axis 3 depends on axis 2: from -145 deg at -40, from -180 deg at -17 and above",
+    ),
+    entry(
+        "IRB 6740-230/3.0 LID, 6740-220/3.2 LID",
+        &["IRB 6740"],
+        "no source has a2, c1 and limits. ABB's manual 3HAC085701 has a1 350, c2 1225, c3 1412.5 \
+         and 1592.5, c4 380 and 350",
+    ),
+    entry(
+        "IRB 6750S-185/3.9 LID",
+        &["IRB 6750S"],
+        "one source, work-r-labs/robots, without the flange: a1 690, a2 -200, c1 530, c2 1280, c3 \
+         1922.5",
+    ),
+    entry(
+        "IRB 7710, 7720",
+        &["IRB 7710", "IRB 7720"],
+        "no source has their lengths. ABB's data sheet has +-170, -65..85.2, -27..130 (from the \
+         base), +-300, +-130, +-360 deg",
+    ),
+    entry(
         "CRX-5iA, 20iA/L, 30iA",
         &["CRX-5iA", "CRX-20iA/L", "CRX-30iA"],
         "one source, the maker's URDF: `from_urdf` takes it",
@@ -148,6 +189,8 @@ mod tests {
             ("IRB 6700-245/3.0", Some("IRB 6700-245/3.0, ")),
             ("IRB 6700-245/3.0 (SpotPack)", Some("IRB 6700-245/3.0 (SpotPack)")),
             ("IRB 6400/2.8-120", Some("IRB 6400/2.8-120")),
+            ("IRB 6730S-150/4.0", Some("IRB 6730S")),
+            ("IRB 1300-12/1.4", Some("IRB 1300-12")),
             ("IRB 6400", None),
             ("", None),
         ] {

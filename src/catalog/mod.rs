@@ -43,9 +43,10 @@ pub struct CatalogArm {
     pub limits: &'static [[f64; 2]],
     /// Largest velocity of each joint; `None` if no source states it.
     pub max_velocity: Option<&'static [f64]>,
-    /// Number of independent sources that agree on these figures.
+    /// Number of independent sources that agree on the lengths: the confidence in them.
     pub sources: u8,
-    /// The sources of the figures, and where they disagree.
+    /// These sources, then, after semicolons, sources of other figures, where they disagree, and
+    /// limits that depend on another axis, which are not modeled.
     pub provenance: &'static str,
 }
 

@@ -1,8 +1,7 @@
 //! Arms with an offset wrist: ABB's GoFa, FANUC's CRX and UFACTORY's xArm6.
 //!
-//! GoFa: RobotComponents, visose/Robots, `ros-industrial/abb_experimental` and
-//! robotkinematicscatalogue, as the other ABB arms; validated against a pair of joints and pose that
-//! a controller reported (eliasbitsch/MetaMove). CRX: the maker's URDF
+//! GoFa: sources as of the other ABB arms; validated against a pair of joints and pose that a
+//! controller reported (eliasbitsch/MetaMove). CRX: the maker's URDF
 //! (`FANUC-CORPORATION/fanuc_description` @ 785ff6792f) and Abbes and Poisson, Geometric approach
 //! for inverse kinematics of the FANUC CRX collaborative robot, Robotics 13, 2024, table 2;
 //! validated against the joint vectors that the article has for its three poses. xArm6: the maker's
@@ -35,13 +34,13 @@ const GOFA_5: CatalogArm = CatalogArm {
         [-180.0, 180.0],
         [-270.0, 270.0],
     ],
-    max_velocity: Some(GOFA_SPEEDS),
-    sources: 4,
+    max_velocity: Some(&[125.0, 125.0, 140.0, 200.0, 200.0, 200.0]),
+    sources: 6,
     provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, \
-        robotkinematicscatalogue; the last two have +-180 deg for axis 6, three controllers +-270",
+        robotkinematicscatalogue, work-r-labs/robots, RobotStudio (axes); axis 6 is +-180 deg in \
+        ros-industrial/abb_experimental and robotkinematicscatalogue, +-270 deg in three \
+        controllers; axis 3 is to 55 deg in work-r-labs/robots",
 };
-
-const GOFA_SPEEDS: &[f64] = &[125.0, 125.0, 140.0, 200.0, 200.0, 200.0];
 
 const GOFA_10: CatalogArm = CatalogArm {
     name: "CRB 15000-10/1.52",
@@ -58,12 +57,14 @@ const GOFA_10: CatalogArm = CatalogArm {
     ]),
     angles: AngleUnit::Degrees,
     limits: GOFA_LARGE_LIMITS,
-    max_velocity: Some(GOFA_SPEEDS),
-    sources: 3,
-    provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; visose/Robots has 399, \
-        636 and 100.5 mm for d1, d4 and d6, and +-180 deg for axes 1 and 6; speeds are 120 120 125 \
-        200 200 200 deg/s in work-r-labs/robots: these are the GoFa 5's",
+    max_velocity: Some(GOFA_LARGE_SPEEDS),
+    sources: 4,
+    provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, work-r-labs/robots; \
+        visose/Robots has 399, 636 and 100.5 mm for d1, d4 and d6, and +-180 deg for axes 1 and 6; \
+        speeds of work-r-labs/robots alone: other sources have the GoFa 5's",
 };
+
+const GOFA_LARGE_SPEEDS: &[f64] = &[120.0, 120.0, 125.0, 200.0, 200.0, 200.0];
 
 const GOFA_LARGE_LIMITS: &[[f64; 2]] = &[
     [-270.0, 270.0],
@@ -89,10 +90,10 @@ const GOFA_12: CatalogArm = CatalogArm {
     ]),
     angles: AngleUnit::Degrees,
     limits: GOFA_LARGE_LIMITS,
-    max_velocity: None,
-    sources: 2,
-    provenance: "RobotComponents, robotkinematicscatalogue; speeds are 120 120 125 200 200 200 \
-        deg/s in work-r-labs/robots, and in no other source",
+    max_velocity: Some(GOFA_LARGE_SPEEDS),
+    sources: 3,
+    provenance: "RobotComponents, robotkinematicscatalogue, work-r-labs/robots; speeds of \
+        work-r-labs/robots alone",
 };
 
 const CRX_SPEEDS: &[f64] = &[120.0, 120.0, 180.0, 180.0, 180.0, 180.0];

@@ -207,9 +207,9 @@ record! {
         max_velocity: Option<Array>,
         /// Whether a parallelogram linkage couples axes 2 and 3.
         is_coupled: bool,
-        /// Number of independent sources of the figures.
+        /// Number of independent sources of the lengths: the confidence in them.
         sources: usize,
-        /// The sources, and where they disagree.
+        /// These sources; after semicolons, of other figures, what disagrees, what is not modeled.
         provenance: String,
     }
 }

@@ -73,7 +73,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalogue; the lengths reach 3.060 m, as ABB rounds to 50 mm",
         ..ABB
     },
     CatalogArm {
@@ -149,6 +149,24 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ..ABB
     },
     CatalogArm {
+        name: "IRB 6760-200/3.2",
+        payload: Some(200.0),
+        reach: Some(3.2),
+        geometry: lengths([350.0, -200.0, 780.0, 1225.0, 1592.5, 200.0], Linkage::None),
+        limits: &[
+            [-170.0, 170.0],
+            [-65.0, 85.0],
+            [-180.0, 70.0],
+            [-300.0, 300.0],
+            [-130.0, 130.0],
+            [-360.0, 360.0],
+        ],
+        max_velocity: None,
+        sources: 1,
+        provenance: "RobotStudio; lengths, limits and flange are in its GLB export, as Yehiahany2005/3D-Digital-Twin-Visualization-Tool:docs/IK_PLAN.md lists them",
+        ..ABB
+    },
+    CatalogArm {
         name: "IRB 6790-205/2.8",
         payload: Some(205.0),
         reach: Some(2.8),
@@ -217,7 +235,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue",
+        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-130 deg in robotkinematicscatalogue; the lengths reach 3.050 m",
         ..ABB
     },
     CatalogArm {
@@ -307,7 +325,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[75.0, 60.0, 60.0, 85.0, 85.0, 115.0]),
         sources: 2,
-        provenance: "robotkinematicscatalogue, work-r-labs/robots (lengths); ABB's data sheet (text in rox-architecture/RODEOS) and work-r-labs/robots (axis 3, measured from the base; speeds); axis 3 is -155..222 deg in robotkinematicscatalogue, which is no range from the base; axis 1 is +-220 deg as an option",
+        provenance: "robotkinematicscatalogue, work-r-labs/robots; axis 3, measured from the base, and speeds of ABB's data sheet (text in rox-architecture/RODEOS) and work-r-labs/robots; axis 3 is -155..222 deg in robotkinematicscatalogue: -65 - 90 and 132 + 90, with the limits of axis 2; axis 1 is +-220 deg as an option",
         ..ABB
     },
     CatalogArm {
@@ -325,7 +343,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[75.0, 60.0, 60.0, 85.0, 85.0, 115.0]),
         sources: 2,
-        provenance: "robotkinematicscatalogue, work-r-labs/robots (lengths but for 5.8 mm in its wrist); ABB's data sheet (text in rox-architecture/RODEOS) and work-r-labs/robots (axis 3, measured from the base; speeds); axis 3 is -155..222 deg in robotkinematicscatalogue, which is no range from the base; axis 1 is +-220 deg as an option",
+        provenance: "robotkinematicscatalogue, work-r-labs/robots (but for 5.8 mm in its wrist); axis 3, measured from the base, and speeds of ABB's data sheet (text in rox-architecture/RODEOS) and work-r-labs/robots; axis 3 is -155..222 deg in robotkinematicscatalogue: -65 - 90 and 132 + 90, with the limits of axis 2; axis 1 is +-220 deg as an option",
         ..ABB
     },
 ];

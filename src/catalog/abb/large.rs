@@ -163,7 +163,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg)",
+        provenance: "robotkinematicscatalogue; the same source gives the 6400R/2.5-150 other limits of axes 1 to 3 (+-180, -70..85, -28..110 deg); the lengths reach 2.457 m, where its linkages are likely to stop it before",
         ..ABB
     },
     CatalogArm {
@@ -235,7 +235,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "a controller's backup, yrndimo/RobotStudio:progetti-riferimento/SYSPAR/MOC.cfg (limits); its jointtargets and robtargets of one pose agree within 0.023 mm and 0.0013 deg with the lengths of the IRB 6600-225/2.55, whose axes 2, 3 and 6 have other limits",
+        provenance: "a controller's backup (yrndimo/RobotStudio:progetti-riferimento/SYSPAR/MOC.cfg); limits of its configuration; its jointtargets and robtargets of one pose agree within 0.023 mm and 0.0013 deg with the lengths of the IRB 6600-225/2.55, whose axes 2, 3 and 6 have other limits",
         ..ABB
     },
     CatalogArm {
@@ -343,7 +343,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; a forearm of 1280 mm in IFRA's URDF would reach 2.9 m, which the name contradicts",
+        provenance: "robotkinematicscatalogue; a forearm of 1280 mm in IFRA's URDF would reach 2.9 m, which the name contradicts; the lengths reach 2.759 m, as ABB rounds to 50 mm",
         ..ABB
     },
     CatalogArm {
@@ -379,7 +379,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; the lengths are those of the 6640-205/2.75",
+        provenance: "robotkinematicscatalogue; the 6640-205/2.75 has the same lengths; the lengths reach 2.759 m, as ABB rounds to 50 mm",
         ..ABB
     },
     CatalogArm {
@@ -397,7 +397,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; the lengths are those of the 6640-180/2.55",
+        provenance: "robotkinematicscatalogue; the 6640-180/2.55 has the same lengths",
         ..ABB
     },
     CatalogArm {
@@ -433,7 +433,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "RobotComponents",
+        provenance: "RobotComponents; the lengths reach 2.759 m, as ABB rounds to 50 mm",
         ..ABB
     },
     CatalogArm {
@@ -451,7 +451,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[100.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; limits and speeds agree with ABB's data sheet (text in rox-architecture/RODEOS)",
         ..ABB
     },
     CatalogArm {
@@ -469,7 +469,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[110.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 5,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE",
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; limits and speeds agree with ABB's data sheet (text in rox-architecture/RODEOS)",
         ..ABB
     },
     CatalogArm {
@@ -487,7 +487,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[110.0, 90.0, 90.0, 150.0, 120.0, 235.0]),
         sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; ARTE has the forearm of the 3.9 m arm (2042); speeds of ABB's data sheet (text in rox-architecture/RODEOS)",
+        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; ARTE has the forearm of the 3.9 m arm (2042); limits agree with, speeds are of ABB's data sheet (text in rox-architecture/RODEOS)",
         ..ABB
     },
     CatalogArm {

@@ -19,7 +19,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 150.0, 150.0, 360.0, 360.0, 450.0]),
         sources: 4,
-        provenance: "ros-industrial/abb, robotkinematicscatalogue, ARTE, rs-opw-kinematics",
+        provenance: "ros-industrial/abb, robotkinematicscatalogue, ARTE, rs-opw-kinematics; the lengths reach 1.572 m, where its linkages are likely to stop it before",
         ..ABB
     },
     CatalogArm {
@@ -37,7 +37,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 150.0, 150.0, 360.0, 360.0, 450.0]),
         sources: 1,
-        provenance: "ros-industrial/abb",
+        provenance: "ros-industrial/abb; the lengths reach 1.572 m, where its linkages are likely to stop it before",
         ..ABB
     },
     CatalogArm {
@@ -55,7 +55,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 150.0, 150.0, 360.0, 360.0, 450.0]),
         sources: 2,
-        provenance: "visose/Robots, robotkinematicscatalogue",
+        provenance: "visose/Robots, robotkinematicscatalogue; the lengths reach 1.572 m, where its linkages are likely to stop it before",
         ..ABB
     },
     CatalogArm {
@@ -181,7 +181,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 3 is -60..65 deg on the 4400-60/1.96, in three sources",
+        provenance: "robotkinematicscatalogue; axis 3 is -60..65 deg on the 4400-60/1.96, in three sources; the lengths reach 1.983 m, where its linkages are likely to stop it before",
         ..ABB
     },
     CatalogArm {
@@ -199,7 +199,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 120.0, 120.0, 225.0, 250.0, 330.0]),
         sources: 3,
-        provenance: "visose/Robots, robotkinematicscatalogue, ARTE",
+        provenance: "visose/Robots, robotkinematicscatalogue, ARTE; the lengths reach 1.983 m, where its linkages are likely to stop it before",
         ..ABB
     },
     CatalogArm {
@@ -217,7 +217,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 120.0, 120.0, 225.0, 250.0, 330.0]),
         sources: 2,
-        provenance: "ros-industrial/abb, robotkinematicscatalogue; axis 3 is +-165 deg in robotkinematicscatalogue; tool0 is not turned by 90 deg about y in ros-industrial/abb; the lengths reach 2.48 m, not the 2.43 of the name",
+        provenance: "ros-industrial/abb, robotkinematicscatalogue; axis 3 is +-165 deg in robotkinematicscatalogue; tool0 is not turned by 90 deg about y in ros-industrial/abb; the lengths reach 2.478 m, where its linkages are likely to stop it before",
         ..ABB
     },
     CatalogArm {
@@ -234,8 +234,8 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-400.0, 400.0],
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 360.0, 360.0, 500.0]),
-        sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue; axis 5 is -125..120 deg in ROS-Industrial and PickNik; robotkinematicscatalogue has the forearm of the 40/2.55 arm (1270/135)",
+        sources: 5,
+        provenance: "RobotComponents, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, RobotStudio; axis 5 is -125..120 deg in ROS-Industrial and PickNik; robotkinematicscatalogue has the forearm of the 40/2.55 arm (1270/135)",
         ..ABB
     },
     CatalogArm {
@@ -252,8 +252,8 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-400.0, 400.0],
         ],
         max_velocity: Some(&[175.0, 175.0, 175.0, 250.0, 250.0, 360.0]),
-        sources: 7,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, ARTE, compas_fab; axis 5 is -120..125 deg in RobotComponents and +-120 deg in robotkinematicscatalogue; ARTE has the upper arm and forearm of the 2.05 m arm (900, 960); c3 is 1271 mm in compas_fab",
+        sources: 8,
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, ARTE, compas_fab, RobotStudio; axis 5 is -120..125 deg in RobotComponents and +-120 deg in robotkinematicscatalogue; ARTE has the upper arm and forearm of the 2.05 m arm (900, 960); c3 is 1271 mm in compas_fab",
         ..ABB
     },
     CatalogArm {

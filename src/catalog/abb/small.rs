@@ -17,9 +17,9 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-115.0, 115.0],
             [-400.0, 400.0],
         ],
-        max_velocity: None,
-        sources: 2,
-        provenance: "ros-industrial/abb_experimental, ARTE; speeds are 180 180 180 320 400 460 deg/s in work-r-labs/robots, and in no other source",
+        max_velocity: Some(&[180.0, 180.0, 180.0, 320.0, 400.0, 460.0]),
+        sources: 3,
+        provenance: "ros-industrial/abb_experimental, ARTE, work-r-labs/robots (but for c4); speeds of work-r-labs/robots alone",
         ..ABB
     },
     CatalogArm {
@@ -35,9 +35,9 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-115.0, 115.0],
             [-400.0, 400.0],
         ],
-        max_velocity: None,
-        sources: 1,
-        provenance: "ros-industrial/abb_experimental; work-r-labs/robots has -63..110 and -235..55 deg for axes 2 and 3, the limits of the 1.2 m arm: unsettled; speeds are 180 180 180 320 400 460 deg/s there, and in no other source",
+        max_velocity: Some(&[180.0, 180.0, 180.0, 320.0, 400.0, 460.0]),
+        sources: 2,
+        provenance: "ros-industrial/abb_experimental, work-r-labs/robots (but for c4); work-r-labs/robots has -63..110 and -235..55 deg for axes 2 and 3, the limits of the 1.2 m arm: unsettled; speeds of work-r-labs/robots alone",
         ..ABB
     },
     CatalogArm {
@@ -54,8 +54,8 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-400.0, 400.0],
         ],
         max_velocity: Some(&[250.0, 250.0, 250.0, 320.0, 320.0, 420.0]),
-        sources: 5,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 4 is +-150 deg in visose/Robots, axis 3 -90 deg in robotkinematicscatalogue",
+        sources: 6,
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE, RobotStudio (axes); axis 4 is +-150 deg in visose/Robots, axis 3 -90 deg in robotkinematicscatalogue",
         ..ABB
     },
     CatalogArm {
@@ -90,8 +90,8 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-400.0, 400.0],
         ],
         max_velocity: Some(&[200.0, 200.0, 260.0, 360.0, 360.0, 450.0]),
-        sources: 4,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 5 is +-120 deg in robotkinematicscatalogue",
+        sources: 5,
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE, RobotStudio (axes); axis 5 is +-120 deg in robotkinematicscatalogue",
         ..ABB
     },
     CatalogArm {
@@ -109,7 +109,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[320.0, 320.0, 375.0, 500.0, 470.0, 500.0]),
         sources: 4,
-        provenance: "RobotComponents, robotkinematicscatalogue, work-r-labs/robots, ABB's data sheet (text in rox-architecture/RODEOS) (axis 6, speeds); axis 6 is +-242 deg in RobotComponents, perhaps the number of turns to which it may be set",
+        provenance: "RobotComponents, robotkinematicscatalogue, work-r-labs/robots (but for c4), ABB's data sheet (reach); axis 6 and speeds of the data sheet (text in rox-architecture/RODEOS) and work-r-labs/robots; axis 6 is +-242 deg in RobotComponents: turns, as for the IRB 1300-11/0.9",
         ..ABB
     },
     CatalogArm {
@@ -125,9 +125,9 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-125.0, 120.0],
             [-400.0, 400.0],
         ],
-        max_velocity: None,
-        sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue; speeds are 460 360 280 560 420 750 deg/s in work-r-labs/robots, and in no other source",
+        max_velocity: Some(&[460.0, 360.0, 280.0, 560.0, 420.0, 750.0]),
+        sources: 3,
+        provenance: "RobotComponents, robotkinematicscatalogue, work-r-labs/robots (but for c4); axis 5 is +-125 deg in robotkinematicscatalogue; speeds of work-r-labs/robots alone",
         ..ABB
     },
     CatalogArm {
@@ -143,9 +143,9 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-125.0, 120.0],
             [-400.0, 400.0],
         ],
-        max_velocity: None,
-        sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 5 is +-125 deg in robotkinematicscatalogue; speeds are 460 360 280 560 420 750 deg/s in work-r-labs/robots, and in no other source",
+        max_velocity: Some(&[460.0, 360.0, 280.0, 560.0, 420.0, 750.0]),
+        sources: 3,
+        provenance: "RobotComponents, robotkinematicscatalogue, work-r-labs/robots (but for c4); axis 5 is +-125 deg in robotkinematicscatalogue; speeds of work-r-labs/robots alone",
         ..ABB
     },
     CatalogArm {
@@ -162,8 +162,8 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-400.0, 400.0],
         ],
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
-        sources: 6,
-        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, abb_motion_program_exec; axis 6 is +-400 deg in RobotComponents, visose/Robots and three controllers' configurations (panin-anan/abb_SAMXL_Grinding_RAPID:SYSPAR/MOC.cfg), +-360 deg in the others; speeds of axes 2 and 3 are 224 and 297 deg/s in work-r-labs/robots: unsettled",
+        sources: 8,
+        provenance: "RobotComponents, visose/Robots, ros-industrial/abb_experimental, PickNik/abb_ros2, robotkinematicscatalogue, abb_motion_program_exec, work-r-labs/robots (but for c4), RobotStudio (axes); axis 6 is +-400 deg in RobotComponents, visose/Robots and three controllers' configurations (panin-anan/abb_SAMXL_Grinding_RAPID:SYSPAR/MOC.cfg), +-360 deg in the others; speeds of axes 2 and 3 are 224 and 297 deg/s in work-r-labs/robots: unsettled",
         ..ABB
     },
     CatalogArm {
@@ -180,8 +180,8 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-360.0, 360.0],
         ],
         max_velocity: Some(&[288.0, 240.0, 300.0, 400.0, 405.0, 600.0]),
-        sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 2 is to 130 deg and axis 6 +-400 deg in work-r-labs/robots, as of the IRB 1200-5/0.9; speeds of axes 2 and 3 are 224 and 297 deg/s there, too: unsettled",
+        sources: 5,
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE, work-r-labs/robots (but for c4); axis 2 is to 130 deg and axis 6 +-400 deg in work-r-labs/robots, which has the limits of the IRB 1200-5/0.9 for both: unsettled, axis 6 is likely +-400 deg as there, whose wrist it has; speeds of axes 2 and 3 are 224 and 297 deg/s there: unsettled",
         ..ABB
     },
     CatalogArm {
@@ -217,7 +217,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[280.0, 228.0, 336.0, 500.0, 415.0, 720.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; work-r-labs/robots agrees to 1 mm",
         ..ABB
     },
     CatalogArm {
@@ -234,8 +234,8 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-400.0, 400.0],
         ],
         max_velocity: None,
-        sources: 2,
-        provenance: "RobotComponents, robotkinematicscatalogue; axis 2 is -100..133 deg in robotkinematicscatalogue; axis 6 is +-242 deg in robotkinematicscatalogue",
+        sources: 4,
+        provenance: "RobotComponents, robotkinematicscatalogue, work-r-labs/robots (but for c4), RobotStudio (axes); axis 2 is -100..133 deg in robotkinematicscatalogue; axis 6 is +-242 deg in robotkinematicscatalogue: these are turns, a controller (Wlups/ABB-Robotstudio:Robotstudio failid/cfg/MOC.cfg) has +-400 deg and lets its owner allow at most +-1520 rad, 242 turns",
         ..ABB
     },
     CatalogArm {
@@ -249,11 +249,11 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-210.0, 69.0],
             [-230.0, 230.0],
             [-130.0, 130.0],
-            [-242.0, 242.0],
+            [-400.0, 400.0],
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 6 is likely +-400 deg as on the IRB 1300, whose wrist it has: the source has +-242 deg for the IRB 1300-11/0.9, too, where RobotComponents has +-400",
+        provenance: "robotkinematicscatalogue; axis 6 is inferred: +-400 deg as of the IRB 1300, whose wrist it has; +-242 deg in the source are turns, as for the IRB 1300-11/0.9",
         ..ABB
     },
     CatalogArm {
@@ -267,11 +267,11 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-210.0, 69.0],
             [-230.0, 230.0],
             [-130.0, 130.0],
-            [-242.0, 242.0],
+            [-400.0, 400.0],
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 6 is likely +-400 deg as on the IRB 1300, whose wrist it has: the source has +-242 deg for the IRB 1300-11/0.9, too, where RobotComponents has +-400",
+        provenance: "robotkinematicscatalogue; axis 6 is inferred: +-400 deg as of the IRB 1300, whose wrist it has; +-242 deg in the source are turns, as for the IRB 1300-11/0.9",
         ..ABB
     },
     CatalogArm {
@@ -285,11 +285,11 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-210.0, 65.0],
             [-230.0, 230.0],
             [-130.0, 130.0],
-            [-242.0, 242.0],
+            [-400.0, 400.0],
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 6 is likely +-400 deg as on the IRB 1300, whose wrist it has: the source has +-242 deg for the IRB 1300-11/0.9, too, where RobotComponents has +-400",
+        provenance: "robotkinematicscatalogue; axis 6 is inferred: +-400 deg as of the IRB 1300, whose wrist it has; +-242 deg in the source are turns, as for the IRB 1300-11/0.9",
         ..ABB
     },
     CatalogArm {
@@ -307,7 +307,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 2,
-        provenance: "robotkinematicscatalogue, ARTE; in ARTE c1 is 465 and c4 75 mm; its table is also printed under the name of an IRB 1600-6/1.45",
+        provenance: "robotkinematicscatalogue, ARTE; in ARTE c1 is 465 and c4 75 mm; its table is also printed under the name of an IRB 1600-6/1.45; the lengths reach 1.480 m, where its linkages are likely to stop it before",
         ..ABB
     },
     CatalogArm {
@@ -323,9 +323,9 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-135.0, 135.0],
             [-200.0, 200.0],
         ],
-        max_velocity: None,
-        sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; speeds are 130 140 140 320 380 460 deg/s in work-r-labs/robots, and in no other source",
+        max_velocity: Some(&[130.0, 140.0, 140.0, 320.0, 380.0, 460.0]),
+        sources: 4,
+        provenance: "RobotComponents, robotkinematicscatalogue, ARTE, work-r-labs/robots (but for c4); speeds of work-r-labs/robots alone",
         ..ABB
     },
     CatalogArm {
@@ -342,8 +342,8 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-400.0, 400.0],
         ],
         max_velocity: Some(&[150.0, 160.0, 170.0, 320.0, 400.0, 460.0]),
-        sources: 4,
-        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE; axis 2 of the 1.2 m arms goes to 136 deg in ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-100 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged; speed of axis 6 of the data sheet and work-r-labs/robots: it is 450 deg/s in the other sources that have one",
+        sources: 5,
+        provenance: "RobotComponents, ros-industrial/abb_experimental, robotkinematicscatalogue, ARTE, work-r-labs/robots (but for c4); conditional, not modeled: axis 2 goes to 136 deg while axis 1 is within +-100 deg (ABB's data sheet, text in rox-architecture/RODEOS); not modeled: axis 1 within +-20 deg on a wall (data sheet); axis 2 is to 136 deg in ARTE; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged; speed of axis 6 of the data sheet and work-r-labs/robots: it is 450 deg/s in the other sources that have one",
         ..ABB
     },
     CatalogArm {
@@ -361,7 +361,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[150.0, 160.0, 170.0, 320.0, 400.0, 460.0]),
         sources: 4,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; axis 2 goes to 150 deg in visose/Robots and ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-95 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arm exchanged; speeds of the data sheet: those of the other sources, 180 180 185 385 400 460 deg/s, are of the 10 kg arm",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, ARTE; conditional, not modeled: axis 2 goes to 150 deg while axis 1 is within +-95 deg (ABB's data sheet, text in rox-architecture/RODEOS); not modeled: axis 1 within +-20 deg on a wall (data sheet); axis 2 is to 150 deg in visose/Robots and ARTE; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged; speeds of the data sheet: the other sources have the 10 kg arm's, 180 180 185 385 400 460 deg/s",
         ..ABB
     },
     CatalogArm {
@@ -379,7 +379,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: None,
         sources: 1,
-        provenance: "robotkinematicscatalogue; axis 2 of the 1.2 m arms goes to 136 deg in ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-100 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "robotkinematicscatalogue; conditional, not modeled: axis 2 goes to 136 deg while axis 1 is within +-100 deg (ABB's data sheet, text in rox-architecture/RODEOS); axis 2 is to 136 deg in ARTE; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
         ..ABB
     },
     CatalogArm {
@@ -397,7 +397,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 200.0, 400.0, 400.0, 460.0]),
         sources: 2,
-        provenance: "ros-industrial/abb_experimental, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-95 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "ros-industrial/abb_experimental, robotkinematicscatalogue; conditional, not modeled: axis 2 goes to 150 deg while axis 1 is within +-95 deg (ABB's data sheet, text in rox-architecture/RODEOS); axis 2 is to 150 deg in visose/Robots and ARTE; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
         ..ABB
     },
     CatalogArm {
@@ -415,7 +415,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
         sources: 1,
-        provenance: "RobotComponents; axis 2 of the 1.2 m arms goes to 136 deg in ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-100 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged; speeds of the data sheet",
+        provenance: "RobotComponents; conditional, not modeled: axis 2 goes to 136 deg while axis 1 is within +-100 deg (ABB's data sheet, text in rox-architecture/RODEOS); not modeled: axis 1 within +-60 deg on a wall (data sheet); axis 2 is to 136 deg in ARTE; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged; speeds of the data sheet",
         ..ABB
     },
     CatalogArm {
@@ -433,7 +433,7 @@ pub(super) const ARMS: &[CatalogArm] = &[
         ],
         max_velocity: Some(&[180.0, 180.0, 185.0, 385.0, 400.0, 460.0]),
         sources: 3,
-        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; axis 2 of the 1.45 m arms goes to 150 deg in visose/Robots and ARTE: ABB's data sheet (text in rox-architecture/RODEOS) has that stroke while axis 1 is within +-95 deg, and limits that depend on another axis are not modeled; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged",
+        provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue; conditional, not modeled: axis 2 goes to 150 deg while axis 1 is within +-95 deg (ABB's data sheet, text in rox-architecture/RODEOS); not modeled: axis 1 within +-60 deg on a wall (data sheet); axis 2 is to 150 deg in visose/Robots and ARTE; RobotComponents has the limits of axes 2 and 3 of the 1.2 m and the 1.45 m arms exchanged; the data sheet has the speeds, too",
         ..ABB
     },
     CatalogArm {
@@ -468,8 +468,8 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-400.0, 400.0],
         ],
         max_velocity: None,
-        sources: 3,
-        provenance: "RobotComponents, robotkinematicscatalogue, ARTE; a2 is -108 mm in ARTE",
+        sources: 5,
+        provenance: "RobotComponents, robotkinematicscatalogue, ARTE, work-r-labs/robots (but for c4), RobotStudio (axes); a2 is -108 mm in ARTE; the lengths reach 1.537 m",
         ..ABB
     },
     CatalogArm {
@@ -486,8 +486,8 @@ pub(super) const ARMS: &[CatalogArm] = &[
             [-400.0, 400.0],
         ],
         max_velocity: None,
-        sources: 1,
-        provenance: "RobotComponents",
+        sources: 2,
+        provenance: "RobotComponents, work-r-labs/robots (but for c4); the lengths reach 1.537 m",
         ..ABB
     },
 ];

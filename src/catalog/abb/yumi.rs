@@ -55,10 +55,9 @@ const SINGLE: CatalogArm = CatalogArm {
     limits: LIMITS,
     max_velocity: Some(VELOCITY),
     sources: 3,
-    provenance: "robotkinematicscatalogue, ARTE (rows), OrebroUniversity/yumi (limits, speeds), \
-        RobotStudio's poses in rpiRobotics/yumi-ik; axis 2 is at 305 mm in \
-        robotkinematicscatalogue, and its axis 2 ends at 143.5 deg. Axes in the order 1, 2, 7, 3, \
-        4, 5, 6",
+    provenance: "robotkinematicscatalogue, ARTE, RobotStudio (poses in rpiRobotics/yumi-ik); limits \
+        and speeds of OrebroUniversity/yumi; axis 2 is at 305 mm in robotkinematicscatalogue, and \
+        its axis 2 ends at 143.5 deg; axes in the order 1, 2, 7, 3, 4, 5, 6",
 };
 
 const LEFT: CatalogArm = CatalogArm {
@@ -83,6 +82,7 @@ const RIGHT: CatalogArm = CatalogArm {
     ..SINGLE
 };
 
-const BODY: &str = "as the IRB 14050, with axis 2 at 100 mm; its frame in the body is turned as a \
+const BODY: &str = "robotkinematicscatalogue, ARTE, RobotStudio (a program's home); as the IRB \
+    14050, with axis 2 at 100 mm; its frame in the body is turned as a \
     controller's MOC.cfg says, and placed by its home targets (53.55, 72.50, 414.92 mm in \
     OrebroUniversity/yumi)";
