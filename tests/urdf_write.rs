@@ -90,6 +90,26 @@ fn a_seven_axis_arm_is_read_back_with_its_solutions() {
     assert!(found >= CASES);
 }
 
+/// Some programs round an axis along none of x, y and z, or turn about one of the three.
+#[test]
+fn every_axis_is_along_x_y_or_z() {
+    let arms = catalog().map(|arm| AnyRobot::named(arm.name).unwrap().to_urdf());
+    let mut mdh = kuka_kr6().unwrap().mdh().clone();
+    // Axes 2 and 3 stay parallel.
+    for joint in [0, 1, 3, 4, 5] {
+        mdh.rows[joint].alpha += 1e-3;
+    }
+    let crooked = Robot::from_mdh(mdh).unwrap().with_name("crooked");
+    let crooked =
+        [crooked.clone().coupled().unwrap(), crooked].map(|robot| again(&robot).to_urdf());
+    for text in arms.chain(crooked) {
+        for axis in text.split("<axis xyz=\"").skip(1).map(|rest| rest.split('"').next().unwrap()) {
+            let along: Vec<_> = axis.split(' ').filter(|part| *part != "0").collect();
+            assert!(along == ["1"] || along == ["-1"], "{axis}");
+        }
+    }
+}
+
 /// Zero is a limit to some readers, and some need the attribute.
 #[test]
 fn an_unknown_velocity_is_written_as_one_that_does_not_bind() {

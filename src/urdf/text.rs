@@ -16,9 +16,9 @@ use crate::kinematics::{Pose, pose_to_euler_zyx};
 /// A joint that turns.
 #[derive(Clone, Copy)]
 pub(super) struct Hinge {
-    /// Origin of its link in the parent, to which it is parallel at a joint angle of zero [m].
-    pub(super) origin: Vector3<f64>,
-    /// Unit direction in both [1].
+    /// The frame of its link in the parent at a joint angle of zero.
+    pub(super) origin: Pose,
+    /// Unit direction in the frame of its link [1].
     pub(super) axis: Vector3<f64>,
     /// Lower and upper limit [rad], infinite for none.
     pub(super) limits: [f64; 2],
@@ -103,8 +103,7 @@ impl Text {
     }
 
     pub(super) fn fixed(&mut self, name: &str, links: [&str; 2], pose: &Pose) {
-        let (xyz, [yaw, pitch, roll]) = pose_to_euler_zyx(pose);
-        self.begin(name, "fixed", links, xyz, [roll, pitch, yaw]);
+        self.begin(name, "fixed", links, pose);
         self.push("  </joint>\n");
     }
 
@@ -127,7 +126,7 @@ impl Text {
     }
 
     fn turning(&mut self, name: &str, links: [&str; 2], hinge: &Hinge) {
-        self.begin(name, hinge.kind(), links, hinge.origin.into(), [0.0; 3]);
+        self.begin(name, hinge.kind(), links, &hinge.origin);
         let axis = numbers(hinge.axis.into());
         self.line(format_args!("    <axis xyz=\"{axis}\"/>"));
         let velocity = hinge.velocity.unwrap_or(MOST_ANGLE).min(MOST_ANGLE);
@@ -140,18 +139,12 @@ impl Text {
     }
 
     /// The elements that each joint has, without its end.
-    fn begin(
-        &mut self,
-        name: &str,
-        kind: &str,
-        [parent, child]: [&str; 2],
-        xyz: [f64; 3],
-        rpy: [f64; 3],
-    ) {
+    fn begin(&mut self, name: &str, kind: &str, [parent, child]: [&str; 2], pose: &Pose) {
         self.line(format_args!("  <joint name=\"{name}\" type=\"{kind}\">"));
         self.line(format_args!("    <parent link=\"{parent}\"/>"));
         self.line(format_args!("    <child link=\"{child}\"/>"));
-        let (xyz, rpy) = (numbers(xyz), numbers(rpy));
+        let (xyz, [yaw, pitch, roll]) = pose_to_euler_zyx(pose);
+        let (xyz, rpy) = (numbers(xyz), numbers([roll, pitch, yaw]));
         self.line(format_args!("    <origin xyz=\"{xyz}\" rpy=\"{rpy}\"/>"));
     }
 }

@@ -1,8 +1,9 @@
 //! The text of a URDF of a robot.
 //!
 //! At zero joint angles the frame of every link is parallel to `base_link`, so that origins and
-//! axes can be read as in a drawing. A number has all the digits that it needs to be read
-//! back as it is.
+//! axes can be read as in a drawing. Where an axis is along none of x, y and z, the link has z along
+//! it, and the next ones are parallel to that link: some programs round other axes, or turn about
+//! one of the three. A number has all the digits that it needs to be read back as it is.
 //!
 //! References: ROS wiki, urdf/XML/robot, link and joint; REP 199 (`base`, `flange`, `tool0`).
 
@@ -13,7 +14,7 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use nalgebra::{Translation3, Vector3};
+use nalgebra::Translation3;
 
 use super::text::{Hinge, Text};
 use crate::body::{Capsule, LinkCapsule};
@@ -31,7 +32,7 @@ const SHAPES: &str =
 
 /// The lines that follow.
 const HEAD: &[&str] = &[
-    "     of 100000 is unknown. At zero every link but tool0 is parallel to base_link. -->",
+    "     of 100000 is unknown. At zero links are parallel, but tool0 and behind oblique axes. -->",
     "<!-- MuJoCo accepts no moving link without a mass; other programs ignore this. -->",
     "<mujoco><compiler fusestatic=\"false\" boundmass=\"0.001\" boundinertia=\"0.001\"/></mujoco>",
 ];
@@ -153,19 +154,27 @@ impl Arm<'_> {
         for (i, row) in self.rows.iter().enumerate() {
             let twist = constant_pose([row.a, 0.0, 0.0], [0.0, 0.0, row.alpha]);
             frame *= twist * constant_pose([0.0, 0.0, row.d], [row.theta, 0.0, 0.0]);
-            let mut hinge = self.hinge(i, &frame);
+            let direction = frame.rotation.matrix().column(2);
+            let is_oblique = direction.iter().filter(|part| **part != 0.0).count() > 1;
+            let turned;
+            // The link has its origin there, and is parallel to its parent or is the table's frame.
+            (turned, frame) = if is_oblique {
+                (frame, Pose::identity())
+            } else {
+                let rotation = Pose::from_parts(Translation3::identity(), frame.rotation);
+                (frame.translation.into(), rotation)
+            };
+            let mut hinge = self.hinge(i, &frame, turned);
             if i == 2 && self.coupling != 0.0 {
-                let second = self.hinge(1, &frame);
+                let second = self.hinge(1, &frame, turned);
                 let second = Hinge { axis: second.axis * self.coupling, ..second };
                 text.lines(LINKAGE);
                 text.link("linkage");
                 text.linkage([&parent, "linkage"], &second, self.linkage);
                 "linkage".clone_into(&mut parent);
-                hinge.origin = Vector3::zeros();
+                hinge.origin = Pose::identity();
             }
             let (joint, child) = (format!("joint_{}", i + 1), format!("link_{}", i + 1));
-            // The link has its origin there, and is parallel to its parent.
-            frame.translation = Translation3::identity();
             text.solid_link(&child, &self.solids(i + 1, &frame));
             text.hinge(&joint, [&parent, &child], &hinge);
             parent = child;
@@ -179,11 +188,11 @@ impl Arm<'_> {
         own.map(|own| own.capsule.moved(frame)).collect()
     }
 
-    /// Joint `i`, counted from zero, about z of a frame.
-    fn hinge(&self, i: usize, frame: &Pose) -> Hinge {
+    /// Joint `i`, counted from zero, about z of a frame in its link.
+    fn hinge(&self, i: usize, frame: &Pose, origin: Pose) -> Hinge {
         let axis = frame.rotation.matrix().column(2).into_owned();
         let velocity = self.velocity.map(|velocity| velocity[i]);
-        Hinge { origin: frame.translation.vector, axis, limits: self.limits[i], velocity }
+        Hinge { origin, axis, limits: self.limits[i], velocity }
     }
 }
 
