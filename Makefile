@@ -287,6 +287,13 @@ evidence-instructions: | toolchains ## Instructions of a call, with valgrind; WR
 evidence-ros-starts: $(BUILT) ## COUNT (200) nodes of each ROS ended with SIGTERM: none may hang
 	@tests/ros/test.sh --starts $(or $(COUNT),200) $(abspath $(BIN)/python)
 
+# One at a time: one without a wheel for this Python does not exclude the others.
+evidence-readers: $(BUILT) $(VENV)/.groups ## to_urdf of every arm in eleven programs that read URDFs: wrong, farthest
+	@for reader in $$(sed -nE '/^readers = /s/[][",]//g; s/^readers = //p' pyproject.toml); do \
+		$(PIP_INSTALL) "$$reader" || echo "$$reader cannot be installed: left out"; \
+	done
+	$(BIN)/python -m pytest --quiet -m evidence tests/python/extras/test_readers.py
+
 docs: $(BUILT) $(VENV)/.groups $(VENV)/.site ## Write generated tables and transcripts, draw the pictures, build cargo doc and the site
 	IRBKIN_WRITE=1 $(SUITE) --quiet -- catalog_page::
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_check.py -k rules_of_the_command
