@@ -16,6 +16,7 @@ from reference import (
 )
 
 SAMPLES = 100
+HAND = turn("z", -np.pi / 4) @ move(0, 0, 0.1034)  # Franka's, in its flange
 
 
 def sample(arm, seed=1):
@@ -94,3 +95,17 @@ def test_zero_pose_looks_forward_with_x_down():
         np.testing.assert_allclose(
             irbkin.Robot(name).fk([0] * 6), wanted, rtol=0, atol=rounding(reach(arm.rows))
         )
+
+
+@pytest.mark.parametrize(
+    ("name", "degrees", "tool", "millimeters"),
+    [
+        # What UFACTORY's controller shows at zero, and Franka's where it is ready, with the hand.
+        ("xArm6", [0, 0, 0, 0, 0, 0], np.eye(4), [207, 0, 112]),
+        ("Panda", [0, -45, 0, -135, 0, 90, 45], HAND, [306.9, 0, 486.9]),
+    ],
+)
+def test_poses_are_in_the_base_frame_of_the_controller(name, degrees, tool, millimeters):
+    pose = irbkin.Robot(name).with_tool(tool).fk(np.radians(degrees))
+    np.testing.assert_allclose(1e3 * pose[:3, 3], millimeters, rtol=0, atol=0.05)
+    np.testing.assert_allclose(pose[:3, :3], np.diag([1, -1, -1]), rtol=0, atol=1e-12)

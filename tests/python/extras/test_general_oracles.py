@@ -143,6 +143,18 @@ def test_what_crx_kinematics_finds_is_found(kind):
     count.check(kind)
 
 
+@pytest.mark.parametrize("name", ["CRX-10iA", "CRX-10iA/L"])
+def test_poses_of_a_pendant_are_of_the_world_at_axis_2(name):
+    """As the guide gives it for FANUC's; crx-kinematics has joints and poses of the controller."""
+    crx = pytest.importorskip("crx_kinematics").Crx
+    peer = crx.crx10ial() if name.endswith("L") else crx.crx10ia()
+    pendant = irbkin.Robot(name).coupled().with_base(irbkin.pose([0, 0, -0.245]))
+    for q in pendant.random(200, 1):
+        shown = np.reshape(peer.fk(np.degrees(q)), (4, 4))
+        shown[:3, 3] /= 1e3
+        np.testing.assert_allclose(shown, pendant.fk(q), rtol=0, atol=1e-14)
+
+
 @pytest.fixture(scope="module")
 def by_ssik(arm, tmp_path_factory):
     """ssik's answers for the arm; its preparation takes a minute."""
