@@ -1,6 +1,8 @@
 //! The catalog: arms by name.
 
 mod abb;
+#[cfg(feature = "python")]
+mod alike;
 mod confdata;
 mod designation;
 pub(crate) mod fault;

@@ -309,7 +309,9 @@ impl PyRobot {
             });
             let (dof, structure) = (self.arm.dof(), robot.structure());
             let remark = robot.tip_remark().map_or_else(String::new, |it| format!(", {it}"));
-            format!("<Robot{quoted}: {dof} joints, {structure}{snap}{coupled}{remark}>")
+            let limits = robot.joint_names().and_then(|_| robot.limits_of_the_catalog());
+            let limits = limits.map_or_else(String::new, |it| format!(", {it}"));
+            format!("<Robot{quoted}: {dof} joints, {structure}{snap}{coupled}{remark}{limits}>")
         })
     }
 
