@@ -44,7 +44,7 @@ def robot_of(options: Mapping[str, Any], say: Callable[[str], object]) -> Robot:
     base, tip, snap = (given(key) for key in ("base_link", "tip", "snap"))
     if name.lower().endswith(".urdf"):
         robot = Robot.from_urdf(name, base, tip, snap=snap or 0.0)
-        if helpful := re.search(r"snap=(\S+ (gives|makes) it an? \w+ \w+)\)", repr(robot)):
+        if helpful := re.search(r"snap=(\S+ gives [^)]*)\)", repr(robot)):
             say(f"{name}: its angles are rounded, --snap {helpful[1]}")
     elif (base, tip, snap) == (None, None, None):
         found = ROBOTSTUDIO.fullmatch(name)

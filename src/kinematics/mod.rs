@@ -53,8 +53,6 @@ pub use pose::{
     Pose, PoseDifference, pose_from_euler_zyx, pose_from_rotation, pose_from_rows, pose_from_wxyz,
     pose_from_xyzw, pose_to_euler_zyx, pose_to_rows, pose_to_wxyz,
 };
-#[cfg(feature = "urdf")]
-pub(crate) use robot::SNAPS;
 pub use robot::any::{AnyRobot, ByJoints};
 pub use robot::{Definition, Joints, Margin, Robot};
 pub use solve::configuration::fault::NoConfiguration;

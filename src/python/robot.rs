@@ -304,9 +304,7 @@ impl PyRobot {
             let quoted = if name.is_empty() { String::new() } else { format!(" {name:?}") };
             let coupled = if robot.is_coupled() { ", coupled" } else { "" };
             let snap = robot.missing_form().and_then(|missing| missing.helpful_snap());
-            let snap = snap.map_or_else(String::new, |(snap, gives)| {
-                format!(" (by rounded angles: snap={snap:e} {gives})")
-            });
+            let snap = snap.map_or_else(String::new, |it| format!(" (by rounded angles: {it})"));
             let (dof, structure) = (self.arm.dof(), robot.structure());
             let remark = robot.tip_remark().map_or_else(String::new, |it| format!(", {it}"));
             let limits = robot.joint_names().and_then(|_| robot.limits_of_the_catalog());

@@ -10,5 +10,6 @@ pub use free_joint::FreeJoint;
 pub(crate) use names::{Listed, Names, excess};
 pub use unknown_structure::UnknownStructure;
 pub(crate) use unknown_structure::{
-    Columns, Convention, Freedom, MOST_CONDITIONS, ORDERS, Pattern, Reading, Relation, Snap,
+    Columns, Convention, Freedom, MOST_CONDITIONS, OFFSET_WRIST, ORDERS, Pattern, Reading,
+    Relation, SNAPS, Snap,
 };

@@ -18,6 +18,13 @@ pub(crate) enum Relation {
     Coplanar,
 }
 
+/// Values of `snap` that are proposed for an arm that needs one [rad]; the least that helps is
+/// named.
+pub(crate) const SNAPS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
+
+/// Name of the structure of a proposal that is no closed form.
+pub(crate) const OFFSET_WRIST: &str = "offset wrist";
+
 /// Most conditions that a structure has.
 pub(crate) const MOST_CONDITIONS: usize = 10;
 
@@ -88,11 +95,18 @@ pub(crate) enum Freedom {
 enum Hint {
     #[error("")]
     Nothing,
-    /// `closed`: whether it gives the arm a closed form, and not an offset wrist.
-    #[error("{snap}{}", if *.closed { "" } else { ", as an offset wrist" })]
-    Snap { snap: Snap, closed: bool },
-    #[error("{0}")]
-    Reading(Reading),
+    /// `snap`: the place in [`SNAPS`]. `structure`: what it gives the arm. `moves`: how far that moves
+    /// the tool at most [m].
+    #[error(
+        " (write the angles with all their digits, which moves the tool by up to {moves:.1e} m); \
+         snap={:e} would take it{}",
+        SNAPS[usize::from(*.snap)],
+        if *.structure == OFFSET_WRIST { ", as an offset wrist" } else { "" }
+    )]
+    Snap { snap: u8, structure: &'static str, moves: f32 },
+    /// The fields of a [`Reading`], which alone would be 8 bytes more.
+    #[error("{}", Reading { order: *.order, other: *.other, structure })]
+    Reading { order: u8, other: Option<Convention>, structure: &'static str },
 }
 
 /// A `snap` [rad].
@@ -162,31 +176,36 @@ impl UnknownStructure {
         Self { reason, hint: Hint::Nothing }
     }
 
-    /// Propose a `snap` with which the arm would have a closed form, or an offset wrist.
-    pub(crate) fn proposing(self, snap: Option<f64>, closed: bool) -> Self {
-        let hint = |snap| Hint::Snap { snap: Snap(snap), closed };
+    /// Propose one of [`SNAPS`], with the structure that it gives the arm, a closed form or an offset
+    /// wrist, and how far it moves the tool at most [m].
+    pub(crate) fn proposing(self, snap: Option<(u8, &'static str, f32)>) -> Self {
+        let hint = |(snap, structure, moves)| Hint::Snap { snap, structure, moves };
         Self { hint: snap.map_or(Hint::Nothing, hint), ..self }
     }
 
     /// Propose another reading of the table.
     pub(crate) fn reading_as(self, reading: Option<Reading>) -> Self {
-        Self { hint: reading.map_or(Hint::Nothing, Hint::Reading), ..self }
+        let hint = |Reading { order, other, structure }| Hint::Reading { order, other, structure };
+        Self { hint: reading.map_or(Hint::Nothing, hint), ..self }
     }
 
     /// The least power of ten [rad] that, given as `snap`, gives the arm a closed form.
     #[must_use]
     pub fn snap(&self) -> Option<f64> {
         match self.hint {
-            Hint::Snap { snap: Snap(snap), closed: true } => Some(snap),
+            Hint::Snap { snap, structure, .. } if structure != OFFSET_WRIST => {
+                Some(SNAPS[usize::from(snap)])
+            }
             _ => None,
         }
     }
 
-    /// A `snap` [rad] and what it does, in words.
+    /// What a `snap` gives the arm, in words.
     #[cfg(feature = "python")]
-    pub(crate) fn helpful_snap(&self) -> Option<(f64, &'static str)> {
-        let Hint::Snap { snap: Snap(snap), closed } = self.hint else { return None };
-        Some((snap, if closed { "gives it a closed form" } else { "makes it an offset wrist" }))
+    pub(crate) fn helpful_snap(&self) -> Option<alloc::string::String> {
+        let Hint::Snap { snap, structure, moves } = self.hint else { return None };
+        let moves = alloc::format!("moves the tool by up to {moves:.1e} m");
+        Some(alloc::format!("snap={:e} gives {structure}, {moves}", SNAPS[usize::from(snap)]))
     }
 
     /// Whether a link is too short.

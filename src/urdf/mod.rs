@@ -30,11 +30,10 @@ use self::tree::Tree;
 pub(crate) use self::tree::read_document;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
-use crate::kinematics::{
-    AnyRobot, JointAxis, JointLimits, Joints, Mdh, Pose, Robot, SNAPS, check_snap,
-};
+use crate::kinematics::{AnyRobot, JointAxis, JointLimits, Joints, Mdh, Pose, Robot, check_snap};
 #[cfg(feature = "python")]
 use crate::on;
+use crate::report::{OFFSET_WRIST, SNAPS};
 use crate::urdf::fault::UrdfFault;
 
 impl<const N: usize> Robot<N>
@@ -194,22 +193,23 @@ impl UrdfArm {
         Robot<N>: Joints<N>,
     {
         check_snap(snap)?;
-        let proposal = || {
-            let is_taken =
-                |snap| self.table::<N>(snap).is_ok_and(|mdh| Robot::has_closed_form(&mdh));
-            SNAPS.into_iter().find(|snap| is_taken(*snap))
+        let snaps = || (0..).zip(SNAPS);
+        let closed = |(index, snap): (u8, f64)| {
+            Some((index, Robot::in_closed_form(self.table::<N>(snap).ok()?)?))
         };
+        let proposal = || snaps().find_map(closed);
         let robot = match self.table::<N>(snap).and_then(Robot::of_table) {
             Ok(robot) if robot.missing_form().is_some() => match proposal() {
                 None if robot.structure() == "general" => {
                     // To recognize it takes milliseconds: the largest is tried first.
-                    let table = |snap| self.table::<N>(snap).and_then(Robot::of_table);
-                    let is_wrist =
-                        |snap: &f64| table(*snap).is_ok_and(|it| it.structure() == "offset wrist");
-                    let largest = SNAPS.last().filter(|snap| is_wrist(snap));
-                    robot.proposing(largest.and(SNAPS.into_iter().find(is_wrist)), false)
+                    let wrist = |(index, snap): (u8, f64)| {
+                        let other = self.table::<N>(snap).and_then(Robot::of_table).ok()?;
+                        (other.structure() == OFFSET_WRIST).then_some((index, other))
+                    };
+                    let largest = snaps().last().and_then(wrist);
+                    robot.proposing(largest.and_then(|_| snaps().find_map(wrist)))
                 }
-                closed => robot.proposing(closed, true),
+                closed => robot.proposing(closed),
             },
             Err(Error::InvalidModel(ModelFault::NearlyParallel {
                 axes,
@@ -218,7 +218,7 @@ impl UrdfArm {
                 bound,
                 ..
             })) => {
-                let snap = proposal();
+                let snap = proposal().map(|(index, _)| SNAPS[usize::from(index)]);
                 return Err(ModelFault::NearlyParallel { axes, off, distance, bound, snap }.into());
             }
             other => other?,

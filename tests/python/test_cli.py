@@ -660,7 +660,7 @@ def test_a_urdf_takes_its_links_and_a_snap(tmp_path):
     assert "go with a .urdf file" in refused("fk", NAME, *zeros, "--tip", "l6")
     file.write_text(with_a_finger(4e-6))
     note = run("fk", file, *zeros, "--tip", "l6").stderr.decode()
-    assert "--snap 1e-5 gives it a closed form" in note
+    assert "--snap 1e-5 gives spherical wrist, moves the tool by up to " in note
     assert not run("fk", file, *zeros, "--tip", "l6", "--snap", "1e-5").stderr
 
 

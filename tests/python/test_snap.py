@@ -84,5 +84,56 @@ def test_a_snap_that_gives_a_faster_structure_is_proposed_too():
     start, name, rest = text.partition('<joint name="joint_2"')
     rounded = start + name + rest.replace('rpy="0 0 0"', 'rpy="0.0002 0 0"', 1)
     robot = Robot.from_urdf(rounded)
-    assert "general (by rounded angles: snap=1e-3 makes it an offset wrist)" in repr(robot)
+    gives = "general (by rounded angles: snap=1e-3 gives offset wrist, moves the tool by up to "
+    assert gives in repr(robot)
     assert Robot.from_urdf(rounded, snap=1e-3).structure == "offset wrist"
+
+
+# The digits and signs of public files: of Doosan's, with two and three, and of UFACTORY's.
+DOOSAN = [
+    ("0 0 0.1525", "0 0 0"),
+    ("0 0.006 0", "0 -1.571 -1.571"),
+    ("0.411 0 0", "0 0 1.571"),
+    ("0 -0.368 0", "1.571 0 0"),
+    ("0 0 0", "-1.571 0 0"),
+    ("0 -0.121 0", "1.571 0 0"),
+]
+XARM6 = [
+    ("0 0 0.267", "0 0 0"),
+    ("0 0 0", "-1.571 0 0"),
+    ("0.053 -0.2845 0", "0 0 0"),
+    ("0.0775 0.3425 0", "-1.571 0 0"),
+    ("0 0 0", "1.571 0 0"),
+    ("0.076 0.097 0", "-1.571 0 0"),
+]
+
+
+def urdf(origins, right_angle="1.571"):
+    joints = "".join(
+        f'<link name="{i}"/><joint name="j{i}" type="continuous"><parent link="{i - 1}"/>'
+        f'<child link="{i}"/><origin xyz="{xyz}" rpy="{rpy}"/><axis xyz="0 0 1"/></joint>'
+        for i, (xyz, rpy) in enumerate(origins, 1)
+    )
+    return f'<robot name="own"><link name="0"/>{joints}</robot>'.replace("1.571", right_angle)
+
+
+@pytest.mark.parametrize(
+    ("text", "structure"),
+    [
+        (urdf(DOOSAN), "spherical wrist"),
+        (urdf(DOOSAN, "1.57"), "spherical wrist"),
+        (urdf(XARM6), "offset wrist"),
+    ],
+)
+def test_a_file_with_three_digits_says_what_snap_gives_and_by_how_much_it_moves_the_tool(
+    text, structure
+):
+    robot, snapped = Robot.from_urdf(text), Robot.from_urdf(text, snap=1e-3)
+    found = re.search(r"snap=1e-3 gives (.*), moves the tool by up to (\S+) m\)", repr(robot))
+    assert (robot.structure, snapped.structure) == ("general", structure)
+    assert found[1] == structure
+    q = np.random.default_rng(8).uniform(-np.pi, np.pi, (5000, 6))
+    moved = np.linalg.norm((robot.fk(q) - snapped.fk(q))[:, :3, 3], axis=1).max()
+    # Of 64 postures and of 5000, in two digits.
+    assert 0.8 * moved < float(found[2]) < 1.05 * moved
+    assert found[2] in str(robot)

@@ -31,7 +31,7 @@ const RADII: [f64; 2] = [0.155, 0.03];
 const LINKS_APART: usize = 3;
 
 /// Postures in which links of an approximate body that always touch are looked for.
-const POSTURES: u32 = 64;
+pub(super) const POSTURES: u32 = 64;
 
 impl<const N: usize> Robot<N> {
     /// Return the robot with the shapes of its links, or without.
@@ -212,7 +212,7 @@ impl<const N: usize> Robot<N> {
     }
 
     /// A posture of a Weyl sequence that fills the limits, or a turn where a joint has none.
-    fn posture(&self, number: u32) -> [f64; N] {
+    pub(super) fn posture(&self, number: u32) -> [f64; N] {
         const PRIMES: [f64; 7] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0];
         let limits = self.limits().to_array();
         array::from_fn(|joint| {

@@ -2,6 +2,7 @@
 
 use alloc::borrow::Cow;
 
+use super::body::POSTURES;
 use super::joints::{Count, Joints};
 use super::reading::other_reading;
 use super::{Definition, Robot};
@@ -13,12 +14,8 @@ use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::structure::known::{self, Known, Recognized};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
-use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_SNAP, MOST_TOOL};
-use crate::report::{ConfigurationRule, Convention};
-
-/// Values of `snap` that are proposed for an arm that needs one [rad]; the least that helps is
-/// named.
-pub(crate) const SNAPS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, MOST_SNAP];
+use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_TOOL};
+use crate::report::{ConfigurationRule, Convention, SNAPS};
 
 impl Robot<6> {
     /// A robot from the parameters of an ortho-parallel arm with a spherical wrist.
@@ -114,10 +111,10 @@ where
         Ok(robot)
     }
 
-    /// Whether a table has the structure of a closed form.
+    /// The robot of a table with the structure of a closed form.
     #[cfg(feature = "urdf")]
-    pub(crate) fn has_closed_form(mdh: &Mdh<N>) -> bool {
-        known::closed_form(mdh, &Self::COUNT.known).is_ok()
+    pub(crate) fn in_closed_form(mdh: Mdh<N>) -> Option<Self> {
+        Self::closed(mdh, Self::COUNT)
     }
 }
 
@@ -142,9 +139,14 @@ impl<const N: usize> Robot<N> {
         let mut robot = Self::new(count, Definition::Mdh(mdh), recognized);
         robot.check_reach()?;
         if let Some(missing) = robot.missing_form {
-            robot.missing_form = Some(missing.proposing(robot.helpful_snap(), true));
+            robot.missing_form = Some(missing.proposing(robot.helpful_snap()));
         }
         Ok(robot)
+    }
+
+    fn closed(mdh: Mdh<N>, count: &'static Count<Self, N>) -> Option<Self> {
+        let solved = known::closed_form(&mdh, &count.known).ok()?;
+        Some(Self::new(count, Definition::Mdh(mdh), Recognized::new(solved, None)))
     }
 
     /// Check that the tool is no farther from an axis than [`MOST_REACH`].
@@ -174,19 +176,34 @@ impl<const N: usize> Robot<N> {
         self
     }
 
-    /// The least of the snaps that are proposed with which a table has a closed form.
-    fn helpful_snap(&self) -> Option<f64> {
+    /// The least of the snaps that are proposed with which a table has a closed form, with what that
+    /// is and how far it moves the tool.
+    fn helpful_snap(&self) -> Option<(u8, &'static str, f32)> {
         let Definition::Mdh(mdh) = &self.definition else { return None };
-        SNAPS.into_iter().find(|snap| {
-            let snapped = mdh.clone().snapped(*snap);
-            snapped.is_ok_and(|mdh| known::closed_form(&mdh, &self.count.known).is_ok())
+        (0..).zip(SNAPS).find_map(|(index, snap)| {
+            let snapped = mdh.clone().snapped(snap).ok()?;
+            Self::closed(snapped, self.count).map(|other| self.by_snap((index, other)))
         })
     }
 
-    /// Propose another `snap`, for a closed form or an offset wrist.
+    /// One of [`SNAPS`], the structure of the robot that it makes, and how far the tools of both are
+    /// apart in any of some postures [m].
+    fn by_snap(&self, (snap, other): (u8, Self)) -> (u8, &'static str, f32) {
+        let apart = |q: [f64; N]| {
+            let [own, other] = [self, &other].map(|robot| robot.fk(&q).translation.vector);
+            (own - other).norm()
+        };
+        let moves = (0..POSTURES).map(|number| apart(self.posture(number))).fold(0.0, f64::max);
+        #[expect(clippy::cast_possible_truncation, reason = "it is shown with two digits")]
+        let moves = moves as f32;
+        (snap, other.structure(), moves)
+    }
+
+    /// Propose another one of [`SNAPS`], with the robot that it makes.
     #[cfg(feature = "urdf")]
-    pub(crate) fn proposing(mut self, snap: Option<f64>, closed: bool) -> Self {
-        self.missing_form = self.missing_form.map(|missing| missing.proposing(snap, closed));
+    pub(crate) fn proposing(mut self, snap: Option<(u8, Self)>) -> Self {
+        let snap = snap.map(|snap| self.by_snap(snap));
+        self.missing_form = self.missing_form.map(|missing| missing.proposing(snap));
         self
     }
 

@@ -14,9 +14,6 @@ mod reading;
 #[cfg(feature = "serde")]
 mod stored;
 
-#[cfg(feature = "urdf")]
-pub(crate) use build::SNAPS;
-
 pub use joints::Joints;
 pub use margin::Margin;
 

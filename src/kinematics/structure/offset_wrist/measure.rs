@@ -12,11 +12,11 @@ use crate::kinematics::chain::dh::{DhRow, Mdh};
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::general::General;
 use crate::kinematics::thresholds::{LEAST_TWIST_SIN, POSITION_ROUNDING};
-use crate::report::{Pattern, Relation, UnknownStructure};
+use crate::report::{OFFSET_WRIST, Pattern, Relation, UnknownStructure};
 
 /// The conditions of an offset wrist.
 pub(crate) static PATTERN: Pattern = Pattern {
-    name: "offset wrist",
+    name: OFFSET_WRIST,
     title: "an offset wrist (axes 2 and 3 parallel, axes 4 and 5 meeting)",
     conditions: &[
         (Relation::Perpendicular, (1, 2)),
