@@ -1,4 +1,4 @@
-"""Arguments of Python functions that are no arrays: robots and whole numbers."""
+"""Arguments of Python functions that are no arrays: robots, whole numbers and names."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from irbkin._core import Robot
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from irbkin.errors import IrbkinError
 
 
@@ -41,3 +43,14 @@ def check_scipy(function: str) -> None:
         raise ImportError(
             f"{function} needs scipy: pip install 'irbkin[calibrate]'", name="scipy"
         ) from missing
+
+
+def close(name: str, known: Iterable[str]) -> str:
+    """The known names that are spelled like one, or the first ones, for a message."""
+    import difflib
+
+    names = sorted(known)
+    near = difflib.get_close_matches(name, names, 3, 0.5)
+    if near:
+        return f"did you mean {' or '.join(near)}?"
+    return f"known: {', '.join(names[:12])}" if names else "there are none"

@@ -3311,6 +3311,7 @@ class Body:
         excess: float | None = None,
         most: int = 4,
         packages: Mapping[str, str | PathLike[str]] | None = None,
+        joints: Mapping[str, float] | None = None,
     ) -> Body:
         """Fit capsules to the meshes of a URDF: they contain every triangle, and the inside of
         closed meshes. It needs `pip install 'irbkin[mesh]'`, and takes some 15 s for an arm.
@@ -3332,10 +3333,13 @@ class Body:
             most: Capsules of a link at most, 1 to 12.
             packages: Folder of each package that `package://` names; a folder of that name above
                 the URDF when not given.
+            joints: Where joints beside the arm are, by their names [rad or m]: their links, and
+                those of joints that mimic them, are in the body there alone.
 
         Raises:
-            InvalidModelError: As `Robot.from_urdf`; a file is no mesh, no link has a shape, or the
-                joint in front of one has no end.
+            InvalidModelError: As `Robot.from_urdf`; a file is no mesh, no link has a shape, the
+                joint in front of one has no end, or a joint is unknown, of the arm, or cannot be
+                where it is given.
             FileNotFoundError: A mesh is not found.
             ImportError: trimesh or scipy is not installed.
         """
@@ -3345,7 +3349,8 @@ class Body:
     @property
     def capsules(self) -> _Floats:
         """Both ends of the axis and the radius of each capsule [m], shape (k, 7), in the frame
-        of its link (`Robot.link_frames`).
+        of its link: of link k `Robot.link_frames(q)[k - 1]`, of link 0 the base, of link n + 1
+        the flange.
         """
     @property
     def pairs(self) -> list[tuple[int, int]]:

@@ -231,14 +231,19 @@ impl PyBody {
     ///     most: Capsules of a link at most, 1 to 12.
     ///     packages: Folder of each package that `package://` names; a folder of that name above
     ///         the URDF when not given.
+    ///     joints: Where joints beside the arm are, by their names [rad or m]: their links, and
+    ///         those of joints that mimic them, are in the body there alone.
     ///
     /// Raises:
-    ///     InvalidModelError: As `Robot.from_urdf`; a file is no mesh, no link has a shape, or the
-    ///         joint in front of one has no end.
+    ///     InvalidModelError: As `Robot.from_urdf`; a file is no mesh, no link has a shape, the
+    ///         joint in front of one has no end, or a joint is unknown, of the arm, or cannot be
+    ///         where it is given.
     ///     FileNotFoundError: A mesh is not found.
     ///     ImportError: trimesh or scipy is not installed.
     #[staticmethod]
-    #[pyo3(signature = (urdf, base=None, tip=None, *, excess=None, most=4, packages=None))]
+    #[pyo3(signature = (
+        urdf, base=None, tip=None, *, excess=None, most=4, packages=None, joints=None
+    ))]
     fn fit(
         urdf: &Bound<'_, PyAny>,
         base: Option<&str>,
@@ -246,9 +251,10 @@ impl PyBody {
         excess: Option<f64>,
         most: i64,
         packages: Option<&Bound<'_, PyAny>>,
+        joints: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Self>> {
         let fit = urdf.py().import("irbkin.body")?.getattr("_fit_body")?;
-        Ok(fit.call1((urdf, base, tip, excess, most, packages))?.extract()?)
+        Ok(fit.call1((urdf, base, tip, excess, most, packages, joints))?.extract()?)
     }
 
     /// The link of each capsule, shape (k,).
@@ -259,7 +265,7 @@ impl PyBody {
     }
 
     /// Both ends of the axis and the radius of each capsule [m], shape (k, 7), in the frame of its
-    /// link (`Robot.link_frames`).
+    /// link: of link k `Robot.link_frames(q)[k - 1]`, of link 0 the base, of link n + 1 the flange.
     #[getter]
     fn capsules<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         matrix(py, &self.0.capsules().iter().map(|own| row_of(&own.capsule)).collect::<Vec<_>>())

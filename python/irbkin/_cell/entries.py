@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 import reprlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
 import numpy as np
 import numpy.typing as npt
 
+from irbkin._arguments import close
 from irbkin.errors import InvalidModelError, IrbkinError
 
 
@@ -119,15 +119,6 @@ def parsed(text: str) -> dict[str, Any]:
 
 def _is_number(value: object) -> bool:
     return isinstance(value, float) or (type(value) is int and abs(value) < 1e308)
-
-
-def close(name: str, known: Iterable[str]) -> str:
-    """The known names that are spelled like one, or the first ones, for a message."""
-    names = sorted(known)
-    near = difflib.get_close_matches(name, names, 3, 0.5)
-    if near:
-        return f"did you mean {' or '.join(near)}?"
-    return f"known: {', '.join(names[:12])}" if names else "there are none"
 
 
 def line_of(text: str, keys: tuple[str, ...]) -> int | None:

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._cell.entries import Entry, close
+from irbkin._arguments import close
+from irbkin._cell.entries import Entry
 from irbkin._core import pose
 from irbkin.errors import IrbkinError
 

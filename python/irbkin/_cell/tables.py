@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from irbkin._cell.entries import Entry, close, parsed
+from irbkin._arguments import close
+from irbkin._cell.entries import Entry, parsed
 from irbkin._cell.frames import Frames
 from irbkin._core import Cell, Robot, Shape
 from irbkin._mesh_files import mesh

@@ -14,10 +14,10 @@ from xml.etree import ElementTree
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._cell.joints import described, follows, motion_of, positions_of
 from irbkin._core import Cell, Shape, _urdf_text
 from irbkin._mesh_files import mesh, triangles
 from irbkin._urdf_elements import attribute_of, number_of, numbers_of, origin_of
+from irbkin._urdf_joints import described, follows, motion_of, positions_of
 from irbkin.errors import InvalidModelError, IrbkinError
 
 _LAST_LINK = 7

@@ -16,7 +16,7 @@ from irbkin._core import Body, Robot, _urdf_swept
 from irbkin._fit.capsules import fitted
 from irbkin._fit.pairs import pairs_of
 from irbkin._fit.solid import Array, Solid
-from irbkin._fit.urdf import links_of
+from irbkin._fit.urdf import fixed, links_of, text_and_folder
 from irbkin._mesh_files import triangles
 from irbkin.errors import InvalidModelError
 
@@ -52,16 +52,21 @@ def body_of(
     excess: float | None,
     most: int,
     packages: Mapping[str, str | os.PathLike[str]] | None,
+    joints: Mapping[str, float] | None,
 ) -> Body:
     """Return the body of a URDF; see `Body.fit`."""
     check(excess, most)
-    robot = Robot.from_urdf(urdf, base, tip)
-    triangles, beside, remark = links_of(urdf, base, tip, packages or {})
+    text, folder = text_and_folder(urdf)
+    if joints:
+        text = fixed(text, base, tip, joints)
+    robot = Robot.from_urdf(text, base, tip)
+    triangles, beside, remark = links_of(text, folder, base, tip, packages or {})
+    remark += "".join(f"; {name} at {position:g}" for name, position in (joints or {}).items())
     solids = {link: Solid(corners) for link, corners in sorted(triangles.items())}
     found = [(link, *fitted(solid, excess, most)) for link, solid in solids.items()]
     for name, (link, corners) in beside.items():
         rows, outside = fitted(Solid(corners), excess, most)
-        rows, growth = _urdf_swept(urdf, base, tip, name, [link] * len(rows), rows)
+        rows, growth = _urdf_swept(text, base, tip, name, [link] * len(rows), rows)
         found.append((link, rows, outside + growth))
     links = np.concatenate([np.full(len(rows), link) for link, rows, _ in found])
     capsules = np.concatenate([rows for _, rows, _ in found])

@@ -9,10 +9,11 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from irbkin._core import _urdf_links, _urdf_text
+from irbkin._core import Robot, _urdf_links, _urdf_text
 from irbkin._fit.solid import Array
 from irbkin._mesh_files import triangles
 from irbkin._urdf_elements import numbers_of, origin_of
+from irbkin._urdf_joints import fix
 from irbkin.errors import InvalidModelError, IrbkinError
 
 # Sides of the prism around a cylinder.
@@ -21,8 +22,22 @@ SIDES = 32
 Packages = Mapping[str, "str | os.PathLike[str]"]
 
 
+def fixed(
+    text: str | bytes, base: str | None, tip: str | None, joints: Mapping[str, float]
+) -> bytes:
+    """The text with joints beside the arm, as of a gripper, fixed where they are given."""
+    try:
+        moving = Robot.from_urdf(text, base, tip).joint_names or ()
+    except InvalidModelError:
+        # Without these joints there may be an arm.
+        moving = ()
+    root = ElementTree.fromstring(_urdf_text(text))
+    fix(root, joints, moving)
+    return ElementTree.tostring(root)
+
+
 def links_of(
-    urdf: str | bytes | os.PathLike[str], base: str | None, tip: str | None, packages: Packages
+    text: str | bytes, folder: Path | None, base: str | None, tip: str | None, packages: Packages
 ) -> tuple[dict[int, Array], dict[str, tuple[int, Array]], str]:
     """The triangles of each link by its number, shape (n, 3, 3), in the frame of the link [m].
 
@@ -30,12 +45,11 @@ def links_of(
     their names, the numbers and triangles, in their own frames, of links behind joints beside the
     arm; and a remark on these.
     """
-    text, folder = text_and_folder(urdf)
     root = ElementTree.fromstring(_urdf_text(text))
     elements = {link.get("name"): link for link in root.findall("link")}
     found: dict[int, list[Array]] = {}
     beside: dict[str, tuple[int, Array]] = {}
-    links, remark = _urdf_links(urdf, base, tip)
+    links, remark = _urdf_links(text, base, tip)
     for name, number, placed in links:
         link = elements[name]
         parts = []

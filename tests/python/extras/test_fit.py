@@ -159,6 +159,37 @@ def test_a_finger_is_in_a_fitted_body_wherever_its_joint_is(urdf, kind):
         assert outside(points, rows) <= 1e-9
 
 
+def test_a_body_is_fitted_at_an_opening_of_a_gripper(urdf):
+    finger = FINGER.format("0.02 0.03 0.1", "prismatic", "tool0")
+    other = finger.replace("slide", "second").replace('"finger"', '"other"')
+    other = other.replace("<limit", '<mimic joint="slide" multiplier="-1"/><limit')
+    text = urdf.read_text().replace("</robot>", finger).replace("</robot>", other)
+    path = urdf.with_name("gripper.urdf")
+    path.write_text(text)
+    fit = lambda **joints: Body.fit(path, tip="tool0", most=2, joints=joints)  # noqa: E731
+    body = fit(slide=0.04)
+    assert body.source.endswith("; slide at 0.04")
+    rows = body.capsules[body.links == 7]
+    corners = np.array([*np.ndindex(2, 2, 2)]) * [0.02, 0.03, 0.1] - [0.01, 0.015, 0]
+    for value in (0.04, -0.04):
+        assert outside(np.add(corners, [0, 0.01 + value, 0.02]), rows) <= 1e-9
+    # Between them there is room.
+    assert outside(np.array([[0, 0.01, 0.07]]), rows) > 0.005
+    same = text.replace('"prismatic"', '"fixed"').replace('xyz="0 0.01 0.02"', 'xyz="{}"')
+    same = same.replace("{}", "0 0.05 0.02", 1).replace("{}", "0 -0.03 0.02")
+    same = Body.fit(same, tip="tool0", most=2, packages={"rods": path.parents[1]})
+    np.testing.assert_allclose(rows, same.capsules[same.links == 7], atol=1e-9)
+    for joints, words in [
+        ({"slid": 0.02}, "there is no joint slid that moves; did you mean slide"),
+        ({"slide": 0.06}, r"the joint slide \(0 to 0.05 m\) cannot be at 0.06"),
+        ({"slide": np.nan}, "cannot be at nan"),
+        ({"second": 0.0}, "the joint second follows slide: give where that is"),
+        ({"joint_2": 0.1}, "the joint joint_2 is of the arm, and moves"),
+    ]:
+        with pytest.raises(irbkin.InvalidModelError, match=words):
+            fit(**joints)
+
+
 def test_what_a_fitted_body_cannot_contain_is_named(urdf):
     fit = lambda *finger: Body.fit(  # noqa: E731
         urdf.read_text().replace("</robot>", FINGER.format("0.02 0.02 0.1", *finger)),

@@ -1,17 +1,17 @@
-"""Joints of a URDF that are where they are given: doors, drawers, lifts."""
+"""Joints of a URDF that are where they are given: doors, drawers, lifts, fingers."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from xml.etree import ElementTree
 
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._cell.entries import close
-from irbkin._core import pose
-from irbkin._urdf_elements import attribute_of, number_of, numbers_of
+from irbkin._arguments import close
+from irbkin._core import pose, to_xyz_euler_zyx
+from irbkin._urdf_elements import attribute_of, number_of, numbers_of, origin_of
 from irbkin.errors import InvalidModelError
 
 _UNITS = {"revolute": "rad", "continuous": "rad", "prismatic": "m"}
@@ -42,6 +42,27 @@ def positions_of(
                 multiplier = number_of(mimic, "multiplier", 1.0)
                 at[name] = multiplier * at[first] + number_of(mimic, "offset", 0.0)
     return at
+
+
+def fix(root: ElementTree.Element, given: Mapping[str, float], moving: Collection[str]) -> None:
+    """Fix joints of a URDF at the positions that are given, and those that follow them.
+
+    Those in `moving` must not be.
+    """
+    joints = {attribute_of(it, "name"): it for it in root.findall("joint")}
+    joints = {name: it for name, it in joints.items() if attribute_of(it, "type") != "fixed"}
+    for name in given:
+        if name in moving:
+            raise InvalidModelError(f"the joint {name} is of the arm, and moves: leave it out")
+    for name, position in positions_of(joints, given).items():
+        joint = joints[name]
+        xyz, zyx = to_xyz_euler_zyx(origin_of(joint) @ motion_of(joint, position))
+        for origin in joint.findall("origin"):
+            joint.remove(origin)
+        rows = {"xyz": xyz, "rpy": zyx[::-1]}
+        words = {key: " ".join(map(repr, row.tolist())) for key, row in rows.items()}
+        ElementTree.SubElement(joint, "origin", words)
+        joint.set("type", "fixed")
 
 
 def follows(joint: ElementTree.Element, joints: Mapping[str, ElementTree.Element]) -> str:
