@@ -158,6 +158,7 @@ impl<'a> Joint<'a> {
     /// The limits of a joint that may be beside the chain [rad or m], infinite for none.
     pub(super) fn range(&self) -> Result<[f64; 2], UrdfFault> {
         match self.limit() {
+            _ if self.kind == "fixed" => Ok([0.0; 2]),
             Err(UrdfFault::NoLimit { .. }) => Ok([f64::NEG_INFINITY, f64::INFINITY]),
             limit => limit.map(|(range, _)| range),
         }

@@ -80,8 +80,7 @@ impl Carrier {
 }
 
 impl Sweep {
-    /// The way of a joint that is behind so many others beside the chain. One that mimics another goes where that does, and where its own limits
-    /// allow.
+    /// The way of a joint that is behind so many others beside the chain.
     pub(super) fn of(joint: &Joint<'_>, before: usize, tree: &Tree<'_>) -> Result<Self, UrdfFault> {
         let refused = |what| UrdfFault::Beside {
             link: tree.links[joint.child].to_owned(),
@@ -96,14 +95,8 @@ impl Sweep {
         if before == MOST_JOINTS {
             return Err(refused(alloc::format!("behind {MOST_JOINTS} others")));
         }
-        let [lower, upper] = joint.range()?;
-        let mut range = [lower.min(upper), lower.max(upper)];
-        let followed = tree.joint(joint.followed());
-        if let (Some([multiplier, offset]), Some(followed)) = (joint.mimic_numbers()?, followed) {
-            for end in followed.range()?.map(|end| multiplier * end + offset) {
-                range = [range[0].min(end), range[1].max(end)];
-            }
-        }
+        let others = alloc::format!("a mimic behind {MOST_JOINTS} others");
+        let mut range = range_of(joint, tree, MOST_JOINTS)?.ok_or_else(|| refused(others))?;
         // NaN where both are infinite.
         let way = range[1] - range[0];
         if is_slide && (way.is_nan() || way > MOST_REACH) {
@@ -150,4 +143,26 @@ impl Sweep {
         });
         made.collect()
     }
+}
+
+/// Where a joint may be, infinite for everywhere: where its own limits allow, and where the joint
+/// takes it that it follows, which may follow another; `None` if more than so many others do.
+fn range_of(
+    joint: &Joint<'_>,
+    tree: &Tree<'_>,
+    others: usize,
+) -> Result<Option<[f64; 2]>, UrdfFault> {
+    let [lower, upper] = joint.range()?;
+    let mut range = [lower.min(upper), lower.max(upper)];
+    let followed = tree.joint(joint.followed());
+    if let (Some([multiplier, offset]), Some(followed)) = (joint.mimic_numbers()?, followed) {
+        let Some(others) = others.checked_sub(1) else { return Ok(None) };
+        let Some(ends) = range_of(followed, tree, others)? else { return Ok(None) };
+        for end in ends {
+            // Of an endless way a multiplier of zero leaves nothing.
+            let end = if multiplier == 0.0 { offset } else { multiplier * end + offset };
+            range = [range[0].min(end), range[1].max(end)];
+        }
+    }
+    Ok(Some(range))
 }

@@ -352,6 +352,35 @@ def test_links_behind_a_joint_beside_the_arm_are_in_the_body_wherever_it_is():
 FINGER = collision('<box size="0.02 0.02 0.1"/>', '<origin xyz="0 0 0.05"/>')
 
 
+@pytest.mark.parametrize(
+    ("first", "second", "widest"),
+    [
+        # 0.03 .. 0.04 of a joint that goes to 0.02 itself, and is taken to 0.04.
+        ('multiplier="2"', 'multiplier="1" offset="0.01"', 0.05),
+        # The first joint turns without an end, and neither moves the second one.
+        ('multiplier="0" offset="0.03"', 'multiplier="1"', 0.03),
+    ],
+)
+def test_a_joint_that_follows_a_follower_goes_where_the_first_takes_it(first, second, widest):
+    kind = "continuous" if "0.03" in first else "prismatic"
+    slides = [("a", "", (0, 0.02)), ("b", "a", (0, 0.01)), ("c", "b", (0, 0.01))]
+    text = ""
+    for (name, of, limits), how in zip(slides, ["", first, second], strict=True):
+        mimic = f'<mimic joint="{of}" {how}/>' if of else ""
+        own = (kind, None) if kind == "continuous" and not of else ("prismatic", limits)
+        shape = collision('<sphere radius="0.01"/>') if name == "c" else ""
+        text += f'<link name="{name}">{shape}</link>'
+        text += joint(name, own[0], "tool0", name, np.eye(4), (0, 1, 0), own[1], mimic)
+    text = Robot("IRB 2600-12/1.65").to_urdf().replace("</robot>", text + "</robot>")
+    body = Robot.from_urdf(text, tip="tool0").body
+    reached = (body.capsules[:, [1, 4]] + body.capsules[:, 6:]).max()
+    assert widest + 0.01 <= reached < widest + 0.016
+    # In a circle, no joint has an end.
+    circle = text.replace('<mimic joint="a"', '<mimic joint="c"')
+    with pytest.raises(irbkin.InvalidModelError, match='joint "c", which is a mimic behind'):
+        irbkin.Cell().collides(Robot.from_urdf(circle, tip="tool0"), np.zeros(6))
+
+
 def with_finger(kind, limits=(0, 0.04), parent="tool0"):
     shapes = {"link_5": collision('<sphere radius="0.05"/>')}
     hand = joint("slide", kind, parent, "finger", irbkin.pose([0, 0, 0.06]), (0, 1, 0), limits)
