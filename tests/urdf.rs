@@ -414,8 +414,15 @@ fn invalid_urdf_is_reported_with_its_line() {
         ),
         (
             "<sdf version='1.6'/>",
-            "the first element is <sdf>, it must be <robot>: convert the file to URDF",
+            "the first element is <sdf>, it must be <robot>: convert the file to URDF, or take the \
+             one that it was made of: irbkin knows no converter",
         ),
+        (
+            "<mujoco/>",
+            "the first element is <mujoco>, it must be <robot>: convert the file to URDF \
+             (mjcf-urdf-simple-converter on PyPI does)",
+        ),
+        ("<a/>", "the first element is <a>, it must be <robot>: convert the file to URDF"),
         ("<robot name='a'/>", "the robot has no links"),
         ("<robot>\n<link/></robot>", "line 2: <link> has no name"),
         ("<robot><joint/></robot>", "line 1: <joint> has no name"),
@@ -525,7 +532,11 @@ fn only_independent_revolute_joints_may_be_between_base_and_tip() {
     assert_eq!(
         tool(&fixed),
         "URDF: 5 revolute joints lead from \"base_link\" to \"tool0\", there must be 6 (choose \
-         base and tip)"
+         base and tip); 5 are not enough, since a pose has six coordinates"
+    );
+    assert_eq!(
+        words(&fixed),
+        format!("{ends}, \"tool0\" (5); 5 are not enough, since a pose has six coordinates")
     );
     // What is not between them does not matter.
     let aside = IRB2600.replace(

@@ -157,9 +157,15 @@ fn messages_of_models() {
 fn messages_of_urdf() {
     check(&[
         (
-            UrdfFault::NoTip { base: "b".into(), wanted: vec![6, 7], ends: names(&["\"e\" (5)"]) }
-                .into(),
-            "URDF: 6 or 7 revolute joints lead from \"b\" to no end of a chain: \"e\" (5)",
+            UrdfFault::NoTip {
+                base: "b".into(),
+                wanted: vec![6, 7],
+                ends: names(&["\"e\" (5)"]),
+                most: 5,
+            }
+            .into(),
+            "URDF: 6 or 7 revolute joints lead from \"b\" to no end of a chain: \"e\" (5); 5 are not \
+             enough, since a pose has six coordinates",
         ),
         (
             UrdfFault::Loop { links: (0..14).collect() }.into(),

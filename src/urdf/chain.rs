@@ -281,7 +281,14 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<(usize, St
         }
         (None, None) => {
             let remarks = ends.iter().map(|&link| remark(tree, link, ways[link])).collect();
-            let fault = UrdfFault::NoTip { base, wanted: wanted_counts, ends: remarks };
+            let is_whole = |way: &Way<'_>| way.barred_by.is_none() && !way.coupled;
+            let of_ends = || ends.iter().map(|&link| ways[link]);
+            let most = of_ends()
+                .map(|way| way.turning)
+                .max()
+                .filter(|_| of_ends().all(|it| is_whole(&it)));
+            let most = most.unwrap_or_default();
+            let fault = UrdfFault::NoTip { base, wanted: wanted_counts, ends: remarks, most };
             Err(proposing(fault, tree, base_link, &ends, wanted))
         }
     }

@@ -25,7 +25,14 @@ pub enum UrdfFault {
     /// More could not be read in linear time.
     #[error("line {line}: <{element}> has too many attributes: at most {bound} are read")]
     Attributes { line: usize, element: String, bound: usize },
-    #[error("the first element is <{found}>, it must be <robot>: convert the file to URDF")]
+    #[error(
+        "the first element is <{found}>, it must be <robot>: convert the file to URDF{}",
+        match &**.found {
+            "mujoco" => " (mjcf-urdf-simple-converter on PyPI does)",
+            "sdf" => ", or take the one that it was made of: irbkin knows no converter",
+            _ => "",
+        }
+    )]
     NotRobot { found: String },
     /// `newest`: the minor number of the newest version that is read.
     #[error("the robot has the version {version:?}, it must be 1.0 to 1.{newest}")]
@@ -87,12 +94,12 @@ pub enum UrdfFault {
          name the end of the arm"
     )]
     MayBeGripper { base: String, joint: String, ends: Names },
-    /// The ends of chains, each with the reason why it is not the tip.
+    /// The ends of chains, each with the reason why it is not the tip. `most`: joints of the longest.
     #[error(
-        "{} revolute joints lead from {base:?} to no end of a chain: {ends}",
-        Listed(.wanted, " or ")
+        "{} revolute joints lead from {base:?} to no end of a chain: {ends}{}",
+        Listed(.wanted, " or "), TooFew(*.most)
     )]
-    NoTip { base: String, wanted: Vec<usize>, ends: Names },
+    NoTip { base: String, wanted: Vec<usize>, ends: Names, most: usize },
     /// `chains`: the bases and tips of chains that could be taken.
     #[error("{fault}; pass {}", Listed(.chains, " or "))]
     Proposing { fault: Box<Self>, chains: Vec<String> },
@@ -110,8 +117,8 @@ pub enum UrdfFault {
     Mimic { joint: String, of: String, multiplier: String },
     #[error(
         "{found} revolute joints lead from {base:?} to {tip:?}, there must be {} (choose base and \
-         tip)",
-        Listed(.wanted, " or ")
+         tip){}",
+        Listed(.wanted, " or "), TooFew(*.found)
     )]
     JointCount { base: String, tip: String, found: usize, wanted: Vec<usize> },
     #[error("joint {joint:?} is revolute and has no <limit>; a joint without limits is continuous")]
@@ -145,6 +152,18 @@ pub enum UrdfFault {
     Beside { link: String, joint: String, what: String },
     #[error("the links have more than {bound} collision shapes, or too many that are swept")]
     Shapes { bound: usize },
+}
+
+/// Why so many joints are not enough, of a number that arms have.
+struct TooFew(usize);
+
+impl fmt::Display for TooFew {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            few @ 3..=5 => write!(f, "; {few} are not enough, since a pose has six coordinates"),
+            _ => Ok(()),
+        }
+    }
 }
 
 /// None or several links without a parent.
