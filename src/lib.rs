@@ -166,9 +166,10 @@ pub mod pose {
     pub use crate::kinematics::{
         pose_from_euler_zyx as from_euler_zyx, pose_from_isometry as from_isometry,
         pose_from_matrix as from_matrix, pose_from_rotation as from_rotation,
-        pose_from_rows as from_rows, pose_from_wxyz as from_wxyz, pose_from_xyzw as from_xyzw,
-        pose_to_euler_zyx as to_euler_zyx, pose_to_isometry as to_isometry,
-        pose_to_matrix as to_matrix, pose_to_rows as to_rows, pose_to_wxyz as to_wxyz,
+        pose_from_rotvec as from_rotvec, pose_from_rows as from_rows, pose_from_wxyz as from_wxyz,
+        pose_from_xyzw as from_xyzw, pose_to_euler_zyx as to_euler_zyx,
+        pose_to_isometry as to_isometry, pose_to_matrix as to_matrix, pose_to_rows as to_rows,
+        pose_to_wxyz as to_wxyz,
     };
 }
 

@@ -190,6 +190,7 @@ def pose(
     xyzw: npt.ArrayLike | None = None,
     euler_zyx: npt.ArrayLike | None = None,
     rotation: npt.ArrayLike | _Rotation | None = None,
+    rotvec: npt.ArrayLike | None = None,
 ) -> _Floats:
     """Poses from translations and orientations.
 
@@ -201,6 +202,8 @@ def pose(
         xyzw: Quaternions x, y, z, w, as SciPy and ROS order them, shape (..., 4); normalized.
         euler_zyx: Angles rz, ry, rx [rad], shape (..., 3): Rz(rz) Ry(ry) Rx(rx).
         rotation: Rotation matrices, shape (..., 3, 3), or a `scipy.spatial.transform.Rotation`.
+        rotvec: Rotation vectors rx, ry, rz [rad], shape (..., 3), axis times angle, as Universal
+            Robots' controllers show them.
 
     Returns:
         Homogeneous matrices, shape (..., 4, 4).

@@ -40,10 +40,10 @@ pub enum PoseFault {
     #[error("quaternion norm is {norm:.6}, it must be 1 within {bound:.0e} (order is {order})")]
     QuaternionNorm { norm: f64, bound: f64, order: &'static str },
     #[error(
-        "euler_zyx[{index}] is {value} rad, its size must be at most {bound:.4} rad (did you pass \
+        "{field}[{index}] is {value} rad, its size must be at most {bound:.4} rad (did you pass \
          degrees?)"
     )]
-    EulerAngle { index: usize, value: f64, bound: f64 },
+    Angle { field: &'static str, index: usize, value: f64, bound: f64 },
     #[error(
         "the tool center point is {length:.1} m from the flange, it must be at most {bound:.1} m, \
          ten times the size of the arm (is the tool in millimeters? meters are wanted)"

@@ -50,8 +50,8 @@ pub(crate) use pose::checked_pose;
 pub(crate) use pose::constant_pose;
 pub use pose::matrix::{pose_from_isometry, pose_from_matrix, pose_to_isometry, pose_to_matrix};
 pub use pose::{
-    Pose, PoseDifference, pose_from_euler_zyx, pose_from_rotation, pose_from_rows, pose_from_wxyz,
-    pose_from_xyzw, pose_to_euler_zyx, pose_to_rows, pose_to_wxyz,
+    Pose, PoseDifference, pose_from_euler_zyx, pose_from_rotation, pose_from_rotvec,
+    pose_from_rows, pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx, pose_to_rows, pose_to_wxyz,
 };
 pub use robot::any::{AnyRobot, ByJoints};
 pub use robot::{Definition, Joints, Margin, Robot};

@@ -12,8 +12,8 @@ use super::signals::detached;
 use super::targets::{pose_array, single_pose};
 use crate::error::Error;
 use crate::kinematics::{
-    Pose, pose_from_euler_zyx, pose_from_rotation, pose_from_rows, pose_from_wxyz, pose_from_xyzw,
-    pose_to_euler_zyx, pose_to_wxyz,
+    Pose, pose_from_euler_zyx, pose_from_rotation, pose_from_rotvec, pose_from_rows,
+    pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx, pose_to_wxyz,
 };
 
 /// Poses from translations and orientations.
@@ -26,6 +26,8 @@ use crate::kinematics::{
 ///     xyzw: Quaternions x, y, z, w, as SciPy and ROS order them, shape (..., 4); normalized.
 ///     euler_zyx: Angles rz, ry, rx [rad], shape (..., 3): Rz(rz) Ry(ry) Rx(rx).
 ///     rotation: Rotation matrices, shape (..., 3, 3), or a `scipy.spatial.transform.Rotation`.
+///     rotvec: Rotation vectors rx, ry, rz [rad], shape (..., 3), axis times angle, as Universal
+///         Robots' controllers show them.
 ///
 /// Returns:
 ///     Homogeneous matrices, shape (..., 4, 4).
@@ -36,16 +38,22 @@ use crate::kinematics::{
 ///         index of the first.
 ///     TypeError: Several orientations are given, or an argument is not a number.
 #[pyfunction]
-#[pyo3(signature = (xyz, wxyz=None, xyzw=None, euler_zyx=None, rotation=None))]
+#[pyo3(signature = (xyz, wxyz=None, xyzw=None, euler_zyx=None, rotation=None, rotvec=None))]
 pub(super) fn pose<'py>(
     xyz: &Bound<'py, PyAny>,
     wxyz: Option<&Bound<'py, PyAny>>,
     xyzw: Option<&Bound<'py, PyAny>>,
     euler_zyx: Option<&Bound<'py, PyAny>>,
     rotation: Option<&Bound<'py, PyAny>>,
+    rotvec: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let orientations =
-        [("wxyz", wxyz), ("xyzw", xyzw), ("euler_zyx", euler_zyx), ("rotation", rotation)];
+    let orientations = [
+        ("wxyz", wxyz),
+        ("xyzw", xyzw),
+        ("euler_zyx", euler_zyx),
+        ("rotvec", rotvec),
+        ("rotation", rotation),
+    ];
     if xyz.is_instance_of::<PyFloat>() || xyz.is_instance_of::<PyInt>() {
         return Err(PyTypeError::new_err("xyz is one argument of three numbers: pose([x, y, z])"));
     }
@@ -63,6 +71,7 @@ pub(super) fn pose<'py>(
         Some((name @ "euler_zyx", value)) => {
             made(xyz, Some(value), name, &[3], pose_from_euler_zyx)
         }
+        Some((name @ "rotvec", value)) => made(xyz, Some(value), name, &[3], pose_from_rotvec),
         Some((name, value)) => {
             let matrix = match value.getattr_opt("as_matrix")? {
                 Some(as_matrix) => &as_matrix.call0()?,

@@ -49,6 +49,20 @@ def test_half_turns_have_a_quaternion(axis):
     np.testing.assert_allclose(np.abs(found), np.abs(wxyz), rtol=0, atol=ROUNDING)
 
 
+@given(numbers(-5, 5, 3), quaternions())
+def test_a_rotation_vector_is_axis_times_angle(xyz, wxyz):
+    made = irbkin.pose(xyz, rotvec=rotvec_of(wxyz))
+    np.testing.assert_allclose(made, pose_of(xyz, wxyz), rtol=0, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("angle", [0, 1e-300, 1e-160, 1e-9, 1, np.pi - 1e-9, np.pi, 2 * np.pi])
+def test_a_rotation_vector_is_right_at_any_angle(angle):
+    for sign, name in [(1, "x"), (-1, "y"), (1, "z")]:
+        rotvec = sign * angle * np.eye(3)["xyz".index(name)]
+        made = irbkin.pose([0, 0, 0], rotvec=rotvec)
+        np.testing.assert_allclose(made, turn(name, sign * angle), rtol=0, atol=ROUNDING)
+
+
 @given(numbers(-5, 5, 3), ANGLES)
 def test_euler_angles_are_rz_ry_rx(xyz, angles):
     made = irbkin.pose(xyz, euler_zyx=angles)
@@ -140,14 +154,21 @@ def orientations(many):
         "xyzw": np.roll(wxyz, -1, axis=-1),
         "euler_zyx": irbkin.to_xyz_euler_zyx(many)[1],
         "rotation": many[..., :3, :3],
+        "rotvec": rotvec_of(wxyz),
     }
+
+
+def rotvec_of(wxyz):
+    half = np.linalg.norm(wxyz[..., 1:], axis=-1, keepdims=True)
+    angle = 2 * np.arctan2(half, wxyz[..., :1])
+    return wxyz[..., 1:] * np.divide(angle, half, out=np.full_like(half, 2), where=half > 0)
 
 
 MANY = np.stack([irbkin.pose([i, 2, 3], euler_zyx=[0.1 * i, 0.2, -0.3]) for i in range(6)])
 MANY = MANY.reshape(2, 3, 4, 4)
 
 
-@pytest.mark.parametrize("way", ["wxyz", "xyzw", "euler_zyx", "rotation"])
+@pytest.mark.parametrize("way", ["wxyz", "xyzw", "euler_zyx", "rotation", "rotvec"])
 def test_poses_are_broadcast_and_each_is_the_one_made_alone(way):
     turns = orientations(MANY)[way]
     xyz = MANY[..., :3, 3]
@@ -212,6 +233,8 @@ def test_poses_come_apart_as_each_does_alone():
         ({"xyzw": [0, 0, np.nan, 1]}, r"^xyzw\[2\] is NaN"),
         ({"xyzw": [2, 0, 0, 1]}, r"^quaternion norm is .* \(order is x, y, z, w\)"),
         ({"euler_zyx": [[0, 0, 0], [0, np.inf, 0]]}, r"row \[1\]: euler_zyx\[1\] is inf"),
+        ({"rotvec": [0, 90, 0]}, r"^rotvec\[1\] is 90 rad, .* \(did you pass degrees\?\)"),
+        ({"rotvec": [0, 0, np.nan]}, r"^rotvec\[2\] is NaN"),
         ({"rotation": np.diag([1, 1, -1])}, "^pose rotation mirrors"),
         ({"rotation": [np.eye(3), 2 * np.eye(3)]}, r"row \[1\]: pose rotation is off orthonormal"),
         ({"rotation": np.full((3, 3), np.nan)}, r"^pose\[0, 0\] is NaN"),

@@ -211,13 +211,34 @@ fn pose_of_quaternion(xyz: [f64; 3], wxyz: [f64; 4], order: &'static str) -> Res
 /// [`Error::InvalidPose`] when an element is not finite, a coordinate exceeds [`MOST_LENGTH`], or
 /// an angle exceeds a full turn, as degrees do.
 pub fn pose_from_euler_zyx(xyz: [f64; 3], zyx: [f64; 3]) -> Result<Pose, Error> {
-    check_finite("xyz", &xyz)?;
-    check_near("xyz", xyz)?;
-    check_finite("euler_zyx", &zyx)?;
-    if let Some(index) = zyx.iter().position(|angle| angle.abs() > MOST_EULER) {
-        return Err(PoseFault::EulerAngle { index, value: zyx[index], bound: MOST_EULER }.into());
-    }
+    check_position(xyz)?;
+    check_angles("euler_zyx", &zyx)?;
     Ok(pose_of_zyx(xyz, zyx.map(f64::sin_cos)))
+}
+
+/// The pose of a translation [m] and a rotation vector, its axis times its angle [rad], in which
+/// Universal Robots' controllers show orientations.
+///
+/// # Errors
+///
+/// As [`pose_from_euler_zyx`].
+pub fn pose_from_rotvec(xyz: [f64; 3], rotvec: [f64; 3]) -> Result<Pose, Error> {
+    check_position(xyz)?;
+    check_angles("rotvec", &rotvec)?;
+    let angle = Vector3::from(rotvec).norm();
+    let (sin, w) = (0.5 * angle).sin_cos();
+    let part = if angle > 0.0 { sin / angle } else { 0.5 };
+    let [x, y, z] = rotvec.map(|component| part * component);
+    pose_of_quaternion(xyz, [w, x, y, z], "w, x, y, z")
+}
+
+/// Check angles that are given in radians.
+fn check_angles(field: &'static str, angles: &[f64; 3]) -> Result<(), Error> {
+    check_finite(field, angles)?;
+    let Some(index) = angles.iter().position(|angle| angle.abs() > MOST_EULER) else {
+        return Ok(());
+    };
+    Err(PoseFault::Angle { field, index, value: angles[index], bound: MOST_EULER }.into())
 }
 
 /// The pose of a model's constants, as [`pose_from_euler_zyx`] for finite input; quarter turns are
