@@ -103,7 +103,7 @@ fn no_collision_of_the_meshes_is_missed() {
         println!(
             "{name}: {all} postures, meshes touch in {meshes}, capsules in {capsules}, {far} of these more than 25 mm apart"
         );
-        assert!(*meshes > 20 && *far * 20 <= *all, "{name}: {far} of {all} false alarms");
+        assert!(*meshes > 20 && *far * 200 <= *all, "{name}: {far} of {all} false alarms");
     }
     assert_eq!(counts.len(), 6);
 }

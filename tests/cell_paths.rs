@@ -3,7 +3,7 @@
 
 use crate::suite::common::{Rng, enough};
 
-use irbkin::body::Shape;
+use irbkin::body::{Body, Shape};
 use irbkin::cell::{Cell, Contact, Near, RESOLUTION};
 use irbkin::trajectory::{SplineKind, spline};
 use irbkin::{AnyRobot, Pose, Robot};
@@ -56,7 +56,7 @@ fn any_cell<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> Cell {
     let floor = Shape::half_space([0.0, 0.1, 1.0], [0.0, 0.0, -0.3]).unwrap();
     obstacles.push(("floor".to_owned(), floor));
     // A part of them, so that some motions are free.
-    obstacles.retain(|_| rng.between(0.0, 1.0) < 0.25);
+    obstacles.retain(|_| rng.between(0.0, 1.0) < 0.4);
     let margin = if robot.body().unwrap().pairs().is_empty() { 0.02 } else { 0.0 };
     Cell::new(obstacles, margin).unwrap()
 }
@@ -201,6 +201,20 @@ fn a_motion_is_free_until_its_contact() {
     });
 }
 
+/// A point of a link, and how far all around it belongs to the link: a corner of a hull, which the
+/// capsules contain too, or a point of the axis of a capsule.
+fn any_point(body: &Body, rng: &mut Rng) -> (usize, Vector3<f64>, f64) {
+    let mut any = |count: usize| usize::try_from(rng.bits()).unwrap() % count;
+    if !body.hulls().is_empty() {
+        let own = &body.hulls()[any(body.hulls().len())];
+        let points: Vec<_> = own.hull.points().collect();
+        return (own.link, points[any(points.len())].into(), 0.0);
+    }
+    let own = body.capsules()[any(body.capsules().len())];
+    let [a, b] = own.capsule.ends().map(Vector3::from);
+    (own.link, a + (b - a) * rng.unit(), own.capsule.radius())
+}
+
 /// Put a small ball where a link passes at one instant, and see whether it is found. Half of the
 /// motions are of one joint, and their ball is just where the link arrives: no bound below the true
 /// motion passes that.
@@ -219,11 +233,8 @@ fn refute<const N: usize>(robot: &Robot<N>, rng: &mut Rng) {
         if Cell::default().check_path(robot, &rows).unwrap().is_some() {
             continue;
         }
-        let capsules = robot.body().unwrap().capsules();
-        let own = capsules[usize::try_from(rng.bits()).unwrap() % capsules.len()];
-        let Some(link) = own.link.checked_sub(1) else { continue };
-        let [a, b] = own.capsule.ends().map(Vector3::from);
-        let point = a + (b - a) * rng.unit();
+        let (link, point, radius) = any_point(robot.body().unwrap(), rng);
+        let Some(link) = link.checked_sub(1) else { continue };
         let place = |part: f64| {
             let q = std::array::from_fn(|at| rows[0][at] + part * (rows[1][at] - rows[0][at]));
             let frame = robot.link_frames(&q).0[link];
@@ -239,21 +250,32 @@ fn refute<const N: usize>(robot: &Robot<N>, rng: &mut Rng) {
         }
         // It reaches into the link by a tenth of its radius.
         let ball = 1e-3;
-        let center = place(part) + way.normalize() * (own.capsule.radius() + 0.9 * ball);
+        let center = place(part) + way.normalize() * (radius + 0.9 * ball);
         let ball = Shape::sphere(ball, center.into()).unwrap();
         let cell = Cell::new(vec![("ball".to_owned(), ball)], 0.0).unwrap();
         let found = cell.check_path(robot, &rows).unwrap();
-        assert!(found.is_some(), "missed at {part} of {rows:?} by {own:?}");
+        assert!(found.is_some(), "missed at {part} of {rows:?} by link {link}: {point}");
         let contact = found.unwrap();
         assert!(contact.at <= part && contact.nearest.near == Near::Obstacle("ball".to_owned()));
         tried += 1;
     }
 }
 
+fn without_hulls<const N: usize>(robot: &Robot<N>) -> Robot<N> {
+    let body = robot.body().unwrap().clone().with_hulls(Vec::new()).unwrap();
+    robot.clone().with_body(Some(body)).unwrap()
+}
+
 #[test]
 fn a_ball_that_a_link_passes_through_is_found() {
     on_arms(|robot, rng| match robot {
-        AnyRobot::Six(robot) => refute(robot, rng),
-        AnyRobot::Seven(robot) => refute(robot, rng),
+        AnyRobot::Six(robot) => {
+            refute(robot, rng);
+            refute(&without_hulls(robot), rng);
+        }
+        AnyRobot::Seven(robot) => {
+            refute(robot, rng);
+            refute(&without_hulls(robot), rng);
+        }
     });
 }

@@ -23,6 +23,7 @@ mod follow;
 mod general;
 mod go;
 mod hard_sets;
+mod hulls;
 mod joint_axes;
 mod lanes;
 mod laws;

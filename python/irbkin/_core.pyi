@@ -3289,6 +3289,7 @@ class Body:
         capsules: npt.ArrayLike,
         pairs: Sequence[tuple[int, int]],
         *,
+        hulls: Sequence[tuple[int, npt.ArrayLike, Any, float]] = (),
         source: str = "given",
         excess: Sequence[float] | npt.NDArray[np.float64] | None = None,
     ) -> Body: ...
@@ -3355,6 +3356,9 @@ class Body:
         of its link: of link k `Robot.link_frames(q)[k - 1]`, of link 0 the base, of link n + 1
         the flange.
         """
+    @property
+    def hulls(self) -> list[tuple[int, _Floats, list[list[int]], float]]:
+        """The hulls, as they are given: link, points [m], shape (p, 3), faces, radius [m]."""
     @property
     def pairs(self) -> list[tuple[int, int]]:
         """The pairs of links that are kept apart. The others may touch by construction or, of a

@@ -52,6 +52,17 @@ pub enum BodyFault {
          take its surface alone by solid=False"
     )]
     NoVolume { thickness: f64, least: f64 },
+    #[error("a hull has {found} points, it must have {most} at most: leave out those inside")]
+    HullPoints { found: usize, most: usize },
+    #[error("a face of a hull has the corner {face}, its {count} points count from 0")]
+    HullFace { face: u8, count: usize },
+    #[error(
+        "a point of a hull is {height:e} m outside of one of its faces: their corners must be \
+         counterclockwise, seen from outside of a convex hull"
+    )]
+    HullBeyond { height: f64 },
+    #[error("a hull is of link {link}, which has no capsules: give some that contain it")]
+    HullLink { link: usize },
     #[error("a union has no shape: give one at least")]
     NoShape,
     #[error(

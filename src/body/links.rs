@@ -5,7 +5,7 @@ use alloc::borrow::Cow;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::shape::{Capsule, check_length};
+use super::shape::{Capsule, RoundedHull, check_length};
 use crate::body::fault::BodyFault;
 use crate::error::Error;
 use crate::kinematics::Pose;
@@ -24,13 +24,24 @@ pub struct LinkCapsule {
     pub capsule: Capsule,
 }
 
-/// Capsules that contain the links of an arm.
+/// A convex hull that moves with a link.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct LinkHull {
+    /// The link, as of a [`LinkCapsule`].
+    pub link: usize,
+    /// The hull, in the link's frame.
+    pub hull: RoundedHull,
+}
+
+/// Capsules that contain the links of an arm, and hulls that do so more closely.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// The arm of the catalog whose body it is.
     pub(super) arm: Option<&'static str>,
     pub(super) links: Vec<LinkCapsule>,
     pub(super) parts: Vec<LinkCapsule>,
+    pub(super) hulls: Vec<LinkHull>,
     pub(super) pairs: Vec<[usize; 2]>,
     pub(super) source: Cow<'static, str>,
     pub(super) excess: Vec<f64>,
@@ -69,10 +80,34 @@ impl Body {
         Ok(Self { arm: None, source: source.into(), excess, ..self })
     }
 
+    /// The body with convex hulls, which contain what the capsules of their links contain: where
+    /// capsules touch, these links touch if their hulls do. A link without hulls has its capsules
+    /// alone. Replaces the hulls that there were.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidBody`] for a hull of a link without capsules.
+    pub fn with_hulls(self, hulls: Vec<LinkHull>) -> Result<Self, Error> {
+        let has = |link: usize| self.links.iter().any(|own| own.link == link);
+        if let Some(own) = hulls.iter().find(|own| !has(own.link)) {
+            return Err(BodyFault::HullLink { link: own.link }.into());
+        }
+        Ok(Self { arm: None, hulls, ..self })
+    }
+
+    /// The capsules as hulls too, of links that have hulls.
+    fn hulls_of(&self, more: &[LinkCapsule]) -> Vec<LinkHull> {
+        let has = |link: usize| self.hulls.iter().any(|own| own.link == link);
+        let own = more.iter().filter(|own| has(own.link));
+        own.map(|own| LinkHull { link: own.link, hull: RoundedHull::of_capsule(&own.capsule) })
+            .collect()
+    }
+
     fn empty(source: &'static str) -> Self {
         let source = Cow::Borrowed(source);
         let (links, parts, pairs, excess) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { arm: None, links, parts, pairs, source, excess, is_approximate: false }
+        let hulls = Vec::new();
+        Self { arm: None, links, parts, hulls, pairs, source, excess, is_approximate: false }
     }
 
     pub(super) fn check_pairs(&self) -> Result<(), Error> {
@@ -110,6 +145,7 @@ impl Body {
         excess: f64,
         pairs: &[[usize; 2]],
     ) -> Self {
+        self.hulls.extend(self.hulls_of(&capsules));
         self.links.extend(capsules);
         self.pairs.retain(|pair| !pair.contains(&link));
         self.pairs.extend(pairs);
@@ -129,12 +165,18 @@ impl Body {
                 self.arm = None;
             }
         }
+        for own in &mut self.hulls {
+            if let Some(pose) = pose(own.link) {
+                own.hull = own.hull.moved(&pose);
+            }
+        }
         self
     }
 
     /// The body with more capsules: a hose, a dress pack. The parts beside its links stay.
     #[must_use]
     pub fn with_capsules(mut self, more: Vec<LinkCapsule>) -> Self {
+        self.hulls.extend(self.hulls_of(&more));
         self.links.extend(more);
         Self { arm: None, ..self }
     }
@@ -150,6 +192,13 @@ impl Body {
     #[must_use]
     pub fn parts(&self) -> &[LinkCapsule] {
         &self.parts
+    }
+
+    /// Convex hulls of the links, which contain them more closely than the capsules do; of a link
+    /// that has none, its capsules decide.
+    #[must_use]
+    pub fn hulls(&self) -> &[LinkHull] {
+        &self.hulls
     }
 
     /// The pairs of links that are kept apart. The others may touch by construction or, of a body

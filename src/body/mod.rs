@@ -10,7 +10,7 @@ mod shape;
 mod stored;
 
 pub(crate) use arms::body_of;
-pub use links::{Body, LinkCapsule};
+pub use links::{Body, LinkCapsule, LinkHull};
 pub(crate) use outline::{Centered, Group, Outline};
-pub use shape::{Capsule, Cloud, Hull, Mesh, Shape};
-pub(crate) use shape::{Separation, check_length};
+pub(crate) use shape::{Asked, Separation, check_length};
+pub use shape::{Capsule, Cloud, Hull, Mesh, RoundedHull, Shape};

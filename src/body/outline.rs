@@ -7,9 +7,12 @@ use nalgebra::Vector3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::links::{Body, LinkCapsule};
-use super::shape::Capsule;
+use super::links::{Body, LinkCapsule, LinkHull};
+use super::shape::{Asked, Capsule, RoundedHull, Separation, Shape};
 use crate::kinematics::Pose;
+
+/// Cores of a group, at most.
+const CORES: usize = 2;
 
 /// Axes of different length that are tried for the capsule around others.
 const AXES: u32 = 16;
@@ -27,6 +30,15 @@ pub(crate) struct Group {
     pub(crate) around: Centered,
     /// How far the ends of their axes are from its middle at most [m].
     pub(crate) spread: f64,
+    /// Whether its hulls are other than its capsules, which then do not decide alone.
+    pub(crate) has_hulls: bool,
+    /// Convex hulls that contain what the capsules do.
+    pub(crate) hulls: Vec<RoundedHull>,
+    /// The places of capsules inside of its hulls, behind its own: where two of these cores touch,
+    /// the hulls do.
+    pub(crate) cores: Range<usize>,
+    /// How far points of the hulls are beyond the spread at most [m].
+    pub(crate) beyond: f64,
 }
 
 /// A capsule by the center of its axis.
@@ -72,9 +84,9 @@ impl Outline {
     /// The outline of a body on an arm whose last link has the flange at a pose.
     pub(crate) fn of(body: &Body, last: usize, t_last_flange: &Pose) -> Self {
         let mut outline = Self::default();
-        outline.take(body.capsules(), last, t_last_flange);
+        outline.take(body.capsules(), body.hulls(), last, t_last_flange);
         let of_links = outline.groups.len();
-        outline.take(body.parts(), last, t_last_flange);
+        outline.take(body.parts(), &[], last, t_last_flange);
         let group = |link| outline.groups[..of_links].iter().position(|own| own.number == link);
         let ordered = |pair: &[usize; 2]| [pair[0].min(pair[1]), pair[0].max(pair[1])];
         outline.pairs = body
@@ -87,31 +99,96 @@ impl Outline {
     }
 
     /// Add a group for each link.
-    fn take(&mut self, capsules: &[LinkCapsule], last: usize, t_last_flange: &Pose) {
+    fn take(
+        &mut self,
+        capsules: &[LinkCapsule],
+        hulls: &[LinkHull],
+        last: usize,
+        t_last_flange: &Pose,
+    ) {
         for number in 0..=last + 1 {
             let first = self.capsules.len();
-            let own = capsules.iter().filter(|own| own.link == number).map(|own| own.capsule);
-            let own: Vec<_> = if number > last {
-                own.map(|capsule| capsule.moved(t_last_flange)).collect()
-            } else {
-                own.collect()
-            };
-            if !own.is_empty() {
-                self.capsules.extend(own.iter().map(Centered::of));
-                let range = first..self.capsules.len();
-                self.groups.push(Group::new(number, last, range, &own));
+            let pose = (number > last).then_some(t_last_flange);
+            let own = capsules.iter().filter(|own| own.link == number);
+            let own: Vec<_> =
+                own.map(|own| pose.map_or(own.capsule, |pose| own.capsule.moved(pose))).collect();
+            if own.is_empty() {
+                continue;
             }
+            let hulls = hulls.iter().filter(|own| own.link == number);
+            let hulls: Vec<_> = hulls
+                .map(|own| pose.map_or_else(|| own.hull.clone(), |pose| own.hull.moved(pose)))
+                .collect();
+            self.capsules.extend(own.iter().map(Centered::of));
+            let behind = self.capsules.len();
+            let mut cores: Vec<_> = hulls.iter().filter_map(RoundedHull::core).collect();
+            cores.sort_by(|one, two| two.volume().total_cmp(&one.volume()));
+            self.capsules.extend(cores.into_iter().take(CORES).map(Centered::of));
+            let (range, cores) = (first..behind, behind..self.capsules.len());
+            self.groups.push(Group::new(number, last, range, &own, (hulls, cores)));
         }
     }
 }
 
 impl Group {
-    fn new(number: usize, last: usize, range: Range<usize>, own: &[Capsule]) -> Self {
+    fn new(
+        number: usize,
+        last: usize,
+        range: Range<usize>,
+        own: &[Capsule],
+        (mut hulls, cores): (Vec<RoundedHull>, Range<usize>),
+    ) -> Self {
         let around = Centered::of(&around(own));
         let far = |capsule: &Capsule| capsule.ends.map(|end| (end - around.center).norm());
         let spread = own.iter().flat_map(far).fold(0.0, f64::max);
-        Self { link: number.min(last), number, capsules: range, around, spread }
+        let has_hulls = !hulls.is_empty();
+        if !has_hulls {
+            hulls.extend(own.iter().map(RoundedHull::of_capsule));
+        }
+        let farthest = hulls.iter().map(|hull| hull.spread_from(&around.center));
+        let beyond = (farthest.fold(0.0, f64::max) - spread).max(0.0);
+        let link = number.min(last);
+        Self { link, number, capsules: range, around, spread, has_hulls, hulls, cores, beyond }
     }
+}
+
+impl Group {
+    /// How far its hulls are from those of another group, each at the pose of its link.
+    pub(crate) fn separation(
+        &self,
+        pose: &Pose,
+        (other, to): (&Self, &Pose),
+        asked: Asked,
+    ) -> Separation {
+        let pairs = self.hulls.iter().flat_map(|one| other.hulls.iter().map(move |two| (one, two)));
+        least(asked, pairs, |(one, two), asked| one.separation(pose, (two, to), asked))
+    }
+
+    /// How far its hulls are from a shape, at the pose of its link.
+    pub(crate) fn separation_of(&self, pose: &Pose, shape: &Shape, asked: Asked) -> Separation {
+        let hulls = self.hulls.iter();
+        least(asked, hulls, |hull, asked| shape.separation_of_hull(hull, pose, asked))
+    }
+}
+
+/// The least of some separations.
+fn least<T>(
+    asked: Asked,
+    items: impl Iterator<Item = T>,
+    separation: impl Fn(T, Asked) -> Separation,
+) -> Separation {
+    let mut nearest = Separation::NOTHING;
+    for item in items {
+        let far = asked.far.min(nearest.distance);
+        let own = separation(item, Asked { far, ..asked });
+        if own.distance < nearest.distance {
+            nearest = own;
+        }
+        if nearest.distance <= asked.near {
+            break;
+        }
+    }
+    nearest
 }
 
 /// A capsule around capsules: its axis is on the line between the two ends that are farthest apart,
@@ -128,8 +205,6 @@ fn around(capsules: &[Capsule]) -> Capsule {
         let far = |(end, radius): (Vector3<f64>, f64)| thin.axis_distance(&end) + radius;
         Capsule { radius: ends().map(far).fold(0.0, f64::max), ..thin }
     });
-    // By volume, without the factor of pi.
-    let size =
-        |own: &Capsule| own.radius * own.radius * (length(&own.ends) + 4.0 / 3.0 * own.radius);
-    least.min_by(|one, two| size(one).total_cmp(&size(two))).unwrap_or(capsules[0])
+    let least = least.min_by(|one, two| one.volume().total_cmp(&two.volume()));
+    least.unwrap_or(capsules[0])
 }

@@ -8,7 +8,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::arms::body_of;
-use super::links::{Body, LinkCapsule};
+use super::links::{Body, LinkCapsule, LinkHull};
 use crate::body::fault::BodyFault;
 
 #[derive(Serialize, Deserialize)]
@@ -22,6 +22,8 @@ enum Stored {
 struct Given {
     links: Vec<LinkCapsule>,
     parts: Vec<LinkCapsule>,
+    #[serde(default)]
+    hulls: Vec<LinkHull>,
     pairs: Vec<[usize; 2]>,
     source: String,
     excess: Vec<f64>,
@@ -35,6 +37,7 @@ impl Serialize for Body {
             None => Stored::Given(Given {
                 links: self.links.clone(),
                 parts: self.parts.clone(),
+                hulls: self.hulls.clone(),
                 pairs: self.pairs.clone(),
                 source: self.source().to_string(),
                 excess: self.excess.clone(),
@@ -49,9 +52,9 @@ impl<'de> Deserialize<'de> for Body {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match Stored::deserialize(deserializer)? {
             Stored::OfArm(arm) => body_of(&arm).ok_or_else(|| D::Error::custom(BodyFault::NoBody)),
-            Stored::Given(Given { links, parts, pairs, source, excess, is_approximate }) => {
-                let source = Cow::Owned(source);
-                let body = Self { arm: None, links, parts, pairs, source, excess, is_approximate };
+            Stored::Given(Given { links, parts, hulls, pairs, source, excess, is_approximate }) => {
+                let (arm, source) = (None, Cow::Owned(source));
+                let body = Self { arm, links, parts, hulls, pairs, source, excess, is_approximate };
                 body.check_pairs().map_err(D::Error::custom)?;
                 Ok(body)
             }

@@ -4,9 +4,9 @@
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
-use crate::body::Centered;
+use crate::body::{Centered, Shape};
 use crate::kinematics::Pose;
-use crate::lanes::{Column, Number as _, Vector, dot};
+use crate::lanes::{Column, LANES, Number as _, Vector, dot};
 
 /// Three components, in lanes.
 pub(super) type Point<S> = [Vector<S>; 3];
@@ -35,6 +35,9 @@ impl Decided {
     }
 }
 
+/// All lanes, as bits.
+pub(super) const ALL: u64 = (1 << LANES) - 1;
+
 /// Rounds in which the nearest point of an axis is sought.
 const ROUNDS: usize = 4;
 
@@ -53,7 +56,7 @@ pub(super) fn minus<S: Simd>(one: Point<S>, other: Point<S>) -> Point<S> {
 }
 
 #[inline(always)]
-pub(super) fn constant<S: Simd>(simd: S, point: &Vector3<f64>) -> Point<S> {
+fn constant<S: Simd>(simd: S, point: &Vector3<f64>) -> Point<S> {
     [Vector::splat(simd, point.x), Vector::splat(simd, point.y), Vector::splat(simd, point.z)]
 }
 
@@ -87,7 +90,7 @@ impl<S: Simd> Axis<S> {
 
     /// An axis that is the same in all lanes.
     #[inline(always)]
-    pub(super) fn of(simd: S, own: &Centered) -> Self {
+    fn of(simd: S, own: &Centered) -> Self {
         Self::new(constant(simd, &own.center), constant(simd, &own.half), own.square)
     }
 
@@ -120,13 +123,7 @@ impl<S: Simd> Axis<S> {
     /// Compare the distance from a solid around the origin of a frame with a limit [m], in the
     /// lanes that are asked (eq. 5).
     #[inline(always)]
-    pub(super) fn against_solid(
-        &self,
-        solid: &Solid,
-        pose: &Pose,
-        limit: Vector<S>,
-        asked: u64,
-    ) -> Decided {
+    fn against_solid(&self, solid: &Solid, pose: &Pose, limit: Vector<S>, asked: u64) -> Decided {
         let middle = minus(self.middle, constant(limit.token(), &pose.translation.vector));
         let (middle, half) = (in_frame(middle, pose), in_frame(self.half, pose));
         let mut part = limit.like(0.0);
@@ -163,7 +160,7 @@ fn decide<S: Simd>(square: Vector<S>, gaps: Vector<S>, limit: Vector<S>) -> Deci
 }
 
 /// A solid around the origin of its frame.
-pub(super) enum Solid {
+enum Solid {
     /// A box, by half of the lengths of its edges [m].
     Box([f64; 3]),
     /// A cylinder along z, by its radius and half of its length [m].
@@ -173,7 +170,7 @@ pub(super) enum Solid {
 impl Solid {
     /// The nearest point of the solid.
     #[inline(always)]
-    pub(super) fn nearest<S: Simd>(&self, point: Point<S>) -> Point<S> {
+    fn nearest<S: Simd>(&self, point: Point<S>) -> Point<S> {
         match self {
             Self::Box([x, y, z]) => {
                 [point[0].max(-x).min(*x), point[1].max(-y).min(*y), point[2].max(-z).min(*z)]
@@ -207,11 +204,77 @@ fn if_outside<S: Simd>(along: Vector<S>, way: Vector<S>) -> Vector<S> {
 
 /// A direction in the frame of a pose.
 #[inline(always)]
-pub(super) fn in_frame<S: Simd>(way: Point<S>, pose: &Pose) -> Point<S> {
+fn in_frame<S: Simd>(way: Point<S>, pose: &Pose) -> Point<S> {
     let r = pose.rotation.matrix();
     [
         way[0].scaled_plus(r[(0, 0)], way[1].scaled_plus(r[(1, 0)], way[2] * r[(2, 0)])),
         way[0].scaled_plus(r[(0, 1)], way[1].scaled_plus(r[(1, 1)], way[2] * r[(2, 1)])),
         way[0].scaled_plus(r[(0, 2)], way[1].scaled_plus(r[(1, 2)], way[2] * r[(2, 2)])),
     ]
+}
+
+/// Lanes in which a ball is apart from a shape, or from the ball around the shape; a limit is its
+/// radius and more [m].
+#[inline(always)]
+pub(super) fn ball_beyond<S: Simd>(shape: &Shape, center: Point<S>, limit: Vector<S>) -> u64 {
+    let simd = limit.token();
+    match shape {
+        Shape::HalfSpace { normal, offset } => {
+            dot(center, constant(simd, normal)).simd_gt(limit + *offset).to_bitmask()
+        }
+        Shape::Box { pose, half } => {
+            let local = in_frame(minus(center, constant(simd, &pose.translation.vector)), pose);
+            let way = minus(local, Solid::Box((*half).into()).nearest(local));
+            dot(way, way).simd_gt(limit * limit).to_bitmask()
+        }
+        _ => match shape.ball() {
+            Some((around, radius)) => {
+                let way = minus(center, constant(simd, &around));
+                let limit = limit + radius;
+                dot(way, way).simd_gt(limit * limit).to_bitmask()
+            }
+            None => 0,
+        },
+    }
+}
+
+/// Compare the distance of an axis from all parts of a shape with a limit [m], in the lanes that are
+/// asked.
+#[inline(always)]
+pub(super) fn against_parts<S: Simd>(
+    axis: &Axis<S>,
+    shape: &Shape,
+    limit: Vector<S>,
+    asked: u64,
+) -> Decided {
+    let mut decided = Decided { far: ALL, near: 0 };
+    for part in shape.parts() {
+        let one = against_shape(axis, part, limit, asked);
+        decided = Decided { far: decided.far & one.far, near: decided.near | one.near };
+    }
+    decided
+}
+
+/// Compare the distance of an axis from a shape with a limit [m], in the lanes that are asked.
+#[inline(always)]
+fn against_shape<S: Simd>(axis: &Axis<S>, shape: &Shape, limit: Vector<S>, asked: u64) -> Decided {
+    let simd = limit.token();
+    match shape {
+        Shape::Capsule(own) => {
+            axis.against_axis(&Axis::of(simd, &Centered::of(own)), limit + own.radius, asked)
+        }
+        Shape::Box { pose, half } => {
+            axis.against_solid(&Solid::Box((*half).into()), pose, limit, asked)
+        }
+        Shape::Cylinder { pose, radius, half } => {
+            axis.against_solid(&Solid::Cylinder([*radius, *half]), pose, limit, asked)
+        }
+        Shape::HalfSpace { normal, offset } => {
+            let normal = constant(simd, normal);
+            let lowest = dot(axis.middle, normal) - dot(axis.half, normal).size();
+            let far = lowest.simd_gt(limit + *offset).to_bitmask();
+            Decided { far, near: !far }
+        }
+        _ => Decided::default(),
+    }
 }

@@ -6,17 +6,15 @@ use alloc::vec::Vec;
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
-use super::apart::{Axis, Decided, Point, Solid, constant, in_frame, load, minus};
+use super::apart::{ALL, Axis, Point, against_parts, ball_beyond, load, minus};
+use super::doubts::Doubt;
 use super::obstacles::Cell;
-use crate::body::{Capsule, Centered, Group, Outline, Shape};
+use crate::body::{Capsule, Group, Outline};
 use crate::kinematics::{Axes, Robot};
 use crate::lanes::{Column, LANES, Number as _, Vector, VectorKernel, cross, dot, run_vectors};
 
 /// How near shapes may be and count as touching, for the rounding of poses and distances [m].
 pub(super) const ROUNDING: f64 = 1e-9;
-
-/// All lanes, as bits.
-const ALL: u64 = (1 << LANES) - 1;
 
 /// Where everything of an arm is, in eight lanes.
 #[derive(Clone)]
@@ -24,14 +22,16 @@ pub(crate) struct Block<const N: usize> {
     frames: [Axes<LANES>; N],
     base: Axes<LANES>,
     /// How far the joints turn to either side [rad]; zero for joint vectors.
-    spans: [Column; N],
+    pub(super) spans: [Column; N],
     /// The middles and the halves of the axes of the capsules around the groups.
     around: Vec<[[Column; 3]; 2]>,
     /// How far the axes of a group move, by the link from which it is seen.
-    moves: Vec<[Column; N]>,
+    pub(super) moves: Vec<[Column; N]>,
     /// The middles and the halves of the capsules' axes, of the groups that are placed.
     axes: Vec<[[Column; 3]; 2]>,
     is_placed: Vec<bool>,
+    /// What hulls are to decide, and the lanes, as bits.
+    pub(super) doubts: Vec<(Doubt, u64)>,
 }
 
 impl<const N: usize> Block<N> {
@@ -46,6 +46,7 @@ impl<const N: usize> Block<N> {
             moves: vec![[zero; N]; groups],
             axes: vec![[[zero; 3]; 2]; outline.capsules.len()],
             is_placed: vec![false; groups],
+            doubts: Vec::new(),
         }
     }
 
@@ -73,7 +74,7 @@ impl<const N: usize> Block<N> {
         run_vectors(Touch { block: self, outline, cell, swept, asked })
     }
 
-    fn frame(&self, link: usize) -> &Axes<LANES> {
+    pub(super) fn frame(&self, link: usize) -> &Axes<LANES> {
         match link.checked_sub(1) {
             Some(joint) => &self.frames[joint],
             None => &self.base,
@@ -88,14 +89,14 @@ impl<const N: usize> Block<N> {
 }
 
 /// Whether lanes touch something.
-struct Touch<'a, const N: usize> {
-    block: &'a mut Block<N>,
-    outline: &'a Outline,
-    cell: &'a Cell,
+pub(super) struct Touch<'a, const N: usize> {
+    pub(super) block: &'a mut Block<N>,
+    pub(super) outline: &'a Outline,
+    pub(super) cell: &'a Cell,
     /// Whether joints turn by spans.
-    swept: bool,
+    pub(super) swept: bool,
     /// The lanes in which nothing touches yet, as bits.
-    asked: u64,
+    pub(super) asked: u64,
 }
 
 impl<const N: usize> VectorKernel for Touch<'_, N> {
@@ -104,6 +105,7 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) -> u64 {
         let asked = self.asked;
+        self.block.doubts.clear();
         for group in 0..self.outline.groups.len() {
             self.block.is_placed[group] = false;
             self.put_around(simd, group);
@@ -127,6 +129,7 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
                 return asked;
             }
         }
+        self.decide();
         asked & !self.asked
     }
 }
@@ -202,8 +205,8 @@ impl<const N: usize> Touch<'_, N> {
             return;
         }
         self.block.is_placed[group] = true;
-        let Group { link, capsules, .. } = &self.outline.groups[group];
-        for index in capsules.clone() {
+        let Group { link, capsules, cores, .. } = &self.outline.groups[group];
+        for index in capsules.start..cores.end {
             let own = &self.outline.capsules[index];
             let middle = self.placed(simd, *link, &own.center);
             let half = self.turned(simd, *link, &own.half);
@@ -223,34 +226,49 @@ impl<const N: usize> Touch<'_, N> {
     fn apart_of_links<S: Simd>(&mut self, simd: S, pair: [usize; 2]) {
         let [one, other] = pair.map(|group| &self.outline.groups[group]);
         let moved = self.moved(simd, pair[1], one.link) + ROUNDING;
-        let limit = moved + (one.around.radius + other.around.radius);
+        let around = moved + (one.around.radius + other.around.radius);
         let facing = self.around(simd, pair[1]);
         let near =
-            self.asked & !self.around(simd, pair[0]).against_axis(&facing, limit, self.asked).far;
+            self.asked & !self.around(simd, pair[0]).against_axis(&facing, around, self.asked).far;
         if near == 0 {
             return;
         }
         self.place(simd, pair[0]);
         self.place(simd, pair[1]);
+        let mut doubtful = 0;
         for index in one.capsules.clone() {
             let capsule = &self.outline.capsules[index];
             let own = self.axis(simd, index);
             let limit = moved + (capsule.radius + other.around.radius);
-            let near = near & self.asked;
+            let near = near & self.asked & !doubtful;
             let near = near & !own.against_axis(&facing, limit, near).far;
             if near == 0 {
                 continue;
             }
             for second in other.capsules.clone() {
                 let limit = moved + (capsule.radius + self.outline.capsules[second].radius);
-                let decided = own.against_axis(&self.axis(simd, second), limit, near & self.asked);
-                let left = near & self.asked & !decided.far;
-                if left != 0 {
-                    self.asked &= !(left & decided.near);
-                    self.settle_links(left & !decided.near, [index, second], limit);
+                let asked = near & !doubtful;
+                let decided = own.against_axis(&self.axis(simd, second), limit, asked);
+                let open = asked & !decided.lanes();
+                doubtful |= asked & decided.near & !decided.far;
+                if open != 0 {
+                    doubtful |= self.settle_links(open, [index, second], limit);
                 }
             }
         }
+        if doubtful == 0 || !(one.has_hulls || other.has_hulls) {
+            self.asked &= !doubtful;
+            return;
+        }
+        for first in one.cores.clone() {
+            for second in other.cores.clone() {
+                let both = [first, second].map(|core| &self.outline.capsules[core]);
+                let limit = moved.like(both[0].radius + both[1].radius);
+                let (own, facing) = (self.axis(simd, first), self.axis(simd, second));
+                self.asked &= !(doubtful & own.against_axis(&facing, limit, doubtful).near);
+            }
+        }
+        self.block.doubts.push((Doubt::Links(pair), doubtful));
     }
 
     /// Look at a group of capsules and an obstacle.
@@ -258,7 +276,8 @@ impl<const N: usize> Touch<'_, N> {
     fn apart_of_obstacle<S: Simd>(&mut self, simd: S, group: usize, obstacle: usize) {
         let own = &self.outline.groups[group];
         let shape = &self.cell.obstacles()[obstacle].1;
-        let moved = self.moved(simd, group, 0) + (self.cell.margin() + ROUNDING);
+        let margin = self.cell.margin() + ROUNDING;
+        let moved = self.moved(simd, group, 0) + margin;
         let center = load(simd, &self.block.around[group][0]);
         let near = self.asked & !ball_beyond(shape, center, moved + own.around.ball);
         if near == 0 {
@@ -270,44 +289,55 @@ impl<const N: usize> Touch<'_, N> {
             return;
         }
         self.place(simd, group);
+        let mut doubtful = 0;
         for index in own.capsules.clone() {
-            let capsule = &self.outline.capsules[index];
-            let limit = moved + capsule.radius;
-            let axis = self.axis(simd, index);
-            let decided = against_parts(&axis, shape, limit, near & self.asked);
-            let left = near & self.asked & !decided.far;
-            if left != 0 {
-                self.asked &= !(left & decided.near);
-                self.settle_obstacle(left & !decided.near, [index, obstacle], moved);
+            let limit = moved + self.outline.capsules[index].radius;
+            let asked = near & self.asked & !doubtful;
+            let decided = against_parts(&self.axis(simd, index), shape, limit, asked);
+            let open = asked & !decided.lanes();
+            doubtful |= asked & decided.near & !decided.far;
+            if open != 0 {
+                doubtful |= self.settle_obstacle(open, [index, obstacle], moved);
             }
         }
+        if doubtful == 0 || !own.has_hulls {
+            self.asked &= !doubtful;
+            return;
+        }
+        for core in own.cores.clone() {
+            let limit = moved.like(margin + self.outline.capsules[core].radius);
+            let decided = against_parts(&self.axis(simd, core), shape, limit, doubtful);
+            self.asked &= !(doubtful & decided.near);
+        }
+        self.block.doubts.push((Doubt::Obstacle(group, obstacle), doubtful));
     }
 
-    /// Decide lanes of two capsules that bounds leave open.
+    /// The lanes in which two capsules touch, of those that bounds leave open.
     #[cold]
     #[inline(never)]
-    fn settle_links<S: Simd>(&mut self, open: u64, [one, other]: [usize; 2], limit: Vector<S>) {
+    fn settle_links<S: Simd>(&self, open: u64, [one, other]: [usize; 2], limit: Vector<S>) -> u64 {
         let radii = self.outline.capsules[one].radius + self.outline.capsules[other].radius;
-        for lane in bits(open) {
+        lanes_in(open, |lane| {
             let own = self.block.capsule(self.outline, one, lane);
             let apart = own.separation(&self.block.capsule(self.outline, other, lane));
-            if apart.distance <= limit.as_array()[lane] - radii {
-                self.asked &= !(1 << lane);
-            }
-        }
+            apart.distance <= limit.as_array()[lane] - radii
+        })
     }
 
-    /// Decide lanes of a capsule and an obstacle that bounds leave open.
+    /// The lanes in which a capsule and an obstacle touch, of those that bounds leave open.
     #[cold]
     #[inline(never)]
-    fn settle_obstacle<S: Simd>(&mut self, open: u64, [own, at]: [usize; 2], least: Vector<S>) {
-        for lane in bits(open) {
+    fn settle_obstacle<S: Simd>(&self, open: u64, [own, at]: [usize; 2], least: Vector<S>) -> u64 {
+        lanes_in(open, |lane| {
             let capsule = self.block.capsule(self.outline, own, lane);
-            if self.cell.obstacles()[at].1.is_within(&capsule, least.as_array()[lane]) {
-                self.asked &= !(1 << lane);
-            }
-        }
+            self.cell.obstacles()[at].1.is_within(&capsule, least.as_array()[lane])
+        })
     }
+}
+
+/// The lanes of some, as bits, for which something is so.
+pub(super) fn lanes_in(lanes: u64, is_so: impl Fn(usize) -> bool) -> u64 {
+    bits(lanes).filter(|lane| is_so(*lane)).fold(0, |all, lane| all | 1 << lane)
 }
 
 /// The numbers of the lanes in bits.
@@ -319,66 +349,5 @@ fn bits(bits: u64) -> impl Iterator<Item = usize> {
 fn store<S: Simd>(point: Point<S>, columns: &mut [Column; 3]) {
     for index in 0..3 {
         point[index].store_array(&mut columns[index]);
-    }
-}
-
-/// Lanes in which a ball is apart from a shape, or from the ball around the shape; a limit is its
-/// radius and more [m].
-#[inline(always)]
-fn ball_beyond<S: Simd>(shape: &Shape, center: Point<S>, limit: Vector<S>) -> u64 {
-    let simd = limit.token();
-    match shape {
-        Shape::HalfSpace { normal, offset } => {
-            dot(center, constant(simd, normal)).simd_gt(limit + *offset).to_bitmask()
-        }
-        Shape::Box { pose, half } => {
-            let local = in_frame(minus(center, constant(simd, &pose.translation.vector)), pose);
-            let way = minus(local, Solid::Box((*half).into()).nearest(local));
-            dot(way, way).simd_gt(limit * limit).to_bitmask()
-        }
-        _ => match shape.ball() {
-            Some((around, radius)) => {
-                let way = minus(center, constant(simd, &around));
-                let limit = limit + radius;
-                dot(way, way).simd_gt(limit * limit).to_bitmask()
-            }
-            None => 0,
-        },
-    }
-}
-
-/// Compare the distance of an axis from all parts of a shape with a limit [m], in the lanes that are
-/// asked.
-#[inline(always)]
-fn against_parts<S: Simd>(axis: &Axis<S>, shape: &Shape, limit: Vector<S>, asked: u64) -> Decided {
-    let mut decided = Decided { far: ALL, near: 0 };
-    for part in shape.parts() {
-        let one = against_shape(axis, part, limit, asked);
-        decided = Decided { far: decided.far & one.far, near: decided.near | one.near };
-    }
-    decided
-}
-
-/// Compare the distance of an axis from a shape with a limit [m], in the lanes that are asked.
-#[inline(always)]
-fn against_shape<S: Simd>(axis: &Axis<S>, shape: &Shape, limit: Vector<S>, asked: u64) -> Decided {
-    let simd = limit.token();
-    match shape {
-        Shape::Capsule(own) => {
-            axis.against_axis(&Axis::of(simd, &Centered::of(own)), limit + own.radius, asked)
-        }
-        Shape::Box { pose, half } => {
-            axis.against_solid(&Solid::Box((*half).into()), pose, limit, asked)
-        }
-        Shape::Cylinder { pose, radius, half } => {
-            axis.against_solid(&Solid::Cylinder([*radius, *half]), pose, limit, asked)
-        }
-        Shape::HalfSpace { normal, offset } => {
-            let normal = constant(simd, normal);
-            let lowest = dot(axis.middle, normal) - dot(axis.half, normal).size();
-            let far = lowest.simd_gt(limit + *offset).to_bitmask();
-            Decided { far, near: !far }
-        }
-        _ => Decided::default(),
     }
 }

@@ -2,6 +2,7 @@
 
 mod apart;
 mod block;
+mod doubts;
 mod gradient;
 mod obstacles;
 mod pairs;

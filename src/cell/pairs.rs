@@ -1,15 +1,17 @@
 //! The pairs that are compared at a posture, and how far apart they are.
 
-use super::obstacles::Cell;
-use super::placed::Placed;
-use crate::body::{Capsule, Separation};
+use alloc::vec::Vec;
 
-/// A capsule of a link and what it is compared with.
+use super::obstacles::Cell;
+use super::placed::{Placed, Standing};
+use crate::body::{Asked, Separation};
+
+/// A link and what it is compared with.
 #[derive(Clone, Copy)]
 pub(super) struct Pair {
     pub(super) link: usize,
     pub(super) other: Other,
-    /// The places of the link's capsule and of the other's, or of the obstacle.
+    /// The places of the link's group and of the other's, or of the obstacle.
     places: [usize; 2],
 }
 
@@ -27,29 +29,71 @@ impl Cell {
         placed: &Placed<'_, N>,
     ) -> impl Iterator<Item = Pair> {
         let outline = placed.outline;
-        let of_links = outline.pairs.iter().flat_map(|pair| {
-            let [one, other] = pair.map(|group| &outline.groups[group]);
-            let both = one.capsules.clone();
-            let both = both.flat_map(|a| other.capsules.clone().map(move |b| [a, b]));
-            both.map(|places| Pair { link: one.number, other: Other::Link(other.number), places })
+        let of_links = outline.pairs.iter().map(|places| {
+            let [link, other] = places.map(|group| outline.groups[group].number);
+            Pair { link, other: Other::Link(other), places: *places }
         });
         let around = (0..self.obstacles().len()).flat_map(move |at| {
-            let groups = outline.groups.iter().filter(move |group| self.compares(at, group.number));
-            groups.flat_map(move |group| {
+            let groups = outline.groups.iter().enumerate();
+            let groups = groups.filter(move |(_, group)| self.compares(at, group.number));
+            groups.map(move |(place, group)| {
                 let (link, other) = (group.number, Other::Obstacle(at));
-                group.capsules.clone().map(move |own| Pair { link, other, places: [own, at] })
+                Pair { link, other, places: [place, at] }
             })
         });
         of_links.chain(around)
     }
 
-    /// How far a pair is apart, by the capsules at a posture.
-    pub(super) fn separation(&self, pair: &Pair, capsules: &[Capsule]) -> Separation {
-        let [own, at] = pair.places;
-        match pair.other {
-            Other::Link(_) => capsules[own].separation(&capsules[at]),
-            Other::Obstacle(_) => self.obstacles()[at].1.separation(&capsules[own]),
-        }
+    /// How far the capsules of a pair are apart.
+    fn coarse<const N: usize>(&self, pair: &Pair, at: &Standing<'_, N>) -> Separation {
+        let [own, other] = pair.places;
+        let each = at.capsules_of(own).iter().flat_map(|one| {
+            let (links, obstacle) = match pair.other {
+                Other::Link(_) => (at.capsules_of(other), None),
+                Other::Obstacle(at) => (&[][..], Some(&self.obstacles()[at].1)),
+            };
+            let links = links.iter().map(|two| one.separation(two));
+            links.chain(obstacle.map(|shape| shape.separation(one)))
+        });
+        let least = each.min_by(|a, b| a.distance.total_cmp(&b.distance));
+        least.unwrap_or(Separation::NOTHING)
+    }
+
+    /// How far a pair is apart, whose capsules are so far: as far as their hulls or the capsules, if
+    /// either are farther. Where hulls touch without their radii, as far as the capsules are in each
+    /// other.
+    fn fine<const N: usize>(
+        &self,
+        pair: &Pair,
+        at: &Standing<'_, N>,
+        coarse: Separation,
+    ) -> Separation {
+        let groups = &at.placed.outline.groups;
+        let (own, pose) = (&groups[pair.places[0]], at.pose(&groups[pair.places[0]]));
+        let apart = match pair.other {
+            Other::Link(_) => {
+                let other = &groups[pair.places[1]];
+                if !own.has_hulls && !other.has_hulls {
+                    return coarse;
+                }
+                own.separation(&pose, (other, &at.pose(other)), Asked::DISTANCE)
+            }
+            Other::Obstacle(_) if !own.has_hulls => return coarse,
+            Other::Obstacle(at) => {
+                own.separation_of(&pose, &self.obstacles()[at].1, Asked::DISTANCE)
+            }
+        };
+        let touch = apart.points[0] == apart.points[1];
+        if touch || apart.distance < coarse.distance { coarse } else { apart }
+    }
+
+    /// How far a pair is apart.
+    pub(super) fn separation<const N: usize>(
+        &self,
+        pair: &Pair,
+        at: &Standing<'_, N>,
+    ) -> Separation {
+        self.fine(pair, at, self.coarse(pair, at))
     }
 
     /// How deep two are in each other or, with an obstacle, in the margin [m].
@@ -60,6 +104,34 @@ impl Cell {
         }
     }
 
+    /// The pair of which some measure of its distance is least, by bounds of the capsules first.
+    pub(super) fn least<const N: usize>(
+        &self,
+        placed: &Placed<'_, N>,
+        q: &[f64; N],
+        measure: impl Fn(Other, &Separation) -> f64,
+    ) -> Option<(Pair, Separation)> {
+        let at = placed.at(q);
+        let coarse = self.pairs(placed).map(|pair| {
+            let apart = self.coarse(&pair, &at);
+            (measure(pair.other, &apart), pair, apart)
+        });
+        let mut coarse: Vec<_> = coarse.collect();
+        coarse.sort_by(|(one, ..), (two, ..)| one.total_cmp(two));
+        let mut best: Option<(f64, Pair, Separation)> = None;
+        for (bound, pair, apart) in coarse {
+            if best.is_some_and(|(least, ..)| bound >= least) {
+                break;
+            }
+            let apart = self.fine(&pair, &at, apart);
+            let own = measure(pair.other, &apart);
+            if best.is_none_or(|(least, ..)| own < least) {
+                best = Some((own, pair, apart));
+            }
+        }
+        best.map(|(_, pair, apart)| (pair, apart))
+    }
+
     /// The pair that is deepest in each other or in the margin; if nothing touches, the pair that is
     /// next to it.
     pub(super) fn deepest<const N: usize>(
@@ -67,9 +139,6 @@ impl Cell {
         placed: &Placed<'_, N>,
         q: &[f64; N],
     ) -> Option<(Pair, Separation)> {
-        let capsules = placed.capsules(q);
-        let measured = self.pairs(placed).map(|pair| (pair, self.separation(&pair, &capsules)));
-        let depth = |(pair, apart): &(Pair, Separation)| self.depth(pair.other, apart);
-        measured.max_by(|a, b| depth(a).total_cmp(&depth(b)))
+        self.least(placed, q, |other, apart| -self.depth(other, apart))
     }
 }

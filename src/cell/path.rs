@@ -181,11 +181,11 @@ impl Cell {
             if later >= motion.pieces() || placed.interrupt.is_raised() {
                 break;
             }
-            let capsules = placed.capsules(&motion.range(later, [at; 2]).0);
+            let standing = placed.at(&motion.range(later, [at; 2]).0);
             let pairs = self.pairs(placed);
             let of_two = pairs.filter(|pair| pair.link == first.link && pair.other == first.other);
             let depths =
-                of_two.map(|pair| self.depth(pair.other, &self.separation(&pair, &capsules)));
+                of_two.map(|pair| self.depth(pair.other, &self.separation(&pair, &standing)));
             let own = depths.fold(f64::NEG_INFINITY, f64::max);
             depth = depth.max(own);
             if own <= 0.0 && sample >= SAMPLES {

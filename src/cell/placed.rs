@@ -1,13 +1,13 @@
-//! The capsules of an arm at its joint angles.
+//! The capsules and hulls of an arm at its joint angles.
 
 use alloc::vec::Vec;
 
 use super::block::Block;
 use super::obstacles::Cell;
-use crate::body::{Capsule, Outline};
+use crate::body::{Capsule, Group, Outline};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::kinematics::Robot;
+use crate::kinematics::{Pose, Robot};
 use crate::lanes::LANES;
 
 /// An arm with the outline of its body.
@@ -15,7 +15,7 @@ pub(crate) struct Placed<'a, const N: usize> {
     robot: &'a Robot<N>,
     pub(super) outline: &'a Outline,
     block: Block<N>,
-    /// How far any axis of a capsule is from an axis of a joint at most [m].
+    /// How far any axis of a capsule or point of a hull is from an axis of a joint at most [m].
     reach: f64,
     pub(super) interrupt: Interrupt<'a>,
 }
@@ -25,7 +25,10 @@ impl<'a, const N: usize> Placed<'a, N> {
         let outline = robot.outline().ok_or_else(|| robot.no_body())?;
         let block = Block::new(robot, outline);
         let table = robot.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum::<f64>();
-        let own = outline.groups.iter().map(|group| group.around.center.norm() + group.spread);
+        let own = outline
+            .groups
+            .iter()
+            .map(|group| group.around.center.norm() + group.spread + group.beyond);
         let reach = table + own.fold(0.0, f64::max);
         Ok(Self { robot, outline, block, reach, interrupt: Interrupt::none() })
     }
@@ -46,26 +49,46 @@ impl<'a, const N: usize> Placed<'a, N> {
         self.block.touching(self.robot, self.outline, cell, q, spans)
     }
 
-    /// How far any axis of a capsule moves at most while the joints turn by spans [rad] [m].
+    /// How far any axis of a capsule or point of a hull moves at most while the joints turn by spans [rad] [m].
     pub(super) fn most_motion(&self, spans: [f64; N]) -> f64 {
         self.robot.table_spans(spans).iter().sum::<f64>() * self.reach
     }
 
-    /// The capsules at a joint vector, in the order of the outline.
-    pub(super) fn capsules(&self, q: &[f64; N]) -> Vec<Capsule> {
-        let (frames, _) = self.robot.link_frames(q);
-        let mut placed = Vec::with_capacity(self.outline.capsules.len());
+    /// The arm at a joint vector.
+    pub(super) fn at(&self, q: &[f64; N]) -> Standing<'_, N> {
+        let mut standing =
+            Standing { placed: self, frames: self.robot.link_frames(q).0, capsules: Vec::new() };
         for group in &self.outline.groups {
-            let frame = match group.link.checked_sub(1) {
-                Some(joint) => &frames[joint],
-                None => self.robot.base(),
-            };
-            let own = &self.outline.capsules[group.capsules.clone()];
-            placed.extend(own.iter().map(|own| {
+            let frame = standing.pose(group);
+            let own = &self.outline.capsules[group.capsules.start..group.cores.end];
+            standing.capsules.extend(own.iter().map(|own| {
                 let center = frame.rotation * own.center + frame.translation.vector;
                 own.at(center, frame.rotation * own.half)
             }));
         }
-        placed
+        standing
+    }
+}
+
+/// An arm at a joint vector.
+pub(super) struct Standing<'a, const N: usize> {
+    pub(super) placed: &'a Placed<'a, N>,
+    frames: [Pose; N],
+    /// The capsules, in the order of the outline.
+    capsules: Vec<Capsule>,
+}
+
+impl<const N: usize> Standing<'_, N> {
+    /// The pose of the link with which a group moves.
+    pub(super) fn pose(&self, group: &Group) -> Pose {
+        match group.link.checked_sub(1) {
+            Some(joint) => self.frames[joint],
+            None => *self.placed.robot.base(),
+        }
+    }
+
+    /// The capsules of a group.
+    pub(super) fn capsules_of(&self, group: usize) -> &[Capsule] {
+        &self.capsules[self.placed.outline.groups[group].capsules.clone()]
     }
 }

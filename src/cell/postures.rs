@@ -35,7 +35,7 @@ impl fmt::Display for Near {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nearest {
     /// How far they are apart [m]; less than zero if they touch, by how much their capsules reach
-    /// into each other.
+    /// into each other. Of links with hulls ([`crate::Body::hulls`]), as far as these are.
     pub distance: f64,
     /// The link.
     pub link: usize,
@@ -103,9 +103,7 @@ impl Cell {
     ) -> Result<Option<Nearest>, Error> {
         check_seed("q", q)?;
         let placed = Placed::of(robot)?;
-        let capsules = placed.capsules(q);
-        let pairs = self.pairs(&placed).map(|pair| (pair, self.separation(&pair, &capsules)));
-        let least = pairs.min_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance));
+        let least = self.least(&placed, q, |_, apart| apart.distance);
         Ok(least.map(|(pair, apart)| self.named(pair, &apart)))
     }
 

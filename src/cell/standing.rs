@@ -25,11 +25,12 @@ impl Cell {
     ) -> Result<Self, Error> {
         check_seed("q", q)?;
         let placed = Placed::of(robot)?;
-        let capsules = placed.capsules(q);
+        let at = placed.at(q);
         let mut links = Vec::new();
         for link in 0..=N + 1 {
-            let groups = placed.outline.groups.iter().filter(|group| group.number == link);
-            let own = groups.flat_map(|group| &capsules[group.capsules.clone()]);
+            let groups = placed.outline.groups.iter().enumerate();
+            let groups = groups.filter(|(_, group)| group.number == link);
+            let own = groups.flat_map(|(place, _)| at.capsules_of(place));
             let shapes: Vec<_> = own.copied().map(Shape::Capsule).collect();
             if !shapes.is_empty() {
                 links.push((format!("{name}, link {link}"), Shape::union(shapes)?));

@@ -134,7 +134,7 @@ fn of_file<'py>(source: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>
     source.py().import("irbkin._mesh_files")?.call_method1("triangles", (source,)).map(Some)
 }
 
-fn read_points<'py>(points: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
+pub(super) fn read_points<'py>(points: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
     Rows::shaped(points, || "(n, 3)", "points", Fault::Model, |shape| matches!(shape, [_, 3]))
 }
 

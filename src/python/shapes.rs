@@ -5,10 +5,11 @@ use pyo3::prelude::*;
 
 use super::arrays::{Rows, vector};
 use super::errors::Fault;
+use super::meshes::read_points;
 use super::outputs::{column, matrix};
 use super::state::{Reduced, reduced};
 use super::targets::read_single_pose;
-use crate::body::{Body, Capsule, LinkCapsule, Shape};
+use crate::body::{Body, Capsule, LinkCapsule, LinkHull, RoundedHull, Shape};
 use crate::error::Error;
 use crate::kinematics::Pose;
 
@@ -168,9 +169,25 @@ pub(super) fn read_capsules(
     Ok(made.collect::<Result<_, Error>>()?)
 }
 
+/// A hull: its link, points, faces and radius.
+type HullRow<'py> = (usize, Bound<'py, PyAny>, Vec<[u8; 3]>, f64);
+
+/// The same as an answer.
+type HullItem<'py> = (usize, Bound<'py, PyArray2<f64>>, Vec<[u8; 3]>, f64);
+
+/// Hulls by their links.
+fn read_hulls(hulls: Vec<HullRow<'_>>) -> PyResult<Vec<LinkHull>> {
+    let made = hulls.into_iter().map(|(link, points, faces, radius)| {
+        let points = read_points(&points)?;
+        let hull = RoundedHull::new(points.chunks::<3>()?, faces, radius)?;
+        Ok(LinkHull { link, hull })
+    });
+    made.collect()
+}
+
 #[pymethods]
 impl PyBody {
-    /// Make a body of capsules.
+    /// Make a body of capsules, and of hulls that contain the same more closely.
     ///
     /// Args:
     ///     links: The link of each capsule, shape (k,): 0 is the base, link i moves with joint i,
@@ -178,6 +195,10 @@ impl PyBody {
     ///     capsules: Both ends of the axis and the radius of each [m], shape (k, 7), in the frame
     ///         of its link (`Robot.link_frames`).
     ///     pairs: Pairs of links that are kept apart, shape (m, 2).
+    ///     hulls: Convex hulls that contain what the capsules of their links contain: link, points
+    ///         [m], shape (p, 3), triangles of its surface by the numbers of points, shape (t, 3)
+    ///         or none, and a radius [m], within which everything belongs to it. Where capsules
+    ///         touch, the hulls of a link decide, if it has some.
     ///     source: Where the shapes are from.
     ///     excess: How far outside of what they contain the capsules of each link are [m]; not
     ///         known when not given.
@@ -186,15 +207,17 @@ impl PyBody {
     ///     InvalidModelError: A radius that is not positive, a pair of links without capsules, a
     ///         wrong shape.
     #[new]
-    #[pyo3(signature = (links, capsules, pairs, *, source="given", excess=None))]
+    #[pyo3(signature = (links, capsules, pairs, *, hulls=vec![], source="given", excess=None))]
     fn new(
         links: Vec<usize>,
         capsules: &Bound<'_, PyAny>,
         pairs: Vec<[usize; 2]>,
+        hulls: Vec<HullRow<'_>>,
         source: &str,
         excess: Option<Vec<f64>>,
     ) -> PyResult<Self> {
         let body = Body::new(read_capsules(links, capsules)?, pairs)?;
+        let body = body.with_hulls(read_hulls(hulls)?)?;
         Ok(Self(body.with_source(source.to_owned(), excess.unwrap_or_default())?))
     }
 
@@ -271,6 +294,16 @@ impl PyBody {
         matrix(py, &self.0.capsules().iter().map(|own| row_of(&own.capsule)).collect::<Vec<_>>())
     }
 
+    /// The hulls, as they are given: link, points [m], shape (p, 3), faces, radius [m].
+    #[getter]
+    fn hulls<'py>(&self, py: Python<'py>) -> Vec<HullItem<'py>> {
+        let row = |own: &LinkHull| {
+            let points: Vec<[f64; 3]> = own.hull.points().collect();
+            (own.link, matrix(py, &points), own.hull.faces().to_vec(), own.hull.radius())
+        };
+        self.0.hulls().iter().map(row).collect()
+    }
+
     /// The pairs of links that are kept apart. The others may touch by construction or, of a body
     /// of the catalog, never do inside the catalog's limits.
     #[getter]
@@ -300,7 +333,11 @@ impl PyBody {
 
     fn __repr__(&self) -> String {
         let (count, pairs) = (self.0.capsules().len(), self.0.pairs().len());
-        format!("<Body: {count} capsules, {pairs} pairs of links, {}>", self.0.source())
+        let hulls = match self.0.hulls().len() {
+            0 => String::new(),
+            count => format!(", {count} hulls"),
+        };
+        format!("<Body: {count} capsules{hulls}, {pairs} pairs of links, {}>", self.0.source())
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {

@@ -159,7 +159,7 @@ def test_a_motion_is_free_between_its_rows_or_says_where_it_is_not():
     contact = cell.check_path(ROBOT, q)
     assert 0.2 < contact.at < 0.5
     assert contact.pair[1] == "ball"
-    assert contact.depth > 0.02
+    assert contact.depth > 0.01
     part = q[0] + contact.at * (q[1] - q[0])
     assert np.abs(part - contact.q).max() < 1e-9
     assert abs(float(cell.distance(ROBOT, contact.q).distance)) < 3e-4

@@ -164,8 +164,8 @@ MISSING = {
     "1.5708": (
         Robot.from_sdh,
         np.round(UR5E, 4),
-        " (write the angles with all their digits, which moves the tool by up to 3.3e-6 m); snap=1e-5 "
-        "would take it",
+        " (write the angles with all their digits, which moves the tool by up to 3.3e-6 m); "
+        "snap=1e-5 would take it",
     ),
 }
 

@@ -1,7 +1,7 @@
-"""Capsules that contain the meshes of an arm: `irbkin.body.Body.fit`.
+"""Capsules and hulls that contain the meshes of an arm: `irbkin.body.Body.fit`.
 
-`urdf` reads the solids of the links, `solid` makes points and distances of one, `capsules` fits it,
-`pairs` finds the links that are kept apart.
+`urdf` reads the solids of the links, `solid` makes points and distances of one, `capsules` and
+`hulls` fit it, `pairs` finds the links that are kept apart.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from irbkin._core import Body, Robot, _urdf_swept
 from irbkin._fit.capsules import fitted
+from irbkin._fit.hulls import hulls_of
 from irbkin._fit.pairs import pairs_of
 from irbkin._fit.solid import Array, Solid
 from irbkin._fit.urdf import fixed, links_of, text_and_folder
@@ -22,6 +23,8 @@ from irbkin.errors import InvalidModelError
 
 # Capsules of a link, at most.
 MOST = 12
+# Of a hull that is a capsule.
+NO_FACES = np.empty((0, 3), np.intp)
 
 
 def check(excess: float | None, most: int) -> None:
@@ -64,16 +67,18 @@ def body_of(
     remark += "".join(f"; {name} at {position:g}" for name, position in (joints or {}).items())
     solids = {link: Solid(corners) for link, corners in sorted(triangles.items())}
     found = [(link, *fitted(solid, excess, most)) for link, solid in solids.items()]
+    hulls = [row for link, solid in solids.items() for row in hulls_of(link, solid.triangles)]
     for name, (link, corners) in beside.items():
         rows, outside = fitted(Solid(corners), excess, most)
         rows, growth = _urdf_swept(text, base, tip, name, [link] * len(rows), rows)
         found.append((link, rows, outside + growth))
+        hulls += [(link, row[:6].reshape(2, 3), NO_FACES, row[6]) for row in rows]
     links = np.concatenate([np.full(len(rows), link) for link, rows, _ in found])
     capsules = np.concatenate([rows for _, rows, _ in found])
     outsides = np.zeros(links.max() + 1)
     for link, _, outside in found:
         outsides[link] = max(outsides[link], outside)
-    body = Body(links, capsules, [])
+    body = Body(links, capsules, [], hulls=hulls)
     pairs = pairs_of(robot, body, solids, {link for link, _ in beside.values()})
     source = f"capsules fitted to the meshes of {robot.name}{remark}"
-    return Body(links, capsules, pairs, source=source, excess=outsides)
+    return Body(links, capsules, pairs, hulls=hulls, source=source, excess=outsides)

@@ -34,7 +34,8 @@ def pairs_of(
         # What the flange carries has the neighbors of the last link.
         for other in (link for link in links if min(link, dof) > one + 1):
             chosen = np.isin(body.links, [one, other])
-            alone = Body(body.links[chosen], body.capsules[chosen], [(one, other)])
+            hulls = [hull for hull in body.hulls if hull[0] in (one, other)]
+            alone = Body(body.links[chosen], body.capsules[chosen], [(one, other)], hulls=hulls)
             touches = Cell().collides(robot.with_body(alone), q)
             if touches.all():
                 continue

@@ -6,6 +6,7 @@
 mod abb_from_6600;
 mod abb_to_1600;
 mod abb_to_4600;
+mod hulls;
 mod others;
 mod universal_robots;
 
@@ -57,6 +58,7 @@ pub(crate) fn body_of(name: &str) -> Option<Body> {
         arm: Some(name),
         links: links.collect(),
         parts: parts.collect(),
+        hulls: hulls::of(arm.names),
         pairs: arm.checked.iter().map(|pair| pair.map(usize::from)).collect(),
         source: Cow::Borrowed(arm.source),
         is_approximate: false,

@@ -79,7 +79,7 @@ pub(super) const BODIES: &[BodyOfArm] = &[
         ],
         parts: &[],
         // Links 0 and 2 are 14 mm apart nearly always: their capsules always touch.
-        checked: &[[0, 3], [0, 4], [0, 5], [0, 6], [1, 3], [1, 4], [1, 5], [1, 6], [2, 4], [2, 5], [2, 6], [3, 5], [3, 6]],
+        checked: &[[0, 2], [0, 3], [0, 4], [0, 5], [0, 6], [1, 3], [1, 4], [1, 5], [1, 6], [2, 4], [2, 5], [2, 6], [3, 5], [3, 6]],
     },
     BodyOfArm {
         names: &["UR10"],

@@ -90,6 +90,12 @@ impl Capsule {
         (at(&self.ends, 0.5), 0.5 * length + self.radius)
     }
 
+    /// Its volume over pi, for comparison [m^3].
+    pub(crate) fn volume(&self) -> f64 {
+        let length = (self.ends[1] - self.ends[0]).norm();
+        self.radius * self.radius * (length + 4.0 / 3.0 * self.radius)
+    }
+
     /// How far two capsules are apart.
     pub(crate) fn separation(&self, other: &Self) -> Separation {
         let (_, points) = between(&self.ends, &other.ends);
@@ -108,7 +114,7 @@ pub(crate) struct Separation {
 
 impl Separation {
     /// From nothing at all.
-    pub(super) const NOTHING: Self =
+    pub(crate) const NOTHING: Self =
         Self { distance: f64::INFINITY, points: [Vector3::new(f64::NAN, f64::NAN, f64::NAN); 2] };
 
     /// Of two balls, by their centers and radii.
@@ -125,6 +131,18 @@ impl Separation {
     pub(super) fn of_axis(distance: f64, [from, to]: [Vector3<f64>; 2], radius: f64) -> Self {
         let away = if distance > 0.0 { (from - to).normalize() * radius } else { Vector3::zeros() };
         Self { distance: distance - radius, points: [from - away, to] }
+    }
+
+    /// Of two shapes with radii, by points that are nearest without these; `distance` is theirs, or
+    /// less.
+    pub(super) fn of_rounded(
+        distance: f64,
+        [from, to]: [Vector3<f64>; 2],
+        radii: [f64; 2],
+    ) -> Self {
+        let way = if distance > 0.0 { (to - from).normalize() } else { Vector3::zeros() };
+        let points = [from + way * radii[0], to - way * radii[1]];
+        Self { distance: distance - radii[0] - radii[1], points }
     }
 
     /// The separation moved from a frame, whose pose is given, into the frame of the pose.

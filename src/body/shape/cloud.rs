@@ -78,6 +78,14 @@ impl Cloud {
         self.0.radius
     }
 
+    pub(super) fn point(&self, index: usize) -> Vector3<f64> {
+        self.0.points[index]
+    }
+
+    pub(super) fn tree(&self) -> &Tree {
+        &self.0.tree
+    }
+
     /// The box around the points.
     pub(super) fn bounds(&self) -> &Bounds {
         self.0.tree.bounds()

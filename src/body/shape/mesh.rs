@@ -99,6 +99,14 @@ impl Mesh {
         self.0.is_solid
     }
 
+    pub(super) fn triangle(&self, index: usize) -> &Triangle {
+        &self.0.triangles[index]
+    }
+
+    pub(super) fn tree(&self) -> &Tree {
+        &self.0.tree
+    }
+
     /// The box around it.
     pub(super) fn bounds(&self) -> &Bounds {
         self.0.tree.bounds()
@@ -136,7 +144,7 @@ impl Mesh {
     }
 
     /// Whether a point is inside, or so near to the surface that rounding decides.
-    fn holds(&self, point: &Vector3<f64>) -> bool {
+    pub(super) fn holds(&self, point: &Vector3<f64>) -> bool {
         self.bounds().contains(point) && {
             let ways = DIRECTIONS.map(Vector3::from);
             let winding = ways.iter().find_map(|way| self.winding(point, way));

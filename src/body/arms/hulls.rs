@@ -1,0 +1,70 @@
+//! Convex hulls of the links of the catalog's arms, of the same meshes as their capsules.
+//!
+//! `hulls.bin` is written by `tests/write_hulls.py`. Of each body: the length of its name and the name,
+//! then the number of its hulls; of each hull: the link, the numbers of points and of faces as
+//! bytes; in hundredths of a millimeter its radius, in tenths the ends and the radius of a capsule
+//! inside of its points, and the points, as two bytes each, the lower one first; the corners of the
+//! faces as bytes.
+
+use alloc::vec::Vec;
+
+use super::UNIT;
+use crate::body::links::LinkHull;
+use crate::body::shape::{Capsule, RoundedHull};
+
+const HULLS: &[u8] = include_bytes!("hulls.bin");
+
+/// Meters of a hundredth of a millimeter [m].
+const RADIUS: f64 = 1e-5;
+
+/// The hulls of the body of arms, one of which names them.
+pub(super) fn of(names: &[&str]) -> Vec<LinkHull> {
+    let mut rest = Rest(HULLS);
+    while let Some(length) = rest.byte() {
+        let own = rest.take(usize::from(length));
+        let is_wanted = names.iter().any(|name| name.as_bytes() == own);
+        let count = rest.byte().unwrap_or_default();
+        let mut hulls = Vec::new();
+        for _ in 0..count {
+            let [link, points, faces] = core::array::from_fn(|_| rest.byte().unwrap_or_default());
+            let radius = f64::from(rest.pair().cast_unsigned()) * RADIUS;
+            let ends = [rest.point(), rest.point()];
+            let core = Capsule::known(ends[0], ends[1], f64::from(rest.pair()) * UNIT + radius);
+            let (points, faces) =
+                (rest.take(6 * usize::from(points)), rest.take(3 * usize::from(faces)));
+            if is_wanted {
+                let (points, faces) = (points.as_chunks::<6>().0, faces.as_chunks::<3>().0);
+                let points: Vec<_> = points.iter().map(|row| Rest(row).point().into()).collect();
+                let hull = RoundedHull::known(&points, faces.to_vec(), radius, Some(core));
+                hulls.push(LinkHull { link: usize::from(link), hull });
+            }
+        }
+        if is_wanted {
+            return hulls;
+        }
+    }
+    Vec::new()
+}
+
+/// What is not read yet.
+struct Rest(&'static [u8]);
+
+impl Rest {
+    fn take(&mut self, count: usize) -> &'static [u8] {
+        let (taken, rest) = self.0.split_at(count.min(self.0.len()));
+        self.0 = rest;
+        taken
+    }
+
+    fn byte(&mut self) -> Option<u8> {
+        self.take(1).first().copied()
+    }
+
+    fn pair(&mut self) -> i16 {
+        self.take(2).try_into().map_or(0, i16::from_le_bytes)
+    }
+
+    fn point(&mut self) -> [f64; 3] {
+        core::array::from_fn(|_| f64::from(self.pair()) * UNIT)
+    }
+}
