@@ -4,17 +4,17 @@ of the extension's classes return.
 
 from __future__ import annotations
 
-from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._files import write_by_name
+from irbkin._files import write_columns
 from irbkin.errors import InvalidJointsError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from os import PathLike
     from typing import IO
 
     from irbkin._arrays import Floats
@@ -111,18 +111,9 @@ def of_trajectory(trajectory: Trajectory) -> Columns:
     }
 
 
-def write_csv(trajectory: Trajectory, path_or_file: str | PathLike[str] | IO[str]) -> None:
-    """Write what `Trajectory.to_csv` writes."""
-    columns = of_trajectory(trajectory)
-    rows = np.column_stack(list(columns.values()))
-
-    def write(to: str | IO[str]) -> None:
-        np.savetxt(to, rows, "%.17g", ",", header=",".join(columns), comments="")
-
-    if isinstance(path_or_file, str | PathLike):
-        write_by_name(path_or_file, write)
-    else:
-        write(path_or_file)
+def write_csv(answer: Any, path_or_file: str | PathLike[str] | IO[str]) -> None:
+    """Write the columns of an answer."""
+    write_columns(answer.to_dict(), path_or_file)
 
 
 def of_joint_trajectory(

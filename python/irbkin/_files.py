@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import csv
 import errno
+import io
 import os
 import stat
-from collections.abc import Callable, Iterator
-from typing import BinaryIO
+from collections.abc import Callable, Iterator, Mapping
+from typing import IO, Any, BinaryIO
 
 STREAMS = ("/dev/fd/", "/dev/std", "/proc/")
 """Names of streams that are open; they are links, perhaps to a file."""
@@ -82,6 +84,24 @@ def write_by_name(path: str | os.PathLike[str], write: Callable[[str], object]) 
         write(own)
         with open(own, "rb") as made:
             shutil.copyfileobj(made, file)
+
+
+def write_columns(
+    columns: Mapping[str, Any], path_or_file: str | os.PathLike[str] | IO[str]
+) -> None:
+    """Write columns, arrays or lists of one length, under a line of their names; with every digit
+    of a number, and nothing for None.
+    """
+    if isinstance(path_or_file, str | os.PathLike):
+        with replaced(path_or_file) as file:
+            text = io.TextIOWrapper(file, "utf-8", newline="")
+            write_columns(columns, text)
+            text.detach()
+        return
+    rows = csv.writer(path_or_file, lineterminator="\n")
+    rows.writerow(columns)
+    lists = (it if isinstance(it, list) else it.tolist() for it in columns.values())
+    rows.writerows(zip(*lists, strict=True))
 
 
 def _target(name: str) -> str:

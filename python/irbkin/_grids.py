@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
 
 from irbkin._equality import by_value
+from irbkin._files import write_columns
+from irbkin._words import counted
 
 if TYPE_CHECKING:
-    import numpy as np
+    from os import PathLike
+    from typing import IO
+
     import numpy.typing as npt
 
     from irbkin.records import Plan
@@ -78,6 +84,10 @@ class Placement(NamedTuple):
     reason: str
     """The outcome in a sentence."""
 
+    def __repr__(self) -> str:
+        """The outcome, and how many bases of the grid were tried."""
+        return f"<Placement: {self.reason}; {self.grid.margin.size:,} bases on the grid>"
+
 
 @by_value
 class ReachMap(NamedTuple):
@@ -106,3 +116,46 @@ class ReachMap(NamedTuple):
     def share(self) -> npt.NDArray[np.float64]:
         """Share of the orientations that are reached inside the limits, shape (i, j, k)."""
         return self.reached / len(self.orientations)
+
+    def to_dict(self) -> dict[str, npt.NDArray[Any]]:
+        """Return the positions as columns, of which `pandas.DataFrame` and `polars.DataFrame` make
+        a table.
+
+        Returns:
+            Arrays of shape (i * j * k,) by name, z the fastest: `x`, `y`, `z` [m]; `reached`,
+            `share`, `solutions`, `margin`, `singularities`.
+        """
+        places = np.meshgrid(self.x, self.y, self.z, indexing="ij")
+        names = ("reached", "share", "solutions", "margin", "singularities")
+        columns = dict(zip("xyz", places, strict=True), **{it: getattr(self, it) for it in names})
+        return {name: column.flatten() for name, column in columns.items()}
+
+    def to_csv(self, path_or_file: str | PathLike[str] | IO[str]) -> None:
+        """Write the columns of `to_dict`, separated by commas, under a line of their names.
+
+        Args:
+            path_or_file: A path, or a file that is open for text.
+
+        Raises:
+            OSError: It cannot be written.
+        """
+        write_columns(self.to_dict(), path_or_file)
+
+    def __repr__(self) -> str:
+        """The grid, how much of it is reached, and the best position."""
+        axes, share = (self.x, self.y, self.z), self.share
+        sizes = " x ".join(map(str, share.shape))
+        ends = (
+            f"{name} {axis[0]:g}" + (f" .. {axis[-1]:g}" if len(axis) > 1 else "")
+            for name, axis in zip("xyz", axes, strict=True)
+        )
+        best = np.unravel_index(share.argmax(), share.shape)
+        place = ", ".join(f"{axis[i]:g}" for axis, i in zip(axes, best, strict=True))
+        some, every = np.count_nonzero(share), np.count_nonzero(share == 1)
+        return (
+            f"<ReachMap: {sizes} positions, {counted(len(self.orientations), 'orientation')} each\n"
+            f"{', '.join(ends)} m\n"
+            f"reached: {share.mean():.1%} of all poses; {some:,} of {share.size:,} positions, "
+            f"{every:,} in every orientation\n"
+            f"best: {share.max():.1%} at ({place}) m>"
+        )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -9,6 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from irbkin._words import counted, listed
 from irbkin.abb.carriers import MOST_CARRIERS
 from irbkin.abb.findings import Finding
 from irbkin.abb.folders import Folder
@@ -41,7 +43,7 @@ class Controller:
     """Whether motors have calibration offsets, which a virtual controller has not."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Backup:
     """A controller's backup.
 
@@ -65,7 +67,23 @@ class Backup:
     """Findings on what is not determined, missing or broken, once for each unit or file."""
     checksums: Mapping[str, str] = field(default_factory=dict)
     """OmniCore: base64 of BACKINFO/checksum.txt by path in the backup, in lower case, with `/`."""
-    _folder: Folder | None = field(default=None, repr=False)
+    _folder: Folder | None = None
+
+    def __repr__(self) -> str:
+        """The controller, and what was found on it."""
+        machine = self.controller
+        of = (machine.kind or "unknown controller", machine.robotware, machine.system)
+        severities = Counter(it.severity for it in self.findings).items()
+        lines = {
+            f"<Backup of {self.origin}": " ".join(filter(None, of)),
+            "robots": listed(f"{it.name} ({it.arm or it.type})" for it in self.robots.values()),
+            "units": listed(self.units),
+            "tasks": listed(
+                f"{it.name} ({counted(len(it.modules), 'module')})" for it in self.tasks
+            ),
+            "findings": listed(counted(count, it) for it, count in sorted(severities)),
+        }
+        return "\n".join(f"{name}: {words or 'none'}" for name, words in lines.items()) + ">"
 
     def task(self, name: str) -> Task:
         """Return the task of a name, compared without case.

@@ -6,6 +6,7 @@ import os
 from collections import deque
 from pathlib import Path
 
+from irbkin._words import listed
 from irbkin.abb.archives import archive_of, unpacked_of
 from irbkin.abb.folders import Folder
 from irbkin.errors import IrbkinError
@@ -57,9 +58,8 @@ def _root(start: Path, archive: Path | None, unpacked: Path | None) -> Path:
         wanted = "BACKINFO, RAPID or SYSPAR"
         raise IrbkinError(f"{shown(start)}: is no backup of a controller, it has no {wanted}")
     if len(found) > 1:
-        listed = ", ".join(shown(it) for it in found[:10])
-        more = f" and {len(found) - 10} more" if len(found) > 10 else ""
-        raise IrbkinError(f"{shown(start)}: has {len(found)} backups, give one: {listed}{more}")
+        names = listed(map(shown, found))
+        raise IrbkinError(f"{shown(start)}: has {len(found)} backups, give one: {names}")
     return found[0]
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from irbkin._arguments import check_robot
 from irbkin._grids import BaseGrid, Placement
+from irbkin._words import listed
 from irbkin.placement._region import Bases
 from irbkin.placement._scene import NOT_REACHED, Scene, Scores, inverse
 from irbkin.records import Plan, Status
@@ -186,7 +187,9 @@ def _answer(search: Search, scores: Scores, found: Start) -> Placement:
     else:
         reason = f"at most {int(score[0])} of {count} targets are reached, from {place}"
         if nowhere:
-            reason += f"; from no base that was tried: {_listed(nowhere)}"
+            reason += (
+                f"; from no base that was tried: target{'s' * (len(nowhere) > 1)} {listed(nowhere)}"
+            )
     return Placement(
         base=base,
         margin=score[2] if is_reached else np.nan,
@@ -225,10 +228,3 @@ def _joints(scene: Scene, base: Floats) -> tuple[Floats, Floats, Floats]:
         np.where(is_reached, scene.angles[best], 0.0),
         np.where(is_reached, slack, np.nan),
     )
-
-
-def _listed(indices: Sequence[int]) -> str:
-    """Indices in words, the first ten of many."""
-    words = ", ".join(map(str, indices[:10]))
-    more = f" and {len(indices) - 10} more" if len(indices) > 10 else ""
-    return f"target{'s' * (len(indices) > 1)} {words}{more}"

@@ -24,8 +24,25 @@ Vector = tuple[float, ...]
 Rows = tuple[Vector, ...]
 
 
-@dataclass(frozen=True)
-class LinkShape:
+class _Part:
+    """A part of a scene, which is shown by its lengths where it is long."""
+
+    def __repr__(self) -> str:
+        """The fields that differ from their defaults; of more than three things their number."""
+        own = ((it, getattr(self, it.name)) for it in fields(self))  # type: ignore[arg-type]
+        words = (f"{it.name}={_short(value)}" for it, value in own if value != it.default)
+        return f"{type(self).__name__}({', '.join(words)})"
+
+
+def _short(value: Any) -> str:
+    """A field in a line."""
+    if isinstance(value, dict):
+        return f"<{value.get('kind')}>"
+    return f"<{len(value)}>" if isinstance(value, tuple) and len(value) > 3 else repr(value)
+
+
+@dataclass(frozen=True, repr=False)
+class LinkShape(_Part):
     """A part of an arm's body."""
 
     link: int
@@ -39,8 +56,8 @@ class LinkShape:
     """Its radius [m]."""
 
 
-@dataclass(frozen=True)
-class Posture:
+@dataclass(frozen=True, repr=False)
+class Posture(_Part):
     """Joint angles at which an arm is drawn."""
 
     q: Vector
@@ -51,8 +68,8 @@ class Posture:
     """Whether it is drawn faintly, behind the others."""
 
 
-@dataclass(frozen=True)
-class Motion:
+@dataclass(frozen=True, repr=False)
+class Motion(_Part):
     """Joint angles over time, even between two times."""
 
     t: Vector
@@ -65,8 +82,8 @@ class Motion:
     """The text of the program."""
 
 
-@dataclass(frozen=True)
-class Arm:
+@dataclass(frozen=True, repr=False)
+class Arm(_Part):
     """An arm: enough to draw it at any joint angles.
 
     The frame of link i in the world is `base @ joints[0] @ Rz(q[0]) @ .. @ joints[i - 1] @ Rz(q[i -
@@ -95,8 +112,8 @@ class Arm:
     """How it moves."""
 
 
-@dataclass(frozen=True)
-class Frame:
+@dataclass(frozen=True, repr=False)
+class Frame(_Part):
     """A frame, drawn as axes: x red, y green, z blue."""
 
     name: str
@@ -104,8 +121,8 @@ class Frame:
     """Four rows."""
 
 
-@dataclass(frozen=True)
-class Path:
+@dataclass(frozen=True, repr=False)
+class Path(_Part):
     """A way of the tool."""
 
     name: str
@@ -113,8 +130,8 @@ class Path:
     """Positions [m]."""
 
 
-@dataclass(frozen=True)
-class Cloud:
+@dataclass(frozen=True, repr=False)
+class Cloud(_Part):
     """Points with a value each: a map."""
 
     name: str
@@ -126,8 +143,8 @@ class Cloud:
     """The quantity, in words."""
 
 
-@dataclass(frozen=True)
-class Obstacle:
+@dataclass(frozen=True, repr=False)
+class Obstacle(_Part):
     """A shape that stands still."""
 
     name: str
@@ -135,8 +152,8 @@ class Obstacle:
     """As `irbkin.body.Shape.data` has it."""
 
 
-@dataclass(frozen=True)
-class Mark:
+@dataclass(frozen=True, repr=False)
+class Mark(_Part):
     """A finding with its place."""
 
     point: Vector
@@ -150,8 +167,8 @@ class Mark:
     """When it happens [s]."""
 
 
-@dataclass(frozen=True)
-class Scene:
+@dataclass(frozen=True, repr=False)
+class Scene(_Part):
     """Everything that is looked at."""
 
     title: str = ""

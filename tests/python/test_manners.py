@@ -1,0 +1,75 @@
+"""What an answer shows of itself, and the columns that it is written as."""
+
+import csv
+import io
+import re
+from pathlib import Path
+
+import irbkin
+import irbkin.abb
+import irbkin.map
+import numpy as np
+import pytest
+from irbkin import placement, scene, trajectory
+
+ROBOT = irbkin.Robot("IRB 2600-12/1.65")
+Q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7]
+BACKUP = Path(__file__).parents[2] / "examples" / "backup"
+AXIS = np.linspace(-1.2, 1.2, 9)
+MAP = irbkin.map.reach(ROBOT, AXIS, 0.0, AXIS, irbkin.map.orientations(20))
+
+
+def placed():
+    region = placement.Region(x=(-0.5, 0.5), y=(-0.5, 0.5))
+    targets = [irbkin.pose([1.2, 0.1 * i, 0.5], euler_zyx=[0, 3, 0]) for i in range(50)]
+    return placement.best_base(ROBOT, targets, region, steps=3, refine=False)
+
+
+def motion():
+    return scene.of(trajectory.joint([0.0] * 6, Q, duration=1.0, steps=500), ROBOT) + scene.of(MAP)
+
+
+SHOWN = [
+    (MAP, r"9 x 1 x 9 positions, 20 orientations each\nx -1.2 .. 1.2, y 0, z -1.2 .. 1.2 m\nreac"),
+    (MAP, rf"{np.count_nonzero(MAP.share)} of 81 positions, .*\nbest: {MAP.share.max():.1%} at"),
+    (placed(), r"^<Placement: at most 20 of 50 .* 20, 21, .* and 20 more; 9 bases on the grid>$"),
+    (irbkin.abb.load_backup(BACKUP), r"backup: IRC5 6.08.01.00 .*\nrobots: ROB_1 \(IRB 4600-40/2"),
+    (
+        irbkin.abb.load_backup(BACKUP),
+        r"\nunits: TRACK_2, .*\ntasks: T_ROB1 \(4 modules\), .*\nfindings: 2 ",
+    ),
+    (motion(), r"^Scene\(title='IRB 2600-12/1.65', arms=\(Arm\(.*motion=Motion\(t=<.*points=<"),
+]
+
+
+@pytest.mark.parametrize(("answer", "words"), SHOWN)
+def test_an_answer_says_in_ten_lines_what_came_out(answer, words):
+    text = repr(answer)
+    assert len(text.splitlines()) <= 10
+    assert len(text) < 1000
+    assert re.search(words, text), text
+
+
+TABLES = [MAP]
+
+
+@pytest.mark.parametrize("answer", TABLES, ids=lambda it: type(it).__name__)
+def test_the_columns_of_an_answer_are_a_file(answer, tmp_path):
+    columns, file = answer.to_dict(), io.StringIO()
+    answer.to_csv(file)
+    answer.to_csv(tmp_path / "rows.csv")
+    assert (tmp_path / "rows.csv").read_bytes().decode() == file.getvalue()
+    head, *rows = csv.reader(io.StringIO(file.getvalue()))
+    assert head == list(columns)
+    assert len({len(column) for column in columns.values()}) == 1
+    assert len(rows) > 1
+    for name, *cells in zip(head, *rows, strict=True):
+        values = np.asarray(columns[name]).tolist()
+        assert cells == ["" if it is None else str(it) for it in values]
+
+
+def test_the_columns_of_a_map_are_its_positions():
+    columns = MAP.to_dict()
+    np.testing.assert_array_equal(columns["x"], np.repeat(AXIS, 9))
+    np.testing.assert_array_equal(columns["z"], np.tile(AXIS, 9))
+    np.testing.assert_array_equal(columns["share"], MAP.share.ravel())
