@@ -143,6 +143,7 @@ _MODULES = (
     "trajectory",
     "viewer",
 )
+_EXTRAS = {"plot": "matplotlib", "viewer": "viser"}
 
 # Names of other packages, and what to use here.
 _OTHERS = {
@@ -168,5 +169,11 @@ def __getattr__(name: str) -> ModuleType | Callable[..., Any]:
 
 
 def __dir__() -> list[str]:
-    """List what the package offers, its modules before their import, too."""
-    return sorted({*__all__, "errors", "records", *(n for n in globals() if n.startswith("__"))})
+    """List what the package offers, its modules before their import, too; not those that lack their
+    extra, which whoever asks for every name of the list would have to import.
+    """
+    from importlib.util import find_spec
+
+    own = {name for name in globals() if name.startswith("__")}
+    lacking = {name for name, extra in _EXTRAS.items() if find_spec(extra) is None}
+    return sorted({*__all__, *_MODULES, *own, "errors", "freedom", "records"} - lacking)

@@ -420,6 +420,19 @@ def test_dir_lists_what_there_is(name):
     assert set(importlib.import_module(name).__all__) <= set(listed)
     assert not {"Any", "TYPE_CHECKING", "annotations", "Path", "Iterable"} & set(public)
     if name == "irbkin":
-        assert "rapid" in public
+        modules = "abb body calibration map paths placement rapid ros scene trajectory"
+        assert {*modules.split(), "errors", "freedom", "records"} <= set(public)
     for word in listed:
         getattr(importlib.import_module(name), word)
+
+
+def test_modules_without_their_extra_are_not_listed(monkeypatch):
+    """Else `help(irbkin)`, which takes every name of `dir`, would end with an ImportError."""
+    import inspect
+
+    monkeypatch.setattr(irbkin, "_EXTRAS", {"plot": "no_such_package", "viewer": "no_such_package"})
+    assert not {"plot", "viewer"} & set(dir(irbkin))
+    monkeypatch.setattr(irbkin, "_EXTRAS", {"plot": "json", "viewer": "no_such_package"})
+    assert "plot" in dir(irbkin)
+    monkeypatch.undo()
+    assert "map" in dict(inspect.getmembers(irbkin))
