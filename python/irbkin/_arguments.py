@@ -1,9 +1,10 @@
-"""Arguments of Python functions that are no arrays: robots, whole numbers and names."""
+"""Arguments of Python functions that are no arrays: robots, numbers, names, who watches."""
 
 from __future__ import annotations
 
 import operator
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol
 
 from irbkin._core import Robot
 
@@ -11,6 +12,41 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from irbkin.errors import IrbkinError
+
+Report = Callable[[int, int], object]
+
+
+class Bar(Protocol):
+    """A bar of progress, as of tqdm."""
+
+    n: Any
+    total: Any
+
+    def update(self, n: Any, /) -> object:
+        """So much more is done."""
+
+
+def reporter(progress: Report | Bar | None) -> Report:
+    """What is called with how much is done, and with the whole: a callable, or a bar as of tqdm.
+
+    Raises:
+        TypeError: It is something else.
+    """
+    if progress is None:
+        return lambda done, total: None
+    if callable(progress):
+        return progress
+    if not hasattr(progress, "update"):
+        raise TypeError(
+            f"progress must be a callable f(done, total) or a bar such as tqdm(), got {progress!r}"
+        )
+    bar: Bar = progress
+
+    def report(done: int, total: int) -> None:
+        bar.total = total
+        bar.update(done - bar.n)
+
+    return report
 
 
 def check_robot(robot: object) -> None:

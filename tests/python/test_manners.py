@@ -73,3 +73,65 @@ def test_the_columns_of_a_map_are_its_positions():
     np.testing.assert_array_equal(columns["x"], np.repeat(AXIS, 9))
     np.testing.assert_array_equal(columns["z"], np.tile(AXIS, 9))
     np.testing.assert_array_equal(columns["share"], MAP.share.ravel())
+
+
+class Bar:
+    """What is used of tqdm's."""
+
+    def __init__(self):
+        self.n, self.total, self.steps = 0, None, []
+
+    def update(self, n):
+        self.n += n
+        self.steps.append((self.n, self.total))
+
+
+def base(progress):
+    region = placement.Region(x=(-0.5, 0.5), y=(-0.5, 0.5))
+    targets = [irbkin.pose([1.2, 0.1, 0.5], euler_zyx=[0, 3, 0])]
+    found = placement.best_base(ROBOT, targets, region, steps=3, progress=progress)
+    assert found == placement.best_base(ROBOT, targets, region, steps=3)
+
+
+def path(progress):
+    region = placement.Region(x=(-0.5, 0.5), y=(-0.5, 0.5))
+    ends = [irbkin.pose([1.2, y, 0.5], euler_zyx=[0, 3, 0]) for y in (0, 0.1)]
+    targets = irbkin.paths.line(*ends, steps=5)
+    options = {"path": True, "steps": 4, "refine": False}
+    found = placement.best_base(ROBOT, targets, region, progress=progress, **options)
+    assert found == placement.best_base(ROBOT, targets, region, **options)
+
+
+def reach_map(progress):
+    irbkin.map.reach(ROBOT, AXIS, 0.0, AXIS, np.eye(3), block=30, progress=progress)
+
+
+def backup(progress):
+    irbkin.abb.load_backup(BACKUP, progress=progress)
+
+
+WORKS = [(base, 59), (path, 16), (reach_map, 81), (backup, 3)]
+
+
+@pytest.mark.parametrize(("work", "total"), WORKS)
+def test_work_reports_its_progress_to_a_callable_and_to_a_bar(work, total):
+    calls, bar = [], Bar()
+    work(lambda *both: calls.append(both))
+    work(bar)
+    assert calls[-1] == (total, total)
+    assert calls == sorted(calls)
+    assert len(set(calls)) > 1
+    assert bar.steps == calls
+    with pytest.raises(
+        TypeError, match=r"a callable f\(done, total\) or a bar such as tqdm\(\), got"
+    ):
+        work(5)
+
+
+@pytest.mark.parametrize("work", [work for work, _ in WORKS])
+def test_work_ends_with_what_progress_raises(work):
+    def stop(done, total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        work(stop)

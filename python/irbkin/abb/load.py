@@ -9,6 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal
 
+from irbkin._arguments import Bar, Report, reporter
 from irbkin.abb.arms import fitted
 from irbkin.abb.backinfo import BackInfo, parse_backinfo
 from irbkin.abb.backup import Backup, Controller, ControllerKind
@@ -25,12 +26,14 @@ GENERATIONS: dict[int, ControllerKind] = {4: "S4C+", 5: "IRC5", 6: "IRC5", 7: "O
 """Controllers by the first number of their files' version, which is RobotWare's."""
 
 
-def load_backup(path: str | PathLike[str]) -> Backup:
+def load_backup(path: str | PathLike[str], *, progress: Report | Bar | None = None) -> Backup:
     """Read the backup of a controller: S4C+, IRC5, OmniCore.
 
     Args:
         path: The folder of the backup, one in it or above it, or an archive (.zip, .rspag). Of an
             archive with several, the path goes on: `station.rspag/Backups/NAME`.
+        progress: Called with the number of tasks that are read, and of all; or a bar as
+            `tqdm.tqdm()`.
 
     Returns:
         Backup. What the files do not determine is in `findings`; half a backup is read, too.
@@ -38,12 +41,13 @@ def load_backup(path: str | PathLike[str]) -> Backup:
     Raises:
         IrbkinError: There is no backup, or there are several; the message lists them.
     """
+    report = reporter(progress)
     folder = open_backup(Path(path).absolute())
     moc, sys = _cfg(folder, "MOC.cfg"), _cfg(folder, "SYS.cfg")
     info = _info(folder)
     machine = read_machine(moc, info.arms) if moc.file else _by_wording(info)
     reader = TaskReader(folder, sys, moc, info, machine)
-    tasks = reader.read()
+    tasks = reader.read(report)
     machine = _with_only_axes(machine, tasks, moc.file)
     checksums = _checksums(folder)
     findings = [

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from irbkin._arguments import Report
 from irbkin.abb.backinfo import BackInfo, LoadedTask
 from irbkin.abb.carriers import USES, Machine
 from irbkin.abb.cfg import CfgFile, Instance
@@ -66,15 +67,20 @@ class TaskReader:
         self.robots = {name.lower(): name for name in machine.robots}
         self.units = {name.lower(): name for name in machine.units}
 
-    def read(self) -> tuple[Task, ...]:
-        """Return all tasks: of the folders first, then those that SYS.cfg alone has."""
+    def read(self, report: Report) -> tuple[Task, ...]:
+        """Return all tasks: of the folders first, then those that SYS.cfg alone has; report how
+        many are read.
+        """
         sources = list(self.sources())
         moving = _moving(sources)
         loads = Loads(self.folder, self.sys, moving)
-        tasks = tuple(self.task(source, moving[source.name], loads) for source in sources)
+        tasks = []
+        for source in sources:
+            tasks.append(self.task(source, moving[source.name], loads))
+            report(len(tasks), len(sources))
         self.findings += loads.all_findings()
         self.report_unassigned(tasks)
-        return tasks
+        return tuple(tasks)
 
     def sources(self) -> Iterator[_Source]:
         """Yield each task of the folders, of backinfo.txt if there are none, and of SYS.cfg."""
@@ -155,7 +161,7 @@ class TaskReader:
         """Whether a name in lower case is a unit, or axis 7 of a robot."""
         return name in self.robots or name in self.units or name.removesuffix("_7") in self.robots
 
-    def report_unassigned(self, tasks: tuple[Task, ...]) -> None:
+    def report_unassigned(self, tasks: list[Task]) -> None:
         """Report which tasks have no robot although there are several, once."""
         without = [it.name for it in tasks if it.moves is not False and it.robot is None]
         robots = list(self.machine.robots)

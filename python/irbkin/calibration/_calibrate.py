@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from irbkin._arguments import check_robot, check_scipy
+from irbkin._arguments import check_robot, check_scipy, reporter
 from irbkin.calibration import _fit, _identify, _measurements, _parameters, _start
 from irbkin.calibration._loss import check_weights
 from irbkin.calibration._records import (
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from irbkin._arguments import Bar, Report
     from irbkin._arrays import Floats
     from irbkin._core import Robot
     from irbkin.calibration._measurements import Measurements
@@ -52,6 +53,7 @@ def calibrate(
     rotation_std: float = 5e-4,
     loss: Literal["linear", "soft_l1", "huber", "cauchy", "arctan"] = "linear",
     folds: int = 5,
+    progress: Report | Bar | None = None,
 ) -> Calibration:
     """Fit the parameters of an arm to measured poses or positions of its tool. It needs scipy:
     `pip install 'irbkin[calibrate]'`.
@@ -73,6 +75,8 @@ def calibrate(
         loss: "linear" for least squares; any other of scipy's, such as "huber" or "cauchy", gives
             measurements less weight that are more than three times the scatter off.
         folds: Number of parts for cross-validation, each left out once; 0 for none.
+        progress: Called with the number of fits that are done, and of all: of the ends, of all
+            parameters, and one for each part; or a bar as `tqdm.tqdm()`.
 
     Returns:
         The calibrated robot, its parameters with standard errors, what was left out and why, and
@@ -89,6 +93,7 @@ def calibrate(
     """
     check_scipy("irbkin.calibrate")
     check_robot(robot)
+    report = reporter(progress)
     wanted = check_fit(robot, fit, position_std, rotation_std, loss)
     if folds < 0 or folds == 1:
         raise ValueError(f"folds is {folds}, it must be 0 for none, or 2 at least")
@@ -106,12 +111,16 @@ def calibrate(
     ends = ends and _identify.chosen(problem.jacobian(none), [ends], _identify.DETERMINED)
     start = _fit.fit(problem, ends, none) if ends else none
     _check_near(problem, start)
+    report(1, 2 + folds)
     jacobian = problem.jacobian(start)
     kept = _identify.chosen(jacobian, tiers, _identify.DETERMINED)
     if not kept:
         raise CalibrationError("measured determines no parameter: move the joints farther")
     corrections = _fit.fit(problem, kept, start) if has_table else start
-    return _calibration(problem, tiers, kept, start, corrections, folds)
+    report(2, 2 + folds)
+    held_out = _cross_validated(problem, kept, corrections, folds, report)
+    report(2 + folds, 2 + folds)
+    return _calibration(problem, tiers, kept, start, corrections, held_out)
 
 
 def check_fit(
@@ -218,7 +227,7 @@ def _calibration(
     kept: Sequence[int],
     start: Floats,
     corrections: Floats,
-    folds: int,
+    held_out: Residuals | None,
 ) -> Calibration:
     robot, measurements = problem.robot, problem.measurements
     names, nominal = _parameters.names(robot.dof), _parameters.nominal(robot)
@@ -235,7 +244,7 @@ def _calibration(
             _residuals(robot, measurements)[0],
             _residuals(robot.with_corrections(start), measurements)[0],
             after,
-            _cross_validated(problem, kept, corrections, folds),
+            held_out,
         ),
         position_error=distance,
         rotation_error=angle,
@@ -277,7 +286,7 @@ def left_out(
 
 
 def _cross_validated(
-    problem: _fit.Problem, kept: Sequence[int], corrections: Floats, folds: int
+    problem: _fit.Problem, kept: Sequence[int], corrections: Floats, folds: int, report: Report
 ) -> Residuals | None:
     """Residuals of each part of the measurements with the corrections that the others give."""
     measurements = problem.measurements
@@ -295,4 +304,5 @@ def _cross_validated(
         _, distance, angle = _residuals(problem.robot.with_corrections(found), held_out)
         distances.append(distance)
         angles.append(angle)
+        report(3 + part, 2 + folds)
     return Residuals.of(np.concatenate(distances), np.concatenate(angles))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from irbkin._arguments import check_robot, count
+from irbkin._arguments import check_robot, count, reporter
 from irbkin._arrays import as_array, finite
 from irbkin._core import Robot, __version__
 from irbkin._grids import ReachMap
@@ -15,11 +15,11 @@ from irbkin.errors import InvalidPoseError
 from irbkin.map._store import Store
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from os import PathLike
 
     import numpy.typing as npt
 
+    from irbkin._arguments import Bar, Report
     from irbkin._arrays import Floats
     from irbkin.map._store import Part
 
@@ -88,7 +88,7 @@ def reach(
     output: str | PathLike[str] | None = None,
     threads: int = 1,
     block: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: Report | Bar | None = None,
 ) -> ReachMap:
     """Map what an arm reaches: for each position of a grid, how many orientations are reached
     inside the limits, in how many ways, and how near to limits and singularities.
@@ -107,7 +107,8 @@ def reach(
             was; blocks that are ready are kept in a folder beside it until the map is whole.
         threads: Number of threads for each block; 0 for one a core.
         block: Positions of a block; about 260,000 poses when not given.
-        progress: Called with the number of positions that are ready, and of all.
+        progress: Called with the number of positions that are ready, and of all; or a bar as
+            `tqdm.tqdm()`.
 
     Returns:
         The map.
@@ -121,6 +122,7 @@ def reach(
         FileNotFoundError: The folder of `output` does not exist.
     """
     check_robot(robot)
+    report = reporter(progress)
     axes = (_axis("x", x), _axis("y", y), _axis("z", z))
     grid = Grid(robot, axes, _rotations(robot, orientations, q7), q7, threads)
     positions = int(np.prod(grid.shape))
@@ -130,13 +132,11 @@ def reach(
     store = Store(output, (__version__, robot, *axes, grid.orientations, q7), positions)
     blocks = store.missing(size)
     done = positions - sum(last - first for first, last in blocks)
-    if progress is not None:
-        progress(done, positions)
+    report(done, positions)
     for first, last in blocks:
         store.add(first, last, solved(grid, first, last))
         done += last - first
-        if progress is not None:
-            progress(done, positions)
+        report(done, positions)
     fields = {name: field.reshape(grid.shape) for name, field in store.fields.items()}
     found = ReachMap(*axes, grid.orientations, **fields)
     store.finish(found)

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from irbkin._arguments import check_robot
+from irbkin._arguments import check_robot, reporter
 from irbkin._grids import BaseGrid, Placement
 from irbkin._words import listed
 from irbkin.placement._region import Bases
-from irbkin.placement._scene import NOT_REACHED, Scene, Scores, inverse
+from irbkin.placement._scene import NOT_REACHED, PLANS_AT_A_TIME, Scene, Scores, inverse
 from irbkin.records import Plan, Status
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from irbkin import Cell, Robot
+    from irbkin._arguments import Bar, Report
     from irbkin._arrays import Floats
     from irbkin._grids import Region
     from irbkin.freedom import ToolRotation
@@ -43,6 +44,7 @@ def best_base(
     frame: npt.ArrayLike | None = None,
     cell: Cell | None = None,
     threads: int = 1,
+    progress: Report | Bar | None = None,
 ) -> Placement:
     """Where a robot should stand so that it reaches all targets with the largest margin.
 
@@ -63,6 +65,8 @@ def best_base(
         frame: Frame in which the region is given, shape (4, 4); the world where not given.
         cell: Obstacles in the world among which the plan of a path is proven free; with `path`.
         threads: Number of threads; 0 for one a core.
+        progress: Called with the number of steps that are done, and of all: the bases of the grid,
+            then each halving around one of the best; or a bar as `tqdm.tqdm()`.
 
     Returns:
         The best base, with what was tried. Where no base reaches all targets, that which reaches
@@ -76,15 +80,19 @@ def best_base(
         InvalidModelError: The arm has seven joints.
     """
     check_robot(robot)
+    report = reporter(progress)
     bases = Bases.of(region, steps, frame, robot)
     scene = Scene(robot, T, rotation, path, cell, threads)
     values = bases.grid()
     search = Search(scene, bases)
     poses = scene.turned.shape[0] * scene.turned.shape[1]
-    size = max(1, IN_A_BLOCK // poses)
-    ordered = [
-        _scored(search, values[first : first + size]) for first in range(0, len(values), size)
-    ]
+    # A plan of a path takes longer than all of its poses.
+    size = max(1, IN_A_BLOCK // poses) if not path else PLANS_AT_A_TIME * max(threads, 1)
+    total = len(values) + (HALVINGS * min(STARTS, len(values)) if refine else 0)
+    ordered = []
+    for first in range(0, len(values), size):
+        ordered.append(scene.scores(search.bases.poses(values[first : first + size])))
+        report(min(first + size, len(values)), total)
     scores = Scores(
         reached=np.concatenate([part.reached for part in ordered]),
         progress=np.concatenate([part.progress for part in ordered]),
@@ -95,8 +103,8 @@ def best_base(
     starts = [Start(values[i], scores.of(i), scores.anywhere) for i in ranked.tolist()[:STARTS]]
     best = starts[0]
     if refine:
-        for start in starts:
-            end = _refined(search, start)
+        for number, start in enumerate(starts):
+            end = _refined(search, start, (report, len(values) + number * HALVINGS, total))
             best = best._replace(anywhere=best.anywhere | end.anywhere)
             if end.score > best.score:
                 best = end._replace(anywhere=best.anywhere)
@@ -120,16 +128,12 @@ class Start(NamedTuple):
     """Which targets some base that was tried reaches."""
 
 
-def _scored(search: Search, values: Floats) -> Scores:
-    """Return the values of bases of the grid."""
-    return search.scene.scores(search.bases.poses(values))
-
-
-def _refined(search: Search, start: Start) -> Start:
+def _refined(search: Search, start: Start, watched: tuple[Report, int, int]) -> Start:
     """The best base that steps of falling size lead to."""
     (scene, bases), (value, score, anywhere) = search, start
+    report, done, total = watched
     step = 0.5 * bases.spacing()
-    for _ in range(HALVINGS):
+    for halving in range(HALVINGS):
         for _ in range(MOVES):
             around = bases.around(value, step)
             if not len(around):
@@ -142,6 +146,7 @@ def _refined(search: Search, start: Start) -> Start:
                 break
             value, score = around[best], scores.of(best)
         step = 0.5 * step
+        report(done + halving + 1, total)
     return Start(value, score, anywhere)
 
 

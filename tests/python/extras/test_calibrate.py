@@ -327,3 +327,14 @@ def test_scipy_is_needed_and_named(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "scipy.optimize", None)
     with pytest.raises(ImportError, match=r"pip install 'irbkin\[calibrate\]'"):
         irbkin.calibrate(IRB2600, Q, T)
+
+
+def test_a_calibration_reports_its_fits():
+    q = drawn(IRB2600, 40, 3)
+    measured = noisy(perturbed(IRB2600, 1e-3, 1).fk(q), 1e-5, 1e-5, 2)
+    calls = []
+    found = irbkin.calibrate(IRB2600, q, measured, progress=lambda *both: calls.append(both))
+    assert list(dict.fromkeys(calls)) == [(done, 7) for done in range(1, 8)]
+    assert found == irbkin.calibrate(IRB2600, q, measured)
+    irbkin.calibrate(IRB2600, q, measured, folds=0, progress=lambda *both: calls.append(both))
+    assert calls[-1] == (2, 2)
