@@ -59,6 +59,13 @@ def test_a_work_object_has_x_through_two_points_and_its_origin_below_the_third()
     frame, error, *_ = work_object(seen([[0.1, 0, 0], [0.4, 0, 0], [0, 0.3, 0]]))
     np.testing.assert_allclose(frame, FRAME, rtol=0, atol=1e-15)
     np.testing.assert_array_equal(error, np.zeros(3))
+    apart = work_object(*seen([[0.1, 0, 0], [0.4, 0, 0], [0, 0.3, 0]]))
+    np.testing.assert_array_equal(apart.frame, frame)
+    for place, name in enumerate(("X1", "X2", "Y1")):
+        points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+        points[place] = [[0, 0, 0]]
+        with pytest.raises(InvalidPoseError, match=rf"{name} must have shape \(3,\)"):
+            work_object(*points)
 
 
 def test_a_work_object_is_fitted_to_nominal_points():

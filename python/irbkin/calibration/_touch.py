@@ -94,8 +94,11 @@ def tool_center_point(flange: npt.ArrayLike) -> ToolCenterPoint:
     return ToolCenterPoint(tool, point, np.linalg.norm(tips - point, axis=1), tips)
 
 
-def work_object(points: npt.ArrayLike, nominal: npt.ArrayLike | None = None) -> WorkObject:
-    """Return the frame of a work object from measured points.
+def work_object(
+    points: npt.ArrayLike, nominal: npt.ArrayLike | None = None, y1: npt.ArrayLike | None = None
+) -> WorkObject:
+    """Return the frame of a work object from measured points: `work_object(X1, X2, Y1)` as ABB asks
+    for them.
 
     Without `nominal`, points are ABB's X1, X2 and Y1: x goes from X1 to X2, y to the side of Y1,
     and the origin is the foot of Y1 on the line through X1 and X2. With it, the frame is that in
@@ -104,11 +107,18 @@ def work_object(points: npt.ArrayLike, nominal: npt.ArrayLike | None = None) -> 
     Args:
         points: Measured points in the base [m], shape (3, 3), or (m, 3), m >= 3, with `nominal`.
         nominal: These points in the work object [m], shape (m, 3).
+        y1: The third point where each is given by itself [m], shape (3,): then `points` is X1 and
+            `nominal` X2.
 
     Raises:
         InvalidPoseError: A wrong shape, or a coordinate that is not finite.
         CalibrationError: Points near to one line, in millimeters, or half of them far off.
     """
+    if y1 is not None:
+        given = zip(
+            ("X1", "X2", "Y1"), (points, () if nominal is None else nominal, y1), strict=True
+        )
+        points, nominal = [as_array(it, name, (3,), InvalidPoseError) for name, it in given], None
     if nominal is None:
         measured = _points(points, "points", 3)
         x1, x2, y1 = measured
