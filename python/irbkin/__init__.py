@@ -151,6 +151,14 @@ _OTHERS = {
     "load_urdf": "Robot.from_urdf",
     "list_robots": "catalog",
     "robots": "catalog",
+    "models": "Robot",
+    "Chain": "Robot.from_urdf",
+    "DHRobot": "Robot.from_sdh",
+    "Item": "Robot",
+    "ctraj": "paths.line",
+    "jtraj": "trajectory.joint",
+    "tooldata": "rapid.ToolData",
+    "wobjdata": "rapid.WobjData",
 }
 
 

@@ -1,4 +1,5 @@
-//! Names that `irbkin.Robot` does not have but other packages do, each answered with irbkin's.
+//! Names that `irbkin.Robot` does not have but other packages do, each answered with irbkin's; and
+//! attributes that they set.
 //!
 //! They are attributes that raise: with a `__getattr__`, Python would look up every method of a
 //! robot the long way, which adds 0.1 us to a call.
@@ -18,6 +19,7 @@ macro_rules! hints {
             $(
                 #[doc = concat!("Another package's name: use `", $own, "`.")]
                 #[getter]
+                #[allow(non_snake_case, reason = "the name of another package")]
                 fn $other(&self) -> PyResult<()> {
                     Err(PyAttributeError::new_err(concat!(
                         "Robot has no attribute '", stringify!($other), "': use ", $own
@@ -44,4 +46,42 @@ hints! {
     inverse: "ik",
     fkine: "fk",
     forward: "fk",
+    forward_kinematics: "fk",
+    inverse_kinematics: "ik_nearest",
+    ikine_LM: "ik_nearest",
+    jacob0: "jacobian",
+    manipulability: "singularity",
+    qlim: "limits",
+    random_q: "random",
+    plot: "irbkin.plot.arm",
+    teach: "irbkin.scene.of(robot).view",
+    iscollided: "irbkin.Cell.collides",
+    ComputeFk: "fk",
+    ComputeIk: "ik",
+    SolveFK: "fk",
+    SolveIK: "ik_nearest",
+    SolveIK_All: "ik",
+    JointsConfig: "configuration",
+    JointLimits: "limits",
+    setPoseTool: "with_tool",
+    setPoseFrame: "with_base",
+    MoveL: "irbkin.paths.line and follow",
+    Collisions: "irbkin.Cell.collides",
+    Update: "irbkin.rapid.check",
+    CalcRobT: "irbkin.rapid.calc_rob_t",
+    CalcJointT: "irbkin.rapid.calc_joint_t",
+}
+
+#[pymethods]
+impl PyRobot {
+    #[expect(clippy::unused_self, reason = "the arguments of Python's slot")]
+    fn __setattr__(&self, name: &str, _value: &Bound<'_, PyAny>) -> PyResult<()> {
+        let own = match name {
+            "tool" | "base" | "limits" | "body" => format!("with_{name}"),
+            "name" | "max_velocity" => "from_mdh or from_urdf".to_owned(),
+            _ => "a name of your own".to_owned(),
+        };
+        let message = format!("a Robot is frozen, '{name}' cannot be set: use {own}");
+        Err(PyAttributeError::new_err(message))
+    }
 }

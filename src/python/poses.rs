@@ -3,7 +3,7 @@
 use numpy::PyArray1;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyFloat, PyInt};
+use pyo3::types::{PyDict, PyFloat, PyInt};
 
 use super::arrays::{Rows, copied_matrix4, copied_vector, together};
 use super::errors::{Fault, index_in};
@@ -38,7 +38,12 @@ use crate::kinematics::{
 ///         index of the first.
 ///     TypeError: Several orientations are given, or an argument is not a number.
 #[pyfunction]
-#[pyo3(signature = (xyz, wxyz=None, xyzw=None, euler_zyx=None, rotation=None, rotvec=None))]
+#[pyo3(
+    signature = (
+        xyz, wxyz=None, xyzw=None, euler_zyx=None, rotation=None, rotvec=None, **others
+    ),
+    text_signature = "(xyz, wxyz=None, xyzw=None, euler_zyx=None, rotation=None, rotvec=None)"
+)]
 pub(super) fn pose<'py>(
     xyz: &Bound<'py, PyAny>,
     wxyz: Option<&Bound<'py, PyAny>>,
@@ -46,7 +51,18 @@ pub(super) fn pose<'py>(
     euler_zyx: Option<&Bound<'py, PyAny>>,
     rotation: Option<&Bound<'py, PyAny>>,
     rotvec: Option<&Bound<'py, PyAny>>,
+    others: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
+    if let Some((name, _)) = others.and_then(|others| others.iter().next()) {
+        let own = match name.extract::<String>()?.as_str() {
+            "rpy" | "euler" => "euler_zyx=[yaw, pitch, roll] [rad]",
+            "quat" | "quaternion" => "wxyz, or xyzw as SciPy and ROS order them",
+            "R" | "matrix" => "rotation",
+            _ => "xyz and one of wxyz, xyzw, euler_zyx, rotation and rotvec",
+        };
+        let message = format!("pose has no argument {}: use {own}", name.repr()?);
+        return Err(PyTypeError::new_err(message));
+    }
     let orientations = [
         ("wxyz", wxyz),
         ("xyzw", xyzw),

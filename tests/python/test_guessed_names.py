@@ -1,9 +1,12 @@
 """The names that users guess: they are there, or the error says which one is."""
 
+import inspect
 import io
 import math
+import operator
 import pickle
 import re
+from pathlib import Path
 
 import irbkin
 import numpy as np
@@ -234,8 +237,19 @@ def test_arrays_of_a_robot_are_read_only(name):
 
 HINTS = (
     "set_tool with_tool, set_base with_base, set_limits with_limits, joint_limits limits, n dof, "
-    "inverse ik, ikine ik, forward fk, fkine fk"
+    "inverse ik, ikine ik, forward fk, fkine fk, jacob0 jacobian, qlim limits, random_q random, "
+    "inverse_kinematics ik_nearest, forward_kinematics fk, SolveIK_All ik, "
+    "JointsConfig configuration"
 )
+PAGE = (Path(__file__).parents[2] / "docs/guide/coming_from.md").read_text()
+
+
+def names_of_others():
+    """The first name of each code of the page's table that is another package's, and its row."""
+    rows = [line.strip("|").split("|") for line in PAGE.splitlines() if line.startswith("| ")]
+    for what, *others, _ in rows[1:]:
+        for code in re.findall("`(.*?)`", "|".join(others)):
+            yield what.strip(), re.sub(r"^(rtb|RDK|robot)\.", "", code)
 
 
 @pytest.mark.parametrize(("wrong", "right"), [pair.split() for pair in HINTS.split(", ")])
@@ -244,6 +258,55 @@ def test_a_wrong_name_is_answered_with_the_right_one(wrong, right):
     with pytest.raises(AttributeError, match=f"Robot has no attribute '{wrong}': use {right}$"):
         getattr(ROBOT, wrong)
     assert {wrong, right} & set(dir(ROBOT)) == {right}
+
+
+@pytest.mark.parametrize(("what", "code"), list(names_of_others()))
+def test_the_names_of_other_packages_are_answered(what, code):
+    """Of all that the page names: by the robot, or by the package."""
+    if " = " in code:
+        name, _ = code.split(" = ")
+        with pytest.raises(AttributeError, match=f"cannot be set: use with_{name}$"):
+            setattr(ROBOT, name, T)
+        return
+    name = re.match(r"\w+", code)[0]
+    answers = []
+    for place in (ROBOT, irbkin):
+        try:
+            getattr(place, name)
+        except AttributeError as error:
+            answers.append(str(error))
+    assert any(f"'{name}': use " in answer for answer in answers), (what, answers)
+    for answer in answers:
+        for own in re.findall(r": use irbkin\.([\w.]+)", answer):
+            assert operator.attrgetter(own)(irbkin)
+
+
+def test_the_page_of_other_packages_is_read():
+    assert len(list(names_of_others())) > 30
+
+
+def test_a_robot_is_frozen_and_says_how_it_is_changed():
+    for name in ("limits", "body"):
+        with pytest.raises(AttributeError, match=f"a Robot is frozen, '{name}' .* with_{name}$"):
+            setattr(ROBOT, name, None)
+    with pytest.raises(AttributeError, match="'speed' cannot be set: use a name of your own"):
+        ROBOT.speed = 3
+
+
+@pytest.mark.parametrize(
+    ("name", "own"),
+    [
+        ("rpy", r"euler_zyx=\[yaw, pitch, roll\] \[rad\]"),
+        ("euler", "euler_zyx"),
+        ("quat", "wxyz, or xyzw as SciPy"),
+        ("R", "rotation"),
+        ("other", "xyz and one of wxyz"),
+    ],
+)
+def test_a_wrong_argument_of_pose_is_answered_with_the_right_one(name, own):
+    with pytest.raises(TypeError, match=f"pose has no argument '{name}': use {own}"):
+        irbkin.pose([1, 2, 3], **{name: [0, 0, 1]})
+    assert "others" not in str(inspect.signature(irbkin.pose))
 
 
 def test_a_wrong_name_of_the_package_is_answered_with_the_right_one():
