@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from typing import IO
 
     from irbkin._arrays import Floats
-    from irbkin._core import CatalogEntry, IkBatch, Plan, Solutions, Trajectory
+    from irbkin._core import CatalogEntry, FollowResult, IkBatch, Plan, Solutions, Trajectory
     from irbkin.rapid import TargetTable
 
 Columns = dict[str, npt.NDArray[Any]]
@@ -65,6 +65,19 @@ def of_ik_batch(batch: IkBatch) -> Columns:
         "within_limits": batch.within_limits.ravel(),
         "status": status.flatten(),
         **numbered("q", batch.q.reshape(poses * slots, batch.q.shape[-1])),
+    }
+
+
+def of_follow_result(result: FollowResult) -> Columns:
+    """The columns of `FollowResult.to_dict`."""
+    error = np.asarray(result.orientation_error)
+    length = error.shape[-1]
+    paths = int(np.prod(error.shape[:-1]))
+    return {
+        "path": np.repeat(np.arange(paths), length),
+        "pose": np.tile(np.arange(length), paths),
+        **numbered("q", result.q.reshape(paths * length, result.q.shape[-1])),
+        "orientation_error": error.flatten(),
     }
 
 

@@ -325,6 +325,16 @@ class IkBatch(_Record):
             `found` and `within_limits`, bool; `status`, uint8; `q1` .. [rad], NaN where the slot is
             empty.
         """
+    def to_csv(self, path_or_file: str | PathLike[str] | IO[str]) -> None:
+        """Write comma-separated values: the columns of `to_dict` under their names, each number
+        with all of its digits, nothing for None.
+
+        Args:
+            path_or_file: Path of the file, or a file that is open for text.
+
+        Raises:
+            OSError: The file cannot be written.
+        """
 
 @final
 class FreeJoint(_Record):
@@ -377,6 +387,24 @@ class FollowResult(_Record):
     @property
     def breaks(self) -> tuple[Break, ...]:
         """Each `Break`: where the joints cannot follow, and why."""
+    def to_dict(self) -> dict[str, npt.NDArray[Any]]:
+        """Return the rows as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
+        table.
+
+        Returns:
+            Arrays of shape (paths * m,) by name: `path`, its index in row-major order; `pose`;
+            `q1` .. [rad] and `orientation_error` [rad], NaN where a pose is not met.
+        """
+    def to_csv(self, path_or_file: str | PathLike[str] | IO[str]) -> None:
+        """Write comma-separated values: the columns of `to_dict` under their names, each number
+        with all of its digits, nothing for None.
+
+        Args:
+            path_or_file: Path of the file, or a file that is open for text.
+
+        Raises:
+            OSError: The file cannot be written.
+        """
     def __new__(
         cls, q: _Floats, orientation_error: _Floats, breaks: tuple[Break, ...]
     ) -> FollowResult: ...
@@ -771,6 +799,16 @@ class Plan(_Record):
         Returns:
             Arrays of shape (m,) by name: `q1` .. [rad]; `tool_angle` [rad]; `slot`; `external1` ..
             [m, rad] and `tolerance1` .. [rad, m] of a plan that has them; `x`, `y`, `z` of `T` [m].
+        """
+    def to_csv(self, path_or_file: str | PathLike[str] | IO[str]) -> None:
+        """Write comma-separated values: the columns of `to_dict` under their names, each number
+        with all of its digits, nothing for None.
+
+        Args:
+            path_or_file: Path of the file, or a file that is open for text.
+
+        Raises:
+            OSError: The file cannot be written.
         """
 
 @final
@@ -1884,6 +1922,16 @@ class Solutions:
             `singularities`, the values of `irbkin.SingularityKind`; and `cf1`, `cf4`, `cf6`, `cfx`
             of an arm that has confdata.
         """
+    def to_csv(self, path_or_file: str | PathLike[str] | IO[str]) -> None:
+        """Write comma-separated values: the columns of `to_dict` under their names, each number
+        with all of its digits, nothing for None.
+
+        Args:
+            path_or_file: Path of the file, or a file that is open for text.
+
+        Raises:
+            OSError: The file cannot be written.
+        """
     def __array__(
         self, dtype: npt.DTypeLike | None = None, copy: bool | None = None
     ) -> npt.NDArray[np.float64]: ...
@@ -2661,6 +2709,16 @@ class TargetTable(_Record):
         Returns:
             Columns of m elements by name: `kind`, `name`, `line`; `q1` .. [rad]; `cf1`, `cf4`,
             `cf6`, `cfx`; `wrist` and `elbow` [rad], `shoulder` [m]; `finding`, the message or None.
+        """
+    def to_csv(self, path_or_file: str | PathLike[str] | IO[str]) -> None:
+        """Write comma-separated values: the columns of `to_dict` under their names, each number
+        with all of its digits, nothing for None.
+
+        Args:
+            path_or_file: Path of the file, or a file that is open for text.
+
+        Raises:
+            OSError: The file cannot be written.
         """
 
 # What a name stands for is the text's: records of any type, narrowed with isinstance.
@@ -3584,11 +3642,11 @@ class Trajectory:
             [rad/s^2].
         """
     def to_csv(self, path_or_file: str | PathLike[str] | IO[str]) -> None:
-        """Write the samples as comma-separated values: the columns of `to_dict` under their names,
-        each number with all of its digits.
+        """Write comma-separated values: the columns of `to_dict` under their names, each number
+        with all of its digits, nothing for None.
 
         Args:
-            path_or_file: Path of the file, or a file that is open for writing.
+            path_or_file: Path of the file, or a file that is open for text.
 
         Raises:
             OSError: The file cannot be written.

@@ -1,11 +1,11 @@
-//! Answers as columns that tables of other packages are made of, and a trajectory as a file and as
-//! a message: `irbkin._columns` makes them of the arrays.
+//! Answers as columns that tables of other packages are made of and as files, and a trajectory as a
+//! message: `irbkin._columns` makes them of the arrays.
 
 use pyo3::prelude::*;
 
 use super::arm::on;
 use super::rapid::program::TargetTable;
-use super::records::{CatalogEntry, IkBatch, Plan};
+use super::records::{CatalogEntry, FollowResult, IkBatch, Plan};
 use super::solutions::PySolutions;
 use super::trajectory::PyTrajectory;
 use crate::kinematics::Status;
@@ -17,6 +17,30 @@ where
 {
     py.import("irbkin._columns")?.call_method1(function, arguments)
 }
+
+/// Let answers be written as files.
+macro_rules! to_csv {
+    ($($answer:ty),+) => {
+        $(
+            #[pymethods]
+            impl $answer {
+                /// Write comma-separated values: the columns of `to_dict` under their names, each
+                /// number with all of its digits, nothing for None.
+                ///
+                /// Args:
+                ///     path_or_file: Path of the file, or a file that is open for text.
+                ///
+                /// Raises:
+                ///     OSError: The file cannot be written.
+                fn to_csv(slf: &Bound<'_, Self>, path_or_file: &Bound<'_, PyAny>) -> PyResult<()> {
+                    made(slf.py(), "write_csv", (slf, path_or_file)).map(drop)
+                }
+            }
+        )+
+    };
+}
+
+to_csv!(PySolutions, IkBatch, FollowResult, Plan, TargetTable, PyTrajectory);
 
 #[pymethods]
 impl PySolutions {
@@ -56,6 +80,18 @@ impl IkBatch {
     ///     empty.
     fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         made(slf.py(), "of_ik_batch", (slf,))
+    }
+}
+
+#[pymethods]
+impl FollowResult {
+    /// Return the rows as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a table.
+    ///
+    /// Returns:
+    ///     Arrays of shape (paths * m,) by name: `path`, its index in row-major order; `pose`;
+    ///     `q1` .. [rad] and `orientation_error` [rad], NaN where a pose is not met.
+    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        made(slf.py(), "of_follow_result", (slf,))
     }
 }
 
@@ -107,18 +143,6 @@ impl PyTrajectory {
     ///     [rad/s^2].
     fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         made(slf.py(), "of_trajectory", (slf,))
-    }
-
-    /// Write the samples as comma-separated values: the columns of `to_dict` under their names,
-    /// each number with all of its digits.
-    ///
-    /// Args:
-    ///     path_or_file: Path of the file, or a file that is open for writing.
-    ///
-    /// Raises:
-    ///     OSError: The file cannot be written.
-    fn to_csv(slf: &Bound<'_, Self>, path_or_file: &Bound<'_, PyAny>) -> PyResult<()> {
-        made(slf.py(), "write_csv", (slf, path_or_file)).map(drop)
     }
 
     /// Return the samples with the fields of ROS' `trajectory_msgs/JointTrajectory`. It needs no

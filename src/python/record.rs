@@ -111,8 +111,13 @@ pub(crate) fn compared<'py>(
     })
 }
 
-/// Write a record as the call that makes it; large arrays by their shapes.
+/// Say what came out, of an answer; write another record as the call that makes it, large arrays by
+/// their shapes.
 pub(crate) fn shown(record: &Bound<'_, PyAny>, names: &[&str]) -> PyResult<String> {
+    let own = record.py().import("irbkin._shown")?.call_method1("of_record", (record,))?;
+    if let Some(words) = own.extract()? {
+        return Ok(words);
+    }
     let mut parts = Vec::with_capacity(names.len());
     for name in names {
         let value = record.getattr(*name)?;

@@ -313,9 +313,13 @@ impl PyRobot {
         })
     }
 
-    /// The representation and, for an arm without a closed form, what keeps it from one.
-    fn __str__(&self) -> String {
-        let missing = on!(&self.arm, robot => robot.missing_form().map(|form| form.to_string()));
-        missing.map_or_else(|| self.__repr__(), |form| format!("{}\n{form}", self.__repr__()))
+    /// The representation, the table of the joints and, for an arm without a closed form, what
+    /// keeps it from one.
+    fn __str__(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let table = slf.py().import("irbkin._shown")?.call_method1("of_robot", (slf,))?;
+        let missing =
+            on!(&slf.get().arm, robot => robot.missing_form().map(|form| form.to_string()));
+        let form = missing.map_or_else(String::new, |form| format!("\n{form}"));
+        Ok(format!("{}\n{table}{form}", slf.get().__repr__()))
     }
 }

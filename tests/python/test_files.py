@@ -225,7 +225,6 @@ def test_what_libraries_write_goes_through_it():
         ("map/_store.py", "savez", "file"),
         ("plot/_picture.py", "savefig", "file"),
         # Names and files of `write_by_name`.
-        ("_columns.py", "savetxt", "to"),
         ("plot/_animation.py", "save", "own"),
         ("scene/_rerun.py", "save", "path"),
         # A scene, which is a writer above.

@@ -309,6 +309,31 @@ def test_a_wrong_argument_of_pose_is_answered_with_the_right_one(name, own):
     assert "others" not in str(inspect.signature(irbkin.pose))
 
 
+def test_a_robot_prints_its_table():
+    head, words, joints, *rows = str(ROBOT).splitlines()
+    assert (head, joints.split()) == (repr(ROBOT), ["J1", "J2", "J3", "J4", "J5", "J6"])
+    assert words == "6 joints, spherical wrist, reach 1.65 m, payload 12 kg"
+    columns = {row[:13].strip(): np.array(row[13:].split(), dtype=float) for row in rows}
+    alpha, a, d, theta = ROBOT.mdh.T
+    wanted = {
+        "alpha [deg]": np.degrees(alpha),
+        "a [mm]": 1e3 * a,
+        "d [mm]": 1e3 * d,
+        "theta [deg]": np.degrees(theta),
+        "from [deg]": np.degrees(ROBOT.limits[:, 0]),
+        "to [deg]": np.degrees(ROBOT.limits[:, 1]),
+        "speed [deg/s]": np.degrees(ROBOT.max_velocity),
+    }
+    assert list(columns) == list(wanted)
+    for name, values in wanted.items():
+        np.testing.assert_allclose(columns[name], values, atol=6e-4)
+    assert "-0 " not in str(ROBOT)
+    assert "tool at (0.0, 0.0, 100.0) mm" in str(ROBOT.with_tool([0, 0, 0.1]))
+    free = irbkin.Robot.from_mdh(ROBOT.mdh)
+    assert "inf" in str(free)
+    assert "speed" not in str(free)
+
+
 def test_a_wrong_name_of_the_package_is_answered_with_the_right_one():
     with pytest.raises(AttributeError, match=r"no attribute 'load_urdf': use Robot\.from_urdf$"):
         irbkin.load_urdf  # noqa: B018

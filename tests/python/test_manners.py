@@ -10,13 +10,38 @@ import irbkin.abb
 import irbkin.map
 import numpy as np
 import pytest
-from irbkin import placement, scene, trajectory
+from irbkin import paths, placement, rapid, scene, trajectory
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
-Q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7]
 BACKUP = Path(__file__).parents[2] / "examples" / "backup"
 AXIS = np.linspace(-1.2, 1.2, 9)
 MAP = irbkin.map.reach(ROBOT, AXIS, 0.0, AXIS, irbkin.map.orientations(20))
+
+
+Q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7]
+POSES = np.stack([ROBOT.fk(ROBOT.random(200, rng=1))] * 3)
+POSES[1, :199, 0, 3] += 9.0
+POSES[1, 199, 0, 3] = np.nan
+LINE = paths.line(
+    *(irbkin.pose([0.9, y, 0.7], euler_zyx=[0, 2.8, 0]) for y in (-0.2, 0.2)), steps=81
+)
+START = ROBOT.ik_nearest(LINE[0], np.zeros(6))
+FAR = LINE.copy()
+FAR[4:74:5, 0, 3] += 9.0
+PROGRAM = """MODULE M
+CONST robtarget p10:=[[900,0,1200],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+CONST robtarget p20:=[[9000,0,1200],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+ENDMODULE
+"""
+
+
+def broken():
+    with pytest.raises(irbkin.PathError) as caught:
+        ROBOT.plan(FAR)
+    return caught.value.plan
+
+
+BROKEN = broken()
 
 
 def placed():
@@ -38,6 +63,12 @@ SHOWN = [
         irbkin.abb.load_backup(BACKUP),
         r"\nunits: TRACK_2, .*\ntasks: T_ROB1 \(4 modules\), .*\nfindings: 2 ",
     ),
+    (ROBOT.ik_batch(POSES), r"^<IkBatch: 3 x 200 poses, 8 slots: 400 with .* without, 1 invalid>$"),
+    (ROBOT.plan(LINE), r"^<Plan: 81 poses, 6 joints, certified, bottleneck .* rad\^2, no break>$"),
+    (BROKEN, r"^<Plan: 81 poses, 6 joints, certified, .*, 14 breaks\nbetween poses 3 and 5\n"),
+    (BROKEN, r"\n6 more>$"),
+    (ROBOT.follow(LINE, START), r"^<FollowResult: 81 poses, 6 joints, 81 met, no break>$"),
+    (ROBOT.follow(FAR, START), r"^<FollowResult: 81 poses, 6 joints, 67 met, 14 breaks\npose 4: "),
     (motion(), r"^Scene\(title='IRB 2600-12/1.65', arms=\(Arm\(.*motion=Motion\(t=<.*points=<"),
 ]
 
@@ -50,7 +81,15 @@ def test_an_answer_says_in_ten_lines_what_came_out(answer, words):
     assert re.search(words, text), text
 
 
-TABLES = [MAP]
+TABLES = [
+    MAP,
+    ROBOT.ik(ROBOT.fk(Q)),
+    ROBOT.ik_batch(POSES),
+    ROBOT.plan(LINE),
+    ROBOT.follow(np.stack([LINE, LINE]), START),
+    trajectory.joint([0.0] * 6, Q, duration=1.0),
+    rapid.calc_targets(ROBOT, rapid.parse_module(PROGRAM)),
+]
 
 
 @pytest.mark.parametrize("answer", TABLES, ids=lambda it: type(it).__name__)

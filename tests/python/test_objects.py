@@ -371,9 +371,9 @@ def test_a_record_is_frozen_and_unpacks():
     with pytest.raises(IndexError):
         batch[2]
     assert repr(robot.configuration(REGULAR)) == "Configuration(cf1=0, cf4=0, cf6=0, cfx=1)"
-    assert repr(batch) == (
-        "IkBatch(q=<array of float64 of shape (1, 8, 6)>, "
-        "status=array([[3, 3, 1, 1, 1, 1, 3, 3]], dtype=uint8))"
+    assert repr(robot.ik_margin(np.stack([robot.fk(REGULAR)] * 17))) == (
+        "IkMargin(margin=<array of float64 of shape (17,)>, singularities=<array of float64 of "
+        "shape (17,)>, solutions=<array of uint8 of shape (17,)>)"
     )
 
 

@@ -387,23 +387,18 @@ def test_carriers_and_tolerances_that_make_no_sense_are_refused(arguments, error
         ROBOT.plan(weld(6), **arguments)
 
 
-def test_a_plan_is_shown_in_a_line():
+def test_a_plan_is_shown_in_a_line_and_a_line_for_each_break():
     T = weld(40)
     plan = ROBOT.plan(T, rotation=8)
     assert repr(plan) == str(plan)
-    assert repr(plan).startswith(
-        "Plan(q=<array of float64 of shape (40, 6)>, tool_angle=<array of "
-    )
-    assert repr(plan).endswith(
-        f"bottleneck={plan.bottleneck}, breaks=(), certified=True, "
-        "T=<array of float64 of shape (40, 4, 4)>)"
-    )
+    assert repr(plan).startswith("<Plan: 40 poses, 6 joints, certified, bottleneck ")
+    assert repr(plan).endswith(f"{plan.bottleneck:.4g}, cost {plan.cost:.4g} rad^2, no break>")
     T[7, 0, 3] += 9.0
     with pytest.raises(irbkin.PathError) as broken:
         ROBOT.plan(T)
     shown = repr(broken.value.plan)
-    assert "\n" not in shown
-    assert ", breaks=(PlanBreak(leave=6, enter=8),), " in shown
+    assert shown.endswith(" rad^2, 1 break\nbetween poses 6 and 8>")
+    assert len(shown.splitlines()) == 2
 
 
 def test_seven_joints_are_planned_with_their_redundancy():

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from irbkin._arrays import evenly
-from irbkin._core import catalog, catalog_entry
+from irbkin._shown import facts_of, joints_of
 from irbkin.scene._arms import arm_of, rest
 from irbkin.scene._svg import curves, drawn
 
@@ -24,26 +24,9 @@ CURVES = 120
 
 def of_robot(robot: Robot) -> str:
     """Return what is known of an arm."""
-    limits = np.degrees(robot.limits)
-    head = ["", *(f"J{joint + 1}" for joint in range(robot.dof))]
-    rows = [
-        ["from [deg]", *(f"{it:.4g}" for it in limits[:, 0])],
-        ["to [deg]", *(f"{it:.4g}" for it in limits[:, 1])],
-    ]
-    speeds = robot.max_velocity
-    if speeds is not None:
-        rows.append(["speed [deg/s]", *(f"{it:.4g}" for it in np.degrees(speeds))])
-    words = [f"{robot.dof} joints", robot.structure or "general"]
-    if robot.name in catalog():
-        entry = catalog_entry(robot.name)
-        words += [f"reach {entry.reach:g} m"] if entry.reach else []
-        words += [f"payload {entry.payload:g} kg"] if entry.payload else []
-    for name, frame in (("tool", robot.tool), ("base", robot.base)):
-        if not np.array_equal(frame, np.eye(4)):
-            place = ", ".join(f"{1e3 * it:.1f}" for it in frame[:3, 3])
-            words.append(f"{name} at ({place}) mm")
     picture = drawn(arm_of(robot), rest(robot))
-    return _beside(picture, f"<b>{escape(robot.name or 'Robot')}</b>", words, _table(head, rows))
+    title = f"<b>{escape(robot.name or 'Robot')}</b>"
+    return _beside(picture, title, facts_of(robot), _table(*joints_of(robot)))
 
 
 def of_solutions(solutions: Solutions, robot: Robot) -> str:
