@@ -1429,7 +1429,12 @@ class Robot:
             InvalidJointsError: A wrong shape, or a single row with a NaN or inf.
         """
     def ik_margin(
-        self, T: npt.ArrayLike, q7: npt.ArrayLike | None = None, *, threads: int = 1
+        self,
+        T: npt.ArrayLike,
+        q7: npt.ArrayLike | None = None,
+        *,
+        threads: int = 1,
+        cell: Cell | None = None,
     ) -> IkMargin:
         """How much room the solutions of poses leave to limits and singularities: `ik_batch` and
         `margin` in one call, which keeps the best of each pose.
@@ -1438,6 +1443,7 @@ class Robot:
             T: Poses of the tool, shape (..., 4, 4), translation [m].
             q7: Angle of joint 7 [rad], shape (...), of an arm of seven joints.
             threads: Number of threads; 0 for one a core.
+            cell: Only solutions that do not collide in an `irbkin.Cell`.
 
         Returns:
             IkMargin: the largest margin of the solutions inside the limits, their largest distance
@@ -1445,7 +1451,8 @@ class Robot:
 
         Raises:
             InvalidPoseError: A wrong shape. An invalid pose has no solution.
-            InvalidModelError: The first six joints do not move the tool in six independent ways.
+            InvalidModelError: The first six joints do not move the tool in six independent ways;
+                with `cell`, the robot has no body.
             TypeError: `q7` of an arm of six joints, or none of one of seven.
         """
     def plan(

@@ -102,9 +102,11 @@ class ReachMap(NamedTuple):
     orientations: npt.NDArray[np.float64]
     """Orientations of the tool, shape (o, 3, 3)."""
     reached: npt.NDArray[np.int64]
-    """Number of orientations that are reached inside the limits, shape (i, j, k)."""
+    """Number of orientations that are reached inside the limits and without a collision, shape (i,
+    j, k).
+    """
     solutions: npt.NDArray[np.int64]
-    """Number of solutions inside the limits, all orientations together, shape (i, j, k)."""
+    """Number of these solutions, all orientations together, shape (i, j, k)."""
     margin: npt.NDArray[np.float64]
     """The smallest margin of the orientations that are reached, the margin of an orientation being
     `IkMargin.margin`, shape (i, j, k). NaN where none is reached.
@@ -114,7 +116,7 @@ class ReachMap(NamedTuple):
 
     @property
     def share(self) -> npt.NDArray[np.float64]:
-        """Share of the orientations that are reached inside the limits, shape (i, j, k)."""
+        """Share of the orientations that are reached, shape (i, j, k)."""
         return self.reached / len(self.orientations)
 
     def to_dict(self) -> dict[str, npt.NDArray[Any]]:

@@ -1,10 +1,12 @@
 //! How much room many joint vectors, and the solutions of many poses, leave.
 
 use alloc::vec;
+use alloc::vec::Vec;
 
 use super::inverse::{check_structure, part_of};
 use super::pace::Batch;
 use super::rows::{check_length, is_finite, rows};
+use crate::cell::{Cell, Placed};
 use crate::error::Error;
 use crate::kinematics::{Margin, Robot, Rows, Status};
 
@@ -55,21 +57,23 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// How much room the solutions of poses leave to limits and singularities: rows of 16 pose
-    /// elements, and the angles, as [`Self::ik_with`] takes them. A row that
-    /// is invalid has no solution.
+    /// How much room the solutions of poses leave to limits and singularities, in a cell those that
+    /// do not collide: rows of 16 pose elements, and the angles, as [`Self::ik_with`] takes them. A
+    /// row that is invalid has no solution.
     ///
     /// # Errors
     ///
-    /// As [`Self::ik_with`].
+    /// As [`Self::ik_with`]; with a cell [`Error::InvalidBody`] if the robot has no body.
     pub fn ik_margin<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         poses: &[f64],
         angles: &[f64],
+        cell: Option<&Cell>,
         answers: Margins<'_>,
     ) -> Result<(), Error> {
         check_structure(robot)?;
+        cell.map(|_| Placed::of(robot)).transpose()?;
         let poses = rows::<16>("poses", poses)?;
         let Margins { margin, singularities, solutions: count } = answers;
         let angles = &*robot.angles_of_rows(angles, poses.len())?;
@@ -85,12 +89,31 @@ impl Batch<'_> {
             let mut status = vec![0; poses.len() * slots];
             let locked = part_of(angles, PART * part);
             robot.ik_rows(Rows { poses, locked, q: &mut q, status: &mut status });
+            if let Some((cell, mut placed)) = cell.zip(Placed::of(robot).ok()) {
+                leave_out(cell, &mut placed, q.as_chunks().0, &mut status);
+            }
             let solved = q.as_chunks::<N>().0.chunks(slots).zip(status.chunks(slots));
             for (row, (q, status)) in solved.enumerate() {
                 (margin[row], room[row], count[row]) = most_room(robot, q, status);
             }
         });
         Ok(())
+    }
+}
+
+/// Take solutions that collide for outside the limits.
+fn leave_out<const N: usize>(
+    cell: &Cell,
+    placed: &mut Placed<'_, N>,
+    q: &[[f64; N]],
+    status: &mut [u8],
+) {
+    let within = Status::WITHIN_LIMITS;
+    let is_within = |slot: &usize| Status::from_bits_truncate(status[*slot]).contains(within);
+    let slots: Vec<usize> = (0..q.len()).filter(is_within).collect();
+    let postures: Vec<[f64; N]> = slots.iter().map(|&slot| q[slot]).collect();
+    for (slot, is_free) in slots.into_iter().zip(cell.free_postures(placed, &postures)) {
+        status[slot] &= if is_free { u8::MAX } else { !within.bits() };
     }
 }
 
@@ -114,7 +137,6 @@ fn most_room<const N: usize>(robot: &Robot<N>, q: &[[f64; N]], status: &[u8]) ->
 mod tests {
     use core::num::NonZeroUsize;
     use std::string::ToString;
-    use std::vec::Vec;
 
     use super::*;
     use crate::kinematics::pose_to_rows;
@@ -130,7 +152,7 @@ mod tests {
             solutions: &mut solutions,
         };
         let mut batch = Batch::new(NonZeroUsize::new(threads));
-        batch.ik_margin(robot, poses, &[], answers).unwrap();
+        batch.ik_margin(robot, poses, &[], None, answers).unwrap();
         (margin, singularities, solutions)
     }
 
@@ -211,7 +233,7 @@ mod tests {
             singularities: &mut singularities,
             solutions: &mut solutions,
         };
-        let error = Batch::new(None).ik_margin(&robot, &[0.0; 32], &[], answers).unwrap_err();
+        let error = Batch::new(None).ik_margin(&robot, &[0.0; 32], &[], None, answers).unwrap_err();
         assert!(error.to_string().contains("singularities"), "{error}");
     }
 }

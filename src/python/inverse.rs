@@ -138,6 +138,7 @@ impl PyRobot {
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
     ///     q7: Angle of joint 7 [rad], shape (...), of an arm of seven joints.
     ///     threads: Number of threads; 0 for one a core.
+    ///     cell: Only solutions that do not collide in an `irbkin.Cell`.
     ///
     /// Returns:
     ///     IkMargin: the largest margin of the solutions inside the limits, their largest distance
@@ -145,15 +146,18 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidPoseError: A wrong shape. An invalid pose has no solution.
-    ///     InvalidModelError: The first six joints do not move the tool in six independent ways.
+    ///     InvalidModelError: The first six joints do not move the tool in six independent ways;
+    ///         with `cell`, the robot has no body.
     ///     TypeError: `q7` of an arm of six joints, or none of one of seven.
-    #[pyo3(signature = (T, q7=None, *, threads=1))]
+    #[pyo3(signature = (T, q7=None, *, threads=1, cell=None))]
     fn ik_margin<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         q7: Option<&Bound<'py, PyAny>>,
         threads: isize,
+        cell: Option<&Bound<'py, PyCell>>,
     ) -> PyResult<IkMargin> {
+        let cell = cell.map(|cell| &*cell.get().0);
         let (py, arm, threads) = (T.py(), self.arm(), thread_count(threads)?);
         let (poses, angles) = read_poses_with_q7(arm, T, "q7", q7)?;
         let mut margin = Output::new(py, None, &poses.lead, &[])?;
@@ -170,7 +174,7 @@ impl PyRobot {
         detached(
             py,
             threads,
-            |batch| on!(arm, robot => batch.ik_margin(robot, data, &angles, answers)),
+            |batch| on!(arm, robot => batch.ik_margin(robot, data, &angles, cell, answers)),
         )?;
         let [margin, singularities] = [margin, singularities].map(Output::array);
         Ok(IkMargin { margin, singularities, solutions: solutions.array() })

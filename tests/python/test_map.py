@@ -29,6 +29,7 @@ def test_each_number_is_its_definition():
             pose[:3, :3] = rotation
             pose[:3, 3] = X[place[0]], Y[place[1]], Z[place[2]]
             inside = ROBOT.ik(pose).within_limits()
+            inside = inside.filter(irbkin.Cell())
             solutions += len(inside)
             if len(inside):
                 reached += 1
@@ -42,6 +43,40 @@ def test_each_number_is_its_definition():
             assert field[place] == pytest.approx(wanted, abs=1e-9, nan_ok=True)
     assert 0.0 in found.share
     assert found.share.max() > 0.7
+
+
+TABLE = irbkin.Cell({"table": irbkin.body.Shape.box([1, 2, 0.1], [1.1, 0, 0.5])})
+
+
+def test_what_collides_is_not_reached():
+    bare = irbkin.map.reach(ROBOT.with_body(None), X, Y, Z, SPREAD)
+    own, among = whole(), irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, cell=TABLE)
+    assert (own.solutions <= bare.solutions).all()
+    assert (among.solutions <= own.solutions).all()
+    assert bare.solutions.sum() > own.solutions.sum() > among.solutions.sum() > 0
+    assert irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, cell=irbkin.Cell()) == own
+    # In its own foot an arm reaches nothing.
+    bare = ROBOT.with_tool(np.eye(4))
+    foot = irbkin.map.reach(bare, -0.2, 0.0, 0.0, SPREAD)
+    assert foot.reached.sum() == 0
+    assert np.isnan(foot.margin).all()
+    assert irbkin.map.reach(bare.with_body(None), -0.2, 0.0, 0.0, SPREAD).reached.sum() > 0
+    with pytest.raises(irbkin.InvalidModelError, match="no body"):
+        irbkin.map.reach(ROBOT.with_body(None), X, Y, Z, SPREAD, cell=TABLE)
+
+
+def test_a_margin_in_a_cell_is_that_of_the_solutions_that_are_free():
+    poses = ROBOT.fk(ROBOT.random(300, rng=2))
+    found = ROBOT.ik_margin(poses, cell=TABLE)
+    seen = set()
+    for index, pose in enumerate(poses):
+        free = ROBOT.ik(pose).within_limits().filter(TABLE)
+        assert found.solutions[index] == len(free)
+        rooms = [min(map(float, ROBOT.margin(turn.q))) for turn in free.turns()]
+        wanted = max(rooms, default=np.nan)
+        assert found.margin[index] == pytest.approx(wanted, abs=1e-9, nan_ok=True)
+        seen.add(len(free) > 0)
+    assert seen == {True, False}
 
 
 @pytest.mark.parametrize("options", [{"block": 1}, {"block": 7}, {"threads": 2}, {"block": 10**6}])
@@ -151,6 +186,8 @@ def test_the_map_of_something_else_is_not_touched(tmp_path):
     for arguments in ((ROBOT, X + 1, Y, Z, SPREAD), (ROBOT.with_tool(np.eye(4)), X, Y, Z, SPREAD)):
         with pytest.raises(FileExistsError, match="is of another map"):
             irbkin.map.reach(*arguments, output=output)
+    with pytest.raises(FileExistsError, match="is of another map"):
+        irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, cell=TABLE, output=output)
     assert output.read_bytes() == before
     with pytest.raises(ValueError, match=r"output must be a file \.npz"):
         irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, output=tmp_path / "reach.csv")

@@ -9,7 +9,7 @@ import numpy as np
 
 from irbkin._arguments import check_robot, count, reporter
 from irbkin._arrays import as_array, finite
-from irbkin._core import Robot, __version__
+from irbkin._core import Cell, Robot, __version__
 from irbkin._grids import ReachMap
 from irbkin.errors import InvalidPoseError
 from irbkin.map._store import Store
@@ -35,6 +35,8 @@ class Grid:
     axes: tuple[Floats, Floats, Floats]
     orientations: Floats
     q7: float | None
+    cell: Cell | None
+    """In which solutions do not count that collide."""
     threads: int
 
     @property
@@ -85,16 +87,19 @@ def reach(
     orientations: npt.ArrayLike,
     *,
     q7: float | None = None,
+    cell: Cell | None = None,
     output: str | PathLike[str] | None = None,
     threads: int = 1,
     block: int | None = None,
     progress: Report | Bar | None = None,
 ) -> ReachMap:
     """Map what an arm reaches: for each position of a grid, how many orientations are reached
-    inside the limits, in how many ways, and how near to limits and singularities.
+    inside the limits and without a collision, in how many ways, and how near to limits and
+    singularities.
 
-    Collisions are not checked, not even with the arm itself: positions in its base count, too. The
-    answer does not depend on blocks or threads. Memory holds the answer and one block.
+    Solutions do not count at which the arm touches itself, or an obstacle of the cell. An arm
+    without a body (`robot.body`, which `with_body(None)` takes away) is not tested. The answer does
+    not depend on blocks or threads. Memory holds the answer and one block.
 
     Args:
         robot: The arm, with its tool and base.
@@ -103,6 +108,7 @@ def reach(
         z: Positions along z [m], shape (k,); a number for one.
         orientations: Orientations of the tool, shape (o, 3, 3), or (3, 3) for one.
         q7: Angle of joint 7 of a seven-axis arm [rad].
+        cell: Obstacles around the arm; none when not given.
         output: File (.npz) of the map, which `load` reads. A run that was ended goes on where it
             was; blocks that are ready are kept in a folder beside it until the map is whole.
         threads: Number of threads for each block; 0 for one a core.
@@ -116,7 +122,8 @@ def reach(
     Raises:
         InvalidPoseError: Positions that are not finite or have a wrong shape, or a matrix that is
             no rotation; the message has its index.
-        InvalidModelError: The first six joints do not move the tool in six independent ways.
+        InvalidModelError: The first six joints do not move the tool in six independent ways; with
+            `cell`, the robot has no body.
         TypeError: `q7` of an arm of six joints, or none of one of seven.
         FileExistsError: `output` is the map of something else.
         FileNotFoundError: The folder of `output` does not exist.
@@ -124,12 +131,14 @@ def reach(
     check_robot(robot)
     report = reporter(progress)
     axes = (_axis("x", x), _axis("y", y), _axis("z", z))
-    grid = Grid(robot, axes, _rotations(robot, orientations, q7), q7, threads)
+    if cell is None and robot.body is not None:
+        cell = Cell()
+    grid = Grid(robot, axes, _rotations(robot, orientations, q7), q7, cell, threads)
     positions = int(np.prod(grid.shape))
     size = max(1, IN_A_BLOCK // len(grid.orientations))
     if block is not None:
         size = count(block, "block", InvalidPoseError)
-    store = Store(output, (__version__, robot, *axes, grid.orientations, q7), positions)
+    store = Store(output, (__version__, robot, *axes, grid.orientations, q7, cell), positions)
     blocks = store.missing(size)
     done = positions - sum(last - first for first, last in blocks)
     report(done, positions)
@@ -158,7 +167,7 @@ def solved(grid: Grid, first: int, last: int) -> Part:
             high = min(low + at_once, count)
             rows, now = slice(low, high), poses[: high - low]
             now[..., :3, 3] = grid.positions(first + low, first + high)[:, None]
-            found = grid.robot.ik_margin(now, grid.q7, threads=grid.threads)
+            found = grid.robot.ik_margin(now, grid.q7, threads=grid.threads, cell=grid.cell)
             reached[rows] += (found.solutions > 0).sum(axis=1)
             solutions[rows] += found.solutions.sum(axis=1, dtype=np.int64)
             # NaN where there is no solution.

@@ -69,8 +69,8 @@ class Store:
         stored = _arrays(path)
         if str(stored.get("job")) != self._job:
             raise FileExistsError(
-                f"{path} is of another map (robot, positions or orientations differ): delete it or "
-                f"choose another output"
+                f"{path} is of another map (robot, cell, positions or orientations differ): "
+                f"delete it or choose another output"
             )
         for name, field in self.fields.items():
             field[first:last] = stored[name].reshape(-1)
