@@ -1382,20 +1382,22 @@ class Robot:
     def ik_nearest(
         self,
         T: npt.ArrayLike,
-        seed: npt.ArrayLike,
+        seed: npt.ArrayLike | None = None,
         weights: npt.ArrayLike | None = None,
         *,
         out: _Floats | None = None,
         threads: int = 1,
         cell: Cell | None = None,
     ) -> _Floats:
-        """The solution inside the limits that is nearest to `seed`, turns considered.
+        """The solution inside the limits that is nearest to `seed`, turns considered; without a
+        seed nearest to the middle of the limits.
 
         Args:
             T: Poses of the tool, shape (..., 4, 4), translation [m].
             seed: Joint vectors [rad], shape (..., n). T and seed are broadcast: one seed for many
                 poses, one pose for many seeds. Of joints that the pose leaves free, the nearest
-                angles are taken.
+                angles are taken. When not given, the middle of the limits; 0 for a joint without
+                a limit, or that turns by more than 720 deg.
             weights: Cost of moving each joint, shape (n,); ones when not given.
             out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
             threads: Number of threads; 0 for one a core.

@@ -1,8 +1,10 @@
 //! Methods of `irbkin.Robot` that take poses.
 
+use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
+use numpy::PyArray1;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyTuple};
@@ -22,7 +24,7 @@ use super::signals::detached;
 use super::solutions::PySolutions;
 use super::targets::{Seeded, read_ik_pose, read_seeded, read_single_pose, read_weights};
 use crate::batch::Margins;
-use crate::kinematics::{check_most_near, check_near};
+use crate::kinematics::{Robot, check_most_near, check_near};
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -180,13 +182,15 @@ impl PyRobot {
         Ok(IkMargin { margin, singularities, solutions: solutions.array() })
     }
 
-    /// The solution inside the limits that is nearest to `seed`, turns considered.
+    /// The solution inside the limits that is nearest to `seed`, turns considered; without a seed
+    /// nearest to the middle of the limits.
     ///
     /// Args:
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
     ///     seed: Joint vectors [rad], shape (..., n). T and seed are broadcast: one seed for many
     ///         poses, one pose for many seeds. Of joints that the pose leaves free, the nearest
-    ///         angles are taken.
+    ///         angles are taken. When not given, the middle of the limits; 0 for a joint without
+    ///         a limit, or that turns by more than 720 deg.
     ///     weights: Cost of moving each joint, shape (n,); ones when not given.
     ///     out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
     ///     threads: Number of threads; 0 for one a core.
@@ -203,11 +207,11 @@ impl PyRobot {
     ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
     ///         is not finite; a seed, or most of many, more than four turns outside the limits; a
     ///         single pose or seed for a whole batch that is invalid.
-    #[pyo3(signature = (T, seed, weights=None, *, out=None, threads=1, cell=None))]
+    #[pyo3(signature = (T, seed=None, weights=None, *, out=None, threads=1, cell=None))]
     fn ik_nearest<'py>(
         &self,
         T: &Bound<'py, PyAny>,
-        seed: &Bound<'py, PyAny>,
+        seed: Option<&Bound<'py, PyAny>>,
         weights: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
         threads: isize,
@@ -215,7 +219,9 @@ impl PyRobot {
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (T.py(), thread_count(threads)?);
         let cell = cell.map(|cell| &cell.get().0);
-        on!(self.arm(), robot => match read_seeded(T, seed)? {
+        let middle = |py| on!(self.arm(), robot => PyArray1::from_slice(py, &middle(robot)));
+        let seed = seed.map_or_else(|| middle(py).into_any(), Bound::clone);
+        on!(self.arm(), robot => match read_seeded(T, &seed)? {
             Seeded::One(pose, seed) => {
                 let weights = read_weights(weights)?;
                 check_near("seed", &seed, robot.limits(), &weights)?;
@@ -256,6 +262,14 @@ impl PyRobot {
         let explanation = on!(self.arm(), robot => robot.explain(&pose))?;
         Ok(PoseCheck::from(&explanation))
     }
+}
+
+/// The seed that is taken without one [rad].
+fn middle<const N: usize>(robot: &Robot<N>) -> [f64; N] {
+    robot.free_ranges().map(|[lower, upper]| {
+        // Of a joint that turns more often than that, the zero is where a user expects it.
+        if upper - lower <= 2.0 * TAU { 0.5 * (lower + upper) } else { 0.0 }
+    })
 }
 
 /// `irbkin.IkBatch` of poses, shape (..., 4, 4), and of the angles of a joint of seven for each,

@@ -309,6 +309,29 @@ def test_a_wrong_argument_of_pose_is_answered_with_the_right_one(name, own):
     assert "others" not in str(inspect.signature(irbkin.pose))
 
 
+def test_the_nearest_solution_without_a_seed_is_nearest_to_the_middle():
+    limits = ROBOT.limits.copy()
+    limits[1] = [-1.0, 2.0]
+    limits[3], limits[4, 1] = [-7.0, 7.0], np.inf
+    robot = ROBOT.with_limits(limits)
+    middle = limits.mean(axis=1)
+    middle[3:5] = 0.0
+    for arm, seed in ((robot, middle), (irbkin.Robot("UR5e"), np.zeros(6))):
+        poses = arm.fk(arm.random(50, rng=1))
+        for pose in poses:
+            np.testing.assert_array_equal(arm.ik_nearest(pose), arm.ik_nearest(pose, seed))
+        np.testing.assert_array_equal(arm.ik_nearest(poses), arm.ik_nearest(poses, seed))
+    panda = irbkin.Robot("Panda")
+    pose = panda.fk(panda.random(rng=1))
+    middle = panda.limits.mean(axis=1)
+    np.testing.assert_array_equal(panda.ik_nearest(pose), panda.ik_nearest(pose, middle))
+    # Two turns have a middle, more have none.
+    for lower, turned in ((-3 * np.pi, Q[5] - math.tau), (-3 * np.pi - 1e-6, Q[5])):
+        limits = ROBOT.limits.copy()
+        limits[5] = [lower, np.pi]
+        assert ROBOT.with_limits(limits).ik_nearest(T)[5] == pytest.approx(turned, abs=1e-9)
+
+
 def test_a_robot_prints_its_table():
     head, words, joints, *rows = str(ROBOT).splitlines()
     assert (head, joints.split()) == (repr(ROBOT), ["J1", "J2", "J3", "J4", "J5", "J6"])
