@@ -1083,9 +1083,9 @@ class Robot:
 
         Args:
             shapes: A `Shape`, or several.
-            pose: Pose of the shapes in the flange frame `tool0`, shape (4, 4); the identity when
-                not given. The tool center point does not move them: pass `robot.tool` if they are
-                in its frame.
+            pose: Pose of the shapes in the flange frame `tool0`, shape (4, 4), or its position
+                alone [m], shape (3,); the identity when not given. The tool center point does not
+                move them: pass `robot.tool` if they are in its frame.
             excess: How far the capsules may be outside the shape [m]; when not given, at most four
                 capsules with the least excess, which `body.excess[n + 1]` has.
 
@@ -3199,7 +3199,8 @@ class Shape:
 
         Args:
             size: Lengths of its edges along x, y and z [m], shape (3,).
-            pose: Pose of its middle, shape (4, 4); the identity when not given.
+            pose: Pose of its middle, shape (4, 4), or its position alone [m], shape (3,); the
+                identity when not given.
 
         Raises:
             InvalidModelError: A length that is not positive or more than 100 m, or a pose
@@ -3238,7 +3239,7 @@ class Shape:
         Args:
             radius: Its radius [m].
             length: Its length [m].
-            pose: Pose of its middle, shape (4, 4); the identity when not given.
+            pose: As of `box`.
 
         Raises:
             InvalidModelError: A length that is not positive or more than 100 m, or a pose

@@ -4,10 +4,9 @@ use pyo3::prelude::*;
 
 use super::arm::{Arm, on};
 use super::robot::PyRobot;
-use super::shapes::{PyBody, PyShape};
-use super::targets::read_single_pose;
+use super::shapes::{PyBody, PyShape, read_pose};
 use crate::body::Shape;
-use crate::kinematics::{Pose, Robot};
+use crate::kinematics::Robot;
 
 #[pymethods]
 impl PyRobot {
@@ -46,9 +45,9 @@ impl PyRobot {
     ///
     /// Args:
     ///     shapes: A `Shape`, or several.
-    ///     pose: Pose of the shapes in the flange frame `tool0`, shape (4, 4); the identity when
-    ///         not given. The tool center point does not move them: pass `robot.tool` if they are
-    ///         in its frame.
+    ///     pose: Pose of the shapes in the flange frame `tool0`, shape (4, 4), or its position
+    ///         alone [m], shape (3,); the identity when not given. The tool center point does not
+    ///         move them: pass `robot.tool` if they are in its frame.
     ///     excess: How far the capsules may be outside the shape [m]; when not given, at most four
     ///         capsules with the least excess, which `body.excess[n + 1]` has.
     ///
@@ -64,7 +63,7 @@ impl PyRobot {
         pose: Option<&Bound<'_, PyAny>>,
         excess: Option<f64>,
     ) -> PyResult<Self> {
-        let pose = pose.map_or(Ok(Pose::identity()), |pose| read_single_pose(pose, "pose"))?;
+        let pose = read_pose(pose)?;
         let shapes = shapes.read();
         Ok(on!(self.arm(), robot => {
             Arm::from(Robot::clone(robot).with_attached(&shapes, &pose, excess)?)

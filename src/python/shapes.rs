@@ -8,7 +8,7 @@ use super::errors::Fault;
 use super::meshes::read_points;
 use super::outputs::{column, matrix};
 use super::state::{Reduced, reduced};
-use super::targets::read_single_pose;
+use super::targets::read_place;
 use crate::body::{Body, Capsule, LinkCapsule, LinkHull, RoundedHull, Shape};
 use crate::error::Error;
 use crate::kinematics::Pose;
@@ -25,7 +25,8 @@ impl PyShape {
     ///
     /// Args:
     ///     size: Lengths of its edges along x, y and z [m], shape (3,).
-    ///     pose: Pose of its middle, shape (4, 4); the identity when not given.
+    ///     pose: Pose of its middle, shape (4, 4), or its position alone [m], shape (3,); the
+    ///         identity when not given.
     ///
     /// Raises:
     ///     InvalidModelError: A length that is not positive or more than 100 m, or a pose
@@ -75,7 +76,7 @@ impl PyShape {
     /// Args:
     ///     radius: Its radius [m].
     ///     length: Its length [m].
-    ///     pose: Pose of its middle, shape (4, 4); the identity when not given.
+    ///     pose: As of `box`.
     ///
     /// Raises:
     ///     InvalidModelError: A length that is not positive or more than 100 m, or a pose
@@ -144,7 +145,7 @@ impl PyShape {
 }
 
 pub(super) fn read_pose(pose: Option<&Bound<'_, PyAny>>) -> PyResult<Pose> {
-    pose.map_or(Ok(Pose::identity()), |pose| read_single_pose(pose, "pose"))
+    pose.map_or(Ok(Pose::identity()), |pose| read_place(pose, "pose"))
 }
 
 fn position(pose: &Pose) -> [f64; 3] {

@@ -35,8 +35,16 @@ pub(super) fn read_single_pose(value: &Bound<'_, PyAny>, method: &str) -> PyResu
 /// A frame of the robot: a pose as the argument T of `method`, or its translation alone.
 pub(super) fn read_frame(value: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
     match shape_of(value).as_deref() {
-        Some([3]) => Ok(pose_from_wxyz(vector(value, "T", Fault::Pose)?, [1.0, 0.0, 0.0, 0.0])?),
+        Some([3]) => read_place(value, "T"),
         _ => read_single_pose(value, method),
+    }
+}
+
+/// Where something is, as the argument `field`: a pose, or its translation alone.
+pub(super) fn read_place(value: &Bound<'_, PyAny>, field: &'static str) -> PyResult<Pose> {
+    match shape_of(value).as_deref() {
+        Some([3]) => Ok(pose_from_wxyz(vector(value, field, Fault::Pose)?, [1.0, 0.0, 0.0, 0.0])?),
+        _ => Ok(pose_from_rows(&matrix4(value, field, Fault::Pose)?)?),
     }
 }
 

@@ -12,6 +12,7 @@ import irbkin
 import numpy as np
 import pytest
 from irbkin import paths, rapid, ros, trajectory
+from irbkin.body import Shape
 from irbkin.errors import InvalidJointsError, InvalidModelError, InvalidMotionError
 
 IRB = "IRB 2600-12/1.65"
@@ -330,6 +331,21 @@ def test_the_nearest_solution_without_a_seed_is_nearest_to_the_middle():
         limits = ROBOT.limits.copy()
         limits[5] = [lower, np.pi]
         assert ROBOT.with_limits(limits).ik_nearest(T)[5] == pytest.approx(turned, abs=1e-9)
+
+
+def test_a_shape_is_placed_by_three_numbers():
+    place = [1.0, 0.0, 0.42]
+    for make in (
+        lambda at: Shape.box([1, 1, 0.1], at),
+        lambda at: Shape.cylinder(0.1, 0.5, pose=at),
+        lambda at: Shape.convex(np.vstack([np.eye(3), -np.eye(3)]), at),
+        lambda at: ROBOT.with_attached(Shape.sphere(0.05, [-0.9, 0, -0.4]), at),
+    ):
+        assert make(place) == make(irbkin.pose(place))
+    with pytest.raises(irbkin.InvalidPoseError, match=r"pose must have shape \(4, 4\), got \(2,\)"):
+        Shape.box([1, 1, 0.1], [1.0, 2.0])
+    with pytest.raises(irbkin.InvalidPoseError, match=r"\[1\] is NaN"):
+        Shape.box([1, 1, 0.1], [1.0, np.nan, 0.0])
 
 
 def test_a_robot_prints_its_table():
