@@ -2163,6 +2163,11 @@ class WobjData(_RapidRecord):
         uframe: _Pose = ...,
         oframe: _Pose = ...,
     ) -> WobjData: ...
+    @staticmethod
+    def of(T: npt.ArrayLike) -> WobjData:
+        """Return the work object of a homogeneous matrix, its user frame in the world, shape (4,
+        4), translation [m], as `calibration.work_object` finds it.
+        """
 
 @final
 class SpeedData(_RapidRecord):

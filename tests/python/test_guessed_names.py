@@ -348,6 +348,13 @@ def test_a_shape_is_placed_by_three_numbers():
         Shape.box([1, 1, 0.1], [1.0, np.nan, 0.0])
 
 
+def test_a_work_object_is_made_of_a_pose():
+    frame = irbkin.pose([0.5, 0.1, 0.2], euler_zyx=[0.3, 0.1, 0.0])
+    wobj = rapid.WobjData.of(frame)
+    np.testing.assert_allclose(wobj.uframe.matrix(), frame, atol=1e-12)
+    assert wobj._replace(uframe=rapid.WobjData().uframe) == rapid.WobjData()
+
+
 def test_a_robot_prints_its_table():
     head, words, joints, *rows = str(ROBOT).splitlines()
     assert (head, joints.split()) == (repr(ROBOT), ["J1", "J2", "J3", "J4", "J5", "J6"])

@@ -98,7 +98,7 @@ def work_object(
     points: npt.ArrayLike, nominal: npt.ArrayLike | None = None, y1: npt.ArrayLike | None = None
 ) -> WorkObject:
     """Return the frame of a work object from measured points: `work_object(X1, X2, Y1)` as ABB asks
-    for them.
+    for them. `rapid.WobjData.of(found.frame)` is its wobjdata.
 
     Without `nominal`, points are ABB's X1, X2 and Y1: x goes from X1 to X2, y to the side of Y1,
     and the origin is the foot of Y1 on the line through X1 and X2. With it, the frame is that in

@@ -8,7 +8,9 @@ use crate::kinematics::{Pose, pose_from_wxyz};
 use crate::python::errors::Fault;
 use crate::python::targets::{pose_array, read_pose};
 use crate::rapid::class::{Field, Given, Refused};
-use crate::rapid::{JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, rapid_pose};
+use crate::rapid::{
+    JointTarget, LoadData, NOT_THERE, RapidPose, RobTarget, ToolData, WobjData, rapid_pose,
+};
 use crate::report::Configuration;
 
 /// Powers of ten of the decimals of a position [mm] and a quaternion that are made of a matrix:
@@ -50,6 +52,18 @@ impl RapidPose {
     /// Return the homogeneous matrix, shape (4, 4), translation [m].
     fn matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         matrix(py, self.trans_mm, self.rot)
+    }
+}
+
+#[pymethods]
+impl WobjData {
+    /// Return the work object of a homogeneous matrix, its user frame in the world, shape (4, 4),
+    /// translation [m], as `calibration.work_object` finds it.
+    #[staticmethod]
+    #[pyo3(signature = (T))]
+    #[expect(non_snake_case, reason = "the name of a matrix")]
+    fn of(T: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self { uframe: RapidPose::of(T)?, ..Self::WOBJ0 })
     }
 }
 
