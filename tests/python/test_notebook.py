@@ -116,3 +116,13 @@ def test_joints_of_a_view_are_any_array_of_their_number(monkeypatch):
         with pytest.raises(traitlets.TraitError, match=r"q must be 6 finite joint angles \[rad\]"):
             view.q = wrong
         np.testing.assert_allclose(view.q, q, atol=1e-9)
+
+
+def test_a_legend_names_the_joint_of_each_curve():
+    text = _svg.curves(np.linspace(0, 1, 5), np.arange(35.0).reshape(5, 7), "s", "deg")
+    curves = re.findall(r'<polyline [^>]*stroke="(#\w+)"', text)
+    names = re.findall(r'<text x="([\d.]+)" [^>]*fill="(#\w+)">J(\d)<', text)
+    assert [(color, int(name)) for _, color, name in names] == [
+        *zip(curves, range(1, 8), strict=True)
+    ]
+    assert max(float(x) for x, *_ in names) < _svg.SIZE - 14

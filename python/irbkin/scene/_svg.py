@@ -77,13 +77,13 @@ def _picture(
 
 
 def curves(x: Floats, rows: Floats, name: str, unit: str) -> str:
-    """Draw a curve for each column of rows over x."""
+    """Draw a curve for each joint, a column of rows, over x."""
     low, high = float(rows.min()), float(rows.max())
     span, wide = max(high - low, 1e-9), max(float(x[-1] - x[0]), 1e-9)
     labels = f"{high:.4g}", f"{low:.4g}"
     # A digit of the font of 10 units is at most 6.5 wide.
     left = max(34.0, 4.0 + 6.5 * max(map(len, labels)))
-    top, width, height = 8.0, SIZE - 6.0 - left, SIZE - 34.0
+    top, width, height = 18.0, SIZE - 6.0 - left, SIZE - 44.0
     u = left + width * (x - x[0]) / wide
     v = top + height * (high - rows) / span
     lines = [
@@ -104,6 +104,8 @@ def curves(x: Floats, rows: Floats, name: str, unit: str) -> str:
         color = LINES[joint % len(LINES)]
         lines.append(
             f'<polyline points="{points}" fill="none" stroke="{color}" stroke-width="1.4"/>'
+            f'<text x="{left + 20 * joint:g}" y="11" font-size="10" fill="{color}">J{joint + 1}'
+            "</text>"
         )
     return _svg(lines)
 
