@@ -138,7 +138,7 @@ mod urdf;
 pub use catalog::catalog;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use error::Error;
-pub use interrupt::{Interrupt, Interrupted};
+pub use interrupt::{Interrupt, Interrupted, Pace};
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
     AnyRobot, ByJoints, ConfigurationRequest, Corrections, Definition, DhRow, JacobianFrame,

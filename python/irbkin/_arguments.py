@@ -27,7 +27,8 @@ class Bar(Protocol):
 
 
 def reporter(progress: Report | Bar | None) -> Report:
-    """What is called with how much is done, and with the whole: a callable, or a bar as of tqdm.
+    """Return the function that is called with how much is done and with the whole, of a callable or
+    of a bar as of tqdm.
 
     Raises:
         TypeError: It is something else.

@@ -26,6 +26,7 @@ from typing import (
 import numpy as np
 import numpy.typing as npt
 
+from irbkin._arguments import Bar, Report
 from irbkin.freedom import Positioner, ToolCone, ToolOffset, ToolRotation, Track
 from irbkin.records import BreakReason, Reach, SingularityKind, SingularityMode, Status
 
@@ -1477,6 +1478,7 @@ class Robot:
         singularity_cost: float = 0.0,
         objective: Literal["time"] | None = None,
         max_acceleration: npt.ArrayLike | None = None,
+        progress: Report | Bar | None = None,
     ) -> Plan:
         """The best joint path along a path of poses, over every branch, every turn of the joints
         and, with `rotation`, every angle of the tool.
@@ -1534,6 +1536,8 @@ class Robot:
                 is free smoothed for that. None: the pace is even, or given by `times`.
             max_acceleration: Limits of that motion [rad/s^2]: a number, or one for each joint and
                 external axis, shape (n + k,).
+            progress: Called with how much work is done, and with all that is known of so far, which
+                grows while the plan is refined; or a bar as `tqdm.tqdm()`.
 
         Returns:
             Plan: joints [rad], shape (m, n); tool angles; slots; external axes, shape (m, k);
@@ -3389,6 +3393,7 @@ class Body:
         most: int = 4,
         packages: Mapping[str, str | PathLike[str]] | None = None,
         joints: Mapping[str, float] | None = None,
+        progress: Report | Bar | None = None,
     ) -> Body:
         """Fit capsules to the meshes of a URDF: they contain every triangle, and the inside of
         closed meshes. It needs `pip install 'irbkin[mesh]'`, and takes some 15 s for an arm.
@@ -3412,6 +3417,8 @@ class Body:
                 the URDF when not given.
             joints: Where joints beside the arm are, by their names [rad or m]: their links, and
                 those of joints that mimic them, are in the body there alone.
+            progress: Called with the number of links that are fitted, and of all; or a bar as
+                `tqdm.tqdm()`.
 
         Raises:
             InvalidModelError: As `Robot.from_urdf`; a file is no mesh, no link has a shape, the

@@ -260,7 +260,7 @@ impl Arm<'_> {
         let mut status = vec![0; count * grid.slots];
         let mut part: Vec<(usize, Step<'_>)> = Vec::with_capacity(count);
         let mut poses = Vec::with_capacity(count);
-        let mut steps = (1..nodes.len()).map(|at| {
+        let mut steps = self.interrupt.over(1..nodes.len()).map(|at| {
             let (layers, nodes) = ([&layers[at - 1], &layers[at]], [nodes[at - 1], nodes[at]]);
             (at, Step::new(grid, layers, nodes, [q[at - 1], q[at]]))
         });

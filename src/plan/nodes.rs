@@ -76,7 +76,7 @@ impl Arm<'_> {
         let mut q = vec![0.0; PART * grid.slots * 6];
         let mut status = vec![0; PART * grid.slots];
         let mut dependent = Dependent::default();
-        for layer in range.clone() {
+        for layer in self.interrupt.over(range.clone()) {
             if layers[layer].own.is_some() {
                 continue;
             }

@@ -106,7 +106,7 @@ impl Search<'_> {
         let mut live = vec![[true; LANES]; grid.len() / LANES];
         let mut work = Work::default();
         self.begin(from, &mut before);
-        for layer in from + 1..=to {
+        for layer in interrupt.over(from + 1..=to) {
             if interrupt.ends(layer) {
                 return None;
             }

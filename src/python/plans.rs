@@ -15,7 +15,7 @@ use super::freedoms::{read_carrier, read_end, read_redundancy, read_rotation, re
 use super::outputs::{array, column, matrix};
 use super::records;
 use super::robot::PyRobot;
-use super::signals::detached_until;
+use super::signals::watched;
 use super::targets::{read_path_poses, read_weights};
 use super::trajectories::read_each;
 use crate::cell::Cell;
@@ -82,6 +82,8 @@ impl PyRobot {
     ///         is free smoothed for that. None: the pace is even, or given by `times`.
     ///     max_acceleration: Limits of that motion [rad/s^2]: a number, or one for each joint and
     ///         external axis, shape (n + k,).
+    ///     progress: Called with how much work is done, and with all that is known of so far, which
+    ///         grows while the plan is refined; or a bar as `tqdm.tqdm()`.
     ///
     /// Returns:
     ///     Plan: joints [rad], shape (m, n); tool angles; slots; external axes, shape (m, k);
@@ -101,7 +103,7 @@ impl PyRobot {
     ///     ValueError: Another `order`.
     ///     TypeError: redundancy of an arm of six joints.
     ///     Exception: Whatever `accept` raises.
-    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, cell=None, carrier=None, tolerance=None, redundancy=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0, objective=None, max_acceleration=None))]
+    #[pyo3(signature = (T, *, rotation=None, times=None, start=None, end=None, closed=false, weights=None, accept=None, cell=None, carrier=None, tolerance=None, redundancy=None, order="bottleneck", limit_cost=0.0, singularity_cost=0.0, objective=None, max_acceleration=None, progress=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn plan<'py>(
         &self,
@@ -122,6 +124,7 @@ impl PyRobot {
         singularity_cost: f64,
         objective: Option<&str>,
         max_acceleration: Option<&Bound<'py, PyAny>>,
+        progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<records::Plan> {
         let asked = Asked {
             T,
@@ -141,6 +144,7 @@ impl PyRobot {
             singularity_cost,
             objective,
             max_acceleration,
+            progress,
         };
         match self.arm() {
             Arm::Six(_) if redundancy.is_some() => Err(PyTypeError::new_err(
@@ -177,6 +181,7 @@ struct Asked<'a, 'py> {
     singularity_cost: f64,
     objective: Option<&'a str>,
     max_acceleration: Option<&'a Bound<'py, PyAny>>,
+    progress: Option<&'a Bound<'py, PyAny>>,
 }
 
 impl Asked<'_, '_> {
@@ -228,7 +233,7 @@ impl Asked<'_, '_> {
         let options = self.options::<N>()?;
         let path = read_path_poses(self.T)?;
         let accept = self.accept.map(|accept| accept.clone().unbind());
-        let (planned, failure) = detached_until(py, |interrupt| {
+        let (planned, failure) = watched(py, self.progress, |interrupt| {
             let mut failure = None;
             let mut ask = |q: &[[f64; N]]| {
                 let accept = accept.as_ref()?;

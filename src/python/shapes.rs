@@ -257,6 +257,8 @@ impl PyBody {
     ///         the URDF when not given.
     ///     joints: Where joints beside the arm are, by their names [rad or m]: their links, and
     ///         those of joints that mimic them, are in the body there alone.
+    ///     progress: Called with the number of links that are fitted, and of all; or a bar as
+    ///         `tqdm.tqdm()`.
     ///
     /// Raises:
     ///     InvalidModelError: As `Robot.from_urdf`; a file is no mesh, no link has a shape, the
@@ -266,7 +268,8 @@ impl PyBody {
     ///     ImportError: trimesh or scipy is not installed.
     #[staticmethod]
     #[pyo3(signature = (
-        urdf, base=None, tip=None, *, excess=None, most=4, packages=None, joints=None
+        urdf, base=None, tip=None, *, excess=None, most=4, packages=None, joints=None,
+        progress=None
     ))]
     fn fit(
         urdf: &Bound<'_, PyAny>,
@@ -276,9 +279,11 @@ impl PyBody {
         most: i64,
         packages: Option<&Bound<'_, PyAny>>,
         joints: Option<&Bound<'_, PyAny>>,
+        progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<Self>> {
         let fit = urdf.py().import("irbkin.body")?.getattr("_fit_body")?;
-        Ok(fit.call1((urdf, base, tip, excess, most, packages, joints))?.extract()?)
+        let arguments = (urdf, base, tip, excess, most, packages, joints, progress);
+        Ok(fit.call1(arguments)?.extract()?)
     }
 
     /// The link of each capsule, shape (k,).

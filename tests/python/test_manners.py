@@ -149,6 +149,37 @@ def backup(progress):
     irbkin.abb.load_backup(BACKUP, progress=progress)
 
 
+def plan(progress):
+    # It takes some tenths of a second, and is reported every twentieth.
+    path = paths.line(LINE[0], LINE[-1], steps=1200)
+    options = {"rotation": 36, "tolerance": irbkin.ToolCone(0.1)}
+    assert ROBOT.plan(path, progress=progress, **options) == ROBOT.plan(path, **options)
+
+
+def test_a_plan_reports_its_progress():
+    calls = []
+    plan(lambda *both: calls.append(both))
+    assert len(calls) > 2
+    assert calls == sorted(calls)
+    assert [total for _, total in calls] == sorted(total for _, total in calls)
+    assert all(0 <= done <= total for done, total in calls)
+    assert calls[-1][0] == calls[-1][1] > 800
+    bar = Bar()
+    plan(bar)
+    assert bar.n == bar.total == calls[-1][0]
+    # A short one reports its end.
+    ROBOT.plan(LINE, progress=bar)
+    assert 0 < bar.n == bar.total < 800
+
+    def stop(done, total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        plan(stop)
+    with pytest.raises(TypeError, match="progress must be a callable"):
+        plan(5)
+
+
 WORKS = [(base, 59), (path, 16), (reach_map, 81), (backup, 3)]
 
 

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
+from irbkin._arguments import Bar, Report, reporter
 from irbkin._core import Body, Robot, _urdf_swept
 from irbkin._fit.capsules import fitted
 from irbkin._fit.hulls import hulls_of
@@ -56,9 +57,11 @@ def body_of(
     most: int,
     packages: Mapping[str, str | os.PathLike[str]] | None,
     joints: Mapping[str, float] | None,
+    progress: Report | Bar | None,
 ) -> Body:
     """Return the body of a URDF; see `Body.fit`."""
     check(excess, most)
+    report = reporter(progress)
     text, folder = text_and_folder(urdf)
     if joints:
         text = fixed(text, base, tip, joints)
@@ -66,13 +69,17 @@ def body_of(
     triangles, beside, remark = links_of(text, folder, base, tip, packages or {})
     remark += "".join(f"; {name} at {position:g}" for name, position in (joints or {}).items())
     solids = {link: Solid(corners) for link, corners in sorted(triangles.items())}
-    found = [(link, *fitted(solid, excess, most)) for link, solid in solids.items()]
-    hulls = [row for link, solid in solids.items() for row in hulls_of(link, solid.triangles)]
+    found, hulls = [], []
+    for link, solid in solids.items():
+        found.append((link, *fitted(solid, excess, most)))
+        hulls += hulls_of(link, solid.triangles)
+        report(len(found), len(solids) + len(beside))
     for name, (link, corners) in beside.items():
         rows, outside = fitted(Solid(corners), excess, most)
         rows, growth = _urdf_swept(text, base, tip, name, [link] * len(rows), rows)
         found.append((link, rows, outside + growth))
         hulls += [(link, row[:6].reshape(2, 3), NO_FACES, row[6]) for row in rows]
+        report(len(found), len(solids) + len(beside))
     links = np.concatenate([np.full(len(rows), link) for link, rows, _ in found])
     capsules = np.concatenate([rows for _, rows, _ in found])
     outsides = np.zeros(links.max() + 1)

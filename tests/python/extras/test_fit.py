@@ -97,8 +97,11 @@ def test_the_hull_of_the_ball_contains_it():
 
 
 def test_a_body_is_fitted_to_a_urdf(urdf):
-    body = Body.fit(urdf, most=2)
+    calls = []
+    body = Body.fit(urdf, most=2, progress=lambda *both: calls.append(both))
     assert body == Body.fit(urdf, most=2)
+    count = len(set(body.links))
+    assert calls == [(done, count) for done in range(1, count + 1)]
     assert set(body.links) == {0, 2, 4}
     assert body.source.startswith("capsules fitted to the meshes of IRB 1200")
     assert not body.is_approximate
