@@ -65,7 +65,7 @@ toolchains:
 $(VENV)/.made: | toolchains
 	$(STEP) "Set up $(VENV)" $(PYTHON) -m venv $(VENV)
 	@$(PIP_INSTALL) --upgrade 'pip>=25.1'
-	@$(PIP_INSTALL) 'maturin>=1.9,<2' 'numpy>=1.23'
+	@$(PIP_INSTALL) 'maturin>=1.9,<2' 'numpy>=1.23' 'rich>=13' 'rich-argparse>=1.5' 'shtab>=1.12'
 	@touch $@
 
 $(VENV)/.irbkin-%: $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
