@@ -16,7 +16,7 @@ def render(file: str, before: str, after: str, is_colored: bool) -> str:
     for row in difflib.unified_diff(old, new, file, file):
         line, end, _ = row.partition("\n")
         is_head = row.startswith(("---", "+++"))
-        style = {"+": "added", "-": "removed", "@": "note"}.get(row[0])
+        style = {"+": "green", "-": "red", "@": "note"}.get(row[0])
         rows.append(styled(line, style, is_colored) if style and not is_head else line)
         rows.append(end or "\n\\ No newline at end of file\n")
     return "".join(rows)

@@ -8,20 +8,16 @@ from irbkin.check.findings import Finding
 from irbkin.check.report import Report
 from irbkin.check.report.routines import COUNTS, HEADINGS, routines, unused
 
-STYLES = {
-    "bold": "1",
-    "error": "1;31",
-    "warning": "1;33",
-    "note": "1;34",
-    "fix": "36",
-    "added": "32",
-    "removed": "31",
-}
+STYLES = {"error": "bold red", "warning": "bold yellow", "note": "bold blue"}
 
 
 def styled(text: str, style: str, is_colored: bool) -> str:
-    """A text in a style of a terminal."""
-    return f"\x1b[{STYLES[style]}m{text}\x1b[0m" if is_colored and text else text
+    """A text for a terminal, in a style of rich or of a severity."""
+    if not (is_colored and text):
+        return text
+    from rich.style import Style
+
+    return Style.parse(STYLES.get(style, style)).render(text)
 
 
 def render(report: Report) -> str:
@@ -69,7 +65,7 @@ def _routines(report: Report) -> Iterator[str]:
 def heading(found: Finding, is_colored: bool) -> str:
     """A finding in one line, as linters print it."""
     place = f"{found.file}:{found.line}:{found.column}"
-    mark = f"[{styled('*', 'fix', is_colored)}] " if found.edits else ""
+    mark = f"[{styled('*', 'cyan', is_colored)}] " if found.edits else ""
     code = styled(found.code, found.severity, is_colored)
     return f"{styled(place, 'bold', is_colored)}: {code} {mark}{found.message}"
 
