@@ -1,7 +1,6 @@
 """Files that irbkin writes: whole or not at all, where the caller says, as their owner wants."""
 
 import ast
-import importlib
 import os
 import re
 import stat
@@ -16,8 +15,7 @@ from command import NAME, ROBOT, run
 from irbkin import _files, scene, trajectory
 from irbkin import map as maps
 from irbkin.check import fixes
-from irbkin.cli import VERBS
-from irbkin.cli.arguments import Parser
+from irbkin.cli import VERBS, parser_of
 from test_check import SEAM
 
 PACKAGE = Path(irbkin.__file__).parent
@@ -236,10 +234,8 @@ def test_every_verb_with_an_output_is_a_writer_above():
     own = set(re.findall(r'by_command\("(\w+)"', Path(__file__).read_text(encoding="utf-8")))
     found = set()
     for verb in VERBS:
-        parser = Parser(verb, verb, "", "")
-        module = importlib.import_module(f"irbkin.cli.{verb}")
-        module.add_arguments(parser)
-        if "-o" in {option for it in parser.parser._actions for option in it.option_strings}:
+        actions = parser_of(verb).parser._actions
+        if "-o" in {option for it in actions for option in it.option_strings}:
             found.add(verb)
     assert own == found
 

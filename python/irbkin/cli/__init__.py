@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 from irbkin.cli.errors import FINE, CommandError, guarded
 
+if TYPE_CHECKING:
+    from irbkin.cli.arguments import OneLine, Parser
+
 __all__ = ["main"]
 
-# A verb is the module `irbkin.cli.<verb>`, which has HELP, EXAMPLES, `add_arguments` and `run`.
-# A new one needs its file and its line here. (`map` is here the verb, once it was called.)
+# A verb is the module `irbkin.cli.<verb>`, which has its help as docstring, `add_arguments` and
+# `run`. A new one needs its file and its line here. (`map` is here the verb, once it was called.)
 VERBS = {
     "catalog": "list the arms, or show one",
     "fk": "pose of the tool of joint angles",
@@ -27,30 +32,16 @@ VERBS = {
     "view": "show an arm, a program or a scene in the browser",
     "urdf": "write an arm as URDF",
 }
-OVERVIEW = """usage: irbkin VERB ... [--help]
-
-Kinematics of industrial robot arms. Angles in degrees, lengths in millimeters, as headers say;
-arrays in .npy files are as in the Python package, in radians and meters.
-
-{verbs}
-
-options:
-  -h, --help   this text; irbkin VERB --help has the arguments and examples of a verb
-  --version    the version
-
+ABOUT = """Kinematics of industrial robot arms. Angles in degrees, lengths in millimeters, as
+headers say; arrays in .npy files are as in the Python package, in radians and meters."""
+CODES = """
 Exit codes: 0 fine, 1 findings or unreachable, 2 wrong usage or input, 130 interrupted.
+`irbkin VERB --help` has the arguments and examples of a verb.
 """
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command.
-
-    Args:
-        arguments: Without the program's name; the process's when not given.
-
-    Returns:
-        The exit code.
-    """
+    """Run the command with the arguments behind its name, and return the exit code."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     return guarded(lambda: _run(given))
 
@@ -58,30 +49,43 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(given: list[str]) -> int:
     if len(given) > 1 and given[0] == "help":
         given = [given[1], "--help"]
-    if not given or given[0] in ("-h", "--help", "help"):
-        width = max(len(verb) for verb in VERBS)
-        lines = (f"  {verb:{width}}   {words}" for verb, words in VERBS.items())
-        print(OVERVIEW.format(verbs="\n".join(lines)), end="")
-        return FINE
-    if given[0] == "--version" or given[1:] == ["--version"]:
+    verb, *rest = given or ["help"]
+    if verb in ("-h", "--help", "help"):
+        root(lambda verb, parser: None).print_help()
+    elif verb == "--version" or rest == ["--version"]:
         from irbkin import __version__
 
         print(f"irbkin {__version__}")
-        return FINE
-    verb, *rest = given
-    if verb not in VERBS:
+    elif verb in VERBS:
+        parser = parser_of(verb)
+        code: int = importlib.import_module(f"irbkin.cli.{verb}").run(parser.parsed(rest))
+        return code
+    else:
         import difflib
 
-        close = difflib.get_close_matches(verb, VERBS, n=3, cutoff=0.5) or list(VERBS)
-        raise CommandError(
-            f"unknown verb {verb!r}: did you mean {', '.join(close)}? (irbkin --help)"
-        )
-    import importlib
+        close = ", ".join(difflib.get_close_matches(verb, VERBS, n=3, cutoff=0.5) or VERBS)
+        raise CommandError(f"unknown verb {verb!r}: did you mean {close}? (irbkin --help)")
+    return FINE
 
+
+def parser_of(verb: str, own: OneLine | None = None) -> Parser:
+    """The arguments of a verb."""
     from irbkin.cli.arguments import Parser
 
     module = importlib.import_module(f"irbkin.cli.{verb}")
-    parser = Parser(verb, VERBS[verb], module.HELP, module.EXAMPLES)
+    parser = Parser(verb, module.__doc__ or "", own)
     module.add_arguments(parser)
-    code: int = module.run(parser.parsed(rest))
-    return code
+    return parser
+
+
+def root(fill: Callable[[str, OneLine], object]) -> OneLine:
+    """The parser of all verbs, each filled."""
+    from irbkin.cli.arguments import OneLine
+
+    parser = OneLine(prog="irbkin", description=ABOUT, usage="irbkin VERB ...")
+    parser.examples = CODES
+    parser.add_argument("--version", action="store_true", help="the version")
+    verbs = parser.add_subparsers(title="verbs", metavar="VERB")
+    for verb, words in VERBS.items():
+        fill(verb, verbs.add_parser(verb, help=words))
+    return parser

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import functools
 import math
 import os
 import re
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
-from irbkin._arm_options import robot_of
+from irbkin._arm_options import check_millimeters, frame, robot_of
+from irbkin.cli.data import angles_of, frame_of
 from irbkin.cli.errors import CommandError, complain
-from irbkin.cli.numbers import check_joints, number
+from irbkin.cli.numbers import angle, check_joints, number, number_or_data
 
 if TYPE_CHECKING:
     from irbkin import Cell, Robot
@@ -25,15 +27,11 @@ NUMBER = re.compile(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 class Parser:
     """The arguments of a verb."""
 
-    def __init__(self, verb: str, title: str, words: str, examples: str) -> None:
-        self.verb = verb
-        self.parser = _OneLine(
-            prog=f"irbkin {verb}",
-            description=f"{title[0].upper()}{title[1:]}.\n\n{words}",
-            epilog=f"examples:\n{examples}",
-            formatter_class=_Help,
-            allow_abbrev=False,
-        )
+    def __init__(self, verb: str, words: str, parser: OneLine | None = None) -> None:
+        text, _, examples = words.partition("\nExamples:\n")
+        self.parser = parser or OneLine(prog=f"irbkin {verb}")
+        self.parser.description = text
+        self.parser.examples = f"\nexamples:\n{examples}"
         self.add = self.parser.add_argument
         self.endings: tuple[str, ...] | None = None
 
@@ -41,8 +39,15 @@ class Parser:
         """The arguments; a negative number is not an option, with an exponent either."""
         words = [f" {it}" if NUMBER.fullmatch(it) else it for it in given]
         arguments = self.parser.parse_intermixed_args(words)
+        for name in ("tool", "base", "wobj"):
+            own = getattr(arguments, name, None)
+            if own and isinstance(own[0], str):
+                setattr(arguments, name, frame_of(own, name))
         if self.endings is not None and not (arguments.json or arguments.csv):
-            _check_ending(arguments.output, self.endings)
+            output, wanted = arguments.output or "", ", ".join(self.endings)
+            if (ending := os.path.splitext(output)[1].lower()) and ending not in self.endings:
+                what = f"--output: {output} ends in {ending}"
+                raise CommandError(f"{what}, it must end in {wanted} or in nothing, for a table")
         return arguments
 
     def add_robot(self) -> None:
@@ -54,33 +59,42 @@ class Parser:
         """The frames of a .urdf file, the tool and the base."""
         self.add("--tip", metavar="LINK", help="of a .urdf file: the link that poses are of")
         self.add("--base-link", metavar="LINK", help="and the one that they are seen from")
-        self.add(
-            "--snap",
-            type=number,
-            metavar="RAD",
-            help="and how far angles are rounded to right angles [rad]: 1e-5 takes 1.5708 for one",
-        )
-        for name, frame in (("tool", "TCP in the flange"), ("base", "base in the world")):
-            self.add(
-                f"--{name}",
-                nargs="+",
-                type=number,
-                metavar="N",
-                help=f"{frame}: x y z [mm], then w x y z or rz ry rx [deg] if turned",
-            )
+        words = "and how far angles are rounded to right angles [rad]: 1e-5 takes 1.5708 for one"
+        self.add("--snap", type=number, metavar="RAD", help=words)
+        self.add_frame("tool", "TCP in the flange", "tooldata")
+        self.add_frame("base", "base in the world", "pose")
+
+    def add_frame(self, name: str, frame: str, kind: str) -> None:
+        """A frame of numbers or RAPID."""
+        words = f"{frame}: x y z [mm], then w x y z or rz ry rx [deg] if turned; or a {kind}"
+        self.add(f"--{name}", nargs="+", type=number_or_data, metavar="N", help=words)
+
+    def add_wobj(self) -> None:
+        """The work object of poses."""
+        self.add_frame("wobj", "frame of the poses in the world", "wobjdata")
+
+    def add_joints(self, name: str, words: str) -> None:
+        """Joint angles, or a jointtarget."""
+        self.add(f"--{name}", nargs="+", type=number_or_data, metavar="Q", help=words)
 
     def add_cell(self) -> None:
         """The cell around the arm."""
         self.add("--cell", metavar="FILE", help="what the arm must not touch: .toml, .urdf, .scene")
 
-    def add_rows(self, what: str, *, optional: bool = True) -> None:
-        """A file of rows."""
-        self.add(
-            "file",
-            metavar="FILE",
-            nargs="?" if optional else None,
-            help=f"{what}: a CSV or .npy file, - for stdin",
-        )
+    def add_pose(self) -> None:
+        """One pose of the tool."""
+        add = self.add
+        add("--xyz", nargs=3, type=number, metavar=(*"XYZ",), help="position of the tool [mm]")
+        add("--wxyz", nargs=4, type=number, metavar=(*"WXYZ",), help="its quaternion, w first")
+        add("--xyzw", nargs=4, type=number, metavar=(*"XYZW",), help="or w last")
+        turn = ("RZ", "RY", "RX")
+        add("--euler", nargs=3, type=number, metavar=turn, help="or ZYX angles [deg]")
+        add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
+
+    def add_rows(self, what: str, kind: str, nargs: str = "*") -> None:
+        """A file of rows, or RAPID."""
+        words = f"{what}: a CSV or .npy file, - for stdin, or {kind} of RAPID"
+        self.add("file", metavar="FILE", nargs=nargs, help=words)
 
     def add_formats(self, array: str, *others: str) -> None:
         """How rows are written: by the ending of the output, which may be one of `others`."""
@@ -88,37 +102,33 @@ class Parser:
         formats = self.parser.add_mutually_exclusive_group()
         formats.add_argument("--json", action="store_true", help="write JSON")
         formats.add_argument("--csv", action="store_true", help="write CSV")
-        self.add(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help=f"write to a file, its format by its ending: .csv, .json, .npy ({array}), "
-            ".txt or none for a table",
-        )
+        words = f"write to a file, its format by its ending: .csv, .json, .npy ({array}), "
+        self.add("-o", "--output", metavar="FILE", help=f"{words}.txt or none for a table")
 
 
-class _Help(argparse.RawDescriptionHelpFormatter):
-    """Help of one width: asking the terminal would import what nothing else needs."""
+class OneLine(argparse.ArgumentParser):
+    """A parser whose errors are one line, and whose help has the width of the terminal."""
 
-    def __init__(self, prog: str) -> None:
-        super().__init__(prog, width=96)
+    def __init__(self, **options: Any) -> None:
+        # Each argument that is added asks for a formatter: this one does not ask the terminal.
+        plain = functools.partial(argparse.HelpFormatter, width=96)
+        super().__init__(formatter_class=plain, allow_abbrev=False, **options)
+        self.examples, self.own_usage = "", self.usage
 
+    def print_help(self, file: Any = None) -> None:
+        """Print the help, with examples as they are typed."""
+        from rich_argparse import RichHelpFormatter
 
-class _OneLine(argparse.ArgumentParser):
-    """A parser whose errors are one line."""
+        RichHelpFormatter.text_markup = RichHelpFormatter.help_markup = False
+        self.formatter_class = RichHelpFormatter
+        # Parsing has set the usage, at another width.
+        self.usage = self.own_usage
+        super().print_help(file)
+        print(self.examples, end="")
 
     def error(self, message: str) -> NoReturn:
         """End the command."""
         raise CommandError(f"{message} ({self.prog} --help)")
-
-
-def _check_ending(output: str | None, endings: Sequence[str]) -> None:
-    ending = os.path.splitext(output or "")[1].lower()
-    if ending and ending not in endings:
-        raise CommandError(
-            f"--output: {output} ends in {ending}, it must end in {', '.join(endings)} or in "
-            "nothing, for a table"
-        )
 
 
 def read_robot(arguments: argparse.Namespace) -> Robot:
@@ -133,6 +143,32 @@ def read_cell(arguments: argparse.Namespace) -> Cell | None:
     return None if arguments.cell is None else Cell.load(arguments.cell)
 
 
+def read_wobj(arguments: argparse.Namespace) -> Floats:
+    """The work object in the world, shape (4, 4)."""
+    return frame(arguments.wobj or [0, 0, 0], "--wobj")
+
+
+def read_pose(arguments: argparse.Namespace) -> tuple[Floats, str]:
+    """The pose of --xyz and an orientation, shape (4, 4), and its words."""
+    if sum(it is not None for it in (arguments.wxyz, arguments.xyzw, arguments.euler)) > 1:
+        raise CommandError("--wxyz, --xyzw and --euler: give one of them")
+    if arguments.xyzw is not None:
+        *vector, w = arguments.xyzw
+        arguments.wxyz = [w, *vector]
+    turn = arguments.wxyz or arguments.euler or []
+    name = "--wxyz" if arguments.wxyz else "--euler"
+    return pose_of([*(arguments.xyz or (0, 0, 0)), *turn], name)
+
+
+def pose_of(numbers: Sequence[float], name: str) -> tuple[Floats, str]:
+    """The pose of 3, 6 or 7 numbers, shape (4, 4), and its words."""
+    check_millimeters(numbers[:3], "--xyz")
+    texts = [f"{number:g}" for number in numbers]
+    words = f"tool at {' '.join(texts[:3])} mm"
+    kind = {3: "wxyz 1 0 0 0, as no orientation is given", 6: "rz ry rx ", 7: "wxyz "}
+    return frame(numbers, name), f"{words}, {kind.get(len(numbers), '')}{' '.join(texts[3:])}"
+
+
 def read_q7(arguments: argparse.Namespace, robot: Robot) -> float | None:
     """The angle of joint 7 [rad], which the arm takes if it has seven joints."""
     q7: float | None = arguments.q7
@@ -143,12 +179,13 @@ def read_q7(arguments: argparse.Namespace, robot: Robot) -> float | None:
     return None if q7 is None else math.radians(q7)
 
 
-def joints(numbers: Sequence[float] | None, name: str, dof: int) -> Floats | None:
-    """Joint angles [deg] as an array [rad], shape (dof,)."""
+def joints(words: Sequence[float | str] | None, name: str, dof: int) -> Floats | None:
+    """Joint angles [deg] or a jointtarget as an array [rad], shape (dof,)."""
     import numpy as np
 
-    if numbers is None:
+    if words is None:
         return None
+    numbers = angles_of(words, dof)
     if len(numbers) != dof:
         raise CommandError(f"{name} takes {dof} angles [deg] of this arm, got {len(numbers)}")
     check_joints(numbers, name)

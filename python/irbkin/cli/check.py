@@ -1,6 +1,18 @@
-"""`irbkin check`: a linter of RAPID modules."""
+"""Every instruction that moves, of every routine, is checked: reach, limits, flips,
+confdata, singularities, joint speeds, zones, names and, with --cell, collisions (--codes lists the
+codes, `irbkin rule CODE` explains one). Calls are followed with their arguments. The files are one
+program: names that a file does not declare are looked for in the others. A backup of a controller
+needs no ROBOT: each task is checked with its own, its limits and its base. A comment `! noqa` on
+the line of a move, or `! noqa: C201,S301`, silences it. Options that are not given are taken from
+irbkin.toml or pyproject.toml, the robot from IRBKIN_ROBOT, too. --fix corrects confdata in place
+and changes nothing else. Exit codes: 0 nothing but notes, 1 errors, warnings, or no move checked,
+2 wrong usage.
 
-from __future__ import annotations
+Examples:
+  irbkin check backups/cell_3
+  irbkin check "IRB 2600-12/1.65" program.mod --cell cell.toml
+  irbkin check "IRB 2600-12/1.65" program.mod tools.sys --select R,C,N -o report.html
+"""
 
 import argparse
 import contextlib
@@ -11,12 +23,16 @@ import sys
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from irbkin import catalog_entry
 from irbkin._arm_options import is_arm_file, robot_of
+from irbkin.abb.archives import archive_of
+from irbkin.abb.roots import backup_above
 from irbkin.check import fixes
 from irbkin.check.checker import Checker
 from irbkin.check.codes import UNUSED
+from irbkin.check.fixes import Text
 from irbkin.check.jobs import backup_of, job_of_files, jobs_of_backup
 from irbkin.check.report import ENDINGS, Report, counted, is_colored, rendered, report_of
 from irbkin.check.report.diff import render
@@ -26,36 +42,19 @@ from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.files import STDIN, opened, replaced, shown
 from irbkin.cli.numbers import number
 from irbkin.cli.progress import Progress
+from irbkin.cli.rule import listed
+from irbkin.cli.watch import repeated
 from irbkin.errors import IrbkinError
+from irbkin.rapid import ModuleFile, program
 
-if TYPE_CHECKING:
-    from irbkin.check.fixes import Text
-    from irbkin.rapid import ModuleFile
-
-HELP = """Every instruction that moves, of every routine, is checked: reach, limits, flips,
-confdata, singularities, joint speeds, zones, names and, with --cell, collisions (--codes lists the
-codes, `irbkin rule CODE` explains one). Calls are followed with their arguments. The files are one
-program: names that a file does not declare are looked for in the others. A backup of a controller
-needs no --robot: each task is checked with its own, its limits and its base. A comment `! noqa` on
-the line of a move, or `! noqa: C201,S301`, silences it. Options that are not given are taken from
-irbkin.toml or pyproject.toml, the robot from IRBKIN_ROBOT, too. --fix corrects confdata in place
-and changes nothing else. Exit codes: 0 nothing but notes, 1 errors, warnings, or no move checked,
-2 wrong usage."""
-EXAMPLES = """  irbkin check backups/cell_3
-  irbkin check --robot "IRB 2600-12/1.65" program.mod
-  irbkin check --robot "IRB 2600-12/1.65" --cell cell.toml program.mod
-  irbkin check --robot "IRB 2600-12/1.65" --diff programs/
-  irbkin check --robot "IRB 2600-12/1.65" --limits 6 -360 360 --strict programs/
-  irbkin check --robot "IRB 2600-12/1.65" --select R,C,N -o report.html program.mod tools.sys
-  irbkin check --robot "IRB 2600-12/1.65" --ignore S,Z501 - < program.mod"""
 COUNTED = ("text", "concise", "json")
 """Formats that --statistics has."""
 
 
 def add_arguments(parser: Parser) -> None:
-    """The arguments of the verb."""
     add = parser.add
-    add("files", metavar="FILE", nargs="*", help="modules, folders, a backup, - for stdin")
+    words = "ROBOT unless they are a backup, then modules, folders, - for stdin"
+    add("files", metavar="FILE", nargs="*", help=words)
     add_arm(parser)
     change = parser.parser.add_mutually_exclusive_group()
     change.add_argument("--fix", action="store_true", help="correct confdata in the files")
@@ -71,14 +70,8 @@ def add_arguments(parser: Parser) -> None:
     words = "the routines at a glance: nearest limits, singularities, unused names"
     add("--verdict", action="store_true", help=words)
     add("--statistics", action="store_true", help="count the findings of each code in their place")
-    add_step(parser)
     add("--codes", action="store_true", help="list the codes")
     add("--schema", action="store_true", help="write the JSON schema of irbkin.toml")
-
-
-def add_step(parser: Parser) -> None:
-    """The distance of samples."""
-    parser.add("--step", type=float, metavar="MM", help="distance of samples on a line: 5")
 
 
 def add_arm(parser: Parser) -> None:
@@ -100,13 +93,11 @@ def add_arm(parser: Parser) -> None:
     add("--ignore", metavar="CODES", type=lambda text: text.split(","), help=words)
     strict = argparse.BooleanOptionalAction
     add("--strict", action=strict, help="moves that are not checked are errors")
+    add("--step", type=float, metavar="MM", help="distance of samples on a line: 5")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run the verb."""
     if arguments.codes:
-        from irbkin.cli.rule import listed
-
         print(listed(), end="")
         return FINE
     if arguments.schema:
@@ -120,9 +111,6 @@ def run(arguments: argparse.Namespace) -> int:
         return _check(arguments)
     if STDIN in names:
         raise CommandError("--watch takes files, not stdin")
-    from irbkin.abb.roots import backup_above
-    from irbkin.cli.watch import repeated
-
     roots = () if arguments.robot else map(backup_above, map(Path, map(os.path.abspath, names)))
     beside = filter(None, (arguments.cell, arguments.robot, *roots, *option_files(names)))
     repeated(lambda: _check(arguments), [*names, *map(str, beside)], arguments.output_file)
@@ -130,13 +118,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _take_robot(arguments: argparse.Namespace) -> None:
     """Take the robot from the first name, as other verbs do, if that is no file but an arm."""
-    from irbkin import catalog_entry
-    from irbkin.abb.archives import archive_of
-    from irbkin.rapid.program import ENDINGS, LIST
-
     names = arguments.files
     is_given = arguments.robot not in (None, os.environ.get("IRBKIN_ROBOT"))
-    if is_given or not names or names[0] == STDIN or names[0].lower().endswith((*ENDINGS, LIST)):
+    endings = (*program.ENDINGS, program.LIST, STDIN)
+    if is_given or not names or names[0].lower().endswith(endings):
         return
     # A station that is packed may have backups in it, which can be checked.
     if not is_arm_file(names[0]) or names[0].lower().endswith(".rspag"):
@@ -154,14 +139,7 @@ def _check(arguments: argparse.Namespace) -> int:
     names: list[str] = arguments.files
     settings = settings_of([name for name in names if name != STDIN])
     options = {**settings.options, **given(arguments)}
-    form = arguments.output_format or _format_of(arguments.output_file)
-    if arguments.diff and (form or arguments.statistics or arguments.verdict):
-        raise CommandError(
-            "--diff has no report: leave out its format, -o, --statistics and --verdict"
-        )
-    form = form or options.get("output_format", "text")
-    if arguments.statistics and form not in COUNTED:
-        raise CommandError(f"--statistics is written as {' or '.join(COUNTED)}, not as {form}")
+    form = _form(arguments, options)
     checker = Checker(options, settings)
     if (arguments.fix or arguments.diff) and STDIN in names:
         raise CommandError("--fix and --diff take files, not stdin")
@@ -171,7 +149,9 @@ def _check(arguments: argparse.Namespace) -> int:
             raise CommandError(f"{backup}: is an archive: unpack it, --fix corrects its folder")
         jobs, left_open = jobs_of_backup(backup, names)
     else:
-        files = [_stdin() if name == STDIN else name for name in names]
+        with opened(STDIN) if STDIN in names else contextlib.nullcontext() as stream:
+            own = ModuleFile("<stdin>", stream.read()) if stream else None
+        files = [own if own and name == STDIN else name for name in names]
         jobs, left_open = [job_of_files(robot_of(options, complain), files, settings)], []
     if not any(job.program.files or job.program.findings for job in jobs):
         complain(f"{' and '.join(names)}: excluded by {settings.file}: nothing is checked")
@@ -200,28 +180,26 @@ def _check(arguments: argparse.Namespace) -> int:
     return FOUND if report.is_wrong else FINE
 
 
+def _form(arguments: argparse.Namespace, options: dict[str, Any]) -> str:
+    """The format of the report."""
+    form, output = arguments.output_format, arguments.output_file
+    if output and not form:
+        form = ENDINGS.get(os.path.splitext(output)[1].lower())
+        if not form:
+            words = f"must end in {', '.join(ENDINGS)}, or --output-format must be given"
+            raise CommandError(f"--output-file: {output} {words}")
+    if arguments.diff and (form or arguments.statistics or arguments.verdict):
+        words = "leave out its format, -o, --statistics and --verdict"
+        raise CommandError(f"--diff has no report: {words}")
+    found: str = form or options.get("output_format", "text")
+    if arguments.statistics and found not in COUNTED:
+        raise CommandError(f"--statistics is written as {' or '.join(COUNTED)}, not as {found}")
+    return found
+
+
 def given(arguments: argparse.Namespace) -> dict[str, Any]:
     """Return the options that are given."""
     return {name: value for name, value in vars(arguments).items() if value is not None}
-
-
-def _format_of(file: str | None) -> str | None:
-    """The format of a file by its ending."""
-    if file is None:
-        return None
-    ending = os.path.splitext(file)[1].lower()
-    if ending not in ENDINGS:
-        words = f"must end in {', '.join(ENDINGS)}, or --output-format must be given"
-        raise CommandError(f"--output-file: {file} {words}")
-    return ENDINGS[ending]
-
-
-def _stdin() -> ModuleFile:
-    """The module in stdin."""
-    from irbkin.rapid import ModuleFile
-
-    with opened(STDIN) as stream:
-        return ModuleFile("<stdin>", stream.read())
 
 
 def _write(report: Report, form: str, arguments: argparse.Namespace, texts: list[Text]) -> None:

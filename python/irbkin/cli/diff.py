@@ -1,33 +1,31 @@
-"""`irbkin diff`: what differs between two backups, or two programs."""
+"""Which robots, modules, tools, work objects, speeds, zones and motion settings differ, and
+how many moves each touches; which moves have another speed, zone or tool; which targets moved, by
+how much in space and in joints, which turned unreachable. Two backups need no robot; of two modules
+or folders of modules it is the first name, or --robot. Exit codes: 0 nothing differs, 1 something
+does.
 
-from __future__ import annotations
+Examples:
+  irbkin diff backup_2025 backup_2026
+  irbkin diff "IRB 2600-12/1.65" old/ new/
+  irbkin diff --json backup_2025.zip backup_2026.zip
+"""
 
 import argparse
 import json
 from collections import Counter
 from dataclasses import asdict, replace
-from typing import TYPE_CHECKING
 
+from irbkin.abb import Change, Difference, TargetChange, diff
+from irbkin.abb.differences import compared
+from irbkin.abb.sides import Side
 from irbkin.check.jobs import is_backup
 from irbkin.cli.arguments import ROBOT_HELP, Parser, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError
 from irbkin.cli.files import shown
-
-if TYPE_CHECKING:
-    from irbkin.abb import Change, Difference, TargetChange
-
-HELP = """Which robots, modules, tools, work objects, speeds, zones and motion settings differ, and
-how many moves each touches; which moves have another speed, zone or tool; which targets moved, by
-how much in space and in joints, which turned unreachable. Two backups need no robot; of two modules
-or folders of modules it is the first name, or --robot. Exit codes: 0 nothing differs, 1 something
-does."""
-EXAMPLES = """  irbkin diff backup_2025 backup_2026
-  irbkin diff "IRB 2600-12/1.65" old/ new/
-  irbkin diff --json backup_2025.zip backup_2026.zip"""
+from irbkin.rapid import load_program
 
 
 def add_arguments(parser: Parser) -> None:
-    """The arguments of the verb."""
     add = parser.add
     add("arm", metavar="ROBOT", nargs="?", help=f"of programs: {ROBOT_HELP}")
     add("old", metavar="OLD", help="the earlier backup, a module or a folder of modules")
@@ -38,7 +36,6 @@ def add_arguments(parser: Parser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run the verb."""
     difference = _difference(arguments)
     if arguments.json:
         print(json.dumps(asdict(difference), indent=1))
@@ -53,11 +50,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _difference(arguments: argparse.Namespace) -> Difference:
-    from irbkin.abb import diff
-    from irbkin.abb.differences import compared
-    from irbkin.abb.sides import Side
-    from irbkin.rapid import load_program
-
     names = (arguments.old, arguments.new)
     if None not in (arguments.arm, arguments.robot):
         raise CommandError(f"a robot is given twice: {arguments.arm} and --robot {arguments.robot}")

@@ -1,13 +1,10 @@
 """Exit codes, and what ends the command: one line on stderr, never a traceback."""
 
-from __future__ import annotations
-
+import contextlib
 import os
 import signal
 import sys
 from collections.abc import Callable
-from types import FrameType
-from typing import NoReturn
 
 from irbkin.errors import IrbkinError, UnreachableError
 
@@ -19,7 +16,6 @@ WRONG = 2
 INTERRUPTED = 128 + signal.SIGINT
 CLOSED_PIPE = 141
 """The exit code of a program that writes into a closed pipe."""
-
 
 OWN_WORDS = {
     " (is the pose in millimeters? meters are wanted)": (
@@ -54,10 +50,6 @@ class CommandError(Exception):
         self.code = code
 
 
-class _Terminated(BaseException):
-    """SIGTERM: files that are being written are removed on the way out."""
-
-
 def complain(message: object) -> None:
     """Print a line on stderr."""
     if isinstance(message, OSError) and message.filename:
@@ -71,7 +63,8 @@ def complain(message: object) -> None:
 def guarded(run: Callable[[], int]) -> int:
     """Run the command and make an exit code of whatever ends it."""
     if hasattr(signal, "SIGTERM"):
-        signal.signal(signal.SIGTERM, _terminate)
+        # Files that are being written are removed on the way out.
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     try:
         if sys.stdout is None:
             raise CommandError("stdout is closed")
@@ -80,49 +73,31 @@ def guarded(run: Callable[[], int]) -> int:
         finally:
             # Rows that were written come before the message.
             sys.stdout.flush()
-    except CommandError as failure:
-        complain(failure)
-        return failure.code
     except BrokenPipeError:
-        _give_up(sys.stdout)
+        _give_up()
         return CLOSED_PIPE
     except KeyboardInterrupt:
         complain("interrupted")
         return INTERRUPTED
-    except _Terminated:
-        return 128 + signal.SIGTERM
-    except UnreachableError as error:
+    except (CommandError, UnreachableError, IrbkinError, ImportError, OSError) as error:
         complain(error)
-        return FOUND
-    except (IrbkinError, ImportError) as error:
-        complain(error)
-        return WRONG
-    except OSError as error:
-        complain(error)
-        _give_up(sys.stdout)
-        return WRONG
+        if isinstance(error, OSError):
+            _give_up()
+        return getattr(error, "code", FOUND if isinstance(error, UnreachableError) else WRONG)
     except MemoryError:
         complain("not enough memory: give the rows in parts, or as a stream")
         return WRONG
     except Exception as error:
         if os.environ.get("IRBKIN_TRACEBACK"):
             raise
-        complain(
-            f"internal error, please report it ({type(error).__name__}: {error}); "
-            "IRBKIN_TRACEBACK=1 shows where"
-        )
+        words = f"internal error, please report it ({type(error).__name__}: {error})"
+        complain(f"{words}; IRBKIN_TRACEBACK=1 shows where")
         return WRONG
 
 
-def _terminate(number: int, frame: FrameType | None) -> NoReturn:
-    raise _Terminated
-
-
-def _give_up(stream: object) -> None:
-    """Write no more to a stream that nobody reads: Python would flush it at its end."""
-    try:
+def _give_up() -> None:
+    """Write no more to a stdout that nobody reads: Python would flush it at its end."""
+    with contextlib.suppress(OSError, ValueError, AttributeError):
         null = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(null, stream.fileno())  # type: ignore[attr-defined]
+        os.dup2(null, sys.stdout.fileno())
         os.close(null)
-    except (OSError, ValueError, AttributeError):
-        pass

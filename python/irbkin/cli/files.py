@@ -1,7 +1,5 @@
 """Files and streams: read from a name or stdin, how messages name them, and written whole."""
 
-from __future__ import annotations
-
 import contextlib
 import sys
 from collections.abc import Iterator

@@ -1,64 +1,57 @@
-"""`irbkin fk`: poses of joint angles."""
-
-from __future__ import annotations
-
-import argparse
-from typing import TYPE_CHECKING
-
-from irbkin.cli.arguments import Parser, joints, read_robot
-from irbkin.cli.errors import FINE, CommandError
-from irbkin.cli.numbers import number
-
-if TYPE_CHECKING:
-    from irbkin._arrays import Floats
-
-HELP = """Joint angles are given in degrees: as arguments, or one joint vector a row in a file.
+"""Joint angles are given in degrees: as arguments, or one joint vector a row in a file.
 The columns are the pose of the tool as position, quaternion and ZYX Euler angles, the confdata,
 the angles, the least distance from a limit (negative outside) and its joint, and the distances
-from the wrist, elbow and shoulder singularities."""
-EXAMPLES = """  irbkin fk "IRB 2600-12/1.65" 0 0 0 0 30 0
+from the wrist, elbow and shoulder singularities.
+
+Examples:
   irbkin fk "IRB 2600-12/1.65" 0 0 0 0 30 0 --tool 0 0 180
   irbkin fk "IRB 120-3/0.58" joints.csv --csv > poses.csv
-  irbkin fk UR5e joints.npy -o poses.npy"""
+  irbkin fk "IRB 120-3/0.58" "CONST jointtarget j1 := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];"
+"""
+
+import argparse
+
+import numpy as np
+
+from irbkin.cli.arguments import Parser, joints, read_robot, read_wobj
+from irbkin.cli.data import is_data
+from irbkin.cli.errors import FINE, CommandError
+from irbkin.cli.numbers import number
+from irbkin.cli.output import table
+from irbkin.cli.postures import pose_columns, posture_columns, word_columns
+from irbkin.cli.progress import Progress
+from irbkin.cli.reading import Part, read_joints
 
 
 def add_arguments(parser: Parser) -> None:
-    """The arguments of the verb."""
     parser.add_robot()
-    parser.add("joints", metavar="Q", nargs="+", help="joint angles [deg], or a file of rows, or -")
+    parser.add_wobj()
+    words = "joint angles [deg], a jointtarget of RAPID, a file of rows, or -"
+    parser.add("joints", metavar="Q", nargs="+", help=words)
     parser.add_formats("poses, shape (m, 4, 4), in meters")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run the verb."""
-    from irbkin.cli.output import table
-    from irbkin.cli.postures import EULER, POSE, Postures, euler_values, pose_values
-    from irbkin.cli.progress import Progress
-
     robot = read_robot(arguments)
-    given: list[str] = [word.strip() for word in arguments.joints]
-    if len(given) == 1:
-        from irbkin.cli.reading import read_joints
-
-        parts = read_joints(given[0], robot.dof)
-    else:
-        parts = iter([_one(given, robot.dof)])
-    postures = Postures(robot, with_joints=False)
-    columns = (*POSE, *EULER, *postures.columns)
-    with table(arguments, columns, robot.name) as rows, Progress("joint vectors") as progress:
-        for q in parts:
-            poses = robot.fk(q)
-            rows.write([*pose_values(poses), *euler_values(poses), *postures.values(q)], poses)
-            progress.add(len(q))
+    words: list[str] = [word.strip() for word in arguments.joints]
+    is_read = len(words) == 1 or is_data(words[0])
+    parts = read_joints(words, robot.dof) if is_read else iter([_one(words, robot.dof)])
+    to_wobj = np.linalg.inv(read_wobj(arguments))
+    with table(arguments, robot.name) as rows, Progress("joint vectors") as progress:
+        for part in parts:
+            world = robot.fk(part.values)
+            postures = posture_columns(robot, part.values, with_joints=False)
+            poses = to_wobj @ world if arguments.wobj else world
+            rows.write({**word_columns(part.names), **pose_columns(poses), **postures}, poses)
+            progress.add(len(poses), part.total)
     return FINE
 
 
-def _one(given: list[str], dof: int) -> Floats:
+def _one(words: list[str], dof: int) -> Part:
     """The joint vector of arguments [rad], shape (1, dof)."""
     try:
-        numbers = [number(word) for word in given]
+        q = joints([number(word) for word in words], "fk", dof)
     except argparse.ArgumentTypeError as error:
         raise CommandError(f"joint angles: {error}") from None
-    q = joints(numbers, "fk", dof)
     assert q is not None
-    return q[None]
+    return Part(q[None])

@@ -1,262 +1,234 @@
-"""`irbkin ik`: joint angles of poses."""
+"""Without --seed and --confdata all solutions are shown, each in its slot: confdata, angles,
+the least distance from a limit (negative outside) and its joint, and the distances from the wrist,
+elbow and shoulder singularities. A pose is a robtarget or pose of RAPID, --xyz and an orientation,
+or one a row in a file: x_mm, y_mm, z_mm and qw, qx, qy, qz or rz_deg, ry_deg, rx_deg. The exit code
+is 1 if a pose has no solution inside the limits.
 
-from __future__ import annotations
+Examples:
+  irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 --euler 0 150 0 --seed 0 0 0 0 0 0
+  irbkin ik "IRB 2600-12/1.65" "CONST pose p10 := [[850,320,640],[0.2588,0,0.9659,0]];"
+  irbkin ik "IRB 2600-12/1.65" poses.csv --within --csv > joints.csv
+  irbkin ik Panda --xyz 400 0 500 --wxyz 0 1 0 0 --given 3=11.5
+  irbkin ik UR5e - --seed 0 -90 90 0 90 0 -o joints.npy < poses.npy
+"""
 
 import argparse
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from typing import Any
 
-from irbkin._arm_options import check_millimeters, frame
-from irbkin.cli.arguments import Parser, joints, read_q7, read_robot
+import numpy as np
+
+from irbkin import Robot, Status, UnreachableError
+from irbkin.cli.arguments import (
+    Parser,
+    joints,
+    pose_of,
+    read_pose,
+    read_q7,
+    read_robot,
+    read_wobj,
+)
+from irbkin.cli.data import is_data
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
 from irbkin.cli.numbers import angle, confdata, joint_and_angle, number
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin import Robot
-    from irbkin._arrays import Floats
-    from irbkin.cli.output import Rows
-
-HELP = """Without --seed and --confdata all solutions are shown, each in its slot: confdata, angles,
-the least distance from a limit (negative outside) and its joint, and the distances from the wrist,
-elbow and shoulder singularities. A pose is given by --xyz and an orientation, or one a row in a
-file: x_mm, y_mm, z_mm and qw, qx, qy, qz or rz_deg, ry_deg, rx_deg. The exit code is 1 if a pose
-has no solution inside the limits."""
-EXAMPLES = """  irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 --wxyz 0.2588 0 0.9659 0
-  irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 --euler 0 150 0 --seed 0 0 0 0 0 0
-  irbkin ik "IRB 2600-12/1.65" poses.csv --within --csv > joints.csv
-  irbkin ik Panda --xyz 400 0 500 --wxyz 0 1 0 0 --q7 45
-  irbkin ik Panda --xyz 400 0 500 --wxyz 0 1 0 0 --given 3=11.5
-  irbkin ik UR5e - --seed 0 -90 90 0 90 0 -o joints.npy < poses.npy"""
+from irbkin.cli.output import Column, Columns, Floats, table
+from irbkin.cli.postures import has_confdata, posture_columns, word_columns
+from irbkin.cli.progress import Progress
+from irbkin.cli.reading import Part, read_poses
 
 
 def add_arguments(parser: Parser) -> None:
-    """The arguments of the verb."""
-    parser.add_robot()
-    parser.add_rows("poses")
     add = parser.add
-    add("--xyz", nargs=3, type=number, metavar=("X", "Y", "Z"), help="position of the tool [mm]")
-    add("--wxyz", nargs=4, type=number, metavar=tuple("WXYZ"), help="its quaternion, w first")
-    add("--xyzw", nargs=4, type=number, metavar=tuple("XYZW"), help="or w last")
-    add("--euler", nargs=3, type=number, metavar=("RZ", "RY", "RX"), help="or ZYX angles [deg]")
-    add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
-    add(
-        "--given",
-        type=joint_and_angle,
-        metavar="J=Q",
-        help="or of another joint of it, as 3=11.5 [deg]",
-    )
+    parser.add_robot()
+    parser.add_wobj()
+    parser.add_rows("poses", "robtargets")
+    parser.add_pose()
+    words = "or of another joint of it, as 3=11.5 [deg]"
+    add("--given", type=joint_and_angle, metavar="J=Q", help=words)
     add("--within", action="store_true", help="only solutions inside the limits")
-    add(
-        "--seed", nargs="+", type=number, metavar="Q", help="only the nearest to these joints [deg]"
-    )
-    add(
-        "--confdata", nargs=4, type=confdata, metavar="CF", help="only the one with cf1 cf4 cf6 cfx"
-    )
+    parser.add_joints("seed", "only the nearest to these joints [deg]")
+    words = "only the one with cf1 cf4 cf6 cfx"
+    add("--confdata", nargs=4, type=confdata, metavar="CF", help=words)
     add("--arm-angle", type=angle, metavar="A", help="with --confdata of a YuMi: its eax_a [deg]")
     parser.add_formats("joint angles, shape (m, slots, n) or (m, n), in radians")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run the verb."""
     robot = read_robot(arguments)
-    if arguments.arm_angle is not None and arguments.confdata is None:
+    _check(arguments, robot)
+    parts, heading = _poses(arguments)
+    wobj, count, missed, words = read_wobj(arguments), 0, 0, ""
+    first: tuple[int, Floats] | None = None
+    is_all = arguments.seed is None and arguments.confdata is None
+    find = (_All if is_all else _One)(arguments, robot, is_one=bool(heading))
+    heading = f"{robot.name}{heading}"
+    if arguments.confdata is not None:
+        heading += f", confdata {arguments.confdata}"
+    with table(arguments, heading) as rows, Progress("poses") as progress:
+        for part in parts:
+            world = wobj @ part.values
+            columns, q, is_met = find.solve(part, world, count)
+            rows.write(columns, q)
+            if first is None and not is_met.all():
+                at = int(is_met.argmin())
+                first = count + at, world[at]
+            count, missed = count + len(world), missed + int((~is_met).sum())
+            progress.add(len(world), part.total)
+        rows.notes += find.notes(count)
+        if first is not None:
+            words = find.words(first, missed, count)
+            rows.notes.append(("reason", words, ""))
+    if words:
+        complain(words)
+    return FOUND if words else FINE
+
+
+def _check(arguments: argparse.Namespace, robot: Robot) -> None:
+    """Refuse options that do not go with each other, or with the arm."""
+    seed, own, given, arm_angle = (
+        getattr(arguments, name) is not None for name in ("seed", "confdata", "given", "arm_angle")
+    )
+    if arm_angle and not own:
         raise CommandError("--arm-angle goes with --confdata")
-    if arguments.given is not None:
-        others = (arguments.q7, arguments.seed, arguments.confdata)
-        if any(other is not None for other in others):
-            raise CommandError("--given goes without --q7, --seed and --confdata")
-        if robot.dof != 7:
-            raise CommandError(f"--given is for arms of seven joints, {robot.name} has {robot.dof}")
-    poses, heading = _poses(arguments, robot)
-    if arguments.seed is not None and arguments.confdata is not None:
+    if given and (seed or own or arguments.q7 is not None):
+        raise CommandError("--given goes without --q7, --seed and --confdata")
+    if seed and own:
         raise CommandError("--seed and --confdata: give one of them")
-    if arguments.seed is not None or arguments.confdata is not None:
-        return _write_one(arguments, robot, poses, heading)
-    return _write_all(arguments, robot, poses, heading)
+    if robot.dof != 7:
+        for name in ("given",) * given + ("arm-angle",) * arm_angle:
+            words = f"--{name} is for arms of seven joints, {robot.name} has {robot.dof}"
+            raise CommandError(words)
+    if own:
+        # Refused for an arm without confdata.
+        robot.configuration(np.zeros(robot.dof))
+        if robot.dof == 7 and not arm_angle:
+            raise CommandError(f"{robot.name} has seven joints: give --arm-angle with --confdata")
 
 
-def _poses(arguments: argparse.Namespace, robot: Robot) -> tuple[Iterator[Floats], str]:
-    """The poses in parts, and the words before the table."""
-    if (arguments.file is None) == (arguments.xyz is None):
-        raise CommandError("give a pose by --xyz, or a FILE of poses (irbkin ik --help)")
-    if arguments.file is not None:
-        from irbkin.cli.reading import read_poses
+def _poses(arguments: argparse.Namespace) -> tuple[Iterator[Part], str]:
+    """The poses in parts, and what the heading says of a single one."""
+    words: list[str] = [word.strip() for word in arguments.file]
+    if bool(words) == (arguments.xyz is not None):
+        ways = "by --xyz, as a robtarget, or a FILE of poses"
+        raise CommandError(f"give a pose {ways} (irbkin ik --help)")
+    if not words:
+        pose, heading = read_pose(arguments)
+        return iter([Part(pose[None])]), f": {heading}"
+    try:
+        pose, heading = pose_of([number(word) for word in words], "the pose")
+        return iter([Part(pose[None])]), f": {heading}"
+    except argparse.ArgumentTypeError:
+        parts = read_poses(words)
+    if not is_data(words[0]):
+        return parts, ""
+    part = next(parts)
+    if len(part.targets) > 1:
+        return iter([part]), ""
+    (target,), (name,) = part.targets, part.names.get("name", ["tool"])
+    xyz, wxyz = (" ".join(f"{it:g}" for it in own) for own in (target.trans_mm, target.rot))
+    return iter([part._replace(names={})]), f": {name} at {xyz} mm, wxyz {wxyz}"
 
-        return read_poses(arguments.file), robot.name
-    if sum(it is not None for it in (arguments.wxyz, arguments.xyzw, arguments.euler)) > 1:
-        raise CommandError("--wxyz, --xyzw and --euler: give one of them")
-    if arguments.xyzw is not None:
-        *vector, w = arguments.xyzw
-        arguments.wxyz = [w, *vector]
-    check_millimeters(arguments.xyz, "--xyz")
-    turn = arguments.wxyz or arguments.euler or []
-    one = frame([*arguments.xyz, *turn], "--wxyz" if arguments.wxyz else "--euler")[None]
-    x, y, z = arguments.xyz
-    name = "wxyz" if arguments.wxyz else "rz ry rx"
-    words = f", {name} {' '.join(f'{number:g}' for number in turn)}" if turn else ""
-    return iter([one]), f"{robot.name}: tool at {x:g} {y:g} {z:g} mm{words}"
 
+class _All:
+    """All solutions of poses, a row each."""
 
-class Missed:
-    """Poses without a solution inside the limits; `reason` says why one has none."""
+    def __init__(self, arguments: argparse.Namespace, robot: Robot, *, is_one: bool) -> None:
+        self.robot, self.q7, self.is_one = robot, None, is_one
+        if arguments.given is None:
+            self.q7 = read_q7(arguments, robot)
+        else:
+            joint, degrees = arguments.given
+            self.robot = robot.locked({joint: np.radians(degrees)})
+        self.wanted = int(Status.WITHIN_LIMITS if arguments.within else Status.FOUND)
+        self.uncertain = 0
+        self.said: list[tuple[str, Any, str]] = []
 
-    def __init__(self, reason: Callable[[Floats], str]) -> None:
-        self.reason = reason
-        self.rows = 0
-        self.count = 0
-        self.first: tuple[int, Floats] | None = None
-
-    def add(self, poses: Floats, is_met: npt.ArrayLike) -> None:
-        """Some poses, and which have one."""
-        import numpy as np
-
-        wrong = np.flatnonzero(~np.asarray(is_met))
-        if len(wrong) and self.first is None:
-            self.first = (self.rows + int(wrong[0]), poses[wrong[0]])
-        self.rows += len(poses)
-        self.count += len(wrong)
-
-    def note(self, rows: Rows) -> None:
-        """Add the reason to the rows of a format that has room for it."""
-        if self.first is not None:
-            rows.note("reason", self.words(), "")
-
-    def words(self) -> str:
-        """What is missing, and why."""
-        assert self.first is not None
-        row, pose = self.first
-        why = self.reason(pose)
-        if self.rows == 1:
-            nothing = "no solution inside the limits"
-            return why if why.startswith(nothing) else f"{nothing}: {why}"
+    def reason(self, pose: Floats) -> str:
+        """Why a pose has no solution inside the limits."""
+        robot = self.robot
         return (
-            f"{self.count} of {self.rows} poses have no solution inside the limits; "
-            f"the first is pose {row}: {why}"
+            robot.check_pose(pose).reason if robot.dof == 6 else robot.ik(pose, self.q7).explain()
         )
 
-    def code(self) -> int:
-        """The exit code, with a word on stderr."""
-        if self.first is None:
-            return FINE
-        complain(self.words())
-        return FOUND
+    def solve(self, part: Part, poses: Floats, before: int) -> tuple[Columns, Floats, Any]:
+        """The columns of poses, their joints, and which have some inside the limits."""
+        robot, found = self.robot, self.robot.ik_batch(poses, self.q7)
+        is_wanted = (found.status & self.wanted) != 0
+        index, slot = is_wanted.nonzero()
+        names = {name: [own[at] for at in index] for name, own in part.names.items()}
+        taken = self.slots(part, poses, found.q)
+        columns = {
+            **({} if self.is_one else {Column("pose", "6d"): index + before}),
+            **word_columns(names),
+            Column("slot"): slot,
+            **{Column("confdata", "<8s"): np.where(slot == it[index], "yes", "") for it in taken},
+            **posture_columns(robot, found.q[index, slot]),
+        }
+        self.uncertain += int((found.status & int(Status.UNCERTIFIED) != 0).any(axis=1).sum())
+        for solution in robot.ik(poses[0], self.q7) if self.is_one else ():
+            if free := solution.free_joint:
+                verb = "are" if "," in free.fixed else "is"
+                words = f"slot {solution.slot}: J{free.joint} is free, {free.fixed} {verb} fixed"
+                self.said.append((f"free_joint_of_slot_{solution.slot}", free.joint, words))
+        is_met = (found.status & int(Status.WITHIN_LIMITS) != 0).any(axis=1)
+        return columns, np.where(is_wanted[..., None], found.q, np.nan), is_met
+
+    def slots(self, part: Part, poses: Floats, q: Floats) -> list[Any]:
+        """The slots of robtargets by their confdata, -1 where none has it; nothing if unknown."""
+        targets = [it for it in part.targets if hasattr(it, "robconf")]
+        if any(min(it.extax) < 9e9 for it in targets):
+            words = "external axes of the targets are not considered"
+            self.said.append(("external_axes", False, words))
+        if len(targets) != len(poses) or self.robot.dof != 6 or not has_confdata(self.robot):
+            return []
+        own = self.robot.ik_configured(poses, [it.robconf for it in targets])
+        off = np.abs((q - own[:, None] + np.pi) % (2 * np.pi) - np.pi).max(axis=2)
+        off = np.where(np.isfinite(off), off, np.inf)
+        if lacking := int(np.isnan(own[:, 0]).sum()):
+            of = f"{lacking} of {len(own)} robtargets have" if len(own) > 1 else "the robtarget has"
+            words = f"{of} no solution inside the limits with the confdata"
+            self.said.append(("without_confdata", lacking, words))
+        return [np.where(off.min(axis=1) < 1e-6, off.argmin(axis=1), -1)]
+
+    def notes(self, rows: int) -> list[tuple[str, Any, str]]:
+        """Notes on all poses."""
+        of = "" if self.is_one else f"of {self.uncertain} of {rows} poses "
+        words = f"{of}there may be more solutions: their number is not certified"
+        return self.said + [("uncertified", self.uncertain, words)] * (self.uncertain > 0)
+
+    def words(self, first: tuple[int, Floats], missed: int, rows: int) -> str:
+        """How many poses have no solution, and why."""
+        (row, pose), nothing = first, "no solution inside the limits"
+        why = self.reason(pose)
+        if rows == 1:
+            return why if why.startswith(nothing) else f"{nothing}: {why}"
+        return f"{missed} of {rows} poses have {nothing}; the first is pose {row}: {why}"
 
 
-def _write_all(
-    arguments: argparse.Namespace,
-    robot: Robot,
-    parts: Iterator[Floats],
-    heading: str,
-) -> int:
-    """All solutions, a row each; the exit code."""
-    import numpy as np
+class _One(_All):
+    """One solution of each pose: the nearest to a seed, or by confdata."""
 
-    from irbkin import Status
-    from irbkin.cli.output import Column, table
-    from irbkin.cli.postures import Postures
-    from irbkin.cli.progress import Progress
+    def __init__(self, arguments: argparse.Namespace, robot: Robot, *, is_one: bool) -> None:
+        self.robot, self.said, self.uncertain, self.is_one = robot, [], 0, is_one
+        seed, own = joints(arguments.seed, "--seed", robot.dof), arguments.confdata
+        arm_angle = None if arguments.arm_angle is None else np.radians(arguments.arm_angle)
+        self.joints: Callable[[Floats], Floats] = lambda poses: (
+            robot.ik_configured(poses, own, arm_angle=arm_angle)
+            if seed is None
+            else robot.ik_nearest(poses, seed)
+        )
 
-    postures = Postures(robot)
-    is_one = arguments.file is None
-    first = () if is_one else (Column("pose", "", "6d"),)
-    columns = (*first, Column("slot", "", "d"), *postures.columns)
-    if arguments.given is None:
-        q7 = read_q7(arguments, robot)
-    else:
-        joint, degrees = arguments.given
-        q7, robot = None, robot.locked({joint: np.radians(degrees)})
-
-    def reason(pose: Floats) -> str:
-        if robot.dof == 6:
-            return robot.check_pose(pose).reason
-        return robot.ik(pose, q7).explain()
-
-    missed, uncertain = Missed(reason), 0
-    wanted = int(Status.WITHIN_LIMITS if arguments.within else Status.FOUND)
-    with table(arguments, columns, heading) as rows, Progress("poses") as progress:
-        for poses in parts:
-            found = robot.ik_batch(poses, q7)
-            is_within = (found.status & int(Status.WITHIN_LIMITS)).astype(bool)
-            index, slot = (found.status & wanted).nonzero()
-            q = found.q[index, slot]
-            numbers = [] if is_one else [index + missed.rows]
-            array = np.where((found.status & wanted)[..., None] != 0, found.q, np.nan)
-            rows.write([*numbers, slot, *postures.values(q)], array)
-            missed.add(poses, is_within.any(axis=1))
-            is_uncertain = found.status & int(Status.UNCERTIFIED) != 0
-            uncertain += int(is_uncertain.any(axis=1).sum())
-            progress.add(len(poses))
-            if is_one:
-                for solution in robot.ik(poses[0], q7):
-                    if free := solution.free_joint:
-                        verb = "are" if "," in free.fixed else "is"
-                        words = (
-                            f"slot {solution.slot}: J{free.joint} is free, "
-                            f"{free.fixed} {verb} fixed"
-                        )
-                        rows.note(f"free_joint_of_slot_{solution.slot}", free.joint, words)
-        if uncertain:
-            of = "" if is_one else f"of {uncertain} of {missed.rows} poses "
-            words = f"{of}there may be more solutions: their number is not certified"
-            rows.note("uncertified", uncertain, words)
-        missed.note(rows)
-    return missed.code()
-
-
-def _write_one(
-    arguments: argparse.Namespace,
-    robot: Robot,
-    parts: Iterator[Floats],
-    heading: str,
-) -> int:
-    """One solution of each pose, a row each; the exit code."""
-    import numpy as np
-
-    from irbkin import UnreachableError
-    from irbkin.cli.output import Column, table
-    from irbkin.cli.postures import Postures
-    from irbkin.cli.progress import Progress
-
-    postures = Postures(robot)
-    seed = joints(arguments.seed, "--seed", robot.dof)
-    columns = (Column("pose", "", "6d"), *postures.columns)
-    arm_angle = None if arguments.arm_angle is None else np.radians(arguments.arm_angle)
-    if seed is None:
-        heading = f"{heading}, confdata {arguments.confdata}"
-        _check_arm_angle(arguments, robot)
-
-    def solve(poses: Floats) -> Floats:
-        if seed is not None:
-            return robot.ik_nearest(poses, seed)
-        return robot.ik_configured(poses, arguments.confdata, arm_angle=arm_angle)
-
-    def reason(pose: Floats) -> str:
+    def reason(self, pose: Floats) -> str:
+        """Why a pose has no such solution."""
         try:
-            solve(pose)
+            self.joints(pose)
         except UnreachableError as error:
             return str(error)
-        return robot.check_pose(pose).reason
+        return self.robot.check_pose(pose).reason
 
-    missed = Missed(reason)
-    with table(arguments, columns, heading) as rows, Progress("poses") as progress:
-        for poses in parts:
-            q = solve(poses)
-            rows.write([np.arange(len(q)) + missed.rows, *postures.values(q)], q)
-            missed.add(poses, np.isfinite(q).all(axis=1))
-            progress.add(len(poses))
-        missed.note(rows)
-    return missed.code()
-
-
-def _check_arm_angle(arguments: argparse.Namespace, robot: Robot) -> None:
-    """A YuMi takes an arm angle with a confdata, other arms take none."""
-    import numpy as np
-
-    # Refused for an arm without confdata.
-    robot.configuration(np.zeros(robot.dof))
-    if robot.dof == 7 and arguments.arm_angle is None:
-        raise CommandError(f"{robot.name} has seven joints: give --arm-angle with --confdata")
-    if robot.dof != 7 and arguments.arm_angle is not None:
-        raise CommandError(f"--arm-angle is for arms of seven joints, {robot.name} has {robot.dof}")
+    def solve(self, part: Part, poses: Floats, before: int) -> tuple[Columns, Floats, Any]:
+        """The columns of poses, their joints, and which have some."""
+        q = self.joints(poses)
+        pose = {Column("pose", "6d"): np.arange(len(q)) + before}
+        columns = {**pose, **word_columns(part.names), **posture_columns(self.robot, q)}
+        return columns, q, np.isfinite(q).all(axis=1)

@@ -1,11 +1,10 @@
 """Numbers typed as arguments: finite, and within bounds in the units of the command."""
 
-from __future__ import annotations
-
 import math
 from argparse import ArgumentTypeError
 from collections.abc import Callable, Sequence
 
+from irbkin.cli.data import is_data
 from irbkin.cli.errors import CommandError
 
 MOST_ANGLE = math.degrees(1e5)
@@ -22,6 +21,11 @@ def number(text: str) -> float:
     if not math.isfinite(value) or "_" in text:
         raise ArgumentTypeError(f"{text.strip()!r} is not a finite number")
     return value
+
+
+def number_or_data(text: str) -> float | str:
+    """A finite number, or RAPID."""
+    return text if is_data(text) else number(text)
 
 
 def positive(text: str) -> float:
@@ -47,32 +51,23 @@ def check_joints(angles: Sequence[float], name: str) -> None:
             raise CommandError(f"{name}: joint {joint} at {value:g} deg {_TOO_LARGE}")
 
 
-def whole(text: str) -> int:
-    """A whole number."""
-    try:
-        return int(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{text.strip()!r} is not a whole number") from None
-
-
-def confdata(text: str) -> int:
-    """A whole number of 32 bits, as confdata has."""
-    value = whole(text)
-    if abs(value) >= 2**31:
-        raise ArgumentTypeError(f"{value} is not a number of a confdata")
-    return value
-
-
-def count(least: int, most: int) -> Callable[[str], int]:
+def count(least: int, most: int, words: str = "must be {} to {}") -> Callable[[str], int]:
     """Whole numbers between two bounds."""
 
     def read(text: str) -> int:
-        value = whole(text)
+        try:
+            value = int(text)
+        except ValueError:
+            raise ArgumentTypeError(f"{text.strip()!r} is not a whole number") from None
         if not least <= value <= most:
-            raise ArgumentTypeError(f"{value} must be {least} to {most}")
+            raise ArgumentTypeError(f"{value} {words.format(least, most)}")
         return value
 
     return read
+
+
+confdata = count(1 - 2**31, 2**31 - 1, "is not a number of a confdata")
+"""A whole number of 32 bits, as confdata has."""
 
 
 def joint_and_angle(text: str) -> tuple[int, float]:

@@ -1,190 +1,201 @@
 """Rows as a table, CSV, JSON or an array, written part by part."""
 
-from __future__ import annotations
-
 import argparse
 import contextlib
-import csv
 import io
 import math
 import sys
-from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, TypeAlias
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, BinaryIO, NamedTuple, TypeAlias
 
 import numpy as np
 
 from irbkin.cli.errors import CommandError
 from irbkin.cli.files import STDIN, replaced
 
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-Values: TypeAlias = Sequence[Any] | np.ndarray[Any, Any]
-
 
 class Column(NamedTuple):
-    """A column: its name, its unit, and how a table shows its values."""
+    """A column: its name, how a table shows its values, and their unit."""
 
     name: str
-    unit: str
-    form: str
+    form: str = "d"
+    unit: str = ""
 
     @property
     def key(self) -> str:
         """Its name with its unit, in CSV and JSON."""
-        unit = self.unit.replace("/", "_")
-        return f"{self.name}_{unit}" if unit else self.name
+        return "_".join(filter(None, (self.name, self.unit.replace("/", "_"))))
+
+    def cell(self, value: Any) -> str:
+        """A value in a table."""
+        if value is None or (isinstance(value, float) and math.isnan(value)):
+            return "-"
+        # Whole numbers with gaps are floats.
+        return format(int(value) if self.form[-1] == "d" else value, self.form.lstrip("<"))
+
+
+Floats: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
+"""Without numpy.typing, which takes 5 ms."""
+Columns: TypeAlias = Mapping[Column, Sequence[Any] | np.ndarray[Any, Any]]
+Cells: TypeAlias = Sequence[tuple[Any, ...]]
+KEYS = ("pose", "slot", "line", "name")
+"""Columns that each block of a table has which is wider than the terminal."""
+GAP = 2
+PAGE = 200
+"""Rows of a terminal that are laid out at once: rich takes 0.1 ms for a cell."""
+STYLES = {"outside": "red", "left out": "red", "joint move": "yellow"}
 
 
 class Rows:
-    """Where rows go: what each format has of its own is `begin`, `add` and `end`."""
+    """Where rows go: what each format has of its own is `_begin`, `_add` and `_end`."""
 
-    def __init__(self, file: BinaryIO, columns: Sequence[Column], heading: str) -> None:
-        self.file, self.columns, self.heading = file, columns, heading
+    def __init__(self, file: BinaryIO, heading: str) -> None:
+        self.file, self.heading = file, heading
+        self.columns: tuple[Column, ...] = ()
         self.notes: list[tuple[str, Any, str]] = []
         self.count = 0
-        self._is_begun = False
 
     def put(self, text: str) -> None:
         """Write text."""
         self.file.write(text.encode("utf-8", "backslashreplace"))
 
-    def write(self, columns: Sequence[Values], array: npt.NDArray[Any] | None = None) -> None:
-        """Some rows, by columns, and the same as an array."""
-        self._begin()
-        self.add(columns, array)
-
-    def note(self, key: str, value: Any, words: str) -> None:
-        """Add a note on all rows, behind them."""
-        self.notes.append((key, value, words))
+    def write(self, values: Columns, array: Any = None) -> None:
+        """Some rows by their columns, the same in each call, and what an array has of them."""
+        if not self.columns:
+            self.columns = tuple(values)
+            self._begin()
+        lists = (it.tolist() if isinstance(it, np.ndarray) else it for it in values.values())
+        rows = list(zip(*lists, strict=True))
+        self._add(rows, array)
+        self.count += len(rows)
 
     def close(self) -> None:
         """No more rows come."""
-        self._begin()
-        self.end()
+        self._end()
         self.file.flush()
 
     def _begin(self) -> None:
-        # Not before the first rows are there: they may be refused.
-        if not self._is_begun:
-            self._is_begun = True
-            self.begin()
+        """Nothing comes before the rows."""
 
-    def begin(self) -> None:
-        """Write the part before the rows."""
+    def _add(self, rows: Cells, array: Any) -> None:
         raise NotImplementedError
 
-    def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
-        """Some rows."""
-        raise NotImplementedError
-
-    def end(self) -> None:
-        """Write the part behind the rows."""
-        raise NotImplementedError
+    def _end(self) -> None:
+        """Nothing comes behind the rows."""
 
 
 class Table(Rows):
-    """Rows on paper, as they are read by people; empty without rows."""
+    """Rows as text of any width and number; empty without rows."""
 
-    def begin(self) -> None:
-        """The width of each column."""
-        self.units = [f"[{column.unit}]" if column.unit else "" for column in self.columns]
-        self.widths = []
-        for column, unit in zip(self.columns, self.units, strict=True):
-            sample = format("" if column.form.endswith("s") else 0, column.form)
-            width = max(len(column.name), len(unit), len(sample))
-            self.widths.append(f"{'<' if column.form.startswith('<') else '>'}{width}")
+    def _begin(self) -> None:
+        self.heads = [(it.name, f"[{it.unit}]" if it.unit else "") for it in self.columns]
+        self.signs = ["<" if it.form[0] == "<" else ">" for it in self.columns]
+        least = (it.cell("" if it.form[-1] == "s" else 0) for it in self.columns)
+        self.widths = [max(map(len, it)) for it in map(_joined, self.heads, least)]
 
-    def _line(self, cells: Iterable[str]) -> str:
-        padded = (format(cell, width) for cell, width in zip(cells, self.widths, strict=True))
-        return "  ".join(padded).rstrip() + "\n"
+    def _add(self, rows: Cells, array: Any) -> None:
+        pairs = zip(self.signs, self.widths, strict=True)
+        form = (" " * GAP).join(f"{{:{sign}{width}}}" for sign, width in pairs)
+        lines = [[it.cell(own) for it, own in zip(self.columns, row, strict=True)] for row in rows]
+        if rows and not self.count:
+            self.put(f"{self.heading}\n\n")
+            lines = [[*it] for it in zip(*self.heads, strict=True) if any(it)] + lines
+        self.put("".join(f"{form.format(*line).rstrip()}\n" for line in lines))
 
-    def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
-        """Some rows, under the heading if they are the first."""
-        forms = [column.form for column in self.columns]
-        for row in zip(*_lists(columns), strict=True):
-            if not self.count:
-                names = self._line(column.name for column in self.columns)
-                units = self._line(self.units) if any(self.units) else ""
-                self.put(f"{self.heading}\n\n{names}{units}")
-            self.count += 1
-            self.put(self._line(map(_cell, row, forms)))
-
-    def end(self) -> None:
-        """The notes that have words."""
-        notes = [f"{words}\n" for _, _, words in self.notes if words]
-        if notes:
-            self.put("\n" + "".join(notes))
+    def _end(self) -> None:
+        if notes := [words for _, _, words in self.notes if words]:
+            self.put("\n".join(["", *notes, ""]))
 
 
-def _lists(columns: Sequence[Values]) -> list[Sequence[Any]]:
-    """Columns of Python's own numbers."""
-    return [values.tolist() if isinstance(values, np.ndarray) else values for values in columns]
+def _joined(head: tuple[str, str], cell: str) -> tuple[str, ...]:
+    return (*head, cell)
 
 
-def _cell(value: Any, form: str) -> str:
-    if value is None or (isinstance(value, float) and math.isnan(value)):
-        return "-"
-    # Whole numbers with gaps are floats.
-    return format(int(value) if form.endswith("d") else value, form.lstrip("<"))
+class Screen(Table):
+    """A table that fits the terminal: in blocks of columns if they are too many."""
+
+    def put(self, text: str) -> None:
+        """Write words around the rows."""
+        self.console.print(text, end="")
+
+    def _begin(self) -> None:
+        from rich.console import Console
+
+        self.console = Console(highlight=False, markup=False, emoji=False)
+        super()._begin()
+
+    def _add(self, rows: Cells, array: Any) -> None:
+        if rows and not self.count:
+            self.console.print(self.heading, style="bold")
+        for start in range(0, len(rows), PAGE):
+            page = rows[start : start + PAGE]
+            cells = [
+                [*map(it.cell, own)]
+                for it, own in zip(self.columns, zip(*page, strict=True), strict=True)
+            ]
+            self._page(cells)
+
+    def _page(self, cells: Sequence[Sequence[str]]) -> None:
+        """Write columns, as many beside each other as the terminal has room for."""
+        from rich.table import Table as Block
+
+        widths = [max(own, *map(len, it)) for own, it in zip(self.widths, cells, strict=True)]
+        room = self.console.width
+        gap = GAP if sum(widths) + GAP * len(widths) <= room else 1
+        keys = [at for at, it in enumerate(self.columns) if it.name in KEYS]
+        left = [at for at in range(len(cells)) if at not in keys]
+        while left:
+            block = [*keys, left.pop(0)]
+            while left and sum(widths[at] + gap for at in (*block, left[0])) <= room:
+                block.append(left.pop(0))
+            table = Block(box=None, pad_edge=False, padding=(0, gap, 0, 0), header_style="cyan")
+            for at in block:
+                side: Any = "left" if self.signs[at] == "<" else "right"
+                head = "\n".join(filter(None, self.heads[at]))
+                table.add_column(head, justify=side, no_wrap=True, width=widths[at])
+            for row in zip(*(cells[at] for at in block), strict=True):
+                table.add_row(*row, style=next((STYLES[it] for it in row if it in STYLES), None))
+            self.console.print("", table, sep="\n")
 
 
 class Csv(Rows):
     """Rows for other programs: names with units, then numbers; empty where one is missing."""
 
-    def begin(self) -> None:
-        """The names."""
-        self._put([[column.key for column in self.columns]])
+    def _begin(self) -> None:
+        self._add([tuple(column.key for column in self.columns)], None)
 
-    def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
-        """Some rows."""
-        rows = [[_text(value) for value in row] for row in zip(*_lists(columns), strict=True)]
-        self.count += len(rows)
-        self._put(rows)
+    def _add(self, rows: Cells, array: Any) -> None:
+        import csv
 
-    def _put(self, rows: list[list[str]]) -> None:
         text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows(rows)
+        plain = ([_plain(own) for own in row] for row in rows)
+        short = ([f"{own:.12g}" if isinstance(own, float) else own for own in row] for row in plain)
+        csv.writer(text, lineterminator="\n").writerows(short)
         self.put(text.getvalue())
-
-    def end(self) -> None:
-        """Nothing."""
-
-
-def _text(value: Any) -> str:
-    if isinstance(value, str):
-        return value
-    return "" if value is None or math.isnan(value) else f"{value:.12g}"
 
 
 class Json(Rows):
     """One object with the rows, each an object, and what is said of all."""
 
-    def begin(self) -> None:
-        """Its beginning."""
+    def _begin(self) -> None:
         import json
 
         self.dumps = json.dumps
         self.put(f'{{"heading": {self.dumps(self.heading)},\n"rows": [')
 
-    def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
-        """Some rows."""
+    def _add(self, rows: Cells, array: Any) -> None:
         keys = [column.key for column in self.columns]
-        for row in zip(*_lists(columns), strict=True):
-            comma = ",\n" if self.count else "\n"
-            self.put(comma + self.dumps(dict(zip(keys, map(_plain, row), strict=True))))
-            self.count += 1
+        texts = (self.dumps(dict(zip(keys, map(_plain, row), strict=True))) for row in rows)
+        if rows:
+            self.put((",\n" if self.count else "\n") + ",\n".join(texts))
 
-    def end(self) -> None:
-        """Its end."""
-        notes = "".join(
-            f",\n{self.dumps(key)}: {self.dumps(_plain(value))}" for key, value, _ in self.notes
-        )
-        self.put(f"\n]{notes}}}\n")
+    def _end(self) -> None:
+        notes = (f",\n{self.dumps(key)}: {self.dumps(_plain(it))}" for key, it, _ in self.notes)
+        self.put(f"\n]{''.join(notes)}}}\n")
 
 
 def _plain(value: Any) -> Any:
-    """A value that JSON has, with as many digits as in CSV."""
+    """A value of JSON and CSV: with 12 digits; none where it is missing."""
     if isinstance(value, float):
         return float(f"{value:.12g}") if math.isfinite(value) else None
     return value.item() if isinstance(value, np.generic) else value
@@ -193,47 +204,50 @@ def _plain(value: Any) -> Any:
 class Npy(Rows):
     """The rows of the array, in radians and meters."""
 
-    def begin(self) -> None:
-        """Nothing: the header needs the shape of the rows."""
-        self.shape: tuple[int, ...] = ()
+    def _begin(self) -> None:
+        self.shape: tuple[int, ...] | None = None
 
-    def add(self, columns: Sequence[Values], array: npt.NDArray[Any] | None) -> None:
-        """Some rows, behind a header if they are the first."""
-        assert array is not None, "a verb with --output FILE.npy gives arrays"
-        if not self.count:
-            self.shape = array.shape[1:]
+    def _add(self, rows: Cells, array: Any) -> None:
+        if self.shape is None:
+            self.shape = (0, *array.shape[1:])
             self._head()
-        self.count += len(array)
+        self.shape = (self.shape[0] + len(array), *self.shape[1:])
         self.file.write(np.ascontiguousarray(array, dtype="<f8").tobytes())
 
-    def end(self) -> None:
-        """The header again, with the number of rows: NumPy pads it to the same size."""
+    def _end(self) -> None:
+        # With the number of rows: NumPy pads it to the same size.
         self.file.seek(0)
         self._head()
 
     def _head(self) -> None:
-        content = {"descr": "<f8", "fortran_order": False, "shape": (self.count, *self.shape)}
+        content = {"descr": "<f8", "fortran_order": False, "shape": self.shape}
         np.lib.format.write_array_header_1_0(self.file, content)
 
 
-ENDINGS = {".csv": Csv, ".json": Json, ".npy": Npy}
+FORMATS = {".csv": Csv, ".json": Json, ".npy": Npy}
 
 
 @contextlib.contextmanager
-def table(arguments: argparse.Namespace, columns: Sequence[Column], heading: str) -> Iterator[Rows]:
+def table(arguments: argparse.Namespace, heading: str) -> Iterator[Rows]:
     """Where the rows go, by the arguments."""
-    output: str | None = arguments.output
-    ending = next((it for it in ENDINGS if output and output.lower().endswith(it)), "")
-    chosen = Json if arguments.json else Csv if arguments.csv else None
-    kind: type[Rows] = chosen or ENDINGS.get(ending, Table)
-    if output in (None, STDIN):
-        rows = kind(sys.stdout.buffer, columns, heading)
-        yield rows
-        rows.close()
-        return
-    with replaced(output) as file:
+    output: str = arguments.output or STDIN
+    ending = ".json" if arguments.json else ".csv" if arguments.csv else output.lower()
+    kind: type[Rows] = next((it for end, it in FORMATS.items() if ending.endswith(end)), Table)
+    stream = contextlib.nullcontext(sys.stdout.buffer) if output == STDIN else replaced(output)
+    if output == STDIN and kind is Table and sys.stdout.isatty():
+        kind = Screen
+    with stream as file:
         if kind is Npy and not file.seekable():
             raise CommandError(f"{output}: an .npy file cannot be written into a pipe")
-        rows = kind(file, columns, heading)
+        rows = kind(file, heading)
         yield rows
         rows.close()
+
+
+def show(
+    arguments: argparse.Namespace, heading: str, values: Columns, array: Any = None, *notes: Any
+) -> None:
+    """Write rows that are all there, and notes behind them: a key, a value, words."""
+    with table(arguments, heading) as rows:
+        rows.write(values, array)
+        rows.notes += notes

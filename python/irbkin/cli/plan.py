@@ -1,81 +1,61 @@
-"""`irbkin plan`: the best joints along a path of poses."""
-
-from __future__ import annotations
-
-import argparse
-from typing import TYPE_CHECKING
-
-from irbkin._arm_options import check_millimeters
-from irbkin.cli.arguments import Parser, joints, read_cell, read_robot
-from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.numbers import count, number
-from irbkin.cli.tool_paths import add_path, fastest, read_path
-
-if TYPE_CHECKING:
-    from irbkin import Robot, Track
-    from irbkin._arrays import Floats
-
-HELP = """Branch, turns of the joints and, with --rotation, the angle of the tool about its z are
+"""Branch, turns of the joints and, with --rotation, the angle of the tool about its z are
 chosen for the whole path: the largest joint speed is the least possible, and every step is shown to
 be continuous (docs/guide/plan.md). Without a path the exit code is 1, and stderr says where and why
-each branch ends."""
-EXAMPLES = """  irbkin plan "IRB 2600-12/1.65" poses.csv
+each branch ends.
+
+Examples:
   irbkin plan "IRB 2600-12/1.65" corners.csv --through lines --rotation 36 --csv
   irbkin plan "IRB 2600-12/1.65" seam.csv --through lines --track 0 1 0 -3000 3000
-  irbkin plan "IRB 2600-12/1.65" contour.npy --closed -o q.npy
-  irbkin plan "IRB 2600-12/1.65" poses.csv -o weld.mod"""
+  irbkin plan "IRB 2600-12/1.65" poses.csv -o weld.mod
+"""
+
+import argparse
+from typing import Any
+
+import numpy as np
+
+from irbkin import Robot, Track, pose, rapid
+from irbkin._arm_options import check_millimeters
+from irbkin.cli.arguments import Parser, joints, read_cell, read_robot, read_wobj
+from irbkin.cli.data import angles_of
+from irbkin.cli.errors import FINE, FOUND, CommandError, complain
+from irbkin.cli.files import replaced
+from irbkin.cli.numbers import count, number
+from irbkin.cli.output import Column, Floats, show
+from irbkin.cli.postures import place_columns, posture_columns
+from irbkin.cli.progress import waiting
+from irbkin.cli.tool_paths import add_path, read_path, speed_notes
+from irbkin.errors import PathError
+
 MOST_ROTATION = 3600
 MOST_TRACK = 1e6
 """How far the ends of a track may be from its zero [mm]."""
 
 
 def add_arguments(parser: Parser) -> None:
-    """The arguments of the verb."""
     parser.add_robot()
     parser.add_cell()
     add_path(parser)
     add = parser.add
-    add(
-        "--rotation",
-        type=count(2, MOST_ROTATION),
-        metavar="STEPS",
-        help="number of tool angles around z",
-    )
-    add(
-        "--track",
-        nargs=5,
-        type=number,
-        metavar=("X", "Y", "Z", "FROM", "TO"),
-        help="a track under the robot: its direction and its ends [mm]",
-    )
-    add(
-        "--start", nargs="+", type=number, metavar="Q", help="joints at the first pose [deg], track"
-    )
-    add("--end", nargs="+", type=number, metavar="Q", help="joints at the last pose [deg], track")
+    steps = count(2, MOST_ROTATION)
+    add("--rotation", type=steps, metavar="STEPS", help="number of tool angles around z")
+    words, ends = "a track under the robot: its direction and its ends [mm]", (*"XYZ", "FROM", "TO")
+    add("--track", nargs=5, type=number, metavar=ends, help=words)
+    parser.add_joints("start", "joints at the first pose [deg], track")
+    parser.add_joints("end", "joints at the last pose [deg], track")
     add("--closed", action="store_true", help="the joints end where they start")
-    parser.add_formats(
-        "joint angles in radians, shape (m, 6), and the track in meters, (m, 7); .mod: RAPID",
-        ".mod",
-    )
+    words = "joint angles in radians, shape (m, 6), and the track in meters, (m, 7); .mod: RAPID"
+    parser.add_formats(words, ".mod")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run the verb."""
-    import numpy as np
-
-    from irbkin import rapid
-    from irbkin.cli.files import replaced
-    from irbkin.cli.output import Column, table
-    from irbkin.cli.postures import Postures
-    from irbkin.cli.progress import waiting
-    from irbkin.errors import PathError
-
     robot, cell = read_robot(arguments), read_cell(arguments)
     poses = read_path(arguments, robot)
+    world = read_wobj(arguments) @ poses
     try:
         with waiting(f"plan of {len(poses):,} poses"):
             plan = robot.plan(
-                poses,
+                world,
                 rotation=arguments.rotation,
                 start=_end(arguments, "start", robot),
                 end=_end(arguments, "end", robot),
@@ -91,35 +71,24 @@ def run(arguments: argparse.Namespace) -> int:
         with replaced(arguments.output) as file:
             file.write(str(module).encode())
         return FINE
-    postures = Postures(robot)
-    columns = (
-        Column("pose", "", "6d"),
-        *(Column(name, "mm", "8.2f") for name in "xyz"),
-        Column("tool_angle", "deg", "8.2f"),
-        *([] if arguments.track is None else [Column("track", "mm", "8.1f")]),
-        *postures.columns,
-    )
-    with table(arguments, columns, f"{robot.name}: {len(poses)} poses") as rows:
-        places = (poses[:, axis, 3] * 1e3 for axis in range(3))
-        angle = np.degrees(plan.tool_angle)
-        track = (plan.external * 1e3).T
-        rows.write(
-            [np.arange(len(poses)), *places, angle, *track, *postures.values(plan.q)],
-            np.hstack([plan.q, plan.external]),
-        )
-        rows.note("certified", plan.certified, "every step is shown to be continuous")
-        turned = poses @ _about_z(plan.tool_angle)
-        # The speed of a tool that a track carries is not the arm's alone.
-        if arguments.track is None and (best := fastest(robot, plan.q, turned)):
-            speed, joint = best
-            words = f"tool speed up to {speed * 1e3:.0f} mm/s, limited by J{joint}"
-            rows.note("fastest_mm_s", speed * 1e3, words)
+    columns = {
+        Column("pose", "6d"): np.arange(len(poses)),
+        **place_columns(poses),
+        Column("tool_angle", "8.2f", "deg"): np.degrees(plan.tool_angle),
+        **{Column("track", "8.1f", "mm"): own for own in plan.external.T * 1e3},
+        **posture_columns(robot, plan.q),
+    }
+    notes: list[Any] = [("certified", plan.certified, "every step is shown to be continuous")]
+    # The speed of a tool that a track carries is not the arm's alone.
+    if arguments.track is None:
+        turns = pose(np.zeros((len(poses), 3)), euler_zyx=plan.tool_angle[:, None] * [1.0, 0, 0])
+        notes += speed_notes(robot, plan.q, world @ turns)
+    array = np.hstack([plan.q, plan.external])
+    show(arguments, f"{robot.name}: {len(poses)} poses", columns, array, *notes)
     return FINE
 
 
 def _track(numbers: list[float] | None) -> Track | None:
-    from irbkin.freedom import Track
-
     if numbers is None:
         return None
     *direction, lower, upper = numbers
@@ -136,22 +105,9 @@ def _track(numbers: list[float] | None) -> Track | None:
 
 def _end(arguments: argparse.Namespace, name: str, robot: Robot) -> Floats | None:
     """Joints at an end [rad], with the place on the track [m] if there is one."""
-    import numpy as np
-
-    given: list[float] | None = getattr(arguments, name)
+    given: list[float | str] | None = getattr(arguments, name)
     if given is None or arguments.track is None:
         return joints(given, f"--{name}", robot.dof)
-    *angles, place = given
+    *angles, place = angles_of(given, robot.dof + 1)
     q = joints(angles, f"--{name} (with the track's place behind the joints)", robot.dof)
     return None if q is None else np.append(q, place / 1e3)
-
-
-def _about_z(angles: Floats) -> Floats:
-    """Rotations about z, shape (m, 4, 4)."""
-    import numpy as np
-
-    turns = np.tile(np.eye(4), (len(angles), 1, 1))
-    cosines, sines = np.cos(angles), np.sin(angles)
-    turns[:, 0, 0], turns[:, 0, 1] = cosines, -sines
-    turns[:, 1, 0], turns[:, 1, 1] = sines, cosines
-    return turns

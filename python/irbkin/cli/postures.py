@@ -1,43 +1,79 @@
 """Columns of joint vectors and poses, which several verbs show."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
-from irbkin import to_xyz_euler_zyx, to_xyz_wxyz
-from irbkin.cli.output import Column, Values
+from irbkin import Robot, to_xyz_euler_zyx, to_xyz_wxyz
+from irbkin.cli.output import Column, Columns, Floats
 from irbkin.errors import InvalidModelError
 
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin._arrays import Floats
-
-POSE = (
-    *(Column(name, "mm", "9.2f") for name in "xyz"),
-    *(Column(name, "", "8.5f") for name in ("qw", "qx", "qy", "qz")),
-)
 NO_CONFDATA = np.iinfo(np.int32).min
 """The numbers of `configuration` in rows of angles that are too large for one."""
-EULER = tuple(Column(name, "deg", "8.2f") for name in ("rz", "ry", "rx"))
 
 
-def pose_values(poses: Floats) -> list[Values]:
-    """The columns POSE of poses, shape (k, 4, 4)."""
-    xyz, wxyz = to_xyz_wxyz(poses)
-    return [*_zeros(xyz * 1e3).T, *_zeros(wxyz).T]
+def place_columns(poses: Floats, form: str = "8.2f") -> Columns:
+    """The positions of poses, shape (k, 4, 4)."""
+    values = _zeros(poses[:, :3, 3].T * 1e3)
+    return {Column(axis, form, "mm"): own for axis, own in zip("xyz", values, strict=True)}
 
 
-def euler_values(poses: Floats) -> list[Values]:
-    """The columns EULER of poses."""
-    degrees = _zeros(np.degrees(to_xyz_euler_zyx(poses)[1]))
-    return list(np.where(degrees < -180.0 + 1e-9, 180.0, degrees).T)
+def pose_columns(poses: Floats) -> Columns:
+    """Position, quaternion and Euler angles of poses."""
+    euler = _zeros(np.degrees(to_xyz_euler_zyx(poses)[1]))
+    turns = zip(("rz", "ry", "rx"), np.where(euler < -180.0 + 1e-9, 180.0, euler).T, strict=True)
+    wxyz = zip(("qw", "qx", "qy", "qz"), _zeros(to_xyz_wxyz(poses)[1]).T, strict=True)
+    return {
+        **place_columns(poses, "9.2f"),
+        **{Column(name, "8.5f"): own for name, own in wxyz},
+        **{Column(name, "8.2f", "deg"): own for name, own in turns},
+    }
 
 
-def _zeros(values: Floats) -> Floats:
-    """Without what rounds to a negative zero."""
-    return np.where(np.abs(values) < 1e-9, 0.0, values)
+def joint_columns(q: Floats) -> Columns:
+    """Joint angles, shape (k, n)."""
+    values = _zeros(np.degrees(q)).T
+    return {Column(f"q{number}", "7.2f", "deg"): own for number, own in enumerate(values, 1)}
+
+
+def word_columns(names: Mapping[str, Sequence[str]]) -> Columns:
+    """Columns of words of a file, as they are."""
+    return {Column(name, "<12s"): own for name, own in names.items()}
+
+
+def posture_columns(robot: Robot, q: Floats, *, with_joints: bool = True) -> Columns:
+    """Confdata, angles, limits and singularities of joint vectors, shape (k, n)."""
+    known = np.asarray(np.isfinite(q).all(axis=1))
+    filled = np.where(known[:, None], q, 0.0)
+
+    def masked(values: Any, is_shown: Any = known) -> Any:
+        return values if is_shown.all() else np.where(is_shown, values, np.nan)
+
+    confdata: Columns = {}
+    if has_confdata(robot):
+        numbers = robot.configuration(filled)
+        is_shown = known & (numbers.cf1 != NO_CONFDATA)
+        names = ("cf1", "cf4", "cf6", "cfx")
+        confdata = {
+            Column(name, "3d"): masked(own, is_shown)
+            for name, own in zip(names, numbers, strict=True)
+        }
+    each = np.minimum(filled - robot.limits[:, 0], robot.limits[:, 1] - filled)
+    joint = each.argmin(axis=1)
+    margin = each[np.arange(len(q)), joint]
+    near = np.array([f"J{number + 1}" for number in range(robot.dof)])[joint]
+    at = robot.singularity(filled)
+    return {
+        **confdata,
+        **(joint_columns(q) if with_joints else {}),
+        Column("limits", "<7s"): np.where(known, np.where(margin >= 0, "inside", "outside"), ""),
+        Column("margin", "6.1f", "deg"): masked(np.degrees(margin)),
+        Column("joint", "<5s"): np.where(known, near, ""),
+        Column("wrist", "6.1f", "deg"): masked(np.degrees(at.wrist)),
+        Column("elbow", "6.1f", "deg"): masked(np.degrees(at.elbow)),
+        Column("shoulder", "7.1f", "mm"): masked(np.asarray(at.shoulder) * 1e3),
+    }
 
 
 def has_confdata(robot: Robot) -> bool:
@@ -49,66 +85,6 @@ def has_confdata(robot: Robot) -> bool:
     return True
 
 
-class Postures:
-    """Joint vectors of a robot: confdata, angles, limits, singularities."""
-
-    def __init__(self, robot: Robot, *, with_joints: bool = True) -> None:
-        self.robot, self.with_joints = robot, with_joints
-        self.has_confdata = has_confdata(robot)
-        confdata = ("cf1", "cf4", "cf6", "cfx") if self.has_confdata else ()
-        self.columns = (
-            *(Column(name, "", "3d") for name in confdata),
-            *(self.joints(robot.dof) if with_joints else ()),
-            Column("limits", "", "<7s"),
-            Column("margin", "deg", "6.1f"),
-            Column("joint", "", "<5s"),
-            Column("wrist", "deg", "6.1f"),
-            Column("elbow", "deg", "6.1f"),
-            Column("shoulder", "mm", "7.1f"),
-        )
-
-    @staticmethod
-    def joints(dof: int) -> tuple[Column, ...]:
-        """The columns of the joint angles alone."""
-        return tuple(Column(f"q{number + 1}", "deg", "7.2f") for number in range(dof))
-
-    def values(self, q: Floats) -> list[Values]:
-        """The columns of joint vectors, shape (k, n)."""
-        robot = self.robot
-        known = np.asarray(np.isfinite(q).all(axis=1))
-        filled = np.where(known[:, None], q, 0.0)
-
-        def masked(values: Any, is_shown: Any = known) -> Any:
-            return values if is_shown.all() else np.where(is_shown, values, np.nan)
-
-        confdata: list[Values] = []
-        if self.has_confdata:
-            numbers = robot.configuration(filled)
-            has_numbers = known & (numbers.cf1 != NO_CONFDATA)
-            confdata = [masked(it, has_numbers) for it in numbers]
-        margin, joint = margins(robot, filled)
-        names = np.array([f"J{number + 1}" for number in range(robot.dof)])[joint]
-        at = robot.singularity(filled)
-
-        def words(values: Any) -> list[str]:
-            texts: list[str] = np.where(known, values, "").tolist()
-            return texts
-
-        return [
-            *confdata,
-            *(_zeros(np.degrees(q)).T if self.with_joints else ()),
-            words(np.where(margin >= 0.0, "inside", "outside")),
-            masked(np.degrees(margin)),
-            words(names),
-            masked(np.degrees(at.wrist)),
-            masked(np.degrees(at.elbow)),
-            masked(np.asarray(at.shoulder) * 1e3),
-        ]
-
-
-def margins(robot: Robot, q: Floats) -> tuple[Floats, Any]:
-    """How far joint vectors are inside the limits [rad], negative outside, and of which joint."""
-    lower, upper = robot.limits.T
-    each = np.minimum(q - lower, upper - q)
-    joint = each.argmin(axis=1)
-    return each[np.arange(len(q)), joint], joint
+def _zeros(values: Floats) -> Floats:
+    """Without what rounds to a negative zero."""
+    return np.where(np.abs(values) < 1e-9, 0.0, values)

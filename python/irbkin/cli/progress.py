@@ -1,37 +1,35 @@
-"""A progress bar on stderr for work that takes long, where stderr is a terminal."""
+"""Progress of work that takes long, on stderr where it is a terminal."""
 
 from __future__ import annotations
 
 import contextlib
 import sys
-import threading
 import time
 from collections.abc import Iterable, Iterator
-from typing import TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bar
 
 T = TypeVar("T")
 AFTER = 1.0
 """How long work must take before it is shown [s]."""
-EVERY = 0.1
-WIDTH = 30
 
 
 class Progress:
-    """Shows how much is done; as a context manager it leaves an empty line."""
+    """Shows how much is done, how fast, and how long the rest takes."""
 
     def __init__(self, what: str, total: int | None = None) -> None:
-        self.what, self.total = what, total
-        self._done = 0
-        self._next = time.monotonic() + AFTER
-        self._is_shown = False
-        self._is_terminal = sys.stderr.isatty()
+        self.what, self.total, self.done = what, total, 0
+        self.began = time.monotonic() if sys.stderr and sys.stderr.isatty() else float("inf")
+        self.bar: Bar | None = None
 
     def __enter__(self) -> Progress:
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._is_shown:
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+        if self.bar:
+            self.bar.stop()
 
     def each(self, things: Iterable[T]) -> Iterator[T]:
         """Yield things, each of which is done when the next one is wanted."""
@@ -39,38 +37,40 @@ class Progress:
             yield thing
             self.add(1)
 
-    def add(self, count: int) -> None:
-        """So many more are done."""
-        self._done += count
-        if not self._is_terminal or time.monotonic() < self._next:
-            return
-        self._next = time.monotonic() + EVERY
-        self._is_shown = True
-        line = f"{self._done:,} {self.what}"
-        if self.total:
-            part = min(self._done / self.total, 1.0)
-            line = f"[{'#' * round(WIDTH * part):{WIDTH}}] {part:4.0%}  {line}"
-        print(f"\r\x1b[K{line}", end="", file=sys.stderr, flush=True)
+    def add(self, count: int, total: int | None = None) -> None:
+        """So many more are done, of a total if it is known."""
+        self.at(self.done + count, total or self.total)
+
+    def at(self, done: int, total: int | None) -> None:
+        """So many are done."""
+        self.done, self.total = done, total
+        if self.bar is None and time.monotonic() - self.began >= AFTER:
+            from rich.progress import MofNCompleteColumn, TimeRemainingColumn
+
+            self.bar = _bar(MofNCompleteColumn(), "{task.fields[rate]}/s", TimeRemainingColumn())
+            self.bar.add_task(self.what, total=total, rate="")
+        if self.bar:
+            rate = f"{done / (time.monotonic() - self.began):,.0f}"
+            self.bar.update(self.bar.task_ids[0], completed=done, total=total, rate=rate)
 
 
 @contextlib.contextmanager
 def waiting(what: str) -> Iterator[None]:
-    """Show how long one call takes, where stderr is a terminal; leave an empty line."""
+    """Show how long one call takes."""
     if not sys.stderr.isatty():
         yield
         return
-    is_done, began = threading.Event(), time.monotonic()
-
-    def show() -> None:
-        while not is_done.wait(EVERY):
-            if (seconds := time.monotonic() - began) >= AFTER:
-                print(f"\r\x1b[K{what}, {seconds:.0f} s", end="", file=sys.stderr, flush=True)
-
-    thread = threading.Thread(target=show, daemon=True)
-    thread.start()
-    try:
+    with _bar() as bar:
+        bar.add_task(what, total=None)
         yield
-    finally:
-        is_done.set()
-        thread.join()
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def _bar(*columns: Any) -> Bar:
+    """A running bar that leaves nothing behind."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    first = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    bar = Progress(*first, *columns, console=Console(stderr=True), transient=True)
+    bar.start()
+    return bar

@@ -1,6 +1,10 @@
-"""`irbkin rule`: the codes of `irbkin check` explained."""
+"""The meaning of a code of `irbkin check`, its cure, and an example of RAPID that has it. Names
+are taken, too. Without a code all are listed.
 
-from __future__ import annotations
+Examples:
+  irbkin rule R102
+  irbkin rule wrong-confdata
+"""
 
 import argparse
 import textwrap
@@ -9,20 +13,12 @@ from irbkin.check.codes import close, code_of, codes, rules
 from irbkin.cli.arguments import Parser
 from irbkin.cli.errors import FINE, CommandError
 
-HELP = """What a code of `irbkin check` means, its cure, and an example of RAPID that has it. Names
-are taken, too. Without a code all are listed."""
-EXAMPLES = """  irbkin rule R102
-  irbkin rule wrong-confdata
-  irbkin rule"""
-
 
 def add_arguments(parser: Parser) -> None:
-    """The arguments of the verb."""
     parser.add("codes", metavar="CODE", nargs="*", help="a code or its name")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run the verb."""
     texts = [explained(word) for word in arguments.codes]
     print("\n".join(texts) if texts else listed(), end="")
     return FINE

@@ -1,51 +1,40 @@
 """The path of poses that `path`, `plan` and `plot` read, made denser where it is asked for."""
 
-from __future__ import annotations
-
 import argparse
-from typing import TYPE_CHECKING
+import contextlib
 
+import numpy as np
+
+from irbkin import Robot, paths, trajectory
 from irbkin.cli.arguments import Parser
+from irbkin.cli.data import is_data
 from irbkin.cli.errors import CommandError
 from irbkin.cli.numbers import number, positive
-
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin._arrays import Floats
+from irbkin.cli.output import Floats
+from irbkin.cli.reading import read_all, read_poses
+from irbkin.errors import InvalidMotionError
 
 STEP = 5.0
 """Distance of poses on lines, splines and arcs [mm]."""
-ZONES = (
-    "fine",
-    *(f"z{size}" for size in (0, 1, 5, 10, 15, 20, 30, 40, 50, 60, 80, 100, 150, 200)),
-)
+TURN = np.radians(2.0)
+ZONES = ("fine", *map("z{}".format, (0, 1, 5, 10, 15, 20, 30, 40, 50, 60, 80, 100, 150, 200)))
 
 
 def add_path(parser: Parser) -> None:
     """The arguments of a path."""
-    parser.add_rows("poses along the path", optional=False)
+    parser.add_rows("poses along the path", "robtargets", nargs="+")
+    parser.add_wobj()
     add = parser.add
-    add(
-        "--through",
-        choices=("points", "lines", "spline", "arc"),
-        default="points",
-        help="points: the poses themselves; lines, a spline or an arc (of 3) through them",
-    )
+    ways = ("points", "lines", "spline", "arc")
+    words = "points: the poses themselves; lines, a spline or an arc (of 3) through them"
+    add("--through", choices=ways, default="points", help=words)
     add("--step", type=positive, metavar="MM", help="distance of poses on these [mm]: 5")
-    add(
-        "--zone",
-        metavar="ZONE",
-        help="corners of lines: fine, z0 .. z200 or a radius [mm]; fine",
-    )
+    words = "corners of lines: fine, z0 .. z200 or a radius [mm]; fine"
+    add("--zone", metavar="ZONE", help=words)
 
 
 def read_path(arguments: argparse.Namespace, robot: Robot) -> Floats:
     """The poses of the path, shape (m, 4, 4)."""
-    import numpy as np
-
-    from irbkin import paths
-    from irbkin.cli.reading import read_all, read_poses
-
     if robot.dof != 6:
         raise CommandError(
             f"paths are for arms of six joints, {robot.name} has {robot.dof}: take irbkin ik with "
@@ -58,18 +47,19 @@ def read_path(arguments: argparse.Namespace, robot: Robot) -> Floats:
     zone = "fine" if arguments.zone is None else _zone(arguments.zone)
     step = (STEP if arguments.step is None else arguments.step) / 1e3
     poses = read_all(read_poses(arguments.file))
+    name = "the path" if is_data(arguments.file[0]) else arguments.file[0]
     wrong = np.flatnonzero(~np.isfinite(poses).all(axis=(1, 2)))
     if len(wrong):
-        raise CommandError(f"{arguments.file}: row {wrong[0] + 1} is not a pose: it is not finite")
+        raise CommandError(f"{name}: row {wrong[0] + 1} is not a pose: it is not finite")
+    if arguments.through == "points":
+        return poses
     if arguments.through == "lines":
-        return paths.polyline(poses, zone, step=step, turn=np.radians(2.0))
+        return paths.polyline(poses, zone, step=step, turn=TURN)
     if arguments.through == "spline":
-        return paths.spline(poses, step=step, turn=np.radians(2.0))
-    if arguments.through == "arc":
-        if len(poses) != 3:
-            raise CommandError(f"--through arc takes 3 poses, {arguments.file} has {len(poses)}")
-        return paths.arc(*poses, step=step, turn=np.radians(2.0))
-    return poses
+        return paths.spline(poses, step=step, turn=TURN)
+    if len(poses) != 3:
+        raise CommandError(f"--through arc takes 3 poses, {name} has {len(poses)}")
+    return paths.arc(*poses, step=step, turn=TURN)
 
 
 def _zone(text: str) -> float | str:
@@ -77,28 +67,23 @@ def _zone(text: str) -> float | str:
     name = text.strip()
     if name in ZONES:
         return name
-    try:
-        radius = number(name)
-    except argparse.ArgumentTypeError:
-        radius = -1.0
-    if radius < 0.0:
-        raise CommandError(
-            f"--zone is {name!r}, it must be a radius of 0 mm or more, or one of {', '.join(ZONES)}"
-        )
-    return radius / 1e3
+    with contextlib.suppress(argparse.ArgumentTypeError):
+        if (radius := number(name)) >= 0.0:
+            return radius / 1e3
+    ways = f"a radius of 0 mm or more, or one of {', '.join(ZONES)}"
+    raise CommandError(f"--zone is {name!r}, it must be {ways}")
 
 
-def fastest(robot: Robot, q: Floats, poses: Floats) -> tuple[float, int] | None:
-    """The fastest constant tool speed [m/s] that the joints allow, and the joint that limits it;
-    nothing where the speeds are unknown or the tool only turns somewhere.
+def speed_notes(robot: Robot, q: Floats, poses: Floats) -> list[tuple[str, float, str]]:
+    """The fastest constant tool speed that the joints allow; nothing where their speeds are
+    unknown or the tool only turns somewhere.
     """
-    from irbkin import trajectory
-    from irbkin.errors import InvalidMotionError
-
     if robot.max_velocity is None or len(q) < 2:
-        return None
+        return []
     try:
         speeds = trajectory.tool_speed_limits(q, poses, robot.max_velocity)
     except InvalidMotionError:
-        return None
-    return speeds.fastest, speeds.fastest_joint
+        return []
+    speed = speeds.fastest * 1e3
+    words = f"tool speed up to {speed:.0f} mm/s, limited by J{speeds.fastest_joint}"
+    return [("fastest_mm_s", speed, words)]

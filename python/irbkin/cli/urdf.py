@@ -1,26 +1,23 @@
-"""`irbkin urdf`: an arm as URDF."""
+"""Axes, origins, limits and velocities, with the frames flange and tool0, in meters and
+radians, as URDF has them.
 
-from __future__ import annotations
+Examples:
+  irbkin urdf "IRB 2600-12/1.65" > irb2600.urdf
+  irbkin urdf "IRB 2600-12/1.65" -o irb2600.urdf
+"""
 
 import argparse
 
 from irbkin.cli.arguments import Parser, read_robot
 from irbkin.cli.errors import FINE
 
-HELP = """Axes, origins, limits and velocities, with the frames flange and tool0, in meters and
-radians, as URDF has them."""
-EXAMPLES = """  irbkin urdf "IRB 2600-12/1.65" > irb2600.urdf
-  irbkin urdf "IRB 2600-12/1.65" -o irb2600.urdf"""
-
 
 def add_arguments(parser: Parser) -> None:
-    """The arguments of the verb."""
     parser.add_robot()
     parser.add("-o", "--output", metavar="FILE", help="write to a file")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run the verb."""
     text: str = read_robot(arguments).to_urdf()
     if arguments.output in (None, "-"):
         print(text, end="" if text.endswith("\n") else "\n")

@@ -1,42 +1,39 @@
-"""`irbkin view`: an arm, a program or a scene as a page in the browser."""
-
-from __future__ import annotations
-
-import argparse
-import os
-import tempfile
-from dataclasses import replace
-from typing import TYPE_CHECKING
-
-from irbkin.cli.arguments import Parser, joints, read_cell, read_robot
-from irbkin.cli.errors import FINE, CommandError, complain
-from irbkin.cli.numbers import number
-
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin.scene import Scene
-
-HELP = """The page is one file that needs no network: drag the tool, jog the joints, see every
+"""The page is one file that needs no network: drag the tool, jog the joints, see every
 solution, play the program.
 ROBOT is a name of the catalog, a .urdf or RobotStudio file, or a scene (.json) of irbkin.scene.
 FILE is a RAPID module: its main routine, or the only one that moves, is played with its lines and
 findings. Without -o the page is written to a temporary file and opened; where irbkin was built
 without its engine (make page), a picture. --live serves
-a window of viser in its place, until Ctrl-C: pip install 'irbkin[viewer]'."""
-EXAMPLES = """  irbkin view "IRB 2600-12/1.65"
+a window of viser in its place, until Ctrl-C: pip install 'irbkin[viewer]'.
+
+Examples:
+  irbkin view "IRB 2600-12/1.65"
   irbkin view "IRB 2600-12/1.65" program.mod --cell cell.toml
-  irbkin view arm.urdf --joints 0 20 10 0 40 0 -o arm.html
-  irbkin view scene.json"""
+  irbkin view scene.json
+"""
+
+import argparse
+import os
+import tempfile
+import time
+import webbrowser
+from dataclasses import replace
+
+from irbkin import Robot, scene
+from irbkin.cli.arguments import Parser, joints, read_cell, read_robot
+from irbkin.cli.errors import FINE, CommandError, complain
+from irbkin.cli.rapid import motion_of, parsed
+from irbkin.scene import Scene
+
 ENDINGS = (".html", ".htm", ".json", ".svg")
 
 
 def add_arguments(parser: Parser) -> None:
-    """The arguments of the verb."""
     parser.add_robot()
     add = parser.add
     add("file", metavar="FILE", nargs="?", help="a RAPID module (.mod, .sys, .prg)")
     add("--routine", metavar="NAME", help="the routine: main, or the only one that moves")
-    add("--joints", nargs="+", type=number, metavar="Q", help="joint angles [deg]")
+    parser.add_joints("joints", "joint angles [deg]")
     parser.add_cell()
     words = "write the page (.html), a picture (.svg), or the scene (.json)"
     add("-o", "--output", metavar="FILE", help=words)
@@ -45,29 +42,26 @@ def add_arguments(parser: Parser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Run the verb."""
     output: str | None = arguments.output
     if output is not None and not output.lower().endswith(ENDINGS):
         raise CommandError(f"--output: {output} must end in .html or .json, or in .svg")
-    scene, robot = _scene(arguments)
+    own, robot = _scene(arguments)
     if arguments.live:
-        return _serve(scene, robot, arguments.port)
+        return _serve(own, robot, arguments.port)
     try:
         path = output or os.path.join(tempfile.mkdtemp(prefix="irbkin-"), "irbkin.html")
         try:
-            scene.save(path)
+            own.save(path)
         except FileNotFoundError as error:
             if output is not None or error.filename:
                 raise
             path = path.replace(".html", ".svg")
-            scene.save(path)
+            own.save(path)
             complain(f"{error}: this is the picture")
     except (FileNotFoundError, ValueError) as error:
         raise CommandError(str(error)) from None
     if output is not None:
         return FINE
-    import webbrowser
-
     print(path)
     webbrowser.open(f"file://{path}")
     return FINE
@@ -75,8 +69,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _scene(arguments: argparse.Namespace) -> tuple[Scene, Robot | None]:
     """Return the scene that the arguments name, and its robot; none if it is a file."""
-    from irbkin import scene
-
     if arguments.robot.lower().endswith(".json"):
         try:
             return scene.Scene.load(arguments.robot), None
@@ -84,35 +76,23 @@ def _scene(arguments: argparse.Namespace) -> tuple[Scene, Robot | None]:
             raise CommandError(f"{arguments.robot}: {error}") from None
     robot = read_robot(arguments)
     if arguments.file:
-        own = _of_module(robot, arguments)
+        module = parsed(arguments.file)
+        made = motion_of(robot, arguments, module)
+        own = scene.of(made, robot, title=os.path.basename(arguments.file))
+        (arm,) = own.arms
+        assert arm.motion is not None
+        motion = replace(arm.motion, source=module.source)
+        own = replace(own, arms=(replace(arm, motion=motion),))
     else:
         own = scene.of(robot, q=joints(arguments.joints, "--joints", robot.dof))
     cell = read_cell(arguments)
     return own if cell is None else own + scene.of(cell), robot
 
 
-def _of_module(robot: Robot, arguments: argparse.Namespace) -> Scene:
-    from irbkin import rapid, scene
-    from irbkin.cli.files import shown
-    from irbkin.errors import RapidError
-
-    try:
-        module = rapid.load(arguments.file)
-        made = rapid.motion(robot, module, arguments.routine)
-    except RapidError as error:
-        raise CommandError(f"{shown(arguments.file)}: {error}") from None
-    own = scene.of(made, robot, title=os.path.basename(arguments.file))
-    (arm,) = own.arms
-    assert arm.motion is not None
-    return replace(own, arms=(replace(arm, motion=replace(arm.motion, source=module.source)),))
-
-
-def _serve(scene: Scene, robot: Robot | None, port: int) -> int:
+def _serve(own: Scene, robot: Robot | None, port: int) -> int:
     """Serve a window until the command is interrupted."""
-    import time
-
     from irbkin.viewer import Viewer
 
-    print(Viewer(scene, robot, port=port).url, flush=True)
+    print(Viewer(own, robot, port=port).url, flush=True)
     while True:
         time.sleep(1.0)

@@ -1,7 +1,5 @@
 """A check that is made again whenever one of its files changes."""
 
-from __future__ import annotations
-
 import os
 import re
 import stat
@@ -24,7 +22,6 @@ MOST_FILES = 20_000
 NAMING = (".toml", ".urdf", ".xml", ".pgf")
 """Endings of options, cells, robots and lists of modules."""
 NAMED = re.compile(rb"""["'>]\s*([^"'<>\0\n]+?)\s*["'<]""")
-CLEAR = "\x1b[H\x1b[2J"
 
 
 def repeated(run: Callable[[], int], names: Sequence[str], output: str | None) -> NoReturn:
@@ -43,7 +40,9 @@ def repeated(run: Callable[[], int], names: Sequence[str], output: str | None) -
         # A change counts when it is over: files are not read half written.
         if now != seen and (seen is None or now == last):
             if sys.stdout.isatty():
-                print(CLEAR, end="")
+                from rich.console import Console
+
+                Console().clear()
             try:
                 run()
             except (CommandError, IrbkinError, OSError) as error:

@@ -1,0 +1,188 @@
+"""What is typed first works, or its cure is named in one line."""
+
+import json
+import os
+import pty
+import re
+import struct
+import subprocess
+
+import numpy as np
+import pytest
+from command import COMMAND, NAME, ROBOT, XYZ, joints_of, refused, rows, run
+
+fcntl = pytest.importorskip("fcntl")
+termios = pytest.importorskip("termios")
+
+NOT_THERE = "[9E9,9E9,9E9,9E9,9E9,9E9]"
+VALUE = f"[[850,320,640],[0.2588190,0,0.9659258,0],[0,1,-2,1],{NOT_THERE}]"
+OTHER = f"[[850,-320,640],[0.2588190,0,0.9659258,0],[-1,0,-1,0],{NOT_THERE}]"
+JOINTS = f"[[10,0,-5,0,30,0],{NOT_THERE}]"
+TOOL = "[TRUE,[[0,0,150],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]]"
+WOBJ = '[FALSE,TRUE,"",[[100,0,0],[1,0,0,0]],[[0,50,0],[1,0,0,0]]]'
+
+
+@pytest.fixture(autouse=True)
+def no_robot_of_all_calls(monkeypatch, tmp_path):
+    monkeypatch.delenv("IRBKIN_ROBOT", raising=False)
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        [VALUE],
+        [f"CONST robtarget p10 := {VALUE};"],
+        [f"  LOCAL CONST robtarget p10:={VALUE}"],
+        [f"p10:={VALUE};"],
+        VALUE.replace(",[", ", [").split(" "),
+    ],
+)
+def test_a_robtarget_is_a_pose(words):
+    table = rows(run("ik", NAME, *words, "--csv"))
+    wanted = rows(run("ik", NAME, *XYZ, "--csv"))
+    np.testing.assert_allclose(joints_of(table), joints_of(wanted))
+    # Its confdata is that of slot 1.
+    assert table["confdata"].tolist() == ["", "yes", *[""] * 6]
+
+
+def test_a_robtarget_without_its_confdata_says_so():
+    done = run("ik", NAME, VALUE.replace("[0,1,-2,1]", "[3,3,3,3]"))
+    last = done.stdout.decode().splitlines()[-1]
+    assert last == "the robtarget has no solution inside the limits with the confdata"
+    external = run("ik", NAME, VALUE.replace("[9E9", "[500"))
+    assert b"external axes of the targets are not considered" in external.stdout
+
+
+def test_several_robtargets_are_rows_with_their_names():
+    table = rows(
+        run("ik", NAME, f"CONST robtarget pA:={VALUE}; CONST robtarget pB:={OTHER};", "--csv")
+    )
+    assert sorted(set(zip(table["pose"], table["name"], strict=True))) == [(0.0, "pA"), (1.0, "pB")]
+    assert sum(table["confdata"] == "yes") == 2
+    plan = rows(run("plan", NAME, VALUE, OTHER, "--csv"))
+    np.testing.assert_allclose(plan["y_mm"], [320, -320])
+    path = rows(run("path", NAME, VALUE, OTHER, "--through", "lines", "--step", 100, "--csv"))
+    assert len(path["pose"]) > 5
+
+
+def test_a_jointtarget_is_joint_angles():
+    plain = ["10", "0", "-5", "0", "30", "0"]
+    wanted = run("fk", NAME, *plain).stdout
+    assert run("fk", NAME, JOINTS).stdout == wanted
+    named = run("fk", NAME, f"CONST jointtarget j1:={JOINTS};", "--csv")
+    assert rows(named)["name"].tolist() == ["j1"]
+    seeds = [run("ik", NAME, *XYZ, "--seed", *own).stdout for own in ([JOINTS], plain)]
+    assert seeds[0] == seeds[1]
+    start = rows(run("plan", NAME, VALUE, OTHER, "--csv"))
+    q = ",".join(str(start[f"q{joint}_deg"][0]) for joint in range(1, 7))
+    track = ["--track", 0, 1, 0, -500, 500]
+    text = f"[[{q}],[0,9E9,9E9,9E9,9E9,9E9]]"
+    there = rows(run("plan", NAME, VALUE, OTHER, *track, "--start", text, "--csv"))
+    assert abs(there["track_mm"][0]) < 1e-6
+
+
+def test_tools_and_work_objects_are_rapid():
+    for text in (TOOL, f"PERS tooldata tGun := {TOOL};"):
+        found = run("ik", NAME, *XYZ, "--tool", text).stdout
+        assert found == run("ik", NAME, *XYZ, "--tool", 0, 0, 150).stdout
+    plain = rows(run("ik", NAME, *XYZ, "--csv"))
+    moved = ["--xyz", 750, 270, 640, *XYZ[4:]]
+    for words in ([WOBJ], [f"PERS wobjdata w:={WOBJ};"], [100, 50, 0]):
+        table = rows(run("ik", NAME, *moved, "--wobj", *words, "--csv"))
+        np.testing.assert_allclose(joints_of(table), joints_of(plain), atol=1e-9)
+        back = rows(run("fk", NAME, *joints_of(table)[0], "--wobj", *words, "--csv"))
+        np.testing.assert_allclose([back["x_mm"][0], back["y_mm"][0]], [750, 270], atol=1e-6)
+        own = f"[[750,270,640],[0.2588190,0,0.9659258,0],[0,1,-2,1],{NOT_THERE}]"
+        for verb in ("plan", "path"):
+            path = rows(run(verb, NAME, own, own, "--wobj", *words, "--csv"))
+            np.testing.assert_allclose(path["x_mm"], 750, atol=1e-9)
+            q = joints_of(path)[0]
+            np.testing.assert_allclose(ROBOT.fk(np.radians(q))[:2, 3], [0.85, 0.32], atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["fk", NAME, VALUE], "is a robtarget, a jointtarget is wanted (irbkin ik takes it)"),
+        (["ik", NAME, JOINTS], "is a jointtarget, a robtarget or pose is wanted (irbkin fk takes"),
+        (["ik", NAME, VALUE.replace(",0]", "]", 1)], "no robtarget: rot has 3 components, it must"),
+        (["ik", NAME, "[850,320,640]"], "is no robtarget: 3 components, it must have 4"),
+        (["ik", NAME, VALUE[:30]], "is no robtarget: "),
+        (["ik", NAME, VALUE, "poses.csv"], "is no robtarget"),
+        (["ik", NAME, *XYZ, "--tool", VALUE], "is a robtarget, a tooldata or pose is wanted"),
+        (["ik", NAME, *XYZ, "--wobj", TOOL], "is a tooldata, a wobjdata or pose is wanted"),
+        (["ik", NAME, *XYZ, "--tool", TOOL.replace("TRUE", "FALSE")], "a stationary tool"),
+        (
+            ["ik", NAME, *XYZ, "--wobj", WOBJ.replace("TRUE", "FALSE")],
+            "a work object that is held or moved",
+        ),
+        (["ik", NAME, *XYZ, "--tool", "tGun"], "'tGun' is not a finite number"),
+        (["ik", NAME, VALUE.replace("0.9659258", "0.8")], "norm"),
+        (["view", "2600"], '"IRB 2600-12/1.65"'),
+    ],
+)
+def test_wrong_text_says_what_it_looks_like_and_what_is_wanted(words, message):
+    assert message in refused(*words)
+
+
+def test_a_pose_of_numbers_alone_names_its_orientation():
+    table = run("ik", NAME, 850, 320, 640, 0, 150, 0).stdout
+    assert table == run("ik", NAME, "--xyz", 850, 320, 640, "--euler", 0, 150, 0).stdout
+    heading = run("ik", NAME, "--xyz", 850, 320, 640).stdout.decode().splitlines()[0]
+    assert heading.endswith("mm, wxyz 1 0 0 0, as no orientation is given")
+
+
+def on_terminal(width, *words):
+    """What a terminal of a width shows of the command."""
+    reader, writer = pty.openpty()
+    fcntl.ioctl(writer, termios.TIOCSWINSZ, struct.pack("HHHH", 40, width, 0, 0))
+    environment = {
+        key: own for key, own in os.environ.items() if key not in ("COLUMNS", "NO_COLOR")
+    }
+    process = subprocess.Popen(
+        [*COMMAND, *words],
+        stdout=writer,
+        stderr=writer,
+        env={**environment, "TERM": "xterm-256color"},
+    )
+    os.close(writer)
+    content = b""
+    while True:
+        try:
+            part = os.read(reader, 1 << 16)
+        except OSError:
+            break
+        if not part:
+            break
+        content += part
+    os.close(reader)
+    assert process.wait(timeout=60) == 0
+    return content.decode().replace("\r\n", "\n")
+
+
+@pytest.mark.parametrize("width", [60, 80, 160])
+def test_tables_and_help_fit_the_terminal(width):
+    whole = rows(run("ik", NAME, VALUE, "--csv"))
+    for words in (["ik", NAME, VALUE], ["ik", "--help"], ["--help"]):
+        text = on_terminal(width, *words)
+        assert "\x1b[" in text
+        plain = re.sub(r"\x1b\[[\d;]*m", "", text)
+        body = plain.partition("\nexamples:")[0].partition("\nExit codes:")[0].splitlines()
+        assert max(map(len, body)) <= width
+        if words[0] == "ik" and "--help" not in words:
+            # No column and no digit is lost.
+            for name, column in whole.items():
+                key = name.partition("_")[0]
+                assert sum(f" {key} " in f" {line} " for line in body) >= 1, key
+                if name == "q3_deg":
+                    assert all(plain.count(f"{it:.2f}") for it in column)
+
+
+def test_a_pipe_has_no_color_and_no_cut_lines():
+    for words in (["ik", NAME, VALUE], ["catalog"], ["ik", "--help"]):
+        text = run(*words, COLUMNS="60").stdout.decode()
+        assert "\x1b" not in text
+    assert max(map(len, run("ik", NAME, VALUE, COLUMNS="60").stdout.decode().splitlines())) > 120
+    content = json.loads(run("ik", NAME, VALUE, "--json").stdout)
+    assert [row["confdata"] for row in content["rows"]] == ["", "yes", *[""] * 6]
