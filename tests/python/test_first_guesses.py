@@ -120,6 +120,11 @@ def test_tools_and_work_objects_are_rapid():
         (["ik", NAME, *XYZ, "--tool", "tGun"], "'tGun' is not a finite number"),
         (["ik", NAME, VALUE.replace("0.9659258", "0.8")], "norm"),
         (["view", "2600"], '"IRB 2600-12/1.65"'),
+        (["ik", NAME, "--pos", 1, 2, 3], "--pos 1 2 3: did you mean --xyz? (irbkin ik --help)"),
+        (["ik", NAME, "--workobject", 1], "did you mean --wobj?"),
+        (["check", NAME, "a.mod", "--colour"], "did you mean --color?"),
+        (["check", NAME, "a.mod", "--robto", NAME], "did you mean --robot?"),
+        (["plan", NAME, "--trough", "lines"], "did you mean --through?"),
     ],
 )
 def test_wrong_text_says_what_it_looks_like_and_what_is_wanted(words, message):

@@ -20,6 +20,16 @@ if TYPE_CHECKING:
     from irbkin._arrays import Floats
 
 ROBOT_HELP = "name in the catalog, or a .urdf or RobotStudio file"
+OTHERS = {
+    "pos position p xyz_mm": "--xyz",
+    "quat quaternion q rot": "--wxyz",
+    "rpy zyx abc": "--euler",
+    "workobject wobjdata frame": "--wobj",
+    "tcp tooldata": "--tool",
+    "q0 init near": "--seed",
+    "colour no-color": "--color",
+}
+"""Names of options elsewhere, and ours."""
 TABLES = (".csv", ".json", ".npy", ".txt")
 NUMBER = re.compile(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
@@ -128,6 +138,14 @@ class OneLine(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """End the command."""
+        if unknown := re.match(r"unrecognized arguments: (-\S+)", message):
+            import difflib
+
+            word, options = unknown[1].partition("=")[0], self._option_string_actions
+            meant = [it for names, it in OTHERS.items() if word.strip("-") in names.split()]
+            close = [it for it in meant if it in options]
+            for it in close or difflib.get_close_matches(word, options, n=1):
+                message += f": did you mean {it}?"
         raise CommandError(f"{message} ({self.prog} --help)")
 
 
