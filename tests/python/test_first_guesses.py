@@ -138,6 +138,13 @@ def test_a_pose_of_numbers_alone_names_its_orientation():
     assert heading.endswith("mm, wxyz 1 0 0 0, as no orientation is given")
 
 
+def test_the_catalog_is_filtered_by_names_as_robots_are():
+    found = rows(run("catalog", "irb2600", "--csv"))["name"].tolist()
+    assert len(found) == 5
+    for words in (["2600"], ["IRB", "2600"], ["irb_2600"]):
+        assert rows(run("catalog", *words, "--csv"))["name"].tolist() == found
+
+
 def on_terminal(width, *words):
     """What a terminal of a width shows of the command."""
     reader, writer = pty.openpty()

@@ -1,13 +1,15 @@
-"""Without words all arms are listed; with words, those whose names contain them all. The
-name of one arm shows its joints: limits, speeds and where the figures are from.
+"""Without words all arms are listed; with words, those whose names contain them all: case, blanks
+and - _ / do not matter. The name of one arm shows its joints: limits, speeds and where the figures
+are from.
 
 Examples:
-  irbkin catalog 2600
+  irbkin catalog irb2600
   irbkin catalog "IRB 2600-12/1.65"
   irbkin catalog --reach 2500 --payload 100 --csv
 """
 
 import argparse
+import re
 
 import numpy as np
 
@@ -56,8 +58,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _bare(name: str) -> str:
-    """A name in lower case."""
-    return name.lower()
+    """A name without what does not matter."""
+    return re.sub(r"[\s_/-]", "", name).lower()
 
 
 def _show_all(arguments: argparse.Namespace, entries: list[CatalogEntry]) -> None:
