@@ -145,6 +145,13 @@ def test_the_catalog_is_filtered_by_names_as_robots_are():
         assert rows(run("catalog", *words, "--csv"))["name"].tolist() == found
 
 
+@pytest.mark.extra
+def test_an_arm_is_drawn(tmp_path):
+    for words in ([], ["arm"], ["--joints", JOINTS]):
+        assert run("plot", NAME, *words, "-o", tmp_path / "a.svg").returncode == 0
+        assert (tmp_path / "a.svg").read_bytes().startswith(b"<?xml")
+
+
 def on_terminal(width, *words):
     """What a terminal of a width shows of the command."""
     reader, writer = pty.openpty()

@@ -28,7 +28,7 @@ VERBS = {
     "diff": "find what differs between two backups: data, moves, targets",
     "rapid": "the moves of a RAPID routine as one motion: times, joints, findings",
     "map": "what an arm reaches: a grid of positions, each with many orientations",
-    "plot": "draw solutions, paths and reach",
+    "plot": "draw an arm, solutions, paths and reach",
     "view": "show an arm, a program or a scene in the browser",
     "urdf": "write an arm as URDF",
 }

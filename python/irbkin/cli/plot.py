@@ -1,20 +1,22 @@
-"""solutions: the arm in every solution of a pose. path: the
+"""arm: the arm at --joints, or at rest. solutions: the arm in every solution of a pose. path: the
 tool along joint vectors. singularity: how far joint vectors are from the singularities. reach:
 where a tool of one orientation can be. The format is by the ending of the file: .svg, .png, .pdf;
-This verb needs matplotlib: pip install 'irbkin[plot]'.
+without one it is a picture that is opened. This verb needs matplotlib: pip install 'irbkin[plot]'.
 
 Examples:
-  irbkin plot "IRB 2600-12/1.65" path joints.csv -o path.svg
+  irbkin plot "IRB 2600-12/1.65" -o arm.svg
   irbkin plot "IRB 2600-12/1.65" solutions --xyz 850 320 640 --euler 0 150 0 -o ik.svg
   irbkin plot "IRB 2600-12/1.65" reach --euler 0 180 0 -o reach.svg
 """
 
 import argparse
 import os
+import tempfile
+import webbrowser
 from typing import TYPE_CHECKING
 
 from irbkin import Robot
-from irbkin.cli.arguments import Parser, read_pose, read_q7, read_robot
+from irbkin.cli.arguments import Parser, joints, read_pose, read_q7, read_robot
 from irbkin.cli.errors import FINE, CommandError
 from irbkin.cli.files import replaced
 from irbkin.cli.reading import read_all, read_joints
@@ -22,22 +24,21 @@ from irbkin.cli.reading import read_all, read_joints
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-KINDS = ("solutions", "path", "singularity", "reach")
+KINDS = ("arm", "solutions", "path", "singularity", "reach")
 
 
 def add_arguments(parser: Parser) -> None:
     parser.add_robot()
-    parser.add("kind", choices=KINDS, help="what to draw")
+    parser.add("kind", choices=KINDS, nargs="?", default="arm", help="what to draw: arm")
     parser.add_rows("joint angles of path and singularity", "jointtargets")
+    parser.add_joints("joints", "joint angles of the arm [deg]")
     parser.add_pose()
-    parser.add(
-        "-o", "--output", metavar="FILE", required=True, help="the picture: .svg, .png, .pdf"
-    )
+    parser.add("-o", "--output", metavar="FILE", help="the picture: .svg, .png, .pdf")
 
 
 def run(arguments: argparse.Namespace) -> int:
     robot = read_robot(arguments)
-    path: str = arguments.output
+    path: str = arguments.output or os.path.join(tempfile.mkdtemp(prefix="irbkin-"), "arm.svg")
     ending = os.path.splitext(path)[1].lstrip(".").lower()
     if not ending:
         raise CommandError(f"{path}: has no ending; give .svg, .png or .pdf")
@@ -47,6 +48,9 @@ def run(arguments: argparse.Namespace) -> int:
         raise CommandError(f"{path}: .{ending} is not among {', '.join(sorted(known))}")
     with replaced(path) as file:
         figure.savefig(file, format=ending)
+    if arguments.output is None:
+        print(path)
+        webbrowser.open(f"file://{path}")
     return FINE
 
 
@@ -54,6 +58,8 @@ def _drawn(arguments: argparse.Namespace, robot: Robot) -> "Figure":
     from irbkin import plot
 
     kind: str = arguments.kind
+    if kind == "arm":
+        return plot.arm(robot, joints(arguments.joints, "--joints", robot.dof))
     if kind in ("solutions", "reach"):
         q7 = read_q7(arguments, robot)
         if arguments.xyz is None and kind == "solutions":
