@@ -145,6 +145,18 @@ def test_the_catalog_is_filtered_by_names_as_robots_are():
         assert rows(run("catalog", *words, "--csv"))["name"].tolist() == found
 
 
+def test_columns_of_words_are_kept(tmp_path):
+    file = tmp_path / "poses.csv"
+    file.write_text(
+        "id,name,x_mm,y_mm,z_mm,rz_deg,ry_deg,rx_deg\n1,left,900,-200,600,0,160,0\n2,right,900,200,600,0,160,0\n"
+    )
+    for words in (["--seed", *["0"] * 6], ["--within"]):
+        table = rows(run("ik", NAME, file, *words, "--csv"))
+        assert dict(zip(table["pose"], table["name"], strict=True)) == {0.0: "left", 1.0: "right"}
+    again = run("fk", NAME, "-", "--csv", stdin=run("ik", NAME, file, "--within", "--csv").stdout)
+    assert list(rows(again))[:2] == ["name", "x_mm"]
+
+
 @pytest.mark.extra
 def test_an_arm_is_drawn(tmp_path):
     for words in ([], ["arm"], ["--joints", JOINTS]):

@@ -3,6 +3,7 @@
 import io
 import itertools
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import BinaryIO, NamedTuple
 
@@ -17,6 +18,8 @@ PART = 20_000
 """Rows of a part."""
 SCALES = {"mm": 1e-3, "m": 1.0, "deg": np.pi / 180, "rad": 1.0, "": 1.0}
 OTHER_UNITS = {"mm": "m", "deg": "rad"}
+OWN = ("limits", "joint")
+"""Columns of words that the command writes itself."""
 
 
 class Layout(NamedTuple):
@@ -88,7 +91,11 @@ def _columns(rows: Sequence[Row], place: str, layout: Layout) -> _Columns:
         best = min(range(len(both)), key=lambda it: len(lacking[it]))
         if not lacking[best]:
             names = [next(it for it in pair if it in fields) for pair in both[best]]
-            return _Columns(width, [fields.index(it) for it in names], names, {})
+            pairs = enumerate(zip(fields, rows[1][1] if len(rows) > 1 else (), strict=False))
+            words = {it: at for at, (it, own) in pairs if re.search(r"[^\W\d]", own)}
+            for own in (*OWN, *names):
+                words.pop(own, None)
+            return _Columns(width, [fields.index(it) for it in names], names, words)
         lack = f"no column {' or '.join(dict.fromkeys(lacking[best][0]))}"
     raise CommandError(
         f"{place}: {_quoted(','.join(rows[0][1]))} has {lack}; a {layout.what} has "
