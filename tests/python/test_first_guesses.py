@@ -157,6 +157,27 @@ def test_columns_of_words_are_kept(tmp_path):
     assert list(rows(again))[:2] == ["name", "x_mm"]
 
 
+def test_a_program_that_is_not_played_names_the_routines_that_are(tmp_path):
+    (tmp_path / "a.mod").write_text(
+        f"""MODULE A
+            CONST robtarget p:={VALUE};
+            PROC main()
+                WHILE TRUE DO
+                    MoveJ p,v1000,fine,tool0;
+                ENDWHILE
+            ENDPROC
+            PROC Home()
+                MoveJ p,v1000,fine,tool0;
+            ENDPROC
+        ENDMODULE"""
+    )
+    for verb in (["rapid"], ["view", "-o", "a.json"]):
+        message = refused(verb[0], NAME, "a.mod", *verb[1:])
+        assert message.startswith("irbkin: a.mod: line 4, column ")
+        assert message.endswith("(--routine Home has none)\n")
+        assert run(verb[0], NAME, "a.mod", "--routine", "Home", *verb[1:]).returncode == 0
+
+
 @pytest.mark.extra
 def test_an_arm_is_drawn(tmp_path):
     for words in ([], ["arm"], ["--joints", JOINTS]):

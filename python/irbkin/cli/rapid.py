@@ -10,6 +10,7 @@ Examples:
 """
 
 import argparse
+import contextlib
 import math
 from typing import Any
 
@@ -23,7 +24,7 @@ from irbkin.cli.files import opened, replaced, shown
 from irbkin.cli.numbers import positive
 from irbkin.cli.output import Column, Columns, show
 from irbkin.cli.postures import joint_columns
-from irbkin.errors import RapidError
+from irbkin.errors import IrbkinError, RapidError
 from irbkin.rapid import RoutineMotion
 
 
@@ -89,11 +90,18 @@ def parsed(name: str, context: tuple[rapid.Module, ...] = ()) -> rapid.Module:
 def motion_of(
     robot: Robot, arguments: argparse.Namespace, module: rapid.Module, **options: Any
 ) -> RoutineMotion:
-    """The motion of the routine that is asked for."""
+    """The motion of the routine that is asked for; an error names those that have one."""
     try:
         return rapid.motion(robot, module, arguments.routine, **options)
     except RapidError as error:
-        raise CommandError(f"{shown(arguments.file)}: {error}") from None
+        words = f"{shown(arguments.file)}: {error}"
+    playable = []
+    for routine in module.routines:
+        with contextlib.suppress(IrbkinError):
+            if rapid.motion(robot, module, routine.name, **options).moves:
+                playable.append(routine.name)
+    hint = f" (--routine {' or '.join(playable)} has none)" if playable else ""
+    raise CommandError(words + hint)
 
 
 def _moves(robot: Robot, motion: RoutineMotion) -> Columns:
