@@ -125,6 +125,7 @@ def test_tools_and_work_objects_are_rapid():
         (["check", NAME, "a.mod", "--colour"], "did you mean --color?"),
         (["check", NAME, "a.mod", "--robto", NAME], "did you mean --robot?"),
         (["plan", NAME, "--trough", "lines"], "did you mean --through?"),
+        (["completion", "csh"], "invalid choice"),
     ],
 )
 def test_wrong_text_says_what_it_looks_like_and_what_is_wanted(words, message):
@@ -183,6 +184,12 @@ def test_an_arm_is_drawn(tmp_path):
     for words in ([], ["arm"], ["--joints", JOINTS]):
         assert run("plot", NAME, *words, "-o", tmp_path / "a.svg").returncode == 0
         assert (tmp_path / "a.svg").read_bytes().startswith(b"<?xml")
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_has_verbs_and_options(shell):
+    text = run("completion", shell).stdout.decode()
+    assert all(word in text for word in ("catalog", "--wobj".lstrip("-"), "--through".lstrip("-")))
 
 
 def on_terminal(width, *words):

@@ -31,6 +31,7 @@ VERBS = {
     "plot": "draw an arm, solutions, paths and reach",
     "view": "show an arm, a program or a scene in the browser",
     "urdf": "write an arm as URDF",
+    "completion": "write what completes commands in a shell",
 }
 ABOUT = """Kinematics of industrial robot arms. Angles in degrees, lengths in millimeters, as
 headers say; arrays in .npy files are as in the Python package, in radians and meters."""
