@@ -7,6 +7,7 @@ import re
 import struct
 import subprocess
 
+import irbkin
 import numpy as np
 import pytest
 from command import COMMAND, NAME, ROBOT, XYZ, joints_of, refused, rows, run
@@ -119,12 +120,17 @@ def test_tools_and_work_objects_are_rapid():
         ),
         (["ik", NAME, *XYZ, "--tool", "tGun"], "'tGun' is not a finite number"),
         (["ik", NAME, VALUE.replace("0.9659258", "0.8")], "norm"),
+        (["ik", VALUE], "is no robot: give ROBOT first"),
+        (["view", "good.mod"], "'good.mod' is no robot: give ROBOT first"),
+        (["fk", "0", "0", "0", "0", "30", "0"], "'0' is no robot: give ROBOT first"),
+        (["urdf"], "no robot: give ROBOT first"),
         (["view", "2600"], '"IRB 2600-12/1.65"'),
         (["ik", NAME, "--pos", 1, 2, 3], "--pos 1 2 3: did you mean --xyz? (irbkin ik --help)"),
         (["ik", NAME, "--workobject", 1], "did you mean --wobj?"),
         (["check", NAME, "a.mod", "--colour"], "did you mean --color?"),
         (["check", NAME, "a.mod", "--robto", NAME], "did you mean --robot?"),
         (["plan", NAME, "--trough", "lines"], "did you mean --through?"),
+        (["check", "a.mod", "-r", "2600"], '"IRB 2600-12/1.65"'),
         (["completion", "csh"], "invalid choice"),
     ],
 )
@@ -137,6 +143,53 @@ def test_a_pose_of_numbers_alone_names_its_orientation():
     assert table == run("ik", NAME, "--xyz", 850, 320, 640, "--euler", 0, 150, 0).stdout
     heading = run("ik", NAME, "--xyz", 850, 320, 640).stdout.decode().splitlines()[0]
     assert heading.endswith("mm, wxyz 1 0 0 0, as no orientation is given")
+
+
+@pytest.mark.parametrize("way", ["environment", "toml", "pyproject", "option"])
+def test_a_robot_is_given_once_for_all_calls(way, tmp_path):
+    environment, option = {}, []
+    if way == "environment":
+        environment = {"IRBKIN_ROBOT": NAME}
+    elif way == "option":
+        option = ["--robot", NAME]
+    else:
+        name, head = ("irbkin", "check") if way == "toml" else ("pyproject", "tool.irbkin.check")
+        (tmp_path / f"{name}.toml").write_text(f'[{head}]\nrobot = "{NAME}"\n')
+    (tmp_path / "q.csv").write_text("0,0,0,0,30,0\n")
+    grid = ["--x", 900, 900, "--y", 0, 0, "--z", 600, 600]
+    for verb, *words in (
+        ["fk", 0, 0, 0, 0, 30, 0],
+        ["fk", "q.csv", "--csv"],
+        ["ik", VALUE],
+        ["ik", *XYZ],
+        ["plan", VALUE, OTHER, "--zone", "z20", "--through", "lines"],
+        ["map", *grid],
+        ["urdf"],
+    ):
+        done = run(verb, *words, *option, **environment)
+        assert done.stdout == run(verb, NAME, *words).stdout, verb
+        assert not done.returncode
+        words = f"irbkin: robot of {tmp_path / name}.toml\n" if way in ("toml", "pyproject") else ""
+        assert done.stderr.decode() == words
+    # One that is on the line counts first, a misspelled one too.
+    other = run("urdf", "IRB 120-3/0.58", **environment).stdout
+    assert other == irbkin.Robot("IRB 120-3/0.58").to_urdf().encode()
+    assert "close names" in refused("urdf", "IRB 2600", **environment)
+
+
+def test_the_options_of_an_arm_come_with_it(tmp_path):
+    text = f'[check]\nrobot = "{NAME}"\ntool = [0, 0, 150]\nlimits = [[6, -10, 10]]\n'
+    (tmp_path / "irbkin.toml").write_text(text)
+    done = run("fk", 0, 0, 0, 0, 30, 20, "--csv")
+    assert done.stderr.decode() == f"irbkin: robot, tool, limits of {tmp_path / 'irbkin.toml'}\n"
+    assert rows(done)["limits"].tolist() == ["outside"]
+    assert (
+        rows(done)["x_mm"]
+        == rows(run("fk", NAME, 0, 0, 0, 0, 30, 20, "--tool", 0, 0, 150, "--csv"))["x_mm"]
+    )
+    plain = run("fk", NAME, 0, 0, 0, 0, 30, 20, "--csv")
+    assert rows(plain)["limits"].tolist() == ["inside"]
+    assert not plain.stderr
 
 
 def test_the_catalog_is_filtered_by_names_as_robots_are():

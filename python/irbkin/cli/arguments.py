@@ -10,16 +10,20 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from irbkin._arm_options import check_millimeters, frame, robot_of
-from irbkin.cli.data import angles_of, frame_of
+from irbkin._arm_options import check_millimeters, frame, is_arm_file, robot_of
+from irbkin.cli.data import angles_of, frame_of, is_data
 from irbkin.cli.errors import CommandError, complain
 from irbkin.cli.numbers import angle, check_joints, number, number_or_data
+from irbkin.errors import UnknownRobotError
 
 if TYPE_CHECKING:
     from irbkin import Cell, Robot
     from irbkin._arrays import Floats
 
 ROBOT_HELP = "name in the catalog, or a .urdf or RobotStudio file"
+GIVE_ROBOT = 'give ROBOT first, as "IRB 2600-12/1.65", or once in IRBKIN_ROBOT or irbkin.toml'
+OF_ARM = ("tool", "base", "limits", "linkage_limits", "cell")
+"""Options of irbkin.toml that belong to its robot."""
 OTHERS = {
     "pos position p xyz_mm": "--xyz",
     "quat quaternion q rot": "--wxyz",
@@ -44,10 +48,13 @@ class Parser:
         self.parser.examples = f"\nexamples:\n{examples}"
         self.add = self.parser.add_argument
         self.endings: tuple[str, ...] | None = None
+        self.needs_robot = False
 
     def parsed(self, given: Sequence[str]) -> argparse.Namespace:
         """The arguments; a negative number is not an option, with an exponent either."""
         words = [f" {it}" if NUMBER.fullmatch(it) else it for it in given]
+        if self.needs_robot and not {"-h", "--help"} & {*words}:
+            words = self._with_robot(words)
         arguments = self.parser.parse_intermixed_args(words)
         for name in ("tool", "base", "wobj"):
             own = getattr(arguments, name, None)
@@ -60,9 +67,33 @@ class Parser:
                 raise CommandError(f"{what}, it must end in {wanted} or in nothing, for a table")
         return arguments
 
+    def _with_robot(self, words: list[str]) -> list[str]:
+        """The arguments with the robot first: given by its option, or once for all calls."""
+        options = OneLine(prog=self.parser.prog, add_help=False)
+        options.add_argument("-r", "--robot")
+        given, rest = options.parse_known_args(words)
+        if given.robot is not None:
+            return [given.robot, *rest]
+        if any(map(_is_arm, words)) or (words and _is_meant(words[0])):
+            return words
+        if robot := os.environ.get("IRBKIN_ROBOT"):
+            return [robot, *words]
+        from irbkin.check.settings import settings_of
+
+        settings = settings_of([])
+        if "robot" not in settings.options:
+            return words
+        own = {name: settings.options[name] for name in OF_ARM if name in settings.options}
+        self.parser.set_defaults(**own)
+        complain(f"{', '.join(('robot', *own)).replace('_', '-')} of {settings.file}")
+        return [settings.options["robot"], *words]
+
     def add_robot(self) -> None:
         """The arm, and what it carries."""
+        self.needs_robot = True
         self.add("robot", metavar="ROBOT", help=ROBOT_HELP)
+        words = "the same: -r ROBOT or IRBKIN_ROBOT=ROBOT takes the place of the first argument"
+        self.add("-r", "--robot", dest="robot_", metavar="ROBOT", help=words)
         self.add_frames()
 
     def add_frames(self) -> None:
@@ -138,7 +169,9 @@ class OneLine(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """End the command."""
-        if unknown := re.match(r"unrecognized arguments: (-\S+)", message):
+        if message.endswith("required: ROBOT"):
+            message = f"no robot: {GIVE_ROBOT}"
+        elif unknown := re.match(r"unrecognized arguments: (-\S+)", message):
             import difflib
 
             word, options = unknown[1].partition("=")[0], self._option_string_actions
@@ -149,9 +182,33 @@ class OneLine(argparse.ArgumentParser):
         raise CommandError(f"{message} ({self.prog} --help)")
 
 
+def _is_arm(word: str) -> bool:
+    """Whether a word is a robot."""
+    from irbkin import catalog_entry
+
+    try:
+        return is_arm_file(word) or bool(catalog_entry(word))
+    except UnknownRobotError:
+        return False
+
+
+def _is_meant(word: str) -> bool:
+    """Whether a first word is a scene, or a robot that is misspelled."""
+    is_name = re.fullmatch(r"(?!-|.*\.[A-Za-z]+$)(?=.*[A-Za-z])(?=.*\d)[\w /.-]+", word)
+    return word.endswith(".json") or (is_name is not None and not os.path.exists(word))
+
+
 def read_robot(arguments: argparse.Namespace) -> Robot:
     """The arm of the arguments, with its tool and base."""
-    return robot_of(vars(arguments), complain)
+    name = (arguments.robot or "").strip()
+    try:
+        return robot_of(vars(arguments), complain)
+    except UnknownRobotError:
+        # A number, a file.
+        is_other = re.fullmatch(r"-?\d{1,2}|[\d.]*\.[\d.]*|.*\.\w{3}", name)
+        if is_other or is_data(name) or os.path.isfile(name):
+            raise CommandError(f"{name[:60]!r} is no robot: {GIVE_ROBOT}") from None
+        raise
 
 
 def read_cell(arguments: argparse.Namespace) -> Cell | None:

@@ -78,7 +78,7 @@ def add_arm(parser: Parser) -> None:
     """The arm, and the codes that are wanted."""
     add = parser.add
     robot = os.environ.get("IRBKIN_ROBOT") or None
-    add("--robot", metavar="ROBOT", default=robot, help=ROBOT_HELP)
+    add("-r", "--robot", metavar="ROBOT", default=robot, help=ROBOT_HELP)
     parser.add_frames()
     bounds, words = ("LOWER", "UPPER"), "limits of an axis [deg]; may be repeated"
     add("--limits", nargs=3, type=number, action="append", metavar=("AXIS", *bounds), help=words)

@@ -12,6 +12,7 @@ Examples:
 
 import argparse
 import json
+import os
 from collections import Counter
 from dataclasses import asdict, replace
 
@@ -30,7 +31,7 @@ def add_arguments(parser: Parser) -> None:
     add("arm", metavar="ROBOT", nargs="?", help=f"of programs: {ROBOT_HELP}")
     add("old", metavar="OLD", help="the earlier backup, a module or a folder of modules")
     add("new", metavar="NEW", help="the later one")
-    add("--robot", metavar="ROBOT", help="the same")
+    add("-r", "--robot", metavar="ROBOT", help="the same")
     parser.add_frames()
     add("--json", action="store_true", help="write JSON")
 
@@ -59,6 +60,7 @@ def _difference(arguments: argparse.Namespace) -> Difference:
         return diff(*names)
     if any(are_backups):
         raise CommandError(f"{' and '.join(names)}: give two backups and no robot, or two programs")
+    arguments.robot = arguments.robot or os.environ.get("IRBKIN_ROBOT")
     robot = None if arguments.robot is None else read_robot(arguments)
     old, new = (Side(load_program(name), robot) for name in names)
     found = compared("", old, new)
