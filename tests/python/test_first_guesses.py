@@ -52,7 +52,9 @@ def test_a_robtarget_without_its_confdata_says_so():
     last = done.stdout.decode().splitlines()[-1]
     assert last == "the robtarget has no solution inside the limits with the confdata"
     external = run("ik", NAME, VALUE.replace("[9E9", "[500"))
-    assert b"external axes of the targets are not considered" in external.stdout
+    assert external.stderr == b"irbkin: external axes of the targets are not considered\n"
+    on_track = run("fk", NAME, JOINTS.replace("[9E9", "[500"))
+    assert on_track.stderr == external.stderr
 
 
 def test_several_robtargets_are_rows_with_their_names():
@@ -65,6 +67,33 @@ def test_several_robtargets_are_rows_with_their_names():
     np.testing.assert_allclose(plan["y_mm"], [320, -320])
     path = rows(run("path", NAME, VALUE, OTHER, "--through", "lines", "--step", 100, "--csv"))
     assert len(path["pose"]) > 5
+
+
+def test_a_module_gives_its_targets(tmp_path):
+    text = f"""MODULE A
+        CONST robtarget pA:={VALUE};
+        CONST jointtarget jHome:={JOINTS};
+        CONST robtarget pB:={OTHER};
+        PROC main()
+            MoveJ pA,v1000,fine,tool0;
+        ENDPROC
+    ENDMODULE"""
+    (tmp_path / "a.mod").write_text(text)
+    assert set(rows(run("ik", NAME, "a.mod", "--csv"))["name"]) == {"pA", "pB"}
+    assert rows(run("fk", NAME, "a.mod", "--csv"))["name"].tolist() == ["jHome"]
+    assert rows(run("plan", NAME, "a.mod", "--csv"))["y_mm"].tolist() == [320, -320]
+    back = rows(run("plan", NAME, "a.mod:PB", "a.mod:pA", "--csv"))
+    assert back["y_mm"].tolist() == [-320, 320]
+    tools = f"MODULE T\nPERS tooldata tA:={TOOL};\nPERS tooldata tB:={TOOL};\nENDMODULE"
+    (tmp_path / "tools.sys").write_text(tools)
+    found = run("ik", NAME, "a.mod:pA", "--tool", "tools.sys:tB")
+    assert found.stdout == run("ik", NAME, "a.mod:pA", "--tool", 0, 0, 150).stdout
+    two = refused("ik", NAME, VALUE, "--tool", "tools.sys")
+    assert two == "irbkin: --tool: 2 values are given, it takes one (FILE:NAME)\n"
+    assert "a.mod:pC is no robtarget" in refused("ik", NAME, "a.mod:pC")
+    (tmp_path / "b.mod").write_text("MODULE B ENDMODULE")
+    assert "b.mod is no robtarget; a robtarget or pose is wanted" in refused("ik", NAME, "b.mod")
+    assert "No such file" in refused("ik", NAME, "c.mod")
 
 
 def test_a_jointtarget_is_joint_angles():
@@ -207,6 +236,9 @@ def test_columns_of_words_are_kept(tmp_path):
     for words in (["--seed", *["0"] * 6], ["--within"]):
         table = rows(run("ik", NAME, file, *words, "--csv"))
         assert dict(zip(table["pose"], table["name"], strict=True)) == {0.0: "left", 1.0: "right"}
+    short = "x_mm,y_mm,z_mm,rz_deg,ry_deg,rx_deg,name\n900,0,600,0,160,0,left\n900,0,600,0,160,0\n"
+    table = rows(run("ik", NAME, "-", "--seed", *["0"] * 6, "--csv", stdin=short))
+    assert table["name"].tolist() == ["left", ""]
     again = run("fk", NAME, "-", "--csv", stdin=run("ik", NAME, file, "--within", "--csv").stdout)
     assert list(rows(again))[:2] == ["name", "x_mm"]
 

@@ -16,12 +16,14 @@ KINDS = {
     "pose": ("Pose", "irbkin ik takes it"),
 }
 """Kinds of data: the class in `irbkin.rapid`, and where it goes."""
+FILE = re.compile(r"(.+\.(?:mod|sys|prg))(?::(\w+))?", re.IGNORECASE)
+"""A module, and behind a colon one of its data."""
 MOST_SHOWN = 60
 
 
 def is_data(text: str) -> bool:
-    """Whether a word is RAPID, no number and no file."""
-    return text.lstrip()[:1] == "[" or ":=" in text
+    """Whether a word is RAPID, or a file of it."""
+    return text.lstrip()[:1] == "[" or ":=" in text or FILE.fullmatch(text) is not None
 
 
 def data_of(text: str, *kinds: str) -> list[tuple[str, Any]]:
@@ -34,7 +36,11 @@ def data_of(text: str, *kinds: str) -> list[tuple[str, Any]]:
     from irbkin.errors import RapidError
 
     found, reasons = [], {}
-    if is_declared := re.search(r"\b\w+\s+\w+\s*:=", text):
+    if is_declared := FILE.fullmatch(text):
+        data = rapid.load(is_declared[1]).items()
+        name = (is_declared[2] or "").lower()
+        found = [pair for pair in data if name in ("", pair[0].lower())]
+    elif is_declared := re.search(r"\b\w+\s+\w+\s*:=", text):
         # Lines that are pasted may lack their last semicolon.
         found = [*rapid.parse(f"{text.rstrip().rstrip(';')};").items()]
     else:
@@ -61,7 +67,7 @@ def split(words: Sequence[str]) -> Iterator[str]:
     text = ""
     for word in words:
         text = f"{text} {word}".strip()
-        if text.count("[") <= text.count("]") and "[" in text:
+        if text.count("[") == text.count("]") > 0 or FILE.fullmatch(text):
             yield text
             text = ""
     if text:
@@ -77,7 +83,9 @@ def frame_of(words: Sequence[Any], name: str) -> list[float]:
     kind = {"tool": "tooldata", "wobj": "wobjdata"}.get(name)
     (_, it), *others = data_of(" ".join(map(str, words)), *filter(None, (kind, "pose")))
     if others:
-        raise CommandError(f"--{name}: {len(others) + 1} values are given, it takes one")
+        raise CommandError(
+            f"--{name}: {len(others) + 1} values are given, it takes one (FILE:NAME)"
+        )
     is_tool = kind == "tooldata"
     if getattr(it, "robhold", is_tool) != is_tool or not getattr(it, "ufprog", True):
         words = "a stationary tool, or a work object that is held or moved, is for irbkin.rapid"

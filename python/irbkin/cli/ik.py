@@ -176,9 +176,6 @@ class _All:
     def slots(self, part: Part, poses: Floats, q: Floats) -> list[Any]:
         """The slots of robtargets by their confdata, -1 where none has it; nothing if unknown."""
         targets = [it for it in part.targets if hasattr(it, "robconf")]
-        if any(min(it.extax) < 9e9 for it in targets):
-            words = "external axes of the targets are not considered"
-            self.said.append(("external_axes", False, words))
         if len(targets) != len(poses) or self.robot.dof != 6 or not has_confdata(self.robot):
             return []
         own = self.robot.ik_configured(poses, [it.robconf for it in targets])

@@ -8,7 +8,7 @@ import numpy as np
 from irbkin import pose
 from irbkin._arm_options import check_euler
 from irbkin.cli.data import data_of, is_data, split
-from irbkin.cli.errors import CommandError
+from irbkin.cli.errors import CommandError, complain
 from irbkin.cli.files import opened, shown
 from irbkin.cli.output import Floats
 from irbkin.cli.text_rows import PART, Layout, read_text
@@ -20,6 +20,8 @@ OTHERS = {
     b"\xfe\xff": "is UTF-16 text; save it as UTF-8",
 }
 """How files begin that are not read."""
+NOT_THERE = 9e9
+"""An external axis that a target does not have."""
 QUATERNION_TOLERANCE = 2e-3
 MOST_EULER = 2.0 * np.pi + 1e-4
 """The largest Euler angle that the library takes [rad]."""
@@ -42,7 +44,7 @@ class Part(NamedTuple):
 def read_poses(words: Sequence[str]) -> Iterator[Part]:
     """Poses in parts, of a file or of robtargets."""
     if is_data(words[0]):
-        targets, names = _declared(words, "robtarget", "pose")
+        targets, names = _declared(words, 0, "robtarget", "pose")
         yield Part(np.array([it.matrix() for it in targets]), names, targets, len(targets))
         return
     row, name = 0, _one(words)
@@ -55,7 +57,7 @@ def read_poses(words: Sequence[str]) -> Iterator[Part]:
 def read_joints(words: Sequence[str], dof: int) -> Iterator[Part]:
     """Joint angles in parts, of a file or of jointtargets."""
     if is_data(words[0]):
-        targets, names = _declared(words, "jointtarget")
+        targets, names = _declared(words, dof - 6, "jointtarget")
         angles = [[*it.robax_deg, *it.extax][:dof] for it in targets]
         yield Part(np.radians(angles), names, total=len(targets))
         return
@@ -68,11 +70,15 @@ def read_all(parts: Iterator[Part]) -> Floats:
     return np.concatenate([part.values for part in parts])
 
 
-def _declared(words: Sequence[str], *kinds: str) -> tuple[list[Any], dict[str, list[str]]]:
-    """Values of RAPID, and the column of their names if they have some."""
+def _declared(
+    words: Sequence[str], axes: int, *kinds: str
+) -> tuple[list[Any], dict[str, list[str]]]:
+    """Values of RAPID of which so many external axes are read, and the column of their names."""
     pairs = [pair for text in split(words) for pair in data_of(text, *kinds)]
-    names = [name for name, _ in pairs]
-    return [it for _, it in pairs], {"name": names} if any(names) else {}
+    names, targets = [name for name, _ in pairs], [it for _, it in pairs]
+    if any(min(it.extax[axes:]) < NOT_THERE for it in targets if hasattr(it, "extax")):
+        complain("external axes of the targets are not considered")
+    return targets, {"name": names} if any(names) else {}
 
 
 def _one(words: Sequence[str]) -> str:
