@@ -168,10 +168,14 @@ class Csv(Rows):
         import csv
 
         text = io.StringIO()
-        plain = ([_plain(own) for own in row] for row in rows)
-        short = ([f"{own:.12g}" if isinstance(own, float) else own for own in row] for row in plain)
-        csv.writer(text, lineterminator="\n").writerows(short)
+        csv.writer(text, lineterminator="\n").writerows([map(_short, row) for row in rows])
         self.put(text.getvalue())
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    return "" if value is None or math.isnan(value) else f"{value:.12g}"
 
 
 class Json(Rows):
@@ -195,7 +199,7 @@ class Json(Rows):
 
 
 def _plain(value: Any) -> Any:
-    """A value of JSON and CSV: with 12 digits; none where it is missing."""
+    """A value that JSON has, with as many digits as in CSV."""
     if isinstance(value, float):
         return float(f"{value:.12g}") if math.isfinite(value) else None
     return value.item() if isinstance(value, np.generic) else value
@@ -204,11 +208,11 @@ def _plain(value: Any) -> Any:
 class Npy(Rows):
     """The rows of the array, in radians and meters."""
 
-    def _begin(self) -> None:
-        self.shape: tuple[int, ...] | None = None
+    shape: tuple[int, ...] = ()
 
-    def _add(self, rows: Cells, array: Any) -> None:
-        if self.shape is None:
+    def write(self, values: Columns, array: Any = None) -> None:
+        """Some rows of the array."""
+        if not self.shape:
             self.shape = (0, *array.shape[1:])
             self._head()
         self.shape = (self.shape[0] + len(array), *self.shape[1:])

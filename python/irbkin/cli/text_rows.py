@@ -18,7 +18,7 @@ PART = 20_000
 """Rows of a part."""
 SCALES = {"mm": 1e-3, "m": 1.0, "deg": np.pi / 180, "rad": 1.0, "": 1.0}
 OTHER_UNITS = {"mm": "m", "deg": "rad"}
-OWN = ("limits", "joint")
+OWN = ("limits", "joint", "confdata")
 """Columns of words that the command writes itself."""
 
 
@@ -44,8 +44,8 @@ class _Columns(NamedTuple):
     """Where columns of words are; None without a row of names."""
 
 
-Row = tuple[int, list[str]]
-"""The number of a line, and its fields."""
+Row = tuple[int, str]
+"""The number of a line, and its text."""
 
 
 def read_text(
@@ -58,7 +58,7 @@ def read_text(
     """
     lines = io.TextIOWrapper(file, encoding="utf-8-sig", errors="surrogateescape")
     texts = ((at, it.strip("\r\n")) for at, it in enumerate(lines, 1))
-    every = ((at, it.split(",")) for at, it in texts if it.strip() and it[0] != "#")
+    every = ((at, it) for at, it in texts if it.strip() and it[0] != "#")
     name, columns = shown(name), None
     while rows := list(itertools.islice(every, PART)):
         if columns is None:
@@ -70,14 +70,16 @@ def read_text(
                 largest = values[np.abs(values[:, :3]).max(axis=1).argmax(), :3] * 1e3
                 check_millimeters(largest.tolist(), f"{name}: the largest of the rows")
             words = (columns.words or {}).items()
-            yield values, {key: [fields[at] for _, fields in rows] for key, at in words}
+            # A row may end before them.
+            fields = [it.split(",") + [""] * columns.width for _, it in rows] if words else []
+            yield values, {key: [it[at] for it in fields] for key, at in words}
     # The file belongs to the caller.
     lines.detach()
 
 
 def _columns(rows: Sequence[Row], place: str, layout: Layout) -> _Columns:
     """The columns by the first row."""
-    fields = [field.strip() for field in rows[0][1]]
+    fields, *others = ([field.strip() for field in it.split(",")] for _, it in rows[:2])
     width = len(fields)
     lack = _counted(width)
     if width == 1 or any(map(_is_number, fields)):
@@ -91,14 +93,14 @@ def _columns(rows: Sequence[Row], place: str, layout: Layout) -> _Columns:
         best = min(range(len(both)), key=lambda it: len(lacking[it]))
         if not lacking[best]:
             names = [next(it for it in pair if it in fields) for pair in both[best]]
-            pairs = enumerate(zip(fields, rows[1][1] if len(rows) > 1 else (), strict=False))
+            pairs = enumerate(zip(fields, *others, strict=False)) if others else ()
             words = {it: at for at, (it, own) in pairs if re.search(r"[^\W\d]", own)}
             for own in (*OWN, *names):
                 words.pop(own, None)
             return _Columns(width, [fields.index(it) for it in names], names, words)
         lack = f"no column {' or '.join(dict.fromkeys(lacking[best][0]))}"
     raise CommandError(
-        f"{place}: {_quoted(','.join(rows[0][1]))} has {lack}; a {layout.what} has "
+        f"{place}: {_quoted(rows[0][1])} has {lack}; a {layout.what} has "
         f"{layout.words()}, separated by commas, with decimal points"
     )
 
@@ -112,17 +114,18 @@ def _other(column: str) -> str:
 def _numbers(rows: Sequence[Row], name: str, columns: _Columns) -> Floats:
     """The values of rows, or where and why the first invalid one is."""
     try:
-        texts = [[fields[at] for at in columns.places] for _, fields in rows]
-        values = np.array(texts, dtype=np.float64)
-        is_whole = {len(it) for _, it in rows} == {columns.width}
-        if is_whole and np.isfinite(values).all() and "_" not in "".join(map("".join, texts)):
+        texts = [it for _, it in rows]
+        usecols = None if columns.words is None else columns.places
+        values = np.loadtxt(texts, delimiter=",", usecols=usecols, comments=None, ndmin=2)
+        if values.shape[1] == len(columns.places) and np.isfinite(values).all():
             return values * [SCALES[it.partition("_")[2]] for it in columns.names]
-    except (IndexError, ValueError):
+    except ValueError:
         pass
-    for number, fields in rows:
+    for number, text in rows:
+        fields = text.split(",")
         if len(fields) != columns.width:
             raise CommandError(
-                f"{name}:{number}: {_quoted(','.join(fields))} has {_counted(len(fields))}, the "
+                f"{name}:{number}: {_quoted(text)} has {_counted(len(fields))}, the "
                 f"first row has {columns.width}: separate them by commas, write decimal points"
             )
         for place, field in enumerate(fields):
