@@ -83,7 +83,7 @@ class Parser:
         settings = settings_of([])
         if "robot" not in settings.options:
             return words
-        own = {name: settings.options[name] for name in OF_ARM if name in settings.options}
+        own = {name: it for name, it in settings.options.items() if name in OF_ARM}
         self.parser.set_defaults(**own)
         complain(f"{', '.join(('robot', *own)).replace('_', '-')} of {settings.file}")
         return [settings.options["robot"], *words]

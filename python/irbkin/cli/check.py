@@ -1,12 +1,9 @@
-"""Every instruction that moves, of every routine, is checked: reach, limits, flips,
-confdata, singularities, joint speeds, zones, names and, with --cell, collisions (--codes lists the
-codes, `irbkin rule CODE` explains one). Calls are followed with their arguments. The files are one
-program: names that a file does not declare are looked for in the others. A backup of a controller
-needs no ROBOT: each task is checked with its own, its limits and its base. A comment `! noqa` on
-the line of a move, or `! noqa: C201,S301`, silences it. Options that are not given are taken from
-irbkin.toml or pyproject.toml, the robot from IRBKIN_ROBOT, too. --fix corrects confdata in place
-and changes nothing else. Exit codes: 0 nothing but notes, 1 errors, warnings, or no move checked,
-2 wrong usage.
+"""Every instruction that moves is checked: reach, limits, flips, confdata, singularities, speeds,
+zones, names and, with --cell, collisions (`irbkin rule CODE` explains a code). Calls are followed
+with their arguments. The files are one program. A backup of a controller needs no ROBOT: each task
+is checked with its own. A comment `! noqa` or `! noqa: C201,S301` on the line of a move silences
+it. Options that are not given are taken from irbkin.toml or pyproject.toml. Exit codes: 0 nothing
+but notes, 1 errors, warnings, or no move checked, 2 wrong usage.
 
 Examples:
   irbkin check backups/cell_3
@@ -21,6 +18,7 @@ import json
 import os
 import sys
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -33,7 +31,7 @@ from irbkin.check import fixes
 from irbkin.check.checker import Checker
 from irbkin.check.codes import UNUSED
 from irbkin.check.fixes import Text
-from irbkin.check.jobs import backup_of, job_of_files, jobs_of_backup
+from irbkin.check.jobs import Job, backup_of, job_of_files, jobs_of_backup
 from irbkin.check.report import ENDINGS, Report, counted, is_colored, rendered, report_of
 from irbkin.check.report.diff import render
 from irbkin.check.settings import FORMATS, option_files, schema, settings_of
@@ -170,7 +168,7 @@ def _check(arguments: argparse.Namespace) -> int:
     if is_judged:
         checker.asked.add(UNUSED)
     with Progress("programs", len(jobs)) as progress:
-        report = report_of(checker, progress.each(jobs), left_open)
+        report = report_of(checker, _each(jobs, progress), left_open)
     for job in jobs:
         if job.robot and job.robot.max_velocity is None and "V401" in checker.codes:
             name = job.robot.name
@@ -178,6 +176,12 @@ def _check(arguments: argparse.Namespace) -> int:
     report = replace(report, fixed=fixed, is_judged=is_judged, is_counted=arguments.statistics)
     _write(report, form, arguments, texts)
     return FOUND if report.is_wrong else FINE
+
+
+def _each(jobs: list[Job], progress: Progress) -> Iterator[Job]:
+    for job in jobs:
+        yield job
+        progress.add(1)
 
 
 def _form(arguments: argparse.Namespace, options: dict[str, Any]) -> str:

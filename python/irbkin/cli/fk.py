@@ -1,7 +1,5 @@
-"""Joint angles are given in degrees: as arguments, or one joint vector a row in a file.
-The columns are the pose of the tool as position, quaternion and ZYX Euler angles, the confdata,
-the angles, the least distance from a limit (negative outside) and its joint, and the distances
-from the wrist, elbow and shoulder singularities.
+"""Position, quaternion and ZYX Euler angles of the tool, confdata, the least distance from a limit
+(negative outside) and its joint, the distances from wrist, elbow and shoulder singularities.
 
 Examples:
   irbkin fk "IRB 2600-12/1.65" 0 0 0 0 30 0 --tool 0 0 180

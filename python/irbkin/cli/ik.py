@@ -1,8 +1,6 @@
-"""Without --seed and --confdata all solutions are shown, each in its slot: confdata, angles,
-the least distance from a limit (negative outside) and its joint, and the distances from the wrist,
-elbow and shoulder singularities. A pose is a robtarget or pose of RAPID, --xyz and an orientation,
-or one a row in a file: x_mm, y_mm, z_mm and qw, qx, qy, qz or rz_deg, ry_deg, rx_deg. The exit code
-is 1 if a pose has no solution inside the limits.
+"""Without --seed and --confdata all solutions are shown, each in its slot. A pose is a robtarget or
+pose of RAPID, --xyz and an orientation, or one a row in a file: x_mm, y_mm, z_mm and qw, qx, qy, qz
+or rz_deg, ry_deg, rx_deg. The exit code is 1 if a pose has no solution inside the limits.
 
 Examples:
   irbkin ik "IRB 2600-12/1.65" --xyz 850 320 640 --euler 0 150 0 --seed 0 0 0 0 0 0

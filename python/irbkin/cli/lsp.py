@@ -1,8 +1,6 @@
-"""A language server over stdin and stdout, which editors start (docs/guide/lsp.md). A file
-is checked as one types, with all modules of its program: of its task in a backup, which gives the
-arm, or of the folder of irbkin.toml or pyproject.toml, or else of its own folder. Options that are
-not given here, nor by the editor, are taken from these files. This verb needs pygls:
-pip install 'irbkin[lsp]'.
+"""A language server over stdin and stdout, which editors start (docs/guide/lsp.md). A file is
+checked as one types, with all modules of its program. Options that are not given here, nor by the
+editor, are taken from irbkin.toml or pyproject.toml. It needs pygls: pip install 'irbkin[lsp]'.
 
 Examples:
   irbkin lsp

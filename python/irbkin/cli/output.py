@@ -91,7 +91,8 @@ class Table(Rows):
         self.heads = [(it.name, f"[{it.unit}]" if it.unit else "") for it in self.columns]
         self.signs = ["<" if it.form[0] == "<" else ">" for it in self.columns]
         least = (it.cell("" if it.form[-1] == "s" else 0) for it in self.columns)
-        self.widths = [max(map(len, it)) for it in map(_joined, self.heads, least)]
+        cells = zip(self.heads, least, strict=True)
+        self.widths = [max(map(len, (*head, it))) for head, it in cells]
 
     def _add(self, rows: Cells, array: Any) -> None:
         pairs = zip(self.signs, self.widths, strict=True)
@@ -105,10 +106,6 @@ class Table(Rows):
     def _end(self) -> None:
         if notes := [words for _, _, words in self.notes if words]:
             self.put("\n".join(["", *notes, ""]))
-
-
-def _joined(head: tuple[str, str], cell: str) -> tuple[str, ...]:
-    return (*head, cell)
 
 
 class Screen(Table):

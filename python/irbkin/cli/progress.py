@@ -5,13 +5,12 @@ from __future__ import annotations
 import contextlib
 import sys
 import time
-from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bar
 
-T = TypeVar("T")
 AFTER = 1.0
 """How long work must take before it is shown [s]."""
 
@@ -30,12 +29,6 @@ class Progress:
     def __exit__(self, *_: object) -> None:
         if self.bar:
             self.bar.stop()
-
-    def each(self, things: Iterable[T]) -> Iterator[T]:
-        """Yield things, each of which is done when the next one is wanted."""
-        for thing in things:
-            yield thing
-            self.add(1)
 
     def add(self, count: int, total: int | None = None) -> None:
         """So many more are done, of a total if it is known."""

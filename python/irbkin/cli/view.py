@@ -1,10 +1,8 @@
-"""The page is one file that needs no network: drag the tool, jog the joints, see every
-solution, play the program.
-ROBOT is a name of the catalog, a .urdf or RobotStudio file, or a scene (.json) of irbkin.scene.
-FILE is a RAPID module: its main routine, or the only one that moves, is played with its lines and
-findings. Without -o the page is written to a temporary file and opened; where irbkin was built
-without its engine (make page), a picture. --live serves
-a window of viser in its place, until Ctrl-C: pip install 'irbkin[viewer]'.
+"""The page is one file that needs no network: drag the tool, jog the joints, see every solution,
+play the program. ROBOT may be a scene (.json) of irbkin.scene, too. FILE is a RAPID module: its
+main routine, or the only one that moves, is played with its lines and findings. Without -o the page
+is written to a temporary file and opened; where irbkin was built without its engine (make page), a
+picture. --live serves a window of viser in its place: pip install 'irbkin[viewer]'.
 
 Examples:
   irbkin view "IRB 2600-12/1.65"
