@@ -59,7 +59,7 @@ def data_of(text: str, *kinds: str) -> list[tuple[str, Any]]:
         if any(isinstance(value, getattr(rapid, name)) for _, value in found):
             raise CommandError(f"{shown} is a {kind}, {words} ({where})")
     why = "" if is_declared else f": {reasons[kinds[0]].strip()}"
-    raise CommandError(f"{shown} is no {kinds[0]}{why}; {words}, as [[..],[..],..] or declared")
+    raise CommandError(f"{shown} is no {kinds[0]}{why}; {words}, as [[..],..] or declared")
 
 
 def split(words: Sequence[str]) -> Iterator[str]:
