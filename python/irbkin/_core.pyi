@@ -3416,7 +3416,7 @@ class Body:
             packages: Folder of each package that `package://` names; a folder of that name above
                 the URDF when not given.
             joints: Where joints beside the arm are, by their names [rad or m]: their links, and
-                those of joints that mimic them, are in the body there alone.
+                links of joints that mimic them, are in the body there alone.
             progress: Called with the number of links that are fitted, and of all; or a bar as
                 `tqdm.tqdm()`.
 

@@ -153,7 +153,7 @@ impl Group {
 }
 
 impl Group {
-    /// How far its hulls are from those of another group, each at the pose of its link.
+    /// How far its hulls are from another group's, each at the pose of its link.
     pub(crate) fn separation(
         &self,
         pose: &Pose,

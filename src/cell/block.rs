@@ -22,16 +22,16 @@ pub(crate) struct Block<const N: usize> {
     frames: [Axes<LANES>; N],
     base: Axes<LANES>,
     /// How far the joints turn to either side [rad]; zero for joint vectors.
-    pub(super) spans: [Column; N],
+    spans: [Column; N],
     /// The middles and the halves of the axes of the capsules around the groups.
     around: Vec<[[Column; 3]; 2]>,
     /// How far the axes of a group move, by the link from which it is seen.
-    pub(super) moves: Vec<[Column; N]>,
+    moves: Vec<[Column; N]>,
     /// The middles and the halves of the capsules' axes, of the groups that are placed.
     axes: Vec<[[Column; 3]; 2]>,
     is_placed: Vec<bool>,
-    /// What hulls are to decide, and the lanes, as bits.
-    pub(super) doubts: Vec<(Doubt, u64)>,
+    /// Pairs that hulls are to decide, and the lanes, as bits.
+    doubts: Vec<(Doubt, u64)>,
 }
 
 impl<const N: usize> Block<N> {
@@ -74,7 +74,7 @@ impl<const N: usize> Block<N> {
         run_vectors(Touch { block: self, outline, cell, swept, asked })
     }
 
-    pub(super) fn frame(&self, link: usize) -> &Axes<LANES> {
+    fn frame(&self, link: usize) -> &Axes<LANES> {
         match link.checked_sub(1) {
             Some(joint) => &self.frames[joint],
             None => &self.base,
@@ -89,14 +89,14 @@ impl<const N: usize> Block<N> {
 }
 
 /// Whether lanes touch something.
-pub(super) struct Touch<'a, const N: usize> {
-    pub(super) block: &'a mut Block<N>,
-    pub(super) outline: &'a Outline,
-    pub(super) cell: &'a Cell,
+struct Touch<'a, const N: usize> {
+    block: &'a mut Block<N>,
+    outline: &'a Outline,
+    cell: &'a Cell,
     /// Whether joints turn by spans.
-    pub(super) swept: bool,
+    swept: bool,
     /// The lanes in which nothing touches yet, as bits.
-    pub(super) asked: u64,
+    asked: u64,
 }
 
 impl<const N: usize> VectorKernel for Touch<'_, N> {
@@ -333,10 +333,42 @@ impl<const N: usize> Touch<'_, N> {
             self.cell.obstacles()[at].1.is_within(&capsule, least.as_array()[lane])
         })
     }
+
+    /// Decide by hulls what is in doubt.
+    fn decide(&mut self) {
+        for at in 0..self.block.doubts.len() {
+            let (doubt, lanes) = self.block.doubts[at];
+            let touching = lanes_in(lanes & self.asked, |lane| {
+                let limit = ROUNDING
+                    + match doubt {
+                        Doubt::Links([from, group]) => {
+                            self.hulls_moved(group, self.outline.groups[from].link, lane)
+                        }
+                        Doubt::Obstacle(group, _) => {
+                            self.cell.margin() + self.hulls_moved(group, 0, lane)
+                        }
+                    };
+                let pose = |link| self.block.frame(link).pose(lane);
+                doubt.touches(self.outline, self.cell, pose, limit)
+            });
+            self.asked &= !touching;
+        }
+    }
+
+    /// How far points of hulls of a group move, seen from a link; zero for joint vectors (eq. 8).
+    fn hulls_moved(&self, group: usize, from: usize, lane: usize) -> f64 {
+        let own = &self.outline.groups[group];
+        if !self.swept || own.link <= from {
+            return 0.0;
+        }
+        let spans = self.block.spans[from..own.link].iter();
+        let farther = spans.map(|span| 1.0 + span[lane]).product::<f64>() - 1.0;
+        self.block.moves[group][from][lane] + own.beyond * farther
+    }
 }
 
 /// The lanes of some, as bits, for which something is so.
-pub(super) fn lanes_in(lanes: u64, is_so: impl Fn(usize) -> bool) -> u64 {
+fn lanes_in(lanes: u64, is_so: impl Fn(usize) -> bool) -> u64 {
     bits(lanes).filter(|lane| is_so(*lane)).fold(0, |all, lane| all | 1 << lane)
 }
 

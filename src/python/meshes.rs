@@ -5,7 +5,7 @@ use pyo3::types::PyString;
 
 use super::arrays::Rows;
 use super::errors::Fault;
-use super::shapes::{PyShape, read_pose};
+use super::shapes::{PyShape, read_points, read_pose};
 use super::signals::detached_until;
 use crate::body::Shape;
 use crate::interrupt::Interrupt;
@@ -132,10 +132,6 @@ fn of_file<'py>(source: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>
         return Ok(None);
     }
     source.py().import("irbkin._mesh_files")?.call_method1("triangles", (source,)).map(Some)
-}
-
-pub(super) fn read_points<'py>(points: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
-    Rows::shaped(points, || "(n, 3)", "points", Fault::Model, |shape| matches!(shape, [_, 3]))
 }
 
 fn read_triangles<'py>(triangles: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {

@@ -5,7 +5,6 @@ use pyo3::prelude::*;
 
 use super::arrays::{Rows, vector};
 use super::errors::Fault;
-use super::meshes::read_points;
 use super::outputs::{column, matrix};
 use super::state::{Reduced, reduced};
 use super::targets::read_place;
@@ -148,6 +147,10 @@ pub(super) fn read_pose(pose: Option<&Bound<'_, PyAny>>) -> PyResult<Pose> {
     pose.map_or(Ok(Pose::identity()), |pose| read_place(pose, "pose"))
 }
 
+pub(super) fn read_points<'py>(points: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
+    Rows::shaped(points, || "(n, 3)", "points", Fault::Model, |shape| matches!(shape, [_, 3]))
+}
+
 fn position(pose: &Pose) -> [f64; 3] {
     pose.translation.vector.into()
 }
@@ -173,7 +176,7 @@ pub(super) fn read_capsules(
 /// A hull: its link, points, faces and radius.
 type HullRow<'py> = (usize, Bound<'py, PyAny>, Vec<[u8; 3]>, f64);
 
-/// The same as an answer.
+/// A hull as an answer.
 type HullItem<'py> = (usize, Bound<'py, PyArray2<f64>>, Vec<[u8; 3]>, f64);
 
 /// Hulls by their links.
@@ -256,7 +259,7 @@ impl PyBody {
     ///     packages: Folder of each package that `package://` names; a folder of that name above
     ///         the URDF when not given.
     ///     joints: Where joints beside the arm are, by their names [rad or m]: their links, and
-    ///         those of joints that mimic them, are in the body there alone.
+    ///         links of joints that mimic them, are in the body there alone.
     ///     progress: Called with the number of links that are fitted, and of all; or a bar as
     ///         `tqdm.tqdm()`.
     ///
@@ -271,6 +274,7 @@ impl PyBody {
         urdf, base=None, tip=None, *, excess=None, most=4, packages=None, joints=None,
         progress=None
     ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's arguments")]
     fn fit(
         urdf: &Bound<'_, PyAny>,
         base: Option<&str>,

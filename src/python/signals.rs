@@ -63,7 +63,7 @@ struct Signals {
     is_deaf: bool,
     /// The exception that a handler raised.
     raised: Option<PyErr>,
-    /// What is called with how much is done, and with the whole.
+    /// A callable that is told how much is done, and with the whole.
     report: Option<Py<PyAny>>,
 }
 

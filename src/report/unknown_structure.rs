@@ -200,7 +200,7 @@ impl UnknownStructure {
         }
     }
 
-    /// What a `snap` gives the arm, in words.
+    /// The structure that a `snap` gives the arm, in words.
     #[cfg(feature = "python")]
     pub(crate) fn helpful_snap(&self) -> Option<alloc::string::String> {
         let Hint::Snap { snap, structure, moves } = self.hint else { return None };

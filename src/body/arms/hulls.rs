@@ -46,7 +46,7 @@ pub(super) fn of(names: &[&str]) -> Vec<LinkHull> {
     Vec::new()
 }
 
-/// What is not read yet.
+/// Bytes that are not read yet.
 struct Rest(&'static [u8]);
 
 impl Rest {

@@ -28,7 +28,7 @@ pub(crate) trait Convex {
     fn support(&self, direction: &Vector3<f64>, known: Option<&Vector3<f64>>) -> Vector3<f64>;
 }
 
-/// The same, of shapes whose kind is known where they are searched.
+/// A convex shape whose kind is known where it is searched.
 pub(super) trait Support {
     /// As [`Convex::support`].
     fn point(&self, direction: &Vector3<f64>, known: Option<&Vector3<f64>>) -> Vector3<f64>;
@@ -85,7 +85,7 @@ pub(super) fn placed(pose: &Pose, point: &Vector3<f64>) -> Vector3<f64> {
     )
 }
 
-/// What of a distance is asked [m]: beyond `far` and from `near` on downwards, only that it is there.
+/// The part of a distance that is asked [m]: beyond `far` and from `near` on downwards, only that it is there.
 #[derive(Clone, Copy)]
 pub(crate) struct Asked {
     pub(crate) far: f64,
@@ -101,7 +101,7 @@ impl Asked {
         Self { far: limit, near: limit }
     }
 
-    /// The same of shapes that are so much thinner.
+    /// Of shapes that are so much thinner.
     pub(super) fn without(self, radii: f64) -> Self {
         Self { far: self.far + radii, near: self.near + radii }
     }
