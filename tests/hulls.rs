@@ -84,7 +84,7 @@ fn a_distance_from_a_hull_is_the_least_from_its_points() {
             2 => Shape::half_space([0.3, -0.2, 0.9], far.translation.vector.into()),
             3 => Shape::convex(&corners, &far),
             4 => Shape::mesh(&mesh, true, &far),
-            5 => Shape::points(&corners, 0.05, &far),
+            5 => Shape::points(&corners, rng.between(0.05, 1.5), &far),
             6 => {
                 Shape::union(vec![box_at([0.1; 3]).unwrap(), Shape::sphere(0.2, [0.0; 3]).unwrap()])
             }

@@ -88,17 +88,18 @@ impl Shape {
     }
 }
 
-/// The least separation of a hull in a frame from the items of a tree.
+/// The least separation of a hull in a frame from the items of a tree, each of which reaches beyond
+/// its box by a radius.
 fn least(
-    tree: &Tree,
+    (tree, beyond): (&Tree, f64),
     (hull, pose): (&RoundedHull, &Pose),
     asked: Asked,
     item: impl Fn(usize, Asked) -> Separation,
 ) -> Separation {
     let (middle, radius) = (hull.center_in(pose), hull.ball().1);
-    let room = ROUNDING * (1.0 + radius + middle.norm());
+    let room = ROUNDING * (1.0 + radius + beyond + middle.norm());
     let away = |bounds: &Bounds| {
-        (middle.sup(&bounds.low).inf(&bounds.high) - middle).norm() - radius - room
+        (middle.sup(&bounds.low).inf(&bounds.high) - middle).norm() - radius - beyond - room
     };
     let mut nearest = Separation::NOTHING;
     tree.search(asked.far + room, away, |index| {
@@ -114,7 +115,7 @@ fn least(
 
 impl Cloud {
     fn separation_of_hull(&self, hull: &RoundedHull, pose: &Pose, asked: Asked) -> Separation {
-        least(self.tree(), (hull, pose), asked, |index, asked| {
+        least((self.tree(), self.radius()), (hull, pose), asked, |index, asked| {
             let point = self.point(index);
             hull.separation_of(pose, (&[point], self.radius(), point), asked)
         })
@@ -128,7 +129,7 @@ impl Mesh {
         if self.is_solid() && self.holds(&one) {
             return Separation::of_rounded(0.0, [one; 2], [hull.radius(), 0.0]);
         }
-        least(self.tree(), (hull, pose), asked, |index, asked| {
+        least((self.tree(), 0.0), (hull, pose), asked, |index, asked| {
             let triangle = self.triangle(index);
             let middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
             hull.separation_of(pose, (triangle, 0.0, middle), asked)
