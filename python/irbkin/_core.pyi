@@ -3366,7 +3366,7 @@ class Body:
         capsules: npt.ArrayLike,
         pairs: Sequence[tuple[int, int]],
         *,
-        hulls: Sequence[tuple[int, npt.ArrayLike, Any, float]] = (),
+        hulls: Sequence[tuple[int, npt.ArrayLike, Any, float]] | None = None,
         source: str = "given",
         excess: Sequence[float] | npt.NDArray[np.float64] | None = None,
     ) -> Body: ...

@@ -35,7 +35,7 @@ impl fmt::Display for Near {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nearest {
     /// How far they are apart [m]; less than zero if they touch, by how much their capsules reach
-    /// into each other. Of links with hulls ([`crate::Body::hulls`]), as far as these are.
+    /// into each other. Of links with hulls ([`crate::body::Body::hulls`]), as far as these are.
     pub distance: f64,
     /// The link.
     pub link: usize,

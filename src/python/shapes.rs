@@ -211,17 +211,17 @@ impl PyBody {
     ///     InvalidModelError: A radius that is not positive, a pair of links without capsules, a
     ///         wrong shape.
     #[new]
-    #[pyo3(signature = (links, capsules, pairs, *, hulls=vec![], source="given", excess=None))]
+    #[pyo3(signature = (links, capsules, pairs, *, hulls=None, source="given", excess=None))]
     fn new(
         links: Vec<usize>,
         capsules: &Bound<'_, PyAny>,
         pairs: Vec<[usize; 2]>,
-        hulls: Vec<HullRow<'_>>,
+        hulls: Option<Vec<HullRow<'_>>>,
         source: &str,
         excess: Option<Vec<f64>>,
     ) -> PyResult<Self> {
         let body = Body::new(read_capsules(links, capsules)?, pairs)?;
-        let body = body.with_hulls(read_hulls(hulls)?)?;
+        let body = body.with_hulls(read_hulls(hulls.unwrap_or_default())?)?;
         Ok(Self(body.with_source(source.to_owned(), excess.unwrap_or_default())?))
     }
 
