@@ -36,14 +36,16 @@ def row_of(link: int, corners: np.ndarray) -> bytes:
     """A hull as it is stored: its points rounded, then its radius."""
     points = np.round(rounded(corners)[0] / POINT)
     points = points[ConvexHull(points).vertices]
+    points = points[np.lexsort(points.T[::-1])]
     faces, radius = around(points * POINT, corners)
+    turn = faces.argmin(axis=1)[:, None] + np.arange(3)
+    faces = np.take_along_axis(faces, turn % 3, axis=1)
+    faces = faces[np.lexsort(faces.T[::-1])]
     head = struct.pack("<3BH", link, len(points), len(faces), int(np.ceil(radius / RADIUS)))
-    return (
-        head
-        + core(points).astype("<i2").tobytes()
-        + points.astype("<i2").tobytes()
-        + faces.astype("u1").tobytes()
-    )
+    # Of each axis the lower bytes, then the higher ones.
+    pairs = points.T.astype("<i2", order="C").view("u1").reshape(3, -1, 2)
+    columns = pairs.transpose(0, 2, 1).tobytes() + faces.T.astype("u1").tobytes()
+    return head + core(points).astype("<i2").tobytes() + columns
 
 
 def core(points: np.ndarray) -> np.ndarray:

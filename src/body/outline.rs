@@ -32,7 +32,7 @@ pub(crate) struct Group {
     pub(crate) spread: f64,
     /// Whether its hulls are other than its capsules, which then do not decide alone.
     pub(crate) has_hulls: bool,
-    /// Convex hulls that contain what the capsules do.
+    /// Convex hulls that contain what the capsules do; none in a body without hulls.
     pub(crate) hulls: Vec<RoundedHull>,
     /// The places of capsules inside of its hulls, behind its own: where two of these cores touch,
     /// the hulls do.
@@ -115,17 +115,22 @@ impl Outline {
             if own.is_empty() {
                 continue;
             }
-            let hulls = hulls.iter().filter(|own| own.link == number);
-            let hulls: Vec<_> = hulls
+            let of_link = hulls.iter().filter(|own| own.link == number);
+            let of_link: Vec<_> = of_link
                 .map(|own| pose.map_or_else(|| own.hull.clone(), |pose| own.hull.moved(pose)))
                 .collect();
             self.capsules.extend(own.iter().map(Centered::of));
             let behind = self.capsules.len();
-            let mut cores: Vec<_> = hulls.iter().filter_map(RoundedHull::core).collect();
+            let mut cores: Vec<_> = of_link.iter().filter_map(RoundedHull::core).collect();
             cores.sort_by(|one, two| two.volume().total_cmp(&one.volume()));
             self.capsules.extend(cores.into_iter().take(CORES).map(Centered::of));
             let (range, cores) = (first..behind, behind..self.capsules.len());
-            self.groups.push(Group::new(number, last, range, &own, (hulls, cores)));
+            let mut group = Group::new(number, last, range, &own, (of_link, cores));
+            if !hulls.is_empty() && !group.has_hulls {
+                // For the hulls of other links.
+                group.hulls = own.iter().map(RoundedHull::of_capsule).collect();
+            }
+            self.groups.push(group);
         }
     }
 }
@@ -136,23 +141,18 @@ impl Group {
         last: usize,
         range: Range<usize>,
         own: &[Capsule],
-        (mut hulls, cores): (Vec<RoundedHull>, Range<usize>),
+        (hulls, cores): (Vec<RoundedHull>, Range<usize>),
     ) -> Self {
         let around = Centered::of(&around(own));
         let far = |capsule: &Capsule| capsule.ends.map(|end| (end - around.center).norm());
         let spread = own.iter().flat_map(far).fold(0.0, f64::max);
         let has_hulls = !hulls.is_empty();
-        if !has_hulls {
-            hulls.extend(own.iter().map(RoundedHull::of_capsule));
-        }
         let farthest = hulls.iter().map(|hull| hull.spread_from(&around.center));
         let beyond = (farthest.fold(0.0, f64::max) - spread).max(0.0);
         let link = number.min(last);
         Self { link, number, capsules: range, around, spread, has_hulls, hulls, cores, beyond }
     }
-}
 
-impl Group {
     /// How far its hulls are from another group's, each at the pose of its link.
     pub(crate) fn separation(
         &self,

@@ -3,10 +3,14 @@
 //! `hulls.bin` is written by `tests/write_hulls.py`. Of each body: the length of its name and the name,
 //! then the number of its hulls; of each hull: the link, the numbers of points and of faces as
 //! bytes; in hundredths of a millimeter its radius, in tenths the ends and the radius of a capsule
-//! inside of its points, and the points, as two bytes each, the lower one first; the corners of the
-//! faces as bytes.
+//! inside of its points, as two bytes each, the lower one first; the coordinates of the points in
+//! tenths of a millimeter, axis by axis the lower bytes, then the higher ones; the first corners of
+//! the faces, the second ones and the third ones. Points and faces are sorted. So it is compressed
+//! to 109 kB, and to 130 kB point by point.
 
 use alloc::vec::Vec;
+
+use nalgebra::Vector3;
 
 use super::UNIT;
 use crate::body::links::LinkHull;
@@ -30,12 +34,13 @@ pub(super) fn of(names: &[&str]) -> Vec<LinkHull> {
             let radius = f64::from(rest.pair().cast_unsigned()) * RADIUS;
             let ends = [rest.point(), rest.point()];
             let core = Capsule::known(ends[0], ends[1], f64::from(rest.pair()) * UNIT + radius);
-            let (points, faces) =
-                (rest.take(6 * usize::from(points)), rest.take(3 * usize::from(faces)));
+            let [points, faces] = [points, faces].map(usize::from);
+            let (bytes, corners) = (rest.take(6 * points), rest.take(3 * faces));
             if is_wanted {
-                let (points, faces) = (points.as_chunks::<6>().0, faces.as_chunks::<3>().0);
-                let points: Vec<_> = points.iter().map(|row| Rest(row).point().into()).collect();
-                let hull = RoundedHull::known(&points, faces.to_vec(), radius, Some(core));
+                let points: Vec<_> = (0..points).map(|at| point(bytes, points, at)).collect();
+                let face = |at| core::array::from_fn(|corner| corners[corner * faces + at]);
+                let faces = (0..faces).map(face).collect();
+                let hull = RoundedHull::known(&points, faces, radius, Some(core));
                 hulls.push(LinkHull { link: usize::from(link), hull });
             }
         }
@@ -44,6 +49,14 @@ pub(super) fn of(names: &[&str]) -> Vec<LinkHull> {
         }
     }
     Vec::new()
+}
+
+/// A point of so many, in columns of bytes [m].
+fn point(bytes: &[u8], count: usize, at: usize) -> Vector3<f64> {
+    let byte = |column: usize| bytes[column * count + at];
+    Vector3::from_fn(|axis, _| {
+        f64::from(i16::from_le_bytes([byte(2 * axis), byte(2 * axis + 1)])) * UNIT
+    })
 }
 
 /// Bytes that are not read yet.

@@ -28,15 +28,10 @@ pub(crate) trait Convex {
     fn support(&self, direction: &Vector3<f64>, known: Option<&Vector3<f64>>) -> Vector3<f64>;
 }
 
-/// A convex shape whose kind is known where it is searched.
-pub(super) trait Support {
-    /// As [`Convex::support`].
-    fn point(&self, direction: &Vector3<f64>, known: Option<&Vector3<f64>>) -> Vector3<f64>;
-}
-
-impl Support for &dyn Convex {
-    fn point(&self, direction: &Vector3<f64>, known: Option<&Vector3<f64>>) -> Vector3<f64> {
-        self.support(direction, known)
+impl<T: Convex + ?Sized> Convex for &T {
+    #[inline(always)]
+    fn support(&self, direction: &Vector3<f64>, known: Option<&Vector3<f64>>) -> Vector3<f64> {
+        (**self).support(direction, known)
     }
 }
 
@@ -51,12 +46,13 @@ impl<const K: usize> Convex for [Vector3<f64>; K] {
 }
 
 /// A convex shape in a frame.
-pub(crate) struct Framed<'a> {
-    pub(crate) shape: &'a dyn Convex,
+pub(crate) struct Framed<T> {
+    pub(crate) shape: T,
     pub(crate) pose: Pose,
 }
 
-impl Convex for Framed<'_> {
+impl<T: Convex> Convex for Framed<T> {
+    #[inline(always)]
     fn support(&self, direction: &Vector3<f64>, _: Option<&Vector3<f64>>) -> Vector3<f64> {
         let own = self.shape.support(&turned_back(&self.pose, direction), None);
         placed(&self.pose, &own)
@@ -65,7 +61,7 @@ impl Convex for Framed<'_> {
 
 /// A direction in the frame of a pose. Written out, it is compiled in place.
 #[inline(always)]
-pub(super) fn turned_back(pose: &Pose, way: &Vector3<f64>) -> Vector3<f64> {
+fn turned_back(pose: &Pose, way: &Vector3<f64>) -> Vector3<f64> {
     let r = pose.rotation.matrix();
     Vector3::new(
         r.m11 * way.x + r.m21 * way.y + r.m31 * way.z,
@@ -85,7 +81,8 @@ pub(super) fn placed(pose: &Pose, point: &Vector3<f64>) -> Vector3<f64> {
     )
 }
 
-/// The part of a distance that is asked [m]: beyond `far` and from `near` on downwards, only that it is there.
+/// The part of a distance that is asked [m]: beyond `far` and from `near` on downwards, only that it
+/// is there.
 #[derive(Clone, Copy)]
 pub(crate) struct Asked {
     pub(crate) far: f64,
@@ -122,13 +119,13 @@ struct Simplex {
 /// or less. The search begins along a way from the other to the one.
 #[inline(always)]
 pub(super) fn nearest(
-    one: &impl Support,
-    other: &impl Support,
+    one: &(impl Convex + ?Sized),
+    other: &(impl Convex + ?Sized),
     way: Vector3<f64>,
     asked: Asked,
 ) -> (f64, [Vector3<f64>; 2]) {
     let mut simplex = Simplex::default();
-    let first = [one.point(&-way, None), other.point(&way, None)];
+    let first = [one.support(&-way, None), other.support(&way, None)];
     simplex.push(first);
     simplex.weights[0] = 1.0;
     let (mut bound, mut last) = (0.0_f64, first);
@@ -138,7 +135,7 @@ pub(super) fn nearest(
         if length == 0.0 || length <= asked.near {
             break;
         }
-        last = [one.point(&-nearest, Some(&last[0])), other.point(&nearest, Some(&last[1]))];
+        last = [one.support(&-nearest, Some(&last[0])), other.support(&nearest, Some(&last[1]))];
         let value = last[0] - last[1];
         bound = bound.max(nearest.dot(&value) / length);
         let is_known = simplex.values[..simplex.count].contains(&value);

@@ -6,7 +6,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::Separation;
 use super::cloud::Cloud;
-use super::gjk::{Asked, Convex, Framed};
+use super::gjk::{Asked, Convex, Framed, placed};
 use super::mesh::Mesh;
 use super::rounded::{ROUNDING, RoundedHull};
 use super::solid::Shape;
@@ -42,7 +42,7 @@ impl Shape {
         pose: &Pose,
         asked: Asked,
     ) -> Separation {
-        let (middle, radius) = (hull.center_in(pose), hull.ball().1);
+        let (middle, radius) = (hull.center_in(pose), hull.ball());
         if let Some((center, own)) = self.ball() {
             let distance = (center - middle).norm() * (1.0 - ROUNDING) - radius - own;
             if distance > asked.far {
@@ -96,7 +96,7 @@ fn least(
     asked: Asked,
     item: impl Fn(usize, Asked) -> Separation,
 ) -> Separation {
-    let (middle, radius) = (hull.center_in(pose), hull.ball().1);
+    let (middle, radius) = (hull.center_in(pose), hull.ball());
     let room = ROUNDING * (1.0 + radius + beyond + middle.norm());
     let away = |bounds: &Bounds| {
         (middle.sup(&bounds.low).inf(&bounds.high) - middle).norm() - radius - beyond - room
@@ -125,7 +125,7 @@ impl Cloud {
 impl Mesh {
     fn separation_of_hull(&self, hull: &RoundedHull, pose: &Pose, asked: Asked) -> Separation {
         // If it is not inside as a whole, it goes through a triangle or is outside.
-        let one = pose.rotation * hull.point(0) + pose.translation.vector;
+        let one = placed(pose, &hull.point(0));
         if self.is_solid() && self.holds(&one) {
             return Separation::of_rounded(0.0, [one; 2], [hull.radius(), 0.0]);
         }

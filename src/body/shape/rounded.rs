@@ -1,5 +1,6 @@
 //! Convex hulls with a radius: what moves with a link, finer than its capsules.
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use fearless_simd::prelude::*;
@@ -9,7 +10,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::{check_length, check_points};
-use super::gjk::{Asked, Convex, Framed, Support, nearest, placed, turned_back};
+use super::gjk::{Asked, Convex, Framed, nearest, placed};
 use super::tree::Bounds;
 use crate::body::fault::BodyFault;
 use crate::error::Error;
@@ -32,7 +33,10 @@ const MOST_POINTS: usize = 256;
     derive(serde::Serialize, serde::Deserialize),
     serde(try_from = "Stored", into = "Stored")
 )]
-pub struct RoundedHull {
+pub struct RoundedHull(Arc<Inside>);
+
+#[derive(Debug, PartialEq)]
+struct Inside {
     /// The points, lane beside lane; the last one fills the rest.
     columns: Vec<[Column; 3]>,
     count: usize,
@@ -50,7 +54,7 @@ type Stored = (Vec<[f64; 3]>, Vec<[u8; 3]>, f64, Option<Capsule>);
 
 impl From<RoundedHull> for Stored {
     fn from(hull: RoundedHull) -> Self {
-        (hull.points().collect(), hull.faces.clone(), hull.radius, hull.core)
+        (hull.points().collect(), hull.faces().to_vec(), hull.radius(), hull.core().copied())
     }
 }
 
@@ -90,14 +94,14 @@ impl RoundedHull {
         check_length("radius of a hull", radius, 0.0)?;
         let checked = check_points("hull", "points", points, 1)?;
         check_faces(&faces, points.len())?;
-        let mut hull = Self::known(&checked, faces, radius, None);
-        let most = 1e-6 * (1.0 + hull.spread);
+        let hull = Self::known(&checked, faces, radius, None);
+        let most = 1e-6 * (1.0 + hull.0.spread);
         let beyond = hull.planes().map(|(normal, offset)| hull.farthest(&normal) - offset);
         if let Some(height) = beyond.into_iter().find(|height| *height > most) {
             return Err(BodyFault::HullBeyond { height }.into());
         }
-        hull.core = hull.inscribed();
-        Ok(hull)
+        let core = hull.inscribed();
+        Ok(Self::known(&checked, hull.faces().to_vec(), radius, core))
     }
 
     /// A hull by what is known of it.
@@ -107,23 +111,15 @@ impl RoundedHull {
         radius: f64,
         core: Option<Capsule>,
     ) -> Self {
-        let bounds = Bounds::of(points);
-        let center = bounds.center();
+        let center = Bounds::of(points).center();
         let spread = points.iter().map(|point| (point - center).norm()).fold(0.0, f64::max);
         let last = points.last().copied().unwrap_or_default();
         let columns = points.chunks(LANES).map(|chunk| {
             let point = |lane: usize| chunk.get(lane).unwrap_or(&last);
             core::array::from_fn(|axis| core::array::from_fn(|lane| point(lane)[axis]))
         });
-        Self {
-            columns: columns.collect(),
-            count: points.len(),
-            faces,
-            radius,
-            center,
-            spread,
-            core,
-        }
+        let (columns, count) = (columns.collect(), points.len());
+        Self(Arc::new(Inside { columns, count, faces, radius, center, spread, core }))
     }
 
     /// A capsule as a hull.
@@ -133,28 +129,28 @@ impl RoundedHull {
 
     /// The points [m].
     pub fn points(&self) -> impl Iterator<Item = [f64; 3]> {
-        (0..self.count).map(|number| self.point(number).into())
+        (0..self.0.count).map(|number| self.point(number).into())
     }
 
     pub(super) fn point(&self, number: usize) -> Vector3<f64> {
-        self.columns[number / LANES].map(|column| column[number % LANES]).into()
+        self.0.columns[number / LANES].map(|column| column[number % LANES]).into()
     }
 
     /// The triangles of the surface of the points' hull, by the numbers of their corners.
     #[must_use]
     pub fn faces(&self) -> &[[u8; 3]] {
-        &self.faces
+        &self.0.faces
     }
 
     /// The radius [m].
     #[must_use]
     pub fn radius(&self) -> f64 {
-        self.radius
+        self.0.radius
     }
 
-    /// The ball around it: center and radius [m].
-    pub(crate) fn ball(&self) -> (Vector3<f64>, f64) {
-        (self.center, self.spread + self.radius)
+    /// The radius of the ball around it [m].
+    pub(super) fn ball(&self) -> f64 {
+        self.0.spread + self.0.radius
     }
 
     /// How far the points are from another one at most [m].
@@ -164,17 +160,14 @@ impl RoundedHull {
 
     /// The hull in another frame.
     pub(crate) fn moved(&self, pose: &Pose) -> Self {
-        let points: Vec<_> = self
-            .points()
-            .map(|point| pose.rotation * Vector3::from(point) + pose.translation.vector)
-            .collect();
-        let core = self.core.map(|core| core.moved(pose));
-        Self::known(&points, self.faces.clone(), self.radius, core)
+        let points: Vec<_> = self.points().map(|point| placed(pose, &point.into())).collect();
+        let core = self.core().map(|core| core.moved(pose));
+        Self::known(&points, self.faces().to_vec(), self.radius(), core)
     }
 
     /// The planes of the faces, by their normals and how far these are from the origin.
     fn planes(&self) -> impl Iterator<Item = (Vector3<f64>, f64)> {
-        self.faces.iter().filter_map(|face| {
+        self.faces().iter().filter_map(|face| {
             let [a, b, c] = face.map(|at| self.point(usize::from(at)));
             let normal = (b - a).cross(&(c - a));
             let length = normal.norm();
@@ -189,7 +182,7 @@ impl RoundedHull {
 
     /// A capsule inside of it, if one is known.
     pub(crate) fn core(&self) -> Option<&Capsule> {
-        self.core.as_ref()
+        self.0.core.as_ref()
     }
 
     /// A capsule inside of the faces, along the two points that are farthest apart.
@@ -212,7 +205,7 @@ impl RoundedHull {
             };
             let depth = self.planes().map(depth).reduce(f64::min)? - ROUNDING;
             let ends = [middle - half, middle + half];
-            (depth > 0.0).then_some(Capsule { ends, radius: depth + self.radius })
+            (depth > 0.0).then_some(Capsule { ends, radius: depth + self.radius() })
         });
         capsules.max_by(|one, two| one.volume().total_cmp(&two.volume()))
     }
@@ -224,11 +217,11 @@ impl RoundedHull {
         (shape, radius, middle): (&dyn Convex, f64, Vector3<f64>),
         asked: Asked,
     ) -> Separation {
-        let radii = [self.radius, radius];
+        let radii = [self.radius(), radius];
         let way = self.center_in(pose) - middle;
         let own = Framed { shape: self, pose: *pose };
         let asked = asked.without(radii[0] + radii[1]);
-        let (distance, points) = nearest(&(&own as &dyn Convex), &shape, way, asked);
+        let (distance, points) = nearest(&own as &dyn Convex, shape, way, asked);
         Separation::of_rounded(distance, points, radii)
     }
 
@@ -239,17 +232,16 @@ impl RoundedHull {
         (other, to): (&Self, &Pose),
         asked: Asked,
     ) -> Separation {
-        let (middle, own) = (other.center_in(to), other.spread + other.radius);
-        let distance = (self.center_in(pose) - middle).norm() * (1.0 - ROUNDING);
-        let distance = distance - own - self.spread - self.radius;
+        let between = self.center_in(pose) - other.center_in(to);
+        let distance = between.norm() * (1.0 - ROUNDING) - self.ball() - other.ball();
         if distance > asked.far {
             return Separation { distance, ..Separation::NOTHING };
         }
-        let (inverse, radii) = (pose.inverse(), [self.radius, other.radius]);
+        let (inverse, radii) = (pose.inverse(), [self.radius(), other.radius()]);
         let (distance, points) = run_vectors(Between {
             hulls: [self, other],
             pose: inverse * *to,
-            way: inverse.rotation * (self.center_in(pose) - middle),
+            way: inverse.rotation * between,
             asked: asked.without(radii[0] + radii[1]),
         });
         Separation::of_rounded(distance, points, radii).moved(pose)
@@ -257,7 +249,7 @@ impl RoundedHull {
 
     /// Its middle where its frame is.
     pub(crate) fn center_in(&self, pose: &Pose) -> Vector3<f64> {
-        placed(pose, &self.center)
+        placed(pose, &self.0.center)
     }
 }
 
@@ -278,7 +270,7 @@ impl VectorKernel for Farthest<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Vector3<f64> {
-        InLanes { simd, hull: self.hull }.point(self.direction, None)
+        InLanes { simd, hull: self.hull }.support(self.direction, None)
     }
 }
 
@@ -296,7 +288,7 @@ impl VectorKernel for Between<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Self::Answer {
         let [one, other] = self.hulls.map(|hull| InLanes { simd, hull });
-        nearest(&one, &Placed { shape: other, pose: &self.pose }, self.way, self.asked)
+        nearest(&one, &Framed { shape: other, pose: self.pose }, self.way, self.asked)
     }
 }
 
@@ -306,10 +298,10 @@ struct InLanes<'a, S> {
     hull: &'a RoundedHull,
 }
 
-impl<S: Simd> Support for InLanes<'_, S> {
+impl<S: Simd> Convex for InLanes<'_, S> {
     #[inline(always)]
-    fn point(&self, direction: &Vector3<f64>, _: Option<&Vector3<f64>>) -> Vector3<f64> {
-        let (simd, columns) = (self.simd, &self.hull.columns);
+    fn support(&self, direction: &Vector3<f64>, _: Option<&Vector3<f64>>) -> Vector3<f64> {
+        let (simd, columns) = (self.simd, &self.hull.0.columns);
         let mut most = Vector::splat(simd, f64::NEG_INFINITY);
         let mut place = Vector::splat(simd, 0.0);
         let mut at = place;
@@ -331,18 +323,5 @@ impl<S: Simd> Support for InLanes<'_, S> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place")]
         let [x, y, z] = &columns[place[best] as usize];
         Vector3::new(x[best], y[best], z[best])
-    }
-}
-
-/// A shape in a frame.
-struct Placed<'a, T> {
-    shape: T,
-    pose: &'a Pose,
-}
-
-impl<T: Support> Support for Placed<'_, T> {
-    #[inline(always)]
-    fn point(&self, direction: &Vector3<f64>, _: Option<&Vector3<f64>>) -> Vector3<f64> {
-        placed(self.pose, &self.shape.point(&turned_back(self.pose, direction), None))
     }
 }
