@@ -3396,7 +3396,7 @@ class Body:
         progress: Report | Bar | None = None,
     ) -> Body:
         """Fit capsules to the meshes of a URDF: they contain every triangle, and the inside of
-        closed meshes. It needs `pip install 'irbkin[mesh]'`, and takes some 15 s for an arm.
+        closed meshes. It needs `pip install 'irbkin[mesh]'`, and takes 15 to 60 s for an arm.
 
         Of each link, the meshes and shapes of its `collision` elements, or of its `visual` ones
         where it has none; of links behind joints beside the arm, as of a gripper, wherever these
