@@ -53,6 +53,7 @@
 //! | `urdf` | yes | `Robot::from_urdf`, `Robot::to_urdf` |
 //! | `rapid` | yes | [`rapid`]: robtargets and moves of RAPID modules, read, solved and rewritten |
 //! | `serde` | | `Serialize` and `Deserialize`, see below |
+//! | `page` | | [`page`]: requests and answers as JSON text, for a page in a browser |
 //! | `python` | | the extension module of the Python package; of no use to a crate |
 //!
 //! `serde` is implemented for robots ([`Robot`] and [`AnyRobot`], with limits, velocities, base and
@@ -113,6 +114,8 @@ mod interrupt;
 mod kinematics;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod lanes;
+#[cfg(all(feature = "page", any(feature = "std", feature = "libm")))]
+pub mod page;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub mod paths;
 #[cfg(any(feature = "std", feature = "libm"))]

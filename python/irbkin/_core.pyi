@@ -68,6 +68,7 @@ __all__ = [
     "MotionPeaks",
     "MotionSettings",
     "Move",
+    "PageEngine",
     "Plan",
     "PlanBreak",
     "Pose",
@@ -3582,6 +3583,19 @@ class Cell:
             ValueError: A trajectory of another number of joints.
         """
     def __reduce__(self) -> tuple[Callable[[str, bytes], Any], tuple[str, bytes]]: ...
+
+@final
+class PageEngine:
+    """What answers a page in a browser: requests and answers as JSON (page/README.md).
+
+    It keeps the robot, the cell and the program that earlier requests set.
+    """
+
+    def __new__(cls) -> PageEngine: ...
+    def answer(self, request: str) -> str:
+        """Return the answer to a request, both JSON text: `{"ok": ...}` or `{"error": "a
+        sentence"}`.
+        """
 
 @final
 class Trajectory:

@@ -30,6 +30,7 @@ mod meshes;
 mod models;
 mod notebook;
 mod outputs;
+mod page;
 mod plans;
 mod poses;
 mod queries;
@@ -154,7 +155,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
         follower::PyFollower, trajectory::PyTrajectory, Break, CatalogEntry, ConfigurationBatch,
         FollowResult, FreeJoint, IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck,
         Singularity, StrandEnd, ToolSpeedLimits, TrajectorySample, PyShape, PyBody, PyCell,
-        CellContact, CellDistance,
+        CellContact, CellDistance, page::PageEngine,
     ], functions [
         catalog::catalog, catalog::catalog_entry, instruction_set, instruction_sets,
         use_instruction_set, restore, poses::pose, poses::to_xyz_wxyz,

@@ -127,7 +127,6 @@ NAMED = re.compile(r"^pub(?:\(crate\))? (?:const|static|struct|enum) (\w+)", re.
 SHARED = ("error", "interrupt", "report")
 #: Names that no code of their room uses.
 ELSEWHERE = {
-    "FreeJoint": "the error of a configuration has it, which is above the answers of kinematics",
     "MOST_SIN_COS": "the domain of the functions beside it",
     "Outline": "its radii are bounds that bodies calculate",
 }

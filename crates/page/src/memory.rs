@@ -8,7 +8,7 @@
 
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 
-use crate::page::{Page, refused};
+use irbkin::page::{Page, refused};
 
 /// The page, and the buffers that the caller has.
 static STATE: LazyLock<Mutex<State>> = LazyLock::new(Mutex::default);

@@ -1,9 +1,8 @@
 //! Laws of the answers: they agree with the crate, and nothing panics.
 
+use irbkin::page::Page;
 use irbkin::{Robot, pose};
 use serde_json::{Value, json};
-
-use crate::Page;
 
 const YUMI: &str = "IRB 14000-0.5/0.5 (left)";
 /// Names of arms of each structure, and joint angles [rad] that are at no singularity.

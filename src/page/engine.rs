@@ -1,25 +1,29 @@
 //! The page: what earlier requests set, and the dispatch of a request.
 
-use irbkin::cell::Cell;
-use irbkin::{AnyRobot, on};
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
+
+use crate::cell::Cell;
+use crate::{AnyRobot, on};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::catalog::Catalog;
-use crate::cell::{self, Obstacles};
+use super::catalog::Catalog;
+use super::cell::{self, Obstacles};
 #[cfg(feature = "rapid")]
-use crate::check::Checked;
-use crate::follow::Step;
-use crate::forward::Posture;
-use crate::inverse::Found;
+use super::check::Checked;
+use super::follow::Step;
+use super::forward::Posture;
+use super::inverse::Found;
 #[cfg(feature = "rapid")]
-use crate::motion::Motion;
+use super::motion::Motion;
 #[cfg(feature = "rapid")]
-use crate::program::Program;
-use crate::request::{Refusal, Request};
-use crate::robot::{self, Arm};
+use super::program::Program;
+use super::request::{Refusal, Request};
+use super::robot::{self, Arm};
 #[cfg(feature = "rapid")]
-use crate::target::Meant;
+use super::target::Meant;
 
 /// A robot, a cell and a program, and the answers about them.
 #[derive(Debug, Default)]
@@ -117,7 +121,8 @@ fn ok<T: Serialize>(ok: T) -> Result<String, Refusal> {
 }
 
 /// The answer that refuses a request, in a sentence.
-pub(crate) fn refused(error: &str) -> String {
+#[must_use]
+pub fn refused(error: &str) -> String {
     let plain = |_| r#"{"error":"the request is refused"}"#.to_owned();
     serde_json::to_string(&Refused { error }).unwrap_or_else(plain)
 }

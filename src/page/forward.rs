@@ -1,11 +1,13 @@
 //! `fk`: the frames of joint angles, their margins and contacts.
 
-use irbkin::Robot;
-use irbkin::cell::Cell;
+use alloc::vec::Vec;
+
+use crate::Robot;
+use crate::cell::Cell;
 use serde::Serialize;
 
-use crate::posture::{Contact, Margin, arm_angle, confdata};
-use crate::request::{Refusal, Request, twelve};
+use super::posture::{Contact, Margin, arm_angle, confdata};
+use super::request::{Refusal, Request, twelve};
 
 /// The robot at joint angles.
 #[derive(Debug, Serialize)]

@@ -1,12 +1,14 @@
 //! `follow`: one step of a tool that is dragged.
 
-use irbkin::Robot;
-use irbkin::cell::Cell;
-use irbkin::follow::{BreakReason, Follower};
+use alloc::string::{String, ToString};
+
+use crate::Robot;
+use crate::cell::Cell;
+use crate::follow::{BreakReason, Follower};
 use serde::Serialize;
 
-use crate::inverse::Solution;
-use crate::request::{Refusal, Request};
+use super::inverse::Solution;
+use super::request::{Refusal, Request};
 
 /// The joints that continue others to a new pose.
 #[derive(Debug, Serialize)]

@@ -1,11 +1,16 @@
 //! `cell`: the obstacles around the robot.
 
-use irbkin::body::Shape;
-use irbkin::cell::Cell;
-use irbkin::{Error, Pose};
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::body::Shape;
+use crate::cell::Cell;
+use crate::{Error, Pose};
 use serde::Serialize;
 
-use crate::request::{Refusal, Request};
+use super::request::{Refusal, Request};
 
 /// Most obstacles of a cell: a page draws them, and compares each link with each.
 const MOST_OBSTACLES: usize = 1000;

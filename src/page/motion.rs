@@ -1,11 +1,14 @@
 //! `motion`: a routine as one motion.
 
-use irbkin::rapid::{self, MotionOptions};
-use irbkin::{Pose, Robot};
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use crate::rapid::{self, MotionOptions};
+use crate::{Pose, Robot};
 use serde::Serialize;
 
-use crate::program::Program;
-use crate::request::{Refusal, Request};
+use super::program::Program;
+use super::request::{Refusal, Request};
 
 /// Most samples of an answer: a page plays some minutes smoothly with them.
 const MOST_SAMPLES: usize = 4000;

@@ -1,14 +1,16 @@
 //! `check`: all moves of a program, checked.
 
-use std::collections::HashMap;
+use alloc::collections::BTreeMap;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
 
-use irbkin::Robot;
-use irbkin::cell::Cell;
-use irbkin::rapid::{self, CheckOptions, RoutineKind};
+use crate::Robot;
+use crate::cell::Cell;
+use crate::rapid::{self, CheckOptions, RoutineKind};
 use serde::Serialize;
 
-use crate::program::{Fault, Finding, Program, faults};
-use crate::request::{Refusal, Request};
+use super::program::{Fault, Finding, Program, faults};
+use super::request::{Refusal, Request};
 
 /// The moves of a program and what is wrong with them.
 #[derive(Debug, Serialize)]
@@ -69,7 +71,7 @@ impl Checked {
             modules.iter().zip(program.texts.iter().map(String::as_str)).collect();
         let checked = rapid::check(robot, &sources, &options)?;
         let mut procedures = Vec::new();
-        let mut instructions = HashMap::new();
+        let mut instructions = BTreeMap::new();
         for (module, own) in modules.iter().enumerate() {
             let named = own.routines().iter().filter(|it| it.kind == RoutineKind::Proc);
             procedures.extend(named.map(|it| Procedure { module, name: it.name.clone() }));

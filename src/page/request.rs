@@ -1,6 +1,10 @@
 //! The fields of a request, and the sentences that refuse them.
 
-use irbkin::{Error, Pose, pose, thresholds};
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::{Error, Pose, pose, thresholds};
 use serde_json::{Map, Value};
 
 /// Largest text of a module or of a URDF [bytes].

@@ -1,10 +1,13 @@
 //! Facts about joint angles that answers share: confdata, arm angle, margins, contacts.
 
-use irbkin::cell::Cell;
-use irbkin::{Robot, SingularityKind};
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::cell::Cell;
+use crate::{Robot, SingularityKind};
 use serde::Serialize;
 
-use crate::request::Refusal;
+use super::request::Refusal;
 
 /// How far joint angles are from limits and singularities.
 #[derive(Debug, Serialize)]

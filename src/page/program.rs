@@ -1,9 +1,13 @@
 //! The program of a page: its modules, read in spite of their faults, and what answers on it share.
 
-use irbkin::rapid::{self, Module};
+use alloc::borrow::ToOwned;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::rapid::{self, Module};
 use serde::Serialize;
 
-use crate::request::{Refusal, Request};
+use super::request::{Refusal, Request};
 
 /// Most modules of a program.
 const MOST_MODULES: usize = 100;

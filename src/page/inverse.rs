@@ -1,11 +1,16 @@
 //! `ik`: all solutions of a pose.
 
-use irbkin::cell::Cell;
-use irbkin::{Error, Explanation, Pose, Robot, Solutions};
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::cell::Cell;
+use crate::{Error, Explanation, Pose, Robot, Solutions};
 use serde::Serialize;
 
-use crate::posture::{Margin, arm_angle, collides, confdata, words};
-use crate::request::{Refusal, Request};
+use super::posture::{Margin, arm_angle, collides, confdata, words};
+use super::request::{Refusal, Request};
 
 /// All solutions of a pose.
 #[derive(Debug, Serialize)]
@@ -116,7 +121,7 @@ impl Found {
         robot: &Robot<N>,
         cell: Option<&Cell>,
         solutions: &Solutions<N>,
-        nearest: Option<&irbkin::Solution<N>>,
+        nearest: Option<&crate::Solution<N>>,
         q7: Option<f64>,
     ) -> Result<Self, Refusal> {
         let outcome = explained(robot, solutions).to_string();
@@ -149,8 +154,8 @@ fn explained<const N: usize>(robot: &Robot<N>, solutions: &Solutions<N>) -> Expl
 
 /// The solution inside the limits, or the reason why there is none.
 fn inside<const N: usize>(
-    nearest: Result<irbkin::Solution<N>, Error>,
-) -> Result<Result<irbkin::Solution<N>, String>, Refusal> {
+    nearest: Result<crate::Solution<N>, Error>,
+) -> Result<Result<crate::Solution<N>, String>, Refusal> {
     match nearest {
         Ok(nearest) => Ok(Ok(nearest)),
         Err(Error::Unreachable(reason)) => Ok(Err(reason.to_string())),
@@ -162,11 +167,11 @@ impl Solution {
     pub(crate) fn of<const N: usize>(
         robot: &Robot<N>,
         cell: Option<&Cell>,
-        solution: &irbkin::Solution<N>,
+        solution: &crate::Solution<N>,
     ) -> Result<Self, Refusal> {
         let slot = solution.slot.index();
         let free =
-            |free: irbkin::FreeJoint| format!("J{} is free, {} fixed", free.joint(), free.fixed());
+            |free: crate::FreeJoint| format!("J{} is free, {} fixed", free.joint(), free.fixed());
         Ok(Self {
             q: solution.q.to_vec(),
             slot,

@@ -1,11 +1,16 @@
 //! `ik_target`: what a robtarget or a jointtarget means.
 
-use irbkin::rapid::{self, Content, JointTarget, RobTarget, Value};
-use irbkin::{Robot, pose, thresholds};
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::rapid::{self, Content, JointTarget, RobTarget, Value};
+use crate::{Robot, pose, thresholds};
 use serde::Serialize;
 
-use crate::posture::confdata;
-use crate::request::{Refusal, Request, twelve};
+use super::posture::confdata;
+use super::request::{Refusal, Request, twelve};
 
 /// A target.
 #[derive(Debug, Serialize)]

@@ -1,7 +1,9 @@
 //! `catalog`: all arms.
 
-use irbkin::catalog;
-use irbkin::catalog::CatalogArm;
+use alloc::vec::Vec;
+
+use crate::catalog;
+use crate::catalog::CatalogArm;
 use serde::Serialize;
 
 /// All arms of the catalog: ABB's by type number, then other makers' arms.

@@ -1,11 +1,16 @@
 //! `robot`: the robot of the page, with all that a drawing of it needs.
 
-use irbkin::body::{Body, LinkCapsule};
-use irbkin::report::ConfigurationRule;
-use irbkin::{AnyRobot, Error, Robot, catalog, on};
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use crate::body::{Body, LinkCapsule};
+use crate::report::ConfigurationRule;
+use crate::{AnyRobot, Error, Robot, catalog, on};
 use serde::Serialize;
 
-use crate::request::{Refusal, Request, twelve};
+use super::request::{Refusal, Request, twelve};
 
 /// A robot.
 ///
@@ -158,8 +163,8 @@ impl Shapes {
     }
 }
 
-impl From<&irbkin::body::Capsule> for Capsule {
-    fn from(capsule: &irbkin::body::Capsule) -> Self {
+impl From<&crate::body::Capsule> for Capsule {
+    fn from(capsule: &crate::body::Capsule) -> Self {
         let [a, b] = capsule.ends();
         Self { a, b, radius: capsule.radius() }
     }

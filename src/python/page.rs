@@ -1,0 +1,27 @@
+//! The engine of a page in a browser, which Python serves.
+
+use std::sync::{Mutex, PoisonError};
+
+use pyo3::prelude::*;
+
+use crate::page::Page;
+
+/// What answers a page in a browser: requests and answers as JSON (page/README.md).
+///
+/// It keeps the robot, the cell and the program that earlier requests set.
+#[pyclass(frozen, module = "irbkin._core")]
+#[derive(Default)]
+pub(crate) struct PageEngine(Mutex<Page>);
+
+#[pymethods]
+impl PageEngine {
+    #[new]
+    fn new() -> Self {
+        Self::default()
+    }
+
+    /// Return the answer to a request, both JSON text: `{"ok": ...}` or `{"error": "a sentence"}`.
+    fn answer(&self, py: Python<'_>, request: &str) -> String {
+        py.detach(|| self.0.lock().unwrap_or_else(PoisonError::into_inner).answer(request))
+    }
+}
