@@ -177,7 +177,7 @@ pub(super) fn read_capsules(
 type HullRow<'py> = (usize, Bound<'py, PyAny>, Vec<[u8; 3]>, f64);
 
 /// A hull as an answer.
-type HullItem<'py> = (usize, Bound<'py, PyArray2<f64>>, Vec<[u8; 3]>, f64);
+type HullItem<'py> = (usize, Bound<'py, PyArray2<f64>>, Vec<[usize; 3]>, f64);
 
 /// Hulls by their links.
 fn read_hulls(hulls: Vec<HullRow<'_>>) -> PyResult<Vec<LinkHull>> {
@@ -309,7 +309,8 @@ impl PyBody {
     fn hulls<'py>(&self, py: Python<'py>) -> Vec<HullItem<'py>> {
         let row = |own: &LinkHull| {
             let points: Vec<[f64; 3]> = own.hull.points().collect();
-            (own.link, matrix(py, &points), own.hull.faces().to_vec(), own.hull.radius())
+            let faces = own.hull.faces().iter().map(|face| face.map(usize::from)).collect();
+            (own.link, matrix(py, &points), faces, own.hull.radius())
         };
         self.0.hulls().iter().map(row).collect()
     }

@@ -153,3 +153,13 @@ def test_more_capsules_keep_the_rods_beside_an_arm():
     assert cell.collides(pickle.loads(pickle.dumps(hose)), q)
     with pytest.raises(irbkin.InvalidModelError, match="radius"):
         robot.body.with_capsules([3], [[0, 0, 0, 0, 0, 0, 0]])
+
+
+def test_hulls_are_given_back_as_numbers():
+    body = ROBOT.body
+    again = Body(body.links.tolist(), body.capsules, body.pairs, hulls=body.hulls)
+    for one, other in zip(body.hulls, again.hulls, strict=True):
+        np.testing.assert_array_equal(one[1], other[1])
+        assert np.asarray(one[2]).shape[1] == 3
+        assert one[0::2] + one[3:] == other[0::2] + other[3:]
+    assert max(max(face) for _, points, faces, _ in body.hulls for face in faces) > 3
