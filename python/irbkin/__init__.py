@@ -79,7 +79,6 @@ if TYPE_CHECKING:
     from irbkin import ros as ros
     from irbkin import scene as scene
     from irbkin import trajectory as trajectory
-    from irbkin import viewer as viewer
     from irbkin.calibration import calibrate as calibrate
 
 __all__ = [
@@ -141,9 +140,8 @@ _MODULES = (
     "ros",
     "scene",
     "trajectory",
-    "viewer",
 )
-_EXTRAS = {"plot": "matplotlib", "viewer": "viser"}
+_EXTRAS = {"plot": "matplotlib"}
 
 # Names of other packages, and what to use here.
 _OTHERS = {

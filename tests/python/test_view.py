@@ -1,5 +1,6 @@
 """`irbkin view`: what it writes, and what it refuses."""
 
+import base64
 import json
 from pathlib import Path
 from xml.etree import ElementTree
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 from irbkin import scene
 from irbkin.scene import _page
-from irbkin.scene._page import ENGINE, SCRIPTS, page, scripts
+from irbkin.scene._page import SCRIPTS, page, scripts
 
 NAME = "IRB 2600-12/1.65"
 ROBOT = irbkin.Robot(NAME)
@@ -40,27 +41,6 @@ def test_a_module_is_written_with_its_source_and_findings(tmp_path):
     assert written.title == MODULE.name
 
 
-def test_without_the_engine_the_arm_is_a_picture(tmp_path, monkeypatch):
-    opened = []
-    monkeypatch.setattr(_page, "ENGINE", tmp_path / "irbkin.wasm.gz")
-    monkeypatch.setattr("webbrowser.open", opened.append)
-    _page.engine.cache_clear()
-    done = command.run("view", NAME)
-    assert done.returncode == 0
-    assert done.stderr.count(b"\n") == 1
-    assert b"make page" in done.stderr
-    (address,) = opened
-    file = Path(done.stdout.decode().strip())
-    assert address == f"file://{file}"
-    assert ElementTree.parse(file).getroot().tag.endswith("svg")
-    assert "(.svg)" in command.refused("view", NAME, "-o", tmp_path / "arm.html")
-    own, words = scene.of(ROBOT), r"make page.*picture \(\.svg\).*irbkin\.viewer"
-    for write in (own.to_html, lambda: own.save(tmp_path / "arm.html")):
-        with pytest.raises(FileNotFoundError, match=words):
-            write()
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_picture_has_the_arms_and_the_way_of_the_tool(tmp_path):
     made = irbkin.rapid.motion(ROBOT, irbkin.rapid.load(MODULE))
     two = scene.of(made, ROBOT) + scene.of(ROBOT.with_base([2.0, 0, 0]))
@@ -84,16 +64,19 @@ def test_an_ending_that_is_unknown_is_refused_with_those_known(tmp_path, name):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_page_is_written_or_its_engine_is_asked_for(tmp_path):
-    file = tmp_path / "arm.html"
-    if ENGINE.exists():
+def test_a_page_is_written_with_and_without_the_engine(tmp_path, monkeypatch):
+    file, engine = tmp_path / "arm.html", tmp_path / "irbkin.wasm.gz"
+    monkeypatch.setattr(_page, "ENGINE", engine)
+    for content in (b"", b"engine"):
+        if content:
+            engine.write_bytes(content)
+        _page.engine.cache_clear()
         assert command.run("view", NAME, "-o", file).returncode == 0
         text = file.read_text()
         assert scene.of(ROBOT).to_json() in text
         assert f"<title>irbkin: {NAME}</title>" in text
-    else:
-        assert "make page" in command.refused("view", NAME, "-o", file)
-        assert not file.exists()
+        assert f'const ENGINE = "{base64.b64encode(content).decode()}";' in text
+    _page.engine.cache_clear()
 
 
 def test_a_text_in_a_scene_does_not_end_the_script(monkeypatch):
@@ -107,7 +90,7 @@ def test_a_text_in_a_scene_does_not_end_the_script(monkeypatch):
     folder = Path(scene.__file__).parent / "page"
     own_scripts = {f"{name}.js" for name in (*SCRIPTS, "widget")}
     assert own_scripts == {it.name for it in folder.glob("*.js")}
-    assert "/*wasm*/" not in scripts()
+    assert "/*engine*/" not in scripts()
 
 
 def test_wrong_files_are_refused(tmp_path):

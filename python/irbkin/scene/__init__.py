@@ -34,6 +34,7 @@ from irbkin.scene._data import (
 )
 from irbkin.scene._makers import of
 from irbkin.scene._page import page
+from irbkin.scene._served import ServedView, serve
 from irbkin.scene._svg import of_scene
 
 if TYPE_CHECKING:
@@ -50,8 +51,10 @@ __all__ = [
     "Path",
     "Posture",
     "Scene",
+    "ServedView",
     "arm_of",
     "of",
+    "serve",
 ]
 
 

@@ -10,13 +10,13 @@ import numpy as np
 
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array, evenly
+from irbkin._core import Robot, catalog
 from irbkin.errors import InvalidJointsError, InvalidModelError
 from irbkin.scene._data import Arm, LinkShape, Motion, Posture
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from irbkin import Robot
     from irbkin.body import Body
 
 MOST_SAMPLES = 2000
@@ -76,7 +76,14 @@ def arm_of(
         bool(body is not None and body.is_approximate),
         tuple(postures),
         motion,
+        _urdf(robot),
     )
+
+
+def _urdf(robot: Robot) -> str:
+    """The URDF of a robot that is not of the catalog, without its base and tool."""
+    bare = robot.with_base(np.eye(4)).with_tool(np.eye(4))
+    return "" if bare.name in catalog() and bare == Robot(bare.name) else bare.to_urdf(visual=False)
 
 
 def _body(robot: Robot) -> Body | None:

@@ -110,6 +110,8 @@ class Arm(_Part):
     """Where it is drawn."""
     motion: Motion | None = None
     """How it moves."""
+    urdf: str = ""
+    """The URDF of an arm that is not as the catalog has it, without its base and tool."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -247,10 +249,8 @@ class Scene(_Part):
             raise ValueError("not a scene: it is nested too deeply") from None
 
     def to_html(self) -> str:
-        """Return the scene as a page that opens in any browser, without a network: it solves, too.
-
-        Raises:
-            FileNotFoundError: This installation lacks the page's engine.
+        """Return the scene as a page that opens in any browser without a network, draws and plays.
+        It solves, too, where irbkin was built with the engine of such files: `make page`.
         """
         text: str = FACES[".html"](self)
         return text
@@ -261,7 +261,6 @@ class Scene(_Part):
 
         Raises:
             ValueError: Another ending; no arm, of a .svg.
-            FileNotFoundError: As `to_html`, of a page.
             ImportError: rerun-sdk is not installed, of a .rrd.
         """
         ending = os.path.splitext(path)[1].lower()

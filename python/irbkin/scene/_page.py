@@ -1,4 +1,6 @@
-"""The page: one HTML file with the crate as WebAssembly, which needs no network."""
+"""The page: one HTML file that needs no network. It solves by the crate as WebAssembly in the file,
+or by the process that serves it; without either it draws and plays.
+"""
 
 from __future__ import annotations
 
@@ -21,14 +23,12 @@ SCRIPTS = (
 """The scripts, each behind those that it uses."""
 
 
-def page(scene: Scene | None = None) -> str:
+def page(scene: Scene | None = None, *, served: bool = False) -> str:
     """Return the page as HTML.
 
     Args:
         scene: What it shows at first; an arm of the catalog when not given.
-
-    Raises:
-        FileNotFoundError: This installation has no `irbkin.wasm.gz`.
+        served: Whether the process that serves it answers its requests.
     """
     text = (FOLDER / "page.html").read_text(encoding="utf-8")
     # A text cannot begin or end the script that it is in.
@@ -38,7 +38,7 @@ def page(scene: Scene | None = None) -> str:
         "/*title*/": title.replace("&", "&amp;").replace("<", "&lt;"),
         "/*css*/": style(),
         "/*js*/": scripts(),
-        "/*wasm*/": engine(),
+        "/*engine*/": "served" if served else engine(),
         "/*scene*/": own,
     }
     marks = "|".join(map(re.escape, parts))
@@ -59,14 +59,10 @@ def style() -> str:
 
 @cache
 def engine() -> str:
-    """Return the crate as WebAssembly, packed by gzip, in base 64."""
-    if not ENGINE.exists():
-        raise FileNotFoundError(
-            f"this irbkin was built without {ENGINE.name}, which draws and solves in a browser: "
-            "`make page` in its sources builds it. Without it, save a scene as a picture (.svg), "
-            "or draw it by irbkin.viewer or irbkin.plot"
-        )
-    return base64.b64encode(ENGINE.read_bytes()).decode()
+    """Return the crate as WebAssembly, packed by gzip, in base 64; empty where it was not built:
+    `make page` in the sources does.
+    """
+    return base64.b64encode(ENGINE.read_bytes()).decode() if ENGINE.exists() else ""
 
 
 @cache

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from irbkin.scene._arms import link_frames, start
+from irbkin._core import PageEngine
 from irbkin.scene._page import module
+from irbkin.scene._solved import Joints
 
 try:
     import anywidget
@@ -18,6 +17,7 @@ except ImportError as missing:
     ) from missing
 
 if TYPE_CHECKING:
+    import numpy as np
     import numpy.typing as npt
 
     from irbkin.scene._data import Scene
@@ -28,17 +28,10 @@ class _Joints(traitlets.List):  # type: ignore[misc]
 
     def validate(self, obj: View, value: npt.ArrayLike) -> list[float]:
         """Return the angles as a list; raise a TraitError if they are not those of the arm."""
-        dof = 0 if obj._arm is None else len(obj._arm.joints)
         try:
-            q = np.asarray(value, dtype=float)
-        except (TypeError, ValueError):
-            q = np.full(dof, np.nan)
-        if q.shape != (dof,) or not np.isfinite(q).all():
-            raise traitlets.TraitError(
-                f"q must be {dof} finite joint angles [rad], one for each joint of the first arm, "
-                f"got {value!r}"
-            )
-        joints: list[float] = super().validate(obj, q.tolist())
+            joints: list[float] = super().validate(obj, obj._joints.checked(value))
+        except ValueError as error:
+            raise traitlets.TraitError(str(error)) from None
         return joints
 
 
@@ -46,7 +39,8 @@ class View(anywidget.AnyWidget):  # type: ignore[misc]
     """A scene in a notebook. Its first arm is moved by the handle and by Python.
 
     `view.q` are its joint angles [rad], a list, set from any array: it moves the arm. Dragging the
-    handle sets them; `view.observe(f, "q")` calls f then. `view.T` is the pose of its tool.
+    handle sets them; `view.observe(f, "q")` calls f then. `view.T` is the pose of its tool, which
+    can be set, too. The kernel solves, unless irbkin was built with the engine of pages.
     """
 
     scene = traitlets.Unicode("").tag(sync=True)
@@ -54,14 +48,21 @@ class View(anywidget.AnyWidget):  # type: ignore[misc]
     q = _Joints(traitlets.Float()).tag(sync=True)
 
     def __init__(self, scene: Scene, height: int = 560) -> None:
-        self._arm = scene.arms[0] if scene.arms else None
-        q = [] if self._arm is None else list(start(self._arm))
+        self._joints = Joints(scene)
+        self._engines: dict[str, PageEngine] = {}
+        q = self._joints.start()
         super().__init__(_esm=module(), scene=scene.to_json(), height=height, q=q)
+        self.on_msg(self._answer)
+
+    def _answer(self, _: Any, asked: dict[str, str], __: Any) -> None:
+        engine = self._engines.setdefault(asked["page"], PageEngine())
+        self.send({"id": asked["id"], "answer": engine.answer(asked["text"])})
 
     @property
-    def T(self) -> np.ndarray[Any, np.dtype[np.float64]]:
+    def T(self) -> npt.NDArray[np.float64]:
         """The pose of the tool of the first arm, shape (4, 4)."""
-        if self._arm is None:
-            return np.eye(4)
-        tool: np.ndarray[Any, np.dtype[np.float64]] = link_frames(self._arm, self.q)[-1]
-        return tool
+        return self._joints.tool(self.q)
+
+    @T.setter
+    def T(self, T: npt.ArrayLike) -> None:
+        self.q = self._joints.nearest(T, self.q)

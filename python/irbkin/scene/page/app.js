@@ -2,10 +2,16 @@
 
 const START = "IRB 2600-12/1.65";
 const POSTURE = [0.35, 0.25, 0.1, 0.3, 0.9, 0.2];
+const NO_ENGINE = "This file draws and plays. It solves nothing: irbkin view does.";
 
 class App {
-  constructor(host, engine, options = {}) {
-    Object.assign(this, { host, engine, options });
+  // Without an engine arms are drawn and moved by their joints, and not solved.
+  static async of(host, engine, options = {}) {
+    return new App(host, engine, options, engine ? (await engine.ask({ do: "catalog" })).arms : []);
+  }
+
+  constructor(host, engine, options, arms) {
+    Object.assign(this, { host, engine, options, arms });
     this.settings = { ghosts: true };
     this.notes = {
       add: (words) => this.parts.notes.append(el("li", {}, words)),
@@ -16,7 +22,6 @@ class App {
     };
     this.setUnits("mm", true);
     this.parts = panels(this);
-    this.arms = engine.ask({ do: "catalog" }).arms;
     this.parts.arms.append(...this.arms.map((it) => el("option", { value: it.name }, it.maker)));
     this.stage = el("main", {});
     host.append(el("div", { className: "irbkin" }, this.stage, this.parts.node));
@@ -26,30 +31,34 @@ class App {
     this.watch();
   }
 
-  open() {
+  async open() {
     const asked = fromHash(this.options.hash ?? "");
     Object.assign(this.state, { tool: asked.tool, base: asked.base, wobj: asked.wobj });
     try {
-      this.setArm({ name: asked.name ?? this.options.arm ?? START }, asked.q);
+      await this.setArm({ name: asked.name ?? START }, asked.q);
     } catch (fault) {
       this.notes.add(fault.message);
       Object.assign(this.state, { tool: identity(), base: identity(), wobj: identity() });
-      this.setArm({ name: START });
+      await this.setArm({ name: START });
     }
     this.view.fit();
   }
 
   // Run something, and show a sentence in a place if it is refused.
-  guard(words, run) {
+  async guard(words, run) {
     words.classList.remove("bad");
     try {
-      run();
-      return true;
+      await run();
     } catch (fault) {
       words.textContent = fault.message;
       words.classList.toggle("bad", Boolean(fault.message));
-      return false;
     }
+  }
+
+  // Set something in the engine, and in that of the program.
+  tell(request) {
+    this.program.engine?.set(request).catch(() => {});
+    return this.engine.set(request);
   }
 
   setUnits(length, isFirst = false) {
@@ -67,21 +76,25 @@ class App {
     if (!isFirst) this.show();
   }
 
-  // Take another arm: of the catalog, or of a URDF.
-  setArm(source, q) {
-    this.view.isBare = false;
+  // Take another arm: of the catalog, or of a URDF, drawn as in a scene if it is of one.
+  async setArm(source, q) {
     const { tool, base } = this.state;
-    const robot = this.engine.set({ do: "robot", ...source, tool: toRows(tool), base_pose: toRows(base) });
+    const { name, urdf, tip } = source;
+    const robot = await this.tell({ do: "robot", name, urdf, tip, tool: toRows(tool), base_pose: toRows(base) });
+    return this.takeArm(robot, source.drawn?.(base, tool) ?? DrawnArm.ofEngine(robot), source, q);
+  }
+
+  takeArm(robot, arm, source, q) {
     const isOther = robot.name !== this.robot?.name;
-    this.source = source;
-    this.robot = robot;
-    this.arm = DrawnArm.ofEngine(robot);
+    Object.assign(this, { source, robot, arm });
+    this.parts.node.classList.toggle("bare", !source);
     this.state.name = robot.name;
     this.rows = jointRows(this);
     this.parts.joints.replaceChildren(...this.rows.map((it) => it.node));
     this.parts.arm.value = robot.name;
     const body = robot.body ? (robot.body.approximate ? ", body approximate" : "") : ", without a body";
-    this.parts.armWords.textContent = `${robot.dof} axes, ${robot.structure}${body}`;
+    this.parts.armWords.textContent = source
+      ? `${robot.dof} axes, ${robot.structure}${body}` : `${robot.dof} axes, drawn and not solved`;
     this.parts.armWords.classList.remove("bad");
     const rest = robot.limits.map(([low, high], i) => {
       const angle = POSTURE[i] ?? 0;
@@ -93,9 +106,9 @@ class App {
       this.program.forgetMotion();
       Object.assign(this.view, { way: [], frames: [], marks: [], extra: [] });
     }
-    this.setJoints(own);
     if (isOther) this.view.fit();
     this.readProgram(isOther);
+    return this.setJoints(own);
   }
 
   // Check the program again: at once with another arm, after a pause with another frame.
@@ -114,61 +127,76 @@ class App {
 
   // Joint angles: the tool follows.
   setJoints(q, { light = false } = {}) {
-    if (q.length !== this.robot.dof || !q.every(Number.isFinite)) return;
+    if (q.length !== this.robot.dof || !q.every(Number.isFinite)) return undefined;
     this.state.q = q;
     this.state.T = this.arm.frames(q).tool;
-    this.solve(light);
+    return this.solve(light);
   }
 
   // A pose of the tool: the joints follow if they can.
   setPose(T, { drag = false } = {}) {
-    if (!T.every(Number.isFinite)) return;
+    if (!this.source || !T.every(Number.isFinite)) return undefined;
     this.state.T = T;
-    this.solve(drag, true);
+    return this.solve(drag, true);
   }
 
   choose(index) {
     const it = this.state.solutions[index];
-    if (it) this.setJoints(it.q);
+    return it && this.setJoints(it.q);
   }
 
+  // Ask for the solutions at the pose and for what is known of the posture; of wishes that come
+  // meanwhile, the last counts. A wish that `moves` has the joints follow.
   solve(light, moves = false) {
-    const { state, engine } = this;
-    const seed = { seed: state.q };
-    const q7 = this.robot.dof === 7 && !moves ? { q7: state.q[6] } : {};
-    try {
-      const found = engine.ask({ do: "ik", T: toRows(state.T), ...seed, ...q7, collide: !light });
-      state.solutions = found.solutions;
-      state.reason = found.nearest ? null : found.reason ?? found.outcome;
-      state.certified = found.certified;
-      if (moves && found.nearest) state.q = found.nearest.q;
+    this.wish = { light, moves };
+    this.solving ??= this.solveAll().finally(() => { this.solving = null; });
+    this.view.ask();
+    return this.solving;
+  }
+
+  async solveAll() {
+    while (this.wish) {
+      const wish = this.wish;
+      this.wish = null;
+      const { robot, state } = this;
+      const found = this.source ? await this.solved(wish).catch(({ message }) => ({ reason: message })) : {};
+      if (this.robot !== robot) continue;
+      const { q, posture = null, solutions = [], certified = false, reason = null } = found;
+      // A slider that was moved meanwhile says where the joints are.
+      const isLate = this.wish && !this.wish.moves;
+      if (q && !isLate) state.q = q;
       const apart = (it) => Math.max(...it.q.map((angle, i) => Math.abs(Math.sin((angle - state.q[i]) / 2))));
-      const distances = state.solutions.map(apart);
+      const distances = solutions.map(apart);
       const least = Math.min(...distances, Infinity);
-      state.own = least < 1e-4 ? distances.indexOf(least) : -1;
-      state.posture = engine.ask({ do: "fk", q: state.q, collide: !light });
-      state.confdata = state.posture.confdata;
-      state.armAngle = state.posture.arm_angle;
-    } catch (fault) {
-      Object.assign(state, { solutions: [], own: -1, reason: fault.message });
+      Object.assign(state, { solutions, certified, reason, posture, own: least < 1e-4 ? distances.indexOf(least) : -1 });
+      state.confdata = posture?.confdata ?? null;
+      state.armAngle = posture?.arm_angle ?? null;
+      state.isMoved = wish.moves;
+      state.isWhole = !wish.light;
+      state.isReached = !state.isMoved || !state.reason;
+      this.show();
+      if (!wish.light) this.settled();
+      this.options.onchange?.(state);
     }
-    if (moves) state.isMoved = true;
-    else if (!this.isSettling) state.isMoved = false;
-    state.isReached = !state.isMoved || !state.reason;
-    this.show(light);
-    if (!light) this.settled();
-    this.options.onchange?.(state);
+  }
+
+  // The answers to a wish: the solutions, and the posture at the joints or at the nearest of them.
+  async solved({ light, moves }) {
+    const { state, engine, robot } = this;
+    const q7 = robot.dof === 7 && !moves ? { q7: state.q[6] } : {};
+    const seed = state.q;
+    const found = await engine.ask({ do: "ik", T: toRows(state.T), seed, ...q7, collide: !light });
+    const q = (moves && found.nearest?.q) || seed;
+    const posture = await engine.ask({ do: "fk", q, collide: !light });
+    const reason = found.nearest ? null : found.reason ?? found.outcome;
+    return { ...found, q, posture, reason };
   }
 
   // Nothing is dragged any more: what takes longer.
   settled() {
     if (this.wait) clearTimeout(this.wait);
     this.wait = setTimeout(() => {
-      if (!this.program.isPlaying && this.state.posture && !this.state.posture.contact) {
-        this.isSettling = true;
-        this.solve(false, this.state.isMoved);
-        this.isSettling = false;
-      }
+      if (!this.program.isPlaying && !this.state.isWhole) this.solve(false, this.state.isMoved);
       this.remember();
     }, 120);
   }
@@ -187,7 +215,8 @@ class App {
     parts.solutions.children[focused]?.focus({ preventScroll: true });
     parts.verdict.classList.toggle("bad", !state.isReached);
     const inside = state.solutions.filter((it) => it.within_limits).length;
-    parts.verdict.textContent = state.isReached
+    if (!this.source) parts.verdict.textContent = this.engine ? "" : NO_ENGINE;
+    else parts.verdict.textContent = state.isReached
       ? `${state.solutions.length} solutions, ${inside} inside the limits`
         + (state.certified ? ", certified to be all" : "")
       : `Not reached: ${state.reason}`;
@@ -197,7 +226,10 @@ class App {
 
   facts() {
     const { posture } = this.state;
-    if (!posture) return;
+    if (!posture) {
+      this.parts.facts.replaceChildren();
+      return;
+    }
     const turn = (angle) => `${trimmed(this.units.fromRadians(angle), 2)} ${this.units.angle}`;
     const { margin, singular, contact, arm_angle: armAngle } = posture;
     const rows = [
@@ -220,19 +252,20 @@ class App {
       pasteWords.textContent = "";
       return;
     }
-    this.guard(pasteWords, () => {
+    this.guard(pasteWords, async () => {
       const meant = meaningOf(text, this.robot.dof, this.units);
+      if (meant.kind !== "joints" && !this.source) throw new Error("joint angles alone are read here");
       if (meant.kind === "joints") this.setJoints(meant.q);
       else if (meant.kind === "pose") this.setPose(multiply(this.state.wobj, meant.T));
-      else this.pasteTarget(meant);
+      else await this.pasteTarget(meant);
       if (meant.form) pasteWords.textContent = `read as ${meant.form}`;
       this.view.ask();
     });
   }
 
-  pasteTarget(meant) {
+  async pasteTarget(meant) {
     const { wobj } = this.state;
-    const target = this.engine.ask({ do: "ik_target", robtarget: meant.text, wobj: toRows(wobj) });
+    const target = await this.engine.ask({ do: "ik_target", robtarget: meant.text, wobj: toRows(wobj) });
     const name = target.name ? ` ${target.name}` : "";
     meant.form = `a ${target.kind}${name}`;
     if (target.q) {
@@ -254,12 +287,13 @@ class App {
       }
     }
     const isModule = ({ name }) => /\.(modx?|prg|sysx?)$/i.test(name);
-    this.guard(this.parts.pasteWords, () => {
+    await this.guard(this.parts.pasteWords, async () => {
       const modules = read.filter(isModule);
-      if (modules.length) this.program.open(modules);
+      if (modules.length && !this.source) throw new Error(`${modules[0].name} is not checked here: irbkin check does`);
+      if (modules.length) await this.program.open(modules);
       for (const { name, text } of read.filter((it) => !isModule(it))) {
         try {
-          this.openFile(name, text);
+          await this.openFile(name, text);
         } catch (fault) {
           throw new Error(`${name}: ${fault.message}`);
         }
@@ -267,28 +301,28 @@ class App {
     });
   }
 
-  openFile(name, text) {
+  async openFile(name, text) {
     const ending = name.split(".").at(-1).toLowerCase();
-    if (ending === "urdf" || ending === "xml") {
-      this.setUrdf(name, text);
+    if (this.engine && (ending === "urdf" || ending === "xml")) {
+      await this.setUrdf(name, text);
       if (!this.robot.body) this.notes.add(`${name} has no body that can be drawn.`);
       if (this.robot.missing_form) this.notes.add(`${this.robot.name}: ${this.robot.missing_form}`);
     } else if (ending === "json") {
-      openScene(this, JSON.parse(text));
+      await openScene(this, JSON.parse(text));
     } else {
       throw new Error(`.${ending} is not read; a .urdf, a .mod or a scene (.json) is`);
     }
   }
 
   // A URDF; of several ends, the one that is a tool's by its name.
-  setUrdf(name, text) {
+  async setUrdf(name, text) {
     try {
-      this.setArm({ urdf: text });
+      await this.setArm({ urdf: text });
     } catch (fault) {
       const ends = fault.message.includes("tip must name") ? fault.message.match(/"[^"]+"/g) : null;
       const tip = ends?.map((it) => it.slice(1, -1)).find((it) => /tool|flange|tcp/i.test(it));
       if (!tip) throw fault;
-      this.setArm({ urdf: text, tip });
+      await this.setArm({ urdf: text, tip });
       this.notes.add(`${name} has several ends: the arm ends at ${tip}.`);
     }
   }
@@ -312,7 +346,7 @@ class App {
   }
 
   remember() {
-    if (this.options.hash === undefined || this.source?.urdf) return;
+    if (this.options.hash === undefined || !this.source?.name) return;
     history.replaceState(null, "", `#${asHash(this.state)}`);
   }
 

@@ -36,6 +36,11 @@ class DrawnArm {
     });
   }
 
+  // The same with another base and another tool.
+  moved(base, tool) {
+    return Object.assign(Object.create(DrawnArm.prototype), this, { base, tool });
+  }
+
   // The frames of base, links, and what the flange carries, and the pose of the tool.
   frames(q) {
     const frames = [this.base];

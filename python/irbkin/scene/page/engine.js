@@ -1,51 +1,132 @@
-// The crate, compiled to WebAssembly: requests and answers are JSON (crates/page).
+// Requests and answers as JSON text (src/page), answered in turn: by the crate as WebAssembly in a
+// worker, by Python over HTTP, or by Python of a notebook. `connect` returns a function that takes a
+// text and promises another.
 
 class Engine {
-  constructor(module) {
-    this.module = module;
+  constructor(connect) {
+    this.connect = connect;
+    this.send = connect();
     this.before = [];
-  }
-
-  static async of(base64) {
-    const packed = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    const bytes = await new Response(stream).arrayBuffer();
-    const engine = new Engine(await WebAssembly.compile(bytes));
-    await engine.start();
-    return engine;
-  }
-
-  async start() {
-    this.exports = (await WebAssembly.instantiate(this.module, {})).exports;
+    this.last = Promise.resolve();
   }
 
   // The answer to a request; an error with a sentence if it is refused.
   ask(request) {
-    const text = new TextEncoder().encode(JSON.stringify(request));
-    let answer;
-    try {
-      const address = this.exports.alloc(text.length);
-      new Uint8Array(this.exports.memory.buffer, address, text.length).set(text);
-      const at = this.exports.call(address, text.length);
-      const view = new DataView(this.exports.memory.buffer);
-      const size = view.getUint32(at, true);
-      answer = new TextDecoder().decode(new Uint8Array(this.exports.memory.buffer, at + 4, size));
-      this.exports.release(at);
-    } catch (fault) {
-      // A trap leaves the memory as it was: a new instance takes over.
-      this.exports = new WebAssembly.Instance(this.module, {}).exports;
-      this.before.forEach((it) => this.ask(it));
-      throw new Error(`internal error, please report it: ${fault.message}`);
-    }
-    const { ok, error } = JSON.parse(answer);
-    if (error !== undefined) throw new Error(error);
-    return ok;
+    const answer = this.last.then(() => this.answer(request));
+    this.last = answer.catch(() => {});
+    return answer;
   }
 
   // Ask for something that later answers depend on.
-  set(request) {
-    const answer = this.ask(request);
+  async set(request) {
+    const answer = await this.ask(request);
     this.before = [...this.before.filter((it) => it.do !== request.do), request];
     return answer;
   }
+
+  async answer(request) {
+    let answer = await this.tried(request);
+    if (answer.lost) answer = await this.tried(request);
+    if (answer.error !== undefined) throw new Error(answer.error);
+    return answer.ok;
+  }
+
+  // What answered may be gone with all that was set: another one is told again.
+  async tried(request) {
+    const answer = JSON.parse(await this.send(JSON.stringify(request)));
+    if (answer.lost) for (const it of this.before) await this.send(JSON.stringify(it));
+    return answer;
+  }
+
+  // Another one with the same state, which answers beside this one.
+  twin() {
+    const other = new Engine(this.connect);
+    for (const it of this.before) other.set(it).catch(() => {});
+    return other;
+  }
+}
+
+// The crate in packed WebAssembly of base 64.
+async function wasmEngine(base64) {
+  const packed = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const module = await WebAssembly.compile(await new Response(stream).arrayBuffer());
+  return new Engine(() => {
+    const script = `(${wasmWorker})()`;
+    const worker = new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
+    worker.postMessage(module);
+    return (text) => new Promise((resolve, reject) => {
+      worker.onmessage = ({ data }) => resolve(data);
+      worker.onerror = ({ message }) => reject(new Error(message));
+      worker.postMessage(text);
+    });
+  });
+}
+
+// The script of a worker: it is sent the module first, then requests.
+function wasmWorker() {
+  let module, instance;
+  onmessage = ({ data }) => {
+    if (!module) {
+      module = data;
+      return;
+    }
+    try {
+      instance ??= new WebAssembly.Instance(module, {});
+      const { memory, alloc, call, release } = instance.exports;
+      const text = new TextEncoder().encode(data);
+      const address = alloc(text.length);
+      new Uint8Array(memory.buffer, address, text.length).set(text);
+      const at = call(address, text.length);
+      const size = new DataView(memory.buffer).getUint32(at, true);
+      postMessage(new TextDecoder().decode(new Uint8Array(memory.buffer, at + 4, size)));
+      release(at);
+    } catch (fault) {
+      // A trap leaves the memory as it was: a new instance takes over.
+      instance = null;
+      const error = `internal error, please report it: ${fault.message}`;
+      postMessage(JSON.stringify({ lost: true, error }));
+    }
+  };
+}
+
+// Python, which served the page.
+function servedEngine() {
+  return new Engine(() => {
+    const own = newName();
+    return async (text) => (await post(`ask?${own}`, text)).text();
+  });
+}
+
+const newName = () => Math.random().toString(36).slice(2);
+
+async function post(path, text) {
+  try {
+    return await fetch(path, { method: "POST", body: text });
+  } catch {
+    throw new Error("irbkin has ended: start irbkin view again");
+  }
+}
+
+// Share the joints with the Python that served the page: each side tells the other what it changes.
+function share(app) {
+  const own = newName();
+  let told = app.state.q;
+  let telling = false;
+  new EventSource(`events?${own}`).onmessage = ({ data }) => {
+    const { q, scene } = JSON.parse(data);
+    if (scene) openScene(app, scene);
+    if (!q || same(q, app.state.q)) return;
+    told = q;
+    app.setJoints(q);
+  };
+  app.options.onchange = async () => {
+    if (telling) return;
+    telling = true;
+    while (!same(app.state.q, told)) {
+      told = app.state.q;
+      await post(`q?${own}`, JSON.stringify(told)).catch(() => {});
+    }
+    telling = false;
+  };
 }

@@ -12,6 +12,8 @@ const toRows = (m) => [
   m[0], m[4], m[8], m[12], m[1], m[5], m[9], m[13], m[2], m[6], m[10], m[14],
 ];
 
+const same = (a, b) => a.length === b.length && a.every((it, i) => Math.abs(it - b[i]) < 1e-12);
+
 // A way through points as pairs of them.
 const segments = (points) => points.slice(1).flatMap((it, i) => [points[i], it]);
 

@@ -51,7 +51,7 @@ function panels(app) {
       parts.paste, parts.pasteWords),
     el("section", {},
       el("h2", {}, "Tool ", parts.seen = el("span", { className: "dim" })), parts.pose.node, parts.verdict),
-    el("section", {},
+    el("section", { className: "solved" },
       el("h2", {}, "Solutions ",
         el("label", { className: "switch" }, parts.ghosts, " ghosts")),
       el("div", { className: "scroll" }, el("table", { className: "solutions" },
@@ -60,7 +60,7 @@ function panels(app) {
     el("section", {}, el("h2", {}, "Copy"),
       el("div", { className: "row" }, copy("Python", asPython), copy("RAPID", asRapid), copy("CSV", asCsv),
         copy("link", () => app.link()), parts.copied)),
-    el("details", {}, el("summary", {}, "Tool, base, work object"), ...parts.frames.map((it) => it.node)),
+    el("details", { className: "solved" }, el("summary", {}, "Tool, base, work object"), ...parts.frames.map((it) => it.node)),
     el("details", {}, el("summary", {}, "Keys"),
       el("p", { className: "dim" },
         "1 to 9: a solution; [ and ]: the one before, the next; space: play; f: fit; g: ghosts; with the picture "

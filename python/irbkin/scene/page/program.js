@@ -29,10 +29,11 @@ class Program {
 
   // Modules of one task: each with a name and a text.
   open(modules) {
+    this.engine ??= this.app.engine.twin();
     this.modules = modules;
     this.lines = modules.map((it) => it.text.split("\n"));
     this.name = modules.map((it) => it.name).join(", ");
-    this.read();
+    return this.read();
   }
 
   // A motion of a scene is of its arm alone.
@@ -67,19 +68,27 @@ class Program {
     this.at(0);
   }
 
+  // Ask an engine of its own, beside the one that solves; none where another program was opened.
+  async asked(request) {
+    const { modules } = this;
+    const answer = await this.engine.ask(request);
+    return this.modules === modules ? answer : null;
+  }
+
   // Check the program with the arm as it is; `stays` where the motion is.
-  read(stays = false) {
+  async read(stays = false) {
     if (!this.modules) return;
     this.stop();
     this.motion = null;
     this.line.textContent = "";
     this.node.hidden = false;
     this.title.textContent = this.name;
-    const { engine, view } = this.app;
+    this.words.textContent = "is checked";
     const modules = this.modules.map(({ text }) => ({ text }));
     let checked;
     try {
-      checked = engine.ask({ do: "check", modules, collide: view.obstacles.length > 0 });
+      checked = await this.asked({ do: "check", modules, collide: this.app.view.obstacles.length > 0 });
+      if (!checked) return;
     } catch (fault) {
       this.words.textContent = `${this.name} cannot be checked: ${fault.message}`;
       this.list.replaceChildren();
@@ -95,7 +104,7 @@ class Program {
     if (checked.moves.length > MOST_ROWS) this.counted += ` The table has the first ${MOST_ROWS}.`;
     this.fill(checked, shown);
     this.choices(checked);
-    this.play(stays);
+    await this.play(stays);
   }
 
   // The procedures, `main` or the first that moves chosen unless another one was.
@@ -111,7 +120,7 @@ class Program {
   }
 
   // Follow the chosen routine; `stays` where the motion is.
-  play(stays = false) {
+  async play(stays = false) {
     this.stop();
     this.shown = null;
     this.motion = null;
@@ -119,9 +128,10 @@ class Program {
     const chosen = this.procedures[this.routines.value];
     let why = "";
     try {
-      this.motion = this.app.engine.ask({ do: "motion", module: chosen?.module, routine: chosen?.name });
-      const { moves, move_index: own } = this.motion;
-      this.motion.places = own.map((index) => moves[index]);
+      const motion = await this.asked({ do: "motion", module: chosen?.module, routine: chosen?.name });
+      if (!motion) return;
+      motion.places = motion.move_index.map((index) => motion.moves[index]);
+      this.motion = motion;
     } catch (fault) {
       why = ` ${chosen?.name ?? "It"} is not played: ${fault.message}.`;
     }

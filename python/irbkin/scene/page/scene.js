@@ -2,18 +2,18 @@
 
 const KNOWN = ["box", "sphere", "capsule", "cylinder", "half_space"];
 
-function openScene(app, scene) {
+async function openScene(app, scene) {
   if (scene.format !== "irbkin scene") throw new Error('not a scene: it has no "format": "irbkin scene"');
   if (scene.version !== 1) throw new Error(`the scene has version ${scene.version}, this page reads 1`);
-  const { view, state } = app;
+  const { view } = app;
   app.program.close();
   const [first, ...others] = scene.arms ?? [];
   const obstacles = scene.obstacles ?? [];
   const cell = obstacles.filter((it) => KNOWN.includes(it.shape.kind)).map(({ name, shape }) => ({
     ...shape, name, shape: shape.kind, pose: shape.pose?.slice(0, 3).flat(),
   }));
-  app.engine.set({ do: "cell", obstacles: cell });
-  if (cell.length < obstacles.length) {
+  if (app.engine) await app.tell({ do: "cell", obstacles: cell });
+  if (app.engine && cell.length < obstacles.length) {
     app.notes.add(`${obstacles.length - cell.length} obstacles are drawn and not tested for collisions.`);
   }
   view.obstacles = obstacles.flatMap((it) => shapeMeshes(it.shape));
@@ -27,21 +27,10 @@ function openScene(app, scene) {
     const posture = (first.postures ?? []).find((it) => !it.is_ghost) ?? first.postures?.[0];
     const q = posture?.q ?? first.motion?.q[0];
     const drawn = DrawnArm.ofScene(first);
-    const isSolved = app.arms.some((it) => it.name === first.name);
-    if (isSolved) {
-      // The scene has the tool behind the last joint, the engine behind the flange.
-      const bare = app.engine.ask({ do: "robot", name: first.name });
-      state.base = drawn.base;
-      state.tool = multiply(inverse(fromRows(bare.flange)), drawn.tool);
-      state.wobj = identity();
-      app.setArm({ name: first.name }, q);
-    } else {
-      app.notes.add(`${first.name} is not in the catalog: it is drawn, and not solved.`);
-      app.view.isBare = true;
-    }
-    const rest = (first.postures ?? []).filter((it) => it !== posture || !isSolved);
-    view.extra = rest.map((it) => ({ arm: drawn, q: it.q, alpha: it === posture ? 1 : it.is_ghost ? 0.2 : 0.6 }));
-    if (first.motion && isSolved) app.program.openMotion(scene.title ?? "motion", first.motion);
+    await takeSceneArm(app, first, drawn, q);
+    const rest = (first.postures ?? []).filter((it) => it !== posture);
+    view.extra = rest.map((it) => ({ arm: drawn, q: it.q, alpha: it.is_ghost ? 0.2 : 0.6 }));
+    if (first.motion) app.program.openMotion(scene.title ?? "motion", first.motion);
   }
   for (const arm of others) {
     const drawn = DrawnArm.ofScene(arm);
@@ -53,4 +42,30 @@ function openScene(app, scene) {
   view.marks = [...(scene.marks ?? []).map((it) => ({ at: it.point, color: SEVERITY_COLORS[it.severity] ?? NOTE_COLOR })), ...dots];
   for (const it of (scene.marks ?? []).slice(0, 50)) app.notes.add(`${it.place ?? ""} ${it.text}`.trim());
   view.fit();
+}
+
+// Take the arm of a scene: of the catalog, or of the URDF that the scene has of it; without an engine,
+// or where neither is known, it is drawn and moved by its joints.
+async function takeSceneArm(app, own, drawn, q) {
+  const { state } = app;
+  const source = { name: own.urdf ? null : own.name, urdf: own.urdf };
+  const isKnown = app.engine && (own.urdf || app.arms.some((it) => it.name === own.name));
+  state.wobj = identity();
+  state.base = drawn.base;
+  if (!isKnown) {
+    state.tool = drawn.tool;
+    const dof = own.joints.length;
+    const limits = own.limits.map((it) => it.map((angle) => (Math.abs(angle) < 1e9 ? angle : null)));
+    await app.takeArm({ name: own.name, dof, limits }, drawn, null, q);
+    return;
+  }
+  // The scene has the tool behind the last joint, the engine behind the flange.
+  const rest = Array(own.joints.length).fill(0);
+  const bare = DrawnArm.ofEngine(await app.engine.ask({ do: "robot", ...source }));
+  const flange = multiply(inverse(bare.base), bare.frames(rest).tool);
+  const tool = multiply(inverse(drawn.base), drawn.frames(rest).tool);
+  state.tool = multiply(inverse(flange), tool);
+  const behind = multiply(drawn.tool, inverse(state.tool));
+  source.drawn = (base, tool) => drawn.moved(base, multiply(behind, tool));
+  await app.setArm(source, q);
 }

@@ -67,7 +67,7 @@ class View {
   fit() {
     const { arm, state } = this.app;
     const others = this.extra.flatMap((it) => it.arm.points(it.q));
-    if (arm) this.camera.fit([...(this.isBare ? [] : arm.points(state.q)), ...others, place(arm.base)]);
+    if (arm) this.camera.fit([...arm.points(state.q), ...others, place(arm.base)]);
     this.ask();
   }
 
@@ -85,8 +85,7 @@ class View {
     const begun = performance.now();
     drawing.begin(camera, this.canvas.width, this.canvas.height, this.color());
     this.ground();
-    // Of a scene whose arm is not of the catalog, that arm alone is drawn.
-    if (!this.isBare) this.body(arm, state.q, 1);
+    this.body(arm, state.q, 1);
     for (const [pose, mesh] of this.obstacles) drawing.mesh(mesh, pose, [0.45, 0.55, 0.5]);
     for (const it of this.extra) this.body(it.arm, it.q, it.alpha);
     if (this.way.length) drawing.lines(this.way, NOTE_COLOR, { pairs: true });
@@ -94,7 +93,7 @@ class View {
     for (const { at, color, size = 0.012 } of this.marks) {
       drawBall(drawing, at, size * camera.distance, color);
     }
-    if (this.isBare) return;
+    if (!app.source) return;
     if (app.settings.ghosts) {
       state.solutions.forEach((it, index) => {
         if (index !== state.own && index !== this.hover && it.within_limits) this.body(arm, it.q, 0.13);
@@ -152,7 +151,7 @@ class View {
     const at = this.place(event);
     this.pointers.set(event.pointerId, at);
     const reach = event.pointerType === "touch" ? 26 : 14;
-    const part = this.pointers.size === 1 && event.button === 0 && !this.isBare
+    const part = this.pointers.size === 1 && event.button === 0 && this.app.source
       ? Handle.at(this.camera, this.app.state.T, ...at, reach) : null;
     this.held = part ? { part, from: at, pose: this.app.state.T } : null;
     this.isPan = event.button !== 0 || event.shiftKey;

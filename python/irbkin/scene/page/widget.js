@@ -1,6 +1,21 @@
 // The page in a notebook, with the joints of Python's object.
 
-const same = (a, b) => a.length === b.length && a.every((it, i) => Math.abs(it - b[i]) < 1e-12);
+// Python in the kernel, which is sent a message for each request.
+function kernelEngine(model) {
+  const waiting = new Map();
+  model.on("msg:custom", ({ id, answer }) => {
+    waiting.get(id)?.(answer);
+    waiting.delete(id);
+  });
+  return new Engine(() => {
+    const page = newName();
+    return (text) => new Promise((resolve) => {
+      const id = newName();
+      waiting.set(id, resolve);
+      model.send({ id, page, text });
+    });
+  });
+}
 
 function render({ model, el: host }) {
   const room = document.createElement("div");
@@ -8,12 +23,11 @@ function render({ model, el: host }) {
   const look = document.createElement("style");
   look.textContent = STYLE;
   host.append(look, room);
-  Engine.of(WASM).then((engine) => {
+  const show = async () => {
     const q = model.get("q");
-    const app = new App(room, engine, {});
-    app.open();
-    openScene(app, JSON.parse(model.get("scene")));
-    app.setJoints(q);
+    const app = await App.of(room, WASM ? await wasmEngine(WASM) : kernelEngine(model));
+    await openScene(app, JSON.parse(model.get("scene")));
+    await app.setJoints(q);
     app.options.onchange = (state) => {
       if (same(state.q, model.get("q"))) return;
       model.set("q", state.q);
@@ -24,7 +38,8 @@ function render({ model, el: host }) {
       if (!same(q, app.state.q)) app.setJoints(q);
     });
     room.dataset.ready = "1";
-  }).catch((fault) => {
+  };
+  show().catch((fault) => {
     room.textContent = `irbkin does not start in this browser: ${fault.message}`;
   });
 }

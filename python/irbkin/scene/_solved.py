@@ -1,0 +1,78 @@
+"""The arm of a scene as a robot, for faces that Python and a page move together."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from irbkin._core import Robot, catalog
+from irbkin.errors import InvalidJointsError, InvalidModelError
+from irbkin.scene._arms import link_frames, start
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from irbkin.scene._data import Scene
+
+
+class Joints:
+    """The joints of the first arm of a scene, and its tool."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.arm = scene.arms[0] if scene.arms else None
+        self._robot: Robot | None = None
+
+    def start(self) -> list[float]:
+        """Joint angles at which the arm is drawn first [rad]; none without an arm."""
+        return [] if self.arm is None else list(start(self.arm))
+
+    def checked(self, value: npt.ArrayLike) -> list[float]:
+        """Return joint angles [rad] as a list.
+
+        Raises:
+            InvalidJointsError: They are not those of the arm, or not finite.
+        """
+        dof = 0 if self.arm is None else len(self.arm.joints)
+        try:
+            q = np.asarray(value, dtype=float)
+        except (TypeError, ValueError):
+            q = np.full(dof, np.nan)
+        if q.shape != (dof,) or not np.isfinite(q).all():
+            raise InvalidJointsError(
+                f"q must be {dof} finite joint angles [rad], one for each joint of the first arm, "
+                f"got {value!r}"
+            )
+        joints: list[float] = q.tolist()
+        return joints
+
+    def tool(self, q: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return the pose of the tool, shape (4, 4); that of the world without an arm."""
+        pose: npt.NDArray[np.float64] = (
+            np.eye(4) if self.arm is None else link_frames(self.arm, q)[-1]
+        )
+        return pose
+
+    def nearest(self, T: npt.ArrayLike, q: npt.ArrayLike) -> list[float]:
+        """Return the joint angles of a pose of the tool that are nearest to others [rad].
+
+        Raises:
+            InvalidModelError: The arm is neither of the catalog nor known by its URDF.
+            InvalidPoseError, UnreachableError: As `Robot.ik_nearest`.
+        """
+        if self._robot is None:
+            self._robot = self._made()
+        joints: list[float] = self._robot.ik_nearest(T, q).tolist()
+        return joints
+
+    def _made(self) -> Robot:
+        arm = self.arm
+        if arm is None or not (arm.urdf or arm.name in catalog()):
+            name = "the scene has no arm" if arm is None else f"{arm.name} is not in the catalog"
+            raise InvalidModelError(f"{name}: T cannot be set, q can")
+        bare: Any = Robot.from_urdf(arm.urdf) if arm.urdf else Robot(arm.name)
+        # The scene has the tool behind the last joint, a robot behind the flange.
+        flange = bare.with_base(np.eye(4)).fk(np.zeros(bare.dof))
+        tool = np.linalg.solve(np.array(arm.base) @ flange, self.tool(np.zeros(bare.dof)))
+        robot: Robot = bare.with_base(arm.base).with_tool(tool)
+        return robot
