@@ -12,6 +12,11 @@ use serde::Serialize;
 use super::posture::{Margin, arm_angle, collides, confdata, words};
 use super::request::{Refusal, Request};
 
+/// Steps on the way to a pose that is not reached, longer and shorter ones.
+const STEPS: usize = 40;
+/// Change of a joint on it that is a jump [rad].
+const JUMP: f64 = 1.0;
+
 /// All solutions of a pose.
 #[derive(Debug, Serialize)]
 pub struct Found {
@@ -27,6 +32,9 @@ pub struct Found {
     /// The solution inside the limits that is nearest to the seed, turns of 2 pi considered; null
     /// without a seed, and if there is none.
     pub nearest: Option<Nearest>,
+    /// Where there is no solution inside the limits: joint angles from the seed towards the pose, as
+    /// far as the arm gets on the straight way without a jump [rad].
+    pub towards: Option<Vec<f64>>,
     /// Joint 7 of all solutions, of seven joints [rad].
     pub q7: Option<f64>,
 }
@@ -75,20 +83,34 @@ impl Found {
         let seed = request.has("seed").then(|| request.joints("seed")).transpose()?;
         let cell = request.flag("collide")?.then_some(cell);
         let q7 = request.has("q7").then(|| request.angle("q7")).transpose()?;
+        let mut found = Self::without_way(robot, cell, &pose, seed, q7)?;
+        if let (None, Some(seed)) = (&found.nearest, seed) {
+            found.towards = Some(towards(robot, &pose, seed).to_vec());
+        }
+        Ok(found)
+    }
+
+    fn without_way<const N: usize>(
+        robot: &Robot<N>,
+        cell: Option<&Cell>,
+        pose: &Pose,
+        seed: Option<[f64; N]>,
+        q7: Option<f64>,
+    ) -> Result<Self, Refusal> {
         if N == 7 && q7.is_none() {
             let Some(seed) = seed else {
                 return Err("q7 is missing, and so is seed: seven joints need one"
                     .to_owned()
                     .into());
             };
-            return Self::along_redundancy(robot, cell, &pose, &seed);
+            return Self::along_redundancy(robot, cell, pose, &seed);
         }
-        let solutions = robot.ik_with(&pose, q7)?;
+        let solutions = robot.ik_with(pose, q7)?;
         let nearest = match seed {
             None => None,
             // Among these, as joint 7 is given.
             Some(seed) if N == 7 => inside(solutions.nearest(&seed, &[1.0; N]))?.ok(),
-            Some(seed) => inside(robot.ik_nearest(&pose, &seed, &[1.0; N]))?.ok(),
+            Some(seed) => inside(robot.ik_nearest(pose, &seed, &[1.0; N]))?.ok(),
         };
         Self::of(robot, cell, &solutions, nearest.as_ref(), q7)
     }
@@ -112,6 +134,7 @@ impl Found {
                 outcome: reason.clone(),
                 reason: Some(reason),
                 nearest: None,
+                towards: None,
                 q7: None,
             }),
         }
@@ -136,9 +159,28 @@ impl Found {
             reason: solutions.is_empty().then(|| outcome.clone()),
             outcome,
             nearest,
+            towards: None,
             q7,
         })
     }
+}
+
+/// How far the arm gets from a seed on the straight way to a pose, without a jump.
+fn towards<const N: usize>(robot: &Robot<N>, pose: &Pose, seed: [f64; N]) -> [f64; N] {
+    let from = robot.fk(&seed);
+    let (mut q, mut reached, mut step) = (seed, 0.0, 0.5);
+    for _ in 0..STEPS {
+        let next = from.try_lerp_slerp(pose, reached + step, 1e-9);
+        let found = next.and_then(|next| robot.ik_nearest(&next, &q, &[1.0; N]).ok());
+        let near = |it: &crate::Solution<N>| it.q.iter().zip(&q).all(|(a, b)| (a - b).abs() < JUMP);
+        if let Some(solution) = found.filter(near) {
+            (q, reached) = (solution.q, reached + step);
+            step = f64::min(2.0 * step, 1.0 - reached);
+        } else {
+            step /= 2.0;
+        }
+    }
+    q
 }
 
 /// The outcome; of an arm without a closed form, with how near it gets to a pose out of reach.

@@ -66,6 +66,28 @@ pub struct Finding {
     pub value: Option<f64>,
     /// Its bound.
     pub bound: Option<f64>,
+    /// What corrects it; empty where nothing does.
+    pub edits: Vec<Edit>,
+}
+
+/// A text that takes the place of another one.
+#[derive(Debug, Serialize)]
+pub struct Edit {
+    /// The module, from 0.
+    pub module: usize,
+    /// Its first byte in the text of the module as UTF-8.
+    pub begin: usize,
+    /// The byte behind it.
+    pub end: usize,
+    /// The new text.
+    pub text: String,
+}
+
+impl From<&rapid::Edit> for Edit {
+    fn from(edit: &rapid::Edit) -> Self {
+        let (begin, end) = (edit.span.start, edit.span.end);
+        Self { module: edit.module, begin, end, text: edit.text.clone() }
+    }
 }
 
 impl From<&rapid::Finding> for Finding {
@@ -82,6 +104,7 @@ impl From<&rapid::Finding> for Finding {
             joint: finding.joint,
             value: finding.value,
             bound: finding.bound,
+            edits: finding.edits.iter().map(Edit::from).collect(),
         }
     }
 }

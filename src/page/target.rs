@@ -1,25 +1,26 @@
-//! `ik_target`: what a robtarget or a jointtarget means.
+//! `ik_target`: what a target, a tool or a work object means.
 
 use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use crate::rapid::{self, Content, JointTarget, RobTarget, Value};
-use crate::{Robot, pose, thresholds};
+use crate::rapid::{self, Content, JointTarget, RapidPose, RobTarget, Value};
+use crate::{Pose, Robot, pose, thresholds};
 use serde::Serialize;
 
 use super::posture::confdata;
 use super::request::{Refusal, Request, twelve};
 
-/// A target.
+/// A target, or the frame of a tool or of a work object.
 #[derive(Debug, Serialize)]
 pub struct Meant {
-    /// "robtarget" or "jointtarget".
+    /// "robtarget", "jointtarget", "tooldata" or "wobjdata".
     pub kind: &'static str,
     /// Its name, if it is declared.
     pub name: Option<String>,
-    /// The pose of the tool in the work object.
+    /// The pose of the tool in the work object; of a tool in the flange frame, of a work object in
+    /// the world.
     #[serde(rename = "T")]
     pub pose: [f64; 12],
     /// The confdata that it asks for; of a jointtarget, the confdata of its joints.
@@ -28,7 +29,7 @@ pub struct Meant {
     pub extax: [Option<f64>; 6],
     /// The joint angles [rad]: of a robtarget, inside the limits and with its confdata.
     pub q: Option<Vec<f64>>,
-    /// Why there are none.
+    /// Why a target has none.
     pub reason: Option<String>,
 }
 
@@ -44,12 +45,32 @@ impl Meant {
         match value(text)? {
             (name, Value::RobTarget(target)) => Self::of_pose(&robot, name, &target),
             (name, Value::JointTarget(target)) => Self::of_joints(&robot, name, &target),
+            (name, Value::ToolData(tool)) if tool.robhold => {
+                Self::of_frame("tooldata", name, pose_of(&tool.tframe)?)
+            }
+            (name, Value::WobjData(wobj)) if !wobj.robhold && wobj.ufprog => {
+                let pose = pose_of(&wobj.uframe)? * pose_of(&wobj.oframe)?;
+                Self::of_frame("wobjdata", name, pose)
+            }
+            (_, Value::ToolData(_)) => {
+                Err("robhold of the tooldata is FALSE, it must be TRUE here".to_owned().into())
+            }
+            (_, Value::WobjData(_)) => Err("the work object moves (robhold is TRUE, or ufprog \
+                FALSE), it must stand still here"
+                .to_owned()
+                .into()),
             (_, other) => Err(format!(
-                "robtarget is a {}, it must be a robtarget or a jointtarget",
+                "robtarget is a {}, it must be a robtarget, a jointtarget, a tooldata or a wobjdata",
                 other.type_name()
             )
             .into()),
         }
+    }
+
+    #[expect(clippy::unnecessary_wraps, reason = "as of the others")]
+    fn of_frame(kind: &'static str, name: Option<String>, pose: Pose) -> Result<Self, Refusal> {
+        let (confdata, q, reason) = (None, None, None);
+        Ok(Self { kind, name, pose: twelve(&pose), confdata, extax: [None; 6], q, reason })
     }
 
     fn of_pose<const N: usize>(
@@ -57,7 +78,8 @@ impl Meant {
         name: Option<String>,
         target: &RobTarget,
     ) -> Result<Self, Refusal> {
-        let pose = pose::from_wxyz(target.trans_mm.map(|mm| mm / 1e3), target.rot)?;
+        let RobTarget { trans_mm, rot, .. } = *target;
+        let pose = pose_of(&RapidPose { trans_mm, rot })?;
         let joints = rapid::calc_joint_t(robot, target, None, None);
         Ok(Self {
             kind: "robtarget",
@@ -91,6 +113,10 @@ impl Meant {
             reason: None,
         })
     }
+}
+
+fn pose_of(own: &RapidPose) -> Result<Pose, Refusal> {
+    Ok(pose::from_wxyz(own.trans_mm.map(|mm| mm / 1e3), own.rot)?)
 }
 
 /// The value of a text: a literal, or the first datum that is declared, with its name.

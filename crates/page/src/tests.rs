@@ -179,6 +179,70 @@ fn targets_mean_poses_or_joints() {
 }
 
 #[test]
+fn tools_and_work_objects_mean_frames() {
+    let mut page = with_arm("IRB 2600-12/1.65");
+    let load = "[1,[0,0,50],[1,0,0,0],0,0,0]";
+    let tool = format!("PERS tooldata tGun:=[TRUE,[[0,10,180],[1,0,0,0]],{load}];");
+    let wobj = r#"[FALSE,TRUE,"",[[500,0,0],[0,0,0,1]],[[0,100,0],[1,0,0,0]]]"#;
+    let meant = granted(&mut page, &json!({"do": "ik_target", "robtarget": tool}));
+    assert_eq!((&meant["kind"], &meant["name"]), (&json!("tooldata"), &json!("tGun")));
+    assert_eq!(numbers(&meant["T"])[7], 0.01);
+    let meant = granted(&mut page, &json!({"do": "ik_target", "robtarget": wobj}));
+    assert_eq!((&meant["kind"], &meant["name"]), (&json!("wobjdata"), &json!(null)));
+    assert_eq!(numbers(&meant["T"])[7], -0.1);
+    for (text, words) in [
+        (tool.replace("TRUE", "FALSE"), "robhold of the tooldata is FALSE"),
+        (wobj.replace("TRUE", "FALSE"), "the work object moves"),
+    ] {
+        let refused = refused(&mut page, &json!({"do": "ik_target", "robtarget": text}));
+        assert!(refused.contains(words), "{refused}");
+    }
+}
+
+#[test]
+fn an_arm_gets_as_far_as_it_reaches_towards_a_pose() {
+    for (name, dof) in ARMS {
+        let mut page = with_arm(name);
+        let robot = granted(&mut page, &json!({"do": "fk", "q": Q[..dof]}));
+        let mut far = numbers(&robot["tool"]);
+        let from = far[3];
+        far[3] += 5.0;
+        let found = granted(&mut page, &json!({"do": "ik", "T": far, "seed": Q[..dof]}));
+        assert!(found["nearest"].is_null());
+        let q = numbers(&found["towards"]);
+        let reached = numbers(&granted(&mut page, &json!({"do": "fk", "q": q}))["tool"]);
+        assert!(reached[3] > from, "{name} {reached:?}");
+        assert!(
+            reached.iter().zip(&far).enumerate().all(|(i, (a, b))| i == 3 || (a - b).abs() < 1e-6)
+        );
+        far[3] = reached[3] + 5.0 / 1000.0;
+        let further = granted(&mut page, &json!({"do": "ik", "T": far, "seed": q}));
+        let jumps = || {
+            let pairs = numbers(&further["nearest"]["q"]).into_iter().zip(q.iter());
+            pairs.into_iter().any(|(one, other)| (one - other).abs() >= 1.0)
+        };
+        assert!(further["nearest"].is_null() || jumps(), "{name} {further}");
+    }
+}
+
+#[test]
+fn a_finding_has_what_corrects_it() {
+    let mut page = with_arm("IRB 2600-12/1.65");
+    let modules = json!([{"text": MODULE.replace("[0,0,0,0]", "[1,0,0,0]")}]);
+    let checked = granted(&mut page, &json!({"do": "check", "modules": modules}));
+    let edits: Vec<_> = checked["findings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|it| it["edits"].get(0))
+        .collect();
+    let text = modules[0]["text"].as_str().unwrap();
+    let at = |name: &str| usize::try_from(edits[0][name].as_u64().unwrap()).unwrap();
+    assert_eq!(&text[at("begin")..at("end")], "1", "{edits:?}");
+    assert_eq!(edits[0]["text"], "0");
+}
+
+#[test]
 fn a_program_is_checked_and_played() {
     let mut page = with_arm("IRB 2600-12/1.65");
     let words = refused(&mut page, &json!({"do": "motion"}));
