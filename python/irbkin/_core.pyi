@@ -2505,8 +2505,8 @@ class Finding(_Record):
 
     @property
     def code(self) -> str:
-        """A letter for the group and three digits, such as "C201"; docs/guide/check.md has the
-        codes.
+        """A letter for the group and three digits, such as "C201"; `irbkin rule`
+        explains it.
         """
     @property
     def name(self) -> str:

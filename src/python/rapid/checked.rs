@@ -14,8 +14,8 @@ record! {
     "irbkin.rapid";
     /// Something wrong with a move, in a table, a motion or a check. `str` has the line, too.
     Finding {
-        /// A letter for the group and three digits, such as "C201"; docs/guide/check.md has the
-        /// codes.
+        /// A letter for the group and three digits, such as "C201"; `irbkin rule`
+        /// explains it.
         code: String,
         /// The code in words, such as "wrong-confdata".
         name: String,

@@ -200,7 +200,7 @@ pub struct Edit {
     pub text: String,
 }
 
-/// Something wrong with a move of a module; docs/guide/check.md has the codes. `Display` gives the
+/// Something wrong with a move of a module; `irbkin rule` has the codes. `Display` gives the
 /// line and the message.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
