@@ -163,7 +163,7 @@ impl PyRobot {
     ///
     /// A station that only refers to ABB's libraries has the axes alone: the robot then has no
     /// limits, its flange is the frame of the last axis, and its name says so. See
-    /// docs/guide/conventions.md.
+    /// docs/guide/robotstudio.md.
     ///
     /// Args:
     ///     path: A library, .rslib, a station, .rsstn, .rsstnx or .rspag, or an export, .glb, which

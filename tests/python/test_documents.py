@@ -24,7 +24,9 @@ FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 # Pages whose blocks need an extra.
 EXTRA = ("calibrate.md", "plot.md", "general.md")
 # Transcripts of a shell, and the files that they read: their names stand behind the fence.
-TRANSCRIBED = [ROOT / "docs" / "guide" / f"{name}.md" for name in ("cli", "check", "backup")]
+TRANSCRIBED = [
+    ROOT / "docs" / "guide" / f"{name}.md" for name in ("cli", "check", "backup", "robotstudio")
+]
 SHELL = re.compile(
     r"^```(?:console\n(?P<console>.*?)|\w+ (?P<file>[\w-]+\.\w+)\n(?P<content>.*?))^```$",
     re.MULTILINE | re.DOTALL,
@@ -33,7 +35,7 @@ README_WORDS = 600
 # Folders of the checkout that a page reads, copied beside it.
 GIVEN = {
     "backup.md": ROOT / "examples" / "backup",
-    "conventions.md": ROOT / "examples" / "robotstudio",
+    "robotstudio.md": ROOT / "examples" / "robotstudio",
 }
 LINE = 100
 

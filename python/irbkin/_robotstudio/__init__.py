@@ -1,5 +1,5 @@
 """Arms from RobotStudio's files: `Robot.from_robotstudio`. What is read is in
-docs/guide/conventions.md.
+docs/guide/robotstudio.md.
 """
 
 from __future__ import annotations
