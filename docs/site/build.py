@@ -86,7 +86,7 @@ def chapters() -> dict[str, list[str]]:
     for chapter in text.split("\n## ")[1:]:
         rows = "".join(it.split("|")[1] for it in chapter.splitlines() if it.startswith("|"))
         if names := re.findall(r"\(((?:guide|theory|evidence)/\w+\.md)\)", rows):
-            found[chapter.split()[0].strip(",")] = [f"docs/{name}" for name in names]
+            found[chapter.split()[0].strip(",:")] = [f"docs/{name}" for name in names]
     return found
 
 
