@@ -984,7 +984,7 @@ class Robot:
         Links are `base_link`, `link_1` .., `flange` and `tool0` (irbkin's flange, z out of it);
         `world` with a base, `tool` with a tool. Joints are `joint_1` .., velocities 1e5 if unknown.
         A parallelogram linkage is a joint that mimics `joint_2`; `uncoupled().to_urdf()` has none.
-        See docs/guide/conventions.md.
+        See docs/guide/urdf.md.
 
         Args:
             visual: Whether links get the capsules of `body` as `visual` and `collision` elements, a
