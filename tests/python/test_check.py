@@ -30,8 +30,7 @@ YUMI = irbkin.Robot("IRB 14050")
 CODES = [code for code, *_ in check_codes()]
 BLOCK = re.compile(r"^```rapid (\S+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 BLOCKS = dict(BLOCK.findall(RULES))
-DATA = BLOCKS.pop("data")
-SEAM = dict(BLOCK.findall(GUIDE))["seam.mod"]
+SEAM, DATA = (dict(BLOCK.findall(GUIDE))[it] for it in ("seam.mod", "data"))
 CELL = irbkin.Cell({"post": Shape.cylinder(0.05, 0.8, irbkin.pose([0.9, 0, 0.4]))})
 """As the rules have it in cell.toml."""
 FAR = "[9E9,9E9,9E9,9E9,9E9,9E9]"
