@@ -10,8 +10,10 @@ import re
 import shutil
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
+import irbkin
 import pytest
 
 ROOT = Path(__file__).parents[2]
@@ -116,7 +118,8 @@ def test_the_transcripts_of_a_page_are_what_a_shell_prints(page, tmp_path):
 
 
 def test_the_check_that_readme_shows_is_what_a_shell_prints(tmp_path):
-    shutil.copy(ROOT / "examples" / "pick_and_place.mod", tmp_path)
+    (tmp_path / "examples").mkdir()
+    shutil.copy(ROOT / "examples" / "pick_and_place.mod", tmp_path / "examples")
     text = README.read_text()
     (shown,) = re.findall(
         r"^```console\n(\$ irbkin check .*?)^```$", text, re.MULTILINE | re.DOTALL
@@ -163,6 +166,14 @@ def test_the_notebook_is_the_tutorial():
     if os.environ.get("IRBKIN_WRITE") == "1":
         file.write_text(own)
     assert file.read_text() == own, "IRBKIN_WRITE=1 pytest tests/python/test_documents.py writes it"
+
+
+def test_the_arms_of_a_maker_are_counted():
+    makers = Counter(irbkin.catalog_entry(name).maker for name in irbkin.catalog())
+    assert f"{makers['ABB']} arms of ABB" in README.read_text()
+    arms = (ROOT / "docs" / "guide" / "arms.md").read_text()
+    assert f"{makers['ABB']} of ABB" in arms
+    assert f"{makers['Universal Robots']} of Universal Robots" in arms
 
 
 def words(text):
