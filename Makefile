@@ -298,7 +298,7 @@ docs: $(BUILT) $(VENV)/.groups $(VENV)/.site ## Write generated tables and trans
 	IRBKIN_WRITE=1 $(SUITE) --quiet -- catalog_page::
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k "transcripts or notebook"
 	for script in eight_solutions slots motion plans singularities peers; do $(BIN)/python docs/pictures/$$script.py; done
-	cargo doc --no-deps --features serde
+	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps -p irbkin --features serde
 	$(BIN)/python docs/site/build.py
 
 site: $(BUILT) $(VENV)/.site ## Build the site of README, docs, arms and docstrings: target/site/html

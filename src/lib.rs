@@ -1,5 +1,5 @@
-//! Kinematics of ABB IRB, Universal Robots and Franka arms: all inverse-kinematics solutions, in
-//! stable slots, with limits and singularities reported. No solve allocates.
+//! Kinematics of ABB IRB, Universal Robots and Franka arms: every inverse-kinematics solution, with
+//! its configuration, joint limits and singularities. No solve allocates.
 //!
 //! All eight solutions for a pose of an IRB 2600:
 //!
@@ -74,8 +74,14 @@
 //! opt-level = 3
 //! ```
 //!
-//! Meters, radians, `f64`. The conventions, the derivations and the accuracy are in `docs/` of the
-//! repository.
+//! Without `std` the crate needs `alloc`. Meters, radians, `f64`. [Conventions], derivations and
+//! accuracy are in the [documents] of the repository, whose paths are named here as docs/...
+//!
+//! [Conventions]: https://github.com/irbkin/irbkin/blob/main/docs/guide/conventions.md
+//! [documents]: https://github.com/irbkin/irbkin/blob/main/docs/README.md
+#![cfg_attr(docsrs, feature(doc_cfg))]
+// Nearly all needs one of the two: no badge for it.
+#![cfg_attr(docsrs, doc(auto_cfg(hide(feature = "std", feature = "libm"))))]
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(
     test,
@@ -153,6 +159,7 @@ pub use kinematics::{
 pub use lanes::InstructionSet;
 /// The linear algebra of poses and matrices, in the version that this crate uses.
 pub use nalgebra;
+#[doc(inline)]
 pub use report::{Configuration, Explanation, FreeJoint, Reach};
 
 /// One joint path along a path of poses: [`Robot::follow`].

@@ -30,8 +30,8 @@ impl Robot<6> {
     /// with the smallest bottleneck: the largest velocity of a joint, relative to its limit
     /// ([`Robot::max_velocity`]; 1 rad/s of each joint if it is unknown). Of several, the one with
     /// the smallest weighted sum of squares of joint steps and of the costs of limits and
-    /// singularities; another [`PlanOrder`] puts the sum first. Both are exact over the grid of
-    /// what is free, which is then refined around the best values. A path of 64 poses or more with
+    /// singularities; another [`PlanOrder`](crate::plan::PlanOrder) puts the sum first. Both are
+    /// exact over the grid of what is free, which is then refined. A path of 64 poses or more with
     /// free axes is planned along some of its poses first, then in bands around that plan. At last,
     /// what is free is smoothed, which raises the bottleneck by at most 3 %, never above the one
     /// with nothing free, and never the sum if it comes first. Every step is shown to be continuous

@@ -40,7 +40,7 @@ impl Robot<7> {
     /// # Errors
     ///
     /// As [`Robot::<6>::ik`], and [`Error::InvalidJoints`] when `q7` is not finite, exceeds
-    /// [`MOST_ANGLE`], or is missing though no joint is locked.
+    /// [`MOST_ANGLE`](crate::thresholds::MOST_ANGLE), or is missing though no joint is locked.
     pub fn ik(&self, pose: &Pose, q7: impl Into<Option<f64>>) -> Result<Solutions<7>, Error> {
         self.ik_with(pose, q7)
     }
