@@ -79,9 +79,7 @@
 //!
 //! [Conventions]: https://github.com/irbkin/irbkin/blob/main/docs/guide/conventions.md
 //! [documents]: https://github.com/irbkin/irbkin/blob/main/docs/README.md
-#![cfg_attr(docsrs, feature(doc_cfg))]
-// Nearly all needs one of the two: no badge for it.
-#![cfg_attr(docsrs, doc(auto_cfg(hide(feature = "std", feature = "libm"))))]
+#![cfg_attr(docsrs, feature(doc_cfg), doc(auto_cfg(hide(feature = "std", feature = "libm"))))]
 #![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(
     test,
