@@ -65,6 +65,8 @@ pub struct Shapes {
     pub links: Vec<Vec<Capsule>>,
     /// The capsules of cylinders, pistons and rods beside each link.
     pub parts: Vec<Vec<Capsule>>,
+    /// Hulls of links, closer to them than their capsules; of many arms there are none.
+    pub hulls: Vec<Hull>,
 }
 
 /// All points within a radius of a line; of a point, if both ends are the same.
@@ -74,6 +76,19 @@ pub struct Capsule {
     pub a: [f64; 3],
     /// The other end [m].
     pub b: [f64; 3],
+    /// The radius [m].
+    pub radius: f64,
+}
+
+/// All points within a radius of the convex hull of points.
+#[derive(Debug, Serialize)]
+pub struct Hull {
+    /// Its link, as an index of `links`.
+    pub link: usize,
+    /// Its points [m].
+    pub points: Vec<[f64; 3]>,
+    /// Triangles of its surface by their numbers, counterclockwise seen from outside.
+    pub faces: Vec<[u8; 3]>,
     /// The radius [m].
     pub radius: f64,
 }
@@ -154,11 +169,18 @@ impl Shapes {
             };
             (0..dof + 2).map(of).collect()
         };
+        let hulls = body.hulls().iter().map(|own| Hull {
+            link: own.link,
+            points: own.hull.points().collect(),
+            faces: own.hull.faces().to_vec(),
+            radius: own.hull.radius(),
+        });
         Self {
             approximate: body.is_approximate(),
             source: body.source().to_owned(),
             links: by_link(body.capsules()),
             parts: by_link(body.parts()),
+            hulls: hulls.collect(),
         }
     }
 }

@@ -367,3 +367,23 @@ fn the_catalog_has_every_arm_and_each_is_drawn() {
         assert!(drawn["body"].is_object());
     }
 }
+
+#[test]
+fn hulls_are_those_of_the_body_with_faces_of_their_points() {
+    let mut page = Page::default();
+    for name in ["UR5e", "Panda", "IRB 140-6/0.81"] {
+        let drawn = granted(&mut page, &json!({"do": "robot", "name": name}));
+        let robot = irbkin::AnyRobot::from_catalog(irbkin::catalog::find(name).unwrap()).unwrap();
+        let body = irbkin::on!(robot, robot => robot.body().cloned());
+        let wanted = body.as_ref().map_or(&[][..], |body| body.hulls());
+        let hulls = drawn["body"]["hulls"].as_array().unwrap();
+        assert_eq!(hulls.len(), wanted.len());
+        for (hull, wanted) in hulls.iter().zip(wanted) {
+            let points: Vec<[f64; 3]> = wanted.hull.points().collect();
+            assert_eq!(hull["link"], json!(wanted.link));
+            assert_eq!(hull["points"], json!(points));
+            assert_eq!(hull["faces"], json!(wanted.hull.faces()));
+            assert_eq!(hull["radius"], json!(wanted.hull.radius()));
+        }
+    }
+}
