@@ -72,12 +72,17 @@ def test_the_table_of_solutions_has_their_angles():
     assert "beyond reach" in shown(THINGS["none"])[0]
 
 
-def test_the_picture_has_a_line_for_each_capsule():
-    text, _ = shown(ROBOT)
-    widths = re.findall(r'stroke-width="([\d.]+)"', text)
-    assert len(widths) == 2 * len(ROBOT.body.capsules)
-    scale = float(widths[0]) / 2
-    assert scale > 0
+def test_the_picture_has_the_faces_of_each_hull_and_the_tones_of_each_capsule():
+    for name, least in (("IRB 2600-12/1.65", 2 * 7), ("IRB 140-6/0.81", 3)):
+        robot = irbkin.Robot(name)
+        text, _ = shown(robot)
+        least = least if robot.body.hulls else least * len(robot.body.capsules)
+        paths = re.findall(r'<path d="(M[^"]*Z)" fill="(#\w{6})"', text)
+        assert len(paths) >= least
+        assert len({fill for _, fill in paths}) > 5
+        numbers = [float(it) for path, _ in paths for it in re.findall(r"[\d.]+", path)]
+        assert 0 <= min(numbers) < 10
+        assert 190 < max(numbers) <= 200
 
 
 def test_a_trajectory_shows_its_peaks():

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from irbkin import rapid, scene
 from irbkin.body import Shape
+from irbkin.scene._arms import outward
 
 NAME = "IRB 2600-12/1.65"
 ROBOT = irbkin.Robot(NAME).with_tool(irbkin.pose([0.1, 0, 0.2]))
@@ -81,6 +82,10 @@ def test_a_program_is_recorded_with_its_motion_source_and_findings(chunk, tmp_pa
         places, turns = recorded.frames(entity)
         np.testing.assert_allclose(places, frames[:, index, :3, 3], rtol=0, atol=SINGLE)
         np.testing.assert_allclose(turns, frames[:, index, :3, :3], rtol=0, atol=SINGLE)
+    hull = next(it for it in own.arms[0].hulls if it.link == 2)
+    (corners,) = recorded("/arm_0/link_2", "Mesh3D:vertex_positions")
+    wanted = outward(hull)[np.ravel(hull.faces)]
+    np.testing.assert_allclose(corners, wanted, rtol=0, atol=SINGLE)
     assert len(motion.t) > 100
     np.testing.assert_array_equal(recorded("/arm_0/joints", "Scalars:scalars"), motion.q)
     lines = [it[0].split("  ")[0] for it in recorded("/arm_0/program", "TextLog:text")]

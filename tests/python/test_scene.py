@@ -1,13 +1,15 @@
 """Scenes: plain data of everything that can be looked at, the same arm in every face."""
 
 import json
+from dataclasses import replace
 
 import irbkin
 import numpy as np
 import pytest
 from irbkin import rapid, scene, trajectory
-from irbkin.body import Shape
-from irbkin.scene._arms import link_frames
+from irbkin.body import Body, Shape
+from irbkin.scene._arms import link_frames, outward, solids
+from irbkin.scene._plain import plain
 from pictures import MAP
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
@@ -87,6 +89,41 @@ def test_a_shape_is_made_again_of_its_data(name):
     assert again["kind"] == SHAPES[name].data()["kind"]
 
 
+FACED = [name for name in irbkin.catalog() if irbkin.Robot(name).body.hulls]
+
+
+@pytest.mark.parametrize("name", FACED)
+def test_a_hull_that_is_drawn_contains_its_points_and_is_within_its_radius(name):
+    body = irbkin.Robot(name).body
+    arm = scene.arm_of(irbkin.Robot(name))
+    assert len(arm.hulls) == len(body.hulls)
+    directions = RNG.normal(size=(200, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    for own, (link, points, faces, radius) in zip(arm.hulls, body.hulls, strict=True):
+        assert (own.link, own.radius) == (link, radius)
+        assert own.faces == tuple(map(tuple, faces))
+        beyond = (outward(own) @ directions.T).max(axis=0) - (points @ directions.T).max(axis=0)
+        # To 0.1 mm: half of it along each axis.
+        assert -1e-4 < beyond.min() <= beyond.max() < radius + 1e-4
+    assert len(json.dumps(plain(arm.hulls))) < 80_000
+
+
+def test_links_with_hulls_are_drawn_as_them_and_the_others_as_capsules():
+    arm = scene.arm_of(irbkin.Robot("UR5e"))
+    assert solids(arm) == list(arm.hulls)
+    assert solids(arm, capsules=True) == list(arm.body)
+    upper = replace(arm, hulls=tuple(it for it in arm.hulls if it.link == 2))
+    assert {type(it).__name__ for it in solids(upper) if it.link == 2} == {"LinkHull"}
+    assert [it for it in solids(upper) if it.link != 2] == [it for it in arm.body if it.link != 2]
+    held = irbkin.Robot("UR5e").with_attached(Shape.capsule([0, 0, 0], [0, 0, 0.2], 0.03))
+    (pin,) = (it for it in solids(scene.arm_of(held)) if it.link == 7)
+    assert (pin.a, pin.b, pin.radius) == ((0, 0, 0), (0, 0, 0.2), 0.03)
+    bare = [(link, points, [], radius) for link, points, _, radius in ROBOT.body.hulls]
+    body = Body(ROBOT.body.links, ROBOT.body.capsules, [], hulls=bare)
+    arm = scene.arm_of(ROBOT.with_body(body))
+    assert solids(arm) == list(arm.body)
+
+
 def test_the_first_solution_is_drawn_and_the_others_are_ghosts():
     solutions = ROBOT.ik(T)
     (arm,) = every_scene()["solutions"].arms
@@ -141,6 +178,8 @@ def test_scenes_add_up():
 def test_what_is_no_scene_is_refused_with_its_place():
     data = every_scene()["robot"].to_dict()
     arm = data["arms"][0]
+    hull = arm["hulls"][0]
+    assert scene.Scene.from_dict({**data, "arms": [{**arm, "hulls": []}]}).arms[0].hulls == ()
     for change, words in (
         ({"version": 2}, "version is 2, this irbkin reads 1"),
         ({"format": "x"}, 'not a scene: it has no "format"'),
@@ -149,6 +188,14 @@ def test_what_is_no_scene_is_refused_with_its_place():
         ({"arms": [{**arm, "coupling": "a"}]}, r"arms\[0\].coupling is 'a', it must be a finite"),
         ({"arms": [{**arm, "name": 3}]}, r"scene.arms\[0\].name is 3, it must be a text"),
         ({"arms": [{}]}, r"scene.arms\[0\]: lacks the field 'name'"),
+        (
+            {"arms": [{**arm, "hulls": [{**hull, "faces": [[0, 1, 64]]}]}]},
+            r"hulls\[0\].faces has \[0",
+        ),
+        (
+            {"arms": [{**arm, "hulls": [{**hull, "points": []}]}]},
+            r"arms\[0\].hulls\[0\].points must",
+        ),
     ):
         with pytest.raises(ValueError, match=words):
             scene.Scene.from_dict({**data, **change})

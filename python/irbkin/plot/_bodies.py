@@ -1,20 +1,21 @@
-"""Arms as bodies: the capsules of their links, in parallel projection."""
+"""Arms as bodies: the hulls or capsules of their links, in parallel projection."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import PathCollection
+from matplotlib.path import Path
 
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidJointsError
 from irbkin.plot._style import AXIS_COLORS, canvas, title, whole
-from irbkin.scene import Arm, arm_of
-from irbkin.scene._arms import capsules_at, link_frames, rest
-from irbkin.scene._look import link_color, nearness, on_paper
+from irbkin.scene import Arm, LinkShape, arm_of
+from irbkin.scene._arms import link_frames, rest, solids
+from irbkin.scene._look import on_paper
+from irbkin.scene._strokes import pieces
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -25,14 +26,8 @@ if TYPE_CHECKING:
     from irbkin._arrays import Floats
     from irbkin.plot._style import Canvas
 
-CARRIED, GHOST = "#6f7a88", "#b9c0ca"
-"""Colors of what the flange carries, and of faint arms."""
-LIGHT = np.array([-0.25, 0.35])
-"""Where the light comes from on the paper, in parts of a capsule's radius."""
-TONES = ((1.0, -0.16), (0.82, 0.0), (0.5, 0.18))
-"""Layers of a capsule: part of its radius, and how much lighter than its color."""
-CAP = 13
-"""Corners of a round end."""
+GHOST = "#b9c0ca"
+"""The color of faint arms."""
 SIDES = np.vstack([-np.eye(3), np.eye(3)])
 ARROW = 0.12
 """Length of the axes of the tool, in parts of the picture."""
@@ -43,18 +38,21 @@ def arm(
     q: npt.ArrayLike | None = None,
     *,
     frames: bool = True,
+    capsules: bool = False,
     figure: Canvas | None = None,
 ) -> Figure:
     """Draw an arm as its body, with the frame of its tool: x red, y green, z blue.
 
-    The body is the arm's capsules. They contain its public meshes or, of most arms, are made of the
-    lengths of its kinematic table: then the title says so.
+    The body is the hulls of the arm's links, or the capsules of those without. They contain its
+    public meshes or, of most arms, are made of the lengths of its kinematic table: then the title
+    says so.
 
     Args:
         robot: The arm, with its tool, base and body.
         q: Joint angles [rad], shape (n,) or (k, n): the last is drawn, those before it faintly. At
             rest when not given.
         frames: Whether the frame of the tool is drawn.
+        capsules: Whether all links are drawn as capsules, which cells compare first.
         figure: Where to draw; a new figure if not given.
 
     Returns:
@@ -74,8 +72,8 @@ def arm(
     drawn = canvas(figure, 4.6, 4.6)
     axes = drawn.subplots()
     for ghost in angles[:-1]:
-        draw_body(axes, own, ghost, is_ghost=True)
-    draw_body(axes, own, angles[-1])
+        draw_body(axes, own, ghost, capsules, is_ghost=True)
+    draw_body(axes, own, angles[-1], capsules)
     points = np.concatenate([corners(own, it) for it in angles])
     extent(axes, points, drawn)
     if frames:
@@ -89,8 +87,11 @@ def corners(own: Arm, q: npt.ArrayLike) -> Floats:
     """Return points around an arm, for the extent of a picture, shape (k, 3)."""
     frames = link_frames(own, q)
     points = [frames[0, :3, 3], frames[-1, :3, 3]]
-    for it, ends in capsules_at(own, q):
-        points += [end + it.radius * side for end in ends for side in SIDES]
+    for it in solids(own):
+        frame = frames[min(it.link, len(own.joints))]
+        ends = np.array([it.a, it.b] if isinstance(it, LinkShape) else it.points)
+        placed = ends @ frame[:3, :3].T + frame[:3, 3]
+        points += [end + it.radius * side for end in placed for side in SIDES]
     return np.array(points)
 
 
@@ -104,20 +105,17 @@ def extent(axes: Axes, points: Floats, drawn: Canvas) -> None:
     axes.set_frame_on(False)
 
 
-def draw_body(axes: Axes, own: Arm, q: npt.ArrayLike, *, is_ghost: bool = False) -> list[Any]:
-    """Draw the capsules of an arm, far ones first; return what was added to the axes."""
-    shapes = []
-    for it, ends in capsules_at(own, q):
-        color = CARRIED if it.link > len(own.joints) else link_color(it.link)
-        shapes.append((float(nearness(ends).mean()), on_paper(ends), it.radius, color))
-    shapes.sort(key=lambda shape: shape[0])
-    polygons, colors = [], []
-    for _, ends, radius, color in shapes:
-        for part, lighter in ((1.0, 0.0),) if is_ghost else TONES:
-            polygons.append(_stadium(ends + (1.0 - part) * radius * LIGHT, part * radius))
-            colors.append(GHOST if is_ghost else _toned(color, lighter))
-    look = {"edgecolors": "#8d96a3", "alpha": 0.35} if is_ghost else {"edgecolors": "none"}
-    added = PolyCollection(polygons, facecolors=colors, linewidths=0.3, **look)
+def draw_body(
+    axes: Axes, own: Arm, q: npt.ArrayLike, capsules: bool = False, *, is_ghost: bool = False
+) -> list[Any]:
+    """Draw the body of an arm, far parts first; return what was added to the axes."""
+    paths, colors = [], []
+    for some, color in pieces(own, q, capsules=capsules, color=GHOST if is_ghost else ""):
+        closed = [Path(np.vstack([it, it[:1]]), closed=True) for it in some]
+        paths.append(Path.make_compound_path(*closed))
+        colors.append(color)
+    look = {"edgecolors": "#8d96a3", "alpha": 0.35} if is_ghost else {"edgecolors": colors}
+    added = PathCollection(paths, facecolors=colors, linewidths=0.3, **look)
     axes.add_collection(added)
     return [added]
 
@@ -132,20 +130,3 @@ def draw_frame(axes: Axes, pose: Floats, length: float) -> list[Any]:
             axes.annotate("", (head[0], head[1]), (tail[0], tail[1]), arrowprops=look, zorder=4)
         )
     return added
-
-
-def _stadium(ends: Floats, radius: float) -> Floats:
-    """The outline of a capsule on the paper, shape (k, 2)."""
-    along = ends[1] - ends[0]
-    turn = np.arctan2(along[1], along[0]) if np.hypot(*along) > 0.0 else 0.0
-    angles = turn + np.linspace(-np.pi / 2, np.pi / 2, CAP)
-    cap = radius * np.column_stack([np.cos(angles), np.sin(angles)])
-    outline: Floats = np.vstack([ends[1] + cap, ends[0] - cap])
-    return outline
-
-
-def _toned(color: str, lighter: float) -> tuple[float, ...]:
-    """A color mixed with white, or with black if it is to be darker."""
-    own = np.array([int(color[begin : begin + 2], 16) / 255 for begin in (1, 3, 5)])
-    mixed: Sequence[float] = ((1 - abs(lighter)) * own + max(lighter, 0.0)).tolist()
-    return tuple(mixed)

@@ -12,11 +12,12 @@ from irbkin._arguments import check_robot
 from irbkin._arrays import as_array, evenly
 from irbkin._core import Robot, catalog
 from irbkin.errors import InvalidJointsError, InvalidModelError
-from irbkin.scene._data import Arm, LinkShape, Motion, Posture
+from irbkin.scene._data import Arm, LinkHull, LinkShape, Motion, Posture
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from irbkin._arrays import Floats
     from irbkin.body import Body
 
 MOST_SAMPLES = 2000
@@ -76,7 +77,19 @@ def arm_of(
         bool(body is not None and body.is_approximate),
         tuple(postures),
         motion,
+        _hulls(body),
         _urdf(robot),
+    )
+
+
+def _hulls(body: Body | None) -> tuple[LinkHull, ...]:
+    """The hulls of links all of whose hulls have faces, or are capsules: of two points."""
+    rows_of = [] if body is None else body.hulls
+    open_ones = {link for link, points, faces, _ in rows_of if len(points) > 2 and not len(faces)}
+    return tuple(
+        LinkHull(link, rows(np.round(points, 4)), tuple(map(tuple, faces)), radius)
+        for link, points, faces, radius in rows_of
+        if link not in open_ones
     )
 
 
@@ -145,16 +158,45 @@ def link_frames(arm: Arm, q: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return np.array(frames)
 
 
-def capsules_at(arm: Arm, q: npt.ArrayLike) -> list[tuple[LinkShape, npt.NDArray[np.float64]]]:
-    """Return the capsules of an arm at joint angles [rad], and the ends of each in the world, shape
-    (2, 3). Parts that the flange carries move with the last link.
+def solids(arm: Arm, capsules: bool = False) -> list[LinkShape | LinkHull]:
+    """Return what an arm is drawn of: the hulls of links that have some, else or if asked for their
+    capsules.
     """
-    frames = link_frames(arm, q)[:-1]
-    placed = []
-    for it in arm.body:
-        frame = frames[min(it.link, len(frames) - 1)]
-        placed.append((it, np.array([it.a, it.b]) @ frame[:3, :3].T + frame[:3, 3]))
-    return placed
+    hulls = () if capsules else arm.hulls
+    having = {it.link for it in hulls}
+    bare = [
+        LinkShape(it.link, it.points[0], it.points[-1], it.radius) for it in hulls if not it.faces
+    ]
+    others = [it for it in arm.body if it.link not in having]
+    return [*(it for it in hulls if it.faces), *bare, *others]
+
+
+def outward(hull: LinkHull) -> npt.NDArray[np.float64]:
+    """Return the points of a hull moved out by its radius along the mean normal of their faces,
+    weighted by their angles, shape (k, 3): what is drawn of them contains the hull of the points,
+    and is in the rounded one.
+    """
+    points, faces = np.array(hull.points), np.array(hull.faces)
+    mean = np.zeros_like(points)
+    corners = points[faces]
+    sides = [np.roll(corners, step, axis=1) - corners for step in (1, 2)]
+    one, other = (it / np.linalg.norm(it, axis=2, keepdims=True) for it in sides)
+    angles = np.arccos(np.clip(np.sum(one * other, axis=2, keepdims=True), -1.0, 1.0))
+    np.add.at(mean, faces, angles * face_normals(points, faces)[:, None])
+    moved: npt.NDArray[np.float64] = points + hull.radius * mean / np.linalg.norm(
+        mean, axis=1, keepdims=True
+    )
+    return moved
+
+
+def face_normals(
+    points: npt.NDArray[np.float64], faces: npt.NDArray[np.int_]
+) -> npt.NDArray[np.float64]:
+    """Return the normals of triangles out of a hull, shape (t, 3)."""
+    first, second, third = np.moveaxis(points[faces], 1, 0)
+    normals = np.cross(second - first, third - first)
+    unit: Floats = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    return unit
 
 
 def start(arm: Arm) -> Sequence[float]:

@@ -57,6 +57,20 @@ class LinkShape(_Part):
 
 
 @dataclass(frozen=True, repr=False)
+class LinkHull(_Part):
+    """A part of an arm's body: all points within a radius of the convex hull of points."""
+
+    link: int
+    """The link that it moves with, as of a `LinkShape`."""
+    points: Rows
+    """The points in the frame of the link [m], to 0.1 mm."""
+    faces: tuple[tuple[int, ...], ...]
+    """Triangles of the surface by the numbers of the points, counterclockwise seen from outside."""
+    radius: float
+    """The radius [m]."""
+
+
+@dataclass(frozen=True, repr=False)
 class Posture(_Part):
     """Joint angles at which an arm is drawn."""
 
@@ -110,6 +124,8 @@ class Arm(_Part):
     """Where it is drawn."""
     motion: Motion | None = None
     """How it moves."""
+    hulls: tuple[LinkHull, ...] = ()
+    """Hulls, which are drawn in place of the capsules of their links."""
     urdf: str = ""
     """The URDF of an arm that is not as the catalog has it, without its base and tool."""
 
@@ -229,6 +245,12 @@ class Scene(_Part):
             raise ValueError(f"version is {data.get('version')!r}, this irbkin reads {VERSION}")
         own = {key: value for key, value in data.items() if key not in ("format", "version")}
         scene: Scene = read(cls, own, "scene")
+        for place, it in (
+            (f"scene.arms[{at}].hulls[{index}]", it)
+            for at, arm in enumerate(scene.arms)
+            for index, it in enumerate(arm.hulls)
+        ):
+            _check_hull(it, place)
         for index, obstacle in enumerate(scene.obstacles):
             try:
                 _shape(obstacle.shape)
@@ -283,6 +305,18 @@ class Scene(_Part):
         """
         with open(path, encoding="utf-8") as file:
             return cls.from_json(file.read())
+
+
+def _check_hull(hull: LinkHull, place: str) -> None:
+    """Check that faces are triangles of points that there are."""
+    count = len(hull.points)
+    if not count or any(len(it) != 3 for it in hull.points):
+        raise ValueError(f"{place}.points must be one or more of three numbers")
+    for face in hull.faces:
+        if len(face) != 3 or not 0 <= min(face) <= max(face) < count:
+            raise ValueError(
+                f"{place}.faces has {list(face)}, it must be three of the {count} points, from 0"
+            )
 
 
 def _shape(data: dict[str, Any]) -> Shape:

@@ -22,8 +22,10 @@ UPWARD = np.array(
     ]
 )
 TOWARD = np.cross(SIDEWAYS, UPWARD)
-BASE, LINKS = "#5b6470", ("#e8912d", "#f3ae5c")
-"""Colors of the base, and of the links in turn."""
+LIGHT = SIDEWAYS * -0.35 + UPWARD * 0.75 + TOWARD * 0.56
+"""The direction to the light, of length 1."""
+BASE, LINKS, CARRIED = "#5b6470", ("#e8912d", "#f3ae5c"), "#6f7a88"
+"""Colors of the base, of the links in turn, and of what the flange carries."""
 GHOST = (150, 165, 190)
 OBSTACLE = (120, 145, 130)
 PATH = (30, 110, 190)
@@ -42,6 +44,13 @@ def value_colors(values: npt.ArrayLike) -> npt.NDArray[np.uint8]:
 def link_color(link: int) -> str:
     """Return the color of a link, of which 0 is the base."""
     return BASE if link == 0 else LINKS[link % 2]
+
+
+def toned(color: str, lighter: float) -> str:
+    """Return a color mixed with white, or with black if it is to be darker."""
+    own = np.array(list(bytes.fromhex(color[1:])))
+    mixed = (1 - abs(lighter)) * own + 255 * max(lighter, 0.0)
+    return "#" + bytes(mixed.round().astype(int).tolist()).hex()
 
 
 def on_paper(points: Floats) -> Floats:

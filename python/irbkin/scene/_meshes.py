@@ -1,4 +1,4 @@
-"""Triangles of capsules and obstacles, by trimesh."""
+"""Triangles of capsules, hulls and obstacles, by trimesh."""
 
 from __future__ import annotations
 
@@ -7,8 +7,11 @@ from typing import Any
 import numpy as np
 import trimesh
 
-from irbkin.scene import LinkShape
+from irbkin.scene import LinkHull, LinkShape
+from irbkin.scene._arms import face_normals, outward
 
+SMOOTH = np.cos(np.radians(42.0))
+"""Faces whose normals have a larger product look round."""
 HALF_SPACE = 3.0
 """Half of the edge of the square that is drawn of a half space [m]."""
 
@@ -27,9 +30,23 @@ def capsule(shape: LinkShape) -> Any:
     return mesh
 
 
-def joined(shapes: list[LinkShape]) -> Any:
-    """Return one mesh of several capsules."""
-    return trimesh.util.concatenate([capsule(it) for it in shapes])
+def hull(shape: LinkHull) -> Any:
+    """Return the mesh of a hull in the frame of its link, each triangle with corners of its own:
+    their normals are even across edges that look round.
+    """
+    points, faces = outward(shape), np.array(shape.faces)
+    flat = face_normals(points, faces)
+    beside = (faces[:, :, None, None] == faces).any(axis=3) & (flat @ flat.T > SMOOTH)[:, None]
+    corners, normals = points[faces].reshape(-1, 3), (beside @ flat).reshape(-1, 3)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    triangles = np.arange(len(corners)).reshape(-1, 3)
+    return trimesh.Trimesh(corners, triangles, vertex_normals=normals, process=False)
+
+
+def joined(shapes: list[LinkShape | LinkHull]) -> Any:
+    """Return one mesh of several capsules and hulls."""
+    made = [hull(it) if isinstance(it, LinkHull) else capsule(it) for it in shapes]
+    return trimesh.util.concatenate(made)
 
 
 def obstacle(shape: dict[str, Any]) -> Any:

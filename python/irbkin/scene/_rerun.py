@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from irbkin._files import write_by_name
-from irbkin.scene._arms import link_frames, start
+from irbkin.scene._arms import link_frames, solids, start
 from irbkin.scene._look import GHOST, OBSTACLE, PATH, SEVERITIES, link_color, value_colors
 from irbkin.scene._svg import LINES
 
@@ -65,10 +65,11 @@ def _log_arm(recording: rr.RecordingStream, name: str, arm: Arm) -> None:
     frames = np.array([link_frames(arm, it) for it in q])
     others = [it.q for it in arm.postures if motion or it.q != first]
     copies = np.array([link_frames(arm, it) for it in others])
-    for link in sorted({it.link for it in arm.body}):
+    parts = solids(arm)
+    for link in sorted({it.link for it in parts}):
         # The flange carries what is behind the last link.
         row, color = min(link, len(arm.joints)), bytes.fromhex(link_color(link)[1:])
-        shapes = joined([it for it in arm.body if it.link == link])
+        shapes = joined([it for it in parts if it.link == link])
         recording.log(f"{name}/link_{link}", _mesh(shapes, color), static=True)
         _log_frames(recording, f"{name}/link_{link}", t, frames[:, row])
         if others and link > 0:

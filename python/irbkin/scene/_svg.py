@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from irbkin.scene._arms import capsules_at, link_frames, start
-from irbkin.scene._look import link_color, nearness, on_paper
+from irbkin.scene._arms import link_frames, start
+from irbkin.scene._look import BASE, nearness, on_paper
+from irbkin.scene._strokes import pieces
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -26,7 +27,7 @@ MOST_GHOSTS = 7
 
 
 def drawn(arm: Arm, q: npt.ArrayLike, ghosts: Iterable[npt.ArrayLike] = ()) -> str:
-    """Draw an arm's capsules as thick lines, far ones first, and other postures as faint chains."""
+    """Draw an arm's body, and other postures as faint chains."""
     return _picture([(arm, q, list(ghosts))], (), SIZE)
 
 
@@ -48,31 +49,30 @@ def _picture(
     size: int,
 ) -> str:
     """Draw arms at joint angles, each with other postures, and ways of their tools."""
-    own = [it for arm, q, _ in arms for it in _capsules(arm, q)]
-    others = [
-        on_paper(link_frames(arm, it)[:, :3, 3])
-        for arm, _, ghosts in arms
-        for it in ghosts[:MOST_GHOSTS]
-    ]
+    arms = sorted(arms, key=lambda it: float(nearness(np.array(it[0].base)[:3, 3])))
+    own = [it for arm, q, _ in arms for it in pieces(arm, q)]
+    chains = [(GHOST, arm, it) for arm, _, ghosts in arms for it in ghosts[:MOST_GHOSTS]]
+    chains += [(BASE, arm, q) for arm, q, _ in arms if not arm.body]
+    others = [(color, on_paper(link_frames(arm, it)[:, :3, 3])) for color, arm, it in chains]
     ways = [on_paper(it) for it in paths]
-    points = np.vstack([*(ends for ends, *_ in own), *others, *ways])
+    filled = [polygon for some, _ in own for polygon in some]
+    points = np.vstack([*filled, *(places for _, places in others), *ways])
     low, high = points.min(axis=0), points.max(axis=0)
-    room = max(radius for _, radius, *_ in own)
-    scale = SIZE / (float((high - low).max()) + 2.2 * room)
+    scale = SIZE / (1.04 * float((high - low).max()) + 1e-9)
     middle = 0.5 * (low + high)
-    lines = []
-    for other in others:
-        places = SIZE / 2 + scale * (other - middle) * [1, -1]
-        path = " ".join(f"{x:.0f},{y:.0f}" for x, y in places)
-        look = f'stroke="{GHOST}" stroke-width="5" opacity=".35"'
-        lines.append(f'<polyline points="{path}" fill="none" {look}/>')
-    for ends, radius, link, _ in sorted(own, key=lambda it: it[-1]):
-        lines.append(_line(ends, radius, link_color(link), scale, middle, ""))
-        lines.append(_line(ends, 0.45 * radius, "#fff", scale, middle, ' opacity=".25"'))
-    for way in ways:
-        places = SIZE / 2 + scale * (way - middle) * [1, -1]
-        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
-        lines.append(f'<polyline points="{path}" fill="none" stroke="{LINES[0]}"/>')
+
+    def corners(places: Floats) -> str:
+        drawn = SIZE / 2 + scale * (places - middle) * [1, -1]
+        return " ".join(f"{x:.1f} {y:.1f}" for x, y in drawn)
+
+    look = 'fill="none" stroke-width="5" opacity=".35"'
+    lines = [f'<polyline points="{corners(it)}" {look} stroke="{color}"/>' for color, it in others]
+    lines.append('<g stroke-width=".3">')
+    for some, color in own:
+        text = "".join(f"M{corners(it)}Z" for it in some)
+        lines.append(f'<path d="{text}" fill="{color}" stroke="{color}"/>')
+    lines.append("</g>")
+    lines += [f'<polyline points="{corners(it)}" fill="none" stroke="{LINES[0]}"/>' for it in ways]
     return _svg(lines, size)
 
 
@@ -108,24 +108,6 @@ def curves(x: Floats, rows: Floats, name: str, unit: str) -> str:
             "</text>"
         )
     return _svg(lines)
-
-
-def _capsules(arm: Arm, q: npt.ArrayLike) -> list[tuple[Floats, float, int, float]]:
-    """Both ends of each capsule on the paper, shape (2, 2); its radius, link and nearness."""
-    found = [(ends, it.radius, it.link) for it, ends in capsules_at(arm, q)]
-    if not found:
-        places = link_frames(arm, q)[:, :3, 3]
-        found = [(places[i : i + 2], 0.03, i) for i in range(len(places) - 1)]
-    return [
-        (on_paper(ends), size, link, float(nearness(ends).mean())) for ends, size, link in found
-    ]
-
-
-def _line(ends: Floats, radius: float, color: str, scale: float, middle: Floats, more: str) -> str:
-    (x, y), (u, v) = SIZE / 2 + scale * (ends - middle) * [1, -1]
-    # A line without a length has no round ends in all browsers.
-    path = f"M{x:.1f} {y:.1f}L{u + 0.1:.1f} {v:.1f}"
-    return f'<path d="{path}" stroke="{color}" stroke-width="{2 * scale * radius:.1f}"{more}/>'
 
 
 def _svg(parts: Iterable[str], size: int = SIZE) -> str:

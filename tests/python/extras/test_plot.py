@@ -89,7 +89,13 @@ def test_every_arm_of_the_catalog_is_drawn(name):
     figure = plot.arm(robot, [0.5 * q, q])
     assert figure.axes[0].get_title().startswith(name)
     ghost, own = figure.axes[0].collections
-    assert len(own.get_paths()) == 3 * len(ghost.get_paths()) == 3 * len(robot.body.capsules)
+    having = {hull[0] for hull in robot.body.hulls}
+    others = [link for link in robot.body.links if link not in having]
+    # A capsule in three tones, of a hull those of its faces that are seen.
+    assert len(own.get_paths()) >= 3 * len(others) + 2 * len(robot.body.hulls)
+    assert len(ghost.get_paths()) <= len(own.get_paths())
+    _, own = plot.arm(robot, [0.5 * q, q], capsules=True).axes[0].collections
+    assert len(own.get_paths()) == 3 * len(robot.body.capsules)
 
 
 ONE_OF_EACH = {irbkin.Robot(name).structure: name for name in irbkin.catalog()}
@@ -107,22 +113,31 @@ def test_the_solutions_of_every_structure_are_drawn(name):
     assert drawn.texts[-1].get_text() == robot.name
 
 
-def test_a_body_is_where_its_capsules_are():
-    figure = plot.arm(ROBOT, frames=False)
+def paper_height(figure):
+    """The greatest height of a body on the paper, and its outline."""
     (own,) = figure.axes[0].collections
-    paper = np.vstack([path.vertices for path in own.get_paths()])
-    body, frames = ROBOT.body, np.vstack([np.eye(4)[None], ROBOT.link_frames(np.zeros(6))])
-    ends = [
-        frames[link, :3, :3] @ row[i : i + 3] + frames[link, :3, 3]
-        for link, row in zip(body.links, body.capsules, strict=True)
-        for i in (0, 3)
-    ]
-    height = max(
-        end @ UPWARD + radius
-        for end, radius in zip(ends, np.repeat(body.capsules[:, 6], 2), strict=True)
-    )
+    return np.vstack([path.vertices for path in own.get_paths()])[:, 1].max()
+
+
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "IRB 140-6/0.81", "Panda"])
+def test_a_body_is_where_its_capsules_and_hulls_are(name):
+    robot = irbkin.Robot(name)
+    q = np.clip(np.zeros(robot.dof), *robot.limits.T)
+    body, frames = robot.body, np.vstack([np.eye(4)[None], robot.link_frames(q)])
+
+    def height(link, points):
+        return max(points @ frames[link, :3, :3].T @ UPWARD + frames[link, :3, 3] @ UPWARD)
+
+    capsules = zip(body.links, body.capsules, strict=True)
+    tops = [height(link, row[:6].reshape(2, 3)) + row[6] for link, row in capsules]
+    top = paper_height(plot.arm(robot, q, frames=False, capsules=True))
     # The outline has corners on the circle.
-    assert 0.0 <= height - paper[:, 1].max() < 5e-3
+    assert -1e-12 <= max(tops) - top < 5e-3
+    if body.hulls:
+        highest = max((height(link, it), radius) for link, it, _, radius in body.hulls)
+        above = paper_height(plot.arm(robot, q, frames=False)) - highest[0]
+        # The points are to 0.1 mm, and moved out by the radius at most.
+        assert -1e-4 <= above <= max(hull[3] for hull in body.hulls) + 1e-4
 
 
 def test_a_movie_has_its_pictures_and_shows_itself(tmp_path):
