@@ -47,8 +47,9 @@ def page(scene: Scene | None = None, *, served: bool = False) -> str:
 
 @cache
 def scripts() -> str:
-    """Return the scripts in the order in which they use each other."""
-    return "\n".join((FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS)
+    """Return the scripts in the order of their uses, without comments and indents."""
+    whole = "\n".join((FOLDER / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS)
+    return re.sub(r"^\s*(//.*)?\n?", "", whole, flags=re.MULTILINE)
 
 
 @cache
@@ -59,10 +60,11 @@ def style() -> str:
 
 @cache
 def engine() -> str:
-    """Return the crate as WebAssembly, packed by gzip, in base 64; empty where it was not built:
-    `make page` in the sources does.
+    """Return the crate as WebAssembly, packed by gzip, in base 85 with . for <; empty where it was
+    not built: `make page` in the sources does.
     """
-    return base64.b64encode(ENGINE.read_bytes()).decode() if ENGINE.exists() else ""
+    packed = ENGINE.read_bytes() if ENGINE.exists() else b""
+    return base64.b85encode(packed).decode().replace("<", ".")
 
 
 @cache
