@@ -2,25 +2,31 @@
 // of an arm of a scene.
 
 class DrawnArm {
-  constructor({ base, links, tool, coupling, shapes }) {
-    Object.assign(this, { base, links, tool, coupling });
-    const meshes = (detail) => shapes.map(
-      (capsules) => joined(capsules.map((it) => capsuleMesh(it, detail))),
-    );
-    this.meshes = meshes(FINE);
-    this.coarse = meshes(COARSE);
-    this.shapes = shapes;
+  constructor({ name, base, links, tool, coupling, shapes, hulls }) {
+    Object.assign(this, { name, base, links, tool, coupling, shapes });
+    // Hulls are drawn in place of the capsules of their links.
+    const own = shapes.map((_, link) => hulls.filter((it) => it.link === link));
+    const meshes = (detail, withHulls) => shapes.map((capsules, link) => joined(
+      withHulls && own[link].length
+        ? own[link].map((it) => hullMesh(it, detail))
+        : capsules.map((it) => capsuleMesh(it, detail)),
+    ));
+    this.hasHulls = hulls.length > 0;
+    this.meshes = meshes(FINE, true);
+    this.coarse = meshes(COARSE, true);
+    this.capsules = this.hasHulls ? meshes(FINE, false) : this.meshes;
   }
 
   static ofEngine(robot) {
     const body = robot.body ?? { links: [], parts: [] };
-    const shapes = body.links.map((own, link) => [...own, ...(body.parts[link] ?? [])]);
     return new DrawnArm({
+      name: robot.name,
       base: fromRows(robot.base),
       links: robot.links.map(fromRows),
       tool: multiply(fromRows(robot.flange), fromRows(robot.tool)),
       coupling: -robot.coupling,
-      shapes,
+      shapes: body.links.map((own, link) => [...own, ...(body.parts[link] ?? [])]),
+      hulls: body.hulls ?? [],
     });
   }
 
@@ -28,11 +34,13 @@ class DrawnArm {
     const shapes = Array.from({ length: arm.joints.length + 2 }, () => []);
     for (const it of arm.body ?? []) shapes[it.link].push(it);
     return new DrawnArm({
+      name: arm.name,
       base: fromRows(arm.base.flat()),
       links: arm.joints.map((it) => fromRows(it.flat())),
       tool: fromRows(arm.tool.flat()),
       coupling: arm.coupling ?? 0,
       shapes,
+      hulls: arm.hulls ?? [],
     });
   }
 

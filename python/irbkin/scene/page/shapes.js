@@ -1,8 +1,8 @@
 // Triangles of the shapes that a scene has: { position, normal, index } as flat lists.
 
 // Corners around an axis, and rings of a round end: of what is looked at, and of faint copies.
-const FINE = { round: 18, caps: 4 };
-const COARSE = { round: 8, caps: 2 };
+const FINE = { round: 24, caps: 5, bends: 1 };
+const COARSE = { round: 8, caps: 2, bends: 0 };
 
 function joined(meshes) {
   const whole = { position: [], normal: [], index: [] };
@@ -58,6 +58,92 @@ function capsuleMesh({ a, b, radius }, { round, caps } = FINE) {
     if (step === caps) list.push(ring(b));
   }
   return rings(along, list, round);
+}
+
+// Faces that meet at less than this look round [1].
+const SMOOTH = Math.cos(toRadians(42));
+
+// A hull as a solid: its points moved out by the radius along their mean normals, with normals that
+// are even across edges which look round. Finer, faces between such edges are bent.
+function hullMesh({ points, faces, radius }, { bends } = FINE) {
+  if (!faces.length) return capsuleMesh({ a: points[0], b: points.at(-1), radius });
+  const flat = faces.map(([a, b, c]) => unit(
+    cross(subtract(points[b], points[a]), subtract(points[c], points[a])),
+  ));
+  // The corners of faces, each 3 * face + side; those at one point that round edges join are one.
+  const joinedTo = faces.flatMap((_, face) => [0, 1, 2].map((side) => 3 * face + side));
+  const root = (at) => (joinedTo[at] === at ? at : root(joinedTo[at]));
+  const edges = new Map();
+  const outward = points.map(() => [0, 0, 0]);
+  const weighted = faces.flatMap((face, own) => face.map((from, side) => {
+    const [next, last] = [(side + 1) % 3, (side + 2) % 3];
+    const other = edges.get(`${face[next]},${from}`);
+    edges.set(`${from},${face[next]}`, [own, 3 * own + side, 3 * own + next]);
+    if (other && dot(flat[own], flat[other[0]]) > SMOOTH) {
+      joinedTo[root(3 * own + side)] = root(other[2]);
+      joinedTo[root(3 * own + next)] = root(other[1]);
+    }
+    const sides = [next, last].map((it) => unit(subtract(points[face[it]], points[from])));
+    const normal = scale(flat[own], Math.acos(Math.min(Math.max(dot(...sides), -1), 1)));
+    outward[from] = add(outward[from], normal);
+    return normal;
+  }));
+  const [position, normals, number] = [[], [], new Map()];
+  const index = weighted.map((normal, at) => {
+    const [corner, point] = [root(at), faces[Math.floor(at / 3)][at % 3]];
+    if (!number.has(corner)) {
+      number.set(corner, position.length);
+      position.push(add(points[point], scale(unit(outward[point]), radius)));
+      normals.push([0, 0, 0]);
+    }
+    const own = number.get(corner);
+    normals[own] = add(normals[own], normal);
+    return own;
+  });
+  const made = { position, normals: normals.map(unit), index };
+  for (let step = 0; step < bends; step++) bend(made, radius);
+  return { position: made.position.flat(), normal: made.normals.flat(), index: made.index };
+}
+
+// Divide each triangle in four. The middle of an edge that looks round, which both faces beside it
+// share, is moved towards the planes that its ends have by their normals, by the radius at most.
+function bend(made, radius) {
+  const { position, normals, index } = made;
+  const sides = index.map((from, at) => [from, index[at % 3 === 2 ? at - 2 : at + 1]]);
+  const all = new Set(sides.map((it) => it.join()));
+  const middles = new Map();
+  const middle = ([a, b]) => {
+    const key = `${Math.min(a, b)},${Math.max(a, b)}`;
+    if (!middles.has(key)) {
+      const at = scale(add(position[a], position[b]), 0.5);
+      const up = (end) => scale(normals[end], 0.4 * dot(subtract(position[end], at), normals[end]));
+      const shift = all.has(`${b},${a}`) ? add(up(a), up(b)) : [0, 0, 0];
+      middles.set(key, position.length);
+      position.push(add(at, scale(shift, Math.min(1, radius / (length(shift) || 1)))));
+      normals.push(unit(add(normals[a], normals[b])));
+    }
+    return middles.get(key);
+  };
+  made.index = index.flatMap((a, at) => {
+    if (at % 3) return [];
+    const [ab, bc, ca] = [0, 1, 2].map((side) => middle(sides[at + side]));
+    return [a, ab, ca, ab, index[at + 1], bc, ca, bc, index[at + 2], ab, bc, ca];
+  });
+}
+
+// How far along a ray a mesh is met first; Infinity if it is not.
+function metAt({ position, index }, from, along) {
+  const corner = (at) => position.slice(3 * index[at], 3 * index[at] + 3);
+  let nearest = Infinity;
+  for (let at = 0; at < index.length; at += 3) {
+    const a = corner(at);
+    const [u, v, w] = [subtract(corner(at + 1), a), subtract(corner(at + 2), a), subtract(from, a)];
+    const [p, q] = [cross(along, v), cross(w, u)];
+    const scaled = 1 / dot(u, p);
+    const [x, y, far] = [scaled * dot(w, p), scaled * dot(along, q), scaled * dot(v, q)];
+    if (x >= 0 && y >= 0 && x + y <= 1 && far > 0 && far < nearest) nearest = far;
+  }
+  return nearest;
 }
 
 function cylinderMesh({ radius, length: long }) {
