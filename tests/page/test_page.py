@@ -133,6 +133,123 @@ def test_dragging_the_handle_changes_the_solutions(opened):
     print("frame [ms]:", np.round(sorted(times), 1))
 
 
+HULLED = [name for name in irbkin.catalog() if irbkin.Robot(name).body.hulls]
+
+
+def test_what_is_drawn_contains_the_hulls_and_is_near_them(opened):
+    page = opened()
+    rng = np.random.default_rng(5)
+    directions = rng.normal(size=(100, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    for name in HULLED[::3]:
+        page.evaluate("(name) => irbkin.setArm({ name })", name)
+        meshes = page.evaluate("() => irbkin.arm.meshes.map((it) => it.position)")
+        hulls = irbkin.Robot(name).body.hulls
+        for link in {hull[0] for hull in hulls}:
+            drawn = np.reshape(meshes[link], (-1, 3))
+            own = [(points, radius) for at, points, _, radius in hulls if at == link]
+            wanted = np.max([(points @ directions.T).max(axis=0) for points, _ in own], axis=0)
+            beyond = (drawn @ directions.T).max(axis=0) - wanted
+            # Faces are bent by the radius at most.
+            most = 2 * max(radius for _, radius in own)
+            assert -1e-9 <= beyond.min() <= beyond.max() <= most, (name, link)
+
+
+def test_collision_shapes_are_drawn_where_they_are_asked_for(opened):
+    page = opened()
+    drawn = """() => irbkin.view.links(irbkin.arm, irbkin.state.q).map(
+        ([mesh]) => ["meshes", "capsules"].filter((kind) => irbkin.arm[kind].includes(mesh)))"""
+    assert page.evaluate(drawn)[:7] == [["meshes"]] * 7
+    page.get_by_label("collision shapes").check()
+    assert page.evaluate(drawn)[:7] == [["capsules"]] * 7
+    page.evaluate("() => irbkin.setArm({ name: 'IRB 140-6/0.81' })")
+    assert page.evaluate("() => irbkin.arm.capsules === irbkin.arm.meshes")
+
+
+def picture(page, quality, tmp_path):
+    """The pixels of the canvas after a frame of a quality."""
+    Image = pytest.importorskip("PIL.Image")
+    page.evaluate("(quality) => irbkin.view.draw(quality)", quality)
+    page.locator("canvas").screenshot(path=tmp_path / "arm.png")
+    return np.asarray(Image.open(tmp_path / "arm.png").convert("RGB")).astype(int)
+
+
+def test_edges_are_smooth_and_the_arm_has_a_shadow(opened, tmp_path):
+    page = opened()
+    settled(page)
+    # Nothing else draws, nor the handle.
+    page.evaluate("() => { irbkin.view.ask = () => {}; Handle.draw = () => {}; }")
+    plain, shaded, smooth = (picture(page, quality, tmp_path) for quality in (0, 1, 2))
+    darker = plain.sum(axis=2) - shaded.sum(axis=2)
+    assert (darker > 30).mean() > 0.01
+    assert (darker < -30).sum() == 0
+    orange = np.array([plain, smooth])[..., 0] - np.array([plain, smooth])[..., 2] > 60
+    changed = np.abs(shaded - smooth).sum(axis=2) > 30
+    # Pixels change at edges alone.
+    assert 200 < changed.sum() < 0.1 * orange[0].sum()
+    assert page.evaluate("() => irbkin.view.drawing.samples") == 4
+
+
+def test_shadow_and_smooth_edges_go_where_frames_take_long(opened):
+    page = opened()
+    settled(page)
+    falls = page.evaluate("""() => {
+        const { view } = irbkin;
+        const now = () => performance.now();
+        const wait = (ms) => { for (const end = now() + ms; now() < end;); };
+        const after = [];
+        Object.assign(view, { quality: 2, late: 0, count: 0 });
+        for (const ms of [0, 30]) {
+          view.drawing.finish = () => wait(ms);
+          view.drawing.mesh = () => {};
+          for (let i = 0; i < 40; i++) view.draw();
+          after.push(view.quality);
+        }
+        return after;
+    }""")
+    assert falls[1] == 0 < falls[0]
+
+
+def test_what_the_mouse_is_on_is_named(opened, tmp_path):
+    page = opened()
+    cell = irbkin.Cell({"table": Shape.box([0.5, 0.5, 0.4], irbkin.pose([0.4, -1.0, 0.2]))})
+    pose = irbkin.pose([0.2, 0.9, 0.3])
+    frame = irbkin.scene.Frame("fixture", tuple(map(tuple, pose.tolist())))
+    seam = irbkin.scene.Path("seam", ((0.9, -0.9, 0.8), (0.9, -0.5, 0.8)))
+    arm = irbkin.Robot("IRB 2600-12/1.65")
+    own = irbkin.scene.of(arm) + irbkin.scene.of(cell)
+    (own + irbkin.scene.Scene(frames=(frame,), paths=(seam,))).save(tmp_path / "own.json")
+    page.set_input_files("input[type=file]", tmp_path / "own.json")
+    page.wait_for_function("() => irbkin.view.obstacles.length === 1")
+
+    def label(point):
+        x, y, _ = page.evaluate("(point) => irbkin.view.camera.project(point)", point)
+        page.mouse.move(x, y)
+        label = page.locator(".label")
+        return label.inner_text() if label.is_visible() else ""
+
+    frames = arm.link_frames(np.zeros(6))
+    for link in (2, 4):
+        (middle,) = (points.mean(axis=0) for at, points, *_ in arm.body.hulls if at == link)
+        assert label((frames[link - 1] @ [*middle, 1])[:3].tolist()) == f"link {link}"
+    assert label([0, 0, 0.1]) == "base"
+    assert label([0.4, -1.0, 0.4]) == "table"
+    assert label([0.2, 0.9, 0.3]) == "fixture"
+    assert label([0.9, -0.9, 0.8]) == "seam"
+    page.mouse.move(20, 30)
+    assert not page.locator(".label").is_visible()
+
+
+def test_the_floor_has_a_scale(opened):
+    page = opened()
+    settled(page)
+    words = page.locator(".words span").all_inner_texts()
+    assert {"500", "1500 mm", "x", "y"} <= set(words)
+    page.select_option("select[aria-label=units]", "m")
+    page.wait_for_timeout(200)
+    assert {"0.5", "1.5 m"} <= set(page.locator(".words span").all_inner_texts())
+
+
 def test_the_picture_is_not_blank_and_the_arm_is_seen(opened, tmp_path):
     Image = pytest.importorskip("PIL.Image")
     page = opened()

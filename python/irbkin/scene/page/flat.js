@@ -1,58 +1,77 @@
-// Draw without WebGL: capsules as thick lines on a canvas, far ones first.
+// Draw without WebGL: triangles on a canvas, far ones first, lines in front of them.
 
 class FlatDrawing {
   constructor(canvas) {
     this.context = canvas.getContext("2d");
-    this.canvas = canvas;
     this.isFlat = true;
   }
 
-  begin(camera, width, height) {
-    this.camera = camera;
+  begin(camera, width, height, color, floor) {
+    Object.assign(this, { camera, floor, faces: [], strokes: [] });
     this.context.setTransform(width / camera.size[0], 0, 0, height / camera.size[1], 0, 0);
     this.context.clearRect(0, 0, ...camera.size);
+  }
+
+  mesh({ position, normal, index }, model, [r, g, b, alpha = 1], { onTop = false } = {}) {
+    const { camera } = this;
+    const corners = Array.from({ length: position.length / 3 }, (_, i) => camera.project(
+      moved(model, position.slice(3 * i, 3 * i + 3)),
+    ));
+    for (let at = 0; at < index.length; at += 3) {
+      const ends = [0, 1, 2].map((side) => corners[index[at + side]]);
+      const out = moved(model, normal.slice(3 * index[at], 3 * index[at] + 3)).map((it, i) => it - model[12 + i]);
+      if (dot(out, camera.forward) > 0.2 * length(out)) continue;
+      const light = 0.55 + (0.45 * Math.max(dot(out, LAMP), 0)) / length(out);
+      const css = this.css([r * light, g * light, b * light, alpha]);
+      this.faces.push([onTop ? 0 : ends.reduce((sum, it) => sum + it[2], 0), ends, css, alpha]);
+    }
+  }
+
+  shadow() {}
+
+  finish() {}
+
+  ground(color) {
+    const { at: [x, y, z], edge, cell } = this.floor;
+    const lines = [];
+    for (let at = -edge; at <= edge + 1e-9; at += cell) {
+      lines.push([x + at, y - edge, z], [x + at, y + edge, z], [x - edge, y + at, z], [x + edge, y + at, z]);
+    }
+    this.lines(lines, [...color, 0.35], { pairs: true, width: 1 });
+  }
+
+  faint(meshes, color) {
+    for (const [mesh, model] of meshes) this.mesh(mesh, model, color);
+  }
+
+  lines(points, color, { loop = false, pairs = false, width = 2 } = {}) {
+    this.strokes.push([points.map((it) => this.camera.project(it)), this.css(color), loop, pairs, width]);
   }
 
   css([r, g, b, alpha = 1]) {
     return `rgba(${[r, g, b].map((it) => Math.round(255 * it)).join(",")},${alpha})`;
   }
 
-  capsules(capsules, frame, color) {
-    const { context, camera } = this;
-    for (const { a, b, radius } of capsules) {
-      const [from, to] = [moved(frame, a), moved(frame, b)];
-      const [x, y] = camera.project(from);
-      const [u, v] = camera.project(to);
-      context.strokeStyle = this.css(color);
-      context.lineWidth = (2 * radius) / camera.pixel(from);
-      context.lineCap = "round";
+  end() {
+    const { context } = this;
+    context.lineWidth = 0.7;
+    for (const [, ends, css, alpha] of this.faces.sort((a, b) => b[0] - a[0])) {
+      context.fillStyle = css;
+      context.strokeStyle = css;
       context.beginPath();
-      context.moveTo(x, y);
-      context.lineTo(u + 0.01, v);
+      for (const [x, y] of ends) context.lineTo(x, y);
+      context.closePath();
+      context.fill();
+      // The seams between faces.
+      if (alpha === 1) context.stroke();
+    }
+    for (const [points, css, loop, pairs, width] of this.strokes) {
+      context.strokeStyle = css;
+      context.lineWidth = width;
+      context.beginPath();
+      points.forEach(([x, y], at) => context[at === 0 || (pairs && at % 2 === 0) ? "moveTo" : "lineTo"](x, y));
+      if (loop) context.closePath();
       context.stroke();
     }
-  }
-
-  // A mesh as its corners: what has no other outline.
-  mesh(mesh, model, color) {
-    const { context, camera } = this;
-    context.fillStyle = this.css(color);
-    for (let corner = 0; corner < mesh.position.length; corner += 9) {
-      const [x, y] = camera.project(moved(model, mesh.position.slice(corner, corner + 3)));
-      context.fillRect(x - 1, y - 1, 2, 2);
-    }
-  }
-
-  lines(points, color, { loop = false, pairs = false } = {}) {
-    const { context, camera } = this;
-    context.strokeStyle = this.css(color);
-    context.lineWidth = 1.5;
-    context.beginPath();
-    points.forEach((it, index) => {
-      const [x, y] = camera.project(it);
-      context[index === 0 || (pairs && index % 2 === 0) ? "moveTo" : "lineTo"](x, y);
-    });
-    if (loop) context.closePath();
-    context.stroke();
   }
 }

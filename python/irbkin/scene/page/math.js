@@ -78,6 +78,14 @@ const cross = (a, b) => [
 const length = (a) => Math.sqrt(dot(a, a));
 const unit = (a) => (length(a) > 0 ? scale(a, 1 / length(a)) : [0, 0, 1]);
 
+// How far a point of the screen is from a line between two others.
+function fromLine(at, a, b) {
+  const [u, v] = [b[0] - a[0], b[1] - a[1]];
+  const part = ((at[0] - a[0]) * u + (at[1] - a[1]) * v) / (u * u + v * v || 1);
+  const along = Math.min(Math.max(part, 0), 1);
+  return Math.hypot(at[0] - a[0] - along * u, at[1] - a[1] - along * v);
+}
+
 const toRadians = (degrees) => (degrees * Math.PI) / 180;
 const toDegrees = (radians) => (radians * 180) / Math.PI;
 

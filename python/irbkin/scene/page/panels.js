@@ -35,6 +35,10 @@ function panels(app) {
     type: "checkbox", checked: true,
     onchange: () => { app.settings.ghosts = parts.ghosts.checked; app.view.ask(); },
   });
+  parts.capsules = el("input", {
+    type: "checkbox",
+    onchange: () => { app.settings.capsules = parts.capsules.checked; app.view.ask(); },
+  });
   parts.units = el("select", { ariaLabel: "units", onchange: () => app.setUnits(parts.units.value) },
     el("option", { value: "mm" }, "mm, deg"), el("option", { value: "m" }, "m, rad"));
   const copy = (name, write) => el("button", { type: "button", onclick: () => app.copy(name, write) }, name);
@@ -53,7 +57,8 @@ function panels(app) {
       el("h2", {}, "Tool ", parts.seen = el("span", { className: "dim" })), parts.pose.node, parts.verdict),
     el("section", { className: "solved" },
       el("h2", {}, "Solutions ",
-        el("label", { className: "switch" }, parts.ghosts, " ghosts")),
+        el("label", { className: "switch" }, parts.ghosts, " ghosts"),
+        el("label", { className: "switch", title: "capsules, which are compared first" }, parts.capsules, " collision shapes")),
       el("div", { className: "scroll" }, el("table", { className: "solutions" },
         el("thead", {}, parts.head = el("tr")), parts.solutions))),
     el("section", {}, el("h2", {}, "Joints"), parts.joints, parts.facts),

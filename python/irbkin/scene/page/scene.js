@@ -16,7 +16,7 @@ async function openScene(app, scene) {
   if (app.engine && cell.length < obstacles.length) {
     app.notes.add(`${obstacles.length - cell.length} obstacles are drawn and not tested for collisions.`);
   }
-  view.obstacles = obstacles.flatMap((it) => shapeMeshes(it.shape));
+  view.obstacles = obstacles.flatMap((it) => shapeMeshes(it.shape).map((part) => [...part, it.name]));
   const dots = (scene.clouds ?? []).flatMap((it) => {
     const most = Math.max(...it.values, 1e-9);
     const each = Math.max(1, Math.floor(it.points.length / 1500));
@@ -38,8 +38,9 @@ async function openScene(app, scene) {
     if (q) view.extra.push({ arm: drawn, q, alpha: 1 });
   }
   view.way = (scene.paths ?? []).flatMap((it) => segments(it.points));
-  view.frames = (scene.frames ?? []).map((it) => fromRows(it.pose.flat()));
-  view.marks = [...(scene.marks ?? []).map((it) => ({ at: it.point, color: SEVERITY_COLORS[it.severity] ?? NOTE_COLOR })), ...dots];
+  view.wayNames = (scene.paths ?? []).flatMap((it) => segments(it.points).map(() => it.name));
+  view.frames = (scene.frames ?? []).map((it) => Object.assign(fromRows(it.pose.flat()), { label: it.name }));
+  view.marks = [...(scene.marks ?? []).map((it) => ({ at: it.point, text: it.text, color: SEVERITY_COLORS[it.severity] ?? NOTE_COLOR })), ...dots];
   for (const it of (scene.marks ?? []).slice(0, 50)) app.notes.add(`${it.place ?? ""} ${it.text}`.trim());
   view.fit();
 }
