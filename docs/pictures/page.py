@@ -16,7 +16,7 @@ ROOT = HERE.parents[1]
 MADE = ROOT / "target" / "page"
 PAGE = MADE / "irbkin.html"
 ARGUMENTS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-COLORS = 128
+COLORS = 200
 """Colors of a picture: flat surfaces need few."""
 
 
