@@ -2505,9 +2505,7 @@ class Finding(_Record):
 
     @property
     def code(self) -> str:
-        """A letter for the group and three digits, such as "C201"; `irbkin rule`
-        explains it.
-        """
+        """A letter for the group and three digits, such as "C201"; `irbkin rule` explains it."""
     @property
     def name(self) -> str:
         """The code in words, such as "wrong-confdata"."""
