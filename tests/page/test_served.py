@@ -117,3 +117,115 @@ def test_a_page_says_when_python_has_ended(opened):
         page = opened(view.url)
     page.evaluate("() => irbkin.setJoints([0.1, 0, 0, 0, 0.5, 0])")
     page.wait_for_function("() => irbkin.state.reason?.includes('irbkin has ended')")
+
+
+MODULE = """MODULE Weld
+  PERS tooldata tGun:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
+  CONST robtarget p1:=[[900,-300,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget pFar:=[[2900,300,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveJ p1,v1000,z20,tGun;
+    MoveL Offs(p1,0,0,50),v200,fine,tGun;
+    MoveL pFar,v200,fine,tGun;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def checked(page):
+    """Wait until the program is checked; what is said of it."""
+    page.wait_for_function("() => irbkin.program.words.textContent.includes('moves checked')")
+    page.wait_for_function("() => !irbkin.solving")
+    return page.locator(".program p").inner_text()
+
+
+def test_a_module_is_edited_corrected_and_saved(opened):
+    with scene.serve(ROBOT) as view:
+        page = opened(view.url)
+        page.get_by_label("paste a target, a tool, a pose, joints or a module").fill(MODULE)
+        before = checked(page)
+        assert "3 of 3 moves checked" in before
+        margin = page.locator(".margin div")
+        assert margin.nth(7).get_attribute("class") == "error"
+        assert "R101" in margin.nth(7).get_attribute("title")
+        text = page.get_by_label("text of the module")
+        text.fill(MODULE.replace("[[2900,", "[[900,"))
+        page.wait_for_function("() => irbkin.program.words.textContent.includes(' 0 errors')")
+        page.locator(".program button", has_text="fix").click()
+        page.wait_for_function("() => irbkin.program.source.text.value.includes('[-1,0,-1,0]')")
+        wanted = irbkin.rapid.check(ROBOT, irbkin.rapid.parse(text.input_value()))
+        assert not [it for it in wanted if it.severity == "error"]
+        with page.expect_download() as saved:
+            page.get_by_role("button", name="save").click()
+        assert Path(saved.value.path()).read_text() == text.input_value()
+        margin.nth(6).click()
+        page.wait_for_function("() => !irbkin.solving")
+        z = page.evaluate("() => irbkin.state.T[14]")
+        assert z == pytest.approx(0.55 + 0.18, abs=1e-6)
+        page.get_by_role("button", name="close the program").click()
+        assert not page.locator(".program").is_visible()
+
+
+def test_a_finding_in_the_picture_leads_to_its_line(opened):
+    with scene.serve(ROBOT) as view:
+        page = opened(view.url)
+        page.evaluate("(text) => irbkin.paste(text)", MODULE.replace("[0,0,0,0]", "[5,0,-1,0]", 1))
+        checked(page)
+        assert page.evaluate("() => irbkin.view.marks.length") > 0
+        place = "irbkin.view.camera.project(irbkin.view.marks.find((it) => it.go).at)"
+        x, y, _ = page.evaluate(f"() => {place}")
+        page.mouse.click(x, y)
+        assert page.evaluate("() => irbkin.program.source.line") is not None
+
+
+def test_tools_and_work_objects_are_pasted_anywhere(opened):
+    with scene.serve(scene.of(ROBOT, q=HOME)) as view:
+        page = opened(view.url)
+        tool = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];"
+        wobj = '[FALSE,TRUE,"",[[500,0,0],[1,0,0,0]],[[0,0,100],[1,0,0,0]]]'
+        paste = """(text) => {
+            const clipboardData = new DataTransfer();
+            clipboardData.setData("text", text);
+            const pasted = new ClipboardEvent("paste", { clipboardData, bubbles: true });
+            irbkin.view.canvas.dispatchEvent(pasted);
+        }"""
+        page.evaluate(paste, tool)
+        page.wait_for_function("() => irbkin.state.tool[14] === 0.18 && !irbkin.solving")
+        page.evaluate(paste, wobj)
+        page.wait_for_function("() => irbkin.state.wobj[12] + irbkin.state.wobj[14] === 0.6")
+        T = ROBOT.with_tool([0, 0, 0.18]).fk(HOME)
+        shown = page.get_by_label("z", exact=True).first.input_value()
+        assert float(shown) == pytest.approx(1e3 * T[2, 3] - 100, abs=0.01)
+        page.evaluate(paste, tool.replace("TRUE", "FALSE"))
+        page.get_by_text("it must be TRUE here").wait_for()
+
+
+def test_an_arm_reaches_towards_what_it_does_not_reach(opened):
+    with scene.serve(scene.of(ROBOT, q=HOME)) as view:
+        page = opened(view.url)
+        page.evaluate("() => irbkin.setPose(Handle.shifted(irbkin.state.T, [2, 0, 0]))")
+        assert page.locator(".verdict").inner_text().startswith("Not reached")
+        q = page.evaluate("() => irbkin.state.q")
+        T, far = ROBOT.fk(q), ROBOT.fk(HOME)
+        far[0, 3] += 2
+        assert far[0, 3] > T[0, 3] > ROBOT.fk(HOME)[0, 3] + 0.05
+        np.testing.assert_allclose(T[:3, :3], far[:3, :3], atol=1e-6)
+        assert "old" in page.locator(".joints").get_attribute("class")
+        shown = page.evaluate("() => irbkin.state.T")
+        np.testing.assert_allclose(np.reshape(shown, (4, 4)).T, far, atol=1e-9)
+
+
+def test_joints_that_are_outside_are_red_alone(opened):
+    T = irbkin.pose([0.85, 0.32, 0.64], euler_zyx=np.radians([0, 150, 0]))
+    q = ROBOT.ik_nearest(T)
+    with scene.serve(scene.of(ROBOT, q=q)) as view:
+        page = opened(view.url)
+        lower, upper = ROBOT.limits.T
+        found = list(ROBOT.ik(ROBOT.fk(q)))
+        wanted = [[bool(it) for it in (one.q < lower) | (one.q > upper)] for one in found]
+        shown = page.evaluate(
+            "() => [...document.querySelectorAll('.solutions tbody tr')].map((row) =>"
+            " [...row.querySelectorAll('.angle')].map((it) => it.classList.contains('bad')))"
+        )
+        assert shown == wanted
+        assert any(map(any, wanted))

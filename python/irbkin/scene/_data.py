@@ -94,6 +94,8 @@ class Motion(_Part):
     """The line of the program that each belongs to, from 1; empty without a program."""
     source: str = ""
     """The text of the program."""
+    routine: str = ""
+    """Its routine that moves."""
 
 
 @dataclass(frozen=True, repr=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -122,7 +123,7 @@ def _way(poses: npt.NDArray[np.float64]) -> tuple[Path, ...]:
 
 
 def _of_routine(robot: Robot, made: RoutineMotion) -> Scene:
-    motion = motion_of(made.t, made.q, made.lines)
+    motion = replace(motion_of(made.t, made.q, made.lines), routine=made.routine or "")
     # The program has its own tools.
     tools = np.array([it.tool for it in made.moves])[np.asarray(made.move_index)]
     poses = robot.with_tool(np.eye(4)).fk(made.q) @ tools

@@ -18,7 +18,7 @@ FOLDER = Path(__file__).with_name("page")
 ENGINE = FOLDER / "irbkin.wasm.gz"
 SCRIPTS = (
     "math", "engine", "shapes", "arm", "camera", "gl", "flat", "dom", "handle", "read", "write",
-    "program", "scene", "view", "panels", "app",
+    "source", "program", "scene", "view", "panels", "app",
 )  # fmt: skip
 """The scripts, each behind those that it uses."""
 

@@ -18,7 +18,7 @@ class App {
     };
     this.state = {
       name: "", q: [], T: identity(), tool: identity(), base: identity(), wobj: identity(),
-      solutions: [], own: -1, confdata: null, armAngle: null,
+      solutions: [], own: -1, confdata: null, armAngle: null, isReached: true,
     };
     this.setUnits("mm", true);
     this.parts = panels(this);
@@ -186,7 +186,7 @@ class App {
     const q7 = robot.dof === 7 && !moves ? { q7: state.q[6] } : {};
     const seed = state.q;
     const found = await engine.ask({ do: "ik", T: toRows(state.T), seed, ...q7, collide: !light });
-    const q = (moves && found.nearest?.q) || seed;
+    const q = (moves && (found.nearest?.q ?? found.towards)) || seed;
     const posture = await engine.ask({ do: "fk", q, collide: !light });
     const reason = found.nearest ? null : found.reason ?? found.outcome;
     return { ...found, q, posture, reason };
@@ -214,12 +214,13 @@ class App {
     parts.solutions.replaceChildren(...solutionRows(this));
     parts.solutions.children[focused]?.focus({ preventScroll: true });
     parts.verdict.classList.toggle("bad", !state.isReached);
+    for (const it of [parts.joints, parts.facts]) it.classList.toggle("old", !state.isReached);
     const inside = state.solutions.filter((it) => it.within_limits).length;
     if (!this.source) parts.verdict.textContent = this.engine ? "" : NO_ENGINE;
     else parts.verdict.textContent = state.isReached
       ? `${state.solutions.length} solutions, ${inside} inside the limits`
         + (state.certified ? ", certified to be all" : "")
-      : `Not reached: ${state.reason}`;
+      : `Not reached: ${state.reason}. The arm is as near as it gets on the straight way.`;
     this.facts();
     this.view.ask();
   }
@@ -255,7 +256,8 @@ class App {
     this.guard(pasteWords, async () => {
       const meant = meaningOf(text, this.robot.dof, this.units);
       if (meant.kind !== "joints" && !this.source) throw new Error("joint angles alone are read here");
-      if (meant.kind === "joints") this.setJoints(meant.q);
+      if (meant.kind === "program") await this.program.open([{ name: "pasted.mod", text: meant.text }]);
+      else if (meant.kind === "joints") this.setJoints(meant.q);
       else if (meant.kind === "pose") this.setPose(multiply(this.state.wobj, meant.T));
       else await this.pasteTarget(meant);
       if (meant.form) pasteWords.textContent = `read as ${meant.form}`;
@@ -268,12 +270,20 @@ class App {
     const target = await this.engine.ask({ do: "ik_target", robtarget: meant.text, wobj: toRows(wobj) });
     const name = target.name ? ` ${target.name}` : "";
     meant.form = `a ${target.kind}${name}`;
-    if (target.q) {
+    const frame = { tooldata: "tool", wobjdata: "wobj" }[target.kind];
+    if (frame) {
+      this.setFrame(frame, fromRows(target.T));
+    } else if (target.q) {
       this.setJoints(target.q);
     } else {
       this.setPose(multiply(wobj, fromRows(target.T)));
       meant.form += `, whose confdata [${target.confdata.join(", ")}] no solution inside the limits has`;
     }
+  }
+
+  newProgram() {
+    const T = this.arm.frames(this.state.q).tool;
+    return this.program.open([{ name: "Here.mod", text: asModule({ ...this.state, T, robot: this.robot }) }]);
   }
 
   // Modules among the files are read together: they are of one task.
@@ -357,6 +367,12 @@ class App {
       this.drop(event.dataTransfer.files);
     });
     this.host.addEventListener("keydown", (event) => this.key(event));
+    // Pasted anywhere but into a field.
+    this.host.addEventListener("paste", (event) => {
+      if (["INPUT", "TEXTAREA"].includes(event.composedPath()[0].tagName)) return;
+      this.parts.paste.value = event.clipboardData.getData("text");
+      this.paste(this.parts.paste.value);
+    });
   }
 
   key(event) {

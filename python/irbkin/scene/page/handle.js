@@ -31,11 +31,11 @@ class Handle {
     });
   }
 
-  static draw(drawing, camera, pose, held) {
+  static draw(drawing, camera, pose, held, isRed) {
     const size = Handle.size(camera, pose);
     const from = place(pose);
     for (let axis = 0; axis < 3; axis++) {
-      const bright = (part) => (held === part ? [1, 0.85, 0.2] : AXIS_COLORS[axis]);
+      const bright = (part) => (held === part ? [1, 0.85, 0.2] : isRed ? AXIS_COLORS[0] : AXIS_COLORS[axis]);
       const tip = add(from, scale(axisOf(pose, axis), size));
       if (drawing.isFlat) {
         drawing.lines([from, tip], bright(`move${axis}`));

@@ -10,11 +10,11 @@ function panels(app) {
     onfocus: () => parts.arm.select(),
   });
   parts.arms = el("datalist", { id: "irbkin-arms" });
-  parts.armWords = el("p", { className: "dim" });
+  parts.armWords = el("p", { className: "dim words-of-arm" });
 
   parts.paste = el("textarea", {
-    rows: 2, spellcheck: false, ariaLabel: "paste a robtarget, a pose or a joint vector",
-    placeholder: "Paste a robtarget, a pose (x y z rz ry rx), a 4x4 matrix or a joint vector",
+    rows: 2, spellcheck: false, ariaLabel: "paste a target, a tool, a pose, joints or a module",
+    placeholder: "Paste a robtarget, tooldata, wobjdata, a module, a pose (x y z rz ry rx), a matrix or joints",
     oninput: () => app.paste(parts.paste.value),
   });
   parts.pasteWords = el("p", { className: "dim", ariaLive: "polite" });
@@ -50,8 +50,9 @@ function panels(app) {
   parts.node = el("aside", {},
     el("section", {},
       el("div", { className: "row" }, parts.arm, parts.arms, parts.units,
-        el("button", { type: "button", onclick: () => parts.file.click(), title: "a URDF of your arm, a RAPID module, a scene" }, "open file"), parts.file),
-      parts.armWords,
+        el("button", { type: "button", onclick: () => parts.file.click(), title: "a URDF of your arm, a RAPID module, a scene" }, "open"), parts.file),
+      el("div", { className: "row" }, parts.armWords,
+        el("button", { type: "button", className: "solved", onclick: () => app.newProgram(), title: "write a RAPID module that begins here" }, "program")),
       parts.paste, parts.pasteWords),
     el("section", {},
       el("h2", {}, "Tool ", parts.seen = el("span", { className: "dim" })), parts.pose.node, parts.verdict),
@@ -109,8 +110,9 @@ function jointRows(app) {
 // The rows of the table of solutions.
 function solutionRows(app) {
   const { state, robot, units } = app;
-  const names = robot.has_confdata ? ["slot", "confdata", "", "joints"] : ["slot", "", "joints"];
-  app.parts.head.replaceChildren(...names.map((it) => el("th", {}, it)));
+  const joints = robot.limits.map((_, joint) => `J${joint + 1}`);
+  app.parts.head.replaceChildren(...["slot", robot.has_confdata ? "confdata" : "", ...joints].map((it) => el("th", {}, it)));
+  const isOutside = (angle, [low, high]) => angle < (low ?? -Infinity) - 1e-9 || angle > (high ?? Infinity) + 1e-9;
   return state.solutions.map((it, index) => {
     const flags = [
       it.within_limits ? "" : "outside",
@@ -118,7 +120,6 @@ function solutionRows(app) {
       it.free_joint ?? "",
       it.collides ? "collides" : "",
     ].filter(Boolean).join(", ");
-    const angles = it.q.map((angle) => trimmed(units.fromRadians(angle), units.angle === "deg" ? 1 : 3)).join(" ");
     return el("tr", {
       tabIndex: 0, title: it.words ?? "",
       className: [index === state.own ? "own" : "", it.within_limits ? "" : "faint"].join(" ").trim(),
@@ -128,8 +129,9 @@ function solutionRows(app) {
       onpointerleave: () => { app.view.hover = null; app.view.ask(); },
     },
     el("td", {}, String(it.slot)),
-    robot.has_confdata ? el("td", {}, it.confdata?.join(" ") ?? "") : null,
-    el("td", { className: it.collides || !it.within_limits ? "bad" : "dim" }, flags),
-    el("td", { className: "angles" }, angles));
+    el("td", {}, it.confdata?.join(" ") ?? "",
+      el("div", { className: it.collides || !it.within_limits ? "bad" : "dim" }, flags)),
+    ...it.q.map((angle, joint) => el("td", { className: isOutside(angle, robot.limits[joint]) ? "angle bad" : "angle" },
+      units.fromRadians(angle).toFixed(units.angle === "deg" ? 1 : 3).replace(/^-(0\.0+)$/, "$1"))));
   });
 }

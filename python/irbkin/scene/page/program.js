@@ -1,4 +1,4 @@
-// A program of RAPID: its moves as a table with findings, a routine played back on a slider.
+// A program of RAPID: its text with findings, its moves as a table, a routine played on a slider.
 
 const MOST_ROWS = 3000;
 const MOST_MARKS = 300;
@@ -12,28 +12,87 @@ class Program {
     });
     this.clock = el("span", { className: "clock" });
     this.button = el("button", { type: "button", onclick: () => this.toggle(), title: "space" }, "play");
-    this.line = el("pre", { className: "source", ariaLive: "off" });
+    this.source = new Source({ onchange: (text) => this.edit(text), online: (line) => this.goLine(line) });
     this.list = el("tbody");
     this.words = el("p", { className: "dim" });
+    this.files = el("select", { ariaLabel: "module", onchange: () => this.turnTo(Number(this.files.value)) });
+    this.routines = el("select", { ariaLabel: "routine", onchange: () => this.play() });
+    this.fix = el("button", { type: "button", onclick: () => this.correct(), title: "as irbkin check --fix" });
+    this.save = el("button", { type: "button", onclick: () => this.write() }, "save");
     this.node = el("section", { className: "program", hidden: true },
-      el("h2", {}, "Program ", this.title = el("span", { className: "dim" })),
+      el("div", { className: "row" },
+        el("h2", {}, "Program ", this.title = el("span", { className: "dim" })),
+        this.files, this.routines, this.fix, this.save,
+        el("button", { type: "button", onclick: () => this.close(), ariaLabel: "close the program" }, "close")),
       this.words,
-      this.routines = el("select", { ariaLabel: "routine", onchange: () => this.play() }),
       this.player = el("div", { className: "player" }, this.button, this.slider, this.clock),
-      this.line,
-      el("div", { className: "moves" }, el("table", {},
-        el("thead", {}, el("tr", {}, ...["line", "move", "confdata", "finding"].map((it) => el("th", {}, it)))),
-        this.list)),
+      el("div", { className: "sides" }, this.source.node,
+        this.moves = el("div", { className: "moves" }, el("table", {},
+          el("thead", {}, el("tr", {}, ...["line", "move", "confdata", "finding"].map((it) => el("th", {}, it)))),
+          this.list))),
     );
   }
 
-  // Modules of one task: each with a name and a text.
-  open(modules) {
+  // Modules of one task: each with a name and a text; a routine of them.
+  open(modules, routine) {
     this.engine ??= this.app.engine.twin();
     this.modules = modules;
-    this.lines = modules.map((it) => it.text.split("\n"));
-    this.name = modules.map((it) => it.name).join(", ");
+    this.wanted = routine;
+    this.title.textContent = "";
+    this.files.replaceChildren(...modules.map((it, index) => el("option", { value: index }, it.name)));
+    this.turnTo(0);
     return this.read();
+  }
+
+  // Show the text of another module.
+  turnTo(module) {
+    this.module = module;
+    this.files.value = module;
+    this.source.open(this.modules[module].text);
+    this.mark();
+  }
+
+  // Another text: it is checked after a pause.
+  edit(text) {
+    this.modules = this.modules.map((it, module) => (module === this.module ? { ...it, text } : it));
+    clearTimeout(this.later);
+    this.later = setTimeout(() => this.read(true), 300);
+  }
+
+  // Apply the corrections, unless they cause another error or warning.
+  async correct() {
+    const before = this.modules;
+    const wrong = this.wrong();
+    const edits = this.corrections().flatMap((it) => it.edits);
+    const own = (module) => edits.filter((it) => it.module === module);
+    this.modules = before.map((it, module) => ({ ...it, text: edited(it.text, own(module)) }));
+    await this.read(true);
+    if (this.wrong() > wrong) {
+      this.modules = before;
+      await this.read(true);
+      this.words.textContent += " The corrections would cause another finding: they are not made.";
+    }
+    this.source.open(this.modules[this.module].text);
+    this.mark();
+  }
+
+  // Findings that can be corrected: notes where nothing else can.
+  corrections() {
+    const able = this.found.filter((it) => it.edits.length);
+    const wrong = able.filter((it) => it.severity !== "note");
+    return wrong.length ? wrong : able;
+  }
+
+  wrong() {
+    return this.found.filter((it) => it.severity !== "note").length;
+  }
+
+  // Keep the text of the module that is shown as a file.
+  write() {
+    const { name, text } = this.modules[this.module];
+    const href = URL.createObjectURL(new Blob([text], { type: "text/plain" }));
+    el("a", { href, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(href), 1000);
   }
 
   // A motion of a scene is of its arm alone.
@@ -47,7 +106,9 @@ class Program {
 
   close() {
     this.modules = null;
+    Object.assign(this.app.view, { way: [], marks: [] });
     this.forgetMotion();
+    this.app.view.ask();
   }
 
   // Play a motion of a scene.
@@ -58,11 +119,13 @@ class Program {
     this.modules = null;
     this.title.textContent = name;
     this.words.textContent = "";
-    this.routines.hidden = true;
     this.list.replaceChildren();
-    this.lines = [(motion.source ?? "").split("\n")];
     const places = (motion.lines ?? []).map((line) => ({ module: 0, line }));
     this.motion = { t: motion.t, q: motion.q.flat(), places, duration: motion.t.at(-1), moves: [] };
+    for (const it of [this.files, this.routines, this.fix, this.save, this.moves]) it.hidden = true;
+    this.source.node.hidden = !motion.source;
+    this.source.open(motion.source ?? "", true);
+    this.source.mark(new Map());
     this.node.hidden = false;
     this.player.hidden = false;
     this.at(0);
@@ -79,10 +142,8 @@ class Program {
   async read(stays = false) {
     if (!this.modules) return;
     this.stop();
-    this.motion = null;
-    this.line.textContent = "";
-    this.node.hidden = false;
-    this.title.textContent = this.name;
+    this.node.hidden = this.save.hidden = this.moves.hidden = this.source.node.hidden = false;
+    this.files.hidden = this.modules.length < 2;
     this.words.textContent = "is checked";
     const modules = this.modules.map(({ text }) => ({ text }));
     let checked;
@@ -90,9 +151,10 @@ class Program {
       checked = await this.asked({ do: "check", modules, collide: this.app.view.obstacles.length > 0 });
       if (!checked) return;
     } catch (fault) {
-      this.words.textContent = `${this.name} cannot be checked: ${fault.message}`;
+      this.words.textContent = `It cannot be checked: ${fault.message}`;
+      this.found = this.faults = [];
       this.list.replaceChildren();
-      this.routines.hidden = this.player.hidden = true;
+      this.routines.hidden = this.player.hidden = this.fix.hidden = true;
       return;
     }
     const shown = checked.findings.filter((it) => it.shown);
@@ -102,20 +164,42 @@ class Program {
       + `checked, ${errors} ${errors === 1 ? "error" : "errors"}, ${shown.length - errors} other findings`
       + `${checked.faults.length ? `, ${checked.faults.length} statements not read` : ""}.`;
     if (checked.moves.length > MOST_ROWS) this.counted += ` The table has the first ${MOST_ROWS}.`;
+    Object.assign(this, { found: shown, faults: checked.faults, checked: checked.moves });
+    const able = this.corrections();
+    this.fix.hidden = !able.length;
+    this.fix.textContent = `fix ${able.length} ${able[0]?.severity === "note" ? "notes" : "findings"}`;
     this.fill(checked, shown);
+    this.mark();
     this.choices(checked);
     await this.play(stays);
   }
 
+  // What was found on the lines of the module that is shown.
+  mark() {
+    const found = new Map();
+    const faults = (this.faults ?? []).map((it) => ({ ...it, severity: "error", code: "" }));
+    for (const it of [...(this.found ?? []), ...faults]) {
+      if (it.module === this.module) found.set(it.line, [...(found.get(it.line) ?? []), it]);
+    }
+    this.source.mark(found);
+  }
+
+  goLine(line) {
+    const move = this.checked?.find((it) => it.module === this.module && it.line === line);
+    if (move) this.go(move);
+  }
+
   // The procedures, `main` or the first that moves chosen unless another one was.
   choices({ procedures, moves }) {
-    const before = this.routines.value;
+    const chosen = this.routines.selectedOptions[0]?.textContent ?? this.wanted;
     const moving = moves.find((move) => move.routine !== null);
     const isFirst = (it) => it.module === moving?.module && it.name === moving.routine;
-    const own = procedures.find((it) => it.name.toLowerCase() === "main") ?? procedures.find(isFirst);
+    const named = (name) => procedures.find((it) => it.name.toLowerCase() === name?.toLowerCase());
+    const own = named(this.wanted ?? chosen) ?? named("main") ?? procedures.find(isFirst);
+    this.wanted = null;
     this.procedures = procedures;
     this.routines.replaceChildren(...procedures.map((it, index) => el("option", { value: index }, it.name)));
-    this.routines.value = before in procedures ? before : procedures.indexOf(own);
+    this.routines.value = procedures.indexOf(own);
     this.routines.hidden = procedures.length < 2;
   }
 
@@ -124,7 +208,6 @@ class Program {
     this.stop();
     this.shown = null;
     this.motion = null;
-    this.line.textContent = "";
     const chosen = this.procedures[this.routines.value];
     let why = "";
     try {
@@ -149,7 +232,7 @@ class Program {
     const named = ({ module, line }) => (this.modules.length > 1 ? `${this.modules[module].name}:${line}` : String(line));
     for (const move of checked.moves.slice(0, MOST_ROWS)) {
       const own = found.get(place(move)) ?? [];
-      const worst = ["error", "warning", "note"].find((it) => own.some((one) => one.severity === it));
+      const worst = SEVERITIES.find((it) => own.some((one) => one.severity === it));
       rows.push(el("tr", {
         className: worst ?? "", tabIndex: 0, "data-module": move.module, "data-line": move.line,
         onclick: () => this.go(move), onkeydown: (event) => event.key === "Enter" && this.go(move),
@@ -181,9 +264,10 @@ class Program {
     const each = Math.max(1, Math.floor(count / 800));
     view.way = segments(Array.from({ length: Math.ceil(count / each) }, (_, i) => way.slice(3 * each * i, 3 * each * i + 3)));
     const ends = new Map((this.motion?.places ?? []).map((it, i) => [`${it.module}:${it.line}`, 3 * i]));
-    view.marks = this.marks.map(({ module, line, q, color }) => {
+    view.marks = this.marks.map(({ module, line, code, message, q, color }) => {
       const end = ends.get(`${module}:${line}`);
-      return { at: end === undefined ? place(arm.frames(q).tool) : way.slice(end, end + 3), color };
+      const at = end === undefined ? place(arm.frames(q).tool) : way.slice(end, end + 3);
+      return { at, color, text: `${line}: ${code} ${message}`, go: () => this.go({ module, line, q }) };
     });
   }
 
@@ -223,7 +307,8 @@ class Program {
     const shown = `${module}:${line}`;
     if (this.shown === shown) return;
     this.shown = shown;
-    this.line.textContent = line ? `${line}  ${(this.lines[module][line - 1] ?? "").trim()}` : "";
+    if (line && this.modules && module !== this.module) this.turnTo(module);
+    this.source.go(line);
     for (const row of this.list.children) {
       const isOwn = Number(row.dataset.module) === module && Number(row.dataset.line) === line;
       row.classList.toggle("here", isOwn);

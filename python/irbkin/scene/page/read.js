@@ -1,20 +1,23 @@
 // The meaning of a pasted text: a target of RAPID, a pose in numbers, a joint vector.
 
 const NUMBER = /[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?/g;
-const DECLARED = /\b(robtarget|jointtarget)\b/i;
+const DECLARED = /\b(robtarget|jointtarget|tooldata|wobjdata)\b/i;
 
-// A literal of a target has groups of 3, 4, 4 and 6 numbers, or of 6 and 6.
-const isTarget = (text) => DECLARED.test(text) || /^(3,4,4,6|6,6)$/.test(
+// A literal of a target has groups of 3, 4, 4 and 6 numbers, or of 6 and 6; of a tool or a work object
+// it begins with a truth.
+const isTarget = (text) => DECLARED.test(text) || /^\[\s*(TRUE|FALSE)\b/i.test(text) || /^(3,4,4,6|6,6)$/.test(
   (text.match(/\[[^[\]]*\]/g) ?? []).map((it) => it.split(",").length).join(),
 );
 
 const numbersOf = (text) => (text.match(NUMBER) ?? []).map(Number);
 
-// { kind: "joints", q } or { kind: "pose", T } or { kind: "rapid", text }; throws a sentence otherwise.
+// { kind: "joints", q }, { kind: "pose", T }, { kind: "rapid", text } or { kind: "program", text };
+// throws a sentence otherwise.
 function meaningOf(text, dof, units) {
   // Without comments of RAPID.
   const trimmed = text.replace(/![^\n]*/g, "").trim();
   if (!trimmed) throw new Error("");
+  if (/^\s*(MODULE|(LOCAL\s+)?PROC)\b/im.test(trimmed)) return { kind: "program", text };
   if (isTarget(trimmed) && !/\b(Offs|RelTool)\s*\(/i.test(trimmed)) return { kind: "rapid", text: declared(trimmed) };
   const unlabeled = trimmed.replace(/\b[A-Za-z]\w*\s*[:=]/g, " ");
   if (/[a-df-zA-DF-Z_]{2,}/.test(unlabeled.replace(/array|np|deg|rad|mm|pose|xyz|wxyz|euler/gi, ""))) {
@@ -68,7 +71,7 @@ const isUnit = (numbers) => Math.abs(Math.hypot(...numbers) - 1) < 0.02;
 
 // A declaration or a literal, without the instruction around it.
 function declared(text) {
-  const declaration = text.match(/((?:LOCAL\s+|TASK\s+)?(?:CONST|PERS|VAR)\s+(?:robtarget|jointtarget)\s[\s\S]*?;)/i);
+  const declaration = text.match(/((?:LOCAL\s+|TASK\s+)?(?:CONST|PERS|VAR)\s+(?:robtarget|jointtarget|tooldata|wobjdata)\s[\s\S]*?;)/i);
   if (declaration) return `MODULE M\n${declaration[1]}\nENDMODULE`;
   const begin = text.indexOf("[");
   let depth = 0;

@@ -30,7 +30,6 @@ async function openScene(app, scene) {
     await takeSceneArm(app, first, drawn, q);
     const rest = (first.postures ?? []).filter((it) => it !== posture);
     view.extra = rest.map((it) => ({ arm: drawn, q: it.q, alpha: it.is_ghost ? 0.2 : 0.6 }));
-    if (first.motion) app.program.openMotion(scene.title ?? "motion", first.motion);
   }
   for (const arm of others) {
     const drawn = DrawnArm.ofScene(arm);
@@ -41,7 +40,14 @@ async function openScene(app, scene) {
   view.wayNames = (scene.paths ?? []).flatMap((it) => segments(it.points).map(() => it.name));
   view.frames = (scene.frames ?? []).map((it) => Object.assign(fromRows(it.pose.flat()), { label: it.name }));
   view.marks = [...(scene.marks ?? []).map((it) => ({ at: it.point, text: it.text, color: SEVERITY_COLORS[it.severity] ?? NOTE_COLOR })), ...dots];
-  for (const it of (scene.marks ?? []).slice(0, 50)) app.notes.add(`${it.place ?? ""} ${it.text}`.trim());
+  const { motion } = first ?? {};
+  // A program with its text is checked and can be changed.
+  if (motion?.source && app.source) {
+    await app.program.open([{ name: scene.title || "program.mod", text: motion.source }], motion.routine);
+  } else {
+    for (const it of (scene.marks ?? []).slice(0, 50)) app.notes.add(`${it.place ?? ""} ${it.text}`.trim());
+    if (motion) app.program.openMotion(scene.title ?? "motion", motion);
+  }
   view.fit();
 }
 

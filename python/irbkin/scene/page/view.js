@@ -109,10 +109,19 @@ class View {
       drawBall(drawing, at, size * camera.distance, color);
     }
     this.faint();
-    if (this.app.source) Handle.draw(drawing, camera, state.T, this.held?.part ?? this.over);
+    if (this.app.source) this.target(arm, state);
     drawing.end();
     this.scale();
     this.measure(begun, quality);
+  }
+
+  // The handle; where the arm does not reach, the frame is red, and a line leads to it.
+  target(arm, state) {
+    const { drawing, camera } = this;
+    Handle.draw(drawing, camera, state.T, this.held?.part ?? this.over, !state.isReached);
+    if (state.isReached) return;
+    const ends = [place(arm.frames(state.q).tool), place(state.T)];
+    drawing.lines(ends, SEVERITY_COLORS.error, { pairs: true, width: 2.5 });
   }
 
   // The arms that are not faint.
@@ -206,7 +215,7 @@ class View {
       return made;
     });
     const seen = texts.map(([point, text]) => [camera.project(point), text])
-      .filter(([at]) => at[2] > 0 && !before.some(([a, b, room]) => fromLine(at, a, b) < room));
+      .filter(([at]) => at[2] > 0 && at[1] < camera.size[1] - 10 && !before.some(([a, b, room]) => fromLine(at, a, b) < room));
     this.words.replaceChildren(...seen.map(([[x, y], text]) => el("span", {
       style: `transform:translate(${x.toFixed(1)}px,${y.toFixed(1)}px) translate(-50%,-50%)`,
     }, text)));
@@ -252,6 +261,7 @@ class View {
     const part = this.pointers.size === 1 && event.button === 0 && this.app.source
       ? Handle.at(this.camera, this.app.state.T, ...at, reach) : null;
     this.held = part ? { part, from: at, pose: this.app.state.T } : null;
+    this.clicked = at;
     this.isPan = event.button !== 0 || event.shiftKey;
     this.ask();
   }
@@ -288,7 +298,11 @@ class View {
   }
 
   pointerup(event) {
+    const at = this.pointers.get(event.pointerId);
     this.pointers.delete(event.pointerId);
+    const isClick = this.clicked && at && Math.hypot(at[0] - this.clicked[0], at[1] - this.clicked[1]) < 4;
+    const away = (it) => Math.hypot(...this.camera.project(it.at).slice(0, 2).map((one, i) => one - at[i]));
+    if (isClick && !this.held) this.marks.find((it) => it.go && away(it) < 12)?.go();
     if (this.held) this.app.settled();
     this.held = null;
     this.ask();
