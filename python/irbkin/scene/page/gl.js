@@ -2,8 +2,8 @@
 
 // The direction to the lamp.
 const LAMP = unit([0.45, -0.55, 1.1]);
-// Corners of its picture, and how far it reaches, in edges of the floor.
-const SHADOW = { size: 256, reach: 1.6 };
+// Corners of the shadow's picture, how far it reaches [edges of the floor], and how often it is halved.
+const SHADOW = { size: 256, reach: 1.6, halved: 2 };
 const MESH = [`
 in vec3 position; in vec3 normal;
 uniform mat4 view; uniform mat4 model;
@@ -77,43 +77,40 @@ void main() {
   float lines = inside * max(0.55 * grid(screen.x), 0.22 * grid(screen.x / 5.0));
   vec2 axis = (1.0 - min(abs(at.yx) / fwidth(at.yx) / 1.5, 1.0)) * step(0.0, at) * inside;
   vec3 ink = mix(mix(color.rgb, vec3(0.84, 0.15, 0.16), axis.x), vec3(0.17, 0.63, 0.17), axis.y);
-  float dark = shadows * texture(image, at / (${(2 * SHADOW.reach).toFixed(1)} * edge) + 0.5).r;
+  // Four places of a picture that is halved make its edges soft.
+  vec2 there = at / (${(2 * SHADOW.reach).toFixed(1)} * edge) + 0.5;
+  float dark = 0.0;
+  for (int i = 0; i < 4; i++) {
+    vec2 beside = (vec2(i & 1, i >> 1) - 0.5) * ${(1.6 * 2 ** SHADOW.halved / SHADOW.size).toFixed(6)};
+    dark += 0.25 * shadows * textureLod(image, there + beside, ${SHADOW.halved.toFixed(1)}).r;
+  }
   float line = max(lines, 0.8 * max(axis.x, axis.y));
   float tint = 0.07 * inside;
   drawn = vec4(mix(ink * line + color.rgb * tint * (1.0 - line), vec3(0.0), dark), line + (1.0 - line) * (tint + dark));
 }`];
-const BLUR = [`
-in vec3 position;
-out vec2 at;
-void main() { at = 0.5 * position.xy + 0.5; gl_Position = vec4(position.xy, 0.0, 1.0); }`, `
-in vec2 at;
-uniform vec3 screen; uniform sampler2D image;
-out vec4 drawn;
-void main() {
-  float sum = 0.0, all = 0.0;
-  for (int i = -3; i <= 3; i++) {
-    float weight = exp(-float(i * i) / 4.5);
-    sum += weight * texture(image, at + float(i) * screen.xy).r;
-    all += weight;
-  }
-  drawn = vec4(sum / all);
-}`];
-
 class GlDrawing {
   constructor(canvas) {
     // Smooth edges are its own, so that frames can be drawn without.
     this.gl = canvas.getContext("webgl2", { antialias: false, stencil: true, preserveDrawingBuffer: true });
     if (!this.gl) throw new Error("no WebGL");
     const { gl } = this;
-    this.programs = Object.fromEntries(Object.entries({ MESH, LINE, FLOOR, BLUR })
+    this.programs = Object.fromEntries(Object.entries({ MESH, LINE, FLOOR })
       .map(([name, texts]) => [name, this.program(texts)]));
     gl.enableVertexAttribArray(0);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     this.buffers = new WeakMap();
     this.square = this.buffer(new Float32Array([-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0]), gl.ARRAY_BUFFER);
-    this.shadows = [0, 1].map(() => this.image());
     this.samples = Math.min(4, gl.getParameter(gl.MAX_SAMPLES));
     this.frame = gl.createFramebuffer();
+    this.shade = gl.createFramebuffer();
+    // The only texture stays bound.
+    const texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texStorage2D(gl.TEXTURE_2D, SHADOW.halved + 1, gl.R8, SHADOW.size, SHADOW.size);
+    for (const it of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, it, gl.CLAMP_TO_EDGE);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_NEAREST);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.shade);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
     this.parts = [gl.createRenderbuffer(), gl.createRenderbuffer()];
   }
 
@@ -132,19 +129,6 @@ class GlDrawing {
     if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(made));
     const names = ["view", "model", "color", "eye", "lamp", "floor", "lit", "screen", "shadows"];
     return { made, at: Object.fromEntries(names.map((it) => [it, gl.getUniformLocation(made, it)])) };
-  }
-
-  // A picture that is drawn into, and read by shaders.
-  image() {
-    const { gl } = this;
-    const [texture, frame] = [gl.createTexture(), gl.createFramebuffer()];
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.R8, SHADOW.size, SHADOW.size);
-    for (const it of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, it, gl.CLAMP_TO_EDGE);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
-    return { texture, frame };
   }
 
   use(name) {
@@ -207,10 +191,8 @@ class GlDrawing {
   // The shadow of meshes, each with its model, on the floor.
   shadow(meshes) {
     const { gl, floor: { at, edge } } = this;
-    const [one, other] = this.shadows;
-    const back = gl.getParameter(gl.FRAMEBUFFER_BINDING);
     gl.viewport(0, 0, SHADOW.size, SHADOW.size);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, one.frame);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.shade);
     gl.disable(gl.DEPTH_TEST);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
@@ -223,15 +205,8 @@ class GlDrawing {
     ];
     for (const [mesh, model] of meshes) this.mesh(mesh, model, [0, 0, 0], { lit: -1, onTop: true });
     this.view = seen;
-    const uniform = this.use("BLUR");
-    this.bind(0, this.square);
-    for (const [from, to, step] of [[one, other, [1, 0]], [other, one, [0, 1]]]) {
-      gl.bindFramebuffer(gl.FRAMEBUFFER, to.frame);
-      gl.bindTexture(gl.TEXTURE_2D, from.texture);
-      gl.uniform3f(uniform.screen, ...step.map((it) => (1.7 * it) / SHADOW.size), 0);
-      gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
-    }
-    gl.bindFramebuffer(gl.FRAMEBUFFER, back);
+    gl.generateMipmap(gl.TEXTURE_2D);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.isSmooth ? this.frame : null);
     gl.viewport(0, 0, this.width, this.height);
     gl.enable(gl.DEPTH_TEST);
   }
@@ -244,7 +219,6 @@ class GlDrawing {
     gl.uniform3fv(uniform.floor, floor.at);
     gl.uniform3f(uniform.screen, floor.cell, 0, 0);
     gl.uniform1f(uniform.shadows, hasShadow ? 0.42 : 0);
-    gl.bindTexture(gl.TEXTURE_2D, this.shadows[0].texture);
     this.bind(0, this.square);
     gl.disableVertexAttribArray(1);
     gl.enable(gl.BLEND);
