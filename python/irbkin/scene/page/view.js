@@ -214,22 +214,27 @@ class View {
       }
       return made;
     });
-    const seen = texts.map(([point, text]) => [camera.project(point), text])
+    const hides = (point) => ([pose, mesh]) => mesh.index.length < 600
+      && this.away(mesh, pose, unit(subtract(point, camera.eye))) < length(subtract(point, camera.eye));
+    const seen = texts.filter(([point]) => !this.obstacles.some(hides(point)))
+      .map(([point, text]) => [camera.project(point), text])
       .filter(([at]) => at[2] > 0 && at[1] < camera.size[1] - 10 && !before.some(([a, b, room]) => fromLine(at, a, b) < room));
     this.words.replaceChildren(...seen.map(([[x, y], text]) => el("span", {
       style: `transform:translate(${x.toFixed(1)}px,${y.toFixed(1)}px) translate(-50%,-50%)`,
     }, text)));
   }
 
+  // How far from the eye a ray meets a mesh [m].
+  away(mesh, model, ray) {
+    const back = inverse(model);
+    return metAt(mesh, moved(back, this.camera.eye), subtract(moved(back, ray), place(back)));
+  }
+
   // What is at a place of the screen, in words; nothing where nothing is.
   named(x, y) {
     const { camera, wayNames, way } = this;
     const found = [[Infinity, ""]];
-    const met = (mesh, model, words) => {
-      const back = inverse(model);
-      const along = subtract(moved(back, camera.ray(x, y)), place(back));
-      found.push([metAt(mesh, moved(back, camera.eye), along), words]);
-    };
+    const met = (mesh, model, words) => found.push([this.away(mesh, model, camera.ray(x, y)), words]);
     const near = (point, words, room) => {
       const [u, v, away] = camera.project(point);
       if (Math.hypot(u - x, v - y) < room) found.push([away - 0.05, words]);
