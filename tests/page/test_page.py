@@ -70,7 +70,14 @@ def opened(browser):
 
 
 def state(page):
-    return page.evaluate("() => irbkin.state")
+    """The state of the page, when all that it asked is answered."""
+    return page.evaluate("""async () => {
+        for (let last; last !== irbkin.engine.last || irbkin.solving;) {
+          last = irbkin.engine.last;
+          await Promise.all([last, irbkin.solving, new Promise((go) => setTimeout(go))]);
+        }
+        return irbkin.state;
+    }""")
 
 
 def pose(state):
@@ -329,8 +336,9 @@ def test_a_scene_has_its_own_tool_base_and_arm(opened, tmp_path):
     page.wait_for_function("() => irbkin.state.base[14] === 0.5")
     np.testing.assert_allclose(pose(state(page)), robot.fk(q), atol=1e-9)
     page.set_input_files("input[type=file]", other)
-    page.wait_for_function("() => irbkin.view.isBare")
-    assert page.evaluate("() => irbkin.view.extra[0].arm.meshes.some((it) => it.index.length)")
+    page.wait_for_function("(name) => irbkin.robot.name === name", arg=ur.name)
+    np.testing.assert_allclose(pose(state(page)), ur.fk(np.zeros(6)), atol=1e-9)
+    assert page.evaluate("() => irbkin.arm.meshes.some((it) => it.index.length)")
 
 
 def test_rubbish_in_the_address_starts_the_page(opened):
@@ -358,6 +366,7 @@ def test_impossible_numbers_are_marked_and_nothing_stops(opened):
         "MoveL pX,v1,fine,t;",
     ):
         page.fill("textarea", text)
+        state(page)
         assert page.locator("textarea + p").inner_text(), text
     field = page.get_by_label("x", exact=True).first
     field.fill("abc")
@@ -366,9 +375,11 @@ def test_impossible_numbers_are_marked_and_nothing_stops(opened):
     assert "wrong" in field.get_attribute("class")
     field.fill("5000")
     assert "wrong" not in (field.get_attribute("class") or "")
+    state(page)
     assert "beyond reach" in page.locator(".verdict").inner_text()
     page.get_by_label("arm", exact=True).fill("IRB 9999")
     page.keyboard.press("Enter")
+    state(page)
     assert "IRB 9999" in page.locator(".row + p").first.inner_text()
     page.evaluate("() => irbkin.setJoints([NaN, 0, 0, 0, 0, 0])")
     assert all(np.isfinite(state(page)["q"]))
