@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 FOLDER = Path(__file__).with_name("page")
 ENGINE = FOLDER / "irbkin.wasm.gz"
 SCRIPTS = (
-    "math", "engine", "shapes", "arm", "camera", "gl", "flat", "dom", "handle", "read", "write",
+    "math", "engine", "shapes", "arm", "camera", "gl", "dom", "handle", "read", "write",
     "source", "program", "scene", "view", "panels", "app",
 )  # fmt: skip
 """The scripts, each behind those that it uses."""

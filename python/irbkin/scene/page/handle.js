@@ -37,20 +37,16 @@ class Handle {
     for (let axis = 0; axis < 3; axis++) {
       const bright = (part) => (held === part ? [1, 0.85, 0.2] : isRed ? AXIS_COLORS[0] : AXIS_COLORS[axis]);
       const tip = add(from, scale(axisOf(pose, axis), size));
-      if (drawing.isFlat) {
-        drawing.lines([from, tip], bright(`move${axis}`));
-      } else {
-        // The shaft is along z: the axes in turn, so that this one is third.
-        const [u, v, w] = [1, 2, 3].map((it) => scale(axisOf(pose, (axis + it) % 3), size));
-        const model = [...u, 0, ...v, 0, ...w, 0, ...from, 1];
-        drawing.mesh(SHAFT, model, bright(`move${axis}`), { onTop: true });
-        drawBall(drawing, tip, 0.07 * size, bright(`move${axis}`), { onTop: true });
-      }
+      // The shaft is along z: the axes in turn, so that this one is third.
+      const [u, v, w] = [1, 2, 3].map((it) => scale(axisOf(pose, (axis + it) % 3), size));
+      const model = [...u, 0, ...v, 0, ...w, 0, ...from, 1];
+      drawing.mesh(SHAFT, model, bright(`move${axis}`), { onTop: true });
+      drawBall(drawing, tip, 0.07 * size, bright(`move${axis}`), { onTop: true });
       drawing.lines(Handle.ring(pose, axis, 0.72 * size), bright(`turn${axis}`), {
         loop: true, onTop: true,
       });
     }
-    if (!drawing.isFlat) drawBall(drawing, from, 0.075 * size, GRIP_COLOR, { onTop: true });
+    drawBall(drawing, from, 0.075 * size, GRIP_COLOR, { onTop: true });
   }
 
   // The part of the handle at a place of the screen; null if there is none.

@@ -38,7 +38,7 @@ class View {
     this.canvas.addEventListener("dblclick", () => this.fit());
     this.canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
-      this.fall("the graphics were lost");
+      this.fall("The graphics were lost: reload the page.");
     });
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.ask());
     new ResizeObserver(() => this.resize()).observe(this.canvas);
@@ -47,21 +47,15 @@ class View {
 
   start() {
     try {
-      if (this.app.options.flat) throw new Error("asked for");
       this.drawing = new GlDrawing(this.canvas);
     } catch {
-      this.drawing = new FlatDrawing(this.canvas);
-      this.app.notes.add("WebGL is not available: the arm is drawn without it.");
+      this.fall("This browser has no WebGL 2: everything is solved, nothing is drawn.");
     }
   }
 
   fall(words) {
-    const other = this.canvas.cloneNode();
-    this.app.notes.add(`${words}: reload the page for the full picture.`);
-    this.canvas.replaceWith(other);
-    this.canvas = other;
-    this.drawing = new FlatDrawing(other);
-    this.ask();
+    this.drawing = null;
+    this.app.notes.add(words);
   }
 
   resize() {
@@ -94,7 +88,7 @@ class View {
   // Of quality 2 with smooth edges and a shadow, 1 with a shadow, 0 with neither.
   draw(quality = this.quality) {
     const { drawing, camera, app: { arm, state } } = this;
-    if (!arm) return;
+    if (!arm || !drawing) return;
     const begun = performance.now();
     const floor = { at: place(arm.base), ...this.extent() };
     drawing.begin(camera, this.canvas.width, this.canvas.height, this.color(this.canvas.parentNode.parentNode), floor, quality > 1);
@@ -182,7 +176,7 @@ class View {
   // The meshes of an arm with their places and colors.
   links(arm, q, isFaint = false) {
     const { links } = arm.frames(q);
-    const kind = isFaint || this.drawing.isFlat ? "coarse" : this.app.settings.capsules ? "capsules" : "meshes";
+    const kind = isFaint ? "coarse" : this.app.settings.capsules ? "capsules" : "meshes";
     const maker = this.app.arms.find((it) => it.name === arm.name)?.maker;
     const colors = LIGHT.includes(maker) ? LIGHT_COLORS : LINK_COLORS;
     return arm[kind].map((mesh, link) => [mesh, links[link], link === 0 ? BASE_COLOR : colors[link % 2]]);
