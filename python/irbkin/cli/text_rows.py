@@ -1,17 +1,20 @@
 """Rows of numbers in CSV, and the place of what is wrong with them."""
 
+import contextlib
+import csv
 import io
 import itertools
-import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from typing import BinaryIO, NamedTuple
+from argparse import ArgumentTypeError
+from collections.abc import Iterator, Sequence
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 
 from irbkin._arm_options import check_millimeters
 from irbkin.cli.errors import CommandError
 from irbkin.cli.files import shown
+from irbkin.cli.numbers import number
 from irbkin.cli.output import Floats
 
 PART = 20_000
@@ -20,6 +23,8 @@ SCALES = {"mm": 1e-3, "m": 1.0, "deg": np.pi / 180, "rad": 1.0, "": 1.0}
 OTHER_UNITS = {"mm": "m", "deg": "rad"}
 OWN = ("limits", "joint", "confdata")
 """Columns of words that the command writes itself."""
+Row = tuple[int, str]
+"""The number of a line, and its text."""
 
 
 class Layout(NamedTuple):
@@ -33,19 +38,25 @@ class Layout(NamedTuple):
         """The columns in words."""
         return " or ".join(", ".join(choice) for choice in self.choices)
 
+    def placed(self, fields: Sequence[str]) -> dict[str, int]:
+        """Where the columns are in a row: of names, in one unit or the other, or of numbers.
 
-class _Columns(NamedTuple):
-    """Where the columns are in a row of `width`, and their names with units."""
-
-    width: int
-    places: Sequence[int]
-    names: Sequence[str]
-    words: Mapping[str, int] | None
-    """Where columns of words are; None without a row of names."""
-
-
-Row = tuple[int, str]
-"""The number of a line, and its text."""
+        Raises:
+            ValueError: What it lacks.
+        """
+        fields = [field.strip() for field in fields]
+        if len(fields) == 1 or any(map(_is_number, fields)):
+            for choice in self.choices:
+                if len(choice) == len(fields):
+                    return {name: at for at, name in enumerate(choice)}
+            raise ValueError(_counted(fields))
+        both = [[(it, _other(it)) for it in choice] for choice in self.choices]
+        lacking = [[pair for pair in pairs if not {*pair} & {*fields}] for pairs in both]
+        best = min(range(len(both)), key=lambda it: len(lacking[it]))
+        if lacking[best]:
+            raise ValueError(f"no column {' or '.join(dict.fromkeys(lacking[best][0]))}")
+        names = (next(it for it in pair if it in fields) for pair in both[best])
+        return {name: fields.index(name) for name in names}
 
 
 def read_text(
@@ -57,52 +68,65 @@ def read_text(
     chooses among the layout's choices.
     """
     lines = io.TextIOWrapper(file, encoding="utf-8-sig", errors="surrogateescape")
-    texts = ((at, it.strip("\r\n")) for at, it in enumerate(lines, 1))
-    every = ((at, it) for at, it in texts if it.strip() and it[0] != "#")
-    name, columns = shown(name), None
-    while rows := list(itertools.islice(every, PART)):
-        if columns is None:
-            columns = _columns(rows, f"{name}:{rows[0][0]}", layout)
-            rows = rows[columns.words is not None :]
-        if rows:
-            values = _numbers(rows, name, columns)
-            if columns.words is None and layout.choices[0][0] == "x_mm":
-                largest = values[np.abs(values[:, :3]).max(axis=1).argmax(), :3] * 1e3
-                check_millimeters(largest.tolist(), f"{name}: the largest of the rows")
-            words = (columns.words or {}).items()
-            # A row may end before them.
-            fields = [it.split(",") + [""] * columns.width for _, it in rows] if words else []
-            yield values, {key: [it[at] for it in fields] for key, at in words}
+    rows = ((at, it) for at, it in enumerate(lines, 1) if it.strip() and it[0] != "#")
+    name, part = shown(name), list(itertools.islice(rows, PART))
+    first, second = (_fields(it) for _, it in (*part, (0, ""), (0, ""))[:2])
+    try:
+        places = layout.placed(first) if part else {}
+    except ValueError as lack:
+        raise CommandError(
+            f"{name}:{part[0][0]}: {_quoted(part[0][1])} has {lack}; a {layout.what} has "
+            f"{layout.words()}, separated by commas, with decimal points"
+        ) from None
+    words, is_named = {}, not any(map(_is_number, first))
+    if is_named:
+        part = part[1:]
+        own = enumerate(zip(first, second, strict=False))
+        words = {it.strip(): at for at, (it, value) in own if re.search(r"[^\W\d]", value)}
+        words = {it: at for it, at in words.items() if it not in (*OWN, *places)}
+    scales = [SCALES[it.partition("_")[2]] for it in places]
+    while part:
+        values = _numbers(part, name, [*places.values()], 0 if is_named else len(first)) * scales
+        if not is_named and layout.choices[0][0] == "x_mm":
+            largest = values[np.abs(values[:, :3]).max(axis=1).argmax(), :3] * 1e3
+            check_millimeters(largest.tolist(), f"{name}: the largest of the rows")
+        # A row may end before them.
+        fields = [(*_fields(it), *[""] * len(first)) for _, it in part if words]
+        yield values, {it: [row[at] for row in fields] for it, at in words.items()}
+        part = list(itertools.islice(rows, PART))
     # The file belongs to the caller.
     lines.detach()
 
 
-def _columns(rows: Sequence[Row], place: str, layout: Layout) -> _Columns:
-    """The columns by the first row."""
-    fields, *others = ([field.strip() for field in it.split(",")] for _, it in rows[:2])
-    width = len(fields)
-    lack = _counted(width)
-    if width == 1 or any(map(_is_number, fields)):
-        for choice in layout.choices:
-            if len(choice) == width:
-                return _Columns(width, range(width), choice, None)
-    else:
-        # In one unit or the other.
-        both = [[(it, _other(it)) for it in choice] for choice in layout.choices]
-        lacking = [[pair for pair in pairs if not {*pair} & {*fields}] for pairs in both]
-        best = min(range(len(both)), key=lambda it: len(lacking[it]))
-        if not lacking[best]:
-            names = [next(it for it in pair if it in fields) for pair in both[best]]
-            pairs = enumerate(zip(fields, *others, strict=False)) if others else ()
-            words = {it: at for at, (it, own) in pairs if re.search(r"[^\W\d]", own)}
-            for own in (*OWN, *names):
-                words.pop(own, None)
-            return _Columns(width, [fields.index(it) for it in names], names, words)
-        lack = f"no column {' or '.join(dict.fromkeys(lacking[best][0]))}"
-    raise CommandError(
-        f"{place}: {_quoted(rows[0][1])} has {lack}; a {layout.what} has "
-        f"{layout.words()}, separated by commas, with decimal points"
-    )
+def _numbers(rows: Sequence[Row], name: str, places: Sequence[int], width: int) -> Floats:
+    """The values of rows, all of one width if there is one.
+
+    Raises:
+        CommandError: A value is no finite number, or is missing.
+    """
+    form: Any = {"delimiter": ",", "comments": None, "ndmin": 2, "quotechar": '"'}
+    with contextlib.suppress(ValueError):
+        values = np.loadtxt([it for _, it in rows], usecols=None if width else places, **form)
+        if values.shape[1] == len(places) and np.isfinite(values).all():
+            return values
+    for line, text in rows:
+        row = _fields(text)
+        if len(row) != width if width else len(row) <= max(places):
+            raise CommandError(
+                f"{name}:{line}: {_quoted(text)} has {_counted(row)}, the first row has "
+                f"{width or 'more'}: separate them by commas, write decimal points"
+            )
+        for at in (it for it in sorted(places) if not _is_number(row[it])):
+            place = f"{name}:{line}:{len(','.join([*row[:at], ''])) + 1}"
+            raise CommandError(f"{place}: {_quoted(row[at])} is not a finite number")
+    raise CommandError(f"{name}: has no finite rows")
+
+
+def _fields(text: str) -> list[str]:
+    try:
+        return next(csv.reader([text]), [])
+    except csv.Error:
+        return [text]
 
 
 def _other(column: str) -> str:
@@ -111,41 +135,16 @@ def _other(column: str) -> str:
     return f"{name}_{OTHER_UNITS[unit]}" if unit else name
 
 
-def _numbers(rows: Sequence[Row], name: str, columns: _Columns) -> Floats:
-    """The values of rows, or where and why the first invalid one is."""
-    try:
-        texts = [it for _, it in rows]
-        usecols = None if columns.words is None else columns.places
-        values = np.loadtxt(texts, delimiter=",", usecols=usecols, comments=None, ndmin=2)
-        if values.shape[1] == len(columns.places) and np.isfinite(values).all():
-            return values * [SCALES[it.partition("_")[2]] for it in columns.names]
-    except ValueError:
-        pass
-    for number, text in rows:
-        fields = text.split(",")
-        if len(fields) != columns.width:
-            raise CommandError(
-                f"{name}:{number}: {_quoted(text)} has {_counted(len(fields))}, the "
-                f"first row has {columns.width}: separate them by commas, write decimal points"
-            )
-        for place, field in enumerate(fields):
-            if place in columns.places and not (_is_number(field) and math.isfinite(float(field))):
-                column = len(",".join([*fields[:place], ""])) + 1
-                words = f"{name}:{number}:{column}: {_quoted(field)}"
-                raise CommandError(f"{words} is not a finite number")
-    raise CommandError(f"{name}: has no finite rows")
-
-
-def _counted(fields: int) -> str:
-    return "1 column" if fields == 1 else f"{fields} columns"
+def _counted(fields: Sequence[str]) -> str:
+    return "1 column" if len(fields) == 1 else f"{len(fields)} columns"
 
 
 def _is_number(field: str) -> bool:
     try:
-        float(field)
-    except ValueError:
+        number(field)
+    except ArgumentTypeError:
         return False
-    return "_" not in field
+    return True
 
 
 def _quoted(text: str) -> str:
