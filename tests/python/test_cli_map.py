@@ -25,6 +25,55 @@ def test_levels_and_positions_are_those_of_the_map(tmp_path):
     np.testing.assert_array_equal(irbkin.map.load(store).reached, found.reached)
 
 
+def test_a_cell_takes_positions_away(tmp_path):
+    wall = "[obstacles.wall]\nbox = [0.3, 3, 3]\npose = { xyz = [1, 0, 0] }\n"
+    (file := tmp_path / "cell.toml").write_text(wall)
+    cell = irbkin.Cell.load(file)
+    x, y, z = np.arange(0.4, 1.7, 0.4), np.arange(-0.4, 0.5, 0.4), np.arange(0.0, 1.3, 0.4)
+    wanted = irbkin.map.reach(ROBOT, x, y, z, irbkin.map.orientations(20), cell=cell)
+    table = rows(run("map", NAME, *GRID, "--cell", file, "--csv"))
+    np.testing.assert_array_equal(table["solutions"], wanted.solutions.ravel())
+    assert wanted.solutions.sum() < rows(run("map", NAME, *GRID, "--csv"))["solutions"].sum()
+
+
+def test_slabs_by_the_command_are_the_map(tmp_path):
+    whole, parts = tmp_path / "whole.npz", [tmp_path / f"part-{it}" for it in (1, 2, 3)]
+    run("map", NAME, *GRID, "-o", whole)
+    for number, part in enumerate(parts, 1):
+        done = run("map", NAME, *GRID, "--slab", f"{number}/3", "-o", part)
+        # A slab that reaches nothing is none that failed.
+        assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
+    done = run("map", "--merge", *parts, "-o", tmp_path / "map.npz", IRBKIN_ROBOT=NAME)
+    assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
+    assert (tmp_path / "map.npz").read_bytes() == whole.read_bytes()
+    shown = run("map", NAME, *GRID, "-o", tmp_path / "map.npz")
+    assert shown.stdout == run("map", NAME, *GRID).stdout
+    missing = refused("map", "--merge", *parts[1:], "-o", tmp_path / "other.npz")
+    assert missing == "irbkin: no file has slab 1/3\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ([NAME, *GRID, "--slab", "3/2", "-o", "part"], "slab 3/2: it must be at most 2/2"),
+        ([NAME, *GRID, "--slab", "3", "-o", "part"], "as 3/64"),
+        ([NAME, *GRID, "--slab", "0/3", "-o", "part"], "--slab: 0 must be 1 to"),
+        ([NAME, *GRID, "--slab", "1/99", "-o", "part"], "of 48 positions are at most"),
+        ([NAME, *GRID, "--slab", "1/3"], "--slab writes a file: give -o"),
+        ([NAME, *GRID, "--slab", "1/3", "-o", "part.csv"], "--slab writes a file: give -o"),
+        (["--merge", "part-1"], "--merge takes files of slabs and -o FILE.npz"),
+        (["--merge", "part-1", *GRID, "-o", "map.npz"], "no grid: they have it"),
+        (["--merge", "absent", "-o", "map.npz"], "absent: No such file"),
+        ([NAME], "give --x, --y and --z"),
+        (GRID, "no robot: give ROBOT first"),
+    ],
+)
+def test_slabs_that_make_no_sense_are_refused(words, message, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert message in refused("map", *words)
+    assert not list(tmp_path.iterdir())
+
+
 def test_nothing_reached_is_a_finding():
     far = ["--x", "9000", "9100", "--y", "0", "0", "--z", "0", "0"]
     assert run("map", NAME, *far).returncode == 1

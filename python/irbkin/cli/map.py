@@ -1,20 +1,24 @@
 """A grid of positions, each with every orientation of the tool: the share that is reached
-inside the limits, the number of solutions, the smallest margin from limits and singularities. A
-map in a file .npz (as of irbkin.map) goes on where a run was ended, and is shown level by level.
-The exit code is 1 if nothing is reached.
+inside the limits without a collision, the number of solutions, the smallest margin from limits and
+singularities. A map in a file .npz (as of irbkin.map) goes on where a run was ended, and is shown
+level by level. --slab makes a part of it, on this machine or another; --merge puts all parts
+together. The exit code is 1 if nothing is reached.
 
 Examples:
   irbkin map "IRB 2600-12/1.65" --x 400 1600 --y -800 800 --z 0 1600 --step 200
   irbkin map "IRB 120-3/0.58" --x -600 600 --y -600 600 --z 0 900 --step 25 -o reach.npz
+  irbkin map "IRB 120-3/0.58" --x -600 600 --y -600 600 --z 0 900 --slab 3/64 -o part-3
+  irbkin map --merge part-* -o reach.npz
 """
 
 import argparse
+import os
 
 import numpy as np
 
 from irbkin import map as maps
 from irbkin._arm_options import frame
-from irbkin.cli.arguments import Parser, read_q7, read_robot
+from irbkin.cli.arguments import Parser, read_cell, read_q7, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError
 from irbkin.cli.numbers import angle, count, number
 from irbkin.cli.output import Column, Columns, Floats, show
@@ -27,45 +31,59 @@ MOST_THREADS = 1024
 
 
 def add_arguments(parser: Parser) -> None:
-    parser.add_robot()
+    parser.add_robot(nargs="?")
     add = parser.add
     for axis in "xyz":
         ends, words = ("FROM", "TO"), f"positions along {axis} [mm]"
-        add(f"--{axis}", nargs=2, type=float, required=True, metavar=ends, help=words)
+        add(f"--{axis}", nargs=2, type=float, metavar=ends, help=words)
     add("--step", type=float, default=100.0, metavar="MM", help="their distance; 100 mm")
     many = count(1, MOST_ORIENTATIONS)
     add("--directions", type=many, default=20, help="directions of the tool, spread evenly; 20")
     add("--turns", type=many, default=1, help="turns of each about the tool's z; 1")
     add("--euler", nargs=3, type=number, metavar=("RZ", "RY", "RX"), help="or one, ZYX [deg]")
     add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
+    parser.add_cell()
     threads = count(0, MOST_THREADS)
     add("--threads", type=threads, default=1, help="number of threads; 0 for one a core")
+    words = "write slab K of N, from 1, to a file of its own"
+    add("--slab", type=_slab, metavar="K/N", help=words)
+    add("--merge", nargs="+", metavar="PART", help="write the map of the files of all slabs")
     parser.add_formats("x, y, z [m], share, solutions, margin, shape (m, 6)", ".npz")
 
 
 def run(arguments: argparse.Namespace) -> int:
+    output: str | None = arguments.output
+    ending = os.path.splitext(output or "")[1].lower()
+    is_map = ending == ".npz"
+    ends = [getattr(arguments, axis) for axis in "xyz"]
+    if arguments.merge:
+        if output is None or not is_map or any(ends) or arguments.slab:
+            raise CommandError(
+                "--merge takes files of slabs and -o FILE.npz, no grid: they have it"
+            )
+        maps.merge(arguments.merge, output)
+        return FINE
     robot = read_robot(arguments)
-    x, y, z = (_positions(name, getattr(arguments, name), arguments.step) for name in "xyz")
+    if None in ends:
+        raise CommandError("give --x, --y and --z (irbkin map --help)")
+    if arguments.slab and (output is None or ending not in ("", ".npz")):
+        raise CommandError("--slab writes a file: give -o with an ending .npz or none")
+    x, y, z = (_positions(*it, arguments.step) for it in zip("xyz", ends, strict=True))
     positions = len(x) * len(y) * len(z)
     if positions > MOST_POSITIONS:
         words = f"{positions:,} positions, at most {MOST_POSITIONS:,}"
         raise CommandError(f"{words}: take a larger --step")
-    if arguments.euler is None:
-        many = arguments.directions * arguments.turns
-        if many > MOST_ORIENTATIONS:
-            words = f"it must be at most {MOST_ORIENTATIONS:,}"
-            raise CommandError(f"--directions times --turns is {many:,}, {words}")
-        orientations = maps.orientations(arguments.directions, arguments.turns)
-    else:
-        orientations = frame([0, 0, 0, *arguments.euler], "--euler")[None, :3, :3]
-    output: str | None = arguments.output
-    store = output if output and output.lower().endswith(".npz") else None
+    orientations = _orientations(arguments)
     with Progress("positions", positions) as progress:
-        options = {"output": store, "threads": arguments.threads, "progress": progress.at}
-        q7 = read_q7(arguments, robot)
-        found = maps.reach(robot, x, y, z, orientations, q7=q7, **options)
+        options = {"threads": arguments.threads, "progress": progress.at}
+        options |= {"q7": read_q7(arguments, robot), "cell": read_cell(arguments)}
+        if arguments.slab and output:
+            maps.slab(robot, x, y, z, orientations, arguments.slab, output, **options)
+            return FINE
+        options["output"] = output if is_map else None
+        found = maps.reach(robot, x, y, z, orientations, **options)
     heading = f"{robot.name}: {positions:,} positions, {len(orientations)} orientations each"
-    if store is not None or not (arguments.csv or arguments.json or arguments.output):
+    if is_map or not (arguments.csv or arguments.json or arguments.output):
         total = float(found.share.mean())
         words = f"reached: {100 * total:.1f} % of all poses"
         arguments.output = None
@@ -73,6 +91,26 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         show(arguments, heading, *_every(found))
     return FINE if found.reached.any() else FOUND
+
+
+def _orientations(arguments: argparse.Namespace) -> Floats:
+    """Orientations of the tool."""
+    if arguments.euler is not None:
+        return frame([0, 0, 0, *arguments.euler], "--euler")[None, :3, :3]
+    many = arguments.directions * arguments.turns
+    if many > MOST_ORIENTATIONS:
+        words = f"it must be at most {MOST_ORIENTATIONS:,}"
+        raise CommandError(f"--directions times --turns is {many:,}, {words}")
+    return maps.orientations(arguments.directions, arguments.turns)
+
+
+def _slab(text: str) -> tuple[int, int]:
+    """The number of a slab, and how many there are."""
+    many = count(1, MOST_POSITIONS)
+    number, slash, of = text.partition("/")
+    if not slash:
+        raise argparse.ArgumentTypeError(f"{text!r} must be a slab and how many there are, as 3/64")
+    return many(number), many(of)
 
 
 def _positions(name: str, ends: list[float], step: float) -> list[float]:

@@ -11,7 +11,7 @@
 from __future__ import annotations
 
 from irbkin._grids import ReachMap
-from irbkin.map._reach import orientations, reach
-from irbkin.map._store import load
+from irbkin.map._reach import orientations, reach, slab
+from irbkin.map._store import load, merge
 
-__all__ = ["ReachMap", "load", "orientations", "reach"]
+__all__ = ["ReachMap", "load", "merge", "orientations", "reach", "slab"]

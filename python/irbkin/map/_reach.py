@@ -2,52 +2,36 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, TypedDict
 
 import numpy as np
 
-from irbkin._arguments import check_robot, count, reporter
-from irbkin._arrays import as_array, finite
-from irbkin._core import Cell, Robot, __version__
+from irbkin._arguments import count
 from irbkin._grids import ReachMap
 from irbkin.errors import InvalidPoseError
-from irbkin.map._store import Store
+from irbkin.map._solved import Grid
+from irbkin.map._store import FIELDS, checked_output, load, records
 
 if TYPE_CHECKING:
     from os import PathLike
 
     import numpy.typing as npt
+    from typing_extensions import Unpack
 
+    from irbkin import Cell, Robot
     from irbkin._arguments import Bar, Report
     from irbkin._arrays import Floats
-    from irbkin.map._store import Part
-
-# Poses that are solved at a time, and poses of a block: a tenth of a second and more.
-AT_A_TIME, IN_A_BLOCK = 1 << 14, 1 << 18
 
 
-@dataclass(frozen=True, slots=True)
-class Grid:
-    """The grid to map."""
+class Options(TypedDict, total=False):
+    """Options of `reach` that do not say where the map goes."""
 
-    robot: Robot
-    axes: tuple[Floats, Floats, Floats]
-    orientations: Floats
     q7: float | None
     cell: Cell | None
-    """In which solutions do not count that collide."""
     threads: int
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Numbers of positions."""
-        return tuple(map(len, self.axes))
-
-    def positions(self, first: int, last: int) -> Floats:
-        """Positions by their number, x the slowest, shape (last - first, 3)."""
-        indices = np.unravel_index(np.arange(first, last), self.shape)
-        return np.stack([axis[index] for axis, index in zip(self.axes, indices, strict=True)], -1)
+    block: int | None
+    progress: Report | Bar | None
 
 
 def orientations(directions: int, turns: int = 1) -> Floats:
@@ -110,7 +94,7 @@ def reach(
         q7: Angle of joint 7 of a seven-axis arm [rad].
         cell: Obstacles around the arm; none when not given.
         output: File (.npz) of the map, which `load` reads. A run that was ended goes on where it
-            was; blocks that are ready are kept in a folder beside it until the map is whole.
+            was; blocks that are ready are kept in a file beside it until the map is whole.
         threads: Number of threads for each block; 0 for one a core.
         block: Positions of a block; about 260,000 poses when not given.
         progress: Called with the number of positions that are ready, and of all; or a bar as
@@ -128,74 +112,65 @@ def reach(
         FileExistsError: `output` is the map of something else.
         FileNotFoundError: The folder of `output` does not exist.
     """
-    check_robot(robot)
-    report = reporter(progress)
-    axes = (_axis("x", x), _axis("y", y), _axis("z", z))
-    if cell is None and robot.body is not None:
-        cell = Cell()
-    grid = Grid(robot, axes, _rotations(robot, orientations, q7), q7, cell, threads)
-    positions = int(np.prod(grid.shape))
-    size = max(1, IN_A_BLOCK // len(grid.orientations))
-    if block is not None:
-        size = count(block, "block", InvalidPoseError)
-    store = Store(output, (__version__, robot, *axes, grid.orientations, q7, cell), positions)
-    blocks = store.missing(size)
-    done = positions - sum(last - first for first, last in blocks)
-    report(done, positions)
-    for first, last in blocks:
-        store.add(first, last, solved(grid, first, last))
-        done += last - first
-        report(done, positions)
-    fields = {name: field.reshape(grid.shape) for name, field in store.fields.items()}
-    found = ReachMap(*axes, grid.orientations, **fields)
-    store.finish(found)
-    return found
+    options: Options = {"q7": q7, "cell": cell, "threads": threads, "block": block}
+    options["progress"] = progress
+    if output is not None:
+        slab(robot, x, y, z, orientations, (1, 1), checked_output(output), **options)
+        return load(output)
+    grid = Grid(robot, x, y, z, orientations, **options)
+    fields = {name: np.zeros(np.prod(grid.shape), kind) for name, kind in FIELDS.items()}
+    for rows, found in grid.blocks(0, 0, len(fields["reached"])):
+        for name, field in fields.items():
+            field[rows] = found[name]
+    whole = {name: field.reshape(grid.shape) for name, field in fields.items()}
+    return ReachMap(*grid.axes, grid.orientations, **whole)
 
 
-def solved(grid: Grid, first: int, last: int) -> Part:
-    """Return the numbers of a range of positions."""
-    count = last - first
-    reached, solutions = np.zeros(count, np.int64), np.zeros(count, np.int64)
-    margin, singularities = np.full(count, np.inf), np.full(count, np.inf)
-    for start in range(0, len(grid.orientations), AT_A_TIME):
-        rotations = grid.orientations[start : start + AT_A_TIME]
-        at_once = min(count, max(1, AT_A_TIME // len(rotations)))
-        poses = np.zeros((at_once, len(rotations), 4, 4))
-        poses[..., :3, :3] = rotations
-        poses[..., 3, 3] = 1.0
-        for low in range(0, count, at_once):
-            high = min(low + at_once, count)
-            rows, now = slice(low, high), poses[: high - low]
-            now[..., :3, 3] = grid.positions(first + low, first + high)[:, None]
-            found = grid.robot.ik_margin(now, grid.q7, threads=grid.threads, cell=grid.cell)
-            reached[rows] += (found.solutions > 0).sum(axis=1)
-            solutions[rows] += found.solutions.sum(axis=1, dtype=np.int64)
-            # NaN where there is no solution.
-            margin[rows] = np.fmin(margin[rows], np.fmin.reduce(found.margin, axis=1))
-            least = np.fmin.reduce(found.singularities, axis=1)
-            singularities[rows] = np.fmin(singularities[rows], least)
-    for field in (margin, singularities):
-        field[reached == 0] = np.nan
-    return reached, solutions, margin, singularities
+def slab(
+    robot: Robot,
+    x: npt.ArrayLike,
+    y: npt.ArrayLike,
+    z: npt.ArrayLike,
+    orientations: npt.ArrayLike,
+    number: tuple[int, int],
+    output: str | PathLike[str],
+    **options: Unpack[Options],
+) -> None:
+    """Map a slab of a grid into a file, for machines that share the work; `merge` makes the map of
+    all slabs. Memory holds one block.
 
+    Args:
+        robot: The arm, with its tool and base.
+        x: Positions of the whole grid along x [m], shape (i,), as of `reach`.
+        y: Along y.
+        z: Along z.
+        orientations: Orientations of the tool, shape (o, 3, 3).
+        number: Number of the slab, from 1, and how many there are: (3, 64).
+        output: Its file. A run that was ended goes on where it was.
+        **options: `q7`, `cell`, `threads`, `block`, `progress` of `reach`.
 
-def _axis(name: str, values: npt.ArrayLike) -> Floats:
-    """The positions along one axis."""
-    return finite(np.atleast_1d(np.asarray(values)), name, (None,), InvalidPoseError)
-
-
-def _rotations(robot: Robot, given: npt.ArrayLike, q7: float | None) -> Floats:
-    """Rotations that `ik` takes, one by one."""
-    shape = (3, 3) if np.ndim(given) == 2 else (None, 3, 3)
-    rotations = as_array(given, "orientations", shape, InvalidPoseError).reshape(-1, 3, 3)
-    pose = np.eye(4)
-    for index, rotation in enumerate(rotations):
-        pose[:3, :3] = rotation
-        try:
-            robot.ik(pose) if q7 is None else robot.ik(pose, q7=q7)
-        except InvalidPoseError as fault:
-            raise InvalidPoseError(f"orientations[{index}]: {fault}") from None
-    return rotations
+    Raises:
+        InvalidPoseError: `number` is not from 1 to the number of slabs, or there are more slabs
+            than positions; otherwise as `reach`, as all errors.
+        FileExistsError: `output` is of another map or slab.
+    """
+    grid, path = Grid(robot, x, y, z, orientations, **options), Path(output)
+    own, of = (count(it, "number", InvalidPoseError) for it in number)
+    if own > of:
+        raise InvalidPoseError(f"slab {own}/{of}: it must be at most {of}/{of}")
+    if of > (positions := int(np.prod(grid.shape))):
+        raise InvalidPoseError(
+            f"slab {own}/{of}: of {positions} positions are at most as many slabs"
+        )
+    part = grid.slab((own, of))
+    first, last = part.span
+    if part.is_in(path):
+        grid.report(last - first, last - first)
+        return
+    with records(path, part) as (file, ready):
+        for _, found in grid.blocks(first, first + ready, last):
+            file.write(found.tobytes())
+            file.flush()
 
 
 def _turn(axis: int, angles: Floats) -> Floats:
