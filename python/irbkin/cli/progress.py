@@ -5,30 +5,25 @@ from __future__ import annotations
 import contextlib
 import sys
 import time
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
     from rich.progress import Progress as Bar
 
 AFTER = 1.0
 """How long work must take before it is shown [s]."""
 
 
-class Progress:
+class Progress(contextlib.ExitStack):
     """Shows how much is done, how fast, and how long the rest takes."""
 
     def __init__(self, what: str, total: int | None = None) -> None:
+        super().__init__()
         self.what, self.total, self.done = what, total, 0
         self.began = time.monotonic() if sys.stderr and sys.stderr.isatty() else float("inf")
         self.bar: Bar | None = None
-
-    def __enter__(self) -> Progress:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if self.bar:
-            self.bar.stop()
 
     def add(self, count: int, total: int | None = None) -> None:
         """So many more are done, of a total if it is known."""
@@ -41,29 +36,25 @@ class Progress:
             from rich.progress import MofNCompleteColumn, TimeRemainingColumn
 
             self.bar = _bar(MofNCompleteColumn(), "{task.fields[rate]}/s", TimeRemainingColumn())
-            self.bar.add_task(self.what, total=total, rate="")
+            self.enter_context(self.bar).add_task(self.what, total=total, rate="")
         if self.bar:
             rate = f"{done / (time.monotonic() - self.began):,.0f}"
             self.bar.update(self.bar.task_ids[0], completed=done, total=total, rate=rate)
 
 
-@contextlib.contextmanager
-def waiting(what: str) -> Iterator[None]:
+def waiting(what: str) -> AbstractContextManager[object]:
     """Show how long one call takes."""
     if not sys.stderr.isatty():
-        yield
-        return
-    with _bar() as bar:
-        bar.add_task(what, total=None)
-        yield
+        return contextlib.nullcontext()
+    bar = _bar()
+    bar.add_task(what, total=None)
+    return bar
 
 
 def _bar(*columns: Any) -> Bar:
-    """A running bar that leaves nothing behind."""
+    """A bar that leaves nothing behind."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     first = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    bar = Progress(*first, *columns, console=Console(stderr=True), transient=True)
-    bar.start()
-    return bar
+    return Progress(*first, *columns, console=Console(stderr=True), transient=True)

@@ -11,7 +11,7 @@ from matplotlib.path import Path
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidJointsError
-from irbkin.plot._style import AXIS_COLORS, canvas, title, whole
+from irbkin.plot._style import AXIS_COLORS, arrow, canvas, title, whole
 from irbkin.scene import Arm, LinkShape, arm_of
 from irbkin.scene._arms import link_frames, rest, solids
 from irbkin.scene._look import on_paper
@@ -122,11 +122,6 @@ def draw_body(
 
 def draw_frame(axes: Axes, pose: Floats, length: float) -> list[Any]:
     """Draw the axes of a frame as arrows; return what was added to the axes."""
-    added = []
-    for column, color in enumerate(AXIS_COLORS):
-        tail, head = on_paper(np.array([pose[:3, 3], pose[:3, 3] + length * pose[:3, column]]))
-        look = {"arrowstyle": "-|>", "color": color, "linewidth": 1.8, "shrinkA": 0, "shrinkB": 0}
-        added.append(
-            axes.annotate("", (head[0], head[1]), (tail[0], tail[1]), arrowprops=look, zorder=4)
-        )
-    return added
+    ends = (pose[:3, 3] + np.outer([0.0, length], pose[:3, column]) for column in range(3))
+    pairs = zip(ends, AXIS_COLORS, strict=True)
+    return [arrow(axes, on_paper(it), color, 1.8) for it, color in pairs]

@@ -9,12 +9,11 @@ import numpy as np
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array, limit_of_each
 from irbkin.errors import InvalidMotionError
-from irbkin.plot._style import FONT, SHADE, VERMILION, canvas, line_style, tidy, whole
+from irbkin.plot._style import FONT, along_x, canvas, legend, line_style, shade, tidy, whole
 from irbkin.trajectory import Trajectory
 
 if TYPE_CHECKING:
     import numpy.typing as npt
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from irbkin import Robot
@@ -79,31 +78,20 @@ def trajectory(
         for column, (name, unit) in enumerate(QUANTITIES):
             axes = grid[row, column]
             for joint in joints:
-                axes.plot(
-                    times, curves[column][:, joint], label=f"J{joint + 1}", **line_style(joint)
-                )
+                own, name_of = curves[column][:, joint], f"J{joint + 1}"
+                axes.plot(times, own, label=name_of, **line_style(joint))
             tidy(axes)
             which = f"J{joints[0] + 1}" if len(rows) > 1 else name
             axes.set_ylabel(f"{which} [{unit}]", fontsize=FONT)
             bound = bounds[column]
             if bound is not None:
-                _shade(axes, np.degrees(bound[row]))
+                shade(axes, np.degrees(bound[row]))
     for column, (name, _) in enumerate(QUANTITIES):
         grid[0, column].set_title(name, fontsize=FONT + 1)
-        grid[-1, column].set_xlabel("time [s]", fontsize=FONT)
-        grid[-1, column].set_xlim(0.0, motion.duration or 1.0)
+        along_x(grid[-1, column], times, "time [s]")
     drawn.align_ylabels()
     if not has_limits and dof > 1:
-        handles, labels = grid[0, 0].get_legend_handles_labels()
-        drawn.legend(
-            handles,
-            labels,
-            loc="outside lower center",
-            ncols=dof,
-            frameon=False,
-            fontsize=FONT,
-            handlelength=3.2,
-        )
+        legend(drawn, grid[0, 0], dof)
     return whole(drawn)
 
 
@@ -133,19 +121,3 @@ def _symmetric(limit: npt.ArrayLike | None, name: str, dof: int) -> Floats | Non
         return None
     sizes = limit_of_each(limit, name, dof)
     return np.column_stack([-sizes, sizes])
-
-
-def _shade(axes: Axes, bounds: Floats) -> None:
-    """Shade what is beyond the limits, so that both are in view."""
-    finite = bounds[np.isfinite(bounds)]
-    if not finite.size:
-        return
-    shown = [*axes.get_ylim(), *finite]
-    bottom, top = min(shown), max(shown)
-    margin = 0.1 * (top - bottom)
-    bottom, top = bottom - margin, top + margin
-    for limit, edge in zip(bounds, (bottom, top), strict=True):
-        if np.isfinite(limit):
-            axes.axhspan(min(limit, edge), max(limit, edge), color=SHADE, linewidth=0, zorder=0.5)
-            axes.axhline(limit, color=VERMILION, linewidth=0.9, linestyle="--")
-    axes.set_ylim(bottom, top)

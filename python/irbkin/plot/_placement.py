@@ -11,10 +11,11 @@ from matplotlib.colors import ListedColormap
 from irbkin._arrays import as_array
 from irbkin._grids import Placement
 from irbkin.errors import InvalidPoseError
-from irbkin.plot._style import BLACK, FONT, MANY, VERMILION, canvas, edges_of, tidy, whole
+from irbkin.plot import _style
+from irbkin.plot._style import BLACK, FONT, MANY, VERMILION, canvas, tidy, whole
 
 if TYPE_CHECKING:
-    from typing import Any, Literal
+    from typing import Literal
 
     import numpy.typing as npt
     from matplotlib.figure import Figure
@@ -55,13 +56,11 @@ def placement(
     """
     if not isinstance(found, Placement):
         raise TypeError(f"found must be a Placement, got {type(found).__name__}")
-    if len(across) != 2 or across[0] == across[1] or not set(across) <= set(NAMES):
-        raise ValueError(f"across must be two of {NAMES}, got {across!r}")
-    first, second = (NAMES.index(name) for name in across)
+    first, second = _style.two_of(NAMES, across)
     grid = found.grid
     drawn = canvas(figure, 5.6, 4.6)
     axes = drawn.subplots()
-    edges = [edges_of(_values(grid, name)) for name in (first, second)]
+    edges = [_style.edges_of(_values(grid, name)) for name in (first, second)]
     share, margin = (_best(field, first, second) for field in (grid.reachable, grid.margin))
     gray = ListedColormap(colormaps["gray"](np.linspace(0.55, 1.0, 64))[::-1])
     short = np.ma.masked_array(share, mask=~np.isnan(margin))
@@ -69,45 +68,27 @@ def placement(
     colored = np.ma.masked_invalid(margin)
     room = axes.pcolormesh(*edges, colored.T, cmap=MANY, vmin=0.0, rasterized=True)
     if not np.isnan(margin).all():
-        bar = drawn.colorbar(room, ax=axes, shrink=0.9)
-        bar.set_label("margin", fontsize=FONT)
-        bar.ax.tick_params(labelsize=FONT)
+        _style.scale(drawn, axes, room, "margin")
     if not short.mask.all():
-        bar = drawn.colorbar(missed, ax=axes, shrink=0.9)
-        bar.set_label("share of the targets that is reached", fontsize=FONT)
-        bar.ax.tick_params(labelsize=FONT)
+        _style.scale(drawn, axes, missed, "share of the targets that is reached")
     to_region = np.linalg.inv(grid.frame)
     if T is not None and max(first, second) < 3:
         rows = to_region @ as_array(T, "T", (None, 4, 4), InvalidPoseError)
-        axes.plot(
-            rows[:, first, 3],
-            rows[:, second, 3],
-            ".",
-            color=BLACK,
-            markersize=4,
-            label="targets",
-        )
+        dots = rows[:, [first, second], 3].T
+        axes.plot(*dots, ".", color=BLACK, markersize=4, label="targets")
     base = to_region @ found.base
     turn = np.degrees(np.arctan2(base[1, 0], base[0, 0]))
     place = np.r_[base[:3, 3], turn][[first, second]]
     if max(first, second) < 3:
         size = max(abs(float(np.subtract(*axes.get_xlim()))), 1e-9)
         head = place + ARROW * size * base[[first, second], 0]
-        look: dict[str, Any] = {
-            "arrowstyle": "-|>",
-            "color": VERMILION,
-            "linewidth": 1.4,
-            "shrinkA": 0,
-            "shrinkB": 0,
-        }
-        look["mutation_scale"] = 14
-        axes.annotate("", (head[0], head[1]), (place[0], place[1]), arrowprops=look)
+        _style.arrow(axes, np.array([place, head]), VERMILION, 1.4)
         axes.set_aspect("equal")
     axes.plot(*place, "x", color=VERMILION, markersize=9, markeredgewidth=2.0, label="best base")
     tidy(axes)
     for label, name in ((axes.set_xlabel, across[0]), (axes.set_ylabel, across[1])):
         label(f"{name} [{'deg' if name == 'turn' else 'm'}]", fontsize=FONT)
-    drawn.legend(loc="outside lower center", ncols=2, frameon=False, fontsize=FONT)
+    _style.legend(drawn, axes, 2)
     return whole(drawn)
 
 

@@ -9,16 +9,8 @@ import numpy as np
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidJointsError, InvalidMotionError
-from irbkin.plot._style import (
-    BLACK,
-    FONT,
-    SHADE,
-    VERMILION,
-    canvas,
-    line_style,
-    tidy,
-    whole,
-)
+from irbkin.plot import _style
+from irbkin.plot._style import BLACK, FONT, SHADE, canvas, line_style, tidy, whole
 from irbkin.records import Plan
 
 if TYPE_CHECKING:
@@ -30,8 +22,8 @@ if TYPE_CHECKING:
     from irbkin._arrays import Floats
     from irbkin.plot._style import Canvas
 
-# Room above and below a panel of percents.
-ROOM = 6.0
+ALL = np.array([0.0, 100.0])
+"""All of a range [%]."""
 
 
 def plan(
@@ -83,17 +75,9 @@ def plan(
             right = along[-1] if gap.enter is None else along[gap.enter]
             axes.axvspan(left, right, color=SHADE, linewidth=0, zorder=0.5)
         tidy(axes)
-    grid[-1].set_xlabel("pose" if times is None else "time [s]", fontsize=FONT)
-    grid[-1].set_xlim(along[0], along[-1] if along[-1] > along[0] else along[0] + 1.0)
+    _style.along_x(grid[-1], along, "pose" if times is None else "time [s]")
     drawn.align_ylabels()
-    drawn.legend(
-        *grid[-2].get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=robot.dof,
-        frameon=False,
-        fontsize=FONT,
-        handlelength=3.2,
-    )
+    _style.legend(drawn, grid[-2], robot.dof)
     return whole(drawn)
 
 
@@ -111,7 +95,7 @@ def _joints(axes: Axes, robot: Robot, plan: Plan, along: Floats, is_timed: bool)
     part = 100.0 * (0.5 + (plan.q - middle) / width)
     for joint in range(robot.dof):
         axes.plot(along, part[:, joint], label=f"J{joint + 1}", **line_style(joint))
-    _between(axes, 0.0, 100.0)
+    _style.shade(axes, ALL)
     axes.set_ylabel("joint in its range [%]", fontsize=FONT)
 
 
@@ -125,18 +109,8 @@ def _velocities(axes: Axes, robot: Robot, plan: Plan, along: Floats, is_timed: b
         # Each is that between two poses.
         rows = np.r_[part[:, joint], part[-1:, joint]] if len(part) else np.zeros(1)
         axes.plot(along, rows, drawstyle="steps-post", **line_style(joint))
-    _between(axes, 0.0, 100.0)
+    _style.shade(axes, ALL)
     axes.set_ylim(0.0, None)
     of = "its limit" if robot.max_velocity is not None else "1 rad/s"
     pace = "" if is_timed else "\nat the fastest even pace"
     axes.set_ylabel(f"velocity [% of {of}]{pace}", fontsize=FONT)
-
-
-def _between(axes: Axes, low: float, high: float) -> None:
-    """Shade what is outside, and keep both in view."""
-    bottom, top = axes.get_ylim()
-    bottom, top = min(bottom, low - ROOM), max(top, high + ROOM)
-    for limit, edge in ((low, bottom), (high, top)):
-        axes.axhspan(min(limit, edge), max(limit, edge), color=SHADE, linewidth=0, zorder=0.5)
-        axes.axhline(limit, color=VERMILION, linewidth=0.9, linestyle="--")
-    axes.set_ylim(bottom, top)

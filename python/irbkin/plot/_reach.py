@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib import colormaps
@@ -11,7 +11,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidPoseError, UnreachableError
-from irbkin.plot._style import BLACK, FONT, MANY, canvas, whole
+from irbkin.plot._style import BLACK, FONT, MANY, canvas, scale, whole
 from irbkin.records import Status
 
 if TYPE_CHECKING:
@@ -88,32 +88,19 @@ def reach(
     axes = drawn.subplots()
     most = max(int(found.max()), 1)
     colors = ListedColormap(["#ffffff", *colormaps[MANY](np.linspace(0.08, 1.0, most)).tolist()])
-    image = axes.imshow(
-        found,
-        origin="lower",
-        extent=(left, right, bottom, top),
-        cmap=colors,
-        norm=BoundaryNorm(np.arange(most + 2) - 0.5, most + 1),
-        interpolation="none",
-    )
+    norm = BoundaryNorm(np.arange(most + 2) - 0.5, most + 1)
+    place: Any = {"origin": "lower", "extent": (left, right, bottom, top)}
+    image = axes.imshow(found, cmap=colors, norm=norm, interpolation="none", **place)
     base = (float(robot.base[:3, 3] @ along), float(robot.base[2, 3]))
     axes.plot(*base, marker="+", markersize=10, color=BLACK, linestyle="none")
-    axes.annotate(
-        "base",
-        base,
-        (7, 0),
-        textcoords="offset points",
-        va="center",
-        fontsize=FONT - 1,
-        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
-    )
+    box: Any = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0}
+    look: Any = {"textcoords": "offset points", "va": "center", "fontsize": FONT - 1, "bbox": box}
+    axes.annotate("base", base, (7, 0), **look)
     axes.grid(visible=False)
     axes.tick_params(labelsize=FONT)
     axes.set_xlabel(f"along {np.degrees(azimuth):.0f} deg [m]", fontsize=FONT)
     axes.set_ylabel("z [m]", fontsize=FONT)
-    bar = drawn.colorbar(image, ax=axes, ticks=np.arange(most + 1), shrink=0.9)
-    bar.set_label("solutions inside the limits", fontsize=FONT)
-    bar.ax.tick_params(labelsize=FONT)
+    scale(drawn, axes, image, "solutions inside the limits", ticks=np.arange(most + 1))
     return whole(drawn)
 
 
@@ -146,9 +133,5 @@ def _extent(
             "no cell has a solution inside the limits: the tool cannot have this orientation there"
         )
     margin = 1.5 * (places[1] - places[0])
-    return (
-        float(places[across.min()] - margin),
-        float(places[across.max()] + margin),
-        float(places[up.min()] - margin),
-        float(places[up.max()] + margin),
-    )
+    (left, right), (bottom, top) = (places[[it.min(), it.max()]] for it in (across, up))
+    return left - margin, right + margin, bottom - margin, top + margin

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib import colormaps
 
 from irbkin._grids import ReachMap
-from irbkin.plot._style import FONT, MANY, canvas, edges_of, tidy, whole
+from irbkin.plot._style import FONT, MANY, canvas, edges_of, scale, tidy, two_of, whole
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -57,9 +56,7 @@ def reach_map(
         raise TypeError(f"found must be a ReachMap, got {type(found).__name__}")
     if quantity not in QUANTITIES:
         raise ValueError(f"quantity must be one of {tuple(QUANTITIES)}, got {quantity!r}")
-    if len(across) != 2 or across[0] == across[1] or not set(across) <= set(NAMES):
-        raise ValueError(f"across must be two of {NAMES}, got {across!r}")
-    first, second = (NAMES.index(name) for name in across)
+    first, second = two_of(NAMES, across)
     third = 3 - first - second
     places = (found.x, found.y, found.z)
     middle = len(places[third]) // 2
@@ -74,21 +71,14 @@ def reach_map(
     cut = cut.T if first < second else cut
     drawn = canvas(figure, 5.6, 4.6)
     axes = drawn.subplots()
-    colors = axes.pcolormesh(
-        edges_of(places[first]),
-        edges_of(places[second]),
-        np.ma.masked_invalid(cut),
-        cmap=colormaps[MANY],
-        vmin=0.0,
-        vmax=100.0 if quantity == "share" else None,
-        rasterized=True,
-    )
+    edges = [edges_of(places[it]) for it in (first, second)]
+    most = 100.0 if quantity == "share" else None
+    shown = np.ma.masked_invalid(cut)
+    colors = axes.pcolormesh(*edges, shown, cmap=MANY, vmin=0.0, vmax=most, rasterized=True)
     tidy(axes)
     axes.set_aspect("equal")
     axes.set_xlabel(f"{across[0]} [m]", fontsize=FONT)
     axes.set_ylabel(f"{across[1]} [m]", fontsize=FONT)
     axes.set_title(f"{NAMES[third]} = {places[third][index]:.3f} m", fontsize=FONT)
-    bar = drawn.colorbar(colors, ax=axes, shrink=0.9)
-    bar.set_label(QUANTITIES[quantity], fontsize=FONT)
-    bar.ax.tick_params(labelsize=FONT)
+    scale(drawn, axes, colors, QUANTITIES[quantity])
     return whole(drawn)

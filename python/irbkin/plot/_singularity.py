@@ -9,7 +9,7 @@ import numpy as np
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidJointsError
-from irbkin.plot._style import FONT, VERMILION, canvas, line_style, tidy, whole
+from irbkin.plot._style import FONT, VERMILION, along_x, canvas, line_style, tidy, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -72,7 +72,6 @@ def singularity(
         tidy(axes)
         axes.set_ylabel(label, fontsize=FONT)
         axes.set_ylim(bottom=0.0)
-    grid[-1].set_xlabel("row of q" if t is None else "time [s]", fontsize=FONT)
-    grid[-1].set_xlim(along[0], along[-1] if along[-1] > along[0] else along[0] + 1.0)
+    along_x(grid[-1], along, "row of q" if t is None else "time [s]")
     drawn.align_ylabels()
     return whole(drawn)

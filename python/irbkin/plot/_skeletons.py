@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 
 from irbkin._arguments import check_robot
 from irbkin.errors import UnreachableError
-from irbkin.plot._style import BLACK, BLUE, ORANGE, VERMILION, canvas, whole
+from irbkin.plot._style import BLACK, BLUE, ORANGE, VERMILION, arrow, canvas, whole
 from irbkin.scene._look import on_paper
 
 if TYPE_CHECKING:
@@ -136,12 +136,8 @@ def _panels(drawn: Canvas, count: int, columns: int) -> list[Axes]:
     width, height = 1.0 / columns, (1.0 - legend) / -(-count // columns)
     room = max(height - above - below, 0.2 * height)
     places = [divmod(index, columns) for index in range(count)]
-    return [
-        drawn.add_axes(
-            ((column + 0.02) * width, 1 - (row + 1) * height + below, 0.96 * width, room)
-        )
-        for row, column in places
-    ]
+    corners = [((column + 0.02) * width, 1 - (row + 1) * height + below) for row, column in places]
+    return [drawn.add_axes((*corner, 0.96 * width, room)) for corner in corners]
 
 
 def _foot(robot: Robot, radius: float) -> Floats:
@@ -154,14 +150,8 @@ def _foot(robot: Robot, radius: float) -> Floats:
 
 def _stroke(axes: Axes, points: Floats, color: str, width: float, order: float) -> None:
     """A polyline of points of the base frame."""
-    axes.plot(
-        *on_paper(points).T,
-        color=color,
-        linewidth=width,
-        solid_joinstyle="round",
-        solid_capstyle="round",
-        zorder=order,
-    )
+    look: Any = {"color": color, "linewidth": width, "zorder": order}
+    axes.plot(*on_paper(points).T, solid_joinstyle="round", solid_capstyle="round", **look)
 
 
 def _draw(axes: Axes, skeleton: Skeleton) -> None:
@@ -176,9 +166,8 @@ def _draw(axes: Axes, skeleton: Skeleton) -> None:
 def _arrow(axes: Axes, skeleton: Skeleton, length: float) -> None:
     """An arrow along axis 5."""
     place, direction = skeleton.axis_5
-    tail, head = on_paper(np.array([place, place + length * direction]))
-    look = {"arrowstyle": "-|>", "color": VERMILION, "linewidth": 1.6, "shrinkA": 3, "shrinkB": 0}
-    axes.annotate("", (head[0], head[1]), (tail[0], tail[1]), arrowprops=look, zorder=4)
+    ends = place + np.outer([0.0, length], direction)
+    arrow(axes, on_paper(ends), VERMILION, 1.6, room=3.0)
 
 
 def _angles(axes: Axes, robot: Robot, solution: Solution) -> None:

@@ -8,13 +8,7 @@ import numpy as np
 
 from irbkin._arrays import as_array, evenly
 from irbkin.errors import InvalidPoseError
-from irbkin.plot._style import (
-    AXIS_COLORS,
-    BLACK,
-    FONT,
-    canvas,
-    whole,
-)
+from irbkin.plot._style import AXIS_COLORS, BLACK, FONT, canvas, legend, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -69,21 +63,11 @@ def path(poses: npt.ArrayLike, *, frames: int = 6, figure: Canvas | None = None)
     for column, (name, color, dashes) in enumerate(AXES if frames else ()):
         ends = shown[:, :3, 3] + FRAME * size * shown[:, :3, column]
         for index, (tail, head) in enumerate(zip(shown[:, :3, 3], ends, strict=True)):
-            axes.plot(
-                *np.array([tail, head]).T,
-                color=color,
-                linestyle=dashes,
-                linewidth=1.5,
-                label=name if index == 0 else None,
-            )
+            line = np.array([tail, head]).T
+            look = {"color": color, "linestyle": dashes, "linewidth": 1.5}
+            axes.plot(*line, label=None if index else name, **look)
     _view(axes, known[:, :3, 3], size)
-    drawn.legend(
-        *axes.get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=5,
-        frameon=False,
-        fontsize=FONT - 1,
-    )
+    legend(drawn, axes, 5, FONT - 1)
     return whole(drawn)
 
 
