@@ -461,8 +461,8 @@ def test_a_path_is_that_of_the_library(corners, tmp_path):
         (["--through", "spline", "--zone", "z10"], "--zone goes with --through lines"),
         (["--through", "lines", "--step", -3], "--step: -3 must be positive"),
         (["--through", "lines", "--step", "1e-9"], "poses, at most 1e7 are given: take a larger"),
-        (["--through", "lines", "--zone", "z33"], "--zone is 'z33', it must be a radius of 0 mm"),
-        (["--through", "lines", "--zone", -3], "--zone is '-3'"),
+        (["--through", "lines", "--zone", "z33"], "--zone: 'z33' must be a radius of 0 mm"),
+        (["--through", "lines", "--zone", -3], "--zone: '-3' must be a radius"),
     ],
 )
 @pytest.mark.parametrize("verb", ["path", "plan"])

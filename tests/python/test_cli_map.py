@@ -61,7 +61,7 @@ def test_slabs_by_the_command_are_the_map(tmp_path):
         ([NAME, *GRID, "--slab", "1/99", "-o", "part"], "of 48 positions are at most"),
         ([NAME, *GRID, "--slab", "1/3"], "--slab writes a file: give -o"),
         ([NAME, *GRID, "--slab", "1/3", "-o", "part.csv"], "--slab writes a file: give -o"),
-        (["--merge", "part-1"], "--merge takes files of slabs and -o FILE.npz"),
+        (["--merge", "part-1"], "--merge takes slabs and -o FILE.npz"),
         (["--merge", "part-1", *GRID, "-o", "map.npz"], "no grid: they have it"),
         (["--merge", "absent", "-o", "map.npz"], "absent: No such file"),
         ([NAME], "give --x, --y and --z"),

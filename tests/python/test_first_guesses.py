@@ -89,7 +89,7 @@ def test_a_module_gives_its_targets(tmp_path):
     found = run("ik", NAME, "a.mod:pA", "--tool", "tools.sys:tB")
     assert found.stdout == run("ik", NAME, "a.mod:pA", "--tool", 0, 0, 150).stdout
     two = refused("ik", NAME, VALUE, "--tool", "tools.sys")
-    assert two == "irbkin: --tool: 2 values are given, it takes one (FILE:NAME)\n"
+    assert two == "irbkin: --tool takes one value, got 2 (FILE:NAME has one)\n"
     assert "a.mod:pC is no robtarget" in refused("ik", NAME, "a.mod:pC")
     (tmp_path / "b.mod").write_text("MODULE B ENDMODULE")
     assert "b.mod is no robtarget; a robtarget or pose is wanted" in refused("ik", NAME, "b.mod")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from irbkin._arm_options import check_millimeters, frame, is_arm_file, robot_of
 from irbkin.cli.data import angles_of, frame_of, is_data
 from irbkin.cli.errors import CommandError, complain
-from irbkin.cli.numbers import angle, check_joints, number, number_or_data
+from irbkin.cli.numbers import MOST_ANGLE, TOO_LARGE, angle, number, number_or_data
 from irbkin.errors import UnknownRobotError
 
 if TYPE_CHECKING:
@@ -265,5 +265,7 @@ def joints(words: Sequence[float | str] | None, name: str, dof: int) -> Floats |
     numbers = angles_of(words, dof)
     if len(numbers) != dof:
         raise CommandError(f"{name} takes {dof} angles [deg] of this arm, got {len(numbers)}")
-    check_joints(numbers, name)
+    for joint, value in enumerate(numbers, 1):
+        if abs(value) > MOST_ANGLE:
+            raise CommandError(f"{name}: joint {joint} at {value:g} deg {TOO_LARGE}")
     return np.radians(numbers)

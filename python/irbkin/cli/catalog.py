@@ -47,12 +47,9 @@ def run(arguments: argparse.Namespace) -> int:
     found = [irbkin.catalog_entry(it) for it in named if it in known]
     if not found:
         whose = f" with {name!r} in its name" if words else ""
-        bounds = (
-            "" if reach is None else f"a reach of {reach:g} mm or more",
-            "" if payload is None else f"a payload of {payload:g} kg or more",
-        )
-        has = " and ".join(filter(None, bounds))
-        raise CommandError(f"no arm of the catalog{whose} has {has}", FOUND)
+        bounds = {"reach": (reach, "mm"), "payload": (payload, "kg")}.items()
+        has = [f"a {it} of {least:g} {unit} or more" for it, (least, unit) in bounds if least]
+        raise CommandError(f"no arm of the catalog{whose} has {' and '.join(has)}", FOUND)
     _show_all(arguments, found)
     return FINE
 

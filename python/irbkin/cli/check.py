@@ -51,8 +51,7 @@ COUNTED = ("text", "concise", "json")
 
 def add_arguments(parser: Parser) -> None:
     add = parser.add
-    words = "ROBOT unless they are a backup, then modules, folders, - for stdin"
-    add("files", metavar="FILE", nargs="*", help=words)
+    add("files", metavar="FILE", nargs="*", help="ROBOT but for a backup, then modules, folders, -")
     add_arm(parser)
     change = parser.parser.add_mutually_exclusive_group()
     change.add_argument("--fix", action="store_true", help="correct confdata in the files")
@@ -61,12 +60,10 @@ def add_arguments(parser: Parser) -> None:
     form = parser.parser.add_mutually_exclusive_group()
     form.add_argument("--output-format", choices=FORMATS, help="text if not given")
     form.add_argument("--json", action="store_const", const="json", dest="output_format")
-    words = "write the report to a file, its format by its ending: .json, .sarif, .html, .txt"
-    add("-o", "--output-file", metavar="FILE", help=words)
+    add("-o", "--output-file", metavar="FILE", help="its format by its ending: .html, .sarif, ...")
     add("--color", choices=("auto", "always", "never"), default="auto", help="colors: auto")
     add("-q", "--quiet", action="store_true", help="write no summary")
-    words = "the routines at a glance: nearest limits, singularities, unused names"
-    add("--verdict", action="store_true", help=words)
+    add("--verdict", action="store_true", help="the routines at a glance: nearest limits, ...")
     add("--statistics", action="store_true", help="count the findings of each code in their place")
     add("--codes", action="store_true", help="list the codes")
     add("--schema", action="store_true", help="write the JSON schema of irbkin.toml")
@@ -80,15 +77,12 @@ def add_arm(parser: Parser) -> None:
     parser.add_frames()
     bounds, words = ("LOWER", "UPPER"), "limits of an axis [deg]; may be repeated"
     add("--limits", nargs=3, type=number, action="append", metavar=("AXIS", *bounds), help=words)
-    words = "limits of q3 - q2 of an arm with a parallelogram linkage [deg]"
-    add("--linkage-limits", nargs=2, type=number, metavar=bounds, help=words)
-    words = "a PERS that the program assigns has the value in its text"
-    add("--last-values", action="store_true", help=words)
+    add("--linkage-limits", nargs=2, type=number, metavar=bounds, help="of q3 - q2 [deg]")
+    add("--last-values", action="store_true", help="a PERS has the value in its text throughout")
     parser.add_cell()
-    words = "codes or their beginnings, with commas; ALL for all"
-    add("--select", metavar="CODES", type=lambda text: text.split(","), help=words)
-    words = "codes or their beginnings to leave out"
-    add("--ignore", metavar="CODES", type=lambda text: text.split(","), help=words)
+    codes: Any = {"metavar": "CODES", "type": lambda text: text.split(",")}
+    add("--select", help="codes or their beginnings, with commas; ALL for all", **codes)
+    add("--ignore", help="those to leave out", **codes)
     strict = argparse.BooleanOptionalAction
     add("--strict", action=strict, help="moves that are not checked are errors")
     add("--step", type=float, metavar="MM", help="distance of samples on a line: 5")

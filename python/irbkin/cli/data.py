@@ -83,9 +83,7 @@ def frame_of(words: Sequence[Any], name: str) -> list[float]:
     kind = {"tool": "tooldata", "wobj": "wobjdata"}.get(name)
     (_, it), *others = data_of(" ".join(map(str, words)), *filter(None, (kind, "pose")))
     if others:
-        raise CommandError(
-            f"--{name}: {len(others) + 1} values are given, it takes one (FILE:NAME)"
-        )
+        raise CommandError(f"--{name} takes one value, got {len(others) + 1} (FILE:NAME has one)")
     is_tool = kind == "tooldata"
     if getattr(it, "robhold", is_tool) != is_tool or not getattr(it, "ufprog", True):
         words = "a stationary tool, or a work object that is held or moved, is for irbkin.rapid"

@@ -25,6 +25,15 @@ def opened(name: str) -> Iterator[BinaryIO]:
         yield file
 
 
+def write_text(name: str | None, text: str) -> None:
+    """Write a text to a file, or to stdout where there is no name or it is `-`."""
+    if name in (None, STDIN):
+        sys.stdout.write(text)
+    else:
+        with replaced(name) as file:
+            file.write(text.encode())
+
+
 def shown(name: str) -> str:
     """How messages name an input."""
     return "stdin" if name == STDIN else _files.shown(name)

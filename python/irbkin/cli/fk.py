@@ -24,8 +24,7 @@ from irbkin.cli.reading import Part, read_joints
 def add_arguments(parser: Parser) -> None:
     parser.add_robot()
     parser.add_wobj()
-    words = "joint angles [deg], a jointtarget of RAPID, a file of rows, or -"
-    parser.add("joints", metavar="Q", nargs="+", help=words)
+    parser.add("joints", metavar="Q", nargs="+", help="joints [deg], a jointtarget, a file, or -")
     parser.add_formats("poses, shape (m, 4, 4), in meters")
 
 

@@ -41,12 +41,10 @@ def add_arguments(parser: Parser) -> None:
     parser.add_wobj()
     parser.add_rows("poses", "robtargets")
     parser.add_pose()
-    words = "or of another joint of it, as 3=11.5 [deg]"
-    add("--given", type=joint_and_angle, metavar="J=Q", help=words)
+    add("--given", type=joint_and_angle, metavar="J=Q", help="or of another one, as 3=11.5 [deg]")
     add("--within", action="store_true", help="only solutions inside the limits")
     parser.add_joints("seed", "only the nearest to these joints [deg]")
-    words = "only the one with cf1 cf4 cf6 cfx"
-    add("--confdata", nargs=4, type=confdata, metavar="CF", help=words)
+    add("--confdata", nargs=4, type=confdata, metavar="CF", help="only with cf1 cf4 cf6 cfx")
     add("--arm-angle", type=angle, metavar="A", help="with --confdata of a YuMi: its eax_a [deg]")
     parser.add_formats("joint angles, shape (m, slots, n) or (m, n), in radians")
 

@@ -45,8 +45,7 @@ def add_arguments(parser: Parser) -> None:
     parser.add_cell()
     threads = count(0, MOST_THREADS)
     add("--threads", type=threads, default=1, help="number of threads; 0 for one a core")
-    words = "write slab K of N, from 1, to a file of its own"
-    add("--slab", type=_slab, metavar="K/N", help=words)
+    add("--slab", type=_slab, metavar="K/N", help="write slab K of N, from 1, to -o FILE")
     add("--merge", nargs="+", metavar="PART", help="write the map of the files of all slabs")
     parser.add_formats("x, y, z [m], share, solutions, margin, shape (m, 6)", ".npz")
 
@@ -58,9 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
     ends = [getattr(arguments, axis) for axis in "xyz"]
     if arguments.merge:
         if output is None or not is_map or any(ends) or arguments.slab:
-            raise CommandError(
-                "--merge takes files of slabs and -o FILE.npz, no grid: they have it"
-            )
+            raise CommandError("--merge takes slabs and -o FILE.npz, no grid: they have it")
         maps.merge(arguments.merge, output)
         return FINE
     robot = read_robot(arguments)

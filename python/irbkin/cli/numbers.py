@@ -2,14 +2,13 @@
 
 import math
 from argparse import ArgumentTypeError
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from irbkin.cli.data import is_data
-from irbkin.cli.errors import CommandError
 
 MOST_ANGLE = math.degrees(1e5)
 """The largest angle of a joint that the library takes [deg]."""
-_TOO_LARGE = f"is too large: its size must be at most {MOST_ANGLE:.0f} deg (remove whole turns)"
+TOO_LARGE = f"is too large: its size must be at most {MOST_ANGLE:.0f} deg (remove whole turns)"
 
 
 def number(text: str) -> float:
@@ -40,15 +39,8 @@ def angle(text: str) -> float:
     """An angle of a joint [deg]."""
     value = number(text)
     if abs(value) > MOST_ANGLE:
-        raise ArgumentTypeError(f"{value:g} deg {_TOO_LARGE}")
+        raise ArgumentTypeError(f"{value:g} deg {TOO_LARGE}")
     return value
-
-
-def check_joints(angles: Sequence[float], name: str) -> None:
-    """Refuse angles [deg] of joints that the library does not take."""
-    for joint, value in enumerate(angles, 1):
-        if abs(value) > MOST_ANGLE:
-            raise CommandError(f"{name}: joint {joint} at {value:g} deg {_TOO_LARGE}")
 
 
 def count(least: int, most: int, words: str = "must be {} to {}") -> Callable[[str], int]:

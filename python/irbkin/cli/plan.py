@@ -19,7 +19,7 @@ from irbkin._arm_options import check_millimeters
 from irbkin.cli.arguments import Parser, joints, read_cell, read_robot, read_wobj
 from irbkin.cli.data import angles_of
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.files import replaced
+from irbkin.cli.files import write_text
 from irbkin.cli.numbers import count, number
 from irbkin.cli.output import Column, Floats, show
 from irbkin.cli.postures import place_columns, posture_columns
@@ -39,13 +39,12 @@ def add_arguments(parser: Parser) -> None:
     add = parser.add
     steps = count(2, MOST_ROTATION)
     add("--rotation", type=steps, metavar="STEPS", help="number of tool angles around z")
-    words, ends = "a track under the robot: its direction and its ends [mm]", (*"XYZ", "FROM", "TO")
-    add("--track", nargs=5, type=number, metavar=ends, help=words)
+    ends = (*"XYZ", "FROM", "TO")
+    add("--track", nargs=5, type=number, metavar=ends, help="direction and ends of a track [mm]")
     parser.add_joints("start", "joints at the first pose [deg], track")
     parser.add_joints("end", "joints at the last pose [deg], track")
     add("--closed", action="store_true", help="the joints end where they start")
-    words = "joint angles in radians, shape (m, 6), and the track in meters, (m, 7); .mod: RAPID"
-    parser.add_formats(words, ".mod")
+    parser.add_formats("joints [rad], (m, 6), track [m], (m, 7); .mod: RAPID", ".mod")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -68,8 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
         return FOUND
     if (arguments.output or "").lower().endswith(".mod"):
         module = rapid.plan_module(robot, plan, carrier=_track(arguments.track))
-        with replaced(arguments.output) as file:
-            file.write(str(module).encode())
+        write_text(arguments.output, str(module))
         return FINE
     columns = {
         Column("pose", "6d"): np.arange(len(poses)),

@@ -20,7 +20,7 @@ from irbkin import Robot, rapid
 from irbkin._core import parse_module
 from irbkin.cli.arguments import Parser, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.files import opened, replaced, shown
+from irbkin.cli.files import opened, shown, write_text
 from irbkin.cli.numbers import positive
 from irbkin.cli.output import Column, Columns, show
 from irbkin.cli.postures import joint_columns
@@ -35,21 +35,17 @@ def add_arguments(parser: Parser) -> None:
     add("context", metavar="OTHER", nargs="*", help="modules that declare what it names")
     add("--routine", metavar="NAME", help="the routine: main, or the only one that moves")
     add("--acceleration", type=positive, metavar="A", help="of every joint [deg/s^2]")
-    words = "of each joint [deg/s], by default the catalog's"
-    add("--max-velocity", nargs="+", type=positive, metavar="V", help=words)
+    add("--max-velocity", nargs="+", type=positive, metavar="V", help="of each joint [deg/s]")
     add("--samples", action="store_true", help="the samples of the motion, not its moves")
-    words = "samples: time [s] and joint angles [rad], shape (m, 7); .mod: MoveAbsJ"
-    parser.add_formats(words, ".mod")
+    parser.add_formats("samples: t [s], q [rad], shape (m, 7); .mod: MoveAbsJ", ".mod")
 
 
 def run(arguments: argparse.Namespace) -> int:
     robot, speeds = read_robot(arguments), arguments.max_velocity
     words = "one for each joint [deg/s]"
     if speeds is None and robot.max_velocity is None:
-        name = robot.name
-        raise CommandError(
-            f"the speeds of the joints of {name} are unknown: give --max-velocity, {words}"
-        )
+        lack = f"the speeds of the joints of {robot.name} are unknown"
+        raise CommandError(f"{lack}: give --max-velocity, {words}")
     if speeds is not None and len(speeds) != robot.dof:
         raise CommandError(f"--max-velocity takes {robot.dof} speeds, {words}, got {len(speeds)}")
     context = tuple(parsed(name) for name in arguments.context)
@@ -65,8 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
     heading = f"{robot.name}: {name}, {len(motion.moves)} moves, {motion.duration:.3f} s"
     output: str = arguments.output or ""
     if output.lower().endswith(".mod"):
-        with replaced(output) as file:
-            file.write(str(motion.to_module()).encode())
+        write_text(output, str(motion.to_module()))
     elif arguments.samples or output.lower().endswith(".npy"):
         columns = {Column("line", "5d"): motion.lines, Column("t", "9.4f", "s"): motion.t}
         array = np.column_stack([motion.t, motion.q])
@@ -108,10 +103,8 @@ def _moves(robot: Robot, motion: RoutineMotion) -> Columns:
     """A row for each move."""
     moves = motion.moves
     q = np.array([np.full(robot.dof, np.nan) if it.q is None else it.q for it in moves])
-    made = [
-        "programmed" if it.as_programmed else "left out" if it.q is None else "joint move"
-        for it in moves
-    ]
+    left = ["left out" if it.q is None else "joint move" for it in moves]
+    made = ["programmed" if it.as_programmed else own for it, own in zip(moves, left, strict=True)]
     return {
         Column("line", "5d"): [it.line for it in moves],
         Column("move", "<8s"): [it.kind for it in moves],

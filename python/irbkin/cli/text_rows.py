@@ -74,10 +74,9 @@ def read_text(
     try:
         places = layout.placed(first) if part else {}
     except ValueError as lack:
-        raise CommandError(
-            f"{name}:{part[0][0]}: {_quoted(part[0][1])} has {lack}; a {layout.what} has "
-            f"{layout.words()}, separated by commas, with decimal points"
-        ) from None
+        found = f"{_quoted(part[0][1])} has {lack}; a {layout.what} has {layout.words()}"
+        how = "separated by commas, with decimal points"
+        raise CommandError(f"{name}:{part[0][0]}: {found}, {how}") from None
     words, is_named = {}, not any(map(_is_number, first))
     if is_named:
         part = part[1:]
@@ -112,10 +111,9 @@ def _numbers(rows: Sequence[Row], name: str, places: Sequence[int], width: int) 
     for line, text in rows:
         row = _fields(text)
         if len(row) != width if width else len(row) <= max(places):
-            raise CommandError(
-                f"{name}:{line}: {_quoted(text)} has {_counted(row)}, the first row has "
-                f"{width or 'more'}: separate them by commas, write decimal points"
-            )
+            found = f"{_quoted(text)} has {_counted(row)}, the first row has {width or 'more'}"
+            cure = "separate them by commas, write decimal points"
+            raise CommandError(f"{name}:{line}: {found}: {cure}")
         for at in (it for it in sorted(places) if not _is_number(row[it])):
             place = f"{name}:{line}:{len(','.join([*row[:at], ''])) + 1}"
             raise CommandError(f"{place}: {_quoted(row[at])} is not a finite number")

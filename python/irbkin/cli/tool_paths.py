@@ -7,7 +7,6 @@ import numpy as np
 
 from irbkin import Robot, paths, trajectory
 from irbkin.cli.arguments import Parser
-from irbkin.cli.data import is_data
 from irbkin.cli.errors import CommandError
 from irbkin.cli.numbers import number, positive
 from irbkin.cli.output import Floats
@@ -26,31 +25,24 @@ def add_path(parser: Parser) -> None:
     parser.add_wobj()
     add = parser.add
     ways = ("points", "lines", "spline", "arc")
-    words = "points: the poses themselves; lines, a spline or an arc (of 3) through them"
+    words = "the points alone, or lines, a spline, an arc (of 3) through them"
     add("--through", choices=ways, default="points", help=words)
     add("--step", type=positive, metavar="MM", help="distance of poses on these [mm]: 5")
-    words = "corners of lines: fine, z0 .. z200 or a radius [mm]; fine"
-    add("--zone", metavar="ZONE", help=words)
+    add("--zone", type=_zone, metavar="ZONE", help="corners: fine, z0 .. z200, or a radius [mm]")
 
 
 def read_path(arguments: argparse.Namespace, robot: Robot) -> Floats:
     """The poses of the path, shape (m, 4, 4)."""
     if robot.dof != 6:
-        raise CommandError(
-            f"paths are for arms of six joints, {robot.name} has {robot.dof}: take irbkin ik with "
-            "--seed, pose by pose"
-        )
+        words = f"paths are for arms of six joints, {robot.name} has {robot.dof}"
+        raise CommandError(f"{words}: take irbkin ik --seed, pose by pose")
     if arguments.through == "points" and arguments.step is not None:
         raise CommandError("--step goes with --through lines, spline or arc")
     if arguments.through != "lines" and arguments.zone is not None:
         raise CommandError("--zone goes with --through lines")
-    zone = "fine" if arguments.zone is None else _zone(arguments.zone)
+    zone = "fine" if arguments.zone is None else arguments.zone
     step = (STEP if arguments.step is None else arguments.step) / 1e3
     poses = read_all(read_poses(arguments.file))
-    name = "the path" if is_data(arguments.file[0]) else arguments.file[0]
-    wrong = np.flatnonzero(~np.isfinite(poses).all(axis=(1, 2)))
-    if len(wrong):
-        raise CommandError(f"{name}: row {wrong[0] + 1} is not a pose: it is not finite")
     if arguments.through == "points":
         return poses
     if arguments.through == "lines":
@@ -58,7 +50,7 @@ def read_path(arguments: argparse.Namespace, robot: Robot) -> Floats:
     if arguments.through == "spline":
         return paths.spline(poses, step=step, turn=TURN)
     if len(poses) != 3:
-        raise CommandError(f"--through arc takes 3 poses, {name} has {len(poses)}")
+        raise CommandError(f"--through arc takes 3 poses, got {len(poses)}")
     return paths.arc(*poses, step=step, turn=TURN)
 
 
@@ -70,8 +62,8 @@ def _zone(text: str) -> float | str:
     with contextlib.suppress(argparse.ArgumentTypeError):
         if (radius := number(name)) >= 0.0:
             return radius / 1e3
-    ways = f"a radius of 0 mm or more, or one of {', '.join(ZONES)}"
-    raise CommandError(f"--zone is {name!r}, it must be {ways}")
+    words = f"{name!r} must be a radius of 0 mm or more, or one of {', '.join(ZONES)}"
+    raise argparse.ArgumentTypeError(words)
 
 
 def speed_notes(robot: Robot, q: Floats, poses: Floats) -> list[tuple[str, float, str]]:

@@ -10,6 +10,7 @@ import argparse
 
 from irbkin.cli.arguments import Parser, read_robot
 from irbkin.cli.errors import FINE
+from irbkin.cli.files import write_text
 
 
 def add_arguments(parser: Parser) -> None:
@@ -18,12 +19,5 @@ def add_arguments(parser: Parser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    text: str = read_robot(arguments).to_urdf()
-    if arguments.output in (None, "-"):
-        print(text, end="" if text.endswith("\n") else "\n")
-        return FINE
-    from irbkin.cli.files import replaced
-
-    with replaced(arguments.output) as file:
-        file.write(text.encode())
+    write_text(arguments.output, read_robot(arguments).to_urdf())
     return FINE

@@ -19,6 +19,7 @@ import numpy.typing as npt
 from irbkin._arrays import Floats
 from irbkin._files import continued, replaced
 from irbkin._grids import ReachMap
+from irbkin._words import listed
 from irbkin.errors import IrbkinError
 
 if TYPE_CHECKING:
@@ -31,9 +32,7 @@ RECORD = np.dtype([*FIELDS.items()])
 CHUNK = 1 << 20
 """Bytes that are copied at a time."""
 JOB = ("robot", "q7", "cell", "version of irbkin")
-"""What a map depends on beside its grid."""
-MOST_NAMED = 8
-"""Missing slabs that a message names."""
+"""Inputs of a map beside its grid."""
 
 
 class Slab(NamedTuple):
@@ -80,7 +79,7 @@ class Slab(NamedTuple):
         return count * (number - 1) // of, count * number // of
 
     def differences(self, other: Slab) -> str:
-        """What another slab has not in common with it, if it is of another map."""
+        """Inputs of another slab that are not its own, if it is of another map."""
         names = [it for it, own, its in zip(JOB, self.job, other.job, strict=True) if own != its]
         grid = ("x", "y", "z", "orientations")
         names += [it for it in grid if not np.array_equal(getattr(self, it), getattr(other, it))]
@@ -157,7 +156,7 @@ def _write(path: Path, slab: Slab, column: Callable[[str], Iterator[bytes]]) -> 
 
 
 def merge(parts: Iterable[str | PathLike[str]], output: str | PathLike[str]) -> None:
-    """Put the slabs of a map together: the file is that of the map in one piece, byte by byte.
+    """Put the slabs of a map together: byte by byte the file of a map that was made in one piece.
     Memory holds a megabyte of it.
 
     Args:
@@ -183,8 +182,7 @@ def merge(parts: Iterable[str | PathLike[str]], output: str | PathLike[str]) -> 
         raise IrbkinError("parts is empty, it must have the files of all slabs")
     count = int(slab.slab[1])
     if missing := [f"{it}/{count}" for it in range(1, count + 1) if it not in files]:
-        more = f" and {len(missing) - MOST_NAMED} others" * (len(missing) > MOST_NAMED)
-        raise IrbkinError(f"no file has slab {', '.join(missing[:MOST_NAMED])}{more}")
+        raise IrbkinError(f"no file has slab {listed(missing)}")
 
     def column(name: str) -> Iterator[bytes]:
         for number, part in sorted(files.items()):

@@ -88,7 +88,7 @@ def scale(drawn: Canvas, axes: Axes, colors: Any, words: str, **options: Any) ->
 def arrow(axes: Axes, ends: Floats, color: str, width: float, room: float = 0.0) -> Any:
     """Add an arrow from one point to the other, shape (2, 2), with room at its ends [pt]."""
     look: dict[str, Any] = {"arrowstyle": "-|>", "color": color, "linewidth": width}
-    look |= {"shrinkA": room, "shrinkB": 0.0, "mutation_scale": 14}
+    look |= {"shrinkA": room, "shrinkB": 0.0}
     (x, y), head = ends.tolist()
     return axes.annotate("", head, (x, y), arrowprops=look, zorder=4)
 
