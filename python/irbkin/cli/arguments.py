@@ -227,14 +227,12 @@ def read_wobj(arguments: argparse.Namespace) -> Floats:
 
 def read_pose(arguments: argparse.Namespace) -> tuple[Floats, str]:
     """The pose of --xyz and an orientation, shape (4, 4), and its words."""
-    if sum(it is not None for it in (arguments.wxyz, arguments.xyzw, arguments.euler)) > 1:
+    ways = {name: getattr(arguments, name) for name in ("wxyz", "xyzw", "euler")}
+    (name, turn), *others = [it for it in ways.items() if it[1] is not None] or [("", [])]
+    if others:
         raise CommandError("--wxyz, --xyzw and --euler: give one of them")
-    if arguments.xyzw is not None:
-        *vector, w = arguments.xyzw
-        arguments.wxyz = [w, *vector]
-    turn = arguments.wxyz or arguments.euler or []
-    name = "--wxyz" if arguments.wxyz else "--euler"
-    return pose_of([*(arguments.xyz or (0, 0, 0)), *turn], name)
+    turn = [*turn[3:], *turn[:3]] if name == "xyzw" else turn
+    return pose_of([*(arguments.xyz or (0, 0, 0)), *turn], f"--{name}")
 
 
 def pose_of(numbers: Sequence[float], name: str) -> tuple[Floats, str]:

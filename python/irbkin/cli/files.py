@@ -25,7 +25,7 @@ def opened(name: str) -> Iterator[BinaryIO]:
         yield file
 
 
-def write_text(name: str | None, text: str) -> None:
+def put_text(name: str | None, text: str) -> None:
     """Write a text to a file, or to stdout where there is no name or it is `-`."""
     if name in (None, STDIN):
         sys.stdout.write(text)

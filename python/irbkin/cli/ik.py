@@ -55,11 +55,10 @@ def run(arguments: argparse.Namespace) -> int:
     parts, heading = _poses(arguments)
     wobj, count, missed, words = read_wobj(arguments), 0, 0, ""
     first: tuple[int, Floats] | None = None
-    is_all = arguments.seed is None and arguments.confdata is None
+    own = arguments.confdata
+    is_all = arguments.seed is None and own is None
     find = (_All if is_all else _One)(arguments, robot, is_one=bool(heading))
-    heading = f"{robot.name}{heading}"
-    if arguments.confdata is not None:
-        heading += f", confdata {arguments.confdata}"
+    heading = f"{robot.name}{heading}" + ("" if own is None else f", confdata {own}")
     with table(arguments, heading) as rows, Progress("poses") as progress:
         for part in parts:
             world = wobj @ part.values
@@ -107,11 +106,9 @@ def _poses(arguments: argparse.Namespace) -> tuple[Iterator[Part], str]:
     if bool(words) == (arguments.xyz is not None):
         ways = "by --xyz, as a robtarget, or a FILE of poses"
         raise CommandError(f"give a pose {ways} (irbkin ik --help)")
-    if not words:
-        pose, heading = read_pose(arguments)
-        return iter([Part(pose[None])]), f": {heading}"
     try:
-        pose, heading = pose_of([number(word) for word in words], "the pose")
+        own = [number(word) for word in words]
+        pose, heading = pose_of(own, "the pose") if own else read_pose(arguments)
         return iter([Part(pose[None])]), f": {heading}"
     except argparse.ArgumentTypeError:
         parts = read_poses(words)

@@ -69,11 +69,6 @@ class Rows:
         self._add(rows, array)
         self.count += len(rows)
 
-    def close(self) -> None:
-        """No more rows come."""
-        self._end()
-        self.file.flush()
-
     def _begin(self) -> None:
         """Nothing comes before the rows."""
 
@@ -125,12 +120,8 @@ class Screen(Table):
         if rows and not self.count:
             self.console.print(self.heading, style="bold")
         for start in range(0, len(rows), PAGE):
-            page = rows[start : start + PAGE]
-            cells = [
-                [*map(it.cell, own)]
-                for it, own in zip(self.columns, zip(*page, strict=True), strict=True)
-            ]
-            self._page(cells)
+            own = zip(self.columns, zip(*rows[start : start + PAGE], strict=True), strict=True)
+            self._page([[*map(it.cell, values)] for it, values in own])
 
     def _page(self, cells: Sequence[Sequence[str]]) -> None:
         """Write columns, as many beside each other as the terminal has room for."""
@@ -242,7 +233,8 @@ def table(arguments: argparse.Namespace, heading: str) -> Iterator[Rows]:
             raise CommandError(f"{output}: an .npy file cannot be written into a pipe")
         rows = kind(file, heading)
         yield rows
-        rows.close()
+        rows._end()
+        file.flush()
 
 
 def show(

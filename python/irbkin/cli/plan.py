@@ -19,7 +19,7 @@ from irbkin._arm_options import check_millimeters
 from irbkin.cli.arguments import Parser, joints, read_cell, read_robot, read_wobj
 from irbkin.cli.data import angles_of
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.files import write_text
+from irbkin.cli.files import put_text
 from irbkin.cli.numbers import count, number
 from irbkin.cli.output import Column, Floats, show
 from irbkin.cli.postures import place_columns, posture_columns
@@ -67,7 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
         return FOUND
     if (arguments.output or "").lower().endswith(".mod"):
         module = rapid.plan_module(robot, plan, carrier=_track(arguments.track))
-        write_text(arguments.output, str(module))
+        put_text(arguments.output, str(module))
         return FINE
     columns = {
         Column("pose", "6d"): np.arange(len(poses)),

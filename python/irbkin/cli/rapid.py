@@ -20,7 +20,7 @@ from irbkin import Robot, rapid
 from irbkin._core import parse_module
 from irbkin.cli.arguments import Parser, read_robot
 from irbkin.cli.errors import FINE, FOUND, CommandError, complain
-from irbkin.cli.files import opened, shown, write_text
+from irbkin.cli.files import opened, put_text, shown
 from irbkin.cli.numbers import positive
 from irbkin.cli.output import Column, Columns, show
 from irbkin.cli.postures import joint_columns
@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
     heading = f"{robot.name}: {name}, {len(motion.moves)} moves, {motion.duration:.3f} s"
     output: str = arguments.output or ""
     if output.lower().endswith(".mod"):
-        write_text(output, str(motion.to_module()))
+        put_text(output, str(motion.to_module()))
     elif arguments.samples or output.lower().endswith(".npy"):
         columns = {Column("line", "5d"): motion.lines, Column("t", "9.4f", "s"): motion.t}
         array = np.column_stack([motion.t, motion.q])

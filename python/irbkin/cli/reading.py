@@ -125,9 +125,8 @@ def _array(file: BinaryIO, name: str, layout: Layout) -> Iterator[Part]:
     """Rows of an .npy file, as the package has them."""
     wanted = f"an array of numbers of shape (m, {', '.join(map(str, layout.shape))}) or one row"
     try:
-        version = np.lib.format.read_magic(file)
-        read = getattr(np.lib.format, f"read_array_header_{version[0]}_0")
-        shape, is_fortran, dtype = read(file)
+        major, _ = np.lib.format.read_magic(file)
+        shape, is_fortran, dtype = getattr(np.lib.format, f"read_array_header_{major}_0")(file)
     except (ValueError, AttributeError) as error:
         raise CommandError(f"{name}: is not a .npy file that can be read: {error}") from None
     if shape == layout.shape:

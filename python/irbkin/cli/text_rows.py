@@ -12,6 +12,7 @@ from typing import Any, BinaryIO, NamedTuple
 import numpy as np
 
 from irbkin._arm_options import check_millimeters
+from irbkin._words import counted
 from irbkin.cli.errors import CommandError
 from irbkin.cli.files import shown
 from irbkin.cli.numbers import number
@@ -49,7 +50,7 @@ class Layout(NamedTuple):
             for choice in self.choices:
                 if len(choice) == len(fields):
                     return {name: at for at, name in enumerate(choice)}
-            raise ValueError(_counted(fields))
+            raise ValueError(counted(len(fields), "column"))
         both = [[(it, _other(it)) for it in choice] for choice in self.choices]
         lacking = [[pair for pair in pairs if not {*pair} & {*fields}] for pairs in both]
         best = min(range(len(both)), key=lambda it: len(lacking[it]))
@@ -111,7 +112,7 @@ def _numbers(rows: Sequence[Row], name: str, places: Sequence[int], width: int) 
     for line, text in rows:
         row = _fields(text)
         if len(row) != width if width else len(row) <= max(places):
-            found = f"{_quoted(text)} has {_counted(row)}, the first row has {width or 'more'}"
+            found = f"{_quoted(text)} has {counted(len(row), 'column')}, the first row has {width or 'more'}"
             cure = "separate them by commas, write decimal points"
             raise CommandError(f"{name}:{line}: {found}: {cure}")
         for at in (it for it in sorted(places) if not _is_number(row[it])):
@@ -131,10 +132,6 @@ def _other(column: str) -> str:
     """The column in the other unit; itself if it has no unit."""
     name, _, unit = column.partition("_")
     return f"{name}_{OTHER_UNITS[unit]}" if unit else name
-
-
-def _counted(fields: Sequence[str]) -> str:
-    return "1 column" if len(fields) == 1 else f"{len(fields)} columns"
 
 
 def _is_number(field: str) -> bool:

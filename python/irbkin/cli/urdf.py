@@ -10,7 +10,7 @@ import argparse
 
 from irbkin.cli.arguments import Parser, read_robot
 from irbkin.cli.errors import FINE
-from irbkin.cli.files import write_text
+from irbkin.cli.files import put_text
 
 
 def add_arguments(parser: Parser) -> None:
@@ -19,5 +19,5 @@ def add_arguments(parser: Parser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    write_text(arguments.output, read_robot(arguments).to_urdf())
+    put_text(arguments.output, read_robot(arguments).to_urdf())
     return FINE

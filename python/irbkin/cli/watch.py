@@ -2,7 +2,6 @@
 
 import os
 import re
-import stat
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -64,9 +63,9 @@ def _stamps(names: Iterable[str], output: str) -> dict[str, tuple[int, int, int]
         path = left.pop()
         try:
             of = os.stat(path)
-            if stat.S_ISDIR(of.st_mode):
+            if os.path.isdir(path):
                 # Neither hidden folders nor those behind links.
-                inside = [it for it in os.scandir(path) if not (it.is_dir() and it.is_symlink())]
+                inside = (it for it in os.scandir(path) if not (it.is_dir() and it.is_symlink()))
                 left += (it.path for it in inside if it.name[0] != "." or it.is_file())
             elif path not in found and path != output:
                 found[path] = (of.st_mtime_ns, of.st_size, of.st_ino)
