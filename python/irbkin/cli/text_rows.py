@@ -112,9 +112,9 @@ def _numbers(rows: Sequence[Row], name: str, places: Sequence[int], width: int) 
     for line, text in rows:
         row = _fields(text)
         if len(row) != width if width else len(row) <= max(places):
-            found = f"{_quoted(text)} has {counted(len(row), 'column')}, the first row has {width or 'more'}"
-            cure = "separate them by commas, write decimal points"
-            raise CommandError(f"{name}:{line}: {found}: {cure}")
+            found = f"{_quoted(text)} has {counted(len(row), 'column')}, the first row has"
+            cure = f"{width or 'more'}: separate them by commas, write decimal points"
+            raise CommandError(f"{name}:{line}: {found} {cure}")
         for at in (it for it in sorted(places) if not _is_number(row[it])):
             place = f"{name}:{line}:{len(','.join([*row[:at], ''])) + 1}"
             raise CommandError(f"{place}: {_quoted(row[at])} is not a finite number")

@@ -64,15 +64,8 @@ def of_plan(plan: Plan) -> str:
     q = np.degrees(np.asarray(plan.q))
     known = q[np.isfinite(q).all(axis=1)]
     head = ["", *(f"J{joint + 1}" for joint in range(q.shape[1]))]
-    rows: list[Sequence[str]] = []
-    if len(known):
-        rows = [
-            [name, *(f"{it:.1f}" for it in extreme)]
-            for name, extreme in (
-                ("least [deg]", known.min(axis=0)),
-                ("most [deg]", known.max(axis=0)),
-            )
-        ]
+    extremes = {"least [deg]": np.min, "most [deg]": np.max} if len(known) else {}
+    rows = [[name, *(f"{it:.1f}" for it in most(known, axis=0))] for name, most in extremes.items()]
     words = [f"{len(q)} poses", f"{len(plan.breaks)} breaks" if plan.breaks else "without a break"]
     words += ["certified"] if plan.certified else []
     picture = ""
