@@ -27,12 +27,12 @@ pub struct Found {
     /// The outcome in a sentence: how many solutions there are, or why there are none inside the
     /// limits.
     pub outcome: String,
-    /// Why there is no solution; null if there is one.
+    /// The reason for no solution; null if one exists.
     pub reason: Option<String>,
     /// The solution inside the limits that is nearest to the seed, turns of 2 pi considered; null
     /// without a seed, and if there is none.
     pub nearest: Option<Nearest>,
-    /// Where there is no solution inside the limits: joint angles from the seed towards the pose, as
+    /// Without a solution inside the limits: joint angles from the seed towards the pose, as
     /// far as the arm gets on the straight way without a jump [rad].
     pub towards: Option<Vec<f64>>,
     /// Joint 7 of all solutions, of seven joints [rad].

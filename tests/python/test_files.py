@@ -229,7 +229,7 @@ def test_what_libraries_write_goes_through_it():
         ("plot/_animation.py", "save", "own"),
         ("scene/_rerun.py", "save", "path"),
         # A scene, which is a writer above.
-        ("cli/view.py", "save", "path"),
+        ("cli/view.py", "save", "output"),
     }
 
 

@@ -31,7 +31,7 @@ class Joints:
         """Return joint angles [rad] as a list.
 
         Raises:
-            InvalidJointsError: They are not those of the arm, or not finite.
+            InvalidJointsError: Another number of them than the arm has, or not finite.
         """
         dof = 0 if self.arm is None else len(self.arm.joints)
         try:
@@ -47,7 +47,7 @@ class Joints:
         return joints
 
     def tool(self, q: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return the pose of the tool, shape (4, 4); that of the world without an arm."""
+        """Return the pose of the tool, shape (4, 4); the world's without an arm."""
         pose: npt.NDArray[np.float64] = (
             np.eye(4) if self.arm is None else link_frames(self.arm, q)[-1]
         )
