@@ -291,7 +291,7 @@ PASTED = {
 @pytest.mark.parametrize("kind", PASTED)
 def test_what_is_pasted_is_read(opened, kind):
     page = opened()
-    page.fill("textarea", PASTED[kind])
+    page.fill("aside textarea", PASTED[kind])
     own = state(page)
     robot = irbkin.Robot(own["name"])
     if kind in ("jointtarget", "joints"):
@@ -366,7 +366,7 @@ def test_impossible_numbers_are_marked_and_nothing_stops(opened):
         "1e9 0 0 0 0 0",
         "MoveL pX,v1,fine,t;",
     ):
-        page.fill("textarea", text)
+        page.fill("aside textarea", text)
         state(page)
         assert page.locator("textarea + p").inner_text(), text
     field = page.get_by_label("x", exact=True).first
@@ -381,7 +381,7 @@ def test_impossible_numbers_are_marked_and_nothing_stops(opened):
     page.get_by_label("arm", exact=True).fill("IRB 9999")
     page.keyboard.press("Enter")
     state(page)
-    assert "IRB 9999" in page.locator(".row + p").first.inner_text()
+    assert "IRB 9999" in page.locator(".words-of-arm").inner_text()
     page.evaluate("() => irbkin.setJoints([NaN, 0, 0, 0, 0, 0])")
     assert all(np.isfinite(state(page)["q"]))
 
@@ -399,7 +399,9 @@ def test_a_module_is_a_table_that_plays(opened, tmp_path):
     assert "R101" in rows.nth(2).inner_text()
     rows.nth(1).click()
     np.testing.assert_allclose(state(page)["q"], motion.moves[1].q, atol=1e-9)
-    assert "MoveL p2" in page.locator(".source").inner_text()
+    line = page.evaluate("() => irbkin.program.source.line")
+    assert "MoveL p2" in MODULE.splitlines()[line - 1]
+    assert page.locator(".margin .here").inner_text() == str(line)
     page.locator(".player button").click()
     page.wait_for_timeout(400)
     page.locator(".player button").click()
@@ -433,7 +435,7 @@ ENDMODULE
     assert "3 of 3 moves checked" in page.locator(".program").inner_text()
     assert "Moves.mod:3" in page.locator(".program tbody tr").first.inner_text()
     assert page.evaluate("() => irbkin.program.motion.moves.length") == 1
-    page.select_option(".program select", label="second")
+    page.select_option("[aria-label=routine]", label="second")
     robot = irbkin.Robot(state(page)["name"])
     module = rapid.parse(moves.read_text(), [rapid.parse(data.read_text())])
     motion = rapid.motion(robot, module, "second")
