@@ -3584,16 +3584,13 @@ class Cell:
 
 @final
 class PageEngine:
-    """What answers a page in a browser: requests and answers as JSON (page/README.md).
-
-    It keeps the robot, the cell and the program that earlier requests set.
+    """The engine of a page in a browser, with the robot, the cell and the program that requests
+    set.
     """
 
     def __new__(cls) -> PageEngine: ...
     def answer(self, request: str) -> str:
-        """Return the answer to a request, both JSON text: `{"ok": ...}` or `{"error": "a
-        sentence"}`.
-        """
+        """Return the answer to a request, both JSON (page/README.md)."""
 
 @final
 class Trajectory:

@@ -6,9 +6,7 @@ use pyo3::prelude::*;
 
 use crate::page::Page;
 
-/// What answers a page in a browser: requests and answers as JSON (page/README.md).
-///
-/// It keeps the robot, the cell and the program that earlier requests set.
+/// The engine of a page in a browser, with the robot, the cell and the program that requests set.
 #[pyclass(frozen, module = "irbkin._core")]
 #[derive(Default)]
 pub(crate) struct PageEngine(Mutex<Page>);
@@ -20,7 +18,7 @@ impl PageEngine {
         Self::default()
     }
 
-    /// Return the answer to a request, both JSON text: `{"ok": ...}` or `{"error": "a sentence"}`.
+    /// Return the answer to a request, both JSON (page/README.md).
     fn answer(&self, py: Python<'_>, request: &str) -> String {
         py.detach(|| self.0.lock().unwrap_or_else(PoisonError::into_inner).answer(request))
     }

@@ -316,10 +316,16 @@ record! {
     }
 }
 
-/// `irbkin.SingularityKind` of singularities.
+/// `irbkin.SingularityKind` of singularities, each made once: that takes longer than to find them.
 pub(super) fn kinds(py: Python<'_>, kinds: SingularityKind) -> PyResult<Bound<'_, PyAny>> {
     static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-    CLASS.import(py, "irbkin.records", "SingularityKind")?.call1((kinds.bits(),))
+    static MEMBERS: [PyOnceLock<Py<PyAny>>; 256] = [const { PyOnceLock::new() }; 256];
+    let bits = kinds.bits();
+    let made = || {
+        let class = CLASS.import(py, "irbkin.records", "SingularityKind")?;
+        Ok::<_, PyErr>(class.call1((bits,))?.unbind())
+    };
+    Ok(MEMBERS[usize::from(bits)].get_or_try_init(py, made)?.bind(py).clone())
 }
 
 /// `irbkin.Status` of a status.
