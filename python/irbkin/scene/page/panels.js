@@ -114,8 +114,10 @@ function solutionRows(app) {
   app.parts.head.replaceChildren(...["slot", robot.has_confdata ? "confdata" : "", ...joints].map((it) => el("th", {}, it)));
   const isOutside = (angle, [low, high]) => angle < (low ?? -Infinity) - 1e-9 || angle > (high ?? Infinity) + 1e-9;
   return state.solutions.map((it, index) => {
+    const outside = it.q.map((angle, joint) => isOutside(angle, robot.limits[joint]));
+    // Joints that are outside are red; a linkage between two of them is none of them.
     const flags = [
-      it.within_limits ? "" : "outside",
+      it.within_limits || outside.includes(true) ? "" : "outside",
       ...it.singularities,
       it.free_joint ?? "",
       it.collides ? "collides" : "",
@@ -131,7 +133,7 @@ function solutionRows(app) {
     el("td", {}, String(it.slot)),
     el("td", {}, it.confdata?.join(" ") ?? "",
       el("div", { className: it.collides || !it.within_limits ? "bad" : "dim" }, flags)),
-    ...it.q.map((angle, joint) => el("td", { className: isOutside(angle, robot.limits[joint]) ? "angle bad" : "angle" },
+    ...it.q.map((angle, joint) => el("td", { className: outside[joint] ? "angle bad" : "angle" },
       units.fromRadians(angle).toFixed(units.angle === "deg" ? 1 : 3).replace(/^-(0\.0+)$/, "$1"))));
   });
 }
