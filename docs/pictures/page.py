@@ -1,6 +1,6 @@
 """Pictures of the page, with a Chromium; `make page` and `make test-page` install what it needs.
 
-README shows `page.png`; the film of a drag is target/page/drag.gif.
+docs/guide/view.md shows `page.png`; the film of a drag is target/page/drag.gif.
 """
 
 import io
