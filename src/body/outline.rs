@@ -154,41 +154,28 @@ impl Group {
     }
 
     /// How far its hulls are from another group's, each at the pose of its link.
-    pub(crate) fn separation(
-        &self,
-        pose: &Pose,
-        (other, to): (&Self, &Pose),
-        asked: Asked,
-    ) -> Separation {
+    pub(crate) fn separation(&self, pose: &Pose, (other, to): (&Self, &Pose)) -> Separation {
         let pairs = self.hulls.iter().flat_map(|one| other.hulls.iter().map(move |two| (one, two)));
-        least(asked, pairs, |(one, two), asked| one.separation(pose, (two, to), asked))
+        least(pairs, |(one, two), asked| one.separation(pose, (two, to), asked, &mut None))
     }
 
     /// How far its hulls are from a shape, at the pose of its link.
-    pub(crate) fn separation_of(&self, pose: &Pose, shape: &Shape, asked: Asked) -> Separation {
-        let hulls = self.hulls.iter();
-        least(asked, hulls, |hull, asked| shape.separation_of_hull(hull, pose, asked))
+    pub(crate) fn separation_of(&self, pose: &Pose, shape: &Shape) -> Separation {
+        least(self.hulls.iter(), |hull, asked| {
+            shape.separation_of_hull(hull, pose, asked, &mut None)
+        })
     }
 }
 
 /// The least of some separations.
 fn least<T>(
-    asked: Asked,
     items: impl Iterator<Item = T>,
     separation: impl Fn(T, Asked) -> Separation,
 ) -> Separation {
-    let mut nearest = Separation::NOTHING;
-    for item in items {
-        let far = asked.far.min(nearest.distance);
-        let own = separation(item, Asked { far, ..asked });
-        if own.distance < nearest.distance {
-            nearest = own;
-        }
-        if nearest.distance <= asked.near {
-            break;
-        }
-    }
-    nearest
+    items.fold(Separation::NOTHING, |nearest, item| {
+        let own = separation(item, Asked { far: nearest.distance, ..Asked::DISTANCE });
+        if own.distance < nearest.distance { own } else { nearest }
+    })
 }
 
 /// A capsule around capsules: its axis is on the line between the two ends that are farthest apart,

@@ -168,6 +168,26 @@ enum Solid {
 }
 
 impl Solid {
+    /// A shape as a solid, and its frame.
+    #[inline(always)]
+    fn of(shape: &Shape) -> Option<(Self, &Pose)> {
+        match shape {
+            Shape::Box { pose, half } => Some((Self::Box((*half).into()), pose)),
+            Shape::Cylinder { pose, radius, half } => {
+                Some((Self::Cylinder([*radius, *half]), pose))
+            }
+            _ => None,
+        }
+    }
+
+    /// The way from its nearest point to a point, in its frame.
+    #[inline(always)]
+    fn way_to<S: Simd>(&self, pose: &Pose, point: Point<S>) -> Point<S> {
+        let origin = constant(point[0].token(), &pose.translation.vector);
+        let local = in_frame(minus(point, origin), pose);
+        minus(local, self.nearest(local))
+    }
+
     /// The nearest point of the solid.
     #[inline(always)]
     fn nearest<S: Simd>(&self, point: Point<S>) -> Point<S> {
@@ -179,6 +199,18 @@ impl Solid {
                 let square = point[0].times_plus(point[0], point[1] * point[1]);
                 let scale = (square.like(*radius) / square.max(f64::MIN_POSITIVE).root()).min(1.0);
                 [point[0] * scale, point[1] * scale, point[2].max(-half).min(*half)]
+            }
+        }
+    }
+
+    /// How far the solid reaches along a direction, times its length.
+    #[inline(always)]
+    fn reach<S: Simd>(&self, way: Point<S>) -> Vector<S> {
+        match self {
+            Self::Box([x, y, z]) => way[0].size() * *x + way[1].size() * *y + way[2].size() * *z,
+            Self::Cylinder([radius, half]) => {
+                let across = way[0].times_plus(way[0], way[1] * way[1]).root();
+                across * *radius + way[2].size() * *half
             }
         }
     }
@@ -213,6 +245,41 @@ fn in_frame<S: Simd>(way: Point<S>, pose: &Pose) -> Point<S> {
     ]
 }
 
+/// A plane that a convex solid does not go beyond.
+pub(super) struct Plane<S: Simd> {
+    /// Across the plane, away from the solid.
+    pub(super) way: Point<S>,
+    /// How far the solid reaches along the way, without the radius [m^2].
+    pub(super) reach: Vector<S>,
+    pub(super) radius: f64,
+}
+
+/// The plane through the nearest point of a convex solid to a point.
+#[inline(always)]
+pub(super) fn plane_to<S: Simd>(shape: &Shape, point: Point<S>) -> Option<Plane<S>> {
+    let simd = point[0].token();
+    match shape {
+        Shape::HalfSpace { normal, offset } => {
+            let (way, reach) = (constant(simd, normal), Vector::splat(simd, *offset));
+            Some(Plane { way, reach, radius: 0.0 })
+        }
+        Shape::Capsule(own) => {
+            let axis = Axis::of(simd, &Centered::of(own));
+            let part = clamped(dot(axis.half, minus(point, axis.middle)) * axis.inverse());
+            let way = minus(point, at(axis.middle, axis.half, part));
+            let reach = dot(way, axis.middle) + dot(way, axis.half).size();
+            Some(Plane { way, reach, radius: own.radius })
+        }
+        _ => {
+            let (solid, pose) = Solid::of(shape)?;
+            let local = solid.way_to(pose, point);
+            let way = in_frame(local, &pose.inverse());
+            let origin = constant(simd, &pose.translation.vector);
+            Some(Plane { way, reach: dot(way, origin) + solid.reach(local), radius: 0.0 })
+        }
+    }
+}
+
 /// Lanes in which a ball is apart from a shape, or from the ball around the shape; a limit is its
 /// radius and more [m].
 #[inline(always)]
@@ -222,19 +289,16 @@ pub(super) fn ball_beyond<S: Simd>(shape: &Shape, center: Point<S>, limit: Vecto
         Shape::HalfSpace { normal, offset } => {
             dot(center, constant(simd, normal)).simd_gt(limit + *offset).to_bitmask()
         }
-        Shape::Box { pose, half } => {
-            let local = in_frame(minus(center, constant(simd, &pose.translation.vector)), pose);
-            let way = minus(local, Solid::Box((*half).into()).nearest(local));
+        _ => {
+            let (way, limit) = if let Some((solid, pose)) = Solid::of(shape) {
+                (solid.way_to(pose, center), limit)
+            } else if let Some((around, radius)) = shape.ball() {
+                (minus(center, constant(simd, &around)), limit + radius)
+            } else {
+                return 0;
+            };
             dot(way, way).simd_gt(limit * limit).to_bitmask()
         }
-        _ => match shape.ball() {
-            Some((around, radius)) => {
-                let way = minus(center, constant(simd, &around));
-                let limit = limit + radius;
-                dot(way, way).simd_gt(limit * limit).to_bitmask()
-            }
-            None => 0,
-        },
     }
 }
 
@@ -263,18 +327,15 @@ fn against_shape<S: Simd>(axis: &Axis<S>, shape: &Shape, limit: Vector<S>, asked
         Shape::Capsule(own) => {
             axis.against_axis(&Axis::of(simd, &Centered::of(own)), limit + own.radius, asked)
         }
-        Shape::Box { pose, half } => {
-            axis.against_solid(&Solid::Box((*half).into()), pose, limit, asked)
-        }
-        Shape::Cylinder { pose, radius, half } => {
-            axis.against_solid(&Solid::Cylinder([*radius, *half]), pose, limit, asked)
-        }
         Shape::HalfSpace { normal, offset } => {
             let normal = constant(simd, normal);
             let lowest = dot(axis.middle, normal) - dot(axis.half, normal).size();
             let far = lowest.simd_gt(limit + *offset).to_bitmask();
             Decided { far, near: !far }
         }
-        _ => Decided::default(),
+        _ => match Solid::of(shape) {
+            Some((solid, pose)) => axis.against_solid(&solid, pose, limit, asked),
+            None => Decided::default(),
+        },
     }
 }

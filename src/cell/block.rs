@@ -7,14 +7,24 @@ use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
 use super::apart::{ALL, Axis, Point, against_parts, ball_beyond, load, minus};
-use super::doubts::Doubt;
 use super::obstacles::Cell;
-use crate::body::{Capsule, Group, Outline};
+use crate::body::{Capsule, Group, Outline, Ways};
 use crate::kinematics::{Axes, Robot};
 use crate::lanes::{Column, LANES, Number as _, Vector, VectorKernel, cross, dot, run_vectors};
 
 /// How near shapes may be and count as touching, for the rounding of poses and distances [m].
 pub(super) const ROUNDING: f64 = 1e-9;
+
+/// What of joint vectors is looked at.
+#[derive(Clone, Copy)]
+pub(super) enum Looked<'a, const N: usize> {
+    /// Which of them touch something.
+    All,
+    /// One that touches something, if there is one.
+    Any,
+    /// Which of them may touch something while the joints turn by spans to either side [rad].
+    Swept(&'a [[f64; N]]),
+}
 
 /// Where everything of an arm is, in eight lanes.
 #[derive(Clone)]
@@ -22,16 +32,19 @@ pub(crate) struct Block<const N: usize> {
     frames: [Axes<LANES>; N],
     base: Axes<LANES>,
     /// How far the joints turn to either side [rad]; zero for joint vectors.
-    spans: [Column; N],
+    pub(super) spans: [Column; N],
     /// The middles and the halves of the axes of the capsules around the groups.
     around: Vec<[[Column; 3]; 2]>,
     /// How far the axes of a group move, by the link from which it is seen.
-    moves: Vec<[Column; N]>,
+    pub(super) moves: Vec<[Column; N]>,
     /// The middles and the halves of the capsules' axes, of the groups that are placed.
     axes: Vec<[[Column; 3]; 2]>,
     is_placed: Vec<bool>,
-    /// Pairs that hulls are to decide, and the lanes, as bits.
-    doubts: Vec<(Doubt, u64)>,
+    /// What hulls are to decide, by its place among all that is looked at, and the lanes, as bits.
+    pub(super) doubts: Vec<(usize, u64)>,
+    pub(super) ways: Ways,
+    /// What touched last, by its place.
+    pub(super) last: usize,
 }
 
 impl<const N: usize> Block<N> {
@@ -47,22 +60,24 @@ impl<const N: usize> Block<N> {
             axes: vec![[[zero; 3]; 2]; outline.capsules.len()],
             is_placed: vec![false; groups],
             doubts: Vec::new(),
+            ways: Ways::default(),
+            last: 0,
         }
     }
 
-    /// Which of up to eight joint vectors, whose joints may turn by spans to either side [rad],
-    /// touch themselves or come nearer to an obstacle than the margin [m], as bits. Without spans
-    /// the answer is exact to rounding; with them all that do not are certain not to (eq. 2).
+    /// Which of up to eight joint vectors touch themselves or come nearer to an obstacle than the
+    /// margin [m], as bits, exact to rounding. Where joints turn, all that do not are certain not to
+    /// (eq. 2).
     pub(super) fn touching(
         &mut self,
         robot: &Robot<N>,
         outline: &Outline,
         cell: &Cell,
         q: &[[f64; N]],
-        spans: Option<&[[f64; N]]>,
+        looked: Looked<'_, N>,
     ) -> u64 {
         robot.frames(q, &mut self.frames);
-        if let Some(spans) = spans {
+        if let Looked::Swept(spans) = looked {
             for (lane, spans) in spans.iter().enumerate() {
                 for (column, span) in self.spans.iter_mut().zip(robot.table_spans(*spans)) {
                     column[lane] = span;
@@ -70,11 +85,11 @@ impl<const N: usize> Block<N> {
             }
         }
         let asked = ALL >> (LANES - q.len());
-        let swept = spans.is_some();
-        run_vectors(Touch { block: self, outline, cell, swept, asked })
+        let (swept, any) = (matches!(looked, Looked::Swept(_)), matches!(looked, Looked::Any));
+        run_vectors(Touch { block: self, outline, cell, swept, any, all: asked, asked })
     }
 
-    fn frame(&self, link: usize) -> &Axes<LANES> {
+    pub(super) fn frame(&self, link: usize) -> &Axes<LANES> {
         match link.checked_sub(1) {
             Some(joint) => &self.frames[joint],
             None => &self.base,
@@ -89,14 +104,18 @@ impl<const N: usize> Block<N> {
 }
 
 /// Whether lanes touch something.
-struct Touch<'a, const N: usize> {
-    block: &'a mut Block<N>,
-    outline: &'a Outline,
-    cell: &'a Cell,
+pub(super) struct Touch<'a, const N: usize> {
+    pub(super) block: &'a mut Block<N>,
+    pub(super) outline: &'a Outline,
+    pub(super) cell: &'a Cell,
     /// Whether joints turn by spans.
-    swept: bool,
+    pub(super) swept: bool,
+    /// Whether one lane that touches is enough.
+    pub(super) any: bool,
+    /// The lanes, as bits.
+    all: u64,
     /// The lanes in which nothing touches yet, as bits.
-    asked: u64,
+    pub(super) asked: u64,
 }
 
 impl<const N: usize> VectorKernel for Touch<'_, N> {
@@ -104,7 +123,6 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) -> u64 {
-        let asked = self.asked;
         self.block.doubts.clear();
         for group in 0..self.outline.groups.len() {
             self.block.is_placed[group] = false;
@@ -113,31 +131,47 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
                 self.moves(simd, group);
             }
         }
-        for pair in 0..self.outline.pairs.len() {
-            self.apart_of_links(simd, self.outline.pairs[pair]);
-            if self.asked == 0 {
-                return asked;
-            }
-        }
-        for obstacle in 0..self.cell.obstacles().len() {
-            for group in 0..self.outline.groups.len() {
+        let (pairs, groups) = (self.outline.pairs.len(), self.outline.groups.len());
+        let all = pairs + groups * self.cell.obstacles().len();
+        // If one is enough, what touched last is looked at first.
+        let mut at = if self.any && self.block.last < all { self.block.last } else { 0 };
+        let place = at.saturating_sub(pairs);
+        let (mut obstacle, mut group) = (place / groups.max(1), place % groups.max(1));
+        for left in (0..all).rev() {
+            if at < pairs {
+                self.apart_of_links(simd, at);
+            } else {
                 if self.cell.compares(obstacle, self.outline.groups[group].number) {
-                    self.apart_of_obstacle(simd, group, obstacle);
+                    self.apart_of_obstacle(simd, [group, obstacle], at);
                 }
+                (obstacle, group) =
+                    if group + 1 < groups { (obstacle, group + 1) } else { (obstacle + 1, 0) };
             }
-            if self.asked == 0 {
-                return asked;
+            if self.is_done() {
+                self.block.last = at;
+                break;
+            }
+            if self.any && left + 1 == all || left == 0 {
+                self.decide(simd);
+            }
+            at += 1;
+            if at == all {
+                (at, obstacle, group) = (0, 0, 0);
             }
         }
-        self.decide();
-        asked & !self.asked
+        self.all & !self.asked
     }
 }
 
 impl<const N: usize> Touch<'_, N> {
+    /// Whether nothing more is asked.
+    pub(super) fn is_done(&self) -> bool {
+        self.asked == 0 || self.any && self.asked != self.all
+    }
+
     /// A point of a link's frame.
     #[inline(always)]
-    fn placed<S: Simd>(&self, simd: S, link: usize, point: &Vector3<f64>) -> Point<S> {
+    pub(super) fn placed<S: Simd>(&self, simd: S, link: usize, point: &Vector3<f64>) -> Point<S> {
         let turned = self.turned(simd, link, point);
         let origin = load(simd, &self.block.frame(link).origin);
         [origin[0] + turned[0], origin[1] + turned[1], origin[2] + turned[2]]
@@ -223,7 +257,8 @@ impl<const N: usize> Touch<'_, N> {
 
     /// Look at two groups of capsules of the arm.
     #[inline(always)]
-    fn apart_of_links<S: Simd>(&mut self, simd: S, pair: [usize; 2]) {
+    fn apart_of_links<S: Simd>(&mut self, simd: S, at: usize) {
+        let pair = self.outline.pairs[at];
         let [one, other] = pair.map(|group| &self.outline.groups[group]);
         let moved = self.moved(simd, pair[1], one.link) + ROUNDING;
         let around = moved + (one.around.radius + other.around.radius);
@@ -268,12 +303,12 @@ impl<const N: usize> Touch<'_, N> {
                 self.asked &= !(doubtful & own.against_axis(&facing, limit, doubtful).near);
             }
         }
-        self.block.doubts.push((Doubt::Links(pair), doubtful));
+        self.block.doubts.push((at, doubtful));
     }
 
     /// Look at a group of capsules and an obstacle.
     #[inline(always)]
-    fn apart_of_obstacle<S: Simd>(&mut self, simd: S, group: usize, obstacle: usize) {
+    fn apart_of_obstacle<S: Simd>(&mut self, simd: S, [group, obstacle]: [usize; 2], at: usize) {
         let own = &self.outline.groups[group];
         let shape = &self.cell.obstacles()[obstacle].1;
         let margin = self.cell.margin() + ROUNDING;
@@ -309,7 +344,7 @@ impl<const N: usize> Touch<'_, N> {
             let decided = against_parts(&self.axis(simd, core), shape, limit, doubtful);
             self.asked &= !(doubtful & decided.near);
         }
-        self.block.doubts.push((Doubt::Obstacle(group, obstacle), doubtful));
+        self.block.doubts.push((at, doubtful));
     }
 
     /// The lanes in which two capsules touch, of those that bounds leave open.
@@ -333,38 +368,6 @@ impl<const N: usize> Touch<'_, N> {
             self.cell.obstacles()[at].1.is_within(&capsule, least.as_array()[lane])
         })
     }
-
-    /// Decide by hulls what is in doubt.
-    fn decide(&mut self) {
-        for at in 0..self.block.doubts.len() {
-            let (doubt, lanes) = self.block.doubts[at];
-            let touching = lanes_in(lanes & self.asked, |lane| {
-                let limit = ROUNDING
-                    + match doubt {
-                        Doubt::Links([from, group]) => {
-                            self.hulls_moved(group, self.outline.groups[from].link, lane)
-                        }
-                        Doubt::Obstacle(group, _) => {
-                            self.cell.margin() + self.hulls_moved(group, 0, lane)
-                        }
-                    };
-                let pose = |link| self.block.frame(link).pose(lane);
-                doubt.touches(self.outline, self.cell, pose, limit)
-            });
-            self.asked &= !touching;
-        }
-    }
-
-    /// How far points of hulls of a group move, seen from a link; zero for joint vectors (eq. 8).
-    fn hulls_moved(&self, group: usize, from: usize, lane: usize) -> f64 {
-        let own = &self.outline.groups[group];
-        if !self.swept || own.link <= from {
-            return 0.0;
-        }
-        let spans = self.block.spans[from..own.link].iter();
-        let farther = spans.map(|span| 1.0 + span[lane]).product::<f64>() - 1.0;
-        self.block.moves[group][from][lane] + own.beyond * farther
-    }
 }
 
 /// The lanes of some, as bits, for which something is so.
@@ -373,7 +376,7 @@ fn lanes_in(lanes: u64, is_so: impl Fn(usize) -> bool) -> u64 {
 }
 
 /// The numbers of the lanes in bits.
-fn bits(bits: u64) -> impl Iterator<Item = usize> {
+pub(super) fn bits(bits: u64) -> impl Iterator<Item = usize> {
     (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
 }
 

@@ -1,38 +1,129 @@
-//! Pairs of which capsules touch, decided by hulls (docs/theory/cell.md, hulls of links).
+//! What capsules leave in doubt, decided by hulls (docs/theory/cell.md, hulls of links).
 
-use super::obstacles::Cell;
-use crate::body::{Asked, Outline};
-use crate::kinematics::Pose;
+use core::array;
+use core::mem::take;
 
-/// Two whose capsules touch.
-#[derive(Clone, Copy)]
-pub(super) enum Doubt {
-    /// Two groups.
-    Links([usize; 2]),
-    /// A group and an obstacle.
-    Obstacle(usize, usize),
-}
+use fearless_simd::prelude::*;
 
-impl Doubt {
-    /// Whether hulls are as near as a limit [m], with the poses of links.
-    pub(super) fn touches(
-        self,
-        outline: &Outline,
-        cell: &Cell,
-        pose: impl Fn(usize) -> Pose,
-        limit: f64,
-    ) -> bool {
-        let asked = Asked::whether_above(limit);
-        let apart = match self {
-            Self::Links(pair) => {
-                let [one, other] = pair.map(|group| &outline.groups[group]);
-                one.separation(&pose(one.link), (other, &pose(other.link)), asked)
+use super::apart::{Plane, Point, load, minus, plane_to};
+use super::block::{Block, ROUNDING, Touch, bits};
+use crate::body::{Asked, RoundedHull, Way};
+use crate::lanes::{Column, Vector, dot};
+
+/// Numbers of ways between two groups: more hulls than these have some in common.
+const OF_TWO: usize = 11;
+
+impl<const N: usize> Touch<'_, N> {
+    /// Decide by hulls what is in doubt.
+    #[inline(always)]
+    pub(super) fn decide<S: Simd>(&mut self, simd: S) {
+        while let Some((at, lanes)) = self.block.doubts.pop() {
+            let pairs = &self.outline.pairs;
+            match pairs.get(at) {
+                Some(pair) => self.decide_links(simd, at, *pair, lanes),
+                None => self.decide_obstacle(simd, at, at - pairs.len(), lanes),
             }
-            Self::Obstacle(group, obstacle) => {
-                let (own, shape) = (&outline.groups[group], &cell.obstacles()[obstacle].1);
-                own.separation_of(&pose(own.link), shape, asked)
+        }
+    }
+
+    #[inline(always)]
+    fn decide_links<S: Simd>(&mut self, simd: S, at: usize, pair: [usize; 2], lanes: u64) {
+        let [one, other] = pair.map(|group| &self.outline.groups[group]);
+        let limits = array::from_fn(|lane| ROUNDING + self.hulls_moved(pair[1], one.link, lane));
+        let hulls = one.hulls.iter().flat_map(|own| other.hulls.iter().map(move |two| [own, two]));
+        for (number, [own, two]) in (OF_TWO * at..).zip(hulls) {
+            if lanes & self.asked == 0 || self.is_done() {
+                return;
             }
-        };
-        apart.distance <= limit
+            let center = self.placed(simd, other.link, two.center());
+            let way = minus(self.placed(simd, one.link, own.center()), center);
+            let reach = self.reach(simd, other.link, two, way);
+            let plane = Plane { way, reach, radius: two.radius() };
+            let open = lanes & !self.beyond(simd, one.link, own, &plane, &limits);
+            self.settle([at, number], open, &limits, |block, lane, asked, way| {
+                let [pose, to] = [one.link, other.link].map(|link| block.frame(link).pose(lane));
+                own.separation(&pose, (two, &to), asked, way).distance
+            });
+        }
+    }
+
+    #[inline(always)]
+    fn decide_obstacle<S: Simd>(&mut self, simd: S, at: usize, place: usize, lanes: u64) {
+        let groups = &self.outline.groups;
+        let (group, shape) = (place % groups.len(), &self.cell.obstacles()[place / groups.len()].1);
+        let (own, margin) = (&groups[group], ROUNDING + self.cell.margin());
+        let limits = array::from_fn(|lane| margin + self.hulls_moved(group, 0, lane));
+        for (number, hull) in (OF_TWO * at..).zip(&own.hulls) {
+            if lanes & self.asked == 0 || self.is_done() {
+                return;
+            }
+            let center = self.placed(simd, own.link, hull.center());
+            let beyond = plane_to(shape, center)
+                .map_or(0, |plane| self.beyond(simd, own.link, hull, &plane, &limits));
+            self.settle([at, number], lanes & !beyond, &limits, |block, lane, asked, way| {
+                let pose = block.frame(own.link).pose(lane);
+                shape.separation_of_hull(hull, &pose, asked, way).distance
+            });
+        }
+    }
+
+    /// Decide lanes of two hulls or a hull and a shape, the ways of which have a number, by their
+    /// distance: whether it is above a limit [m].
+    #[inline(always)]
+    fn settle(
+        &mut self,
+        [at, number]: [usize; 2],
+        lanes: u64,
+        limits: &Column,
+        distance: impl Fn(&Block<N>, usize, Asked, &mut Way) -> f64,
+    ) {
+        // Joint vectors that are near each other have ways in common.
+        let mut ways = take(&mut self.block.ways);
+        for lane in bits(lanes & self.asked) {
+            let asked = Asked::whether_above(limits[lane]);
+            let mut none = None;
+            let way = if self.swept || self.any { ways.of(number) } else { &mut none };
+            if !self.is_done() && distance(self.block, lane, asked, way) <= limits[lane] {
+                self.asked &= !(1 << lane);
+                self.block.last = at;
+            }
+        }
+        self.block.ways = ways;
+    }
+
+    /// How far the points of a hull of a link reach along ways, times their lengths.
+    #[inline(always)]
+    fn reach<S: Simd>(&self, simd: S, link: usize, hull: &RoundedHull, way: Point<S>) -> Vector<S> {
+        let frame = self.block.frame(link);
+        let own = [&frame.x, &frame.y, &frame.z].map(|axis| dot(way, load(simd, axis)));
+        dot(way, load(simd, &frame.origin)) + hull.reach(simd, &own)
+    }
+
+    /// The lanes in which a hull of a link is farther beyond a plane than a limit [m].
+    #[inline(always)]
+    fn beyond<S: Simd>(
+        &self,
+        simd: S,
+        link: usize,
+        hull: &RoundedHull,
+        plane: &Plane<S>,
+        limits: &Column,
+    ) -> u64 {
+        let back = plane.way.map(|component| -component);
+        let gap = -self.reach(simd, link, hull, back) - plane.reach;
+        let limit = Vector::load_array_ref(simd, limits) + (hull.radius() + plane.radius);
+        let is_far = (gap * gap).simd_gt(limit * limit * dot(back, back));
+        (gap.simd_gt(0.0) & is_far).to_bitmask()
+    }
+
+    /// How far points of hulls of a group move, seen from a link; zero for joint vectors (eq. 8).
+    fn hulls_moved(&self, group: usize, from: usize, lane: usize) -> f64 {
+        let own = &self.outline.groups[group];
+        if !self.swept || own.link <= from {
+            return 0.0;
+        }
+        let spans = self.block.spans[from..own.link].iter();
+        let farther = spans.map(|span| 1.0 + span[lane]).product::<f64>() - 1.0;
+        self.block.moves[group][from][lane] + own.beyond * farther
     }
 }

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::obstacles::Cell;
 use super::placed::{Placed, Standing};
-use crate::body::{Asked, Separation};
+use crate::body::Separation;
 
 /// A link and what it is compared with.
 #[derive(Clone, Copy)]
@@ -76,12 +76,10 @@ impl Cell {
                 if !own.has_hulls && !other.has_hulls {
                     return coarse;
                 }
-                own.separation(&pose, (other, &at.pose(other)), Asked::DISTANCE)
+                own.separation(&pose, (other, &at.pose(other)))
             }
             Other::Obstacle(_) if !own.has_hulls => return coarse,
-            Other::Obstacle(at) => {
-                own.separation_of(&pose, &self.obstacles()[at].1, Asked::DISTANCE)
-            }
+            Other::Obstacle(at) => own.separation_of(&pose, &self.obstacles()[at].1),
         };
         let touch = apart.points[0] == apart.points[1];
         if touch || apart.distance < coarse.distance { coarse } else { apart }

@@ -5,8 +5,8 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::array;
 
+use super::block::Looked;
 use super::obstacles::Cell;
 use super::placed::Placed;
 use super::postures::Nearest;
@@ -18,6 +18,9 @@ use crate::trajectory::Trajectory;
 
 /// Links that come nearer than this count as touching in a motion [m]: it bounds the halvings.
 pub const RESOLUTION: f64 = 1e-4;
+
+/// Parts of a motion that are tried first move anything at most so far [m].
+const LONG: f64 = 0.5;
 
 /// Postures at which the depth of a contact is measured until the end of its piece, and in all: one
 /// at the end of each piece that follows, while the two touch.
@@ -196,34 +199,35 @@ impl Cell {
         Some(Contact { at, q, nearest: self.named(first, &apart), depth })
     }
 
-    /// How much of the even motion from one joint vector to another is proven free, as a part of it
-    /// from 0 to 1; what comes nearer than `resolution` [m] counts as a contact.
-    #[expect(clippy::cast_precision_loss, reason = "up to the number of lanes")]
-    pub(crate) fn free_part<const N: usize>(
+    /// Whether a motion is proven free; what comes nearer than `resolution` [m] counts as a contact.
+    pub(crate) fn is_free<const N: usize, M: Motion<N> + ?Sized>(
         &self,
         placed: &mut Placed<'_, N>,
-        [from, to]: [&[f64; N]; 2],
+        motion: &M,
         resolution: f64,
-    ) -> f64 {
-        // A part for each lane.
-        let rows: [[f64; N]; LANES + 1] = array::from_fn(|row| {
-            let part = row as f64 / LANES as f64;
-            array::from_fn(|joint| from[joint] + part * (to[joint] - from[joint]))
-        });
-        match self.first_part(placed, &rows[..], resolution) {
-            Some(Part { piece, part }) => (piece as f64 + part[0]) / LANES as f64,
-            None => 1.0,
+    ) -> bool {
+        let mut left = Vec::new();
+        for piece in 0..motion.pieces() {
+            let most = placed.most_motion(motion.range(piece, [0.0, 1.0]).1);
+            let mut from = 0.0;
+            while from < 1.0 {
+                let to = if most > LONG { (from + LONG / most).min(1.0) } else { 1.0 };
+                left.push(Part { piece, part: [from, to] });
+                from = to;
+            }
         }
-    }
-
-    /// The first piece of a trajectory that is not free.
-    pub(crate) fn first_piece<const N: usize>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        motion: &Trajectory,
-        resolution: f64,
-    ) -> Option<usize> {
-        self.first_part(placed, motion, resolution).map(|part| part.piece)
+        while !left.is_empty() {
+            let next = left.split_off(left.len().saturating_sub(LANES));
+            let verdicts = self.verdicts(placed, motion, &next, resolution);
+            for (own, verdict) in next.iter().zip(verdicts) {
+                match verdict {
+                    Verdict::Free => {}
+                    Verdict::Open if !placed.interrupt.is_raised() => left.extend(own.halves()),
+                    _ => return false,
+                }
+            }
+        }
+        true
     }
 
     /// [`Self::first_part`], the start included.
@@ -334,7 +338,7 @@ impl Cell {
             (q[lane], spans[lane]) = motion.range(own.piece, own.part);
         }
         let (q, some) = (&q[..parts.len()], &spans[..parts.len()]);
-        let touching = placed.touching(self, q, Some(some));
+        let touching = placed.touching(self, q, Looked::Swept(some));
         core::array::from_fn(|lane| {
             if touching >> lane & 1 == 0 {
                 Verdict::Free

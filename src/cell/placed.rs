@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::block::Block;
+use super::block::{Block, Looked};
 use super::obstacles::Cell;
 use crate::body::{Capsule, Group, Outline};
 use crate::error::Error;
@@ -39,14 +39,14 @@ impl<'a, const N: usize> Placed<'a, N> {
     }
 
     /// Which of up to eight joint vectors touch something, as bits: [`Block::touching`].
-    pub(super) fn touching(
-        &mut self,
-        cell: &Cell,
-        q: &[[f64; N]],
-        spans: Option<&[[f64; N]]>,
-    ) -> u64 {
+    pub(super) fn touching(&mut self, cell: &Cell, q: &[[f64; N]], looked: Looked<'_, N>) -> u64 {
         debug_assert!(q.len() <= LANES);
-        self.block.touching(self.robot, self.outline, cell, q, spans)
+        self.block.touching(self.robot, self.outline, cell, q, looked)
+    }
+
+    /// Whether eight joint vectors are free.
+    pub(super) fn are_free(&mut self, cell: &Cell, q: &[[f64; N]; LANES]) -> bool {
+        self.touching(cell, q, Looked::Any) == 0
     }
 
     /// How far any axis of a capsule or point of a hull moves at most while the joints turn by spans [rad] [m].

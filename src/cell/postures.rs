@@ -2,9 +2,11 @@
 
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
+use core::array;
 use core::cell::RefCell;
 use core::fmt;
 
+use super::block::Looked;
 use super::obstacles::Cell;
 use super::pairs::{Other, Pair};
 use super::placed::Placed;
@@ -81,13 +83,29 @@ impl Cell {
         free
     }
 
+    /// Whether joint vectors in between are free: the first `blocks` of eight, spread over the way,
+    /// its end in the first one.
+    #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52")]
+    pub(crate) fn are_free<const N: usize>(
+        &self,
+        placed: &mut Placed<'_, N>,
+        blocks: usize,
+        at: impl Fn(f64) -> [f64; N],
+    ) -> bool {
+        (0..blocks).all(|block| {
+            let place = |lane| ((lane + 1) * blocks - block) as f64 / (blocks * LANES) as f64;
+            let q: [_; LANES] = array::from_fn(|lane| at(place(lane)));
+            placed.are_free(self, &q)
+        })
+    }
+
     /// Which of up to eight joint vectors collide, as bits.
     pub(crate) fn colliding<const N: usize>(
         &self,
         placed: &mut Placed<'_, N>,
         q: &[[f64; N]],
     ) -> u64 {
-        placed.touching(self, q, None)
+        placed.touching(self, q, Looked::All)
     }
 
     /// The link and the other link or obstacle that are nearest; `None` if there is nothing to

@@ -84,14 +84,20 @@ impl<const N: usize> Robot<N> {
         let pace = timed::Pace::new(self, options)?;
         let mut placed = Placed::of(self)?;
         let ends = ends::free_ends(self, cell, &mut placed, [start, goal])?;
-        let mut space = search::Space { robot: self, cell, placed };
-        let path = if let Some(path) = space.direct(&ends) {
-            path
-        } else {
+        let mut space = search::Space { robot: self, cell, placed, proves: false };
+        if let Some(motion) = space.direct(&ends, &pace)? {
+            return Ok(motion);
+        }
+        // What is free at states of it mostly is in between.
+        for proves in [false, true] {
+            space.proves = proves;
             let samples = samples::Samples::new(self, &ends, options.seed);
-            let path = space.path(ends, samples, interrupt)?;
-            space.shortened(&path, options.seed)
-        };
-        space.timed(&path, &pace)?.ok_or_else(|| GoFault::NotFound { samples: 0 }.into())
+            let path = space.path(ends.clone(), samples, interrupt)?;
+            let path = space.shortened(&path, options.seed);
+            if let Some(motion) = space.timed(&path, &pace)? {
+                return Ok(motion);
+            }
+        }
+        Err(GoFault::NotFound { samples: 0 }.into())
     }
 }

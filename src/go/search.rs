@@ -6,19 +6,24 @@ use core::array;
 use core::mem::swap;
 
 use super::samples::Samples;
+use super::timed::Pace;
 use super::tree::Tree;
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
 use crate::go::fault::GoFault;
 use crate::interrupt::Interrupt;
 use crate::kinematics::Robot;
-use crate::trajectory::distance;
+use crate::lanes::LANES;
+use crate::trajectory::{Trajectory, distance};
 
 /// Links that come nearer than this count as touching in the search [m].
 pub(super) const RESOLUTION: f64 = 1e-3;
 
 /// Length of an edge of a tree [rad].
 const STEP: f64 = 1.0;
+
+/// States of a motion are looked at that are at most so far apart [rad].
+const APART: f64 = 0.04;
 
 /// Even motions that are tried first.
 const DIRECT: usize = 16;
@@ -31,22 +36,44 @@ pub(super) struct Space<'a, const N: usize> {
     pub(super) robot: &'a Robot<N>,
     pub(super) cell: &'a Cell,
     pub(super) placed: Placed<'a, N>,
+    /// Whether each part of a path is proven, not only states of it looked at.
+    pub(super) proves: bool,
 }
 
 impl<const N: usize> Space<'_, N> {
-    /// How much of the even motion between two joint vectors is free, as a part of it.
-    pub(super) fn free_part(&mut self, from: &[f64; N], to: &[f64; N]) -> f64 {
-        self.cell.free_part(&mut self.placed, [from, to], RESOLUTION)
+    /// Whether the even motion between two joint vectors, the first of which is free, is free at
+    /// states of it, and proven free if that is asked.
+    pub(super) fn is_free(&mut self, from: &[f64; N], to: &[f64; N]) -> bool {
+        let at = |part| between(from, to, part);
+        self.are_free(distance(from, to), at)
+            && (!self.proves || self.cell.is_free(&mut self.placed, &[*from, *to][..], RESOLUTION))
     }
 
-    /// The shortest even motion from a start to a goal, of those that are free.
-    pub(super) fn direct(&mut self, [starts, goals]: &[Vec<[f64; N]>; 2]) -> Option<Vec<[f64; N]>> {
-        let goals = |start| goals.iter().map(move |goal| (distance(start, goal), [start, goal]));
+    /// Whether states of a motion are free, by its length [rad].
+    pub(super) fn are_free(&mut self, length: f64, at: impl Fn(f64) -> [f64; N]) -> bool {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let blocks = (length / (APART * LANES as f64)) as usize + 1;
+        self.cell.are_free(&mut self.placed, blocks, at)
+    }
+
+    /// The shortest even motion from a start to a goal, of those that are proven free.
+    pub(super) fn direct(
+        &mut self,
+        [starts, goals]: &[Vec<[f64; N]>; 2],
+        pace: &Pace<N>,
+    ) -> Result<Option<Trajectory>, Error> {
+        let goals = |start| goals.iter().map(move |goal| (distance(start, goal), [*start, *goal]));
         let mut both: Vec<_> = starts.iter().flat_map(goals).collect();
         both.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        let mut nearest = both.into_iter().take(DIRECT).map(|(_, ends)| ends);
-        let ends = nearest.find(|[start, goal]| self.free_part(start, goal) >= 1.0)?;
-        Some(ends.map(|q| *q).into())
+        for (_, [start, goal]) in both.into_iter().take(DIRECT) {
+            if self.is_free(&start, &goal) {
+                let motion = self.timed(&[start, goal], pace)?;
+                if motion.is_some() {
+                    return Ok(motion);
+                }
+            }
+        }
+        Ok(None)
     }
 
     /// A path from a start to a goal: even motions that are free.
@@ -62,10 +89,10 @@ impl<const N: usize> Space<'_, N> {
             samples += 1;
             let sample = from.next();
             if self.robot.limits().contains(&sample) {
-                let (node, _) = self.grown(&mut own, &sample, STEP);
+                let (node, _) = self.grown(&mut own, &sample, true);
                 if let Some(node) = node {
                     let target = *own.at(node);
-                    let (met, is_there) = self.grown(&mut other, &target, f64::INFINITY);
+                    let (met, is_there) = self.grown(&mut other, &target, false);
                     if let (Some(met), true) = (met, is_there) {
                         let mut path = own.to_root(node);
                         path.reverse();
@@ -85,29 +112,28 @@ impl<const N: usize> Space<'_, N> {
         Err(GoFault::NotFound { samples }.into())
     }
 
-    /// Add nodes from the nearest one of a tree towards a joint vector, as far as it is free and at
-    /// most `most` far [rad]: the last one, and whether that is where it was to go.
-    fn grown(&mut self, tree: &mut Tree<N>, to: &[f64; N], most: f64) -> (Option<usize>, bool) {
-        let mut node = tree.nearest(to);
-        let start = *tree.at(node);
-        let length = distance(&start, to);
-        if length == 0.0 {
-            return (Some(node), true);
-        }
-        let whole = (most / length).min(1.0);
-        let at =
-            |part: f64| array::from_fn(|joint| start[joint] + part * (to[joint] - start[joint]));
-        let end = if whole < 1.0 { at(whole) } else { *to };
-        let free = self.free_part(&start, &end);
-        let (mut last, mut part) = (None, STEP / length);
-        while part < free * whole {
-            node = tree.add(at(part), node);
+    /// Add nodes from the nearest one of a tree towards a joint vector, each a step from the last
+    /// one, as far as it is free or one only: the last one, and whether that is where it was to go.
+    fn grown(&mut self, tree: &mut Tree<N>, to: &[f64; N], one: bool) -> (Option<usize>, bool) {
+        let (mut node, mut last) = (tree.nearest(to), None);
+        loop {
+            let start = *tree.at(node);
+            let part = STEP / distance(&start, to);
+            let is_there = part >= 1.0;
+            let end = if is_there { *to } else { between(&start, to, part) };
+            if !self.is_free(&start, &end) {
+                return (last, false);
+            }
+            node = tree.add(end, node);
             last = Some(node);
-            part += STEP / length;
+            if is_there || one {
+                return (last, is_there);
+            }
         }
-        if free >= 1.0 {
-            last = Some(tree.add(end, node));
-        }
-        (last, free >= 1.0 && whole >= 1.0)
     }
+}
+
+/// The joint vector that is a part of the way from one to another.
+pub(super) fn between<const N: usize>(from: &[f64; N], to: &[f64; N], part: f64) -> [f64; N] {
+    array::from_fn(|joint| from[joint] + part * (to[joint] - from[joint]))
 }

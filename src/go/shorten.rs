@@ -1,10 +1,9 @@
 //! Shorter paths: waypoints left out, corners cut.
 
 use alloc::vec::Vec;
-use core::array;
 
 use super::samples::Halton;
-use super::search::Space;
+use super::search::{Space, between};
 use crate::trajectory::distance;
 
 /// Corners that are tried to be cut.
@@ -24,7 +23,7 @@ impl<const N: usize> Space<'_, N> {
             let [a, b] = places.next().map(|place| place * whole);
             let [(first, from), (last, to)] =
                 [a.min(b), a.max(b)].map(|at| point(&path, &lengths, at));
-            if first < last && self.free_part(&from, &to) >= 1.0 {
+            if first < last && self.is_free(&from, &to) {
                 path.splice(first + 1..=last, [from, to]);
             }
         }
@@ -37,7 +36,7 @@ impl<const N: usize> Space<'_, N> {
         let mut at = 0;
         while at + 1 < path.len() {
             let farther = (at + 2..path.len()).rev();
-            let next = farther.into_iter().find(|to| self.free_part(&path[at], &path[*to]) >= 1.0);
+            let next = farther.into_iter().find(|to| self.is_free(&path[at], &path[*to]));
             at = next.unwrap_or(at + 1);
             kept.push(path[at]);
         }
@@ -59,5 +58,5 @@ fn point<const N: usize>(path: &[[f64; N]], lengths: &[f64], at: f64) -> (usize,
     let side = lengths[1..lengths.len() - 1].partition_point(|length| *length <= at);
     let [from, to] = [&path[side], &path[side + 1]];
     let part = (at - lengths[side]) / (lengths[side + 1] - lengths[side]);
-    (side, array::from_fn(|joint| from[joint] + part * (to[joint] - from[joint])))
+    (side, between(from, to, part))
 }

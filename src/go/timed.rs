@@ -3,10 +3,11 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
+use alloc::vec;
 use alloc::vec::Vec;
 
 use super::GoOptions;
-use super::search::{RESOLUTION, Space};
+use super::search::{RESOLUTION, Space, between};
 use crate::cell;
 use crate::error::Error;
 use crate::kinematics::Robot;
@@ -87,34 +88,44 @@ impl<const N: usize> Space<'_, N> {
         path: &[[f64; N]],
         pace: &Pace<N>,
     ) -> Result<Option<Trajectory>, Error> {
-        let mut cuts = self.cuts(path);
-        loop {
+        let has_corners = path.len() > 2;
+        for proves in
+            [Some(self.proves), Some(true), None].into_iter().take(if has_corners { 3 } else { 1 })
+        {
+            let cuts = match proves {
+                Some(proves) => self.cuts(path, proves),
+                None => vec![0.0; path.len() - 2],
+            };
             let motion = pace.along(path, &cuts)?;
-            let contact = self.cell.first_piece(&mut self.placed, &motion, cell::RESOLUTION);
-            if contact.is_none() {
+            if self.cell.is_free(&mut self.placed, &motion, cell::RESOLUTION) {
                 return Ok(Some(motion));
             }
-            if cuts.iter().all(|cut| *cut == 0.0) {
-                return Ok(None);
-            }
-            cuts.fill(0.0);
         }
+        Ok(None)
     }
 
     /// How far before and behind each corner it is rounded, so that the path is free.
-    fn cuts(&mut self, path: &[[f64; N]]) -> Vec<f64> {
+    fn cuts(&mut self, path: &[[f64; N]], proves: bool) -> Vec<f64> {
         let sides: Vec<f64> = path.windows(2).map(|ends| distance(&ends[0], &ends[1])).collect();
         let mut cuts: Vec<f64> =
             sides.windows(2).map(|sides| LARGEST * sides[0].min(sides[1])).collect();
         for (corner, cut) in cuts.iter_mut().enumerate() {
-            let ends = &path[corner..corner + 3];
-            let is_free = |cut: &f64| {
-                let path = rounded(ends, &[*cut]);
-                self.cell.first_piece(&mut self.placed, &path, RESOLUTION).is_none()
+            let [before, at, behind] = [0, 1, 2].map(|place| path[corner + place]);
+            let mut is_free = |cut: &f64| {
+                let ends = [(&before, corner), (&behind, corner + 1)];
+                let [from, to] = ends.map(|(end, side)| between(&at, end, cut / sides[side]));
+                let is_free = self.are_free(2.0 * cut, |part| {
+                    between(&between(&from, &at, part), &between(&at, &to, part), part)
+                });
+                is_free && !proves
+                    || is_free && {
+                        let path = rounded(&[from, at, to], &[*cut]);
+                        self.cell.is_free(&mut self.placed, &path, RESOLUTION)
+                    }
             };
             let largest = *cut;
             let mut smaller = (0..HALVINGS).map(|halving| largest * 0.5_f64.powi(halving));
-            *cut = smaller.find(is_free).unwrap_or(0.0);
+            *cut = smaller.find(|cut| is_free(cut)).unwrap_or(0.0);
         }
         cuts
     }

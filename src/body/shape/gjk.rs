@@ -5,6 +5,8 @@
 //! that has been found to separate the two: whatever the procedure converges to, they are not
 //! nearer.
 
+use alloc::vec::Vec;
+
 use nalgebra::Vector3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -104,6 +106,29 @@ impl Asked {
     }
 }
 
+/// A direction across which planes separated two shapes before: a search that begins with it is
+/// short where they do again.
+pub(crate) type Way = Option<Vector3<f64>>;
+
+/// Numbers of ways that are kept.
+const WAYS: usize = 128;
+
+/// Ways that were found last, by numbers of two shapes. They change how long a search takes.
+#[derive(Clone, Default)]
+pub(crate) struct Ways(Vec<(usize, Way)>);
+
+impl Ways {
+    /// The way of a number.
+    pub(crate) fn of(&mut self, number: usize) -> &mut Way {
+        self.0.resize(WAYS, (0, None));
+        let (own, way) = &mut self.0[number % WAYS];
+        if *own != number {
+            (*own, *way) = (number, None);
+        }
+        way
+    }
+}
+
 /// At most four differences of points of the two shapes, of which the one nearest to the origin is
 /// a weighted mean.
 #[derive(Clone, Copy, Default)]
@@ -116,20 +141,22 @@ struct Simplex {
 }
 
 /// How far two shapes are apart, or what of it is asked; the nearest points. The distance is theirs
-/// or less. The search begins along a way from the other to the one.
+/// or less. The search begins along a way from the other to the one, and leaves the way across which
+/// planes separate the two the farthest.
 #[inline(always)]
 pub(super) fn nearest(
     one: &(impl Convex + ?Sized),
     other: &(impl Convex + ?Sized),
-    way: Vector3<f64>,
+    way: &mut Vector3<f64>,
     asked: Asked,
 ) -> (f64, [Vector3<f64>; 2]) {
     let mut simplex = Simplex::default();
-    let first = [one.support(&-way, None), other.support(&way, None)];
+    let first = [one.support(&-*way, None), other.support(way, None)];
     simplex.push(first);
     simplex.weights[0] = 1.0;
-    let (mut bound, mut last) = (0.0_f64, first);
-    for _ in 0..ROUNDS {
+    let (mut bound, mut last) = (0.0_f64.max(way.dot(&simplex.values[0]) / way.norm()), first);
+    let rounds = if bound > asked.far { 0 } else { ROUNDS };
+    for _ in 0..rounds {
         let nearest = simplex.mean(|at| simplex.values[at]);
         let length = nearest.norm();
         if length == 0.0 || length <= asked.near {
@@ -137,7 +164,10 @@ pub(super) fn nearest(
         }
         last = [one.support(&-nearest, Some(&last[0])), other.support(&nearest, Some(&last[1]))];
         let value = last[0] - last[1];
-        bound = bound.max(nearest.dot(&value) / length);
+        let own = nearest.dot(&value) / length;
+        if own > bound {
+            (bound, *way) = (own, nearest);
+        }
         let is_known = simplex.values[..simplex.count].contains(&value);
         if is_known || bound > asked.far || length - bound <= RELATIVE * length {
             break;

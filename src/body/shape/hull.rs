@@ -89,7 +89,7 @@ impl Hull {
     fn nearest(&self, capsule: &Capsule, asked: Asked) -> (f64, [Vector3<f64>; 2]) {
         let axis = &capsule.ends;
         let (one, other): (&dyn Convex, &dyn Convex) = (axis, self);
-        nearest(one, other, axis[0] - self.0.points[0], asked)
+        nearest(one, other, &mut (axis[0] - self.0.points[0]), asked)
     }
 }
 

@@ -6,7 +6,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::Separation;
 use super::cloud::Cloud;
-use super::gjk::{Asked, Convex, Framed, placed};
+use super::gjk::{Asked, Convex, Framed, Way, placed};
 use super::mesh::Mesh;
 use super::rounded::{ROUNDING, RoundedHull};
 use super::solid::Shape;
@@ -41,6 +41,7 @@ impl Shape {
         hull: &RoundedHull,
         pose: &Pose,
         asked: Asked,
+        way: &mut Way,
     ) -> Separation {
         let (middle, radius) = (hull.center_in(pose), hull.ball());
         if let Some((center, own)) = self.ball() {
@@ -49,10 +50,10 @@ impl Shape {
                 return Separation { distance, ..Separation::NOTHING };
             }
         }
-        let framed = |frame: &Pose, shape: &dyn Convex| {
+        let framed = |frame: &Pose, shape: &dyn Convex, way| {
             let center = frame.translation.vector;
             let shape = Framed { shape, pose: *frame };
-            hull.separation_of(pose, (&shape, 0.0, center), asked)
+            hull.separation_of(pose, (&shape, 0.0, center), asked, way)
         };
         let within = |frame: &Pose, look: &dyn Fn(&Pose) -> Separation| {
             look(&(frame.inverse() * *pose)).moved(frame)
@@ -60,7 +61,7 @@ impl Shape {
         match self {
             Self::Capsule(own) => {
                 let shape = (&own.ends as &dyn Convex, own.radius, own.ball().0);
-                hull.separation_of(pose, shape, asked)
+                hull.separation_of(pose, shape, asked, way)
             }
             Self::HalfSpace { normal, offset } => {
                 let lowest = Framed { shape: hull, pose: *pose }.support(&-normal, None);
@@ -68,11 +69,11 @@ impl Shape {
                 let from = lowest - normal * hull.radius();
                 Separation { distance, points: [from, from - normal * distance] }
             }
-            Self::Box { pose: frame, half } => framed(frame, &Cuboid(*half)),
+            Self::Box { pose: frame, half } => framed(frame, &Cuboid(*half), way),
             Self::Cylinder { pose: frame, radius, half } => {
-                framed(frame, &Cylinder(*radius, *half))
+                framed(frame, &Cylinder(*radius, *half), way)
             }
-            Self::Convex { pose: frame, hull: own } => framed(frame, own),
+            Self::Convex { pose: frame, hull: own } => framed(frame, own, way),
             Self::Mesh { pose: frame, mesh } => {
                 within(frame, &|pose| mesh.separation_of_hull(hull, pose, asked))
             }
@@ -80,7 +81,8 @@ impl Shape {
                 within(frame, &|pose| cloud.separation_of_hull(hull, pose, asked))
             }
             Self::Union(parts) => {
-                let each = parts.iter().map(|part| part.separation_of_hull(hull, pose, asked));
+                let each =
+                    parts.iter().map(|part| part.separation_of_hull(hull, pose, asked, &mut None));
                 let least = each.min_by(|a, b| a.distance.total_cmp(&b.distance));
                 least.unwrap_or(Separation::NOTHING)
             }
@@ -117,7 +119,7 @@ impl Cloud {
     fn separation_of_hull(&self, hull: &RoundedHull, pose: &Pose, asked: Asked) -> Separation {
         least((self.tree(), self.radius()), (hull, pose), asked, |index, asked| {
             let point = self.point(index);
-            hull.separation_of(pose, (&[point], self.radius(), point), asked)
+            hull.separation_of(pose, (&[point], self.radius(), point), asked, &mut None)
         })
     }
 }
@@ -132,7 +134,7 @@ impl Mesh {
         least((self.tree(), 0.0), (hull, pose), asked, |index, asked| {
             let triangle = self.triangle(index);
             let middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
-            hull.separation_of(pose, (triangle, 0.0, middle), asked)
+            hull.separation_of(pose, (triangle, 0.0, middle), asked, &mut None)
         })
     }
 }

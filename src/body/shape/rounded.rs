@@ -10,7 +10,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::{check_length, check_points};
-use super::gjk::{Asked, Convex, Framed, nearest, placed};
+use super::gjk::{Asked, Convex, Framed, Way, nearest, placed};
 use super::tree::Bounds;
 use crate::body::fault::BodyFault;
 use crate::error::Error;
@@ -210,27 +210,29 @@ impl RoundedHull {
         capsules.max_by(|one, two| one.volume().total_cmp(&two.volume()))
     }
 
-    /// How far it is in a frame from a convex shape of a radius, to which a way leads from a point.
+    /// How far it is in a frame from a convex shape of a radius around a point, by a known way.
     pub(super) fn separation_of(
         &self,
         pose: &Pose,
         (shape, radius, middle): (&dyn Convex, f64, Vector3<f64>),
         asked: Asked,
+        way: &mut Way,
     ) -> Separation {
         let radii = [self.radius(), radius];
-        let way = self.center_in(pose) - middle;
+        let way = way.get_or_insert_with(|| self.center_in(pose) - middle);
         let own = Framed { shape: self, pose: *pose };
         let asked = asked.without(radii[0] + radii[1]);
         let (distance, points) = nearest(&own as &dyn Convex, shape, way, asked);
         Separation::of_rounded(distance, points, radii)
     }
 
-    /// How far it is from another one, each in a frame.
+    /// How far it is from another one, each in a frame, by a way that is known in its own.
     pub(crate) fn separation(
         &self,
         pose: &Pose,
         (other, to): (&Self, &Pose),
         asked: Asked,
+        way: &mut Way,
     ) -> Separation {
         let between = self.center_in(pose) - other.center_in(to);
         let distance = between.norm() * (1.0 - ROUNDING) - self.ball() - other.ball();
@@ -241,10 +243,28 @@ impl RoundedHull {
         let (distance, points) = run_vectors(Between {
             hulls: [self, other],
             pose: inverse * *to,
-            way: inverse.rotation * between,
+            way: way.get_or_insert_with(|| inverse.rotation * between),
             asked: asked.without(radii[0] + radii[1]),
         });
         Separation::of_rounded(distance, points, radii).moved(pose)
+    }
+
+    /// How far its points reach along directions, times their lengths.
+    #[inline(always)]
+    pub(crate) fn reach<S: Simd>(&self, simd: S, way: &[Vector<S>; 3]) -> Vector<S> {
+        let mut most = Vector::splat(simd, f64::NEG_INFINITY);
+        for [x, y, z] in &self.0.columns {
+            for at in 0..LANES {
+                let along = way[1].scaled_plus(y[at], way[2] * z[at]);
+                most = most.max(way[0].scaled_plus(x[at], along));
+            }
+        }
+        most
+    }
+
+    /// The middle of its points [m].
+    pub(crate) fn center(&self) -> &Vector3<f64> {
+        &self.0.center
     }
 
     /// Its middle where its frame is.
@@ -278,7 +298,7 @@ impl VectorKernel for Farthest<'_> {
 struct Between<'a> {
     hulls: [&'a RoundedHull; 2],
     pose: Pose,
-    way: Vector3<f64>,
+    way: &'a mut Vector3<f64>,
     asked: Asked,
 }
 

@@ -264,7 +264,9 @@ impl Shape {
         Some(match self {
             Self::Capsule(own) => own.ball(),
             Self::Box { pose, half } => (pose.translation.vector, half.norm()),
-            Self::Cylinder { pose, radius, half } => (pose.translation.vector, radius.hypot(*half)),
+            Self::Cylinder { pose, radius, half } => {
+                (pose.translation.vector, (radius * radius + half * half).sqrt())
+            }
             Self::HalfSpace { .. } => return None,
             Self::Convex { pose, hull } => around(pose, hull.bounds(), 0.0),
             Self::Mesh { pose, mesh } => around(pose, mesh.bounds(), 0.0),
