@@ -110,14 +110,22 @@ impl<S: Simd> Axis<S> {
         if asked & !decided.lanes() == 0 {
             return decided;
         }
-        let b = dot(one, two);
+        let (way, [first, second]) = self.way_from(other);
+        let gaps = gap(dot(one, way), first) + gap(-dot(two, way), second);
+        decided.or(decide(dot(way, way), gaps, limit))
+    }
+
+    /// The way between the points at which it and another axis are nearest, by their parts.
+    #[inline(always)]
+    pub(super) fn way_from(&self, other: &Self) -> (Point<S>, [Vector<S>; 2]) {
+        let (one, two) = (self.half, other.half);
+        let between = minus(self.middle, other.middle);
+        let (b, c, f) = (dot(one, two), dot(one, between), dot(two, between));
         let across = (-(b * b) + self.square * other.square).max(f64::MIN_POSITIVE);
         let first = clamped((b * f - c * other.square) / across);
         let second = clamped(b.times_plus(first, f) * other.inverse());
         let first = clamped(b.times_minus(second, c) * self.inverse());
-        let way = at(at(between, one, first), two, -second);
-        let gaps = gap(dot(one, way), first) + gap(-dot(two, way), second);
-        decided.or(decide(dot(way, way), gaps, limit))
+        (at(at(between, one, first), two, -second), [first, second])
     }
 
     /// Compare the distance from a solid around the origin of a frame with a limit [m], in the
@@ -254,25 +262,31 @@ pub(super) struct Plane<S: Simd> {
     pub(super) radius: f64,
 }
 
-/// The plane through the nearest point of a convex solid to a point.
+/// The plane across the way from a convex solid to an axis.
 #[inline(always)]
-pub(super) fn plane_to<S: Simd>(shape: &Shape, point: Point<S>) -> Option<Plane<S>> {
-    let simd = point[0].token();
+pub(super) fn plane_to<S: Simd>(shape: &Shape, axis: &Axis<S>) -> Option<Plane<S>> {
+    let simd = axis.middle[0].token();
     match shape {
         Shape::HalfSpace { normal, offset } => {
             let (way, reach) = (constant(simd, normal), Vector::splat(simd, *offset));
             Some(Plane { way, reach, radius: 0.0 })
         }
         Shape::Capsule(own) => {
-            let axis = Axis::of(simd, &Centered::of(own));
-            let part = clamped(dot(axis.half, minus(point, axis.middle)) * axis.inverse());
-            let way = minus(point, at(axis.middle, axis.half, part));
-            let reach = dot(way, axis.middle) + dot(way, axis.half).size();
+            let other = Axis::of(simd, &Centered::of(own));
+            let (way, _) = axis.way_from(&other);
+            let reach = dot(way, other.middle) + dot(way, other.half).size();
             Some(Plane { way, reach, radius: own.radius })
         }
         _ => {
             let (solid, pose) = Solid::of(shape)?;
-            let local = solid.way_to(pose, point);
+            let half = in_frame(axis.half, pose);
+            let mut local = solid.way_to(pose, axis.middle);
+            let mut part = half[0].like(0.0);
+            for _ in 0..2 {
+                let bend = solid.bend(half, local).max(f64::MIN_POSITIVE);
+                part = clamped(part - dot(half, local) / bend);
+                local = solid.way_to(pose, at(axis.middle, axis.half, part));
+            }
             let way = in_frame(local, &pose.inverse());
             let origin = constant(simd, &pose.translation.vector);
             Some(Plane { way, reach: dot(way, origin) + solid.reach(local), radius: 0.0 })
@@ -285,21 +299,17 @@ pub(super) fn plane_to<S: Simd>(shape: &Shape, point: Point<S>) -> Option<Plane<
 #[inline(always)]
 pub(super) fn ball_beyond<S: Simd>(shape: &Shape, center: Point<S>, limit: Vector<S>) -> u64 {
     let simd = limit.token();
-    match shape {
-        Shape::HalfSpace { normal, offset } => {
-            dot(center, constant(simd, normal)).simd_gt(limit + *offset).to_bitmask()
-        }
-        _ => {
-            let (way, limit) = if let Some((solid, pose)) = Solid::of(shape) {
-                (solid.way_to(pose, center), limit)
-            } else if let Some((around, radius)) = shape.ball() {
-                (minus(center, constant(simd, &around)), limit + radius)
-            } else {
-                return 0;
-            };
-            dot(way, way).simd_gt(limit * limit).to_bitmask()
-        }
+    if let Shape::HalfSpace { normal, offset } = shape {
+        return dot(center, constant(simd, normal)).simd_gt(limit + *offset).to_bitmask();
     }
+    let (way, limit) = if let Some((solid, pose)) = Solid::of(shape) {
+        (solid.way_to(pose, center), limit)
+    } else if let Some((around, radius)) = shape.ball() {
+        (minus(center, constant(simd, &around)), limit + radius)
+    } else {
+        return 0;
+    };
+    dot(way, way).simd_gt(limit * limit).to_bitmask()
 }
 
 /// Compare the distance of an axis from all parts of a shape with a limit [m], in the lanes that are

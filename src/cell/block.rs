@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use super::apart::{ALL, Axis, Point, against_parts, ball_beyond, load, minus};
 use super::obstacles::Cell;
-use crate::body::{Capsule, Group, Outline, Ways};
+use crate::body::{Capsule, Group, Outline, Way};
 use crate::kinematics::{Axes, Robot};
 use crate::lanes::{Column, LANES, Number as _, Vector, VectorKernel, cross, dot, run_vectors};
 
@@ -42,7 +42,8 @@ pub(crate) struct Block<const N: usize> {
     is_placed: Vec<bool>,
     /// What hulls are to decide, by its place among all that is looked at, and the lanes, as bits.
     pub(super) doubts: Vec<(usize, u64)>,
-    pub(super) ways: Ways,
+    /// Ways that hulls were apart along, with the numbers of two.
+    pub(super) ways: Vec<(usize, Way)>,
     /// What touched last, by its place.
     pub(super) last: usize,
 }
@@ -60,7 +61,7 @@ impl<const N: usize> Block<N> {
             axes: vec![[[zero; 3]; 2]; outline.capsules.len()],
             is_placed: vec![false; groups],
             doubts: Vec::new(),
-            ways: Ways::default(),
+            ways: Vec::new(),
             last: 0,
         }
     }
@@ -179,7 +180,7 @@ impl<const N: usize> Touch<'_, N> {
 
     /// A direction of a link's frame.
     #[inline(always)]
-    fn turned<S: Simd>(&self, simd: S, link: usize, way: &Vector3<f64>) -> Point<S> {
+    pub(super) fn turned<S: Simd>(&self, simd: S, link: usize, way: &Vector3<f64>) -> Point<S> {
         let frame = self.block.frame(link);
         let (x, y, z) = (load(simd, &frame.x), load(simd, &frame.y), load(simd, &frame.z));
         [

@@ -1,17 +1,22 @@
 //! What capsules leave in doubt, decided by hulls (docs/theory/cell.md, hulls of links).
 
+use alloc::vec::Vec;
 use core::array;
 use core::mem::take;
 
 use fearless_simd::prelude::*;
+use nalgebra::Vector3;
 
-use super::apart::{Plane, Point, load, minus, plane_to};
+use super::apart::{Axis, Plane, Point, load, minus, plane_to};
 use super::block::{Block, ROUNDING, Touch, bits};
-use crate::body::{Asked, RoundedHull, Way};
+use crate::body::{Asked, Centered, RoundedHull, Way};
 use crate::lanes::{Column, Vector, dot};
 
 /// Numbers of ways between two groups: more hulls than these have some in common.
 const OF_TWO: usize = 11;
+
+/// Ways that are kept.
+const WAYS: usize = 128;
 
 impl<const N: usize> Touch<'_, N> {
     /// Decide by hulls what is in doubt.
@@ -35,11 +40,20 @@ impl<const N: usize> Touch<'_, N> {
             if lanes & self.asked == 0 || self.is_done() {
                 return;
             }
+            let facing = self.axis_in(simd, other.link, two);
+            let axis = self.axis_in(simd, one.link, own);
             let center = self.placed(simd, other.link, two.center());
-            let way = minus(self.placed(simd, one.link, own.center()), center);
-            let reach = self.reach(simd, other.link, two, way);
-            let plane = Plane { way, reach, radius: two.radius() };
-            let open = lanes & !self.beyond(simd, one.link, own, &plane, &limits);
+            let mut way = minus(self.placed(simd, one.link, own.center()), center);
+            let mut open = lanes & self.asked;
+            for _ in 0..2 {
+                let reach = self.reach(simd, other.link, two, way);
+                let plane = Plane { way, reach, radius: two.radius() };
+                open &= !self.beyond(simd, one.link, own, &plane, &limits);
+                if open == 0 {
+                    break;
+                }
+                way = axis.way_from(&facing).0;
+            }
             self.settle([at, number], open, &limits, |block, lane, asked, way| {
                 let [pose, to] = [one.link, other.link].map(|link| block.frame(link).pose(lane));
                 own.separation(&pose, (two, &to), asked, way).distance
@@ -57,8 +71,7 @@ impl<const N: usize> Touch<'_, N> {
             if lanes & self.asked == 0 || self.is_done() {
                 return;
             }
-            let center = self.placed(simd, own.link, hull.center());
-            let beyond = plane_to(shape, center)
+            let beyond = plane_to(shape, &self.axis_in(simd, own.link, hull))
                 .map_or(0, |plane| self.beyond(simd, own.link, hull, &plane, &limits));
             self.settle([at, number], lanes & !beyond, &limits, |block, lane, asked, way| {
                 let pose = block.frame(own.link).pose(lane);
@@ -82,13 +95,23 @@ impl<const N: usize> Touch<'_, N> {
         for lane in bits(lanes & self.asked) {
             let asked = Asked::whether_above(limits[lane]);
             let mut none = None;
-            let way = if self.swept || self.any { ways.of(number) } else { &mut none };
+            let way = if self.swept || self.any { of(&mut ways, number) } else { &mut none };
             if !self.is_done() && distance(self.block, lane, asked, way) <= limits[lane] {
                 self.asked &= !(1 << lane);
                 self.block.last = at;
             }
         }
         self.block.ways = ways;
+    }
+
+    /// The axis of the capsule inside of a hull of a link, or its middle.
+    #[inline(always)]
+    fn axis_in<S: Simd>(&self, simd: S, link: usize, hull: &RoundedHull) -> Axis<S> {
+        let core = hull.core().map(Centered::of);
+        let (center, half) =
+            core.map_or((*hull.center(), Vector3::zeros()), |core| (core.center, core.half));
+        let middle = self.placed(simd, link, &center);
+        Axis::new(middle, self.turned(simd, link, &half), half.norm_squared())
     }
 
     /// How far the points of a hull of a link reach along ways, times their lengths.
@@ -126,4 +149,14 @@ impl<const N: usize> Touch<'_, N> {
         let farther = spans.map(|span| 1.0 + span[lane]).product::<f64>() - 1.0;
         self.block.moves[group][from][lane] + own.beyond * farther
     }
+}
+
+/// The way of a number.
+fn of(ways: &mut Vec<(usize, Way)>, number: usize) -> &mut Way {
+    ways.resize(WAYS, (0, None));
+    let (own, way) = &mut ways[number % WAYS];
+    if *own != number {
+        (*own, *way) = (number, None);
+    }
+    way
 }

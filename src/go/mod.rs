@@ -9,6 +9,8 @@ mod shorten;
 mod timed;
 mod tree;
 
+use alloc::vec::Vec;
+
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
 use crate::go::fault::GoFault;
@@ -89,12 +91,15 @@ impl<const N: usize> Robot<N> {
             return Ok(motion);
         }
         // What is free at states of it mostly is in between.
-        for proves in [false, true] {
+        let mut path = Vec::new();
+        for (seeks, proves) in [(true, false), (false, true), (true, true)] {
             space.proves = proves;
-            let samples = samples::Samples::new(self, &ends, options.seed);
-            let path = space.path(ends.clone(), samples, interrupt)?;
-            let path = space.shortened(&path, options.seed);
-            if let Some(motion) = space.timed(&path, &pace)? {
+            if seeks {
+                let samples = samples::Samples::new(self, &ends, options.seed);
+                path = space.path(ends.clone(), samples, interrupt)?;
+            }
+            let shorter = space.shortened(&path, options.seed);
+            if let Some(motion) = space.timed(&shorter, &pace)? {
                 return Ok(motion);
             }
         }

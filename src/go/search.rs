@@ -6,15 +6,13 @@ use core::array;
 use core::mem::swap;
 
 use super::samples::Samples;
-use super::timed::Pace;
 use super::tree::Tree;
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
 use crate::go::fault::GoFault;
 use crate::interrupt::Interrupt;
 use crate::kinematics::Robot;
-use crate::lanes::LANES;
-use crate::trajectory::{Trajectory, distance};
+use crate::trajectory::distance;
 
 /// Links that come nearer than this count as touching in the search [m].
 pub(super) const RESOLUTION: f64 = 1e-3;
@@ -22,11 +20,8 @@ pub(super) const RESOLUTION: f64 = 1e-3;
 /// Length of an edge of a tree [rad].
 const STEP: f64 = 1.0;
 
-/// States of a motion are looked at that are at most so far apart [rad].
-const APART: f64 = 0.04;
-
-/// Even motions that are tried first.
-const DIRECT: usize = 16;
+/// Length of a motion of which eight states are looked at: they are at most 0.04 rad apart [rad].
+const BLOCK: f64 = 0.32;
 
 /// Most nodes of both trees: they fill 13 MB.
 const MOST_NODES: usize = 200_000;
@@ -52,28 +47,8 @@ impl<const N: usize> Space<'_, N> {
     /// Whether states of a motion are free, by its length [rad].
     pub(super) fn are_free(&mut self, length: f64, at: impl Fn(f64) -> [f64; N]) -> bool {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        let blocks = (length / (APART * LANES as f64)) as usize + 1;
+        let blocks = (length / BLOCK) as usize + 1;
         self.cell.are_free(&mut self.placed, blocks, at)
-    }
-
-    /// The shortest even motion from a start to a goal, of those that are proven free.
-    pub(super) fn direct(
-        &mut self,
-        [starts, goals]: &[Vec<[f64; N]>; 2],
-        pace: &Pace<N>,
-    ) -> Result<Option<Trajectory>, Error> {
-        let goals = |start| goals.iter().map(move |goal| (distance(start, goal), [*start, *goal]));
-        let mut both: Vec<_> = starts.iter().flat_map(goals).collect();
-        both.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        for (_, [start, goal]) in both.into_iter().take(DIRECT) {
-            if self.is_free(&start, &goal) {
-                let motion = self.timed(&[start, goal], pace)?;
-                if motion.is_some() {
-                    return Ok(motion);
-                }
-            }
-        }
-        Ok(None)
     }
 
     /// A path from a start to a goal: even motions that are free.

@@ -15,8 +15,14 @@ use crate::trajectory::{
     AxisLimits, Profile, Synchronization, Trajectory, distance, joint_within, paced, rounded,
 };
 
+/// Even motions that are tried first.
+const DIRECT: usize = 16;
+
 /// How much of a side a rounded corner takes at most [1].
 const LARGEST: f64 = 0.45;
+
+/// How far the sides of a corner are looked at, as a part of what it takes of them [1].
+const BEYOND: f64 = 1.1;
 
 /// Halvings of a corner, after which the motion stops there.
 const HALVINGS: i32 = 6;
@@ -82,16 +88,34 @@ impl<const N: usize> Pace<N> {
 }
 
 impl<const N: usize> Space<'_, N> {
+    /// The shortest even motion from a start to a goal, of those that are proven free.
+    pub(super) fn direct(
+        &mut self,
+        [starts, goals]: &[Vec<[f64; N]>; 2],
+        pace: &Pace<N>,
+    ) -> Result<Option<Trajectory>, Error> {
+        let goals = |start| goals.iter().map(move |goal| (distance(start, goal), [*start, *goal]));
+        let mut both: Vec<_> = starts.iter().flat_map(goals).collect();
+        both.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        for (_, [start, goal]) in both.into_iter().take(DIRECT) {
+            if self.is_free(&start, &goal) {
+                let motion = self.timed(&[start, goal], pace)?;
+                if motion.is_some() {
+                    return Ok(motion);
+                }
+            }
+        }
+        Ok(None)
+    }
+
     /// The motion along a path that is proven free.
     pub(super) fn timed(
         &mut self,
         path: &[[f64; N]],
         pace: &Pace<N>,
     ) -> Result<Option<Trajectory>, Error> {
-        let has_corners = path.len() > 2;
-        for proves in
-            [Some(self.proves), Some(true), None].into_iter().take(if has_corners { 3 } else { 1 })
-        {
+        let known = if path.len() == 2 { 2 } else { usize::from(self.proves) };
+        for proves in [Some(false), Some(true), None].into_iter().skip(known) {
             let cuts = match proves {
                 Some(proves) => self.cuts(path, proves),
                 None => vec![0.0; path.len() - 2],
@@ -112,16 +136,15 @@ impl<const N: usize> Space<'_, N> {
         for (corner, cut) in cuts.iter_mut().enumerate() {
             let [before, at, behind] = [0, 1, 2].map(|place| path[corner + place]);
             let mut is_free = |cut: &f64| {
-                let ends = [(&before, corner), (&behind, corner + 1)];
-                let [from, to] = ends.map(|(end, side)| between(&at, end, cut / sides[side]));
-                let is_free = self.are_free(2.0 * cut, |part| {
-                    between(&between(&from, &at, part), &between(&at, &to, part), part)
-                });
-                is_free && !proves
-                    || is_free && {
-                        let path = rounded(&[from, at, to], &[*cut]);
+                let from = |part: f64| between(&at, &before, part * cut / sides[corner]);
+                let to = |part: f64| between(&at, &behind, part * cut / sides[corner + 1]);
+                let is_free =
+                    self.are_free(2.0 * cut, |part| between(&from(1.0 - part), &to(part), part));
+                is_free
+                    && (!proves || {
+                        let path = rounded(&[from(BEYOND), at, to(BEYOND)], &[*cut]);
                         self.cell.is_free(&mut self.placed, &path, RESOLUTION)
-                    }
+                    })
             };
             let largest = *cut;
             let mut smaller = (0..HALVINGS).map(|halving| largest * 0.5_f64.powi(halving));

@@ -5,8 +5,6 @@
 //! that has been found to separate the two: whatever the procedure converges to, they are not
 //! nearer.
 
-use alloc::vec::Vec;
-
 use nalgebra::Vector3;
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -109,25 +107,6 @@ impl Asked {
 /// A direction across which planes separated two shapes before: a search that begins with it is
 /// short where they do again.
 pub(crate) type Way = Option<Vector3<f64>>;
-
-/// Numbers of ways that are kept.
-const WAYS: usize = 128;
-
-/// Ways that were found last, by numbers of two shapes. They change how long a search takes.
-#[derive(Clone, Default)]
-pub(crate) struct Ways(Vec<(usize, Way)>);
-
-impl Ways {
-    /// The way of a number.
-    pub(crate) fn of(&mut self, number: usize) -> &mut Way {
-        self.0.resize(WAYS, (0, None));
-        let (own, way) = &mut self.0[number % WAYS];
-        if *own != number {
-            (*own, *way) = (number, None);
-        }
-        way
-    }
-}
 
 /// At most four differences of points of the two shapes, of which the one nearest to the origin is
 /// a weighted mean.
