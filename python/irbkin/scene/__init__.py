@@ -16,6 +16,7 @@ True
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from irbkin.scene._arms import arm_of
@@ -60,20 +61,15 @@ __all__ = [
 ]
 
 
-def _view(scene: Scene, height: int) -> View:
-    from irbkin.scene._widget import View
-
-    return View(scene, height=height)
-
-
-def _record(scene: Scene, path: str) -> None:
-    from irbkin.scene._rerun import write
-
-    write(scene, path)
+def _late(module: str, name: str) -> Any:
+    """A face that needs an extra, imported when it is first asked for."""
+    return lambda *own, **more: getattr(import_module(module), name)(*own, **more)
 
 
 # A scene is data: it does not know the faces that know it.
-FACES.update({".html": page, ".htm": page, ".svg": of_scene, ".rrd": _record, "view": _view})
+FACES.update({".html": page, ".htm": page, ".svg": of_scene})
+FACES[".rrd"] = _late("irbkin.scene._rerun", "write")
+FACES["view"] = _late("irbkin.scene._widget", "View")
 
 
 def __getattr__(name: str) -> Any:

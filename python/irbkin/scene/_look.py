@@ -14,13 +14,8 @@ if TYPE_CHECKING:
 # Seen from the front on the right, from above.
 AZIMUTH, ELEVATION = np.radians([-29.0, 20.0])
 SIDEWAYS = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
-UPWARD = np.array(
-    [
-        -np.sin(ELEVATION) * np.cos(AZIMUTH),
-        -np.sin(ELEVATION) * np.sin(AZIMUTH),
-        np.cos(ELEVATION),
-    ]
-)
+LEVEL = np.array([np.cos(AZIMUTH), np.sin(AZIMUTH), 0.0])
+UPWARD = np.cos(ELEVATION) * np.array([0.0, 0.0, 1.0]) - np.sin(ELEVATION) * LEVEL
 TOWARD = np.cross(SIDEWAYS, UPWARD)
 LIGHT = SIDEWAYS * -0.35 + UPWARD * 0.75 + TOWARD * 0.56
 """The direction to the light, of length 1."""

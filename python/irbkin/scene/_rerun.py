@@ -142,11 +142,9 @@ def _log_marks(recording: rr.RecordingStream, marks: Iterable[Mark]) -> None:
 
 
 def _mesh(mesh: Any, color: Any) -> rr.Mesh3D:
-    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-    normals = np.asarray(mesh.vertex_normals)
     return rr.Mesh3D(
-        vertex_positions=vertices,
-        triangle_indices=faces,
-        vertex_normals=normals,
+        vertex_positions=np.asarray(mesh.vertices),
+        triangle_indices=np.asarray(mesh.faces),
+        vertex_normals=np.asarray(mesh.vertex_normals),
         albedo_factor=list(color),
     )

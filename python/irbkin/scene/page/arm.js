@@ -54,7 +54,7 @@ class DrawnArm {
     const frames = [this.base];
     this.links.forEach((link, joint) => {
       const turn = joint === 2 ? q[2] + this.coupling * q[1] : q[joint];
-      frames.push(chain(frames.at(-1), link, aboutZ(turn)));
+      frames.push(chain(frames.at(-1), link, about([0, 0, 1], turn)));
     });
     const last = frames.at(-1);
     return { links: [...frames, last], tool: multiply(last, this.tool) };

@@ -21,9 +21,7 @@ class Camera {
   }
 
   get right() { return unit(cross(this.forward, [0, 0, 1])); }
-
   get up() { return cross(this.right, this.forward); }
-
   get eye() { return subtract(this.target, scale(this.forward, this.distance)); }
 
   turn(dx, dy) {

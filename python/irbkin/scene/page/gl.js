@@ -239,7 +239,7 @@ class GlDrawing {
       own = {
         position: this.buffer(new Float32Array(mesh.position), gl.ARRAY_BUFFER),
         normal: this.buffer(new Float32Array(mesh.normal), gl.ARRAY_BUFFER),
-        index: this.buffer(new Uint16Array(mesh.index), gl.ELEMENT_ARRAY_BUFFER),
+        index: this.buffer(new Uint32Array(mesh.index), gl.ELEMENT_ARRAY_BUFFER),
       };
       this.buffers.set(mesh, own);
     }
@@ -253,7 +253,7 @@ class GlDrawing {
     this.bind(0, own.position);
     this.bind(1, own.normal);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, own.index);
-    gl.drawElements(gl.TRIANGLES, mesh.index.length, gl.UNSIGNED_SHORT, 0);
+    gl.drawElements(gl.TRIANGLES, mesh.index.length, gl.UNSIGNED_INT, 0);
   }
 
   // Meshes through which one sees, behind what is at the same place: of them, one at each pixel.

@@ -40,14 +40,6 @@ function inverse(m) {
   return back;
 }
 
-function aboutZ(angle) {
-  const m = identity();
-  m[0] = m[5] = Math.cos(angle);
-  m[1] = Math.sin(angle);
-  m[4] = -m[1];
-  return m;
-}
-
 // The turn about a unit vector.
 function about(axis, angle) {
   const [x, y, z] = axis;

@@ -157,35 +157,21 @@ function cylinderMesh({ radius, length: long }) {
 }
 
 function boxMesh({ size }) {
-  const mesh = { position: [], normal: [], index: [] };
-  for (let axis = 0; axis < 3; axis++) {
-    for (const side of [-1, 1]) {
-      const begin = mesh.position.length / 3;
-      for (const [u, v] of [[-1, -1], [1, -1], [-1, 1], [1, 1]]) {
-        const corner = [0, 0, 0];
-        [corner[axis], corner[(axis + 1) % 3], corner[(axis + 2) % 3]] = [side, u, v];
-        mesh.position.push(...corner.map((it, i) => (it * size[i]) / 2));
-        const normal = [0, 0, 0];
-        normal[axis] = side;
-        mesh.normal.push(...normal);
-      }
-      mesh.index.push(begin, begin + 1, begin + 2, begin + 2, begin + 1, begin + 3);
-    }
-  }
-  return mesh;
+  const corner = (at) => size.map((it, axis) => (((at >> axis) & 1) - 0.5) * it);
+  return trianglesMesh([0, 1, 2].flatMap((axis) => [0, 1].flatMap((side) => {
+    const [u, v] = [1, 2].map((it) => 1 << ((axis + (side ? it : 3 - it)) % 3));
+    const a = side << axis;
+    return [[a, a + u, a + v], [a + u, a + u + v, a + v]].map((it) => it.map(corner));
+  })));
 }
 
 function trianglesMesh(triangles) {
-  const mesh = { position: [], normal: [], index: [] };
-  for (const [a, b, c] of triangles) {
-    const normal = unit(cross(subtract(b, a), subtract(c, a)));
-    for (const corner of [a, b, c]) {
-      mesh.index.push(mesh.position.length / 3);
-      mesh.position.push(...corner);
-      mesh.normal.push(...normal);
-    }
-  }
-  return mesh;
+  const position = triangles.flat(2);
+  const normal = triangles.flatMap(([a, b, c]) => {
+    const own = unit(cross(subtract(b, a), subtract(c, a)));
+    return [...own, ...own, ...own];
+  });
+  return { position, normal, index: triangles.flatMap((_, at) => [3 * at, 3 * at + 1, 3 * at + 2]) };
 }
 
 // The meshes of a shape as `irbkin.body.Shape.data` has it, each with its pose.
@@ -197,16 +183,9 @@ function shapeMeshes(shape) {
     case "cylinder": return [[pose, cylinderMesh(shape)]];
     case "sphere": return [[pose, ball(shape.center, shape.radius)]];
     case "capsule": return [[pose, capsuleMesh(shape)]];
-    case "mesh": {
-      // An index has 16 bits.
-      const parts = [];
-      for (let at = 0; at < shape.triangles.length; at += 20000) {
-        parts.push([pose, trianglesMesh(shape.triangles.slice(at, at + 20000))]);
-      }
-      return parts;
-    }
-    case "convex": return [[pose, joined(shape.points.slice(0, 250).map((it) => ball(it, 0.01)))]];
-    case "points": return [[pose, joined(shape.points.slice(0, 250).map((it) => ball(it, shape.radius)))]];
+    case "mesh": return [[pose, trianglesMesh(shape.triangles)]];
+    case "convex":
+    case "points": return [[pose, joined(shape.points.slice(0, 250).map((it) => ball(it, shape.radius ?? 0.01)))]];
     case "union": return shape.shapes.flatMap(shapeMeshes);
     case "half_space": {
       const [u, v] = sides(unit(shape.normal));
