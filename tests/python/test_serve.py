@@ -3,9 +3,12 @@
 import http.client
 import json
 import signal
+import socket
+import struct
 import subprocess
 import sys
 import threading
+import time
 from contextlib import closing
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -16,6 +19,7 @@ import numpy as np
 import pytest
 from irbkin import scene
 from irbkin._core import PageEngine
+from irbkin.scene import _served
 
 DATA = Path(__file__).parents[1] / "data"
 NAME = "IRB 2600-12/1.65"
@@ -40,6 +44,14 @@ def ask(view, path="", body=None, token=None, **headers):
         return answer.status, answer.read().decode()
 
 
+def raw(view, text):
+    """All that is answered to a text, until the other side closes."""
+    with socket.create_connection(("127.0.0.1", urlsplit(view.url).port), timeout=20) as own:
+        own.sendall(text.encode("latin-1"))
+        own.shutdown(socket.SHUT_WR)
+        return b"".join(iter(lambda: own.recv(65536), b""))
+
+
 class Events:
     """The events that a page is sent."""
 
@@ -55,6 +67,8 @@ class Events:
             line = self.answer.readline()
             if not line:
                 return None
+            if line.startswith(b"id: "):
+                self.number = int(line[4:])
             if line.startswith(b"data: "):
                 return json.loads(line[6:])
 
@@ -74,6 +88,10 @@ def test_the_page_is_served_to_whom_has_its_token_alone(view):
     ):
         for path, body in (("", None), ("events", None), ("ask?a", "{}"), ("q?a", "[]")):
             assert ask(view, path, body, token, **headers)[0] == 403
+    # What follows a request that is refused is not read: no page writes a request in a body.
+    inner = f"GET {urlsplit(view.url).path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n"
+    outer = f"POST /x/q HTTP/1.1\r\nContent-Length: {len(inner)}\r\n\r\n"
+    assert raw(view, outer + inner).count(b"HTTP/1.1 ") == 1
     assert ask(view, Host=f"localhost:{port}", Origin=f"http://localhost:{port}")[0] == 200
     np.testing.assert_array_equal(view.q, HOME)
 
@@ -137,8 +155,108 @@ def test_wrong_joints_are_refused_on_both_sides(view, q):
     np.testing.assert_array_equal(view.q, HOME)
 
 
-def test_a_request_that_is_too_long_is_refused(view):
-    assert ask(view, "ask?one", "", **{"Content-Length": "99999999999"})[0] == 413
+@pytest.mark.parametrize("length", ["99999999999", "9" * 5000, "-5", "abc", "1_0", "\xb2", None])
+def test_a_request_of_no_length_that_is_read_is_refused(view, length, capsys):
+    head = (
+        f"POST {urlsplit(view.url).path}ask?one HTTP/1.1\r\nHost: {urlsplit(view.url).netloc}\r\n"
+    )
+    own = "" if length is None else f"Content-Length: {length}\r\n"
+    assert raw(view, f"{head}{own}\r\n{{}}").startswith(b"HTTP/1.1 413 ")
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize(
+    "text", ["[" * 100000, f"[{'9' * 400}, 0, 0, 0, 0, 0]", f"[{'9' * 5000}]", "\udcff"]
+)
+def test_texts_that_are_no_joints_are_refused(view, text, capsys):
+    assert ask(view, "q?one", text.encode("utf-8", "surrogatepass"))[0] == 400
+    assert capsys.readouterr().err == ""
+
+
+def test_half_a_request_moves_nothing(view):
+    url = urlsplit(view.url)
+    head = f"POST {url.path}q?one HTTP/1.1\r\nHost: {url.netloc}\r\nContent-Length: 100\r\n\r\n"
+    assert raw(view, f"{head}[0,0,0,0,0,0]") == b""
+    np.testing.assert_array_equal(view.q, HOME)
+
+
+def test_a_connection_that_says_nothing_ends(view, monkeypatch):
+    assert 0 < _served._Handler.timeout <= 60
+    monkeypatch.setattr(_served._Handler, "timeout", 0.2)
+    with socket.create_connection(("127.0.0.1", urlsplit(view.url).port), timeout=20) as own:
+        own.sendall(b"GET / HT")
+        assert own.recv(100) == b""
+
+
+def test_a_page_that_goes_away_is_no_fault(view, capsys):
+    url = urlsplit(view.url)
+    for path in ("", "events?one"):
+        with socket.create_connection(("127.0.0.1", url.port)) as own:
+            linger = struct.pack("ii", 1, 0)
+            own.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
+            own.sendall(f"GET {url.path}{path} HTTP/1.1\r\nHost: {url.netloc}\r\n\r\n".encode())
+    for _ in range(20):
+        view.q = HOME
+        time.sleep(0.01)
+    assert capsys.readouterr().err == ""
+
+
+def test_nothing_is_answered_after_the_end(view):
+    url = urlsplit(view.url)
+    with closing(http.client.HTTPConnection(url.hostname, url.port, timeout=20)) as connection:
+        for q, code in ((HOME, 200), ([0] * 6, 403)):
+            connection.request("POST", f"{url.path}q?one", json.dumps(q))
+            answer = connection.getresponse()
+            assert (answer.status, answer.read() != b"") == (code, code == 403)
+            view.close()
+    np.testing.assert_array_equal(view.q, HOME)
+
+
+def test_a_page_is_told_the_newest_alone(view):
+    events = Events(view, "one")
+    assert events.next() == {"q": HOME}
+    # Nothing is sent while Python is at it.
+    with view._changed:
+        for _ in range(1000):
+            view.q = np.zeros(6)
+        view.scene = irbkin.Robot("UR5e")
+        view.q = HOME
+    event = events.next()
+    assert (event["scene"]["arms"][0]["name"], event["q"]) == ("UR5e", HOME)
+    view.q = np.zeros(6)
+    assert events.next() == {"q": [0.0] * 6}
+    # A stream that begins later has the scene, too.
+    later = Events(view, "two")
+    event = later.next()
+    assert (event["scene"]["arms"][0]["name"], event["q"]) == ("UR5e", [0.0] * 6)
+    for it in (events, later):
+        it.connection.close()
+
+
+def test_a_page_that_does_not_know_the_newest_moves_nothing(view):
+    events = Events(view, "one")
+    assert events.next() == {"q": HOME}
+    seen = events.number
+    view.q = np.zeros(6)
+    assert ask(view, f"q?one&{seen}", json.dumps(HOME)) == (200, "")
+    np.testing.assert_array_equal(view.q, np.zeros(6))
+    assert events.next() == {"q": [0.0] * 6}
+    assert ask(view, f"q?one&{events.number}", json.dumps(HOME)) == (200, "")
+    np.testing.assert_array_equal(view.q, HOME)
+    # What it told itself is nothing that it has to know.
+    assert ask(view, f"q?one&{events.number}", json.dumps([0.0] * 6)) == (200, "")
+    np.testing.assert_array_equal(view.q, np.zeros(6))
+    assert ask(view, "q?one&x", json.dumps(HOME))[0] == 400
+    events.connection.close()
+
+
+def test_a_scene_with_a_number_that_no_page_reads_is_refused(view):
+    before = view.scene
+    place = r"scene\.marks\[0\]\.point\[1\] is nan"
+    with pytest.raises(ValueError, match=place):
+        view.scene = scene.Scene(marks=(scene.Mark((0.0, float("nan"), 0.0), "x"),))
+    assert view.scene is before
+    assert ask(view)[0] == 200
 
 
 def test_an_arm_of_a_file_is_solved_by_its_urdf():

@@ -221,8 +221,17 @@ class Scene(_Part):
         return {"format": FORMAT, "version": VERSION, **plain(self)}
 
     def to_json(self) -> str:
-        """Return the scene as JSON."""
-        return json.dumps(self.to_dict(), allow_nan=False, separators=(",", ":"))
+        """Return the scene as JSON.
+
+        Raises:
+            ValueError: A number is not finite: the message has its place.
+        """
+        data = self.to_dict()
+        try:
+            return json.dumps(data, allow_nan=False, separators=(",", ":"))
+        except ValueError:
+            self.from_dict(data)
+            raise
 
     def view(self, height: int = 560) -> View:
         """Return the scene as a widget of a notebook: `irbkin.scene.View`, which needs `pip install
@@ -247,12 +256,9 @@ class Scene(_Part):
             raise ValueError(f"version is {data.get('version')!r}, this irbkin reads {VERSION}")
         own = {key: value for key, value in data.items() if key not in ("format", "version")}
         scene: Scene = read(cls, own, "scene")
-        for place, it in (
-            (f"scene.arms[{at}].hulls[{index}]", it)
-            for at, arm in enumerate(scene.arms)
-            for index, it in enumerate(arm.hulls)
-        ):
-            _check_hull(it, place)
+        for at, arm in enumerate(scene.arms):
+            for index, it in enumerate(arm.hulls):
+                _check_hull(it, f"scene.arms[{at}].hulls[{index}]")
         for index, obstacle in enumerate(scene.obstacles):
             try:
                 _shape(obstacle.shape)

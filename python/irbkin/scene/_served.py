@@ -4,36 +4,49 @@ from __future__ import annotations
 
 import hmac
 import json
-import queue
+import re
 import secrets
+import sys
 import threading
-from collections import OrderedDict
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from irbkin._core import PageEngine
-from irbkin.errors import InvalidJointsError
 from irbkin.scene._data import Scene
 from irbkin.scene._makers import of
 from irbkin.scene._page import page
-from irbkin.scene._solved import Joints
+from irbkin.scene._solved import Engines, Joints
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-MOST_ENGINES = 32
-"""Engines that are kept: a page has one, and another one for its program."""
 MOST_BYTES = 32_000_000
 """Bytes of a request."""
 BEAT = 15.0
 """Time after which an event stream says that it is alive [s]."""
+MOST_WAIT = 60.0
+"""Time that a connection waits for the other side [s]."""
 # The page holds its scripts and styles: nothing else is loaded, and nobody may frame it.
-POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
-    "connect-src 'self'; form-action 'none'; frame-ancestors 'none'; base-uri 'none'"
-)
+HEADERS = {
+    "Cache-Control": "no-store",
+    "Content-Security-Policy": "default-src 'none'; script-src 'unsafe-inline'; style-src "
+    "'unsafe-inline'; connect-src 'self'; form-action 'none'; frame-ancestors 'none'; "
+    "base-uri 'none'",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+}
+
+
+class _Server(ThreadingHTTPServer):
+    daemon_threads = True
+    request_queue_size = 128
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Say nothing of a page that went away."""
+        if not isinstance(sys.exc_info()[1], OSError):
+            super().handle_error(request, client_address)
 
 
 class ServedView:
@@ -44,35 +57,47 @@ class ServedView:
     with the token of `url` are answered. The server ends with `close()`, with a `with` statement,
     or with the process.
 
+    >>> import irbkin
+    >>> view = irbkin.scene.serve(irbkin.Robot("IRB 2600-12/1.65"))
+    >>> view.q = [0.1, 0.2, 0.3, 0, 0.5, 0]
+    >>> view.close()
+
     Args:
         scene: What it shows: a Scene, a Robot, or anything else that `irbkin.scene.of` takes.
         port: Port on 127.0.0.1; 0 takes a free one.
 
     Raises:
         TypeError: As `irbkin.scene.of`.
+        ValueError: A number of the scene is not finite.
         OSError: The port is in use.
     """
 
     def __init__(self, scene: Any, *, port: int = 0) -> None:
-        self._lock = threading.Lock()
-        self._engines: OrderedDict[str, PageEngine] = OrderedDict()
-        self._pages: dict[queue.SimpleQueue[str], str] = {}
+        # Held by whoever changes the joints or the scene, and tells it.
+        self._changed = threading.Condition()
+        self._engines = Engines()
+        # What pages are to be told: of all that changed the newest, and its number.
+        self._pages: list[SimpleNamespace] = []
+        self._number, self._is_closed = 0, False
         self._set(scene)
+        self._is_first = True
         try:
-            self._server = ThreadingHTTPServer(("127.0.0.1", port), _Handler)
+            own = type("_Own", (_Handler,), {"view": self})
+            self._server = _Server(("127.0.0.1", port), own)
         except OSError as error:
             words = f"port {port} cannot be used ({error.strerror}): 0 takes a free one"
             raise OSError(error.errno, words) from None
-        self._server.daemon_threads = True
-        self._server.view = self  # type: ignore[attr-defined]
         self._token = secrets.token_urlsafe(18)
         self.url = f"http://127.0.0.1:{self._server.server_port}/{self._token}/"
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
 
     def _set(self, scene: Any) -> None:
-        self._scene = scene if isinstance(scene, Scene) else of(scene)
-        self._joints = Joints(self._scene)
-        self._q = self._joints.start()
+        own = scene if isinstance(scene, Scene) else of(scene)
+        own.to_json()  # Refuses what no page reads.
+        joints = Joints(own)
+        with self._changed:
+            self._scene, self._joints, self._q = own, joints, joints.start()
+            self._tell({"scene": own.to_dict(), "q": self._q})
 
     @property
     def scene(self) -> Scene:
@@ -81,8 +106,8 @@ class ServedView:
 
     @scene.setter
     def scene(self, scene: Any) -> None:
+        self._is_first = False
         self._set(scene)
-        self._tell({"scene": self._scene.to_dict()})
 
     @property
     def q(self) -> npt.NDArray[np.float64]:
@@ -91,36 +116,47 @@ class ServedView:
 
     @q.setter
     def q(self, q: npt.ArrayLike) -> None:
-        self._move(self._joints.checked(q))
+        with self._changed:
+            self._move(self._joints.checked(q))
 
     @property
     def T(self) -> npt.NDArray[np.float64]:
         """Pose of the tool of the first arm, shape (4, 4); set it to move it there, by the joint
         angles that are nearest to the present ones.
         """
-        return self._joints.tool(self._q)
+        with self._changed:
+            return self._joints.tool(self._q)
 
     @T.setter
     def T(self, T: npt.ArrayLike) -> None:
-        self._move(self._joints.nearest(T, self._q))
+        with self._changed:
+            self._move(self._joints.nearest(T, self._q))
 
     def _move(self, q: list[float], page: str = "") -> None:
         self._q = q
         self._tell({"q": q}, page)
 
     def _tell(self, event: dict[str, Any], page: str = "") -> None:
-        """Send an event to all pages but one."""
-        text = json.dumps(event)
-        with self._lock:
-            for waiting, own in self._pages.items():
-                if own != page or not page:
-                    waiting.put(text)
+        """Tell all pages but one."""
+        self._number += 1
+        for it in self._pages:
+            if it.page != page or not page:
+                it.number = self._number
+                it.event.update(event)
+        self._changed.notify_all()
+
+    def _moved(self, q: Any, page: str, seen: str) -> None:
+        """Move as a page asks, unless it does not know yet what it is told."""
+        with self._changed:
+            known = float(seen or "inf")
+            if all(it.page != page or it.number <= known for it in self._pages):
+                self._move(self._joints.checked(q), page)
 
     def close(self) -> None:
         """End the server."""
-        with self._lock:
-            for waiting in self._pages:
-                waiting.put("")
+        with self._changed:
+            self._is_closed = True
+            self._changed.notify_all()
         self._server.shutdown()
         self._server.server_close()
 
@@ -133,52 +169,29 @@ class ServedView:
     def __repr__(self) -> str:
         return f"<ServedView {self._scene.title or 'scene'} at {self.url}>"
 
-    # What requests are answered, by their kind.
 
-    def _answer(self, text: str, page: str) -> str:
-        with self._lock:
-            engine = self._engines.pop(page, None)
-            self._engines[page] = engine or PageEngine()
-            if len(self._engines) > MOST_ENGINES:
-                self._engines.popitem(last=False)
-        return json.dumps({"lost": True}) if engine is None else engine.answer(text)
-
-
-def serve(scene: Any, *, port: int = 0) -> ServedView:
-    """Serve a scene on loopback; open `.url` in a browser of this machine.
-
-    >>> import irbkin
-    >>> view = irbkin.scene.serve(irbkin.Robot("IRB 2600-12/1.65"))
-    >>> view.q = [0.1, 0.2, 0.3, 0, 0.5, 0]
-    >>> view.close()
-
-    Args and errors: as `ServedView`.
-    """
-    return ServedView(scene, port=port)
+serve = ServedView
 
 
 class _Handler(BaseHTTPRequestHandler):
+    view: ServedView
     protocol_version = "HTTP/1.1"
     # An answer is one packet, sent at once.
     disable_nagle_algorithm = True
     wbufsize = 1 << 16
-
-    @property
-    def view(self) -> ServedView:
-        view: ServedView = self.server.view  # type: ignore[attr-defined]
-        return view
+    timeout = MOST_WAIT
 
     def log_message(self, format: str, *args: object) -> None:
         """Say nothing."""
 
     def _asked(self) -> tuple[str, str] | None:
         """What is asked for, and the name of the page; None if the request is refused: by another
-        host's name, from another page, without the token.
+        host's name, from another page, without the token, after the end.
         """
         token, _, rest = self.path[1:].partition("/")
         hosts = {f"{name}:{self.server.server_port}" for name in ("127.0.0.1", "localhost")}  # type: ignore[attr-defined]
         host, origin = self.headers.get("Host", ""), self.headers.get("Origin")
-        own = host in hosts and origin in (None, f"http://{host}")
+        own = host in hosts and origin in (None, f"http://{host}") and not self.view._is_closed
         if not own or not hmac.compare_digest(token.encode(), self.view._token.encode()):
             self._send(403, "not this page")
             return None
@@ -189,8 +202,7 @@ class _Handler(BaseHTTPRequestHandler):
         if (asked := self._asked()) is None:
             return
         if asked[0] == "":
-            own = self.view.scene
-            self._send(200, page(own, served=True), "text/html; charset=utf-8")
+            self._send(200, page(self.view.scene, served=True), "text/html; charset=utf-8")
         elif asked[0] == "events":
             self._stream(asked[1])
         else:
@@ -199,18 +211,21 @@ class _Handler(BaseHTTPRequestHandler):
     def do_POST(self) -> None:
         if (asked := self._asked()) is None:
             return
-        length = int(self.headers.get("Content-Length", -1))
-        if not 0 <= length <= MOST_BYTES:
-            self.close_connection = True
-            self._send(413, json.dumps({"error": f"a request has at most {MOST_BYTES} bytes"}))
+        length = self.headers.get("Content-Length", "")
+        if not re.fullmatch("[0-9]{1,9}", length) or int(length) > MOST_BYTES:
+            words = f"Content-Length is {length[:20]!r}, it must be 0 to {MOST_BYTES}"
+            return self._send(413, json.dumps({"error": words}))
+        content = self.rfile.read(int(length))
+        if len(content) < int(length):
             return
-        text = self.rfile.read(length).decode("utf-8", "replace")
+        text = content.decode("utf-8", "replace")
         if asked[0] == "ask":
-            self._send(200, self.view._answer(text, asked[1]), "application/json")
+            self._send(200, self.view._engines.answer(text, asked[1]), "application/json")
         elif asked[0] == "q":
+            name, _, seen = asked[1].partition("&")
             try:
-                self.view._move(self.view._joints.checked(json.loads(text)), asked[1])
-            except (InvalidJointsError, ValueError) as error:
+                self.view._moved(json.loads(text), name, seen)
+            except (RecursionError, ValueError) as error:
                 self._send(400, str(error))
             else:
                 self._send(200, "")
@@ -219,45 +234,38 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _send(self, code: int, text: str, kind: str = "text/plain; charset=utf-8") -> None:
         content = text.encode()
-        self.send_response(code)
-        self._headers({"Content-Type": kind, "Content-Length": str(len(content))})
+        # The rest of a request that is refused may be unread.
+        closes = {"Connection": "close"} if code >= 400 else {}
+        self._begin(code, {"Content-Type": kind, "Content-Length": str(len(content)), **closes})
         self.wfile.write(content)
         self.wfile.flush()
 
-    def _headers(self, own: dict[str, str]) -> None:
-        every = {
-            "Cache-Control": "no-store",
-            "Content-Security-Policy": POLICY,
-            "Referrer-Policy": "no-referrer",
-            "X-Content-Type-Options": "nosniff",
-        }
-        for name, value in {**every, **own}.items():
+    def _begin(self, code: int, own: dict[str, str]) -> None:
+        self.send_response(code)
+        for name, value in {**HEADERS, **own}.items():
             self.send_header(name, value)
         self.end_headers()
 
     def _stream(self, page: str) -> None:
         """Send what Python and other pages change, until the page or the server ends."""
-        waiting: queue.SimpleQueue[str] = queue.SimpleQueue()
         view = self.view
-        with view._lock:
-            view._pages[waiting] = page
-        self.close_connection = True
-        self.send_response(200)
-        self._headers({"Content-Type": "text/event-stream"})
-        try:
+        with view._changed:
             # What changed between the page and its stream.
-            waiting.put(json.dumps({"q": view._q}))
+            scene = {} if view._is_first else {"scene": view._scene.to_dict()}
+            event = {**scene, "q": view._q}
+            own = SimpleNamespace(page=page, number=view._number, event=event)
+            view._pages.append(own)
+        try:
+            self._begin(200, {"Content-Type": "text/event-stream", "Connection": "close"})
             while True:
-                try:
-                    text = waiting.get(timeout=BEAT)
-                except queue.Empty:
-                    text = None
-                if text == "":
+                with view._changed:
+                    view._changed.wait_for(lambda: own.event or view._is_closed, BEAT)
+                    event, own.event = own.event, {}
+                    head = f"id: {own.number}\ndata: " if event else ": "
+                if not event and view._is_closed:
                     return
-                self.wfile.write(b": \n\n" if text is None else f"data: {text}\n\n".encode())
+                self.wfile.write(f"{head}{json.dumps(event)}\n\n".encode())
                 self.wfile.flush()
-        except OSError:
-            return
         finally:
-            with view._lock:
-                del view._pages[waiting]
+            with view._changed:
+                view._pages.remove(own)

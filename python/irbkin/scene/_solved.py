@@ -1,12 +1,16 @@
-"""The arm of a scene as a robot, for faces that Python and a page move together."""
+"""The arm of a scene as a robot, and what answers pages: for faces that Python and a page move
+together.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from irbkin._core import Robot, catalog
+from irbkin._core import PageEngine, Robot, catalog
 from irbkin.errors import InvalidJointsError, InvalidModelError
 from irbkin.scene._arms import link_frames, start
 
@@ -14,6 +18,25 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from irbkin.scene._data import Scene
+
+
+MOST_ENGINES = 32
+"""Engines that are kept: a page has one, and another one for its program."""
+
+
+class Engines:
+    """Engines of pages, of which those are kept that were asked last."""
+
+    def __init__(self) -> None:
+        self._of: Callable[[str], list[PageEngine]] = lru_cache(MOST_ENGINES)(lambda _: [])
+
+    def answer(self, text: str, page: str) -> str:
+        """Return the answer to a page; that all is lost if its engine is new."""
+        own = self._of(page)
+        if own:
+            return own[0].answer(text)
+        own.append(PageEngine())
+        return '{"lost": true}'
 
 
 class Joints:
@@ -36,22 +59,19 @@ class Joints:
         dof = 0 if self.arm is None else len(self.arm.joints)
         try:
             q = np.asarray(value, dtype=float)
-        except (TypeError, ValueError):
+        except (OverflowError, TypeError, ValueError):
             q = np.full(dof, np.nan)
         if q.shape != (dof,) or not np.isfinite(q).all():
             raise InvalidJointsError(
                 f"q must be {dof} finite joint angles [rad], one for each joint of the first arm, "
-                f"got {value!r}"
+                f"got {value!r:.200}"
             )
         joints: list[float] = q.tolist()
         return joints
 
     def tool(self, q: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the pose of the tool, shape (4, 4); the world's without an arm."""
-        pose: npt.NDArray[np.float64] = (
-            np.eye(4) if self.arm is None else link_frames(self.arm, q)[-1]
-        )
-        return pose
+        return np.array(np.eye(4) if self.arm is None else link_frames(self.arm, q)[-1])
 
     def nearest(self, T: npt.ArrayLike, q: npt.ArrayLike) -> list[float]:
         """Return the joint angles of a pose of the tool that are nearest to others [rad].

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from irbkin._core import PageEngine
 from irbkin.scene._page import module
-from irbkin.scene._solved import Joints
+from irbkin.scene._solved import Engines, Joints
 
 try:
     import anywidget
@@ -49,14 +48,14 @@ class View(anywidget.AnyWidget):  # type: ignore[misc]
 
     def __init__(self, scene: Scene, height: int = 560) -> None:
         self._joints = Joints(scene)
-        self._engines: dict[str, PageEngine] = {}
+        self._engines = Engines()
         q = self._joints.start()
         super().__init__(_esm=module(), scene=scene.to_json(), height=height, q=q)
         self.on_msg(self._answer)
 
     def _answer(self, _: Any, asked: dict[str, str], __: Any) -> None:
-        engine = self._engines.setdefault(asked["page"], PageEngine())
-        self.send({"id": asked["id"], "answer": engine.answer(asked["text"])})
+        answer = self._engines.answer(asked["text"], asked["page"])
+        self.send({"id": asked["id"], "answer": answer})
 
     @property
     def T(self) -> npt.NDArray[np.float64]:

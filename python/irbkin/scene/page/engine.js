@@ -114,32 +114,46 @@ function servedEngine() {
 const newName = () => Math.random().toString(36).slice(2);
 
 async function post(path, text) {
-  try {
-    return await fetch(path, { method: "POST", body: text });
-  } catch {
-    throw new Error("irbkin has ended: start irbkin view again");
-  }
+  const answer = await fetch(path, { method: "POST", body: text }).catch(() => null);
+  if (!answer || answer.status === 403) throw new Error("irbkin has ended: start irbkin view again");
+  return answer;
 }
 
 // Share the joints with the Python that served the page: each side tells the other what it changes.
-function share(app) {
+// What the page tells counts if it has `seen` all that Python told before.
+function share(app, shown) {
   const own = newName();
-  let told = app.state.q;
-  let telling = false;
-  new EventSource(`events?${own}`).onmessage = ({ data }) => {
-    const { q, scene } = JSON.parse(data);
-    if (scene) openScene(app, scene);
-    if (!q || same(q, app.state.q)) return;
-    told = q;
-    app.setJoints(q);
-  };
-  app.options.onchange = async () => {
-    if (telling) return;
-    telling = true;
-    while (!same(app.state.q, told)) {
-      told = app.state.q;
-      await post(`q?${own}`, JSON.stringify(told)).catch(() => {});
+  let [told, seen] = [[], 0];
+  let isTelling, taking, stream;
+  const untaken = {};
+  const take = async () => {
+    while (untaken.q) {
+      const { scene, q, id } = untaken;
+      Object.assign(untaken, { scene: null, q: null });
+      const isOther = scene && JSON.stringify(scene) !== JSON.stringify(shown);
+      if (isOther) await openScene(app, shown = scene).catch(({ message }) => app.notes.add(message));
+      [told, seen] = [q, id];
+      if (!same(q, app.state.q)) app.setJoints(q);
     }
-    telling = false;
+  };
+  const hear = ({ data, lastEventId: id }) => {
+    Object.assign(untaken, JSON.parse(data), { id });
+    taking ??= take().finally(() => { taking = null; });
+  };
+  // A browser has few streams: one that nobody looks at lets go of its own.
+  const listen = () => {
+    stream?.close();
+    if (!document.hidden) stream = Object.assign(new EventSource(`events?${own}`), { onmessage: hear });
+  };
+  document.addEventListener("visibilitychange", listen);
+  listen();
+  app.options.onchange = async () => {
+    if (isTelling) return;
+    isTelling = true;
+    while (told.length === app.state.q.length && !same(app.state.q, told)) {
+      told = app.state.q;
+      await post(`q?${own}&${seen}`, JSON.stringify(told)).catch(() => {});
+    }
+    isTelling = false;
   };
 }
