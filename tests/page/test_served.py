@@ -1,6 +1,8 @@
 """The page that Python serves, in a real Chromium: `irbkin view` and `scene.serve`."""
 
+import itertools
 import shutil
+import threading
 from pathlib import Path
 
 import irbkin
@@ -85,6 +87,42 @@ def test_two_pages_and_python_move_one_arm(opened):
         page.wait_for_function("() => irbkin.robot.name === 'UR5e'")
 
 
+def test_pages_and_python_agree_after_all_moved_at_once(opened):
+    with scene.serve(scene.of(ROBOT, q=HOME)) as view:
+        page, other = opened(view.url), opened(view.url)
+        for _ in range(6):
+            done = threading.Event()
+
+            def move(done=done):
+                for step in itertools.count():
+                    if done.wait(0.01):
+                        return
+                    view.q = HOME + 0.1 * np.sin(step / 10)
+
+            threads = [threading.Thread(target=move) for _ in range(2)]
+            for it in threads:
+                it.start()
+            page.evaluate("""async () => {
+                for (let i = 0; i < 25; i++) {
+                    irbkin.setJoints(irbkin.state.q.map((it, joint) => it + 0.003 * (joint + 1)));
+                    await new Promise((resolve) => setTimeout(resolve, 8));
+                }
+            }""")
+            done.set()
+            for it in threads:
+                it.join()
+            page.wait_for_timeout(300)
+            agrees(page, view)
+            agrees(other, view)
+        for name in ("UR5e", "IRB 1200-5/0.9", ROBOT.name) * 3:
+            view.scene = irbkin.Robot(name)
+            view.q = HOME + 0.2
+        for it in (page, other):
+            it.wait_for_function("(name) => irbkin.robot.name === name", arg=ROBOT.name)
+            agrees(it, view)
+        np.testing.assert_array_equal(view.q, HOME + 0.2)
+
+
 def test_an_arm_of_a_file_is_solved_as_it_is(opened):
     ur = irbkin.Robot.from_urdf(DATA / "ur5e.urdf", tip="tool0").with_tool([0, 0.1, 0.2])
     with scene.serve(scene.of(ur, q=HOME)) as view:
@@ -112,11 +150,66 @@ def test_a_file_without_the_engine_draws_and_plays(opened, tmp_path, monkeypatch
     np.testing.assert_allclose(robot, ROBOT.fk(q), atol=1e-9)
 
 
+def test_a_file_without_an_arm_and_the_engine_draws(opened, tmp_path, monkeypatch):
+    monkeypatch.setattr("irbkin.scene._page.engine", str)
+    box = irbkin.body.Shape.box([0.4, 0.3, 0.2], irbkin.pose([3, 4, 1]))
+    scene.of(irbkin.Cell({"box": box})).save(tmp_path / "cell.html")
+    page = opened(f"file://{tmp_path}/cell.html")
+    x, y, _ = page.evaluate("() => irbkin.view.camera.project([3, 4, 1])")
+    page.mouse.move(x, y)
+    page.locator(".label", has_text="box").wait_for()
+
+
+def test_a_page_that_nobody_looks_at_lets_go_of_its_stream(opened):
+    hide = """(hidden) => {
+        Object.defineProperty(document, "hidden", { configurable: true, value: hidden });
+        document.dispatchEvent(new Event("visibilitychange"));
+    }"""
+    with scene.serve(scene.of(ROBOT, q=HOME)) as view:
+        page = opened(view.url)
+        agrees(page, view)
+        page.evaluate(hide, True)
+        page.wait_for_timeout(200)
+        view.scene = irbkin.Robot("UR5e")
+        view.q = HOME + 0.1
+        page.wait_for_timeout(300)
+        assert page.evaluate("() => irbkin.robot.name") == ROBOT.name
+        page.evaluate(hide, False)
+        page.wait_for_function("() => irbkin.robot.name === 'UR5e'")
+        agrees(page, view)
+
+
 def test_a_page_says_when_python_has_ended(opened):
     with scene.serve(ROBOT) as view:
         page = opened(view.url)
     page.evaluate("() => irbkin.setJoints([0.1, 0, 0, 0, 0.5, 0])")
     page.wait_for_function("() => irbkin.state.reason?.includes('irbkin has ended')")
+    assert page.locator(".verdict").inner_text() == "irbkin has ended: start irbkin view again"
+
+
+def test_what_is_no_pose_moves_nothing(opened):
+    with scene.serve(scene.of(ROBOT, q=HOME)) as view:
+        page = opened(view.url)
+        before = page.evaluate("() => irbkin.state.T")
+        field = page.get_by_label("paste a target, a tool, a pose, joints or a module")
+        field.fill("1 0 0 1 0 1 0 0 0 0 -1 1 0 0 0 1")
+        page.wait_for_function("() => irbkin.parts.verdict.textContent.includes('mirrors')")
+        np.testing.assert_allclose(page.evaluate("() => irbkin.state.T"), before, atol=1e-12)
+        field.fill("no target")
+        page.get_by_text('"no target" is no target').wait_for()
+        field.fill(MODULE)
+        checked(page)
+        page.wait_for_function("() => irbkin.parts.pasteWords.textContent === ''")
+        # The time grows with the text, and not with its square.
+        took = page.evaluate(
+            """(text) => {
+            const begun = performance.now();
+            try { meaningOf(text, 6, irbkin.units); } catch {}
+            return performance.now() - begun;
+        }""",
+            "x" + " \n" * 200000 + "x",
+        )
+        assert took < 2000
 
 
 MODULE = """MODULE Weld
@@ -164,6 +257,37 @@ def test_a_module_is_edited_corrected_and_saved(opened):
         assert z == pytest.approx(0.55 + 0.18, abs=1e-6)
         page.get_by_role("button", name="close the program").click()
         assert not page.locator(".program").is_visible()
+
+
+def test_what_is_checked_is_the_newest_text_alone(opened):
+    with scene.serve(ROBOT) as view:
+        page = opened(view.url)
+        page.evaluate("(text) => irbkin.paste(text)", MODULE)
+        checked(page)
+        assert page.locator(".program button", has_text="fix").is_visible()
+        # Each check waits until it is let go: all but the first and the last are left out.
+        page.evaluate("""() => {
+            const { engine } = irbkin.program;
+            const answer = engine.answer.bind(engine);
+            window.asked = [];
+            engine.answer = async (request) => {
+                if (request.do === "check") window.asked.push(request.modules[0].text.length);
+                if (window.asked.length === 1) await new Promise((go) => { window.go ??= go; });
+                return answer(request);
+            };
+        }""")
+        text = page.get_by_label("text of the module")
+        for count in range(1, 4):
+            text.fill("! line\n" * count + MODULE)
+            # Places of what was found are of another text.
+            assert not page.locator(".program button", has_text="fix").is_visible()
+            page.wait_for_timeout(400)
+        page.evaluate("() => window.go()")
+        checked(page)
+        page.wait_for_function("() => window.asked.length === 2")
+        assert page.evaluate("() => window.asked") == [len(MODULE) + 7, len(MODULE) + 21]
+        page.wait_for_function("() => !irbkin.program.fix.hidden")
+        assert page.locator(".margin div").nth(10).get_attribute("class") == "error"
 
 
 def test_a_finding_in_the_picture_leads_to_its_line(opened):

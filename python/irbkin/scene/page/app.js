@@ -159,16 +159,18 @@ class App {
       const wish = this.wish;
       this.wish = null;
       const { robot, state } = this;
-      const found = this.source ? await this.solved(wish).catch(({ message }) => ({ reason: message })) : {};
+      const found = this.source ? await this.solved(wish).catch(({ message }) => ({ refused: message, reason: message })) : {};
       if (this.robot !== robot) continue;
-      const { q, posture = null, solutions = [], certified = false, reason = null } = found;
+      const { q, posture = null, solutions = [], certified = false, refused, reason = null } = found;
       // A slider that was moved meanwhile says where the joints are.
       const isLate = this.wish && !this.wish.moves;
       if (q && !isLate) state.q = q;
+      // What is no pose, or is asked of nobody, leaves the tool where it is.
+      if (refused) state.T = this.arm.frames(state.q).tool;
       const apart = (it) => Math.max(...it.q.map((angle, i) => Math.abs(Math.sin((angle - state.q[i]) / 2))));
       const distances = solutions.map(apart);
       const least = Math.min(...distances, Infinity);
-      Object.assign(state, { solutions, certified, reason, posture, own: least < 1e-4 ? distances.indexOf(least) : -1 });
+      Object.assign(state, { solutions, certified, refused, reason, posture, own: least < 1e-4 ? distances.indexOf(least) : -1 });
       state.confdata = posture?.confdata ?? null;
       state.armAngle = posture?.arm_angle ?? null;
       state.isMoved = wish.moves;
@@ -217,10 +219,10 @@ class App {
     for (const it of [parts.joints, parts.facts]) it.classList.toggle("old", !state.isReached);
     const inside = state.solutions.filter((it) => it.within_limits).length;
     if (!this.source) parts.verdict.textContent = this.engine ? "" : NO_ENGINE;
-    else parts.verdict.textContent = state.isReached
+    else parts.verdict.textContent = state.refused ?? (state.isReached
       ? `${state.solutions.length} solutions, ${inside} inside the limits`
         + (state.certified ? ", certified to be all" : "")
-      : `Not reached: ${state.reason}. The arm is as near as it gets on the straight way.`;
+      : `Not reached: ${state.reason}. The arm is as near as it gets on the straight way.`);
     this.facts();
     this.view.ask();
   }
@@ -260,7 +262,7 @@ class App {
       else if (meant.kind === "joints") this.setJoints(meant.q);
       else if (meant.kind === "pose") this.setPose(multiply(this.state.wobj, meant.T));
       else await this.pasteTarget(meant);
-      if (meant.form) pasteWords.textContent = `read as ${meant.form}`;
+      pasteWords.textContent = meant.form ? `read as ${meant.form}` : "";
       this.view.ask();
     });
   }
@@ -320,7 +322,7 @@ class App {
     } else if (ending === "json") {
       await openScene(this, JSON.parse(text));
     } else {
-      throw new Error(`.${ending} is not read; a .urdf, a .mod or a scene (.json) is`);
+      throw new Error(this.engine ? `.${ending} is not read; a .urdf, a .mod or a scene (.json) is` : NO_ENGINE);
     }
   }
 
@@ -349,10 +351,6 @@ class App {
       this.parts.paste.select();
       this.parts.copied.textContent = "press Ctrl+C";
     }
-  }
-
-  link() {
-    return `${String(location.href).split("#")[0]}#${asHash(this.state)}`;
   }
 
   remember() {

@@ -31,14 +31,10 @@ function panels(app) {
     return { name, fields, node: el("div", {}, el("h3", {}, title), fields.node) };
   });
   parts.notes = el("ul", { className: "notes" });
-  parts.ghosts = el("input", {
-    type: "checkbox", checked: true,
-    onchange: () => { app.settings.ghosts = parts.ghosts.checked; app.view.ask(); },
+  const toggle = (name) => el("input", {
+    type: "checkbox", checked: app.settings[name], onchange: ({ target }) => { app.settings[name] = target.checked; app.view.ask(); },
   });
-  parts.capsules = el("input", {
-    type: "checkbox",
-    onchange: () => { app.settings.capsules = parts.capsules.checked; app.view.ask(); },
-  });
+  [parts.ghosts, parts.capsules] = ["ghosts", "capsules"].map(toggle);
   parts.units = el("select", { ariaLabel: "units", onchange: () => app.setUnits(parts.units.value) },
     el("option", { value: "mm" }, "mm, deg"), el("option", { value: "m" }, "m, rad"));
   const copy = (name, write) => el("button", { type: "button", onclick: () => app.copy(name, write) }, name);
@@ -65,7 +61,7 @@ function panels(app) {
     el("section", {}, el("h2", {}, "Joints"), parts.joints, parts.facts),
     el("section", {}, el("h2", {}, "Copy"),
       el("div", { className: "row" }, copy("Python", asPython), copy("RAPID", asRapid), copy("CSV", asCsv),
-        copy("link", () => app.link()), parts.copied)),
+        app.options.hash === undefined ? null : copy("link", asLink), parts.copied)),
     el("details", { className: "solved" }, el("summary", {}, "Tool, base, work object"), ...parts.frames.map((it) => it.node)),
     el("details", {}, el("summary", {}, "Keys"),
       el("p", { className: "dim" },

@@ -55,6 +55,7 @@ class Program {
   // Another text: it is checked after a pause.
   edit(text) {
     this.modules = this.modules.map((it, module) => (module === this.module ? { ...it, text } : it));
+    this.begin();
     clearTimeout(this.later);
     this.later = setTimeout(() => this.read(true), 300);
   }
@@ -105,7 +106,7 @@ class Program {
   }
 
   close() {
-    this.modules = null;
+    this.modules = this.turn = this.checked = null;
     Object.assign(this.app.view, { way: [], marks: [] });
     this.forgetMotion();
     this.app.view.ask();
@@ -116,7 +117,7 @@ class Program {
     if (!motion.t.length) return;
     this.stop();
     this.shown = null;
-    this.modules = null;
+    this.modules = this.checked = null;
     this.title.textContent = name;
     this.words.textContent = "";
     this.list.replaceChildren();
@@ -131,16 +132,25 @@ class Program {
     this.at(0);
   }
 
-  // Ask an engine of its own, beside the one that solves; none where another program was opened.
+  // What was asked and found before is of another text or arm.
+  begin() {
+    this.turn = {};
+    this.fix.hidden = true;
+  }
+
+  // Ask an engine of its own, beside the one that solves, when it is free; nothing where another text
+  // or arm has come.
   async asked(request) {
-    const { modules } = this;
-    const answer = await this.engine.ask(request);
-    return this.modules === modules ? answer : null;
+    const { turn, engine } = this;
+    await engine.last;
+    const answer = this.turn === turn && await engine.ask(request);
+    return this.turn === turn ? answer : null;
   }
 
   // Check the program with the arm as it is; `stays` where the motion is.
   async read(stays = false) {
     if (!this.modules) return;
+    this.begin();
     this.stop();
     this.node.hidden = this.save.hidden = this.moves.hidden = this.source.node.hidden = false;
     this.files.hidden = this.modules.length < 2;

@@ -17,7 +17,7 @@ function meaningOf(text, dof, units) {
   // Without comments of RAPID.
   const trimmed = text.replace(/![^\n]*/g, "").trim();
   if (!trimmed) throw new Error("");
-  if (/^\s*(MODULE|(LOCAL\s+)?PROC)\b/im.test(trimmed)) return { kind: "program", text };
+  if (/^[ \t]*(MODULE|(LOCAL\s+)?PROC)\b/im.test(trimmed)) return { kind: "program", text };
   if (isTarget(trimmed) && !/\b(Offs|RelTool)\s*\(/i.test(trimmed)) return { kind: "rapid", text: declared(trimmed) };
   const unlabeled = trimmed.replace(/\b[A-Za-z]\w*\s*[:=]/g, " ");
   if (/[a-df-zA-DF-Z_]{2,}/.test(unlabeled.replace(/array|np|deg|rad|mm|pose|xyz|wxyz|euler/gi, ""))) {

@@ -3,7 +3,7 @@
 const KNOWN = ["box", "sphere", "capsule", "cylinder", "half_space"];
 
 async function openScene(app, scene) {
-  if (scene.format !== "irbkin scene") throw new Error('not a scene: it has no "format": "irbkin scene"');
+  if (scene?.format !== "irbkin scene") throw new Error('not a scene: it has no "format": "irbkin scene"');
   if (scene.version !== 1) throw new Error(`the scene has version ${scene.version}, this page reads 1`);
   const { view } = app;
   app.program.close();
@@ -30,6 +30,10 @@ async function openScene(app, scene) {
     await takeSceneArm(app, first, drawn, q);
     const rest = (first.postures ?? []).filter((it) => it !== posture);
     view.extra = rest.map((it) => ({ arm: drawn, q: it.q, alpha: it.is_ghost ? 0.2 : 0.6 }));
+  }
+  if (!first && !app.engine) {
+    const none = { name: "", base: identity(), links: [], tool: identity(), coupling: 0, shapes: [], hulls: [] };
+    await app.takeArm({ name: "", dof: 0, limits: [] }, new DrawnArm(none), null, []);
   }
   for (const arm of others) {
     const drawn = DrawnArm.ofScene(arm);

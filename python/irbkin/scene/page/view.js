@@ -71,6 +71,7 @@ class View {
   fit() {
     const { arm, state } = this.app;
     const others = this.extra.flatMap((it) => it.arm.points(it.q));
+    if (!arm?.links.length) others.push(...this.obstacles.map(([pose]) => place(pose)), ...this.marks.map(({ at }) => at));
     if (arm) this.camera.fit([...arm.points(state.q), ...others, place(arm.base)]);
     this.ask();
   }

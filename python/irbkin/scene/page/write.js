@@ -85,6 +85,8 @@ function asHash(state) {
   return new URLSearchParams(parts).toString();
 }
 
+const asLink = (state) => `${location.href.split("#")[0]}#${asHash(state)}`;
+
 // A frame as x y z [mm] and rz ry rx [deg].
 const frameNumbers = (m) => [
   ...scale(place(m), 1e3).map((it) => trimmed(it, 4)),
