@@ -109,7 +109,7 @@ def _log_joints(recording: rr.RecordingStream, name: str, motion: Motion) -> Non
 
 
 def _log_surroundings(recording: rr.RecordingStream, scene: Scene) -> None:
-    """What stands still. A number before a name tells two of the same apart."""
+    """All that stands still. A number before a name tells two of the same apart."""
 
     def log(kind: str, index: int, name: str, *parts: Any) -> None:
         recording.log([kind, f"{index}_{name}"], *parts, static=True)

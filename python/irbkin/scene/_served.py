@@ -76,7 +76,7 @@ class ServedView:
         # Held by whoever changes the joints or the scene, and tells it.
         self._changed = threading.Condition()
         self._engines = Engines()
-        # What pages are to be told: of all that changed the newest, and its number.
+        # The newest of all that changed, which pages are to be told, and its number.
         self._pages: list[SimpleNamespace] = []
         self._number, self._is_closed = 0, False
         self._set(scene)
@@ -101,7 +101,7 @@ class ServedView:
 
     @property
     def scene(self) -> Scene:
-        """What is shown."""
+        """The scene that is shown."""
         return self._scene
 
     @scene.setter
@@ -185,7 +185,7 @@ class _Handler(BaseHTTPRequestHandler):
         """Say nothing."""
 
     def _asked(self) -> tuple[str, str] | None:
-        """What is asked for, and the name of the page; None if the request is refused: by another
+        """The kind of request, and the name of the page; None if the request is refused: by another
         host's name, from another page, without the token, after the end.
         """
         token, _, rest = self.path[1:].partition("/")
@@ -250,7 +250,7 @@ class _Handler(BaseHTTPRequestHandler):
         """Send what Python and other pages change, until the page or the server ends."""
         view = self.view
         with view._changed:
-            # What changed between the page and its stream.
+            # All that changed between the page and its stream.
             scene = {} if view._is_first else {"scene": view._scene.to_dict()}
             event = {**scene, "q": view._q}
             own = SimpleNamespace(page=page, number=view._number, event=event)
