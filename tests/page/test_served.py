@@ -1,7 +1,6 @@
 """The page that Python serves, in a real Chromium: `irbkin view` and `scene.serve`."""
 
 import itertools
-import shutil
 import threading
 from pathlib import Path
 
@@ -10,45 +9,23 @@ import numpy as np
 import pytest
 from irbkin import scene
 
-playwright = pytest.importorskip("playwright.sync_api")
-
 DATA = Path(__file__).parents[1] / "data"
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 HOME = np.array([0.1, 0.2, 0.1, 0.3, 0.5, 0.2])
 
 
-@pytest.fixture(scope="module")
-def browser():
-    if CHROMIUM is None:
-        pytest.skip("there is no Chromium")
-    with playwright.sync_playwright() as started:
-        arguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-        browser = started.chromium.launch(executable_path=CHROMIUM, args=arguments)
-        yield browser
-        browser.close()
-
-
 @pytest.fixture
-def opened(browser):
-    """Open an address; no error may be on the console in the end."""
-    errors, pages = [], []
+def served():
+    """Serve scenes until all pages are closed."""
+    views = []
 
-    def open_page(address):
-        page = browser.new_page(viewport={"width": 1280, "height": 900})
-        pages.append(page)
-        page.on("console", lambda it: errors.append(it.text) if it.type == "error" else None)
-        page.on("pageerror", lambda it: errors.append(str(it)))
-        page.goto(address)
-        page.wait_for_selector("html[data-ready]")
-        return page
+    def serve(thing):
+        views.append(scene.serve(thing))
+        return views[-1]
 
-    yield open_page
-    for page in pages:
-        page.close()
-    # A page may ask a server that has just ended.
-    ended = ("ERR_CONNECTION_REFUSED", "403 (Forbidden)")
-    assert [it for it in errors if not any(word in it for word in ended)] == []
+    yield serve
+    for view in views:
+        view.close()
 
 
 def agrees(page, view):
@@ -59,79 +36,79 @@ def agrees(page, view):
     )
 
 
-def test_two_pages_and_python_move_one_arm(opened):
+def test_two_pages_and_python_move_one_arm(served, opened):
     robot = ROBOT.with_tool([0, 0, 0.1]).with_base([0.2, 0, 0])
-    with scene.serve(scene.of(robot, q=HOME)) as view:
-        page, other = opened(view.url), opened(view.url)
-        assert "8 solutions" in page.locator(".verdict").inner_text()
-        view.q = HOME + 0.1
+    view = served(scene.of(robot, q=HOME))
+    page, other = opened(view.url), opened(view.url)
+    assert "8 solutions" in page.locator(".verdict").inner_text()
+    view.q = HOME + 0.1
+    agrees(page, view)
+    agrees(other, view)
+    T = view.T
+    T[2, 3] -= 0.05
+    view.T = T
+    agrees(page, view)
+    x, y, _ = page.evaluate("() => irbkin.view.camera.project(place(irbkin.state.T))")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for step in range(20):
+        page.mouse.move(x + 2 * step, y - 2 * step)
+        page.wait_for_timeout(16)
+    page.mouse.up()
+    page.wait_for_timeout(500)
+    assert np.abs(robot.fk(view.q)[:3, 3] - T[:3, 3]).max() > 0.02
+    agrees(page, view)
+    agrees(other, view)
+    shown = page.evaluate("() => irbkin.state.T")
+    np.testing.assert_allclose(np.reshape(shown, (4, 4)).T, robot.fk(view.q), atol=1e-9)
+    view.scene = irbkin.Robot("UR5e")
+    page.wait_for_function("() => irbkin.robot.name === 'UR5e'")
+
+
+def test_pages_and_python_agree_after_all_moved_at_once(served, opened):
+    view = served(scene.of(ROBOT, q=HOME))
+    page, other = opened(view.url), opened(view.url)
+    for _ in range(6):
+        done = threading.Event()
+
+        def move(done=done):
+            for step in itertools.count():
+                if done.wait(0.01):
+                    return
+                view.q = HOME + 0.1 * np.sin(step / 10)
+
+        threads = [threading.Thread(target=move) for _ in range(2)]
+        for it in threads:
+            it.start()
+        page.evaluate("""async () => {
+            for (let i = 0; i < 25; i++) {
+                irbkin.setJoints(irbkin.state.q.map((it, joint) => it + 0.003 * (joint + 1)));
+                await new Promise((resolve) => setTimeout(resolve, 8));
+            }
+        }""")
+        done.set()
+        for it in threads:
+            it.join()
+        page.wait_for_timeout(300)
         agrees(page, view)
         agrees(other, view)
-        T = view.T
-        T[2, 3] -= 0.05
-        view.T = T
-        agrees(page, view)
-        x, y, _ = page.evaluate("() => irbkin.view.camera.project(place(irbkin.state.T))")
-        page.mouse.move(x, y)
-        page.mouse.down()
-        for step in range(20):
-            page.mouse.move(x + 2 * step, y - 2 * step)
-            page.wait_for_timeout(16)
-        page.mouse.up()
-        page.wait_for_timeout(500)
-        assert np.abs(robot.fk(view.q)[:3, 3] - T[:3, 3]).max() > 0.02
-        agrees(page, view)
-        agrees(other, view)
-        shown = page.evaluate("() => irbkin.state.T")
-        np.testing.assert_allclose(np.reshape(shown, (4, 4)).T, robot.fk(view.q), atol=1e-9)
-        view.scene = irbkin.Robot("UR5e")
-        page.wait_for_function("() => irbkin.robot.name === 'UR5e'")
+    for name in ("UR5e", "IRB 1200-5/0.9", ROBOT.name) * 3:
+        view.scene = irbkin.Robot(name)
+        view.q = HOME + 0.2
+    for it in (page, other):
+        it.wait_for_function("(name) => irbkin.robot.name === name", arg=ROBOT.name)
+        agrees(it, view)
+    np.testing.assert_array_equal(view.q, HOME + 0.2)
 
 
-def test_pages_and_python_agree_after_all_moved_at_once(opened):
-    with scene.serve(scene.of(ROBOT, q=HOME)) as view:
-        page, other = opened(view.url), opened(view.url)
-        for _ in range(6):
-            done = threading.Event()
-
-            def move(done=done):
-                for step in itertools.count():
-                    if done.wait(0.01):
-                        return
-                    view.q = HOME + 0.1 * np.sin(step / 10)
-
-            threads = [threading.Thread(target=move) for _ in range(2)]
-            for it in threads:
-                it.start()
-            page.evaluate("""async () => {
-                for (let i = 0; i < 25; i++) {
-                    irbkin.setJoints(irbkin.state.q.map((it, joint) => it + 0.003 * (joint + 1)));
-                    await new Promise((resolve) => setTimeout(resolve, 8));
-                }
-            }""")
-            done.set()
-            for it in threads:
-                it.join()
-            page.wait_for_timeout(300)
-            agrees(page, view)
-            agrees(other, view)
-        for name in ("UR5e", "IRB 1200-5/0.9", ROBOT.name) * 3:
-            view.scene = irbkin.Robot(name)
-            view.q = HOME + 0.2
-        for it in (page, other):
-            it.wait_for_function("(name) => irbkin.robot.name === name", arg=ROBOT.name)
-            agrees(it, view)
-        np.testing.assert_array_equal(view.q, HOME + 0.2)
-
-
-def test_an_arm_of_a_file_is_solved_as_it_is(opened):
+def test_an_arm_of_a_file_is_solved_as_it_is(served, opened):
     ur = irbkin.Robot.from_urdf(DATA / "ur5e.urdf", tip="tool0").with_tool([0, 0.1, 0.2])
-    with scene.serve(scene.of(ur, q=HOME)) as view:
-        page = opened(view.url)
-        agrees(page, view)
-        assert page.evaluate("() => irbkin.state.solutions.length") == len(ur.ik(ur.fk(HOME)))
-        shown = page.evaluate("() => irbkin.state.T")
-        np.testing.assert_allclose(np.reshape(shown, (4, 4)).T, ur.fk(HOME), atol=1e-9)
+    view = served(scene.of(ur, q=HOME))
+    page = opened(view.url)
+    agrees(page, view)
+    assert page.evaluate("() => irbkin.state.solutions.length") == len(ur.ik(ur.fk(HOME)))
+    shown = page.evaluate("() => irbkin.state.T")
+    np.testing.assert_allclose(np.reshape(shown, (4, 4)).T, ur.fk(HOME), atol=1e-9)
 
 
 def test_a_file_without_the_engine_draws_and_plays(opened, tmp_path, monkeypatch):
@@ -161,56 +138,57 @@ def test_a_file_without_an_arm_and_the_engine_draws(opened, tmp_path, monkeypatc
     page.locator(".label", has_text="box").wait_for()
 
 
-def test_a_page_that_nobody_looks_at_lets_go_of_its_stream(opened):
+def test_a_page_that_nobody_looks_at_lets_go_of_its_stream(served, opened):
     hide = """(hidden) => {
         Object.defineProperty(document, "hidden", { configurable: true, value: hidden });
         document.dispatchEvent(new Event("visibilitychange"));
     }"""
-    with scene.serve(scene.of(ROBOT, q=HOME)) as view:
-        page = opened(view.url)
-        agrees(page, view)
-        page.evaluate(hide, True)
-        page.wait_for_timeout(200)
-        view.scene = irbkin.Robot("UR5e")
-        view.q = HOME + 0.1
-        page.wait_for_timeout(300)
-        assert page.evaluate("() => irbkin.robot.name") == ROBOT.name
-        page.evaluate(hide, False)
-        page.wait_for_function("() => irbkin.robot.name === 'UR5e'")
-        agrees(page, view)
+    view = served(scene.of(ROBOT, q=HOME))
+    page = opened(view.url)
+    agrees(page, view)
+    page.evaluate(hide, True)
+    page.wait_for_timeout(200)
+    view.scene = irbkin.Robot("UR5e")
+    view.q = HOME + 0.1
+    page.wait_for_timeout(300)
+    assert page.evaluate("() => irbkin.robot.name") == ROBOT.name
+    page.evaluate(hide, False)
+    page.wait_for_function("() => irbkin.robot.name === 'UR5e'")
+    agrees(page, view)
 
 
-def test_a_page_says_when_python_has_ended(opened):
-    with scene.serve(ROBOT) as view:
-        page = opened(view.url)
+def test_a_page_says_when_python_has_ended(served, opened):
+    view = served(ROBOT)
+    page = opened(view.url, passes="Failed to load resource")
+    view.close()
     page.evaluate("() => irbkin.setJoints([0.1, 0, 0, 0, 0.5, 0])")
     page.wait_for_function("() => irbkin.state.reason?.includes('irbkin has ended')")
     assert page.locator(".verdict").inner_text() == "irbkin has ended: start irbkin view again"
 
 
-def test_what_is_no_pose_moves_nothing(opened):
-    with scene.serve(scene.of(ROBOT, q=HOME)) as view:
-        page = opened(view.url)
-        before = page.evaluate("() => irbkin.state.T")
-        field = page.get_by_label("paste a target, a tool, a pose, joints or a module")
-        field.fill("1 0 0 1 0 1 0 0 0 0 -1 1 0 0 0 1")
-        page.wait_for_function("() => irbkin.parts.verdict.textContent.includes('mirrors')")
-        np.testing.assert_allclose(page.evaluate("() => irbkin.state.T"), before, atol=1e-12)
-        field.fill("no target")
-        page.get_by_text('"no target" is no target').wait_for()
-        field.fill(MODULE)
-        checked(page)
-        page.wait_for_function("() => irbkin.parts.pasteWords.textContent === ''")
-        # The time grows with the text, and not with its square.
-        took = page.evaluate(
-            """(text) => {
-            const begun = performance.now();
-            try { meaningOf(text, 6, irbkin.units); } catch {}
-            return performance.now() - begun;
-        }""",
-            "x" + " \n" * 200000 + "x",
-        )
-        assert took < 2000
+def test_what_is_no_pose_moves_nothing(served, opened):
+    view = served(scene.of(ROBOT, q=HOME))
+    page = opened(view.url)
+    before = page.evaluate("() => irbkin.state.T")
+    field = page.get_by_label("paste a target, a tool, a pose, joints or a module")
+    field.fill("1 0 0 1 0 1 0 0 0 0 -1 1 0 0 0 1")
+    page.wait_for_function("() => irbkin.parts.verdict.textContent.includes('mirrors')")
+    np.testing.assert_allclose(page.evaluate("() => irbkin.state.T"), before, atol=1e-12)
+    field.fill("no target")
+    page.get_by_text('"no target" is no target').wait_for()
+    field.fill(MODULE)
+    checked(page)
+    page.wait_for_function("() => irbkin.parts.pasteWords.textContent === ''")
+    # The time grows with the text, and not with its square.
+    took = page.evaluate(
+        """(text) => {
+        const begun = performance.now();
+        try { meaningOf(text, 6, irbkin.units); } catch {}
+        return performance.now() - begun;
+    }""",
+        "x" + " \n" * 200000 + "x",
+    )
+    assert took < 2000
 
 
 MODULE = """MODULE Weld
@@ -233,124 +211,124 @@ def checked(page):
     return page.locator(".program p").inner_text()
 
 
-def test_a_module_is_edited_corrected_and_saved(opened):
-    with scene.serve(ROBOT) as view:
-        page = opened(view.url)
-        page.get_by_label("paste a target, a tool, a pose, joints or a module").fill(MODULE)
-        before = checked(page)
-        assert "3 of 3 moves checked" in before
-        margin = page.locator(".margin div")
-        assert margin.nth(7).get_attribute("class") == "error"
-        assert "R101" in margin.nth(7).get_attribute("title")
-        text = page.get_by_label("text of the module")
-        text.fill(MODULE.replace("[[2900,", "[[900,"))
-        page.wait_for_function("() => irbkin.program.words.textContent.includes(' 0 errors')")
-        page.locator(".program button", has_text="fix").click()
-        page.wait_for_function("() => irbkin.program.source.text.value.includes('[-1,0,-1,0]')")
-        wanted = irbkin.rapid.check(ROBOT, irbkin.rapid.parse(text.input_value()))
-        assert not [it for it in wanted if it.severity == "error"]
-        with page.expect_download() as saved:
-            page.get_by_role("button", name="save").click()
-        assert Path(saved.value.path()).read_text() == text.input_value()
-        margin.nth(6).click()
-        page.wait_for_function("() => !irbkin.solving")
-        z = page.evaluate("() => irbkin.state.T[14]")
-        assert z == pytest.approx(0.55 + 0.18, abs=1e-6)
-        page.get_by_role("button", name="close the program").click()
-        assert not page.locator(".program").is_visible()
+def test_a_module_is_edited_corrected_and_saved(served, opened):
+    view = served(ROBOT)
+    page = opened(view.url)
+    page.get_by_label("paste a target, a tool, a pose, joints or a module").fill(MODULE)
+    before = checked(page)
+    assert "3 of 3 moves checked" in before
+    margin = page.locator(".margin div")
+    assert margin.nth(7).get_attribute("class") == "error"
+    assert "R101" in margin.nth(7).get_attribute("title")
+    text = page.get_by_label("text of the module")
+    text.fill(MODULE.replace("[[2900,", "[[900,"))
+    page.wait_for_function("() => irbkin.program.words.textContent.includes(' 0 errors')")
+    page.locator(".program button", has_text="fix").click()
+    page.wait_for_function("() => irbkin.program.source.text.value.includes('[-1,0,-1,0]')")
+    wanted = irbkin.rapid.check(ROBOT, irbkin.rapid.parse(text.input_value()))
+    assert not [it for it in wanted if it.severity == "error"]
+    with page.expect_download() as saved:
+        page.get_by_role("button", name="save").click()
+    assert Path(saved.value.path()).read_text() == text.input_value()
+    margin.nth(6).click()
+    page.wait_for_function("() => !irbkin.solving")
+    z = page.evaluate("() => irbkin.state.T[14]")
+    assert z == pytest.approx(0.55 + 0.18, abs=1e-6)
+    page.get_by_role("button", name="close the program").click()
+    assert not page.locator(".program").is_visible()
 
 
-def test_what_is_checked_is_the_newest_text_alone(opened):
-    with scene.serve(ROBOT) as view:
-        page = opened(view.url)
-        page.evaluate("(text) => irbkin.paste(text)", MODULE)
-        checked(page)
-        assert page.locator(".program button", has_text="fix").is_visible()
-        # Each check waits until it is let go: all but the first and the last are left out.
-        page.evaluate("""() => {
-            const { engine } = irbkin.program;
-            const answer = engine.answer.bind(engine);
-            window.asked = [];
-            engine.answer = async (request) => {
-                if (request.do === "check") window.asked.push(request.modules[0].text.length);
-                if (window.asked.length === 1) await new Promise((go) => { window.go ??= go; });
-                return answer(request);
-            };
-        }""")
-        text = page.get_by_label("text of the module")
-        for count in range(1, 4):
-            text.fill("! line\n" * count + MODULE)
-            # Places of what was found are of another text.
-            assert not page.locator(".program button", has_text="fix").is_visible()
-            page.wait_for_timeout(400)
-        page.evaluate("() => window.go()")
-        checked(page)
-        page.wait_for_function("() => window.asked.length === 2")
-        assert page.evaluate("() => window.asked") == [len(MODULE) + 7, len(MODULE) + 21]
-        page.wait_for_function("() => !irbkin.program.fix.hidden")
-        assert page.locator(".margin div").nth(10).get_attribute("class") == "error"
+def test_what_is_checked_is_the_newest_text_alone(served, opened):
+    view = served(ROBOT)
+    page = opened(view.url)
+    page.evaluate("(text) => irbkin.paste(text)", MODULE)
+    checked(page)
+    assert page.locator(".program button", has_text="fix").is_visible()
+    # Each check waits until it is let go: all but the first and the last are left out.
+    page.evaluate("""() => {
+        const { engine } = irbkin.program;
+        const answer = engine.answer.bind(engine);
+        window.asked = [];
+        engine.answer = async (request) => {
+            if (request.do === "check") window.asked.push(request.modules[0].text.length);
+            if (window.asked.length === 1) await new Promise((go) => { window.go ??= go; });
+            return answer(request);
+        };
+    }""")
+    text = page.get_by_label("text of the module")
+    for count in range(1, 4):
+        text.fill("! line\n" * count + MODULE)
+        # Places of what was found are of another text.
+        assert not page.locator(".program button", has_text="fix").is_visible()
+        page.wait_for_timeout(400)
+    page.evaluate("() => window.go()")
+    checked(page)
+    page.wait_for_function("() => window.asked.length === 2")
+    assert page.evaluate("() => window.asked") == [len(MODULE) + 7, len(MODULE) + 21]
+    page.wait_for_function("() => !irbkin.program.fix.hidden")
+    assert page.locator(".margin div").nth(10).get_attribute("class") == "error"
 
 
-def test_a_finding_in_the_picture_leads_to_its_line(opened):
-    with scene.serve(ROBOT) as view:
-        page = opened(view.url)
-        page.evaluate("(text) => irbkin.paste(text)", MODULE.replace("[0,0,0,0]", "[5,0,-1,0]", 1))
-        checked(page)
-        assert page.evaluate("() => irbkin.view.marks.length") > 0
-        place = "irbkin.view.camera.project(irbkin.view.marks.find((it) => it.go).at)"
-        x, y, _ = page.evaluate(f"() => {place}")
-        page.mouse.click(x, y)
-        assert page.evaluate("() => irbkin.program.source.line") is not None
+def test_a_finding_in_the_picture_leads_to_its_line(served, opened):
+    view = served(ROBOT)
+    page = opened(view.url)
+    page.evaluate("(text) => irbkin.paste(text)", MODULE.replace("[0,0,0,0]", "[5,0,-1,0]", 1))
+    checked(page)
+    assert page.evaluate("() => irbkin.view.marks.length") > 0
+    place = "irbkin.view.camera.project(irbkin.view.marks.find((it) => it.go).at)"
+    x, y, _ = page.evaluate(f"() => {place}")
+    page.mouse.click(x, y)
+    assert page.evaluate("() => irbkin.program.source.line") is not None
 
 
-def test_tools_and_work_objects_are_pasted_anywhere(opened):
-    with scene.serve(scene.of(ROBOT, q=HOME)) as view:
-        page = opened(view.url)
-        tool = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];"
-        wobj = '[FALSE,TRUE,"",[[500,0,0],[1,0,0,0]],[[0,0,100],[1,0,0,0]]]'
-        paste = """(text) => {
-            const clipboardData = new DataTransfer();
-            clipboardData.setData("text", text);
-            const pasted = new ClipboardEvent("paste", { clipboardData, bubbles: true });
-            irbkin.view.canvas.dispatchEvent(pasted);
-        }"""
-        page.evaluate(paste, tool)
-        page.wait_for_function("() => irbkin.state.tool[14] === 0.18 && !irbkin.solving")
-        page.evaluate(paste, wobj)
-        page.wait_for_function("() => irbkin.state.wobj[12] + irbkin.state.wobj[14] === 0.6")
-        T = ROBOT.with_tool([0, 0, 0.18]).fk(HOME)
-        shown = page.get_by_label("z", exact=True).first.input_value()
-        assert float(shown) == pytest.approx(1e3 * T[2, 3] - 100, abs=0.01)
-        page.evaluate(paste, tool.replace("TRUE", "FALSE"))
-        page.get_by_text("it must be TRUE here").wait_for()
+def test_tools_and_work_objects_are_pasted_anywhere(served, opened):
+    view = served(scene.of(ROBOT, q=HOME))
+    page = opened(view.url)
+    tool = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];"
+    wobj = '[FALSE,TRUE,"",[[500,0,0],[1,0,0,0]],[[0,0,100],[1,0,0,0]]]'
+    paste = """(text) => {
+        const clipboardData = new DataTransfer();
+        clipboardData.setData("text", text);
+        const pasted = new ClipboardEvent("paste", { clipboardData, bubbles: true });
+        irbkin.view.canvas.dispatchEvent(pasted);
+    }"""
+    page.evaluate(paste, tool)
+    page.wait_for_function("() => irbkin.state.tool[14] === 0.18 && !irbkin.solving")
+    page.evaluate(paste, wobj)
+    page.wait_for_function("() => irbkin.state.wobj[12] + irbkin.state.wobj[14] === 0.6")
+    T = ROBOT.with_tool([0, 0, 0.18]).fk(HOME)
+    shown = page.get_by_label("z", exact=True).first.input_value()
+    assert float(shown) == pytest.approx(1e3 * T[2, 3] - 100, abs=0.01)
+    page.evaluate(paste, tool.replace("TRUE", "FALSE"))
+    page.get_by_text("it must be TRUE here").wait_for()
 
 
-def test_an_arm_reaches_towards_what_it_does_not_reach(opened):
-    with scene.serve(scene.of(ROBOT, q=HOME)) as view:
-        page = opened(view.url)
-        page.evaluate("() => irbkin.setPose(Handle.shifted(irbkin.state.T, [2, 0, 0]))")
-        assert page.locator(".verdict").inner_text().startswith("Not reached")
-        q = page.evaluate("() => irbkin.state.q")
-        T, far = ROBOT.fk(q), ROBOT.fk(HOME)
-        far[0, 3] += 2
-        assert far[0, 3] > T[0, 3] > ROBOT.fk(HOME)[0, 3] + 0.05
-        np.testing.assert_allclose(T[:3, :3], far[:3, :3], atol=1e-6)
-        assert "old" in page.locator(".joints").get_attribute("class")
-        shown = page.evaluate("() => irbkin.state.T")
-        np.testing.assert_allclose(np.reshape(shown, (4, 4)).T, far, atol=1e-9)
+def test_an_arm_reaches_towards_what_it_does_not_reach(served, opened):
+    view = served(scene.of(ROBOT, q=HOME))
+    page = opened(view.url)
+    page.evaluate("() => irbkin.setPose(Handle.shifted(irbkin.state.T, [2, 0, 0]))")
+    assert page.locator(".verdict").inner_text().startswith("Not reached")
+    q = page.evaluate("() => irbkin.state.q")
+    T, far = ROBOT.fk(q), ROBOT.fk(HOME)
+    far[0, 3] += 2
+    assert far[0, 3] > T[0, 3] > ROBOT.fk(HOME)[0, 3] + 0.05
+    np.testing.assert_allclose(T[:3, :3], far[:3, :3], atol=1e-6)
+    assert "old" in page.locator(".joints").get_attribute("class")
+    shown = page.evaluate("() => irbkin.state.T")
+    np.testing.assert_allclose(np.reshape(shown, (4, 4)).T, far, atol=1e-9)
 
 
-def test_joints_that_are_outside_are_red_alone(opened):
+def test_joints_that_are_outside_are_red_alone(served, opened):
     T = irbkin.pose([0.85, 0.32, 0.64], euler_zyx=np.radians([0, 150, 0]))
     q = ROBOT.ik_nearest(T)
-    with scene.serve(scene.of(ROBOT, q=q)) as view:
-        page = opened(view.url)
-        lower, upper = ROBOT.limits.T
-        found = list(ROBOT.ik(ROBOT.fk(q)))
-        wanted = [[bool(it) for it in (one.q < lower) | (one.q > upper)] for one in found]
-        shown = page.evaluate(
-            "() => [...document.querySelectorAll('.solutions tbody tr')].map((row) =>"
-            " [...row.querySelectorAll('.angle')].map((it) => it.classList.contains('bad')))"
-        )
-        assert shown == wanted
-        assert any(map(any, wanted))
+    view = served(scene.of(ROBOT, q=q))
+    page = opened(view.url)
+    lower, upper = ROBOT.limits.T
+    found = list(ROBOT.ik(ROBOT.fk(q)))
+    wanted = [[bool(it) for it in (one.q < lower) | (one.q > upper)] for one in found]
+    shown = page.evaluate(
+        "() => [...document.querySelectorAll('.solutions tbody tr')].map((row) =>"
+        " [...row.querySelectorAll('.angle')].map((it) => it.classList.contains('bad')))"
+    )
+    assert shown == wanted
+    assert any(map(any, wanted))
