@@ -71,6 +71,9 @@ function panels(app) {
   return parts;
 }
 
+// Whether a joint is beyond its limits, of which one that does not exist is null.
+const isOutside = (angle, [low, high]) => angle < (low ?? -Infinity) - 1e-9 || angle > (high ?? Infinity) + 1e-9;
+
 // A slider and a field for each joint.
 function jointRows(app) {
   return app.robot.limits.map(([low, high], joint) => {
@@ -93,8 +96,7 @@ function jointRows(app) {
     const show = (angle) => {
       slider.value = angle;
       field.show(app.units.fromRadians(angle), app.units.digits[1]);
-      const outside = bounded && (angle < low - 1e-9 || angle > high + 1e-9);
-      node.classList.toggle("outside", outside);
+      node.classList.toggle("outside", isOutside(angle, [low, high]));
       node.title = bounded
         ? `${trimmed(app.units.fromRadians(low), 2)} .. ${trimmed(app.units.fromRadians(high), 2)} ${app.units.angle}`
         : "without limits";
@@ -108,7 +110,6 @@ function solutionRows(app) {
   const { state, robot, units } = app;
   const joints = robot.limits.map((_, joint) => `J${joint + 1}`);
   app.parts.head.replaceChildren(...["slot", robot.has_confdata ? "confdata" : "", ...joints].map((it) => el("th", {}, it)));
-  const isOutside = (angle, [low, high]) => angle < (low ?? -Infinity) - 1e-9 || angle > (high ?? Infinity) + 1e-9;
   return state.solutions.map((it, index) => {
     const outside = it.q.map((angle, joint) => isOutside(angle, robot.limits[joint]));
     // Joints that are outside are red; a linkage between two of them is none of them.

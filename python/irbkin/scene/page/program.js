@@ -27,9 +27,7 @@ class Program {
       this.words,
       this.player = el("div", { className: "player" }, this.button, this.slider, this.clock),
       el("div", { className: "sides" }, this.source.node,
-        this.moves = el("div", { className: "moves" }, el("table", {},
-          el("thead", {}, el("tr", {}, ...["line", "move", "confdata", "finding"].map((it) => el("th", {}, it)))),
-          this.list))),
+        this.moves = el("div", { className: "moves" }, el("table", {}, this.list))),
     );
   }
 
@@ -73,8 +71,7 @@ class Program {
       await this.read(true);
       this.words.textContent += " The corrections would cause another finding: they are not made.";
     }
-    this.source.open(this.modules[this.module].text);
-    this.mark();
+    this.turnTo(this.module);
   }
 
   // Findings that can be corrected: notes where nothing else can.
@@ -201,11 +198,10 @@ class Program {
 
   // The procedures, `main` or the first that moves chosen unless another one was.
   choices({ procedures, moves }) {
-    const chosen = this.routines.selectedOptions[0]?.textContent ?? this.wanted;
     const moving = moves.find((move) => move.routine !== null);
     const isFirst = (it) => it.module === moving?.module && it.name === moving.routine;
     const named = (name) => procedures.find((it) => it.name.toLowerCase() === name?.toLowerCase());
-    const own = named(this.wanted ?? chosen) ?? named("main") ?? procedures.find(isFirst);
+    const own = named(this.wanted ?? this.routines.selectedOptions[0]?.textContent) ?? named("main") ?? procedures.find(isFirst);
     this.wanted = null;
     this.procedures = procedures;
     this.routines.replaceChildren(...procedures.map((it, index) => el("option", { value: index }, it.name)));
