@@ -133,6 +133,8 @@ pub mod report;
 mod spelling;
 #[cfg(any(feature = "std", feature = "libm"))]
 mod spline;
+#[cfg(any(feature = "std", feature = "libm"))]
+pub mod stream;
 #[cfg(test)]
 #[path = "../tests/main.rs"]
 mod suite;

@@ -18,6 +18,14 @@ const OF_TWO: usize = 11;
 /// Ways that are kept.
 const WAYS: usize = 128;
 
+impl<const N: usize> Block<N> {
+    /// Make room for doubts about all places, so that none is made later.
+    pub(super) fn reserve(&mut self, places: usize) {
+        self.doubts.reserve(places);
+        self.ways.resize(WAYS, (0, None));
+    }
+}
+
 impl<const N: usize> Touch<'_, N> {
     /// Decide by hulls what is in doubt.
     #[inline(always)]

@@ -2,6 +2,7 @@
 
 mod apart;
 mod block;
+mod boxes;
 mod doubts;
 mod gradient;
 mod obstacles;
@@ -11,7 +12,9 @@ mod placed;
 mod postures;
 mod standing;
 
+pub(crate) use boxes::Boxes;
 pub use obstacles::Cell;
+pub(crate) use pairs::Other;
 #[cfg(feature = "python")]
 pub(crate) use path::Motion;
 pub use path::{Contact, RESOLUTION};

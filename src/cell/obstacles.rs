@@ -38,6 +38,12 @@ impl Cell {
         Ok(Self { obstacles, margin, may_touch: Vec::new() })
     }
 
+    /// The cell with so much more margin [m].
+    pub(super) fn widened(self, more: f64) -> Result<Self, Error> {
+        check_length("margin", more, 0.0)?;
+        Ok(Self { margin: self.margin + more, ..self })
+    }
+
     /// The obstacles, with their names.
     #[must_use]
     pub fn obstacles(&self) -> &[(String, Shape)] {

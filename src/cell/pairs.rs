@@ -17,7 +17,7 @@ pub(super) struct Pair {
 
 /// The other of a pair: a link, or an obstacle by its place.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Other {
+pub(crate) enum Other {
     Link(usize),
     Obstacle(usize),
 }

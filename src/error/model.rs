@@ -61,6 +61,8 @@ pub enum ModelFault {
     NoLinkage,
     #[error("axes 2 and 3 cannot be coupled: {reason}")]
     NotCoupled { reason: String },
+    #[error("the robot has no velocity limits: give max_velocity [rad/s]")]
+    NoVelocity,
     #[error("joint {joint} velocity is {value} rad/s, it must be positive")]
     Velocity { joint: usize, value: f64 },
     #[error("the robot has {found} joints, it must have {wanted}")]

@@ -166,7 +166,7 @@ impl<const N: usize> Candidates<'_, N> {
 /// Joint angles, checked: a locked joint is at its angle, the others are inside their limits, or at
 /// a limit that they exceed by at most
 /// [`START_TOLERANCE`](crate::kinematics::thresholds::START_TOLERANCE).
-fn inside<const N: usize>(
+pub(crate) fn inside<const N: usize>(
     robot: &Robot<N>,
     field: &'static str,
     q: &[f64; N],

@@ -11,6 +11,8 @@ mod tree;
 
 use alloc::vec::Vec;
 
+pub(crate) use ends::inside;
+
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
 use crate::go::fault::GoFault;

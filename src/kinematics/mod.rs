@@ -35,9 +35,7 @@ pub(crate) use chain::limits::at_limit;
 pub(crate) use path::follow::Progress;
 pub use path::follow::{Break, BreakReason, Followed, Follower};
 pub use path::singularity_mode::{FollowOptions, SingularityMode};
-#[cfg(feature = "rapid")]
-pub(crate) use path::step::largest_step;
-pub(crate) use path::step::{largest, steps};
+pub(crate) use path::step::{largest, largest_step, steps};
 #[cfg(feature = "rapid")]
 pub(crate) use pose::angles::angle_between;
 #[cfg(feature = "rapid")]

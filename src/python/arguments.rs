@@ -11,6 +11,7 @@ use crate::kinematics::{JacobianFrame, SingularityMode};
 use crate::paths::ArcOrientation;
 use crate::paths::thresholds::MOST_SAMPLES;
 use crate::plan::{PlanOrder, ToolAxis};
+use crate::stream::OnViolation;
 use crate::trajectory::{Profile, SplineKind, Synchronization};
 
 /// Look up the value that a word names.
@@ -53,6 +54,10 @@ pub(super) const SPLINES: [(&str, SplineKind); 2] =
 /// How joints arrive together.
 pub(super) const SYNCHRONIZATIONS: [(&str, Synchronization); 2] =
     [("time", Synchronization::Time), ("phase", Synchronization::Phase)];
+
+/// What a guard does with a reference that does not fit.
+pub(super) const VIOLATIONS: [(&str, OnViolation); 2] =
+    [("brake", OnViolation::Brake), ("limit", OnViolation::Limit)];
 
 /// Courses of the orientation along an arc.
 pub(super) const ORIENTATIONS: [(&str, ArcOrientation); 3] = [

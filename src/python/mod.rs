@@ -24,6 +24,7 @@ mod follower;
 mod found;
 mod freedoms;
 mod go;
+mod guard;
 mod hints;
 mod inverse;
 mod meshes;
@@ -62,8 +63,8 @@ use self::cell::PyCell;
 use self::errors::Fault;
 use self::records::{
     Break, CatalogEntry, CellContact, CellDistance, ConfigurationBatch, FollowResult, FreeJoint,
-    IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd,
-    ToolSpeedLimits, TrajectorySample,
+    IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, Step,
+    StrandEnd, ToolSpeedLimits, TrajectorySample,
 };
 use self::robot::PyRobot;
 use self::shapes::{PyBody, PyShape};
@@ -155,7 +156,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
         follower::PyFollower, trajectory::PyTrajectory, Break, CatalogEntry, ConfigurationBatch,
         FollowResult, FreeJoint, IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck,
         Singularity, StrandEnd, ToolSpeedLimits, TrajectorySample, PyShape, PyBody, PyCell,
-        CellContact, CellDistance, page::PageEngine,
+        CellContact, CellDistance, page::PageEngine, guard::PyGuard, Step,
     ], functions [
         catalog::catalog, catalog::catalog_entry, instruction_set, instruction_sets,
         use_instruction_set, restore, poses::pose, poses::to_xyz_wxyz,

@@ -1,0 +1,75 @@
+//! Boxes of joint angles that are proven free, without a heap: for control loops.
+
+use super::block::{Block, Looked};
+use super::obstacles::Cell;
+use super::pairs::Other;
+use super::placed::Placed;
+use crate::body::fault::BodyFault;
+use crate::cell::Nearest;
+use crate::error::Error;
+use crate::kinematics::Robot;
+
+/// A cell and the places of an arm in it.
+#[derive(Clone)]
+pub(crate) struct Boxes<const N: usize> {
+    cell: Cell,
+    block: Block<N>,
+}
+
+impl<const N: usize> Boxes<N> {
+    /// Of an arm in a cell, with so much more margin around the obstacles [m].
+    pub(crate) fn new(robot: &Robot<N>, cell: &Cell, margin: f64) -> Result<Self, Error> {
+        let outline = robot.outline().ok_or_else(|| robot.no_body())?;
+        let mut block = Block::new(robot, outline);
+        let cell = cell.clone().widened(margin)?;
+        block.reserve(outline.pairs.len() + outline.groups.len() * cell.obstacles().len());
+        Ok(Self { cell, block })
+    }
+
+    pub(crate) fn cell(&self) -> &Cell {
+        &self.cell
+    }
+
+    /// What touches at a joint vector, and how deep [m].
+    pub(crate) fn collision(
+        &self,
+        robot: &Robot<N>,
+        q: &[f64; N],
+    ) -> Result<Option<(Nearest, f64)>, Error> {
+        let mut placed = Placed::of(robot)?;
+        if !self.cell.collides_at(&mut placed, q) {
+            return Ok(None);
+        }
+        let found = self.cell.collision(&placed, q);
+        Ok(Some(found.ok_or(Error::from(BodyFault::NoBody))?))
+    }
+
+    /// Which of up to eight boxes, each by its middle and how far it goes to either side [rad], are
+    /// not proven free, as bits.
+    pub(crate) fn open(&mut self, robot: &Robot<N>, q: &[[f64; N]], spans: &[[f64; N]]) -> u64 {
+        let Some(outline) = robot.outline() else { return u64::MAX };
+        self.block.touching(robot, outline, &self.cell, q, Looked::Swept(spans))
+    }
+
+    /// A link, and the link or obstacle for which a box is not proven free.
+    pub(crate) fn blocked(
+        &mut self,
+        robot: &Robot<N>,
+        q: &[f64; N],
+        spans: &[f64; N],
+    ) -> Option<(usize, Other)> {
+        let one = core::slice::from_ref;
+        if self.open(robot, one(q), one(spans)) == 0 {
+            return None;
+        }
+        let outline = robot.outline()?;
+        let (place, pairs, groups) = (self.block.last, &outline.pairs, &outline.groups);
+        if let Some(pair) = pairs.get(place) {
+            let [link, other] = pair.map(|group| groups[group].number);
+            return Some((link, Other::Link(other)));
+        }
+        let place = place - pairs.len();
+        let obstacle = Other::Obstacle(place / groups.len());
+        Some((groups[place % groups.len()].number, obstacle))
+    }
+}

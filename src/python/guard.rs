@@ -1,0 +1,207 @@
+//! `irbkin.stream.Guard`: set points for a control loop.
+
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyBool;
+
+use super::arguments::{VIOLATIONS, one_of};
+use super::arm::{Arm, ByJoints, on};
+use super::arrays::{matrix4, vector};
+use super::cell::PyCell;
+use super::errors::Fault;
+use super::outputs::array;
+use super::records::Step;
+use super::robot::PyRobot;
+use super::targets::shape_of;
+use super::trajectories::{read_each, read_limits};
+use crate::cell::Cell;
+use crate::error::Error;
+use crate::kinematics::{Robot, pose_from_rows};
+use crate::stream::{Guard, GuardOptions, OnViolation};
+
+/// A guard in front of a control loop: in each cycle a reference, or none, and a set point within
+/// bounds. This is no safety function.
+///
+/// Every set point is inside the limits of the joints and within the bounds, and so is the motion to
+/// it: the cubic of the joint angles and velocities at both ends. After every cycle a braking motion
+/// exists that is so too. Both are proven free in the cell (docs/guide/stream.md). The first set
+/// points are at rest at `start`; a set point follows its reference one cycle later.
+///
+/// Args:
+///     robot: The arm.
+///     cycle: Time from one set point to the next [s], at most 0.5.
+///     start: Joint vector at which the arm rests [rad], shape (n,).
+///     max_velocity: Limits [rad/s], a number or shape (n,); the robot's when not given.
+///     max_acceleration: Limits [rad/s^2], a number or shape (n,).
+///     max_jerk: Limits [rad/s^3], a number or shape (n,); none when not given.
+///     cell: What is around the arm; when not given, the arm stays clear of itself. False proves
+///         nothing.
+///     margin: How far the arm stays from obstacles, beyond the margin of the cell [m].
+///     max_tool_speed: Limit of the speed of the tool center point [m/s]; none when not given.
+///     on_violation: "brake" refuses a reference that does not fit, and brakes; "limit" goes towards
+///         it as far and as fast as the bounds allow.
+///
+/// Raises:
+///     InvalidMotionError: A cycle or a limit that is not positive, a cycle above 0.5 s.
+///     InvalidModelError: Neither `max_velocity` nor limits of the robot; no body; a negative margin.
+///     InvalidJointsError: A start of a wrong shape or that is not finite.
+///     UnreachableError: The start is outside the limits or collides.
+///     ValueError: Another `on_violation`.
+#[pyclass(name = "Guard", module = "irbkin.stream")]
+pub(super) struct PyGuard {
+    guard: ByJoints<Guard<6>, Guard<7>>,
+    robot: Py<PyRobot>,
+}
+
+#[pymethods]
+impl PyGuard {
+    #[new]
+    #[pyo3(signature = (robot, *, cycle, start, max_velocity=None, max_acceleration, max_jerk=None, cell=None, margin=0.0, max_tool_speed=None, on_violation="brake"))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn new(
+        robot: &Bound<'_, PyRobot>,
+        cycle: f64,
+        start: &Bound<'_, PyAny>,
+        max_velocity: Option<&Bound<'_, PyAny>>,
+        max_acceleration: &Bound<'_, PyAny>,
+        max_jerk: Option<&Bound<'_, PyAny>>,
+        cell: Option<&Bound<'_, PyAny>>,
+        margin: f64,
+        max_tool_speed: Option<f64>,
+        on_violation: &str,
+    ) -> PyResult<Self> {
+        let on_violation = one_of("on_violation", on_violation, &VIOLATIONS)?;
+        let limits = [max_velocity, Some(max_acceleration), max_jerk];
+        let asked = Asked { cycle, start, limits, margin, max_tool_speed, on_violation };
+        let cell = read_cell(cell)?;
+        let guard = match robot.get().arm() {
+            Arm::Six(robot) => ByJoints::Six(asked.guard(robot, cell.as_ref())?),
+            Arm::Seven(robot) => ByJoints::Seven(asked.guard(robot, cell.as_ref())?),
+        };
+        Ok(Self { guard, robot: robot.clone().unbind() })
+    }
+
+    /// Return the next set point.
+    ///
+    /// Args:
+    ///     reference: Joint vector [rad], shape (n,); or a pose of the tool, shape (4, 4),
+    ///         translation [m], which is solved nearest to the last reference on its branch; or None
+    ///         if there is none in this cycle: the guard brakes and holds.
+    ///
+    /// Returns:
+    ///     The `irbkin.stream.Step`. Numbers that are not finite are refused in its `reason`.
+    ///
+    /// Raises:
+    ///     InvalidJointsError, InvalidPoseError: A wrong shape; the guard stays as it is.
+    #[pyo3(signature = (reference))]
+    fn step(&mut self, reference: &Bound<'_, PyAny>) -> PyResult<Step> {
+        let py = reference.py();
+        on!(&mut self.guard, guard => taken(py, guard, reference))
+    }
+
+    /// The arm, an `irbkin.Robot`.
+    #[getter]
+    fn robot(&self, py: Python<'_>) -> Py<PyRobot> {
+        self.robot.clone_ref(py)
+    }
+
+    /// Time from one set point to the next [s].
+    #[getter]
+    fn cycle(&self) -> f64 {
+        on!(&self.guard, guard => guard.cycle())
+    }
+
+    /// What the guard is doing: "following", "braking" or "holding".
+    #[getter]
+    fn state(&self) -> &'static str {
+        on!(&self.guard, guard => guard.state().name())
+    }
+
+    /// The last set point [rad], shape (n,).
+    #[getter]
+    fn q(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        on!(&self.guard, guard => {
+            let q = guard.q();
+            array(py, q, &[q.len()])
+        })
+    }
+
+    fn __repr__(&self) -> String {
+        on!(&self.guard, guard => {
+            let proven = if guard.proves_free() { "" } else { ", proves nothing free" };
+            let (name, cycle) = (guard.robot().name(), guard.cycle());
+            format!("<Guard: {name}, cycle {cycle} s, {}{proven}>", guard.state().name())
+        })
+    }
+}
+
+/// The arguments of a guard.
+struct Asked<'a, 'py> {
+    cycle: f64,
+    start: &'a Bound<'py, PyAny>,
+    /// Of velocity, acceleration and jerk.
+    limits: [Option<&'a Bound<'py, PyAny>>; 3],
+    margin: f64,
+    max_tool_speed: Option<f64>,
+    on_violation: OnViolation,
+}
+
+impl Asked<'_, '_> {
+    fn guard<const N: usize>(&self, robot: &Robot<N>, cell: Option<&Cell>) -> PyResult<Guard<N>> {
+        let [velocity, acceleration, jerk] = self.limits;
+        let mut max_acceleration = [f64::INFINITY; N];
+        let given = read_each(acceleration, "max_acceleration", N, f64::INFINITY)?;
+        max_acceleration.copy_from_slice(&given);
+        let options = GuardOptions {
+            cycle: self.cycle,
+            max_velocity: read_limits(velocity, "max_velocity")?,
+            max_acceleration,
+            max_jerk: read_limits(jerk, "max_jerk")?,
+            margin: self.margin,
+            max_tool_speed: self.max_tool_speed,
+            on_violation: self.on_violation,
+        };
+        Ok(Guard::new(robot, &vector(self.start, "start", Fault::Joints)?, cell, &options)?)
+    }
+}
+
+/// The cell in which motions are proven free; None is the arm alone, False none.
+fn read_cell(cell: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Cell>> {
+    let Some(cell) = cell else { return Ok(Some(Cell::default())) };
+    if cell.cast::<PyBool>().is_ok_and(|proves| !proves.is_true()) {
+        return Ok(None);
+    }
+    let cell = cell.cast::<PyCell>().map_err(|_| {
+        PyTypeError::new_err(
+            "cell must be an irbkin.Cell, None for the arm alone, or False to prove nothing",
+        )
+    })?;
+    Ok(Some(Cell::clone(&cell.get().0)))
+}
+
+/// The next set point.
+fn taken<const N: usize>(
+    py: Python<'_>,
+    guard: &mut Guard<N>,
+    reference: &Bound<'_, PyAny>,
+) -> PyResult<Step> {
+    let step = if reference.is_none() {
+        guard.step_none()
+    } else if shape_of(reference).is_some_and(|shape| shape.len() > 1) {
+        match pose_from_rows(&matrix4(reference, "reference", Fault::Pose)?) {
+            Ok(pose) => guard.step_pose(&pose),
+            Err(Error::InvalidPose(_)) => guard.step_not_rigid(),
+            Err(error) => return Err(error.into()),
+        }
+    } else {
+        guard.step(&vector(reference, "reference", Fault::Joints)?)
+    };
+    Ok(Step {
+        q: array(py, step.q, &[N])?,
+        dq: array(py, step.dq, &[N])?,
+        ddq: array(py, step.ddq, &[N])?,
+        accepted: step.accepted,
+        state: step.state.name().to_owned(),
+        reason: step.reason.map(|reason| guard.words(&reason)),
+    })
+}

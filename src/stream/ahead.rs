@@ -1,0 +1,185 @@
+//! What is ahead: the motion to the next set point and the braking motion after it
+//! (docs/theory/stream.md, eq. 1), and its proof.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use super::brake::Brake;
+use crate::cell::Boxes;
+use crate::kinematics::{JointLimits, Robot};
+use crate::lanes::LANES;
+
+/// By how much a box of joint angles is wider [rad]: the phases of a braking motion and the steps
+/// that are made in their place differ by less, 1e-10 in tests.
+const WIDER: f64 = 1e-9;
+
+/// Parts that may wait for a look [1].
+const PARTS: usize = 4 * LANES;
+
+/// The control points that the motion ahead depends on, and where its parts are.
+pub(super) struct Ahead<const N: usize> {
+    /// The last three control points and the next one.
+    pub(super) points: [[f64; N]; 4],
+    /// What follows the next one.
+    pub(super) brakes: [Brake; N],
+}
+
+/// A box: its middle, and how far it goes to either side [rad].
+pub(super) type Middle<const N: usize> = ([f64; N], [f64; N]);
+
+impl<const N: usize> Ahead<N> {
+    /// Steps of the braking motion.
+    pub(super) fn steps(&self) -> f64 {
+        self.brakes.iter().fold(0.0, |most, brake| brake.steps.max(most))
+    }
+
+    /// Cycles until the arm is at rest.
+    pub(super) fn cycles(&self) -> f64 {
+        self.steps() + 3.0
+    }
+
+    fn point(&self, joint: usize, index: f64) -> f64 {
+        match index {
+            0.0 => self.points[0][joint],
+            1.0 => self.points[1][joint],
+            2.0 => self.points[2][joint],
+            _ => self.brakes[joint].at(index - 3.0),
+        }
+    }
+
+    /// The least and the greatest of the control points from one to another.
+    fn hull(&self, joint: usize, first: f64, last: f64) -> [f64; 2] {
+        let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
+        for (index, points) in [0.0, 1.0, 2.0].into_iter().zip(&self.points) {
+            if first <= index && index <= last {
+                (low, high) = (low.min(points[joint]), high.max(points[joint]));
+            }
+        }
+        if last >= 3.0 {
+            let brake = self.brakes[joint].range((first - 3.0).max(0.0), last - 3.0);
+            (low, high) = (low.min(brake[0]), high.max(brake[1]));
+        }
+        [low, high]
+    }
+
+    /// A box that contains the joint angles from one cycle to another (eq. 1): the control points of
+    /// all cycles in between, or in one cycle those of the part.
+    pub(super) fn range(&self, [from, to]: [f64; 2]) -> Middle<N> {
+        let first = from.floor();
+        let is_one = to <= first + 1.0;
+        let ranges: [[f64; 2]; N] = core::array::from_fn(|joint| {
+            if !is_one {
+                return self.hull(joint, first, to.ceil() + 2.0);
+            }
+            let own = [0.0, 1.0, 2.0, 3.0].map(|next| self.point(joint, first + next));
+            let (a, b) = (from - first, to - first);
+            let corners = [[a, a, a], [a, a, b], [a, b, b], [b, b, b]];
+            let corners = corners.map(|at| blossom(own, at));
+            corners.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], corner| {
+                [low.min(corner), high.max(corner)]
+            })
+        });
+        let middle = ranges.map(|[low, high]| 0.5 * (low + high));
+        (middle, ranges.map(|[low, high]| 0.5 * (high - low) + WIDER))
+    }
+
+    /// The first differences at an instant, in cycles: the velocities times the cycle.
+    pub(super) fn pace(&self, at: f64) -> [f64; N] {
+        let first = at.floor();
+        let part = at - first;
+        core::array::from_fn(|joint| {
+            let own = [0.0, 1.0, 2.0, 3.0].map(|next| self.point(joint, first + next));
+            let weights =
+                [0.5 * (1.0 - part) * (1.0 - part), 0.5 + part * (1.0 - part), 0.5 * part * part];
+            (0..3).map(|next| weights[next] * (own[next + 1] - own[next])).sum()
+        })
+    }
+
+    /// By how much the linkage of axes 2 and 3 would be outside its limits [rad]; `None` inside.
+    pub(super) fn linkage_excess(&self, limits: &JointLimits<N>) -> Option<f64> {
+        limits.linkage()?;
+        let (mut index, mut most) = (3.0, 0.0_f64);
+        while index <= self.cycles() {
+            most = most.max(limits.linkage_excess(&core::array::from_fn(|joint| {
+                if joint == 1 || joint == 2 { self.point(joint, index) } else { 0.0 }
+            })));
+            index += 1.0;
+        }
+        (most > 0.0).then_some(most)
+    }
+
+    /// Eight parts: the cycle ahead, and parts of the braking motion that are about equally long at
+    /// an even deceleration.
+    pub(super) fn parts(&self) -> [[f64; 2]; LANES] {
+        let rest = self.cycles() - 1.0;
+        let mut from = 0.0;
+        core::array::from_fn(|lane| {
+            #[expect(clippy::cast_precision_loss, reason = "there are eight")]
+            let left = 1.0 - lane as f64 / (LANES - 1) as f64;
+            let to = 1.0 + (rest * (1.0 - left.sqrt())).ceil().min(rest);
+            let part = [from, to.max(from)];
+            from = part[1];
+            part
+        })
+    }
+
+    /// Prove the motion free in at most so many looks of eight boxes; else the first box that is
+    /// left.
+    pub(super) fn prove(
+        &self,
+        robot: &Robot<N>,
+        boxes: &mut Boxes<N>,
+        looks: usize,
+    ) -> Result<(), Middle<N>> {
+        let mut parts = [[0.0; 2]; PARTS];
+        parts[..LANES].copy_from_slice(&self.parts());
+        let mut left = LANES;
+        for look in 0..looks {
+            let count = left.min(LANES);
+            let (mut q, mut spans) = ([[0.0; N]; LANES], [[0.0; N]; LANES]);
+            for (lane, part) in parts[left - count..left].iter().enumerate() {
+                (q[lane], spans[lane]) = self.range(*part);
+            }
+            let open = boxes.open(robot, &q[..count], &spans[..count]);
+            let looked: [[f64; 2]; LANES] = core::array::from_fn(|lane| {
+                if lane < count { parts[left - count + lane] } else { [0.0; 2] }
+            });
+            left -= count;
+            let still = open.count_ones() as usize;
+            if still == 0 && left == 0 {
+                return Ok(());
+            }
+            let pieces = (LANES / still.max(1)).max(2);
+            let first = (0..count).find(|lane| open >> lane & 1 == 1).unwrap_or(0);
+            if look + 1 == looks || left + pieces * still > PARTS {
+                return Err((q[first], spans[first]));
+            }
+            for lane in (0..count).filter(|lane| open >> lane & 1 == 1) {
+                let [from, to] = looked[lane];
+                for piece in 0..pieces {
+                    #[expect(clippy::cast_precision_loss, reason = "there are eight")]
+                    let at = |piece: usize| from + (to - from) * piece as f64 / pieces as f64;
+                    parts[left] = [at(piece), at(piece + 1)];
+                    left += 1;
+                }
+            }
+        }
+        Err(self.range(parts[left - 1]))
+    }
+}
+
+/// The polar form of the cubic with four control points: at equal arguments the cubic itself, else a
+/// control point of one of its parts (Farin, Curves and Surfaces for CAGD, 2002, 8.1).
+fn blossom(points: [f64; 4], [x, y, z]: [f64; 3]) -> f64 {
+    let [a, b, c, d] = points;
+    let first = [
+        ((1.0 - x) * a + (2.0 + x) * b) / 3.0,
+        ((2.0 - x) * b + (1.0 + x) * c) / 3.0,
+        ((3.0 - x) * c + x * d) / 3.0,
+    ];
+    let second = [
+        0.5 * ((1.0 - y) * first[0] + (1.0 + y) * first[1]),
+        0.5 * ((2.0 - y) * first[1] + y * first[2]),
+    ];
+    (1.0 - z) * second[0] + z * second[1]
+}

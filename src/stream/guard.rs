@@ -1,0 +1,472 @@
+//! The guard: references in, set points out.
+
+use alloc::format;
+use alloc::string::{String, ToString as _};
+
+use super::ahead::Ahead;
+use super::bounds::Bounds;
+use super::brake::{Brake, End, braking};
+use super::limit::{Goal, Limited};
+use super::reason::{NOT_FREE, Reason};
+use super::tool::ToolSpeed;
+use crate::cell::{Boxes, Cell, Nearest, Other};
+use crate::error::{Error, ModelFault, MotionFault};
+use crate::go::fault::GoFault;
+use crate::go::inside;
+use crate::kinematics::{BreakReason, Follower, Pose, Robot, largest, largest_step, steps};
+
+/// The longest cycle [s]: one of 4 or 8 is in milliseconds.
+const LONGEST_CYCLE: f64 = 0.5;
+
+/// How far control points may be outside limits [rad]: half of what counts as inside, for the
+/// rounding of the steps of a braking motion is less than the other half.
+const LIMIT_SLACK: f64 = 5e-10;
+
+/// Looks at eight parts of the motion ahead, after which it counts as not free: of a reference, and
+/// of a shorter step in its place.
+const LOOKS: [usize; 2] = [4, 2];
+
+/// What a guard does with a reference that does not fit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OnViolation {
+    /// It brakes.
+    #[default]
+    Brake,
+    /// It goes towards the reference as far and as fast as the bounds allow.
+    Limit,
+}
+
+/// Bounds of a [`Guard`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GuardOptions<const N: usize> {
+    /// Time from one set point to the next [s].
+    pub cycle: f64,
+    /// Limits of the velocities [rad/s]; the robot's if `None`.
+    pub max_velocity: Option<[f64; N]>,
+    /// Limits of the accelerations [rad/s^2].
+    pub max_acceleration: [f64; N],
+    /// Limits of the jerks [rad/s^3]; none if `None`.
+    pub max_jerk: Option<[f64; N]>,
+    /// How far the arm stays from obstacles, beyond the margin of the cell [m].
+    pub margin: f64,
+    /// Limit of the speed of the tool center point [m/s].
+    pub max_tool_speed: Option<f64>,
+    /// What becomes of a reference that does not fit.
+    pub on_violation: OnViolation,
+}
+
+impl<const N: usize> GuardOptions<N> {
+    /// Bounds of the accelerations [rad/s^2] alone, for a cycle [s].
+    #[must_use]
+    pub fn new(cycle: f64, max_acceleration: [f64; N]) -> Self {
+        Self {
+            cycle,
+            max_velocity: None,
+            max_acceleration,
+            max_jerk: None,
+            margin: 0.0,
+            max_tool_speed: None,
+            on_violation: OnViolation::Brake,
+        }
+    }
+}
+
+/// What a guard is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// It goes to the reference, or towards it.
+    Following,
+    /// It brakes.
+    Braking,
+    /// It is at rest, without a reference that fits.
+    Holding,
+}
+
+impl State {
+    /// "following", "braking" or "holding".
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Following => "following",
+            Self::Braking => "braking",
+            Self::Holding => "holding",
+        }
+    }
+}
+
+/// A set point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step<const N: usize> {
+    /// Joint angles [rad].
+    pub q: [f64; N],
+    /// Velocities [rad/s].
+    pub dq: [f64; N],
+    /// Accelerations [rad/s^2].
+    pub ddq: [f64; N],
+    /// Whether the reference is followed as it is.
+    pub accepted: bool,
+    /// What the guard is doing.
+    pub state: State,
+    /// Why the reference is not followed as it is.
+    pub reason: Option<Reason>,
+}
+
+/// A guard in front of a control loop: in each cycle a reference, or none, and a set point.
+///
+/// Every set point is inside the limits and within the bounds, as is the motion to it: the cubic of
+/// the joint angles and velocities at both ends. After each one a braking motion exists that is so
+/// too; both are proven free in the cell.
+#[derive(Clone)]
+pub struct Guard<const N: usize> {
+    robot: Robot<N>,
+    cycle: f64,
+    bounds: [Bounds; N],
+    limits: [[f64; 2]; N],
+    tool_speed: Option<ToolSpeed<N>>,
+    /// `None` if nothing is proven.
+    boxes: Option<Boxes<N>>,
+    on_violation: OnViolation,
+    /// The last three control points.
+    points: [[f64; N]; 3],
+    /// The last reference, by which one that moves is recognized.
+    reference: [f64; N],
+    state: State,
+}
+
+impl<const N: usize> Guard<N> {
+    /// A guard of an arm at rest at `start` [rad], in a cell; without one nothing is proven free.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidMotion`] for a cycle or a limit that is not positive, or a cycle of more than
+    /// 0.5 s; [`Error::InvalidModel`] if neither the options nor the robot have limits of velocity;
+    /// [`Error::NoMotion`] if the start is outside the limits or collides; [`Error::InvalidJoints`]
+    /// for a start that is not finite; [`Error::InvalidBody`] if the robot has no body, or a margin
+    /// is negative.
+    pub fn new(
+        robot: &Robot<N>,
+        start: &[f64; N],
+        cell: Option<&Cell>,
+        options: &GuardOptions<N>,
+    ) -> Result<Self, Error> {
+        let cycle = options.cycle;
+        let positive = |field: &'static str, index: Option<usize>, value: f64| {
+            let is_finite = index.is_some() || value.is_finite();
+            let fault = MotionFault::NotPositive { field, index, value };
+            if value > 0.0 && is_finite { Ok(()) } else { Err(Error::from(fault)) }
+        };
+        positive("cycle", None, cycle)?;
+        if cycle > LONGEST_CYCLE {
+            return Err(MotionFault::Cycle { value: cycle, bound: LONGEST_CYCLE }.into());
+        }
+        let own = options.max_velocity.or_else(|| robot.max_velocity().copied());
+        let velocity = own.ok_or(ModelFault::NoVelocity)?;
+        let jerk = options.max_jerk.unwrap_or([f64::INFINITY; N]);
+        for (field, limits) in [
+            ("max_velocity", &velocity),
+            ("max_acceleration", &options.max_acceleration),
+            ("max_jerk", &jerk),
+        ] {
+            for (joint, limit) in limits.iter().enumerate() {
+                positive(field, Some(joint), *limit)?;
+            }
+        }
+        if let Some(speed) = options.max_tool_speed {
+            positive("max_tool_speed", None, speed)?;
+        }
+        let start = inside(robot, "start", start)?;
+        let boxes = cell.map(|cell| Boxes::new(robot, cell, options.margin)).transpose()?;
+        if let Some((Nearest { link, near, .. }, depth)) =
+            boxes.as_ref().map(|boxes| boxes.collision(robot, &start)).transpose()?.flatten()
+        {
+            let (field, other) = ("start", near.to_string());
+            let (solutions, is_proven) = (None, true);
+            let fault = GoFault::Collides { field, solutions, link, other, depth, is_proven };
+            return Err(fault.into());
+        }
+        let mut limits = robot.limits().to_array();
+        if let Some((joint, angle)) = robot.locked_joint() {
+            limits[joint - 1] = [angle; 2];
+        }
+        Ok(Self {
+            robot: robot.clone(),
+            cycle,
+            bounds: core::array::from_fn(|joint| {
+                Bounds::new(cycle, velocity[joint], options.max_acceleration[joint], jerk[joint])
+            }),
+            limits,
+            tool_speed: options.max_tool_speed.map(|limit| ToolSpeed::new(robot, limit)),
+            boxes,
+            on_violation: options.on_violation,
+            points: [start; 3],
+            reference: start,
+            state: State::Holding,
+        })
+    }
+
+    /// The arm.
+    #[must_use]
+    pub fn robot(&self) -> &Robot<N> {
+        &self.robot
+    }
+
+    /// Time from one set point to the next [s].
+    #[must_use]
+    pub fn cycle(&self) -> f64 {
+        self.cycle
+    }
+
+    /// What the guard is doing.
+    #[must_use]
+    pub fn state(&self) -> State {
+        self.state
+    }
+
+    /// The last set point [rad].
+    #[must_use]
+    pub fn q(&self) -> [f64; N] {
+        self.set_point()[0]
+    }
+
+    /// Whether set points are proven free.
+    #[must_use]
+    pub fn proves_free(&self) -> bool {
+        self.boxes.is_some()
+    }
+
+    /// The next set point, for a reference of joint angles [rad].
+    pub fn step(&mut self, reference: &[f64; N]) -> Step<N> {
+        let checked = self.check_angles(reference);
+        self.go(reference, checked)
+    }
+
+    /// The next set point, for the pose of the tool: joints on the branch of the last ones.
+    pub fn step_pose(&mut self, pose: &Pose) -> Step<N> {
+        match self.joints_at(pose) {
+            Ok(reference) => self.step(&reference),
+            Err(reason) => self.refuse(reason),
+        }
+    }
+
+    /// The next set point, without a reference: the guard brakes.
+    pub fn step_none(&mut self) -> Step<N> {
+        self.refuse(Reason::Missing)
+    }
+
+    /// The next set point, where the reference is no pose: the guard brakes.
+    #[cfg(feature = "python")]
+    pub(crate) fn step_not_rigid(&mut self) -> Step<N> {
+        self.refuse(Reason::NotRigid)
+    }
+
+    /// A reason in words, with the name of the obstacle.
+    #[must_use]
+    pub fn words(&self, reason: &Reason) -> String {
+        if let (Reason::Blocked { link, obstacle: Some(place), .. }, Some(boxes)) =
+            (reason, &self.boxes)
+            && let Some((name, _)) = boxes.cell().obstacles().get(*place)
+        {
+            return format!("{NOT_FREE} link {link} and {name} come too near to each other");
+        }
+        reason.to_string()
+    }
+
+    fn check_angles(&self, reference: &[f64; N]) -> Result<(), Reason> {
+        for (joint, value) in reference.iter().copied().enumerate() {
+            let (limits, joint) = (self.limits[joint], joint + 1);
+            if !value.is_finite() {
+                return Err(Reason::NotFinite { joint, value });
+            }
+            if value < limits[0] - LIMIT_SLACK || value > limits[1] + LIMIT_SLACK {
+                return Err(Reason::Outside { joint, value, limits });
+            }
+        }
+        match self.robot.limits().linkage_excess(reference) {
+            0.0 => Ok(()),
+            excess => Err(Reason::Linkage { excess }),
+        }
+    }
+
+    /// The joints that reach a pose, on the branch of the last control point.
+    fn joints_at(&self, pose: &Pose) -> Result<[f64; N], Reason> {
+        let (here, weights) = (&self.points[2], [1.0; N]);
+        let reason = |error: Error| match error {
+            Error::Unreachable(explanation) => Reason::Unreachable(explanation),
+            Error::InvalidPose(_) => Reason::NotRigid,
+            _ => Reason::NoInverse,
+        };
+        let mut follower = Follower::new(&self.robot, here, &weights).map_err(reason)?;
+        let (found, broken) = follower.step(pose).map_err(reason)?;
+        let Some(found) = found else {
+            return Err(match broken {
+                Some(BreakReason::Unreachable(why)) => Reason::Unreachable(why),
+                _ => Reason::NoInverse,
+            });
+        };
+        let (Some(from), Some(to)) = (self.robot.slot_of(here), self.robot.slot_of(&found.q))
+        else {
+            return Ok(found.q);
+        };
+        if from == to {
+            return Ok(found.q);
+        }
+        let lost = Reason::Branch { from, to };
+        if self.robot.redundancy().is_some() {
+            return Err(lost);
+        }
+        let is_same = |q: &[f64; N]| self.robot.slot_of(q) == Some(from);
+        let nearest = self.robot.nearest_accepted(pose, here, &weights, &is_same);
+        nearest.map(|nearest| nearest.q).map_err(|_| lost)
+    }
+
+    fn end(&self, joint: usize) -> End {
+        End::of(self.points.map(|point| point[joint]))
+    }
+
+    /// Go to a reference, or towards it; brake if neither can be.
+    fn go(&mut self, reference: &[f64; N], checked: Result<(), Reason>) -> Step<N> {
+        let last = core::mem::replace(&mut self.reference, *reference);
+        let refused = match checked.and_then(|()| self.behind(reference).map(|_| ())) {
+            Err(reason @ Reason::NotFinite { .. }) => return self.refuse(reason),
+            Err(reason) if self.on_violation == OnViolation::Brake => return self.refuse(reason),
+            refused => refused.err(),
+        };
+        let next = match self.on_violation {
+            OnViolation::Brake => *reference,
+            OnViolation::Limit => self.toward(reference, &last),
+        };
+        if largest(&steps(&next, reference)) == 0.0 {
+            return match self.admit(&next, LOOKS[0]) {
+                Ok(()) => self.advance(next, State::Following, None),
+                Err(reason) => self.go_less(next, reason),
+            };
+        }
+        let joint = largest_step(&next, reference).0;
+        let reason = refused.unwrap_or(Reason::Arriving { joint });
+        match self.admit(&next, LOOKS[0]) {
+            Ok(()) => self.advance(next, State::Following, Some(reason)),
+            Err(reason) => self.go_less(next, reason),
+        }
+    }
+
+    /// Go less far than to a control point that cannot be, or brake.
+    fn go_less(&mut self, next: [f64; N], reason: Reason) -> Step<N> {
+        if self.on_violation == OnViolation::Brake {
+            return self.refuse(reason);
+        }
+        let brake = self.braking();
+        let halfway = core::array::from_fn(|joint| 0.5 * (next[joint] + brake[joint]));
+        let mut others = [halfway; 3];
+        if matches!(reason, Reason::Linkage { .. }) {
+            // One of the two joints may leave the limit, or move along it.
+            for (other, joint) in [(0, 1), (1, 2)] {
+                others[other] = next;
+                others[other][joint] = brake[joint];
+            }
+        }
+        let count = if matches!(reason, Reason::Linkage { .. }) { 3 } else { 1 };
+        match others[..count].iter().find(|other| self.admit(other, LOOKS[1]).is_ok()) {
+            Some(other) => self.advance(*other, State::Following, Some(reason)),
+            None => self.refuse(reason),
+        }
+    }
+
+    /// Brake.
+    fn refuse(&mut self, reason: Reason) -> Step<N> {
+        let next = self.braking();
+        self.advance(next, State::Braking, Some(reason))
+    }
+
+    /// The next control point of the braking motion.
+    fn braking(&self) -> [f64; N] {
+        core::array::from_fn(|joint| {
+            let end = self.end(joint);
+            end.then(braking(end, &self.bounds[joint])).point
+        })
+    }
+
+    /// The next control point towards a reference (eq. 11, 12).
+    fn toward(&self, reference: &[f64; N], last: &[f64; N]) -> [f64; N] {
+        core::array::from_fn(|joint| {
+            let (bounds, end) = (&self.bounds[joint], self.end(joint));
+            let pace = reference[joint] - last[joint];
+            let goal = Goal {
+                point: reference[joint],
+                // One that jumps does not move.
+                pace: if pace.abs() <= bounds.first { pace } else { 0.0 },
+                is_followed: end.point - last[joint] == 0.0,
+            };
+            Limited { bounds, end, limits: self.limits[joint] }.toward(&goal)
+        })
+    }
+
+    /// The end of the control points with one more, or the bound that it exceeds.
+    fn behind(&self, next: &[f64; N]) -> Result<[End; N], Reason> {
+        let mut behind = [End::default(); N];
+        for (joint, behind) in behind.iter_mut().enumerate() {
+            let checked = self.bounds[joint].check(self.end(joint), next[joint], self.cycle);
+            *behind = checked.map_err(|(bound, value, limit)| Reason::Beyond {
+                joint: joint + 1,
+                bound,
+                value,
+                limit,
+            })?;
+        }
+        Ok(behind)
+    }
+
+    /// Whether a control point may follow: within the bounds, and with a braking motion behind it
+    /// that is inside the limits and, as the way to it, free.
+    fn admit(&mut self, next: &[f64; N], looks: usize) -> Result<(), Reason> {
+        let behind = self.behind(next)?;
+        let brakes: [Brake; N] =
+            core::array::from_fn(|joint| Brake::new(behind[joint], &self.bounds[joint]));
+        for (joint, brake) in brakes.iter().enumerate() {
+            let ([low, high], limits) = (brake.extent(), self.limits[joint]);
+            if low < limits[0] - LIMIT_SLACK || high > limits[1] + LIMIT_SLACK {
+                let value = if low < limits[0] - LIMIT_SLACK { low } else { high };
+                return Err(Reason::NoWayToBrake { joint: joint + 1, value, limits });
+            }
+        }
+        let [first, second, third] = self.points;
+        let ahead = Ahead { points: [first, second, third, *next], brakes };
+        if let Some(excess) = ahead.linkage_excess(self.robot.limits()) {
+            return Err(Reason::Linkage { excess });
+        }
+        if let Some(speed) = &self.tool_speed {
+            let checked = speed.check(&self.robot, &ahead, &self.bounds, self.cycle);
+            checked.map_err(|(value, limit)| Reason::ToolSpeed { value, limit })?;
+        }
+        let Some(boxes) = &mut self.boxes else { return Ok(()) };
+        ahead.prove(&self.robot, boxes, looks).map_err(|(q, spans)| {
+            let (link, other) =
+                boxes.blocked(&self.robot, &q, &spans).unwrap_or((0, Other::Link(0)));
+            match other {
+                Other::Link(other) => Reason::Blocked { link, other: Some(other), obstacle: None },
+                Other::Obstacle(place) => {
+                    Reason::Blocked { link, other: None, obstacle: Some(place) }
+                }
+            }
+        })
+    }
+
+    /// Take a control point, and answer with the set point.
+    fn advance(&mut self, next: [f64; N], state: State, reason: Option<Reason>) -> Step<N> {
+        let [_, second, third] = self.points;
+        self.points = [second, third, next];
+        let is_at_rest = largest(&steps(&second, &third)) + largest(&steps(&third, &next)) == 0.0;
+        self.state = if state == State::Braking && is_at_rest { State::Holding } else { state };
+        let [q, dq, ddq] = self.set_point();
+        Step { q, dq, ddq, accepted: reason.is_none(), state: self.state, reason }
+    }
+
+    /// Joint angles, velocities and accelerations by the last control points (eq. 1).
+    fn set_point(&self) -> [[f64; N]; 3] {
+        let (cycle, [a, b, c]) = (self.cycle, &self.points);
+        [
+            core::array::from_fn(|i| b[i] + ((c[i] - b[i]) - (b[i] - a[i])) / 6.0),
+            core::array::from_fn(|i| (c[i] - a[i]) / (2.0 * cycle)),
+            core::array::from_fn(|i| ((c[i] - b[i]) - (b[i] - a[i])) / (cycle * cycle)),
+        ]
+    }
+}

@@ -1,0 +1,99 @@
+//! Towards a reference as far and as fast as the bounds of a joint allow (docs/theory/stream.md,
+//! eq. 11, 12).
+
+use super::bounds::Bounds;
+use super::brake::{Brake, End, braking};
+
+/// How far from the reference a joint may come to rest and be there [rad]: rounding of the phases
+/// of a braking motion.
+const LANDED: f64 = 1e-13;
+
+/// Rounds in which a second difference is sought [1]: false position converges in a few, and what is
+/// left of the way remains for the next cycle.
+const ROUNDS: usize = 16;
+
+/// Where a joint is to go.
+#[derive(Clone, Copy)]
+pub(super) struct Goal {
+    /// The reference [rad].
+    pub(super) point: f64,
+    /// How far it has moved since the last cycle [rad].
+    pub(super) pace: f64,
+    /// Whether the joint is at the last one.
+    pub(super) is_followed: bool,
+}
+
+/// A joint, its bounds and limits.
+pub(super) struct Limited<'a> {
+    pub(super) bounds: &'a Bounds,
+    pub(super) end: End,
+    pub(super) limits: [f64; 2],
+}
+
+impl Limited<'_> {
+    /// The next control point.
+    pub(super) fn toward(&self, goal: &Goal) -> f64 {
+        let [lower, upper] = self.limits;
+        let point = goal.point.max(lower).min(upper);
+        let pace = if point - goal.point == 0.0 { goal.pace } else { 0.0 };
+        let brake = braking(self.end, self.bounds);
+        let [low, high] = self.bounds.seconds(self.end);
+        let range = [low.min(brake), high.max(brake)];
+        let arriving = point - self.end.point - self.end.first;
+        let slack = 4.0 * f64::EPSILON * (1.0 + point.abs());
+        let fits = arriving >= range[0] - slack && arriving <= range[1] + slack;
+        let arrives =
+            fits && (goal.is_followed || self.beyond(arriving, point, pace).abs() <= LANDED);
+        let second = if arrives { arriving } else { self.aimed(range, point, pace) };
+        let [least, most] = Brake::new(self.end.then(second), self.bounds).extent();
+        if most > upper {
+            self.end.then(second.min(self.aimed(range, upper, 0.0))).point
+        } else if least < lower {
+            self.end.then(second.max(self.aimed(range, lower, 0.0))).point
+        } else if arrives {
+            point
+        } else {
+            self.end.then(second).point
+        }
+    }
+
+    /// How far beyond a reference that moves at a pace a joint comes to rest beside it, after a step
+    /// by a second difference (eq. 11).
+    fn beyond(&self, second: f64, point: f64, pace: f64) -> f64 {
+        let next = self.end.then(second);
+        Brake::new(End { first: next.first - pace, ..next }, self.bounds).stop - point
+    }
+
+    /// The second difference with which the joint comes to rest at the reference, or the one that
+    /// comes nearest (eq. 12).
+    fn aimed(&self, [mut low, mut high]: [f64; 2], point: f64, pace: f64) -> f64 {
+        let beyond = |second: f64| self.beyond(second, point, pace);
+        let (mut below, mut above) = (beyond(low), beyond(high));
+        if above <= 0.0 {
+            return high;
+        }
+        if below >= 0.0 {
+            return low;
+        }
+        // On the way to rest the law is the answer.
+        let law = braking(End { first: self.end.first - pace, ..self.end }, self.bounds);
+        let mut next = law;
+        for round in 0..ROUNDS {
+            if low < next && next < high {
+                let value = beyond(next);
+                if value.abs() <= LANDED {
+                    return next;
+                }
+                if value < 0.0 {
+                    (low, below) = (next, value);
+                    above *= if round > 0 { 0.5 } else { 1.0 };
+                } else {
+                    (high, above) = (next, value);
+                    below *= if round > 0 { 0.5 } else { 1.0 };
+                }
+            }
+            next = low - below * ((high - low) / (above - below));
+        }
+        low
+    }
+}

@@ -1,0 +1,38 @@
+//! Set points for a control loop, within bounds and with a proven way to stop
+//! (docs/theory/stream.md). This is no safety function.
+//!
+//! A [`Guard`] gets a reference in each cycle, or none, and answers with a set point. After every
+//! cycle a braking motion exists that keeps the bounds and is proven free; what does not fit is
+//! refused with the [`Reason`], and the guard brakes. It has no clock and no socket, and a step does
+//! not allocate.
+//!
+//! ```
+//! use irbkin::Robot;
+//! use irbkin::cell::Cell;
+//! use irbkin::stream::{Guard, GuardOptions, State};
+//!
+//! let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
+//! let options = GuardOptions { max_jerk: Some([60.0; 6]), ..GuardOptions::new(0.004, [8.0; 6]) };
+//! let start = [0.0, 0.0, 0.0, 0.0, 0.5, 0.0];
+//! let mut guard = Guard::new(&robot, &start, Some(&Cell::default()), &options)?;
+//!
+//! let mut reference = start;
+//! reference[0] += 1e-6;
+//! assert!(guard.step(&reference).accepted);
+//! reference[0] += 1.0;
+//! let step = guard.step(&reference);
+//! assert_eq!(step.state, State::Braking);
+//! assert!(guard.words(&step.reason.unwrap()).starts_with("joint 1 would need"));
+//! # Ok::<(), irbkin::Error>(())
+//! ```
+
+mod ahead;
+mod bounds;
+mod brake;
+mod guard;
+mod limit;
+mod reason;
+mod tool;
+
+pub use guard::{Guard, GuardOptions, OnViolation, State, Step};
+pub use reason::{Bound, Reason};
