@@ -48,6 +48,7 @@ mod seven_paths;
 #[cfg(feature = "urdf")]
 mod snap;
 mod states;
+mod stream;
 pub(crate) mod structures;
 #[cfg(feature = "urdf")]
 mod urdf;

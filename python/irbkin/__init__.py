@@ -78,6 +78,7 @@ if TYPE_CHECKING:
     from irbkin import rapid as rapid
     from irbkin import ros as ros
     from irbkin import scene as scene
+    from irbkin import stream as stream
     from irbkin import trajectory as trajectory
     from irbkin.calibration import calibrate as calibrate
 
@@ -139,6 +140,7 @@ _MODULES = (
     "rapid",
     "ros",
     "scene",
+    "stream",
     "trajectory",
 )
 _EXTRAS = {"plot": "matplotlib"}

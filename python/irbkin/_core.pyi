@@ -58,6 +58,7 @@ __all__ = [
     "FollowResult",
     "Follower",
     "FreeJoint",
+    "Guard",
     "IkBatch",
     "IkMargin",
     "JointTarget",
@@ -83,6 +84,7 @@ __all__ = [
     "Solution",
     "Solutions",
     "SpeedData",
+    "Step",
     "StrandEnd",
     "TargetTable",
     "TextFault",
@@ -2004,6 +2006,71 @@ class Follower:
                 next step starts anew from the last joints.
             InvalidPoseError, InvalidModelError: As `Robot.ik`; the step does not count.
         """
+
+@final
+class Step(_Record):
+    """A set point of a `Guard`."""
+
+    @property
+    def q(self) -> _Floats:
+        """Joint angles [rad], shape (n,)."""
+    @property
+    def dq(self) -> _Floats:
+        """Velocities [rad/s], shape (n,)."""
+    @property
+    def ddq(self) -> _Floats:
+        """Accelerations [rad/s^2], shape (n,)."""
+    @property
+    def accepted(self) -> bool:
+        """Whether the reference is followed as it is."""
+    @property
+    def state(self) -> Literal["following", "braking", "holding"]:
+        """x"""
+    @property
+    def reason(self) -> str | None:
+        """x"""
+    def __new__(
+        cls,
+        q: _Floats,
+        dq: _Floats,
+        ddq: _Floats,
+        accepted: bool,
+        state: str,
+        reason: str | None,
+    ) -> Step: ...
+
+@final
+class Guard:
+    """x"""
+
+    def __new__(
+        cls,
+        robot: Robot,
+        *,
+        cycle: float,
+        start: npt.ArrayLike,
+        max_velocity: npt.ArrayLike | None = None,
+        max_acceleration: npt.ArrayLike,
+        max_jerk: npt.ArrayLike | None = None,
+        cell: Cell | Literal[False] | None = None,
+        margin: float = 0.0,
+        max_tool_speed: float | None = None,
+        on_violation: Literal["brake", "limit"] = "brake",
+    ) -> Guard: ...
+    @property
+    def robot(self) -> Robot:
+        """x"""
+    @property
+    def cycle(self) -> float:
+        """x"""
+    @property
+    def state(self) -> Literal["following", "braking", "holding"]:
+        """x"""
+    @property
+    def q(self) -> _Floats:
+        """x"""
+    def step(self, reference: npt.ArrayLike | None) -> Step:
+        """x"""
 
 # What Python's records of RAPID take: array-likes and iterables of numbers.
 _Numbers: TypeAlias = npt.ArrayLike | Iterable[float]

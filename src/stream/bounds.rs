@@ -1,5 +1,5 @@
 //! Bounds of velocity, acceleration and jerk as bounds of the differences of control points
-//! (docs/theory/stream.md, eq. 2 to 4).
+//! (docs/theory/stream.md, eq. 2, 3, 6).
 
 use super::brake::{End, peak, ramp_to_zero};
 use super::reason::Bound;
@@ -35,7 +35,7 @@ impl Bounds {
         Self { first, second, third }
     }
 
-    /// The control point behind `end`, or what of it exceeds a bound (eq. 3, 4).
+    /// The control point behind `end`, or what of it exceeds a bound (eq. 3, 6).
     pub(super) fn check(&self, end: End, next: f64, cycle: f64) -> Result<End, Exceeded> {
         let first = next - end.point;
         let behind = End { point: next, first, second: first - end.first };

@@ -1,5 +1,5 @@
 //! The braking motion of one joint, from its last control points to rest, in closed form
-//! (docs/theory/stream.md, eq. 6 to 10).
+//! (docs/theory/stream.md, eq. 4 to 10).
 
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
@@ -94,7 +94,7 @@ pub(super) fn ramp_to_zero(first: f64, third: f64) -> f64 {
     -ramp_of(first.abs(), third).0.copysign(first)
 }
 
-/// The first difference that is left when the second one goes to zero at once (eq. 6).
+/// The first difference that is left when the second one goes to zero at once (eq. 4).
 pub(super) fn peak(end: End, third: f64) -> f64 {
     let size = end.second.abs();
     end.first + (ramped(size, third) - size).copysign(end.second)

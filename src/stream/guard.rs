@@ -7,16 +7,14 @@ use super::ahead::Ahead;
 use super::bounds::Bounds;
 use super::brake::{Brake, End, braking};
 use super::limit::{Goal, Limited};
+use super::options::{GuardOptions, OnViolation, State, Step};
 use super::reason::{NOT_FREE, Reason};
 use super::tool::ToolSpeed;
 use crate::cell::{Boxes, Cell, Nearest, Other};
-use crate::error::{Error, ModelFault, MotionFault};
+use crate::error::Error;
 use crate::go::fault::GoFault;
 use crate::go::inside;
 use crate::kinematics::{BreakReason, Follower, Pose, Robot, largest, largest_step, steps};
-
-/// The longest cycle [s]: one of 4 or 8 is in milliseconds.
-const LONGEST_CYCLE: f64 = 0.5;
 
 /// How far control points may be outside limits [rad]: half of what counts as inside, for the
 /// rounding of the steps of a braking motion is less than the other half.
@@ -25,91 +23,6 @@ const LIMIT_SLACK: f64 = 5e-10;
 /// Looks at eight parts of the motion ahead, after which it counts as not free: of a reference, and
 /// of a shorter step in its place.
 const LOOKS: [usize; 2] = [4, 2];
-
-/// What a guard does with a reference that does not fit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum OnViolation {
-    /// It brakes.
-    #[default]
-    Brake,
-    /// It goes towards the reference as far and as fast as the bounds allow.
-    Limit,
-}
-
-/// Bounds of a [`Guard`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GuardOptions<const N: usize> {
-    /// Time from one set point to the next [s].
-    pub cycle: f64,
-    /// Limits of the velocities [rad/s]; the robot's if `None`.
-    pub max_velocity: Option<[f64; N]>,
-    /// Limits of the accelerations [rad/s^2].
-    pub max_acceleration: [f64; N],
-    /// Limits of the jerks [rad/s^3]; none if `None`.
-    pub max_jerk: Option<[f64; N]>,
-    /// How far the arm stays from obstacles, beyond the margin of the cell [m].
-    pub margin: f64,
-    /// Limit of the speed of the tool center point [m/s].
-    pub max_tool_speed: Option<f64>,
-    /// What becomes of a reference that does not fit.
-    pub on_violation: OnViolation,
-}
-
-impl<const N: usize> GuardOptions<N> {
-    /// Bounds of the accelerations [rad/s^2] alone, for a cycle [s].
-    #[must_use]
-    pub fn new(cycle: f64, max_acceleration: [f64; N]) -> Self {
-        Self {
-            cycle,
-            max_velocity: None,
-            max_acceleration,
-            max_jerk: None,
-            margin: 0.0,
-            max_tool_speed: None,
-            on_violation: OnViolation::Brake,
-        }
-    }
-}
-
-/// What a guard is doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
-    /// It goes to the reference, or towards it.
-    Following,
-    /// It brakes.
-    Braking,
-    /// It is at rest, without a reference that fits.
-    Holding,
-}
-
-impl State {
-    /// "following", "braking" or "holding".
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Following => "following",
-            Self::Braking => "braking",
-            Self::Holding => "holding",
-        }
-    }
-}
-
-/// A set point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step<const N: usize> {
-    /// Joint angles [rad].
-    pub q: [f64; N],
-    /// Velocities [rad/s].
-    pub dq: [f64; N],
-    /// Accelerations [rad/s^2].
-    pub ddq: [f64; N],
-    /// Whether the reference is followed as it is.
-    pub accepted: bool,
-    /// What the guard is doing.
-    pub state: State,
-    /// Why the reference is not followed as it is.
-    pub reason: Option<Reason>,
-}
 
 /// A guard in front of a control loop: in each cycle a reference, or none, and a set point.
 ///
@@ -149,31 +62,7 @@ impl<const N: usize> Guard<N> {
         cell: Option<&Cell>,
         options: &GuardOptions<N>,
     ) -> Result<Self, Error> {
-        let cycle = options.cycle;
-        let positive = |field: &'static str, index: Option<usize>, value: f64| {
-            let is_finite = index.is_some() || value.is_finite();
-            let fault = MotionFault::NotPositive { field, index, value };
-            if value > 0.0 && is_finite { Ok(()) } else { Err(Error::from(fault)) }
-        };
-        positive("cycle", None, cycle)?;
-        if cycle > LONGEST_CYCLE {
-            return Err(MotionFault::Cycle { value: cycle, bound: LONGEST_CYCLE }.into());
-        }
-        let own = options.max_velocity.or_else(|| robot.max_velocity().copied());
-        let velocity = own.ok_or(ModelFault::NoVelocity)?;
-        let jerk = options.max_jerk.unwrap_or([f64::INFINITY; N]);
-        for (field, limits) in [
-            ("max_velocity", &velocity),
-            ("max_acceleration", &options.max_acceleration),
-            ("max_jerk", &jerk),
-        ] {
-            for (joint, limit) in limits.iter().enumerate() {
-                positive(field, Some(joint), *limit)?;
-            }
-        }
-        if let Some(speed) = options.max_tool_speed {
-            positive("max_tool_speed", None, speed)?;
-        }
+        let [velocity, acceleration, jerk] = options.checked(robot)?;
         let start = inside(robot, "start", start)?;
         let boxes = cell.map(|cell| Boxes::new(robot, cell, options.margin)).transpose()?;
         if let Some((Nearest { link, near, .. }, depth)) =
@@ -190,9 +79,9 @@ impl<const N: usize> Guard<N> {
         }
         Ok(Self {
             robot: robot.clone(),
-            cycle,
+            cycle: options.cycle,
             bounds: core::array::from_fn(|joint| {
-                Bounds::new(cycle, velocity[joint], options.max_acceleration[joint], jerk[joint])
+                Bounds::new(options.cycle, velocity[joint], acceleration[joint], jerk[joint])
             }),
             limits,
             tool_speed: options.max_tool_speed.map(|limit| ToolSpeed::new(robot, limit)),

@@ -31,8 +31,10 @@ mod bounds;
 mod brake;
 mod guard;
 mod limit;
+mod options;
 mod reason;
 mod tool;
 
-pub use guard::{Guard, GuardOptions, OnViolation, State, Step};
+pub use guard::Guard;
+pub use options::{GuardOptions, OnViolation, State, Step};
 pub use reason::{Bound, Reason};
