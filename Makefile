@@ -151,7 +151,7 @@ bench-capi: capi ## Compare the time of a pose in C with that in Rust
 check: | toolchains ## Check format, lints, types, stubs, docs, benches and examples
 	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.groups lints
 	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features serde
-	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions -- --test
+	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions --bench stream -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
 	$(STEP) "benches in Python run" env QUICK=1 $(BIN)/python benches/python_calls.py >/dev/null
 	$(STEP) "the bench of structured poses runs" env QUICK=1 $(BIN)/python benches/structured_poses.py >/dev/null
@@ -160,6 +160,7 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "the bench of plans runs" env QUICK=1 $(BIN)/python benches/plan.py >/dev/null
 	$(STEP) "the bench of cells runs" env QUICK=1 $(BIN)/python benches/cells.py >/dev/null
 	$(STEP) "the bench of free motions runs" env QUICK=1 $(BIN)/python benches/free_motion.py >/dev/null
+	$(STEP) "the bench of guards runs" env QUICK=1 $(BIN)/python benches/stream.py >/dev/null
 	$(STEP) "the bench of maps runs" env QUICK=1 $(BIN)/python benches/reach_map.py >/dev/null
 	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
 	$(STEP) "the bench of a check runs" env MOVES=1000 $(BIN)/python benches/rapid_check.py >/dev/null
@@ -178,7 +179,7 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "examples in Python run" bash -eu -c 'for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done'
 
 bench: $(RELEASED) ## Time single poses, batches, Python's calls and a RAPID module
-	cargo bench --bench one_pose --bench batch
+	cargo bench --bench one_pose --bench batch --bench stream
 	$(BIN)/python benches/python_calls.py
 	$(BIN)/python benches/structured_poses.py
 	$(BIN)/python benches/motion.py
@@ -186,6 +187,7 @@ bench: $(RELEASED) ## Time single poses, batches, Python's calls and a RAPID mod
 	$(BIN)/python benches/plan.py
 	$(BIN)/python benches/cells.py
 	$(BIN)/python benches/free_motion.py
+	$(BIN)/python benches/stream.py
 	$(BIN)/python benches/reach_map.py
 	$(BIN)/python benches/rapid_module.py
 	$(BIN)/python benches/rapid_check.py
@@ -268,6 +270,9 @@ evidence-hardsets: | toolchains ## Poses and paths at and near every singularity
 evidence-plans: $(BUILT) $(VENV)/.groups ## 100,000 random lines planned, each step halved
 	IRBKIN_PLANS=50000 $(BIN)/python -m pytest --quiet -s -k hides_a_jump tests/python/test_plan.py
 
+evidence-stream: | toolchains ## CYCLES (10,000,000) cycles of guards: set points out of bounds, not free
+	IRBKIN_POSES=$$(($(or $(CYCLES),10000000) / 14)) $(SUITE) --quiet --release -- suite::stream --nocapture
+
 evidence-configurations: | toolchains ## confdata at 100,000 poses of every ABB arm
 	IRBKIN_POSES=100000 $(SUITE) --quiet --release -- suite::configuration --nocapture --test-threads=1
 
@@ -297,7 +302,7 @@ evidence-readers: $(BUILT) $(VENV)/.groups ## to_urdf of every arm in eleven pro
 docs: $(BUILT) $(VENV)/.groups $(VENV)/.site ## Write generated tables and transcripts, draw the pictures, build cargo doc and the site
 	IRBKIN_WRITE=1 $(SUITE) --quiet -- catalog_page::
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k "transcripts or notebook"
-	for script in eight_solutions hulls slots motion plans singularities peers; do $(BIN)/python docs/pictures/$$script.py; done
+	for script in eight_solutions hulls slots motion plans singularities peers stream; do $(BIN)/python docs/pictures/$$script.py; done
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps -p irbkin --features serde
 	$(BIN)/python docs/site/build.py
 

@@ -79,9 +79,7 @@ def times(name, on_violation):
     robot = irbkin.Robot(name)
     cell = cell_of(robot)
     start = free_start(robot, cell, rng)
-    guard = Guard(
-        robot, cycle=CYCLE, start=start, cell=cell, on_violation=on_violation, **LIMITS
-    )
+    guard = Guard(robot, cycle=CYCLE, start=start, cell=cell, on_violation=on_violation, **LIMITS)
     taken, clock = [], time.thread_time_ns
     while len(taken) < CYCLES:
         for reference in references(robot, guard, rng):

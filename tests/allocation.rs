@@ -4,6 +4,8 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+use irbkin::body::Shape;
+use irbkin::stream::{Guard, GuardOptions, OnViolation, Reason};
 use irbkin::trajectory::state::{brake, to_rest};
 use irbkin::trajectory::{AxisLimits, AxisMotion, AxisState};
 use irbkin::{Corrections, JacobianFrame, Robot, follow::Follower};
@@ -36,6 +38,42 @@ fn allocations_of(work: impl FnOnce()) -> usize {
     let before = ALLOCATIONS.get();
     work();
     ALLOCATIONS.get() - before
+}
+
+#[test]
+fn a_step_of_a_guard_allocates_nothing() {
+    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+    let at = |x: f64, z: f64| irbkin::Pose::translation(x, 0.0, z);
+    let obstacles = vec![
+        ("box".to_string(), Shape::cuboid([0.2, 2.0, 2.0], &at(1.4, 1.0)).unwrap()),
+        ("post".to_string(), Shape::cylinder(0.1, 2.0, &at(-1.0, 1.0)).unwrap()),
+    ];
+    let cell = irbkin::cell::Cell::new(obstacles, 0.005).unwrap();
+    let start = [0.0, 0.0, 0.0, 0.0, 0.5, 0.0];
+    let options = GuardOptions {
+        max_jerk: Some([60.0; 6]),
+        max_tool_speed: Some(2.0),
+        on_violation: OnViolation::Limit,
+        ..GuardOptions::new(0.004, [8.0; 6])
+    };
+    let mut guard = Guard::new(&robot, &start, Some(&cell), &options).unwrap();
+    let pose = robot.fk(&[0.3, 0.1, 0.1, 0.2, 0.7, 0.1]);
+    let (mut refused, mut blocked) = (0, false);
+    let count = allocations_of(|| {
+        for cycle in 0..1500 {
+            let step = match cycle / 100 % 5 {
+                0 => guard.step_none(),
+                1 => guard.step_pose(&pose),
+                2 => guard.step(&[0.2, 1.2, 0.0, 0.0, 0.5, 0.0]),
+                3 => guard.step(&[f64::NAN; 6]),
+                _ => guard.step(&start),
+            };
+            refused += usize::from(!step.accepted);
+            blocked |= matches!(step.reason, Some(Reason::Blocked { .. }));
+        }
+    });
+    assert_eq!(count, 0);
+    assert!(blocked && refused > 300);
 }
 
 #[test]

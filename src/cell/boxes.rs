@@ -14,6 +14,8 @@ use crate::kinematics::Robot;
 pub(crate) struct Boxes<const N: usize> {
     cell: Cell,
     block: Block<N>,
+    /// How far anything is from an axis of a joint at most [m].
+    reach: f64,
 }
 
 impl<const N: usize> Boxes<N> {
@@ -23,11 +25,16 @@ impl<const N: usize> Boxes<N> {
         let mut block = Block::new(robot, outline);
         let cell = cell.clone().widened(margin)?;
         block.reserve(outline.pairs.len() + outline.groups.len() * cell.obstacles().len());
-        Ok(Self { cell, block })
+        Ok(Self { cell, block, reach: Placed::of(robot)?.reach })
     }
 
     pub(crate) fn cell(&self) -> &Cell {
         &self.cell
+    }
+
+    /// How far anything moves at most while the joints turn by spans [rad] [m].
+    pub(crate) fn most_motion(&self, robot: &Robot<N>, spans: [f64; N]) -> f64 {
+        robot.table_spans(spans).iter().sum::<f64>() * self.reach
     }
 
     /// What touches at a joint vector, and how deep [m].

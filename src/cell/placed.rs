@@ -16,7 +16,7 @@ pub(crate) struct Placed<'a, const N: usize> {
     pub(super) outline: &'a Outline,
     block: Block<N>,
     /// How far any axis of a capsule or point of a hull is from an axis of a joint at most [m].
-    reach: f64,
+    pub(super) reach: f64,
     pub(super) interrupt: Interrupt<'a>,
 }
 

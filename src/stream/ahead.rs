@@ -5,13 +5,16 @@
 use nalgebra::ComplexField as _;
 
 use super::brake::Brake;
-use crate::cell::Boxes;
+use crate::cell::{Boxes, RESOLUTION};
 use crate::kinematics::{JointLimits, Robot};
 use crate::lanes::LANES;
 
 /// By how much a box of joint angles is wider [rad]: the phases of a braking motion and the steps
 /// that are made in their place differ by less, 1e-10 in tests.
 const WIDER: f64 = 1e-9;
+
+/// Parts that are looked at first move anything at most so far, if eight are enough [m].
+const LONG: f64 = 0.03;
 
 /// Parts that may wait for a look [1].
 const PARTS: usize = 4 * LANES;
@@ -108,63 +111,72 @@ impl<const N: usize> Ahead<N> {
         (most > 0.0).then_some(most)
     }
 
-    /// Eight parts: the cycle ahead, and parts of the braking motion that are about equally long at
-    /// an even deceleration.
-    pub(super) fn parts(&self) -> [[f64; 2]; LANES] {
+    /// Up to eight parts: the cycle ahead, and parts of the braking motion that are about equally
+    /// long at an even deceleration; a single one is all of it.
+    pub(super) fn parts(&self, count: usize) -> [[f64; 2]; LANES] {
         let rest = self.cycles() - 1.0;
         let mut from = 0.0;
         core::array::from_fn(|lane| {
             #[expect(clippy::cast_precision_loss, reason = "there are eight")]
-            let left = 1.0 - lane as f64 / (LANES - 1) as f64;
+            let left = if lane + 1 < count { 1.0 - lane as f64 / (count - 1) as f64 } else { 0.0 };
             let to = 1.0 + (rest * (1.0 - left.sqrt())).ceil().min(rest);
-            let part = [from, to.max(from)];
-            from = part[1];
+            let part = [from, to];
+            from = to;
             part
         })
     }
 
-    /// Prove the motion free in at most so many looks of eight boxes; else the first box that is
-    /// left.
+    /// Prove the motion free in a bounded number of looks at up to eight boxes each; else a box that
+    /// is left open.
     pub(super) fn prove(
         &self,
         robot: &Robot<N>,
         boxes: &mut Boxes<N>,
         looks: usize,
     ) -> Result<(), Middle<N>> {
+        let whole = self.range([0.0, self.cycles()]).1;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 8")]
+        let count = (boxes.most_motion(robot, whole) / LONG).ceil().clamp(1.0, 8.0) as usize;
         let mut parts = [[0.0; 2]; PARTS];
-        parts[..LANES].copy_from_slice(&self.parts());
-        let mut left = LANES;
+        parts[..LANES].copy_from_slice(&self.parts(count));
+        let mut left = count;
         for look in 0..looks {
             let count = left.min(LANES);
+            left -= count;
+            let mut looked = [[0.0; 2]; LANES];
+            looked[..count].copy_from_slice(&parts[left..left + count]);
             let (mut q, mut spans) = ([[0.0; N]; LANES], [[0.0; N]; LANES]);
-            for (lane, part) in parts[left - count..left].iter().enumerate() {
+            for (lane, part) in looked[..count].iter().enumerate() {
                 (q[lane], spans[lane]) = self.range(*part);
             }
             let open = boxes.open(robot, &q[..count], &spans[..count]);
-            let looked: [[f64; 2]; LANES] = core::array::from_fn(|lane| {
-                if lane < count { parts[left - count + lane] } else { [0.0; 2] }
-            });
-            left -= count;
-            let still = open.count_ones() as usize;
-            if still == 0 && left == 0 {
-                return Ok(());
+            let lanes = || (0..count).filter(|lane| open >> lane & 1 == 1);
+            let Some(first) = lanes().next() else {
+                if left == 0 {
+                    return Ok(());
+                }
+                continue;
+            };
+            let rest = (self.brakes.map(|brake| brake.stop), [WIDER; N]);
+            if look == 0 && boxes.open(robot, &[rest.0], &[rest.1]) != 0 {
+                return Err(rest);
             }
-            let pieces = (LANES / still.max(1)).max(2);
-            let first = (0..count).find(|lane| open >> lane & 1 == 1).unwrap_or(0);
-            if look + 1 == looks || left + pieces * still > PARTS {
+            let pieces = (LANES / lanes().count()).max(2);
+            let is_short = |lane: usize| boxes.most_motion(robot, spans[lane]) <= RESOLUTION;
+            let is_last = look + 1 == looks || left + pieces * lanes().count() > PARTS;
+            if is_last || lanes().any(is_short) {
                 return Err((q[first], spans[first]));
             }
-            for lane in (0..count).filter(|lane| open >> lane & 1 == 1) {
-                let [from, to] = looked[lane];
+            for [from, to] in lanes().map(|lane| looked[lane]) {
+                #[expect(clippy::cast_precision_loss, reason = "there are eight")]
+                let at = |piece: usize| from + (to - from) * piece as f64 / pieces as f64;
                 for piece in 0..pieces {
-                    #[expect(clippy::cast_precision_loss, reason = "there are eight")]
-                    let at = |piece: usize| from + (to - from) * piece as f64 / pieces as f64;
                     parts[left] = [at(piece), at(piece + 1)];
                     left += 1;
                 }
             }
         }
-        Err(self.range(parts[left - 1]))
+        Err(self.range(parts[left.saturating_sub(1)]))
     }
 }
 

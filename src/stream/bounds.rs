@@ -1,7 +1,7 @@
 //! Bounds of velocity, acceleration and jerk as bounds of the differences of control points
 //! (docs/theory/stream.md, eq. 2, 3, 6).
 
-use super::brake::{End, peak, ramp_to_zero};
+use super::brake::{Bounds, End, peak, ramp_to_zero};
 use super::reason::Bound;
 use crate::trajectory::thresholds::LIMIT_ROUNDING;
 
@@ -10,36 +10,19 @@ use crate::trajectory::thresholds::LIMIT_ROUNDING;
 /// first.
 const ROUNDING: f64 = 2.0 * LIMIT_ROUNDING;
 
-/// Rounding of a third difference, as a part of the control points [1]: of eight of them, each
-/// given to a few digits of the last place.
+/// Rounding of a third difference, as a part of the control points and a radian [1]: of eight of them,
+/// each given to a few digits of the last place.
 const DIGITS: f64 = 32.0 * f64::EPSILON;
-
-/// Bounds of the differences of a joint's control points [rad].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Bounds {
-    pub(super) first: f64,
-    pub(super) second: f64,
-    pub(super) third: f64,
-}
 
 /// A bound that a reference exceeds, the value and the bound [rad, s].
 pub(super) type Exceeded = (Bound, f64, f64);
 
 impl Bounds {
-    /// Of a joint with limits of velocity, acceleration and jerk, for a cycle [s] (eq. 2). Without a
-    /// limit, what the others leave.
-    pub(super) fn new(cycle: f64, velocity: f64, acceleration: f64, jerk: f64) -> Self {
-        let first = velocity * cycle;
-        let second = (acceleration * cycle * cycle).min(2.0 * first);
-        let third = (jerk * cycle * cycle * cycle).min(2.0 * second);
-        Self { first, second, third }
-    }
-
     /// The control point behind `end`, or what of it exceeds a bound (eq. 3, 6).
     pub(super) fn check(&self, end: End, next: f64, cycle: f64) -> Result<End, Exceeded> {
         let first = next - end.point;
         let behind = End { point: next, first, second: first - end.first };
-        let digits = DIGITS * next.abs().max(end.point.abs());
+        let digits = DIGITS * (1.0 + next.abs().max(end.point.abs()));
         let left = peak(behind, self.third);
         let square = cycle * cycle;
         for (bound, value, limit, unit) in [

@@ -4,10 +4,27 @@
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use super::bounds::Bounds;
-
 /// Phases of a braking motion: five, and more only where rounding splits one [1].
 const PHASES: usize = 10;
+
+/// Bounds of the differences of a joint's control points [rad].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bounds {
+    pub(super) first: f64,
+    pub(super) second: f64,
+    pub(super) third: f64,
+}
+
+impl Bounds {
+    /// Of a joint with limits of velocity, acceleration and jerk, for a cycle [s] (eq. 2). Without a
+    /// limit, what the others leave.
+    pub(super) fn new(cycle: f64, velocity: f64, acceleration: f64, jerk: f64) -> Self {
+        let first = velocity * cycle;
+        let second = (acceleration * cycle * cycle).min(2.0 * first);
+        let third = (jerk * cycle * cycle * cycle).min(2.0 * second);
+        Self { first, second, third }
+    }
+}
 
 /// The end of the control points of a joint: the last one, and the last differences.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

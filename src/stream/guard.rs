@@ -4,8 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString as _};
 
 use super::ahead::Ahead;
-use super::bounds::Bounds;
-use super::brake::{Brake, End, braking};
+use super::brake::{Bounds, Brake, End, braking};
 use super::limit::{Goal, Limited};
 use super::options::{GuardOptions, OnViolation, State, Step};
 use super::reason::{NOT_FREE, Reason};

@@ -1,12 +1,11 @@
 //! Towards a reference as far and as fast as the bounds of a joint allow (docs/theory/stream.md,
 //! eq. 11, 12).
 
-use super::bounds::Bounds;
-use super::brake::{Brake, End, braking};
+use super::brake::{Bounds, Brake, End, braking};
 
 /// How far from the reference a joint may come to rest and be there [rad]: rounding of the phases
 /// of a braking motion.
-const LANDED: f64 = 1e-13;
+const LANDED: f64 = 1e-14;
 
 /// Rounds in which a second difference is sought [1]: false position converges in a few, and what is
 /// left of the way remains for the next cycle.
@@ -40,8 +39,7 @@ impl Limited<'_> {
         let [low, high] = self.bounds.seconds(self.end);
         let range = [low.min(brake), high.max(brake)];
         let arriving = point - self.end.point - self.end.first;
-        let slack = 4.0 * f64::EPSILON * (1.0 + point.abs());
-        let fits = arriving >= range[0] - slack && arriving <= range[1] + slack;
+        let fits = arriving >= range[0] - LANDED && arriving <= range[1] + LANDED;
         let arrives =
             fits && (goal.is_followed || self.beyond(arriving, point, pace).abs() <= LANDED);
         let second = if arrives { arriving } else { self.aimed(range, point, pace) };

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::ahead::Ahead;
-use super::bounds::Bounds;
+use super::brake::Bounds;
 use crate::kinematics::{JacobianFrame, Robot};
 use crate::lanes::LANES;
 
@@ -40,7 +40,7 @@ impl<const N: usize> ToolSpeed<N> {
         cycle: f64,
     ) -> Result<(), (f64, f64)> {
         let mut parts = [[0.0; 2]; 2 * LANES];
-        parts[..LANES].copy_from_slice(&ahead.parts());
+        parts[..LANES].copy_from_slice(&ahead.parts(LANES));
         let mut left = LANES;
         for _ in 0..MOST_PARTS {
             let Some(last) = left.checked_sub(1) else { return Ok(()) };

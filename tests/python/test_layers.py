@@ -127,6 +127,7 @@ NAMED = re.compile(r"^pub(?:\(crate\))? (?:const|static|struct|enum) (\w+)", re.
 SHARED = ("error", "interrupt", "report")
 #: Names that no code of their room uses.
 ELSEWHERE = {
+    "Boxes": "the blocks inside of it, which no other room sees",
     "MOST_SIN_COS": "the domain of the functions beside it",
     "Outline": "its radii are bounds that bodies calculate",
 }
