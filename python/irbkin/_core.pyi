@@ -29,10 +29,12 @@ import numpy.typing as npt
 from irbkin._arguments import Bar, Report
 from irbkin.freedom import Positioner, ToolCone, ToolOffset, ToolRotation, Track
 from irbkin.records import BreakReason, Reach, SingularityKind, SingularityMode, Status
+from irbkin.stream.egm._records import EgmRobot, EgmSensor
 
 _Floats = npt.NDArray[np.float64]
 # One joint vector; the shape of an array is known at the call alone.
 _Vector: TypeAlias = "Sequence[float] | Solution"
+_Message = TypeVar("_Message", EgmRobot, EgmSensor)
 
 @type_check_only
 class _Rotation(Protocol):
@@ -112,8 +114,10 @@ __all__ = [
     "check",
     "check_codes",
     "check_program",
+    "decode",
     "differing_names",
     "dump",
+    "encode",
     "instruction_set",
     "instruction_sets",
     "instructions",
@@ -4142,3 +4146,6 @@ def polyline(
         InvalidMotionError: No pose, another number of zones, a zone that is negative or not known,
             or a turn by 180 deg between two poses.
     """
+
+def encode(message: EgmRobot | EgmSensor) -> bytes: ...
+def decode(data: bytes, kind: type[_Message]) -> _Message: ...

@@ -16,6 +16,7 @@ __all__ = [
     "IrbkinError",
     "PathError",
     "RapidError",
+    "StreamError",
     "UnknownNameError",
     "UnknownRobotError",
     "UnreachableError",
@@ -44,6 +45,10 @@ class InvalidMotionError(IrbkinError):
 
 class CalibrationError(IrbkinError):
     """Measurements cannot calibrate the arm; raised by `irbkin.calibrate`."""
+
+
+class StreamError(IrbkinError):
+    """A datagram is broken, or a controller and a guard do not go together."""
 
 
 class UnreachableError(IrbkinError):

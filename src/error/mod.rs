@@ -24,6 +24,7 @@ use crate::plan::fault::PlanFault;
 #[cfg(feature = "rapid")]
 use crate::rapid::text::fault::{FrameFault, RapidFault};
 use crate::report::Explanation;
+use crate::stream::egm::fault::EgmFault;
 #[cfg(feature = "urdf")]
 use crate::urdf::fault::UrdfFault;
 
@@ -52,6 +53,9 @@ pub enum Error {
     /// The catalog has no arm of that name.
     #[error(transparent)]
     UnknownRobot(#[from] UnknownRobot),
+    /// The bytes are no EGM message.
+    #[error(transparent)]
+    InvalidMessage(#[from] EgmFault),
     /// The RAPID text is broken.
     #[cfg(feature = "rapid")]
     #[error(transparent)]

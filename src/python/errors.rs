@@ -78,6 +78,7 @@ impl From<Error> for PyErr {
             | Error::NoMotion(_)
             | Error::Collides { .. }
             | Error::NoConfiguration(_) => "UnreachableError",
+            Error::InvalidMessage(_) => "StreamError",
             Error::Rapid(_) | Error::Frame(_) => "RapidError",
             Error::NoInstructionSet { .. } | Error::Interrupted(_) => {
                 return PyValueError::new_err(error.to_string());

@@ -18,6 +18,7 @@ mod cell;
 mod columns;
 mod configured;
 mod corrections;
+mod egm;
 mod errors;
 mod follow;
 mod follower;
@@ -163,7 +164,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
         poses::to_xyz_euler_zyx, trajectory::trajectory_of, trajectory::between, trajectories::joint,
         trajectories::spline, retiming::retime, retiming::at_tool_speed,
         models::urdf_links, models::urdf_swept, models::urdf_text, retiming::tool_speed_limits,
-        tool_paths::line, tool_paths::arc, tool_paths::polyline,
+        tool_paths::line, tool_paths::arc, tool_paths::polyline, egm::encode, egm::decode,
     ]);
     // `spline` is taken by trajectories; `irbkin.paths` gives this one its name.
     module.add("path_spline", wrap_pyfunction!(tool_paths::spline, module)?)?;

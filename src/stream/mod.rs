@@ -29,6 +29,7 @@
 mod ahead;
 mod bounds;
 mod brake;
+pub mod egm;
 mod guard;
 mod limit;
 mod options;
