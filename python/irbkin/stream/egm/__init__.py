@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from irbkin._core import decode, encode
+from irbkin.stream.egm._controller import CYCLE, Controller
 from irbkin.stream.egm._records import (
     EgmData,
     EgmHeader,
@@ -15,8 +16,13 @@ from irbkin.stream.egm._records import (
     MciState,
     MessageType,
 )
+from irbkin.stream.egm._server import Server
+from irbkin.stream.egm._session import Feedback, Statistics
+from irbkin.stream.egm._simulated import Simulated, play, simulated
 
 __all__ = [
+    "CYCLE",
+    "Controller",
     "EgmData",
     "EgmHeader",
     "EgmPose",
@@ -25,8 +31,14 @@ __all__ = [
     "EgmSensor",
     "EgmSpeed",
     "EgmTimestamp",
+    "Feedback",
     "MciState",
     "MessageType",
+    "Server",
+    "Simulated",
+    "Statistics",
     "decode",
     "encode",
+    "play",
+    "simulated",
 ]

@@ -1,0 +1,165 @@
+"""A controller on loopback: a model of what answers EGM's set points, for tests and first steps.
+
+From ABB's manual and the public egm.proto: the controller is the client and sends first, each 4 ms
+(4.032 in fact); speed = k (reference - position) + speed reference; a missing set point is the last
+one again; the states, and the end after CommTimeout. Assumed: lag and filter are a delay and one
+first-order low pass, ramps are linear, a speed above the bound is clipped, the drive follows
+ideally, and set points arrive or not as often as they are said to.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from irbkin._core import decode, encode, pose, to_xyz_wxyz
+from irbkin.errors import StreamError, UnreachableError
+from irbkin.stream.egm._records import (
+    EgmHeader,
+    EgmPose,
+    EgmPosition,
+    EgmRobot,
+    EgmSensor,
+    EgmSpeed,
+    MciState,
+    MessageType,
+)
+from irbkin.stream.egm._session import AXES, WORD
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from irbkin import Robot
+    from irbkin._arrays import Floats
+
+CYCLE = 0.004032
+"""The controller's cycle [s]."""
+
+
+class Controller:
+    """A robot behind a model of its controller. `tick` is a cycle, `receive` takes a set point."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        q: npt.ArrayLike,
+        *,
+        cycle: float = CYCLE,
+        gain: float = 5.0,
+        lag: float = 0.016,
+        smoothing: float = 0.004,
+        ramp: float = 0.5,
+        comm_timeout: float = 1.0,
+        max_speed: float = math.inf,
+        delay: float = 0.2,
+        seqno: int = 0,
+    ) -> None:
+        """Start at rest.
+
+        Args:
+            robot: The arm.
+            q: Its joints [rad], shape (n,).
+            cycle: Time between messages [s].
+            gain: k of the law [1/s].
+            lag: From a set point to the motion [s].
+            smoothing: Time constant of the low pass [s]; 0 for level 0, raw.
+            ramp: RampInTime and RampOutTime [s].
+            comm_timeout: CommTimeout [s].
+            max_speed: MaxSpeedDeviation [rad/s].
+            delay: From the first answer to the motion, as between EGMActJoint and EGMRunJoint [s].
+            seqno: The sequence number before the first.
+        """
+        self.robot, self.cycle, self.gain, self.ramp = robot, cycle, gain, ramp
+        self.q: Floats = np.array(q, dtype=np.float64)
+        self.dq = np.zeros_like(self.q)
+        self.state: Literal["DISCONNECTED", "CONNECTED", "RUNNING"] = "DISCONNECTED"
+        self.seqno, self.ticks = seqno, 0
+        self._axes = list(AXES) if robot.dof == 7 else list(range(robot.dof))
+        self._speeds = np.full(robot.dof, max_speed)
+        if robot.max_velocity is not None:
+            self._speeds = np.minimum(self._speeds, robot.max_velocity)
+        self._share = 1.0 if smoothing <= 0 else 1.0 - math.exp(-cycle / smoothing)
+        self._timeout, self._delay = comm_timeout / cycle, delay / cycle
+        self._set_points = deque([(self.q, self.dq)] * (1 + round(lag / cycle)))
+        self._leaving = self.dq
+        self._newest = self._smooth = (self.q, self.dq)
+        self._last, self._since, self._silent = -1, 0, 0
+
+    def receive(self, data: bytes) -> None:
+        """Take a set point; an older one than the last is not taken."""
+        try:
+            sensor = decode(data, EgmSensor)
+            seqno = (sensor.header or EgmHeader()).seqno or 0
+            newest = self._wanted(sensor.planned or EgmPosition(), sensor.speed_ref or EgmSpeed())
+        except (StreamError, UnreachableError):
+            return
+        if self._last >= 0 and not 0 < (seqno - self._last) % WORD < WORD // 2:
+            return
+        self._newest, self._last, self._silent = newest, seqno, 0
+        if self.state == "DISCONNECTED":
+            self.state, self._since = "CONNECTED", self.ticks
+
+    def _wanted(self, planned: EgmPosition, speed: EgmSpeed) -> tuple[Floats, Floats]:
+        """Joints [rad] and speeds of a message, in the robot's order."""
+        q, dq = self.q.copy(), np.zeros_like(self.q)
+        external = len(q) - min(len(q), 6)
+        if planned.cartesian and planned.cartesian.pos and planned.cartesian.orient:
+            T = pose(np.divide(planned.cartesian.pos, 1e3), wxyz=planned.cartesian.orient)
+            return self.robot.ik_nearest(T, self._newest[0]), dq
+        for own, joints, others in (
+            (q, planned.joints, planned.external_joints),
+            (dq, speed.joints, speed.external_joints),
+        ):
+            numbers = np.radians((*(joints or ()), *(others or ())[:external]))
+            if len(numbers) == len(own) and np.isfinite(numbers).all():
+                own[self._axes] = numbers
+        return q, dq
+
+    def tick(self) -> bytes:
+        """Move for one cycle, and return the message to send."""
+        self.ticks += 1
+        self._silent += 1
+        if self.state != "DISCONNECTED" and self._silent > self._timeout:
+            self.state, self._since, self._last = "DISCONNECTED", self.ticks, -1
+            self._leaving = self.dq
+        if self.state == "CONNECTED" and self.ticks - self._since > self._delay:
+            self.state, self._since = "RUNNING", self.ticks
+        self._set_points.append(self._newest)
+        lagging = self._set_points.popleft()
+        self._smooth = tuple(
+            own + self._share * (new - own) for own, new in zip(self._smooth, lagging, strict=True)
+        )  # type: ignore[assignment]
+        steps = (self.ticks - self._since) * self.cycle / self.ramp if self.ramp > 0 else 1.0
+        if self.state == "RUNNING":
+            reference, speed = self._smooth
+            wanted = self.gain * (reference - self.q) + speed
+            self.dq = np.clip(min(steps, 1.0) * wanted, -self._speeds, self._speeds)
+        else:
+            self.dq = self._leaving * max(1.0 - steps, 0.0)
+        self.q = self.q + self.cycle * self.dq
+        self.seqno = (self.seqno + 1) % WORD
+        return self._message()
+
+    def _message(self) -> bytes:
+        """Where the robot is, and what state it is in."""
+        header = EgmHeader(self.seqno, int(self.ticks * self.cycle * 1e3) % WORD, MessageType.DATA)
+        positions = []
+        for q in (self.q, self._newest[0]):
+            degrees = np.degrees(q)[self._axes].tolist()
+            xyz, wxyz = to_xyz_wxyz(self.robot.fk(q))
+            tool = EgmPose(tuple((xyz * 1e3).tolist()), tuple(wxyz.tolist()))
+            positions.append(EgmPosition(tuple(degrees[:6]), tool, tuple(degrees[6:]) or None))
+        is_running = self.state == "RUNNING"
+        return encode(
+            EgmRobot(
+                header,
+                *positions,
+                motor_state=1,
+                mci_state=MciState.RUNNING if is_running else MciState.STOPPED,
+                mci_convergence_met=bool(np.abs(self.dq).max() < 1e-4),
+                rapid_exec_state=2,
+            )
+        )

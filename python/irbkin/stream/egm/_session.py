@@ -1,0 +1,317 @@
+"""One session with a controller: datagrams in, datagrams out, no socket and no clock."""
+
+from __future__ import annotations
+
+import logging
+from collections import Counter
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from irbkin._core import decode, encode, to_xyz_wxyz
+from irbkin.errors import StreamError
+from irbkin.stream.egm._records import (
+    EgmHeader,
+    EgmPose,
+    EgmPosition,
+    EgmRobot,
+    EgmSensor,
+    EgmSpeed,
+    MciState,
+    MessageType,
+)
+
+if TYPE_CHECKING:
+    from irbkin._arrays import Floats
+
+log = logging.getLogger("irbkin.stream.egm")
+log.addHandler(logging.NullHandler())
+
+WORD = 2**32
+"""Sequence numbers and times [ms] are 32 bits."""
+WINDOW = 2**64 - 1
+"""Of the last 64 sequence numbers it is known whether they came."""
+TOLERANCE = 0.01
+"""How far the robot may be from a guard at rest [rad]."""
+TOLERANCE_MM = 1.0
+"""How far the tool of a controller may be from that of the robot [mm]."""
+OBSERVED = 25
+"""Cycles from which on the cycle time is compared: a time is rounded to 1 ms, 1 % of them."""
+AXES = (0, 1, 3, 4, 5, 6, 2)
+"""Of seven joints from the base on, ABB's axes 1 to 7."""
+
+
+class Statistics(NamedTuple):
+    """Datagrams of a session, and how its references fared."""
+
+    received: int
+    """Those that were answered."""
+    lost: int
+    """Sequence numbers that never came."""
+    late: int
+    """Those that came behind a later one, or too old: not answered."""
+    duplicate: int
+    """Those that came again: not answered."""
+    broken: int
+    """No messages of a controller, or of this robot."""
+    foreign: int
+    """Those of other senders."""
+    bridged: int
+    """Cycles without a datagram in which the reference went on."""
+    refused: int
+    """References that the guard refused."""
+    stops: int
+    """Times that the guard stopped following a reference, before the end."""
+
+
+class Feedback(NamedTuple):
+    """What a reference is asked with."""
+
+    t: float
+    """Time since the robot follows [s], in cycles of the controller."""
+    q: Floats
+    """The robot's joints [rad], shape (n,), by the last datagram."""
+    step: Any
+    """The last `Step` of the guard; None at first."""
+    message: EgmRobot
+    """The last message."""
+
+
+Reference: TypeAlias = "Callable[[Feedback], Any] | Iterable[Any]"
+
+
+class Session:
+    """The answers to the datagrams of one controller. The set point that answers sequence number s
+    is that of cycle s of one motion of the guard: a datagram that is missing is a step, too.
+    """
+
+    def __init__(
+        self,
+        guard: Any,
+        reference: Reference,
+        *,
+        mode: Literal["joint", "pose"] = "joint",
+        bridge: float = 0.025,
+        watchdog: float = 0.25,
+        linger: float = 1.0,
+        seconds: float | None = None,
+    ) -> None:
+        self.guard, self.mode, self.watchdog = guard, mode, watchdog
+        self.robot, self.cycle = guard.robot, float(guard.cycle)
+        if mode not in ("joint", "pose") or (mode == "pose" and self.robot.dof != 6):
+            raise StreamError(
+                f'mode is {mode!r}, it must be "joint", or "pose" of six axes '
+                f"(this robot has {self.robot.dof})"
+            )
+        self.bridge, self.linger = int(bridge / self.cycle), int(linger / self.cycle)
+        self.most = np.inf if seconds is None else seconds / self.cycle
+        self.ask = reference if callable(reference) else _asked(reference)
+        self.axes = list(AXES) if self.robot.dof == 7 else list(range(self.robot.dof))
+        self.heard: float | None = None
+        self.error: BaseException | None = None
+        self.is_done = False
+        self._peer: object = None
+        self._count: Counter[str] = Counter()
+        self._cycles = self._held = self._sent = self._seen = 0
+        self._offset = np.inf
+        self._is_ending = self._was_running = self._was_accepted = False
+        self._step: Any = None
+
+    @property
+    def statistics(self) -> Statistics:
+        """What was counted until now."""
+        return Statistics(*(self._count[name] for name in Statistics._fields))
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the end is reached, and held."""
+        return self._held > 0
+
+    def end(self, error: BaseException | None = None) -> None:
+        """Brake from now on, hold, and be done; `error` is why."""
+        self._is_ending, self.error = True, self.error or error
+
+    def silence(self) -> StreamError:
+        """Brake without a controller that listens, and return what is wrong."""
+        while self.guard.step(None).state != "holding":
+            pass
+        return StreamError(
+            f"no datagram for {self.watchdog:g} s (watchdog): the guard has braked, and the "
+            "controller goes on by its last set point until its CommTimeout"
+        )
+
+    def answer(self, data: bytes, sender: object, now: float) -> bytes | None:
+        """The datagram that answers one, or None.
+
+        Args:
+            data: The datagram.
+            sender: Who sent it: the first sender of a message is the only one.
+            now: When it came [s], by any clock.
+
+        Raises:
+            StreamError: The controller and the guard do not go together.
+        """
+        if self._peer not in (None, sender):
+            self._count["foreign"] += 1
+            return None
+        try:
+            message = decode(data, EgmRobot)
+            seqno, tm = _head(message)
+        except StreamError:
+            self._count["broken"] += 1
+            return None
+        try:
+            q = self._joints(message)
+        except StreamError:
+            if self._peer is None:
+                raise
+            self._count["broken"] += 1
+            return None
+        if self._peer is None:
+            self._peer, self._first, self._last = sender, (seqno, tm), (seqno - 1) % WORD
+            self._others = self._external(message)
+        gap = self._gap(seqno, tm, now)
+        if gap == 0:
+            return None
+        self._check_cycle(seqno, tm, gap)
+        self._last, self.heard = seqno, now
+        self._count["received"] += 1
+        self._count["lost"] += gap - 1
+        self._advance(gap, q, message)
+        return self._set_point(now)
+
+    def _joints(self, message: EgmRobot) -> Floats:
+        """The joints of a message [rad], in the robot's order."""
+        feedback, dof = message.feedback or EgmPosition(), self.robot.dof
+        joints, external = feedback.joints or (), feedback.external_joints or ()
+        if len(joints) != min(dof, 6) or len(joints) + len(external) < dof:
+            raise StreamError(
+                f"feedback has {len(joints)} joints and {len(external)} external ones, the "
+                f"guard's robot {self.robot.name} has {dof} joints (is it another robot?)"
+            )
+        q = np.empty(dof)
+        q[self.axes] = np.radians((*joints, *external)[:dof])
+        if not np.isfinite(q).all():
+            raise StreamError(f"feedback.joints is {joints}: every joint must be finite")
+        return q
+
+    def _external(self, message: EgmRobot) -> tuple[float, ...]:
+        """External axes that are none of the robot's [deg or mm]."""
+        feedback = message.feedback or EgmPosition()
+        return (feedback.external_joints or ())[max(self.robot.dof - 6, 0) :]
+
+    def _gap(self, seqno: int, tm: int, now: float) -> int:
+        """How many cycles a datagram is ahead of the last one; 0 for one that is not answered."""
+        gap = (seqno - self._last + WORD // 2) % WORD - WORD // 2
+        # The least delay of all is the clocks' difference.
+        delay = now - (tm - self._first[1]) % WORD / 1e3
+        self._offset = min(self._offset, delay)
+        if gap > 0 and delay - self._offset <= max(self.bridge, 1) * self.cycle:
+            self._seen = (self._seen << min(gap, 64) | 1) & WINDOW
+            return gap
+        bit = 1 << min(-gap, 64) if gap <= 0 else 0
+        is_again = bool((self._seen | ~WINDOW) & bit)
+        self._seen |= bit & WINDOW
+        self._count["duplicate" if is_again else "late"] += 1
+        self._count["lost"] -= not is_again
+        return 0
+
+    def _check_cycle(self, seqno: int, tm: int, gap: int) -> None:
+        """Refuse a controller that jumps, and one of another cycle time."""
+        if gap * self.cycle > self.watchdog:
+            raise StreamError(
+                f"header.seqno jumps by {gap}, {gap * self.cycle:.3g} s: at most "
+                f"{self.watchdog:g} s may be missing (watchdog)"
+            )
+        cycles = (seqno - self._first[0]) % WORD
+        measured = (tm - self._first[1]) % WORD / 1e3 / max(cycles, 1)
+        if cycles >= OBSERVED and abs(measured - self.cycle) > 0.1 * self.cycle:
+            raise StreamError(
+                f"the controller's cycle is {measured * 1e3:.2f} ms, the guard's "
+                f"{self.cycle * 1e3:.2f} ms: make a Guard of the controller's cycle"
+            )
+
+    def _advance(self, gap: int, q: Floats, message: EgmRobot) -> None:
+        """Step the guard for a message and for the cycles without one before it."""
+        is_running = message.mci_state in (None, MciState.RUNNING) and message.motor_state != 2
+        if not (is_running and self._was_running):
+            self._check_posture(q, message)
+        self._was_running = is_running
+        for left in range(gap - 1, -1, -1):
+            is_bridged = left > 0 and gap - 1 - left < self.bridge
+            self._count["bridged"] += is_running and is_bridged
+            self._cycle(is_running and (left == 0 or is_bridged), q, message)
+            self._cycles += is_running
+        is_held = self._is_ending and self._step.state == "holding"
+        self._held = self._held + 1 if is_held else 0
+        self.is_done = is_held and (not is_running or self._held > self.linger)
+
+    def _cycle(self, is_asked: bool, q: Floats, message: EgmRobot) -> None:
+        """Step the guard, by the reference if it is asked."""
+        wanted = None
+        self._is_ending |= self._cycles >= self.most
+        if is_asked and not self._is_ending:
+            try:
+                wanted = self.ask(Feedback(self._cycles * self.cycle, q, self._step, message))
+            except StopIteration:
+                self.end()
+            except Exception as error:
+                self.end(error)
+        self._step = self.guard.step(wanted)
+        is_refused = wanted is not None and not self._step.accepted
+        self._count["refused"] += is_refused
+        if self._was_accepted and not self._step.accepted and not self._is_ending:
+            self._count["stops"] += 1
+            log.warning("cycle %d: %s", self._cycles, self._step.reason)
+        self._was_accepted = self._step.accepted
+
+    def _check_posture(self, q: Floats, message: EgmRobot) -> None:
+        """Refuse a robot that is not where the guard is."""
+        own = np.asarray(self.guard.q)
+        joint = int(np.abs(q - own).argmax())
+        if abs(q[joint] - own[joint]) > TOLERANCE:
+            raise StreamError(
+                f"joint {joint + 1} of the robot is at {np.degrees(q[joint]):.2f} deg, of the "
+                f"guard at {np.degrees(own[joint]):.2f} deg, more than "
+                f"{np.degrees(TOLERANCE):.2f} deg apart: start a Guard where the robot is"
+            )
+        pose = message.feedback.cartesian if message.feedback else None
+        if self.mode == "pose" and pose and pose.pos:
+            apart = float(np.linalg.norm(self.robot.fk(q)[:3, 3] * 1e3 - pose.pos))
+            if not apart <= TOLERANCE_MM:
+                raise StreamError(
+                    f"the tool of the controller is {apart:.1f} mm from the robot's, more than "
+                    f"{TOLERANCE_MM:g} mm: give the robot the tool and the base that EGMActPose has"
+                )
+
+    def _set_point(self, now: float) -> bytes:
+        """The message of the last step. In pose mode speeds are left out: the manual has no units
+        of a rotation's.
+        """
+        self._sent = (self._sent + 1) % WORD
+        header = EgmHeader(self._sent, int(now * 1e3) % WORD, MessageType.CORRECTION)
+        q, dq = (np.degrees(it)[self.axes].tolist() for it in (self._step.q, self._step.dq))
+        external = (*q[6:], *self._others) or None
+        if self.mode == "pose":
+            xyz, wxyz = to_xyz_wxyz(self.robot.fk(self._step.q))
+            pose = EgmPose(tuple((xyz * 1e3).tolist()), tuple(wxyz.tolist()))
+            return encode(EgmSensor(header, EgmPosition(None, pose, external)))
+        speeds = (*dq[6:], *(0.0 for _ in self._others)) or None
+        planned = EgmPosition(tuple(q[:6]), external_joints=external)
+        speed = EgmSpeed(tuple(dq[:6]), external_joints=speeds)
+        return encode(EgmSensor(header, planned, speed))
+
+
+def _asked(references: Iterable[Any]) -> Callable[[Feedback], Any]:
+    """A function that returns one after the other."""
+    left = iter(references)
+    return lambda feedback: next(left)
+
+
+def _head(message: EgmRobot) -> tuple[int, int]:
+    """Sequence number and time of a controller's message."""
+    header = message.header or EgmHeader()
+    if header.seqno is None or header.tm is None or header.mtype != MessageType.DATA:
+        raise StreamError(f"header is {header}: it must have seqno, tm and mtype 2 (data)")
+    return header.seqno, header.tm
