@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 __all__ = ["main"]
 
-# A verb is the module `irbkin.cli.<verb>`, which has its help as docstring, `add_arguments` and
+# A verb is the module `irbkin.cli.<verb>`, with _ for -, which has its help as docstring, `add_arguments` and
 # `run`. A new one needs its file and its line here. (`map` is here the verb, once it was called.)
 VERBS = {
     "catalog": "list the arms, or show one",
@@ -30,6 +30,7 @@ VERBS = {
     "map": "what an arm reaches: a grid of positions, each with many orientations",
     "plot": "draw an arm, solutions, paths and reach",
     "view": "show an arm, a program or a scene in the browser",
+    "egm-sim": "a model of an ABB controller that follows set points of EGM on this machine",
     "urdf": "write an arm as URDF",
     "completion": "write what completes commands in a shell",
 }
@@ -59,7 +60,7 @@ def _run(given: list[str]) -> int:
         print(f"irbkin {__version__}")
     elif verb in VERBS:
         parser = parser_of(verb)
-        code: int = importlib.import_module(f"irbkin.cli.{verb}").run(parser.parsed(rest))
+        code: int = importlib.import_module(module_of(verb)).run(parser.parsed(rest))
         return code
     else:
         import difflib
@@ -69,11 +70,16 @@ def _run(given: list[str]) -> int:
     return FINE
 
 
+def module_of(verb: str) -> str:
+    """The module of a verb."""
+    return f"irbkin.cli.{verb.replace('-', '_')}"
+
+
 def parser_of(verb: str, own: OneLine | None = None) -> Parser:
     """The arguments of a verb."""
     from irbkin.cli.arguments import Parser
 
-    module = importlib.import_module(f"irbkin.cli.{verb}")
+    module = importlib.import_module(module_of(verb))
     parser = Parser(verb, module.__doc__ or "", own)
     module.add_arguments(parser)
     return parser

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from irbkin._core import decode, encode
 from irbkin.stream.egm._controller import CYCLE, Controller
+from irbkin.stream.egm._program import rapid_module
 from irbkin.stream.egm._records import (
     EgmData,
     EgmHeader,
@@ -40,5 +41,6 @@ __all__ = [
     "decode",
     "encode",
     "play",
+    "rapid_module",
     "simulated",
 ]

@@ -146,20 +146,23 @@ class Controller:
     def _message(self) -> bytes:
         """Where the robot is, and what state it is in."""
         header = EgmHeader(self.seqno, int(self.ticks * self.cycle * 1e3) % WORD, MessageType.DATA)
-        positions = []
-        for q in (self.q, self._newest[0]):
-            degrees = np.degrees(q)[self._axes].tolist()
-            xyz, wxyz = to_xyz_wxyz(self.robot.fk(q))
-            tool = EgmPose(tuple((xyz * 1e3).tolist()), tuple(wxyz.tolist()))
-            positions.append(EgmPosition(tuple(degrees[:6]), tool, tuple(degrees[6:]) or None))
+        feedback, planned = map(self._position, (self.q, self._newest[0]))
         is_running = self.state == "RUNNING"
         return encode(
             EgmRobot(
                 header,
-                *positions,
+                feedback,
+                planned,
                 motor_state=1,
                 mci_state=MciState.RUNNING if is_running else MciState.STOPPED,
                 mci_convergence_met=bool(np.abs(self.dq).max() < 1e-4),
                 rapid_exec_state=2,
             )
         )
+
+    def _position(self, q: Floats) -> EgmPosition:
+        """Joints, and the tool at them."""
+        degrees = np.degrees(q)[self._axes].tolist()
+        xyz, wxyz = to_xyz_wxyz(self.robot.fk(q))
+        tool = EgmPose(tuple((xyz * 1e3).tolist()), tuple(wxyz.tolist()))
+        return EgmPosition(tuple(degrees[:6]), tool, tuple(degrees[6:]) or None)
