@@ -49,6 +49,7 @@ mod seven_paths;
 mod snap;
 mod states;
 mod stream;
+mod stream_egm;
 pub(crate) mod structures;
 #[cfg(feature = "urdf")]
 mod urdf;

@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 
 __all__ = ["main"]
 
-# A verb is the module `irbkin.cli.<verb>`, with _ for -, which has its help as docstring, `add_arguments` and
-# `run`. A new one needs its file and its line here. (`map` is here the verb, once it was called.)
+# A verb is the module `irbkin.cli.<verb>`, with _ for -: its docstring is the help, it has
+# `add_arguments` and `run`. A new one needs its file and its line here. (`map` is here the verb,
+# once it was called.)
 VERBS = {
     "catalog": "list the arms, or show one",
     "fk": "pose of the tool of joint angles",

@@ -25,8 +25,8 @@ pub enum EgmFaultKind {
     Varint { most: usize },
     #[error("is {value}, it must be at most {most}")]
     TooLarge { value: u64, most: u64 },
-    #[error("has the field number 0, it must be 1 at least")]
-    NoNumber,
+    #[error("has the field number {found}, it must be 1 to {most}")]
+    Number { found: u64, most: u64 },
     #[error("has wire type {found}, it must be {wanted} (is it a message of another kind?)")]
     WireType { found: u64, wanted: &'static str },
     #[error("lacks its required element {number} of {count}")]

@@ -11,6 +11,8 @@ use super::fault::{EgmFault, EgmFaultKind};
 pub(super) const MOST_BYTES: usize = 65_507;
 /// The longest varint, of 64 bits [bytes].
 const MOST_VARINT: usize = 10;
+/// The largest number of a field.
+const MOST_NUMBER: u64 = (1 << 29) - 1;
 const VARINT: u64 = 0;
 const DOUBLE: u64 = 1;
 const LENGTH: u64 = 2;
@@ -99,8 +101,9 @@ impl<'a> Reader<'a> {
         while self.at < self.bytes.len() {
             let tag = self.varint("message")?;
             let (number, wire) = (tag >> 3, tag & 7);
-            if number == 0 {
-                return Err(self.fault("message", EgmFaultKind::NoNumber));
+            if number == 0 || number > MOST_NUMBER {
+                let kind = EgmFaultKind::Number { found: number, most: MOST_NUMBER };
+                return Err(self.fault("message", kind));
             }
             if !take(number, wire, self)? {
                 self.skip(wire)?;

@@ -18,11 +18,10 @@ if TYPE_CHECKING:
     from irbkin import Robot
 
 SETTINGS = {
-    "RW6": "RobotWare 6.07.01 or later with option 689-1. Configuration, Communication, Transmission\n"
-    "    ! Protocol: a device {device} of type UDPUC",
-    "RW7": "RobotWare 7 with option 3124-1. Configuration, Communication, UDP Unicast Device: a\n"
-    "    ! device {device}",
+    "RW6": "RobotWare 6.07.01 or later with option 689-1; Transmission Protocol of type UDPUC",
+    "RW7": "RobotWare 7 with option 3124-1; UDP Unicast Device",
 }
+"""What the program runs on, and what its device is called among the system parameters."""
 POSES = ("X", "Y", "Z", "Rx", "Ry", "Rz")
 
 
@@ -71,7 +70,8 @@ def rapid_module(
     tool, declared = "tool0", ""
     if not np.array_equal(robot.tool, np.eye(4)):
         tool = "tEgm"
-        declared = f"\n    ! Without its load, which is yours to give.\n    PERS tooldata tEgm:={dump(ToolData(tframe=Pose.of(robot.tool)))};"
+        frame = dump(ToolData(tframe=Pose.of(robot.tool)))
+        declared = f"\n    ! The load is not known here.\n    PERS tooldata tEgm:={frame};"
     axes = [f"J{i}" for i in range(1, len(q) + 1)] if mode == "joint" else POSES
     kind = mode.capitalize()
     frames = ",egmFrame,EGM_FRAME_WOBJ,egmFrame,EGM_FRAME_WOBJ" if mode == "pose" else ""
@@ -79,7 +79,8 @@ def rapid_module(
     within = "".join(f"\\{axis}:=egmWithin" for axis in axes)
     all_axes = "".join(f"\\{axis}" for axis in axes)
     return f"""MODULE {name}
-    ! {SETTINGS[release].format(device=device)}, with Remote Address and Remote Port of the server.
+    ! {SETTINGS[release]} {device}:
+    ! its Remote Address and Remote Port are those of the server.
     CONST jointtarget jStart:={dump(target)};
     CONST egm_minmax egmWithin:=[-0.1,0.1];{declared}
     VAR egmident egmId;

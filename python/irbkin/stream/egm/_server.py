@@ -36,7 +36,7 @@ class Server:
         host: str = "127.0.0.1",
         *,
         mode: Literal["joint", "pose"] = "joint",
-        bridge: float = 0.025,
+        bridge: float = 0.04,
         watchdog: float = 0.25,
         connect: float = 60.0,
         linger: float = 1.0,

@@ -60,7 +60,7 @@ class Statistics(NamedTuple):
     bridged: int
     """Cycles without a datagram in which the reference went on."""
     refused: int
-    """References that the guard refused."""
+    """References that the guard did not take as they are."""
     stops: int
     """Times that the guard stopped following a reference, before the end."""
 
@@ -92,7 +92,7 @@ class Session:
         reference: Reference,
         *,
         mode: Literal["joint", "pose"] = "joint",
-        bridge: float = 0.025,
+        bridge: float = 0.04,
         watchdog: float = 0.25,
         linger: float = 1.0,
         seconds: float | None = None,
@@ -115,7 +115,7 @@ class Session:
         self._count: Counter[str] = Counter()
         self._cycles = self._held = self._sent = self._seen = 0
         self._offset = np.inf
-        self._is_ending = self._was_running = self._was_accepted = False
+        self._is_ending = self._was_running = self._was_following = False
         self._step: Any = None
 
     @property
@@ -251,20 +251,22 @@ class Session:
         """Step the guard, by the reference if it is asked."""
         wanted = None
         self._is_ending |= self._cycles >= self.most
-        if is_asked and not self._is_ending:
-            try:
+        try:
+            if is_asked and not self._is_ending:
                 wanted = self.ask(Feedback(self._cycles * self.cycle, q, self._step, message))
-            except StopIteration:
-                self.end()
-            except Exception as error:
-                self.end(error)
-        self._step = self.guard.step(wanted)
+            self._step = self.guard.step(wanted)
+        except Exception as error:
+            # It ends, or is no reference.
+            self.end(None if isinstance(error, StopIteration) else error)
+            wanted = None
+            self._step = self.guard.step(None)
         is_refused = wanted is not None and not self._step.accepted
         self._count["refused"] += is_refused
-        if self._was_accepted and not self._step.accepted and not self._is_ending:
+        is_following = self._step.state == "following"
+        if self._was_following and not is_following and not self._is_ending:
             self._count["stops"] += 1
             log.warning("cycle %d: %s", self._cycles, self._step.reason)
-        self._was_accepted = self._step.accepted
+        self._was_following = is_following
 
     def _check_posture(self, q: Floats, message: EgmRobot) -> None:
         """Refuse a robot that is not where the guard is."""
