@@ -127,13 +127,18 @@ impl<const N: usize> Ahead<N> {
     }
 
     /// Prove the motion free in a bounded number of looks at up to eight boxes each; else a box that
-    /// is left open.
+    /// is left open. Where the arm would rest is looked at first, or if one look is not enough.
     pub(super) fn prove(
         &self,
         robot: &Robot<N>,
         boxes: &mut Boxes<N>,
         looks: usize,
+        stop_first: bool,
     ) -> Result<(), Middle<N>> {
+        let rest = (self.brakes.map(|brake| brake.stop), [WIDER; N]);
+        if stop_first && boxes.open(robot, &[rest.0], &[rest.1]) != 0 {
+            return Err(rest);
+        }
         let whole = self.range([0.0, self.cycles()]).1;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 8")]
         let count = (boxes.most_motion(robot, whole) / LONG).ceil().clamp(1.0, 8.0) as usize;
@@ -157,8 +162,7 @@ impl<const N: usize> Ahead<N> {
                 }
                 continue;
             };
-            let rest = (self.brakes.map(|brake| brake.stop), [WIDER; N]);
-            if look == 0 && boxes.open(robot, &[rest.0], &[rest.1]) != 0 {
+            if look == 0 && !stop_first && boxes.open(robot, &[rest.0], &[rest.1]) != 0 {
                 return Err(rest);
             }
             let pieces = (LANES / lanes().count()).max(2);

@@ -13,7 +13,7 @@ use crate::cell::{Boxes, Cell, Nearest, Other};
 use crate::error::Error;
 use crate::go::fault::GoFault;
 use crate::go::inside;
-use crate::kinematics::{BreakReason, Follower, Pose, Robot, largest, largest_step, steps};
+use crate::kinematics::{Follower, Pose, Robot, largest, largest_step, steps};
 
 /// How far control points may be outside limits [rad]: half of what counts as inside, for the
 /// rounding of the steps of a braking motion is less than the other half.
@@ -21,7 +21,7 @@ const LIMIT_SLACK: f64 = 5e-10;
 
 /// Looks at eight parts of the motion ahead, after which it counts as not free: of a reference, and
 /// of a shorter step in its place.
-const LOOKS: [usize; 2] = [4, 2];
+const LOOKS: [usize; 2] = [4, 1];
 
 /// A guard in front of a control loop: in each cycle a reference, or none, and a set point.
 ///
@@ -43,6 +43,8 @@ pub struct Guard<const N: usize> {
     /// The last reference, by which one that moves is recognized.
     reference: [f64; N],
     state: State,
+    /// Whether the last motion that was looked at is not free: the order of looks at the next one.
+    was_blocked: bool,
 }
 
 impl<const N: usize> Guard<N> {
@@ -89,6 +91,7 @@ impl<const N: usize> Guard<N> {
             points: [start; 3],
             reference: start,
             state: State::Holding,
+            was_blocked: false,
         })
     }
 
@@ -183,28 +186,28 @@ impl<const N: usize> Guard<N> {
             Error::InvalidPose(_) => Reason::NotRigid,
             _ => Reason::NoInverse,
         };
-        let mut follower = Follower::new(&self.robot, here, &weights).map_err(reason)?;
-        let (found, broken) = follower.step(pose).map_err(reason)?;
-        let Some(found) = found else {
-            return Err(match broken {
-                Some(BreakReason::Unreachable(why)) => Reason::Unreachable(why),
-                _ => Reason::NoInverse,
+        let follower = Follower::new(&self.robot, here, &weights).map_err(reason)?;
+        let Some(found) = follower.continued(pose).map_err(reason)? else {
+            return Err(match self.robot.redundancy() {
+                Some(_) => Reason::NotContinued,
+                None => self
+                    .robot
+                    .ik_with(pose, None)
+                    .map_or_else(reason, |solutions| Reason::Unreachable(solutions.explain())),
             });
         };
-        let (Some(from), Some(to)) = (self.robot.slot_of(here), self.robot.slot_of(&found.q))
-        else {
-            return Ok(found.q);
-        };
-        if from == to {
-            return Ok(found.q);
+        match (self.robot.slot_of(here), self.robot.slot_of(&found.q)) {
+            (Some(from), Some(to)) if from != to => {
+                let is_same = |q: &[f64; N]| self.robot.slot_of(q) == Some(from);
+                let lost = Reason::Branch { from, to };
+                if self.robot.redundancy().is_some() {
+                    return Err(lost);
+                }
+                let nearest = self.robot.nearest_accepted(pose, here, &weights, &is_same);
+                nearest.map(|nearest| nearest.q).map_err(|_| lost)
+            }
+            _ => Ok(found.q),
         }
-        let lost = Reason::Branch { from, to };
-        if self.robot.redundancy().is_some() {
-            return Err(lost);
-        }
-        let is_same = |q: &[f64; N]| self.robot.slot_of(q) == Some(from);
-        let nearest = self.robot.nearest_accepted(pose, here, &weights, &is_same);
-        nearest.map(|nearest| nearest.q).map_err(|_| lost)
     }
 
     fn end(&self, joint: usize) -> End {
@@ -239,20 +242,23 @@ impl<const N: usize> Guard<N> {
 
     /// Go less far than to a control point that cannot be, or brake.
     fn go_less(&mut self, next: [f64; N], reason: Reason) -> Step<N> {
-        if self.on_violation == OnViolation::Brake {
+        let is_linkage = matches!(reason, Reason::Linkage { .. });
+        // At rest half of a step is next to nothing.
+        let is_at_rest = self.state == State::Holding && !is_linkage;
+        if self.on_violation == OnViolation::Brake || is_at_rest {
             return self.refuse(reason);
         }
         let brake = self.braking();
         let halfway = core::array::from_fn(|joint| 0.5 * (next[joint] + brake[joint]));
         let mut others = [halfway; 3];
-        if matches!(reason, Reason::Linkage { .. }) {
+        if is_linkage {
             // One of the two joints may leave the limit, or move along it.
             for (other, joint) in [(0, 1), (1, 2)] {
                 others[other] = next;
                 others[other][joint] = brake[joint];
             }
         }
-        let count = if matches!(reason, Reason::Linkage { .. }) { 3 } else { 1 };
+        let count = if is_linkage { 3 } else { 1 };
         match others[..count].iter().find(|other| self.admit(other, LOOKS[1]).is_ok()) {
             Some(other) => self.advance(*other, State::Following, Some(reason)),
             None => self.refuse(reason),
@@ -326,7 +332,8 @@ impl<const N: usize> Guard<N> {
             checked.map_err(|(value, limit)| Reason::ToolSpeed { value, limit })?;
         }
         let Some(boxes) = &mut self.boxes else { return Ok(()) };
-        ahead.prove(&self.robot, boxes, looks).map_err(|(q, spans)| {
+        let stop_first = self.was_blocked;
+        let proven = ahead.prove(&self.robot, boxes, looks, stop_first).map_err(|(q, spans)| {
             let (link, other) =
                 boxes.blocked(&self.robot, &q, &spans).unwrap_or((0, Other::Link(0)));
             match other {
@@ -335,7 +342,9 @@ impl<const N: usize> Guard<N> {
                     Reason::Blocked { link, other: None, obstacle: Some(place) }
                 }
             }
-        })
+        });
+        self.was_blocked = proven.is_err();
+        proven
     }
 
     /// Take a control point, and answer with the set point.

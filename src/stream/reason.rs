@@ -102,6 +102,8 @@ pub enum Reason {
         /// The slot of the nearest solution.
         to: Slot,
     },
+    /// No solution of the pose inside the limits continues the joints, of seven.
+    NotContinued,
     /// The arm has no inverse kinematics.
     NoInverse,
     /// The way to the reference, or the braking motion after it, is not proven free.
@@ -165,6 +167,9 @@ impl fmt::Display for Reason {
                 to.index(),
                 from.index()
             ),
+            Self::NotContinued => {
+                f.write_str("no solution of the pose inside the limits continues the joints")
+            }
             Self::NoInverse => f.write_str("the arm has no inverse kinematics: give joint angles"),
             Self::Blocked { link, other: Some(other), .. } => {
                 write!(f, "{NOT_FREE} link {link} and link {other} come too near to each other")

@@ -47,7 +47,7 @@ def test_a_guard_at_rest_holds_its_start():
 
 @pytest.mark.parametrize("on_violation", ["brake", "limit"])
 def test_a_trajectory_is_followed_one_cycle_later(on_violation):
-    goal = [*START, 0.3, -0.2, 0.2, 0.5, -0.9, 0.4]
+    goal = START + np.array([0.3, -0.2, 0.2, 0.5, -0.9, 0.4])
     motion = irbkin.trajectory.joint(START, goal, **LIMITS, profile="s_curve")
     own = guard(on_violation=on_violation)
     q = [START, START]
@@ -67,7 +67,7 @@ def test_a_trajectory_is_followed_one_cycle_later(on_violation):
 
 
 def test_poses_are_followed_on_the_branch():
-    goal = [*START, 0.3, -0.2, 0.2, 0.5, 0.4, 0.4]
+    goal = START + np.array([0.3, -0.2, 0.2, 0.5, 0.4, 0.4])
     motion = irbkin.trajectory.joint(START, goal, **LIMITS, profile="s_curve")
     own = guard()
     for T in ROBOT.fk(sampled(motion)):
@@ -84,7 +84,7 @@ def test_poses_are_followed_on_the_branch():
 
 
 def test_a_loss_is_a_stop_and_the_next_reference_ends_it():
-    goal = [*START, 1.5, 0, 0, 0, 0, 0]
+    goal = START + np.array([1.5, 0, 0, 0, 0, 0])
     motion = irbkin.trajectory.joint(START, goal, **LIMITS, profile="s_curve")
     own = guard(on_violation="limit")
     for reference in sampled(motion)[: len(sampled(motion)) // 2]:
@@ -119,7 +119,7 @@ def test_what_does_not_fit_is_refused_with_joint_value_and_bound():
 
 def test_an_obstacle_in_the_way_is_named_and_not_touched():
     wall = irbkin.Cell({"wall": Shape.box([0.1, 2, 2], irbkin.pose([1.3, 0, 1]))}, margin=0.01)
-    goal = [*START, 0, 0.9, 0, 0, 0, 0]
+    goal = START + np.array([0, 0.9, 0, 0, 0, 0])
     assert wall.collides(ROBOT, goal)
     for on_violation in ("brake", "limit"):
         own = guard(cell=wall, on_violation=on_violation, margin=0.005)
@@ -133,7 +133,7 @@ def test_an_obstacle_in_the_way_is_named_and_not_touched():
 
 
 def test_the_tool_keeps_its_speed():
-    goal = [*START, 2.0, 0, 0, 0, 0, 0]
+    goal = START + np.array([2.0, 0, 0, 0, 0, 0])
     own = guard(max_tool_speed=0.5, on_violation="limit")
     steps = [own.step(goal) for _ in range(800)]
     speeds = [np.linalg.norm((ROBOT.jacobian(step.q) @ step.dq)[:3]) for step in steps]

@@ -203,6 +203,16 @@ impl<'a, const N: usize> Follower<'a, N> {
         }
     }
 
+    /// The solution that continues at a pose from where the joints are; none elsewhere is sought.
+    pub(crate) fn continued(&self, pose: &Pose) -> Result<Option<Solution<N>>, Error> {
+        let pose = checked_pose(pose)?;
+        let mut next = self.robot.continued(&pose, &self.at.q, &self.weights)?;
+        if let Some(next) = &mut next {
+            self.balance(next, &self.at.q, &pose);
+        }
+        Ok(next)
+    }
+
     /// Near wrist singularities the residual was put on joint 6 alone; split it with joint 4 as far
     /// as the pose permits.
     fn balance(&self, next: &mut Solution<N>, heading: &[f64; N], pose: &Pose) {
