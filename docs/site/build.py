@@ -30,7 +30,7 @@ COPIED = (
 MODULES = (
     "irbkin", "irbkin.abb", "irbkin.body", "irbkin.calibration", "irbkin.errors", "irbkin.map",
     "irbkin.paths", "irbkin.placement", "irbkin.plot", "irbkin.rapid", "irbkin.records",
-    "irbkin.ros", "irbkin.scene", "irbkin.trajectory",
+    "irbkin.ros", "irbkin.scene", "irbkin.stream", "irbkin.stream.egm", "irbkin.trajectory",
 )  # fmt: skip
 
 

@@ -2,8 +2,8 @@
 
 use alloc::vec::Vec;
 
-use super::fault::{EgmFault, EgmFaultKind};
-use super::wire::{Field, MOST_BYTES, Message, Reader, Value};
+use super::fault::EgmFault;
+use super::wire::{Field, Message, Reader, Value};
 use crate::error::Error;
 
 /// Define messages by numbers, names and types of their fields.
@@ -22,11 +22,11 @@ macro_rules! messages {
         }
 
         impl Message for $Name {
-            fn put(&self, out: &mut Vec<u8>) {
+            fn put_fields(&self, out: &mut Vec<u8>) {
                 $(Field::put(&self.$field, $number, out);)*
             }
 
-            fn take(
+            fn take_field(
                 &mut self, number: u64, wire: u64, from: &mut Reader,
             ) -> Result<bool, EgmFault> {
                 match number {
@@ -169,59 +169,34 @@ impl Value for EgmState {
     }
 }
 
-impl EgmRobot {
-    /// Read a datagram. Unknown fields are skipped.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidMessage`]: the bytes are no such message.
-    pub fn decode(bytes: &[u8]) -> Result<Self, Error> {
-        decode(bytes)
-    }
+/// Define the ends of messages that are datagrams.
+macro_rules! datagrams {
+    ($($Name:ident)*) => {$(
+        impl $Name {
+            /// Read a datagram. Unknown fields are skipped.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::InvalidMessage`]: the bytes are no such message.
+            pub fn decode(bytes: &[u8]) -> Result<Self, Error> {
+                let mut message = Self::default();
+                let take = |number, wire, from: &mut _| message.take_field(number, wire, from);
+                Reader::new(bytes)?.fields(take)?;
+                Ok(message)
+            }
 
-    /// Write a datagram, its fields in the order of their numbers.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidMessage`]: it has more bytes than a datagram.
-    pub fn encode(&self) -> Result<Vec<u8>, Error> {
-        encode(self)
-    }
+            /// Write a datagram, its fields in the order of their numbers.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::InvalidMessage`]: it has more bytes than a datagram.
+            pub fn encode(&self) -> Result<Vec<u8>, Error> {
+                let mut out = Vec::new();
+                self.put_fields(&mut out);
+                Reader::new(&out)?;
+                Ok(out)
+            }
+        }
+    )*};
 }
-
-impl EgmSensor {
-    /// Read a datagram. Unknown fields are skipped.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidMessage`]: the bytes are no such message.
-    pub fn decode(bytes: &[u8]) -> Result<Self, Error> {
-        decode(bytes)
-    }
-
-    /// Write a datagram, its fields in the order of their numbers.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidMessage`]: it has more bytes than a datagram.
-    pub fn encode(&self) -> Result<Vec<u8>, Error> {
-        encode(self)
-    }
-}
-
-fn decode<M: Message>(bytes: &[u8]) -> Result<M, Error> {
-    let mut message = M::default();
-    Reader::new(bytes)?.fields(|number, wire, from| message.take(number, wire, from))?;
-    Ok(message)
-}
-
-fn encode<M: Message>(message: &M) -> Result<Vec<u8>, Error> {
-    let mut out = Vec::new();
-    Message::put(message, &mut out);
-    let (found, most) = (out.len(), MOST_BYTES);
-    if found > most {
-        let kind = EgmFaultKind::TooLong { found, most };
-        return Err(EgmFault { at: most, field: "message", kind }.into());
-    }
-    Ok(out)
-}
+datagrams! { EgmRobot EgmSensor }

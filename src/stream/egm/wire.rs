@@ -8,7 +8,7 @@ use alloc::vec::Vec;
 use super::fault::{EgmFault, EgmFaultKind};
 
 /// The largest payload of a UDP datagram over IPv4 [bytes].
-pub(super) const MOST_BYTES: usize = 65_507;
+const MOST_BYTES: usize = 65_507;
 /// The longest varint, of 64 bits [bytes].
 const MOST_VARINT: usize = 10;
 /// The largest number of a field.
@@ -38,6 +38,10 @@ impl<'a> Reader<'a> {
 
     fn fault(&self, field: &'static str, kind: EgmFaultKind) -> EgmFault {
         EgmFault { at: self.at, field, kind }
+    }
+
+    fn wire_type(&self, field: &'static str, found: u64, wanted: &'static str) -> EgmFault {
+        self.fault(field, EgmFaultKind::WireType { found, wanted })
     }
 
     fn varint(&mut self, field: &'static str) -> Read<u64> {
@@ -89,10 +93,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn wire_type(&self, field: &'static str, found: u64, wanted: &'static str) -> EgmFault {
-        self.fault(field, EgmFaultKind::WireType { found, wanted })
-    }
-
     /// Read all fields: `take` gets number and wire type, and reads the value if it knows it.
     pub(super) fn fields(
         &mut self,
@@ -137,9 +137,9 @@ pub(super) trait Field {
 
 /// A message by its fields.
 pub(super) trait Message: Default {
-    fn put(&self, out: &mut Vec<u8>);
+    fn put_fields(&self, out: &mut Vec<u8>);
     /// Read the field of this number, if there is one.
-    fn take(&mut self, number: u64, wire: u64, from: &mut Reader) -> Read<bool>;
+    fn take_field(&mut self, number: u64, wire: u64, from: &mut Reader) -> Read<bool>;
 }
 
 impl<V: Value> Field for Option<V> {
@@ -151,10 +151,13 @@ impl<V: Value> Field for Option<V> {
     }
 
     fn take(&mut self, wire: u64, from: &mut Reader, field: &'static str) -> Read<()> {
-        let wanted = ["0", "1", "2"];
         if wire != V::WIRE {
-            let wanted = wanted.iter().zip(VARINT..).find(|it| it.1 == V::WIRE);
-            return Err(from.wire_type(field, wire, wanted.map_or("", |it| it.0)));
+            let wanted = match V::WIRE {
+                VARINT => "0",
+                DOUBLE => "1",
+                _ => "2",
+            };
+            return Err(from.wire_type(field, wire, wanted));
         }
         self.get_or_insert_default().take(from, field)
     }
@@ -233,29 +236,26 @@ impl<M: Message> Value for M {
     const WIRE: u64 = LENGTH;
 
     fn put(&self, out: &mut Vec<u8>) {
-        put_nested(out, |inner| Message::put(self, inner));
+        put_nested(out, |inner| self.put_fields(inner));
     }
 
     fn take(&mut self, from: &mut Reader, field: &'static str) -> Read<()> {
         let length = from.varint(field)?;
-        from.take(length, field)?.fields(|number, wire, inner| self.take(number, wire, inner))
+        from.take(length, field)?.fields(|number, wire, inner| self.take_field(number, wire, inner))
     }
 }
 
 /// The message whose one field is a list of doubles.
-impl Value for Vec<f64> {
-    const WIRE: u64 = LENGTH;
-
-    fn put(&self, out: &mut Vec<u8>) {
-        put_nested(out, |inner| Field::put(self, 1, inner));
+impl Message for Vec<f64> {
+    fn put_fields(&self, out: &mut Vec<u8>) {
+        Field::put(self, 1, out);
     }
 
-    fn take(&mut self, from: &mut Reader, field: &'static str) -> Read<()> {
-        let length = from.varint(field)?;
-        from.take(length, field)?.fields(|number, wire, inner| match number {
-            1 => Field::take(self, wire, inner, field).map(|()| true),
-            _ => Ok(false),
-        })
+    fn take_field(&mut self, number: u64, wire: u64, from: &mut Reader) -> Read<bool> {
+        if number == 1 {
+            Field::take(self, wire, from, "an element")?;
+        }
+        Ok(number == 1)
     }
 }
 
@@ -268,9 +268,7 @@ where
 
     fn put(&self, out: &mut Vec<u8>) {
         put_nested(out, |inner| {
-            for (value, number) in self.iter().zip(1..) {
-                Some(*value).put(number, inner);
-            }
+            self.iter().zip(1..).for_each(|(value, number)| Some(*value).put(number, inner));
         });
     }
 
