@@ -276,6 +276,10 @@ evidence-stream: | toolchains ## CYCLES (10,000,000) cycles of guards: set point
 evidence-configurations: | toolchains ## confdata at 100,000 poses of every ABB arm
 	IRBKIN_POSES=100000 $(SUITE) --quiet --release -- suite::configuration --nocapture --test-threads=1
 
+evidence-egm: $(BUILT) $(VENV)/.groups ## MESSAGES (100,000) of EGM beside protobuf, ten times as many broken, hours of losses
+	IRBKIN_MESSAGES=$(or $(MESSAGES),100000) $(BIN)/python -m pytest --quiet -s -m "extra or evidence" \
+		tests/python/extras/test_egm_peers.py tests/python/test_egm_controller.py
+
 evidence-ulp: | toolchains ## Arc tangent, sine and cosine against correctly rounded ones
 	IRBKIN_POINTS=10000000 $(SUITE) --quiet --release lanes::functions -- --nocapture --test-threads=1
 

@@ -2,6 +2,7 @@
 whose link loses datagrams and is cut off for a while. This is no safety function.
 """
 
+import math
 import subprocess
 import sys
 
@@ -11,8 +12,8 @@ from irbkin.body import Shape
 from irbkin.stream import Guard, egm
 
 ARM = "IRB 2600-12/1.65"
-START = np.radians([0, 20, 0, 0, 40, 0])
-SIDEWAYS = np.radians([30, 0, 0, 0, 0, 0])
+START: Floats = np.radians([0, 20, 0, 0, 40, 0])
+SIDEWAYS: Floats = np.radians([30, 0, 0, 0, 0, 0])
 
 
 def main() -> None:
@@ -37,7 +38,7 @@ def main() -> None:
             print(f"{feedback.t:6.2f} s  guard {state}{step.reason and f': {step.reason}' or ''}")
         # In the sixth second the reference leads into the post.
         wide = 2.0 if feedback.t > 6.0 else 1.0
-        return START + wide * SIDEWAYS * (1 - np.cos(2 * feedback.t)) / 2
+        return START + wide * SIDEWAYS * (1 - math.cos(2 * feedback.t)) / 2
 
     with egm.Server(guard, port=0) as server:
         where = ["--port", str(server.address[1]), "--joints", *map(str, np.degrees(START))]

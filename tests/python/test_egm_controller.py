@@ -11,6 +11,7 @@ from controllers import ROBOT, START, PassThrough, swing
 from irbkin import paths, trajectory
 from irbkin.errors import StreamError
 from irbkin.stream import Guard, egm
+from irbkin.stream.egm import _simulated
 
 CYCLE = egm.CYCLE
 SECONDS = 20
@@ -88,7 +89,7 @@ def test_states_and_the_end_after_the_timeout():
 
 
 def test_a_link_loses_what_it_says():
-    link = egm._simulated.Link(1, loss=0.2, duplicate=0.1, late=0.3)
+    link = _simulated.Link(1, 0.2, 0.1, 0.3)
     arrived = []
     for tick in range(20_000):
         link.put(tick.to_bytes(4, "big"), tick, 0.0)
@@ -139,6 +140,9 @@ class Recorded:
         return getattr(self.guard, name)
 
     def step(self, reference):
+        if len(self.rows) > 20_000:
+            assert_bounded(self)
+            self.rows = self.rows[-1:]
         self.rows.append(self.guard.step(reference))
         return self.rows[-1]
 
@@ -166,6 +170,20 @@ def test_losses_stop_nothing_and_no_bound_is_violated():
     assert counted.duplicate > 200
     assert counted.stops == counted.refused == 0
     assert_bounded(guard)
+
+
+@pytest.mark.evidence
+@pytest.mark.parametrize("bridge", [0.0, 0.02, 0.04])
+def test_stops_of_an_hour_with_losses(bridge):
+    """A tenth of the datagrams lost and a twentieth late, each way, in virtual time."""
+    guard = Recorded(Guard(ROBOT, cycle=CYCLE, start=START, on_violation="limit", **LIMITS))
+    controller = egm.Controller(ROBOT, START)
+    rates = {"loss": 0.1, "late": 0.05}
+    done = egm.simulated(guard, controller, swing, seconds=3600, bridge=bridge, seed=2, **rates)
+    print(f"bridge {bridge} s: {done.statistics}")
+    assert done.statistics.received > 700_000
+    assert_bounded(guard)
+    assert done.statistics.stops <= 1 or bridge < 0.04
 
 
 def test_a_cut_stops_and_the_reference_is_caught_up_with():
@@ -262,7 +280,9 @@ def test_a_server_says_that_a_controller_fell_silent(way, playing):
 
 @pytest.mark.parametrize("way", [blocking, looping])
 def test_a_server_refuses_a_robot_that_is_elsewhere(way, playing):
-    run = way(swing, 60.0, lambda address: playing(address, seconds=0.3, q=START + 0.1 * np.eye(6)[0]))
+    run = way(
+        swing, 60.0, lambda address: playing(address, seconds=0.3, q=START + 0.1 * np.eye(6)[0])
+    )
     with pytest.raises(StreamError, match=r"joint 1 of the robot is at 11\.46 deg"):
         served(PassThrough(), run)
 

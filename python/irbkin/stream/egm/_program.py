@@ -60,11 +60,12 @@ def rapid_module(
         )
     q = finite(start, "start", (robot.dof,), InvalidJointsError)
     q = q[list(AXES)] if robot.dof == 7 else q
-    if max_speed is None and mode == "joint" and robot.max_velocity is None:
-        raise StreamError("the robot has no max_velocity: give max_speed [deg/s]")
-    if max_speed is None:
-        fastest = 0.0 if robot.max_velocity is None else float(np.max(robot.max_velocity))
-        max_speed = math.ceil(math.degrees(fastest)) if mode == "joint" else 1000.0
+    if max_speed is None and mode == "pose":
+        max_speed = 1000.0
+    elif max_speed is None:
+        if robot.max_velocity is None:
+            raise StreamError("the robot has no max_velocity: give max_speed [deg/s]")
+        max_speed = math.ceil(np.degrees(robot.max_velocity).max())
     extax = np.degrees(q[6:]).round(6).tolist()
     target = JointTarget(np.degrees(q[:6]).round(6).tolist(), [*extax, *[9e9] * (6 - len(extax))])
     tool, declared = "tool0", ""

@@ -20,26 +20,16 @@ if TYPE_CHECKING:
 
 
 class Link:
-    """A way on which datagrams are lost, come twice, or late behind others."""
+    """A way on which datagrams are lost, come twice, or late behind others (`simulated`)."""
 
     def __init__(
         self,
-        seed: int = 0,
-        *,
-        loss: float = 0.0,
-        duplicate: float = 0.0,
-        late: float = 0.0,
+        seed: int,
+        loss: float,
+        duplicate: float,
+        late: float,
         cut: tuple[float, float] | None = None,
     ) -> None:
-        """Draw random numbers of a seed.
-
-        Args:
-            seed: The same seed, the same losses.
-            loss: Share of datagrams that are lost.
-            duplicate: Share that comes twice.
-            late: Share that comes one to five cycles late.
-            cut: The first and the last time between which all are lost [s].
-        """
         self._random = random.Random(seed)
         self._rates, self._cut = (loss, duplicate, late), cut
         self._way: list[tuple[int, bytes]] = []
@@ -59,11 +49,6 @@ class Link:
         return arrived
 
 
-def _links(seed: int, **rates: Any) -> tuple[Link, Link]:
-    """The ways to the server and back."""
-    return Link(2 * seed, **rates), Link(2 * seed + 1, **rates)
-
-
 class Simulated(NamedTuple):
     """What a simulated robot did."""
 
@@ -81,7 +66,6 @@ def simulated(
     reference: Reference,
     *,
     seconds: float | None = None,
-    most: float = 3600.0,
     seed: int = 0,
     loss: float = 0.0,
     duplicate: float = 0.0,
@@ -96,21 +80,20 @@ def simulated(
         controller: The model.
         reference: As of `Server.run`.
         seconds: As of `Server.run`.
-        most: Time of the controller after which it ends in any case [s].
-        seed: As of `Link`, as what follows, of either way.
-        loss: As of `Link`.
-        duplicate: As of `Link`.
-        late: As of `Link`.
-        cut: As of `Link`.
+        seed: The same seed, the same losses.
+        loss: Share of datagrams that are lost, on either way.
+        duplicate: Share that comes twice.
+        late: Share that comes one to five cycles late.
+        cut: Times between which all are lost [s].
         options: `mode`, `bridge`, `watchdog` and `linger` as of `Server`.
 
     Raises:
         StreamError: As of `Server.run`.
     """
     session = Session(guard, reference, seconds=seconds, **options)
-    there, back = _links(seed, loss=loss, duplicate=duplicate, late=late, cut=cut)
+    there, back = (Link(2 * seed + way, loss, duplicate, late, cut) for way in (0, 1))
     rows = []
-    while not session.is_done and controller.ticks * controller.cycle < most:
+    while not session.is_done:
         message = controller.tick()
         tick, now = controller.ticks, controller.ticks * controller.cycle
         rows.append((now, controller.q))
@@ -120,7 +103,7 @@ def simulated(
                 back.put(answer, tick, now)
         for data in back.due(tick):
             controller.receive(data)
-        if session.heard is not None and now - session.heard > session.watchdog:
+        if now - (session.heard or 0.0) > session.watchdog:
             raise session.silence()
     if session.error:
         raise session.error
@@ -148,12 +131,12 @@ def play(
         say: Called with a line of each change of its state.
         seconds: Time after which it ends [s].
         seed: As of `simulated`, as what follows.
-        loss: As of `Link`.
-        duplicate: As of `Link`.
-        late: As of `Link`.
-        cut: As of `Link`.
+        loss: As of `simulated`.
+        duplicate: As of `simulated`.
+        late: As of `simulated`.
+        cut: As of `simulated`.
     """
-    there, back = _links(seed, loss=loss, duplicate=duplicate, late=late, cut=cut)
+    there, back = (Link(2 * seed + way, loss, duplicate, late, cut) for way in (0, 1))
     state, begin = "", time.monotonic()
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
         own.connect(address)
