@@ -4147,5 +4147,25 @@ def polyline(
             or a turn by 180 deg between two poses.
     """
 
-def encode(message: EgmRobot | EgmSensor) -> bytes: ...
-def decode(data: bytes, kind: type[_Message]) -> _Message: ...
+def encode(message: EgmRobot | EgmSensor) -> bytes:
+    """Return the bytes of a message, its fields in the order of their numbers.
+
+    Args:
+        message: An EgmRobot or an EgmSensor.
+
+    Raises:
+        TypeError: It is neither, or a field has another type or more bits.
+        StreamError: It is longer than a datagram.
+    """
+
+def decode(data: bytes, kind: type[_Message]) -> _Message:
+    """Return the message of a datagram. Fields that egm.proto does not have are skipped.
+
+    Args:
+        data: The bytes.
+        kind: EgmRobot, what a controller sends, or EgmSensor, what it receives.
+
+    Raises:
+        TypeError: `kind` is another class.
+        StreamError: The bytes are no such message: the byte, the field and the reason.
+    """

@@ -12,8 +12,7 @@ use crate::stream::egm::{EgmRobot, EgmSensor, Record};
 ///     message: An EgmRobot or an EgmSensor.
 ///
 /// Raises:
-///     TypeError: It is neither, or a field has another type.
-///     OverflowError: A number has more bits than its field.
+///     TypeError: It is neither, or a field has another type or more bits.
 ///     StreamError: It is longer than a datagram.
 #[pyfunction]
 pub(super) fn encode<'py>(

@@ -169,6 +169,13 @@ impl Value for EgmState {
     }
 }
 
+#[cfg(feature = "python")]
+impl super::record::Record for EgmState {
+    fn record<'py>(&self, py: pyo3::Python<'py>) -> pyo3::PyResult<pyo3::Bound<'py, pyo3::PyAny>> {
+        self.0.record(py)
+    }
+}
+
 /// Define the ends of messages that are datagrams.
 macro_rules! datagrams {
     ($($Name:ident)*) => {$(

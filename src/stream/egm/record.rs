@@ -3,8 +3,6 @@
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::message::EgmState;
-
 /// What a field is in Python.
 pub(crate) trait Record {
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>>;
@@ -52,12 +50,6 @@ impl Record for Vec<f64> {
 impl<T: Record, const N: usize> Record for [T; N] {
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self[..].record(py)
-    }
-}
-
-impl Record for EgmState {
-    fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.0.record(py)
     }
 }
 
