@@ -1,10 +1,6 @@
 """A controller on loopback: a model of what answers EGM's set points, for tests and first steps.
 
-From ABB's manual and the public egm.proto: the controller is the client and sends first, each 4 ms
-(4.032 in fact); speed = k (reference - position) + speed reference; a missing set point is the last
-one again; the states, and the end after CommTimeout. Assumed: lag and filter are a delay and one
-first-order low pass, ramps are linear, a speed above the bound is clipped, the drive follows
-ideally, and set points arrive or not as often as they are said to.
+What is from ABB's manual, and what is assumed, is in docs/guide/egm.md.
 """
 
 from __future__ import annotations
@@ -147,18 +143,10 @@ class Controller:
         """Where the robot is, and what state it is in."""
         header = EgmHeader(self.seqno, int(self.ticks * self.cycle * 1e3) % WORD, MessageType.DATA)
         feedback, planned = map(self._position, (self.q, self._newest[0]))
-        is_running = self.state == "RUNNING"
-        return encode(
-            EgmRobot(
-                header,
-                feedback,
-                planned,
-                motor_state=1,
-                mci_state=MciState.RUNNING if is_running else MciState.STOPPED,
-                mci_convergence_met=bool(np.abs(self.dq).max() < 1e-4),
-                rapid_exec_state=2,
-            )
-        )
+        mci = MciState.RUNNING if self.state == "RUNNING" else MciState.STOPPED
+        is_met = bool(np.abs(self.dq).max() < 1e-4)
+        # Motors on, the program running.
+        return encode(EgmRobot(header, feedback, planned, 1, mci, is_met, rapid_exec_state=2))
 
     def _position(self, q: Floats) -> EgmPosition:
         """Joints, and the tool at them."""

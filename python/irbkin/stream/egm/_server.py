@@ -11,8 +11,6 @@ from irbkin.errors import StreamError
 from irbkin.stream.egm._session import Session, Statistics
 
 if TYPE_CHECKING:
-    from types import TracebackType
-
     from irbkin.stream.egm._session import Reference
 
 MOST_BYTES = 65_536
@@ -58,12 +56,8 @@ class Server:
             OSError: The address cannot be bound.
         """
         self._guard, self._connect = guard, connect
-        self._options: dict[str, Any] = {
-            "mode": mode,
-            "bridge": bridge,
-            "watchdog": watchdog,
-            "linger": linger,
-        }
+        options = {"mode": mode, "bridge": bridge, "watchdog": watchdog, "linger": linger}
+        self._options: dict[str, Any] = options
         self._session: Session | None = None
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
@@ -174,12 +168,7 @@ class Server:
     def __enter__(self) -> Server:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
 
