@@ -43,7 +43,7 @@ macro_rules! messages {
 }
 
 messages! {
-    /// What every message begins with.
+    /// The head of every message.
     EgmHeader {
         /// Sequence number, 32 bits, after the largest again 0.
         1 seqno: Option<u32>,
@@ -81,7 +81,7 @@ messages! {
         3 external_joints: Option<Vec<f64>>,
         /// Seconds and microseconds since 1970.
         4 time: Option<[u64; 2]>,
-        /// The same of another clock.
+        /// Seconds and nanoseconds of another clock.
         5 time_stamp: Option<EgmTimestamp>,
     }
 
@@ -130,7 +130,7 @@ messages! {
         11 move_index: Option<u32>,
         /// Whether a collision was detected, and the level of each axis.
         12 collision_info: Option<EgmData>,
-        /// What RAPID sends.
+        /// Data that RAPID sends.
         13 rapid_from_robot: Option<EgmData>,
         /// Torque of each axis.
         14 torque_ref: Option<Vec<f64>>,
@@ -144,7 +144,7 @@ messages! {
         2 planned: Option<EgmPosition>,
         /// Speeds there.
         3 speed_ref: Option<EgmSpeed>,
-        /// What RAPID receives.
+        /// Data that RAPID receives.
         4 rapid_to_robot: Option<EgmData>,
     }
 }

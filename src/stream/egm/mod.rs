@@ -11,8 +11,8 @@
 //! # Ok::<(), irbkin::Error>(())
 //! ```
 //!
-//! Field numbers are those of the public egm.proto of RobotWare 7, of which RobotWare 6 has the
-//! first part. A message that only wraps one list, one vector or one number is a field here.
+//! Field numbers are from the public egm.proto of RobotWare 7, of which RobotWare 6 has the first
+//! part. A message that only wraps one list, one vector or one number is a field here.
 
 pub(crate) mod fault;
 mod message;

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// What a field is in Python.
+/// A field in Python.
 pub(crate) trait Record {
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>>;
 }

@@ -20,7 +20,7 @@ const FLOAT: u64 = 5;
 
 type Read<T> = Result<T, EgmFault>;
 
-/// What is left of a message; offsets count from the beginning of the datagram.
+/// The rest of a message; offsets count from the beginning of the datagram.
 pub(super) struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,

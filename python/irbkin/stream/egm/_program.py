@@ -21,7 +21,7 @@ SETTINGS = {
     "RW6": "RobotWare 6.07.01 or later with option 689-1; Transmission Protocol of type UDPUC",
     "RW7": "RobotWare 7 with option 3124-1; UDP Unicast Device",
 }
-"""What the program runs on, and what its device is called among the system parameters."""
+"""The system of the program, and the kind of its device among the system parameters."""
 POSES = ("X", "Y", "Z", "Rx", "Ry", "Rz")
 
 
@@ -81,7 +81,7 @@ def rapid_module(
     all_axes = "".join(f"\\{axis}" for axis in axes)
     return f"""MODULE {name}
     ! {SETTINGS[release]} {device}:
-    ! its Remote Address and Remote Port are those of the server.
+    ! its Remote Address and Remote Port lead to the server.
     CONST jointtarget jStart:={dump(target)};
     CONST egm_minmax egmWithin:=[-0.1,0.1];{declared}
     VAR egmident egmId;

@@ -17,13 +17,13 @@ MOST_BYTES = 65_536
 
 
 class Server:
-    """What ABB calls the sensor: the controller sends first, each of its datagrams is answered by
-    a set point of the guard.
+    """The sensor, as ABB calls it: the controller sends first, each of its datagrams is answered
+    by a set point of the guard.
 
     The first sender of a message is the only one of a session; what others send is counted. Each
     sequence number is one cycle of the guard. Of cycles whose datagrams are missing, the reference
     is asked in the first ones (`bridge`), in further ones the guard brakes; none is left out, so
-    that set points are those of one motion within the bounds, whichever of them arrive. Where the
+    that set points are of one motion within the bounds, whichever of them arrive. Where the
     reference ends, raises, or Ctrl-C comes, the guard brakes and holds, and only then `run` ends.
     """
 
@@ -46,7 +46,7 @@ class Server:
             port: UDP port, the controller's Remote Port; 0 for a free one.
             host: Address to bind: this machine alone unless another one is given.
             mode: "joint", or "pose" for a program that runs EGMRunPose; then the tool and the base
-                of the robot are those of EGMActPose.
+                of the robot are as of EGMActPose.
             bridge: Time without datagrams in which the reference is asked [s].
             watchdog: Time without datagrams after which the session ends [s].
             connect: Time to wait for the first datagram [s].
@@ -74,7 +74,7 @@ class Server:
 
     @property
     def statistics(self) -> Statistics:
-        """What was counted in the last session; zeros before the first."""
+        """The counts of the last session; zeros before the first."""
         return self._session.statistics if self._session else Statistics(*[0] * 9)
 
     def run(self, reference: Reference, *, seconds: float | None = None) -> Statistics:

@@ -35,7 +35,7 @@ WINDOW = 2**64 - 1
 TOLERANCE = 0.01
 """How far the robot may be from a guard at rest [rad]."""
 TOLERANCE_MM = 1.0
-"""How far the tool of a controller may be from that of the robot [mm]."""
+"""How far the tool of a controller may be from the robot's [mm]."""
 OBSERVED = 25
 """Cycles from which on the cycle time is compared: a time is rounded to 1 ms, 1 % of them."""
 AXES = (0, 1, 3, 4, 5, 6, 2)
@@ -46,17 +46,17 @@ class Statistics(NamedTuple):
     """Datagrams of a session, and how its references fared."""
 
     received: int
-    """Those that were answered."""
+    """Datagrams that were answered."""
     lost: int
     """Sequence numbers that never came."""
     late: int
-    """Those that came behind a later one, or too old: not answered."""
+    """Datagrams behind a later one, or too old: not answered."""
     duplicate: int
-    """Those that came again: not answered."""
+    """Datagrams that came again: not answered."""
     broken: int
     """No messages of a controller, or of this robot."""
     foreign: int
-    """Those of other senders."""
+    """Datagrams by other senders."""
     bridged: int
     """Cycles without a datagram in which the reference went on."""
     refused: int
@@ -66,7 +66,7 @@ class Statistics(NamedTuple):
 
 
 class Feedback(NamedTuple):
-    """What a reference is asked with."""
+    """The argument of a reference."""
 
     t: float
     """Time since the robot follows [s], in cycles of the controller."""
@@ -82,8 +82,8 @@ Reference: TypeAlias = "Callable[[Feedback], Any] | Iterable[Any]"
 
 
 class Session:
-    """The answers to the datagrams of one controller. The set point that answers sequence number s
-    is that of cycle s of one motion of the guard: a datagram that is missing is a step, too.
+    """The answers to the datagrams of one controller. Sequence number s is answered by the set
+    point of cycle s of one motion of the guard: a datagram that is missing is a step, too.
     """
 
     def __init__(
@@ -120,7 +120,7 @@ class Session:
 
     @property
     def statistics(self) -> Statistics:
-        """What was counted until now."""
+        """The counts until now."""
         return Statistics(*(self._count[name] for name in Statistics._fields))
 
     @property

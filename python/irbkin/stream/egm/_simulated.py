@@ -43,21 +43,21 @@ class Link:
         self._way += [(due, data)] * (1 + twice)
 
     def due(self, tick: int) -> list[bytes]:
-        """What arrives in a cycle."""
+        """The datagrams that arrive in a cycle."""
         arrived = [data for due, data in self._way if due <= tick]
         self._way = [it for it in self._way if it[0] > tick]
         return arrived
 
 
 class Simulated(NamedTuple):
-    """What a simulated robot did."""
+    """The motion of a simulated robot."""
 
     t: Floats
     """Times [s], shape (m,)."""
     q: Floats
     """Its joints at them [rad], shape (m, n)."""
     statistics: Statistics
-    """What the session counted."""
+    """The counts of the session."""
 
 
 def simulated(
@@ -160,7 +160,7 @@ def _send(own: socket.socket, data: bytes) -> None:
 
 
 def _received(own: socket.socket, until: float) -> Iterator[bytes]:
-    """What comes until a time."""
+    """The datagrams that come until a time."""
     while True:
         own.settimeout(max(until - time.monotonic(), 0.0))
         try:
