@@ -47,6 +47,11 @@ pub(super) const ALIASES: &[(&str, &str)] = &[
 /// [`Error::UnknownRobot`] with the reason for which the arm is left out, or with up to six names
 /// that are close, the closest first.
 pub fn find(name: &str) -> Result<&'static CatalogArm, Error> {
+    let alias = ALIASES.iter().find(|(alias, _)| *alias == name);
+    let exact = alias.map_or(name, |(_, name)| name);
+    if let Some(arm) = catalog().find(|arm| arm.name == exact) {
+        return Ok(arm);
+    }
     let wanted = squeezed(name);
     let is_meant = |arm: &&CatalogArm| {
         let own = squeezed(arm.name);

@@ -1,17 +1,32 @@
 //! A robot of either number of joints behind one Python class.
 
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use pyo3::prelude::*;
 
 use super::arrays::Rows;
 use super::errors::Fault;
+use crate::catalog::find;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{JointLimits, Robot, check_joints, check_most_near, check_near};
+use crate::kinematics::{AnyRobot, JointLimits, Robot, check_joints, check_most_near, check_near};
 pub(super) use crate::{ByJoints, on};
 
 /// A robot of six or seven joints.
 pub(super) type Arm = ByJoints<Arc<Robot<6>>, Arc<Robot<7>>>;
+
+/// The arm of the catalog with a name: each is made once, for a robot is frozen.
+pub(super) fn named(name: &str) -> Result<Arm, Error> {
+    static MADE: Mutex<BTreeMap<&str, Arm>> = Mutex::new(BTreeMap::new());
+    let made = || MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = |name: &str| made().get(name).cloned();
+    if let Some(arm) = known(name) {
+        return Ok(arm);
+    }
+    let entry = find(name)?;
+    let arm = known(entry.name).map_or_else(|| AnyRobot::from_catalog(entry).map(Arm::from), Ok)?;
+    Ok(made().entry(entry.name).or_insert(arm).clone())
+}
 
 /// The robot of a call for a YuMi.
 pub(super) fn seven_joints(arm: &Arm) -> PyResult<&Arc<Robot<7>>> {

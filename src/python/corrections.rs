@@ -2,13 +2,13 @@
 
 use pyo3::prelude::*;
 
-use super::arm::{Arm, on};
+use super::arm::{Arm, named, on};
 use super::arrays::Rows;
 use super::errors::Fault;
 use super::queries::mapped;
 use super::robot::PyRobot;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::{AnyRobot, Corrections, Robot};
+use crate::kinematics::{Corrections, Robot};
 
 #[pymethods]
 impl PyRobot {
@@ -53,7 +53,7 @@ impl PyRobot {
     fn with_nominal(&self, nominal: &Bound<'_, PyAny>) -> PyResult<Self> {
         let nominal = match nominal.cast::<Self>() {
             Ok(nominal) => nominal.get().arm().clone(),
-            Err(_) => AnyRobot::named(nominal.extract()?)?.into(),
+            Err(_) => named(nominal.extract()?)?,
         };
         let refined = match (self.arm(), &nominal) {
             (Arm::Six(robot), Arm::Six(nominal)) => robot.with_nominal(nominal)?.into(),

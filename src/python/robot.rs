@@ -7,14 +7,14 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arm::{Arm, on};
+use super::arm::{Arm, named, on};
 use super::arrays::vector;
 use super::errors::Fault;
 use super::outputs::read_only;
 use super::rapid::records::carried_tool;
 use super::state::{Reduced, hash_of, reduced};
 use super::targets::{pose_array, read_frame};
-use crate::kinematics::{AnyRobot, Robot, pose_to_rows};
+use crate::kinematics::{Robot, pose_to_rows};
 
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
 ///
@@ -67,7 +67,7 @@ impl PyRobot {
         tool: Option<&Bound<'_, PyAny>>,
         base: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let mut robot = Self::from(Arm::from(AnyRobot::named(name)?));
+        let mut robot = Self::from(named(name)?);
         if let Some(tool) = tool {
             robot = robot.with_tool(tool)?;
         }
@@ -298,7 +298,7 @@ impl PyRobot {
                 return format!("{}.locked({{{joint}: {angle:?}}})", arm.__repr__());
             }
             let name = robot.name();
-            if AnyRobot::named(name).is_ok_and(|named| Arm::from(named) == self.arm) {
+            if named(name).is_ok_and(|named| named == self.arm) {
                 return format!("Robot({name:?})");
             }
             let quoted = if name.is_empty() { String::new() } else { format!(" {name:?}") };

@@ -7,6 +7,7 @@ use nalgebra::{SMatrix, SVector};
 use super::placed::Placed;
 use crate::kinematics::chain::axes::Link;
 use crate::kinematics::chain::dh::DhRow;
+use crate::kinematics::chain::singular_values::least_singular_value;
 use crate::kinematics::chain::skew::TiltedRow;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::end_frames::Frame;
@@ -130,7 +131,7 @@ impl Closure {
 
     /// The least singular value of the derivatives [1].
     pub(crate) fn least_singular_value(&self, theta: &[f64; 6]) -> f64 {
-        self.derivatives(theta).singular_values()[5]
+        least_singular_value(self.derivatives(theta).into())
     }
 
     pub(crate) fn target_of(&self, t_first_last: &Pose) -> Target {
