@@ -1,5 +1,7 @@
 //! Methods of `irbkin.Robot` that take joint vectors.
 
+use std::array;
+
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
@@ -7,12 +9,15 @@ use super::arguments::{FRAMES, one_of, thread_count};
 use super::arm::{Arm, joints, on};
 use super::arrays::copied_vector;
 use super::outputs::{Output, answer, array};
-use super::records::{self, Array, Margin, Singularity};
+use super::records::{self, Figure, Margin, Singularity};
 use super::robot::PyRobot;
 use super::signals::detached;
 use crate::batch::Batch;
 use crate::error::Error;
-use crate::kinematics::{self, JointLimits, Status, check_joints, check_near, pose_to_rows};
+use crate::kinematics::{
+    self, JointLimits, SingularDistances, SingularityKind, Status, check_joints, check_near,
+    pose_to_rows,
+};
 
 #[pymethods]
 impl PyRobot {
@@ -113,12 +118,18 @@ impl PyRobot {
     #[pyo3(signature = (q, *, threads=1))]
     fn singularity(&self, q: &Bound<'_, PyAny>, threads: isize) -> PyResult<Singularity> {
         let (py, threads) = (q.py(), thread_count(threads)?);
+        on!(self.arm(), robot => {
+            if let Some(q) = plain_joints(q, robot.limits())? {
+                return self.one_singularity(py, &q, robot.near_singularities(&q));
+            }
+        });
         let rows = joints(self.arm(), q)?;
         let (data, lead) = (rows.data()?, &rows.lead);
-        if let Some(one) = on!(self.arm(), robot => rows.single()?.map(|q| robot.singularity(q))) {
-            let numbers = numbers(&one).map(|number| PyFloat::new(py, number).into_any().unbind());
-            return Ok(record(numbers, records::kinds(py, one.kinds)?.unbind()));
-        }
+        on!(self.arm(), robot => {
+            if let Some(q) = rows.single()? {
+                return self.one_singularity(py, q, robot.near_singularities(q));
+            }
+        });
         let mut found = vec![None; lead.iter().product()];
         let to = &mut found[..];
         detached(
@@ -126,15 +137,21 @@ impl PyRobot {
             threads,
             |batch| on!(self.arm(), robot => batch.singularity(robot, data, to)),
         )?;
-        let number = |field: usize| {
-            let of = |it: &Option<_>| it.as_ref().map_or(f64::NAN, |it| numbers(it)[field]);
-            array(py, found.iter().map(of), lead)
+        let number = |of: &dyn Fn(&kinematics::Singularity) -> f64| {
+            array(py, found.iter().map(|it| it.as_ref().map_or(f64::NAN, of)), lead)
         };
+        let distance = |index: usize| number(&|it| distances(it.distances)[index]);
         let kinds = |it: &Option<kinematics::Singularity>| {
             it.map_or(Status::INVALID.bits(), |it| it.kinds.bits())
         };
-        let columns = [number(0)?, number(1)?, number(2)?, number(3)?, number(4)?];
-        Ok(record(columns, array(py, found.iter().map(kinds), lead)?))
+        Ok(Singularity {
+            wrist: distance(0)?,
+            elbow: distance(1)?,
+            shoulder: distance(2)?,
+            min_singular_value: Figure::Known(number(&|it| it.min_singular_value)?),
+            manipulability: Figure::Known(number(&|it| it.manipulability)?),
+            kinds: array(py, found.iter().map(kinds), lead)?,
+        })
     }
 
     /// How far joint vectors are from limits and singularities, as parts of the farthest that they
@@ -166,16 +183,32 @@ impl PyRobot {
     }
 }
 
-/// The numbers of a record in the order of its fields; NaN where an arm has no such singularity.
-fn numbers(record: &kinematics::Singularity) -> [f64; 5] {
-    let [wrist, elbow, shoulder] =
-        record.distances.map_or([f64::NAN; 3], |d| [d.wrist, d.elbow, d.shoulder]);
-    [wrist, elbow, shoulder, record.min_singular_value, record.manipulability]
+/// Distances from wrist, elbow and shoulder; NaN where an arm has no such singularity.
+fn distances(of: Option<SingularDistances>) -> [f64; 3] {
+    of.map_or([f64::NAN; 3], |of| [of.wrist, of.elbow, of.shoulder])
 }
 
-fn record(columns: [Array; 5], kinds: Array) -> Singularity {
-    let [wrist, elbow, shoulder, min_singular_value, manipulability] = columns;
-    Singularity { wrist, elbow, shoulder, min_singular_value, manipulability, kinds }
+impl PyRobot {
+    /// The record of one joint vector.
+    fn one_singularity(
+        &self,
+        py: Python<'_>,
+        q: &[f64],
+        (near, kinds): (Option<SingularDistances>, SingularityKind),
+    ) -> PyResult<Singularity> {
+        let number = |number: f64| PyFloat::new(py, number).into_any().unbind();
+        let [wrist, elbow, shoulder] = distances(near).map(number);
+        let at = array::from_fn(|joint| q.get(joint).copied().unwrap_or(0.0));
+        let sought = |figure| Figure::Sought(self.arm().clone(), at, figure);
+        Ok(Singularity {
+            wrist,
+            elbow,
+            shoulder,
+            min_singular_value: sought(|it| it.min_singular_value),
+            manipulability: sought(|it| it.manipulability),
+            kinds: records::kinds(py, kinds)?.unbind(),
+        })
+    }
 }
 
 /// An answer of shape (..., `tail`) for joint vectors (..., n), computed without the interpreter's

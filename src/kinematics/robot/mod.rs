@@ -354,14 +354,21 @@ impl<const N: usize> Robot<N> {
     }
 
     fn singularity_of(&self, q: &[f64; N], values: SingularValues) -> Singularity {
-        let unknown = (None, SingularityKind::empty());
-        let (distances, kinds) = self.inverse().map_or(unknown, |inverse| inverse.singular(q));
+        let (distances, kinds) = self.near_singularities(q);
         Singularity {
             distances,
             min_singular_value: values.least,
             manipulability: values.product,
             kinds,
         }
+    }
+
+    /// [`Self::singularity`] without the singular values.
+    pub(crate) fn near_singularities(
+        &self,
+        q: &[f64; N],
+    ) -> (Option<SingularDistances>, SingularityKind) {
+        self.inverse().map_or((None, SingularityKind::empty()), |inverse| inverse.singular(q))
     }
 
     /// Distances of `q` [rad] from the singularities of the structure; `None` if that is unknown.
