@@ -261,6 +261,9 @@ evidence-offset-wrists: | toolchains ## JOINT_VECTORS (1000) of each set, arms w
 evidence-tails: | toolchains ## POSES (2000) poses at each singularity: p50 to the most, with a peer
 	@POSES=$(or $(POSES),2000) cargo run --quiet --release --manifest-path benches/tails/Cargo.toml --target-dir target/tails
 
+evidence-worst-case: $(PEERS)/.irbkin-built ## POSES (60) hard poses of each set: p50 to the most, other packages; writes a page
+	POSES=$(or $(POSES),60) $(PEERS)/bin/python -m benches.peers.worst_case --write
+
 evidence-hardsets: | toolchains ## Poses and paths at and near every singularity
 	$(ON_EACH_SET) IRBKIN_POSES=2000 $(SUITE) --quiet --release -- hard_sets:: follow:: --nocapture --test-threads=1; done
 	$(ON_EACH_SET) IRBKIN_POSES=200 $(SUITE) --quiet --release -- reach_and_paths:: --nocapture --test-threads=1; done
