@@ -246,7 +246,7 @@ fn the_crx_10ia_has_the_solutions_of_an_article() {
 }
 
 /// Axis 5 is parallel to axes 2 and 3 at two angles of joint 6. Where one is out of reach, its roots
-/// are complex (docs/theory/offset_wrist.md, eq. 135a).
+/// are complex (docs/theory/offset_wrist.md, eq. 145 to 149).
 #[test]
 fn an_answer_with_axis_4_at_zero_is_certified() {
     let robot: Robot<6> = Robot::named("GoFa 5").unwrap();

@@ -2,6 +2,8 @@
 
 use std::array;
 
+use numpy::PyArray0;
+use numpy::ndarray::arr0;
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
@@ -170,6 +172,14 @@ impl PyRobot {
     #[pyo3(signature = (q, *, threads=1))]
     fn margin(&self, q: &Bound<'_, PyAny>, threads: isize) -> PyResult<Margin> {
         let (py, threads) = (q.py(), thread_count(threads)?);
+        let one = on!(self.arm(), robot => {
+            plain_joints(q, robot.limits())?.map(|q| robot.margin(&q))
+        });
+        if let Some(one) = one {
+            let [limits, singularities] = [one.limits, one.singularities]
+                .map(|number| PyArray0::from_array(py, &arr0(number)).into_any().unbind());
+            return Ok(Margin { limits, singularities });
+        }
         let rows = joints(self.arm(), q)?;
         let mut limits = Output::new(py, None, &rows.lead, &[])?;
         let mut singularities = Output::new(py, None, &rows.lead, &[])?;

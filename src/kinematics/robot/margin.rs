@@ -5,6 +5,8 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
+use nalgebra::Vector3;
+
 use super::Robot;
 use crate::kinematics::JacobianFrame;
 use crate::kinematics::chain::limits::JointLimits;
@@ -81,9 +83,10 @@ impl<const N: usize> Robot<N> {
         let slope = |k: usize| -> f64 {
             let of_column = |i: usize| {
                 let [first, last] = [k.min(i), k.max(i)];
-                let moved = inverse.fixed_view::<1, 3>(i, 0) * angular(first).cross(&linear(last));
-                let turned = inverse.fixed_view::<1, 3>(i, 3) * angular(k).cross(&angular(i));
-                moved.x + if k < i { turned.x } else { 0.0 }
+                // Products of matrices are calls; these are a few instructions.
+                let row = |first| Vector3::from_fn(|j, _| inverse[(i, first + j)]);
+                let moved = row(0).dot(&angular(first).cross(&linear(last)));
+                moved + if k < i { row(3).dot(&angular(k).cross(&angular(i))) } else { 0.0 }
             };
             (0..N).map(of_column).sum()
         };

@@ -23,7 +23,7 @@ const PLACES: [f64; 7] = [-0.15, 0.15, -0.4, 0.4, -0.7, 0.7, 1.0];
 const ANYWHERE: Root = Root { low: -PI, high: PI, is_simple: false, most: usize::MAX };
 
 /// How far from its root the searched joint of a solution may be [rad].
-const AT_ROOT: f64 = 1e-5;
+pub(crate) const AT_ROOT: f64 = 1e-5;
 
 /// How much a polynomial shows of the solutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -77,7 +77,10 @@ impl<M: ByRoots> VectorKernel for Attempt<'_, M> {
             [(polynomial.in_doubt(), WIDE, Shown::All), (polynomial, NARROW, most)]
         {
             let mut roots = polynomial.roots(simd, width);
-            roots.exclude(|root| !method.may_be_at(&posed, root));
+            roots.limit(|root| {
+                let most = root.most.saturating_mul(method.per_root());
+                if root.is_simple { most } else { most.min(method.most_in(&posed, root)) }
+            });
             let all = roots.as_slice();
             let left = lacking(method, all, accepted);
             let simple = left.iter().filter(|root| root.is_simple);
@@ -101,7 +104,8 @@ impl<M: ByRoots> VectorKernel for Attempt<'_, M> {
                 });
                 starts.at(simd, method, &posed, simple.chain(places));
             }
-            shown = shown_by(method, &roots, accepted).min(most);
+            let is_searched = width == NARROW && M::HAS_EVERY_BRANCH;
+            shown = shown_by(method, &roots, accepted, is_searched).min(most);
             if shown >= Shown::Counted {
                 break;
             }
@@ -202,18 +206,20 @@ fn blocks(mut angles: impl Iterator<Item = f64>) -> impl Iterator<Item = ArrayVe
     })
 }
 
-/// Return how many solutions a root may have.
-fn most_at(method: &impl ByRoots, root: &Root) -> usize {
-    root.most.saturating_mul(method.per_root())
+/// Return the solutions that are at a root.
+fn those_at<'a>(
+    method: &impl ByRoots,
+    root: &'a Root,
+    accepted: &'a Accepted,
+) -> impl Iterator<Item = &'a Configuration> {
+    let (joint, sign) = method.searched();
+    let far = move |one: &Configuration| wrap(sign * one.theta[joint] - root.angle()).abs();
+    accepted.as_slice().iter().filter(move |one| far(one) <= root.radius() + AT_ROOT)
 }
 
 /// Return how many solutions are at a root.
 fn found_at(method: &impl ByRoots, root: &Root, accepted: &Accepted) -> usize {
-    let (joint, sign) = method.searched();
-    let all = accepted.as_slice().iter();
-    all.filter(|one| wrap(sign * one.theta[joint] - root.angle()).abs() <= root.radius() + AT_ROOT)
-        .map(Configuration::weight)
-        .sum()
+    those_at(method, root, accepted).map(Configuration::weight).sum()
 }
 
 /// Return the roots that may have more solutions.
@@ -222,22 +228,24 @@ fn lacking(
     all: &[Root],
     accepted: &Accepted,
 ) -> ArrayVec<Root, { Roots::ROOM }> {
-    let is_lacking = |root: &&Root| found_at(method, root, accepted) < most_at(method, root);
+    let is_lacking = |root: &&Root| found_at(method, root, accepted) < root.most;
     all.iter().filter(is_lacking).copied().collect()
 }
 
-/// Return what the roots of a polynomial show of the solutions.
-fn shown_by(method: &impl ByRoots, roots: &Roots, accepted: &Accepted) -> Shown {
+/// Return what the roots of a polynomial show of the solutions. Where all branches have been
+/// searched, a singular solution is what its cluster lacks.
+fn shown_by(method: &impl ByRoots, roots: &Roots, accepted: &Accepted, is_searched: bool) -> Shown {
     if !roots.is_complete {
         return Shown::Some;
     }
     let (mut total, mut shown) = (0, Shown::All);
     for root in roots.as_slice() {
-        let most = most_at(method, root);
-        if found_at(method, root, accepted) < most {
-            shown = Shown::Some;
+        if found_at(method, root, accepted) < root.most {
+            let is_merged = |one: &Configuration| one.weight() > 1;
+            let is_known = is_searched && those_at(method, root, accepted).any(is_merged);
+            shown = shown.min(if is_known { Shown::Counted } else { Shown::Some });
         }
-        total += most.min(Accepted::ROOM);
+        total += root.most.min(Accepted::ROOM);
     }
     let is_all = accepted.as_slice().len() == total && accepted.are_regular();
     if is_all { shown } else { shown.min(Shown::Counted) }

@@ -18,6 +18,10 @@ pub(crate) trait ByRoots: Clone + Debug + PartialEq {
     /// A pose, prepared for this arm.
     type Posed;
 
+    /// Whether every solution is on one of few branches, all of which are started from: what the
+    /// roots of a cluster then lack is one with its singular solution.
+    const HAS_EVERY_BRANCH: bool = false;
+
     /// The closure of the arm's joints.
     fn closure(&self) -> &Closure;
 
@@ -43,10 +47,10 @@ pub(crate) trait ByRoots: Clone + Debug + PartialEq {
         pass: impl FnMut(&Candidates, &RootBlock),
     );
 
-    /// Whether there may be a solution in the interval of a cluster of roots, of which all may be
-    /// complex.
-    fn may_be_at(&self, _posed: &Self::Posed, _root: &Root) -> bool {
-        true
+    /// The most solutions in the interval of a cluster, besides what its roots show: the roots of a
+    /// cluster may be complex, or of a branch that does not reach.
+    fn most_in(&self, _posed: &Self::Posed, _root: &Root) -> usize {
+        usize::MAX
     }
 
     /// Pass sines and cosines of joint angles from which Newton's method leads to the solutions at

@@ -19,7 +19,7 @@ mod solved;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub(crate) use attempt::certifies;
+pub(crate) use attempt::{AT_ROOT, certifies};
 pub(crate) use block::RootKernel;
 pub(crate) use method::{ByRoots, SLOTS};
 pub(crate) use regular::{NOISE_OF_SIZE, regular_of, size_of};

@@ -14,6 +14,10 @@ use crate::lanes::LANES;
 const STARTS: usize = 128;
 const ROUNDS: usize = 4;
 
+/// Least singular value up to which a singular solution is a fold, by the root of a rounding [1]:
+/// what is left of a self-motion has that of what the arm is off.
+const FOLD: f64 = 3e-8;
+
 /// The search for all solutions of a pose.
 pub(crate) struct Search<'a> {
     closure: &'a Closure,
@@ -62,7 +66,9 @@ impl<'a> Search<'a> {
     /// enough, and represent self-motions. Returns whether the solutions are certified to be all.
     pub(crate) fn finish(mut self) -> bool {
         if self.shown < Shown::All {
-            self.accepted.follow(self.closure, &self.target);
+            // A fold to rounding that accounts for its roots leaves no others.
+            let least = if self.shown == Shown::Counted { FOLD } else { 0.0 };
+            self.accepted.follow(self.closure, &self.target, least);
         }
         if self.shown < Shown::Counted {
             self.represent();

@@ -10,7 +10,7 @@ use super::geometry::Constants;
 use super::hand::{Hand, Moving};
 use super::resultant::polynomial;
 use super::step::Stepped;
-use crate::kinematics::structure::by_roots::ByRoots;
+use crate::kinematics::structure::by_roots::{AT_ROOT, ByRoots};
 use crate::kinematics::structure::closure::{Candidates, Closure, Six, Target};
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::trigonometric::{Root, RootBlock, TrigonometricPolynomial};
@@ -33,6 +33,8 @@ pub(super) struct AtRoots<'a, S: Simd> {
 
 impl ByRoots for Constants {
     type Posed = Frame;
+
+    const HAS_EVERY_BRANCH: bool = true;
 
     fn closure(&self) -> &Closure {
         &self.closure
@@ -82,8 +84,8 @@ impl ByRoots for Constants {
         }
     }
 
-    fn may_be_at(&self, posed: &Frame, root: &Root) -> bool {
-        self.may_reach_at(posed, root.angle(), root.radius())
+    fn most_in(&self, posed: &Frame, root: &Root) -> usize {
+        self.most_near(posed, root.angle(), root.radius() + AT_ROOT).unwrap_or(usize::MAX)
     }
 
     /// Every branch, and where the links hardly span the distance of the wrist point that which

@@ -6,6 +6,7 @@
 
 mod at_roots;
 mod branch;
+mod counts;
 mod determinant;
 mod geometry;
 mod hand;

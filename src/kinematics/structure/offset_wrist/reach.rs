@@ -9,7 +9,6 @@ use nalgebra::ComplexField as _;
 use super::geometry::Constants;
 use super::hand::Hand;
 use crate::kinematics::structure::end_frames::Frame;
-use crate::kinematics::thresholds::REACH_TOLERANCE;
 use crate::lanes::sin_cos;
 use crate::report::Reach;
 
@@ -20,14 +19,6 @@ const ANGLES: usize = 24;
 const NARROWINGS: usize = 40;
 
 impl Constants {
-    /// Whether the links may reach the wrist point at angles of joint 6 [rad]: it moves along its
-    /// circle. Without a lateral offset, the distance missing is one of the wrist point (eq. 135a).
-    pub(super) fn may_reach_at(&self, last: &Frame, angle: f64, radius: f64) -> bool {
-        let (sin, cos) = sin_cos::<false>(angle);
-        let shortfall = self.missed_by(&Hand::of(&self.lengths, last), [sin, cos]).shortfall();
-        self.lengths.b != 0.0 || shortfall <= self.lengths.circle * radius + REACH_TOLERANCE
-    }
-
     /// How far the circle of the wrist point is from where upper arm and forearm bring it (eq.
     /// 135).
     #[cold]

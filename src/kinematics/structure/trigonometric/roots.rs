@@ -58,9 +58,10 @@ impl Roots {
         &self.all
     }
 
-    /// Remove clusters in which nothing can be.
-    pub(crate) fn exclude(&mut self, is_empty: impl Fn(&Root) -> bool) {
-        self.all.retain(|root| root.is_simple || !is_empty(root));
+    /// Set how many there are at most, and remove clusters in which nothing can be.
+    pub(crate) fn limit(&mut self, most: impl Fn(&Root) -> usize) {
+        self.all.iter_mut().for_each(|root| root.most = most(root));
+        self.all.retain(|root| root.most > 0);
     }
 
     /// Sort by angle, and join clusters that touch one another.

@@ -1,0 +1,79 @@
+//! How many solutions are in an interval of joint 6, branch by branch.
+//!
+//! Docs: offset_wrist.md, eq. 145 to 149.
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+
+use super::branch::{Plane, SIDES, SLACK};
+use super::geometry::Constants;
+use super::hand::{Hand, Moving};
+use crate::kinematics::structure::end_frames::Frame;
+use crate::kinematics::thresholds::REACH_TOLERANCE;
+use crate::lanes::sin_cos;
+
+/// Part of its rate by which the condition of axis 5 may change for one solution to be certain [1]:
+/// the rest is for rounding.
+const CERTAIN: f64 = 0.5;
+
+impl Constants {
+    /// The most solutions at angles of joint 6 as near to one [rad] as a radius; `None` if a branch
+    /// is undecided.
+    pub(super) fn most_near(&self, last: &Frame, angle: f64, radius: f64) -> Option<usize> {
+        let (sin, cos) = sin_cos::<false>(angle);
+        let hand = Hand::of(&self.lengths, last).moving([sin, cos]);
+        let each = SIDES.map(|sides| self.most_on(&hand, [sin, cos], radius, sides));
+        each.into_iter().sum()
+    }
+
+    /// The most on one branch: none where the links do not span the distance of the wrist point, one
+    /// where the condition of axis 5 is monotonic.
+    fn most_on(
+        &self,
+        hand: &Moving<f64>,
+        sin_cos_6: [f64; 2],
+        radius: f64,
+        [shoulder, elbow]: [f64; 2],
+    ) -> Option<usize> {
+        let lengths = &self.lengths;
+        let (b, w, forearm) = (lengths.b.abs(), lengths.circle, lengths.forearm);
+        let upper = lengths.upper.abs();
+        let ([x, y, h], _) = hand.at;
+        let across = x.hypot(y);
+        let aside = |across: f64| ((across - b) * (across + b)).max(0.0).sqrt();
+        let (sigma, nearest) = (aside(across), aside((across - w * radius).max(b)));
+        // Eq. 145: the rate of axis 1, and of the wrist point in the plane of the arm.
+        let first = w / nearest;
+        let rate = w + if b == 0.0 { 0.0 } else { first * b };
+        let distance = (shoulder * sigma - lengths.a1).hypot(h);
+        let ends = [distance - rate * radius, distance + rate * radius];
+        let (shortest, longest) = ((upper - forearm).abs(), upper + forearm);
+        if ends[0] > longest + REACH_TOLERANCE || ends[1] < shortest - REACH_TOLERANCE {
+            return Some(0);
+        }
+        // Eq. 146: L1 L2 times the sine of the angle at the elbow is least at an end.
+        let swing = |distance: f64| {
+            let square = distance * distance;
+            0.5 * ((longest * longest - square) * (square - shortest * shortest)).max(0.0).sqrt()
+        };
+        let least = swing(ends[0].max(0.0)).min(swing(ends[1]));
+        if least <= 0.0 || nearest <= 0.0 {
+            return None;
+        }
+        let second = upper * rate / least;
+        // Eq. 147: their derivatives.
+        let first_rate = (w + first * (w + rate)) / nearest;
+        let bend = w * (1.0 + first) + first_rate * b;
+        let of_elbow = rate + forearm * second;
+        let second_rate = (of_elbow * (rate + second * forearm)
+            + upper * (bend + second * second * forearm))
+            / least;
+        // Eq. 148.
+        let turn = first + second;
+        let most = first_rate + second_rate + first * second + (1.0 + turn) * (1.0 + turn);
+        let branch = Plane::of(lengths, hand.at, shoulder).with_elbow(lengths, elbow, SLACK);
+        let determinant = branch.stepped(lengths, hand, sin_cos_6).determinant;
+        // Eq. 149; false where there is no number.
+        (CERTAIN * determinant > most * radius * sigma * swing(distance)).then_some(1)
+    }
+}
