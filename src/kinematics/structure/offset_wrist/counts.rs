@@ -16,14 +16,39 @@ use crate::lanes::sin_cos;
 /// the rest is for rounding.
 const CERTAIN: f64 = 0.5;
 
+/// Parts of an interval in which a branch is decided, if it is not as a whole: an odd number, for
+/// structured poses have their solutions in the middle.
+const PARTS: [u8; 2] = [1, 9];
+
 impl Constants {
     /// The most solutions at angles of joint 6 as near to one [rad] as a radius; `None` if a branch
     /// is undecided.
     pub(super) fn most_near(&self, last: &Frame, angle: f64, radius: f64) -> Option<usize> {
-        let (sin, cos) = sin_cos::<false>(angle);
-        let hand = Hand::of(&self.lengths, last).moving([sin, cos]);
-        let each = SIDES.map(|sides| self.most_on(&hand, [sin, cos], radius, sides));
-        each.into_iter().sum()
+        let on =
+            |sides| PARTS.iter().find_map(|parts| self.runs(last, angle, radius, sides, *parts));
+        SIDES.map(on).into_iter().sum()
+    }
+
+    /// The runs of parts in which the condition of axis 5 is monotonic on a branch: as many solutions
+    /// at most, for its rate keeps its sign from one part to the next.
+    fn runs(
+        &self,
+        last: &Frame,
+        angle: f64,
+        radius: f64,
+        sides: [f64; 2],
+        parts: u8,
+    ) -> Option<usize> {
+        let (mut most, mut before) = (0, 0);
+        let half = radius / f64::from(parts);
+        for part in 0..parts {
+            let place = 2.0 * f64::from(part) + 1.0 - f64::from(parts);
+            let (sin, cos) = sin_cos::<false>(angle + half * place);
+            let hand = Hand::of(&self.lengths, last).moving([sin, cos]);
+            let here = self.most_on(&hand, [sin, cos], half, sides)?;
+            (most, before) = (most + here.saturating_sub(before), here);
+        }
+        Some(most)
     }
 
     /// The most on one branch: none where the links do not span the distance of the wrist point, one
