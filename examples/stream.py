@@ -8,9 +8,11 @@ import sys
 
 import irbkin
 import numpy as np
+import numpy.typing as npt
 from irbkin.body import Shape
 from irbkin.stream import Guard, egm
 
+Floats = npt.NDArray[np.float64]
 ARM = "IRB 2600-12/1.65"
 START: Floats = np.radians([0, 20, 0, 0, 40, 0])
 SIDEWAYS: Floats = np.radians([30, 0, 0, 0, 0, 0])
@@ -30,12 +32,13 @@ def main() -> None:
     )
     state = ""
 
-    def swing(feedback: egm.Feedback) -> egm.Floats:
+    def swing(feedback: egm.Feedback) -> Floats:
         nonlocal state
         step = feedback.step
         if step.state != state:
             state = step.state
-            print(f"{feedback.t:6.2f} s  guard {state}{step.reason and f': {step.reason}' or ''}")
+            why = "" if state == "following" else f": {step.reason}"
+            print(f"{feedback.t:6.2f} s  guard {state}{why}")
         # In the sixth second the reference leads into the post.
         wide = 2.0 if feedback.t > 6.0 else 1.0
         return START + wide * SIDEWAYS * (1 - math.cos(2 * feedback.t)) / 2
