@@ -78,6 +78,8 @@ pub(crate) struct Outline {
     pub(crate) groups: Vec<Group>,
     /// The groups that are kept apart from each other; the first is of the lower link.
     pub(crate) pairs: Vec<[usize; 2]>,
+    /// How far any axis of a capsule or point of a hull is from the origin of its link at most [m].
+    pub(crate) reach: f64,
 }
 
 impl Outline {
@@ -95,6 +97,8 @@ impl Outline {
             .map(ordered)
             .filter_map(|[one, other]| Some([group(one)?, group(other)?]))
             .collect();
+        let far = |own: &Group| own.around.center.norm() + own.spread + own.beyond;
+        outline.reach = outline.groups.iter().map(far).fold(0.0, f64::max);
         outline
     }
 

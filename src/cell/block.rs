@@ -1,6 +1,5 @@
 //! Eight joint vectors, or boxes of joint vectors, at once: which of them touch something.
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use fearless_simd::prelude::*;
@@ -27,7 +26,6 @@ pub(super) enum Looked<'a, const N: usize> {
 }
 
 /// Where everything of an arm is, in eight lanes.
-#[derive(Clone)]
 pub(crate) struct Block<const N: usize> {
     frames: [Axes<LANES>; N],
     base: Axes<LANES>,
@@ -49,21 +47,24 @@ pub(crate) struct Block<const N: usize> {
 }
 
 impl<const N: usize> Block<N> {
-    pub(super) fn new(robot: &Robot<N>, outline: &Outline) -> Self {
-        let (base, groups) = (Axes::of(robot.base()), outline.groups.len());
-        let zero = [0.0; LANES];
-        Self {
-            frames: [base; N],
-            base,
-            spans: [zero; N],
-            around: vec![[[zero; 3]; 2]; groups],
-            moves: vec![[zero; N]; groups],
-            axes: vec![[[zero; 3]; 2]; outline.capsules.len()],
-            is_placed: vec![false; groups],
-            doubts: Vec::new(),
-            ways: Vec::new(),
-            last: 0,
-        }
+    pub(super) fn new(robot: &Robot<N>) -> Self {
+        let (base, zero) = (Axes::of(robot.base()), [0.0; LANES]);
+        let (frames, spans) = ([base; N], [zero; N]);
+        let (around, moves, axes, is_placed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (doubts, ways, last) = (Vec::new(), Vec::new(), 0);
+        Self { frames, base, spans, around, moves, axes, is_placed, doubts, ways, last }
+    }
+
+    /// Take the place of the memory for another arm, of which no answer is left.
+    pub(super) fn fit(&mut self, robot: &Robot<N>, outline: &Outline) {
+        let (groups, zero) = (outline.groups.len(), [0.0; LANES]);
+        self.base = Axes::of(robot.base());
+        self.around.resize(groups, [[zero; 3]; 2]);
+        self.moves.resize(groups, [zero; N]);
+        self.axes.resize(outline.capsules.len(), [[zero; 3]; 2]);
+        self.is_placed.resize(groups, false);
+        self.ways.clear();
+        self.last = 0;
     }
 
     /// Which of up to eight joint vectors touch themselves or come nearer to an obstacle than the

@@ -79,8 +79,11 @@ impl<const N: usize> Touch<'_, N> {
             if lanes & self.asked == 0 || self.is_done() {
                 return;
             }
-            let beyond = plane_to(shape, &self.axis_in(simd, own.link, hull))
-                .map_or(0, |plane| self.beyond(simd, own.link, hull, &plane, &limits));
+            // Not by a closure, which would be compiled for the baseline.
+            let beyond = match plane_to(shape, &self.axis_in(simd, own.link, hull)) {
+                Some(plane) => self.beyond(simd, own.link, hull, &plane, &limits),
+                None => 0,
+            };
             self.settle([at, number], lanes & !beyond, &limits, |block, lane, asked, way| {
                 let pose = block.frame(own.link).pose(lane);
                 shape.separation_of_hull(hull, &pose, asked, way).distance
@@ -126,7 +129,8 @@ impl<const N: usize> Touch<'_, N> {
     #[inline(always)]
     fn reach<S: Simd>(&self, simd: S, link: usize, hull: &RoundedHull, way: Point<S>) -> Vector<S> {
         let frame = self.block.frame(link);
-        let own = [&frame.x, &frame.y, &frame.z].map(|axis| dot(way, load(simd, axis)));
+        let (x, y, z) = (load(simd, &frame.x), load(simd, &frame.y), load(simd, &frame.z));
+        let own = [dot(way, x), dot(way, y), dot(way, z)];
         dot(way, load(simd, &frame.origin)) + hull.reach(simd, &own)
     }
 
@@ -140,7 +144,7 @@ impl<const N: usize> Touch<'_, N> {
         plane: &Plane<S>,
         limits: &Column,
     ) -> u64 {
-        let back = plane.way.map(|component| -component);
+        let back = [-plane.way[0], -plane.way[1], -plane.way[2]];
         let gap = -self.reach(simd, link, hull, back) - plane.reach;
         let limit = Vector::load_array_ref(simd, limits) + (hull.radius() + plane.radius);
         let is_far = (gap * gap).simd_gt(limit * limit * dot(back, back));

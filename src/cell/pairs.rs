@@ -6,6 +6,9 @@ use super::obstacles::Cell;
 use super::placed::{Placed, Standing};
 use crate::body::Separation;
 
+/// By how much distances are below the true ones at most, and more [m].
+const BELOW: f64 = 1e-6;
+
 /// A link and what it is compared with.
 #[derive(Clone, Copy)]
 pub(super) struct Pair {
@@ -102,7 +105,19 @@ impl Cell {
         }
     }
 
-    /// The pair of which some measure of its distance is least, by bounds of the capsules first.
+    /// Less than the distance of a pair [m], by the balls around the two; nothing if these touch.
+    fn bound<const N: usize>(&self, pair: &Pair, at: &Standing<'_, N>) -> f64 {
+        let (center, radius) = at.ball(pair.places[0]);
+        let apart = match pair.other {
+            Other::Link(_) => Some(at.ball(pair.places[1])),
+            Other::Obstacle(at) => self.obstacles()[at].1.ball(),
+        };
+        let apart = apart.map_or(0.0, |(other, more)| (other - center).norm() - radius - more);
+        if apart > BELOW { apart - BELOW } else { f64::NEG_INFINITY }
+    }
+
+    /// The pair of which some measure of its distance is least, by bounds first. Of several that
+    /// are, the one whose capsules are nearest.
     pub(super) fn least<const N: usize>(
         &self,
         placed: &Placed<'_, N>,
@@ -110,24 +125,29 @@ impl Cell {
         measure: impl Fn(Other, &Separation) -> f64,
     ) -> Option<(Pair, Separation)> {
         let at = placed.at(q);
-        let coarse = self.pairs(placed).map(|pair| {
-            let apart = self.coarse(&pair, &at);
-            (measure(pair.other, &apart), pair, apart)
+        let bounded = self.pairs(placed).enumerate().map(|(place, pair)| {
+            let apart = Separation { distance: self.bound(&pair, &at), ..Separation::NOTHING };
+            (measure(pair.other, &apart), place, pair)
         });
-        let mut coarse: Vec<_> = coarse.collect();
-        coarse.sort_by(|(one, ..), (two, ..)| one.total_cmp(two));
-        let mut best: Option<(f64, Pair, Separation)> = None;
-        for (bound, pair, apart) in coarse {
-            if best.is_some_and(|(least, ..)| bound >= least) {
+        let mut bounded: Vec<_> = bounded.collect();
+        bounded.sort_unstable_by(|(one, ..), (two, ..)| one.total_cmp(two));
+        let (mut least, mut best) = ((f64::INFINITY, f64::INFINITY, usize::MAX), None);
+        for (bound, place, pair) in bounded {
+            if bound > least.0 {
                 break;
             }
+            let apart = self.coarse(&pair, &at);
+            let coarse = measure(pair.other, &apart);
+            if coarse > least.0 {
+                continue;
+            }
             let apart = self.fine(&pair, &at, apart);
-            let own = measure(pair.other, &apart);
-            if best.is_none_or(|(least, ..)| own < least) {
-                best = Some((own, pair, apart));
+            let own = (measure(pair.other, &apart), coarse, place);
+            if own < least {
+                (least, best) = (own, Some((pair, apart)));
             }
         }
-        best.map(|(_, pair, apart)| (pair, apart))
+        best
     }
 
     /// The pair that is deepest in each other or in the margin; if nothing touches, the pair that is

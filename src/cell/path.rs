@@ -5,6 +5,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::mem::replace;
 
 use super::block::Looked;
 use super::obstacles::Cell;
@@ -171,7 +172,7 @@ impl Cell {
         placed: &mut Placed<'_, N>,
         motion: &M,
     ) -> Option<Contact<N>> {
-        let Part { piece, part } = self.first_contact(placed, motion, RESOLUTION)?;
+        let Part { piece, part } = self.first_part(placed, motion, RESOLUTION)?;
         let (q, _) = motion.range(piece, part);
         let (first, apart) = self.deepest(placed, &q)?;
         let mut depth = self.depth(first.other, &apart);
@@ -230,31 +231,15 @@ impl Cell {
         true
     }
 
-    /// [`Self::first_part`], the start included.
-    fn first_contact<const N: usize, M: Motion<N> + ?Sized>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        motion: &M,
-        resolution: f64,
-    ) -> Option<Part> {
-        if motion.pieces() == 0 {
-            return None;
-        }
-        let start = Part { piece: 0, part: [0.0, 0.0] };
-        if self.collides_at(placed, &motion.range(start.piece, start.part).0) {
-            return Some(start);
-        }
-        self.first_part(placed, motion, resolution)
-    }
-
-    /// The first part of a motion that is not free, as short as the resolution asks [m].
+    /// The first part of a motion that is not free, as short as the resolution asks [m]; the start,
+    /// if it collides.
     fn first_part<const N: usize, M: Motion<N> + ?Sized>(
         &self,
         placed: &mut Placed<'_, N>,
         motion: &M,
         resolution: f64,
     ) -> Option<Part> {
-        let mut contact = None;
+        let (mut contact, mut is_start_asked) = (None, true);
         // The first part is the last one here.
         let mut left = whole(motion.pieces());
         while !left.is_empty() {
@@ -263,6 +248,13 @@ impl Cell {
             }
             let next = left.split_off(left.len().saturating_sub(LANES));
             let verdicts = self.verdicts(placed, motion, &next, resolution);
+            // The start is in the first piece, and free where that is.
+            if replace(&mut is_start_asked, false) && !verdicts[next.len() - 1].is_free() {
+                let start = Part { piece: 0, part: [0.0, 0.0] };
+                if self.collides_at(placed, &motion.range(start.piece, start.part).0) {
+                    return Some(start);
+                }
+            }
             let touching = self.touching_middles(placed, motion, &next, verdicts);
             for (lane, own) in next.iter().enumerate() {
                 match verdicts[lane] {
@@ -365,4 +357,10 @@ enum Verdict {
     Open,
     /// It is not, and it is as short as the resolution asks.
     Contact,
+}
+
+impl Verdict {
+    fn is_free(self) -> bool {
+        matches!(self, Self::Free)
+    }
 }

@@ -1,20 +1,35 @@
 //! The capsules and hulls of an arm at its joint angles.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
+#[cfg(feature = "std")]
+use core::any::Any;
+#[cfg(feature = "std")]
+use std::thread_local;
 
+use super::apart::ALL;
 use super::block::{Block, Looked};
 use super::obstacles::Cell;
+use nalgebra::Vector3;
+
 use crate::body::{Capsule, Group, Outline};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::kinematics::{Pose, Robot};
 use crate::lanes::LANES;
 
+#[cfg(feature = "std")]
+thread_local! {
+    /// Memory of the arm before, a [`Block`]: to allocate it takes longer than a posture.
+    static KEPT: core::cell::Cell<Option<Box<dyn Any>>> = const { core::cell::Cell::new(None) };
+}
+
 /// An arm with the outline of its body.
 pub(crate) struct Placed<'a, const N: usize> {
     robot: &'a Robot<N>,
     pub(super) outline: &'a Outline,
-    block: Block<N>,
+    /// Taken when this is dropped.
+    block: Option<Box<Block<N>>>,
     /// How far any axis of a capsule or point of a hull is from an axis of a joint at most [m].
     pub(super) reach: f64,
     pub(super) interrupt: Interrupt<'a>,
@@ -23,25 +38,29 @@ pub(crate) struct Placed<'a, const N: usize> {
 impl<'a, const N: usize> Placed<'a, N> {
     pub(crate) fn of(robot: &'a Robot<N>) -> Result<Self, Error> {
         let outline = robot.outline().ok_or_else(|| robot.no_body())?;
-        let block = Block::new(robot, outline);
+        #[cfg(feature = "std")]
+        let kept = KEPT.try_with(core::cell::Cell::take).ok().flatten();
+        #[cfg(not(feature = "std"))]
+        let kept = None::<Box<dyn core::any::Any>>;
+        let kept = kept.and_then(|kept| kept.downcast().ok());
+        let mut block = kept.unwrap_or_else(|| Box::new(Block::new(robot)));
+        block.fit(robot, outline);
         let table = robot.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum::<f64>();
-        let own = outline
-            .groups
-            .iter()
-            .map(|group| group.around.center.norm() + group.spread + group.beyond);
-        let reach = table + own.fold(0.0, f64::max);
+        let (block, reach) = (Some(block), table + outline.reach);
         Ok(Self { robot, outline, block, reach, interrupt: Interrupt::none() })
     }
 
     /// For work that ends when it is interrupted.
-    pub(crate) fn until(self, interrupt: Interrupt<'a>) -> Self {
-        Self { interrupt, ..self }
+    pub(crate) fn until(mut self, interrupt: Interrupt<'a>) -> Self {
+        self.interrupt = interrupt;
+        self
     }
 
     /// Which of up to eight joint vectors touch something, as bits: [`Block::touching`].
     pub(super) fn touching(&mut self, cell: &Cell, q: &[[f64; N]], looked: Looked<'_, N>) -> u64 {
         debug_assert!(q.len() <= LANES);
-        self.block.touching(self.robot, self.outline, cell, q, looked)
+        let block = self.block.as_mut();
+        block.map_or(ALL, |block| block.touching(self.robot, self.outline, cell, q, looked))
     }
 
     /// Whether eight joint vectors are free.
@@ -70,6 +89,15 @@ impl<'a, const N: usize> Placed<'a, N> {
     }
 }
 
+#[cfg(feature = "std")]
+impl<const N: usize> Drop for Placed<'_, N> {
+    fn drop(&mut self) {
+        // A thread that ends keeps nothing.
+        let block = self.block.take().map(|block| block as Box<dyn Any>);
+        let _ = KEPT.try_with(|kept| kept.set(block));
+    }
+}
+
 /// An arm at a joint vector.
 pub(super) struct Standing<'a, const N: usize> {
     pub(super) placed: &'a Placed<'a, N>,
@@ -85,6 +113,13 @@ impl<const N: usize> Standing<'_, N> {
             Some(joint) => self.frames[joint],
             None => *self.placed.robot.base(),
         }
+    }
+
+    /// The ball around a group [m].
+    pub(super) fn ball(&self, group: usize) -> (Vector3<f64>, f64) {
+        let group = &self.placed.outline.groups[group];
+        let pose = self.pose(group);
+        (pose.rotation * group.around.center + pose.translation.vector, group.around.ball)
     }
 
     /// The capsules of a group.

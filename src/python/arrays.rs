@@ -180,6 +180,14 @@ pub(super) fn copied_vector<const N: usize>(value: &Bound<'_, PyAny>) -> Option<
     Some(array::from_fn(|index| array.get_owned([index]).unwrap_or(f64::NAN)))
 }
 
+/// A copy of a plain array of shape (2, `N`) of finite numbers.
+pub(super) fn copied_pair<const N: usize>(value: &Bound<'_, PyAny>) -> Option<[[f64; N]; 2]> {
+    let array = plain::<Ix2>(value).filter(|array| array.shape() == [2, N])?;
+    let number = |row, column| array.get_owned([row, column]).unwrap_or(f64::NAN);
+    let pair: [[f64; N]; 2] = array::from_fn(|row| array::from_fn(|column| number(row, column)));
+    pair.as_flattened().iter().all(|number| number.is_finite()).then_some(pair)
+}
+
 /// A copy of a plain array of shape (n,).
 #[inline]
 pub(super) fn copied_numbers(value: &Bound<'_, PyAny>) -> Option<Vec<f64>> {

@@ -2,15 +2,18 @@
 
 use std::sync::Arc;
 
+use numpy::PyArray;
+use numpy::ndarray::aview0;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use super::arguments::thread_count;
 use super::arm::{Arm, joints, on};
-use super::arrays::{Rows, vector};
+use super::arrays::{Rows, copied_pair, vector};
 use super::errors::Fault;
 use super::outputs::{Output, array};
+use super::queries::plain_joints;
 use super::records::{CellContact, CellDistance};
 use super::robot::PyRobot;
 use super::shapes::PyShape;
@@ -20,7 +23,10 @@ use super::targets::checked_joints;
 use super::trajectory::PyTrajectory;
 use crate::cell::{Cell, Contact, Motion, Nearest};
 use crate::error::Error;
-use crate::kinematics::Robot;
+use crate::kinematics::{Robot, check_most_near};
+
+/// Most obstacles with which a single joint vector is looked at with the interpreter's lock.
+const FEW: usize = 100;
 
 /// Obstacles around an arm: whether it touches them or itself.
 ///
@@ -150,6 +156,12 @@ impl PyCell {
         threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (q.py(), thread_count(threads)?);
+        if out.is_none() && self.0.obstacles().len() <= FEW {
+            let one = on!(robot.arm(), robot => self.at_plain(robot, q)?);
+            if let Some(collides) = one {
+                return Ok(PyArray::from_array(py, &aview0(&collides)).into_any());
+            }
+        }
         let rows = joints(robot.arm(), q)?;
         let mut answer = Output::<bool>::new(py, out, &rows.lead, &[rows.addresses()])?;
         match robot.arm() {
@@ -157,11 +169,9 @@ impl PyCell {
             Arm::Seven(_) => checked_joints::<7>("q", &rows).map(drop)?,
         }
         let (q, to) = (rows.data()?, answer.slice()?);
-        detached(
-            py,
-            threads,
-            |batch| on!(robot.arm(), robot => batch.collides(&self.0, robot, q, to)),
-        )?;
+        on!(robot.arm(), robot => {
+            detached(py, threads, |batch| batch.collides(&self.0, robot, q, to))?;
+        });
         Ok(answer.bound())
     }
 
@@ -226,6 +236,12 @@ impl PyCell {
             let trajectory = trajectory.get().motion();
             return on!(robot.arm(), robot => self.contact(py, robot, trajectory));
         }
+        on!(robot.arm(), robot => {
+            if let Some(pair) = copied_pair(motion) {
+                check_most_near("q", &pair, robot.limits(), &[1.0; _])?;
+                return self.contact(py, robot, &pair[..]);
+            }
+        });
         let rows = joints(robot.arm(), motion)?;
         on!(robot.arm(), robot => self.contact(py, robot, checked_joints("motion", &rows)?))
     }
@@ -241,6 +257,16 @@ impl PyCell {
 }
 
 impl PyCell {
+    /// Whether an arm collides at a plain joint vector, with the interpreter's lock.
+    fn at_plain<const N: usize>(
+        &self,
+        robot: &Robot<N>,
+        q: &Bound<'_, PyAny>,
+    ) -> PyResult<Option<bool>> {
+        let q = plain_joints(q, robot.limits())?;
+        Ok(q.map(|q| self.0.collides(robot, &q)).transpose()?)
+    }
+
     /// Where a motion first touches something.
     fn contact<const N: usize, M: Motion<N> + Sync + ?Sized>(
         &self,

@@ -240,7 +240,7 @@ pub(super) fn mapped<'py>(
 /// A single joint vector that can be read the short way; it must be finite and
 /// near the limits.
 #[inline]
-fn plain_joints<const N: usize>(
+pub(super) fn plain_joints<const N: usize>(
     q: &Bound<'_, PyAny>,
     limits: &JointLimits<N>,
 ) -> PyResult<Option<[f64; N]>> {
