@@ -1,13 +1,20 @@
 //! Many joint vectors in a cell.
 
+use alloc::vec;
+use alloc::vec::Vec;
+
 use super::pace::Batch;
 use super::rows::{check_length, rows};
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
 use crate::kinematics::{Robot, check_seed, pose_from_rows};
+use crate::lanes::LANES;
 
 /// Joint vectors that a thread takes at a time.
-const JOINT_VECTORS: usize = 256;
+const JOINT_VECTORS: usize = 1024;
+
+/// Parts of a joint's range by which joint vectors are ordered.
+const PARTS: usize = 16;
 
 impl Batch<'_> {
     /// [`Cell::collides`] for rows of `N` joint angles.
@@ -30,8 +37,15 @@ impl Batch<'_> {
         let parts = q.chunks(JOINT_VECTORS).zip(collides.chunks_mut(JOINT_VECTORS));
         self.run(q.len(), parts, |(q, collides), _| {
             let Ok(mut placed) = Placed::of(robot) else { return };
-            for (collides, free) in collides.iter_mut().zip(cell.free_postures(&mut placed, q)) {
-                *collides = !free;
+            for rows in by_posture(robot, q).chunks(LANES) {
+                let mut own = [[0.0; N]; LANES];
+                for (own, row) in own.iter_mut().zip(rows) {
+                    *own = q[*row];
+                }
+                let colliding = cell.colliding(&mut placed, &own[..rows.len()]);
+                for (lane, row) in rows.iter().enumerate() {
+                    collides[*row] = colliding >> lane & 1 == 1;
+                }
             }
         });
         Ok(())
@@ -61,4 +75,29 @@ impl Batch<'_> {
             }
         })
     }
+}
+
+/// The places of joint vectors, ordered by the angles of the shoulder and the elbow: what is far
+/// from one of eight that are looked at together is mostly far from all.
+fn by_posture<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<usize> {
+    let limits = robot.limits().to_array();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few parts")]
+    let part = |q: &[f64; N], joint: usize| {
+        let [lower, upper] = limits[joint];
+        let part = (q[joint] - lower) / (upper - lower) * PARTS as f64;
+        (part as usize).min(PARTS - 1)
+    };
+    let key = |q: &[f64; N]| PARTS * part(q, 1) + part(q, (N - 1) / 2);
+    let keys: Vec<usize> = q.iter().map(key).collect();
+    // Counted, then put in place.
+    let (mut ends, mut order) = ([0; PARTS * PARTS], vec![0; q.len()]);
+    keys.iter().for_each(|key| ends[*key] += 1);
+    for key in 1..ends.len() {
+        ends[key] += ends[key - 1];
+    }
+    for (row, key) in keys.iter().enumerate() {
+        ends[*key] -= 1;
+        order[ends[*key]] = row;
+    }
+    order
 }
