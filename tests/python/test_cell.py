@@ -271,3 +271,27 @@ def test_bad_shapes_are_named(call, words):
         call()
     with pytest.raises(TypeError, match=r'obstacle "table" must be an irbkin\.body\.Shape'):
         irbkin.Cell({"table": [1, 1, 1]})
+
+
+def test_a_row_alone_is_answered_as_in_a_batch():
+    q = np.concatenate([postures(300), np.zeros((1, 6))])
+    many = irbkin.Cell({f"ball {i}": Shape.sphere(0.05, [0.7, 0.01 * i, 0.9]) for i in range(120)})
+    for cell in (CELL, irbkin.Cell(), many):
+        batch = cell.collides(ROBOT, q)
+        # Plain arrays, strided ones and lists are read in different ways.
+        assert [bool(cell.collides(ROBOT, row)) for row in q] == batch.tolist()
+        assert [bool(cell.collides(ROBOT, row)) for row in np.asfortranarray(q)] == batch.tolist()
+        assert [bool(cell.collides(ROBOT, row.tolist())) for row in q] == batch.tolist()
+        assert 0 < batch.sum() < len(q)
+        # A motion of two rows, plain and not; one that starts in a collision ends there.
+        for start in q[:60]:
+            ends = np.array([start, start + 0.01])
+            plain, read = cell.check_path(ROBOT, ends), cell.check_path(ROBOT, ends.tolist())
+            assert repr(plain) == repr(read)
+            assert bool(cell.collides(ROBOT, start)) == (plain is not None and plain.at == 0)
+    for bad in (np.nan, np.inf):
+        for ends in ([[0.0] * 6, [0.0, bad, 0, 0, 0, 0]], [[bad] + [0.0] * 5, [0.0] * 6]):
+            with pytest.raises(irbkin.InvalidJointsError, match="joint"):
+                CELL.check_path(ROBOT, np.array(ends))
+            with pytest.raises(irbkin.InvalidJointsError, match="joint"):
+                CELL.collides(ROBOT, np.array(next(row for row in ends if bad in row)))
