@@ -168,6 +168,7 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "the bench of the language server runs" env MOVES=200 KEYS=3 OTHERS=3 $(BIN)/python benches/lsp.py >/dev/null
 	$(STEP) "the tails compile" cargo check --quiet --manifest-path benches/tails/Cargo.toml --target-dir target/tails
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
+	$(STEP) "peers are compared in brief" $(BIN)/python -m benches.peers --brief --quick >/dev/null
 	$(BIN)/python tests/rooms.py
 	$(STEP) "licenses of the wheel" $(BIN)/python ship/thirdparty.py --check
 	$(STEP) "workflows" $(BIN)/zizmor --quiet --offline --persona auditor --strict-collection .github
@@ -177,23 +178,6 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "mypy" $(BIN)/mypy --no-error-summary
 	$(STEP) "stubs" $(BIN)/python -m mypy.stubtest irbkin._core --concise --allowlist tests/python/stubtest_allow.txt
 	$(STEP) "examples in Python run" bash -eu -c 'for example in examples/*.py; do $(BIN)/python "$$example" >/dev/null; done'
-
-bench: $(RELEASED) ## Time single poses, batches, Python's calls and a RAPID module
-	cargo bench --bench one_pose --bench batch --bench stream
-	$(BIN)/python benches/python_calls.py
-	$(BIN)/python benches/structured_poses.py
-	$(BIN)/python benches/motion.py
-	$(BIN)/python benches/motion_limits.py
-	$(BIN)/python benches/plan.py
-	$(BIN)/python benches/cells.py
-	$(BIN)/python benches/free_motion.py
-	$(BIN)/python benches/stream.py
-	$(BIN)/python benches/reach_map.py
-	$(BIN)/python benches/rapid_module.py
-	$(BIN)/python benches/rapid_check.py
-	$(BIN)/python benches/command.py
-	$(BIN)/python benches/lsp.py
-	$(MAKE) --no-print-directory bench-capi
 
 # One at a time: a peer without a wheel for this Python does not exclude the others.
 $(PEERS)/.made: benches/peers/requirements.txt | toolchains
@@ -212,6 +196,9 @@ $(PEERS)/.irbkin-built: $(PEERS)/.made $(RUST_SOURCES) $(wildcard python/irbkin/
 	@$(PEERS)/bin/maturin build --release --quiet --out $(PEERS)/wheel
 	@$(PEERS)/bin/pip install --quiet --force-reinstall --no-deps $(PEERS)/wheel/irbkin-*.whl
 	@touch $@
+
+bench: $(PEERS)/.irbkin-built ## What is fast, against whom: ratios with bars, in two minutes once the peers are installed
+	@$(PEERS)/bin/python -m benches.peers --brief $(if $(QUICK),--quick)
 
 bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages; WRITE=1 writes docs/evidence/benchmarks.md
 	$(PEERS)/bin/python -m benches.peers $(if $(QUICK),--quick) $(if $(WRITE),--write)
@@ -289,6 +276,23 @@ evidence-ulp: | toolchains ## Arc tangent, sine and cosine against correctly rou
 evidence-no-std: | toolchains ## Laws and unit tests without the standard library
 	cargo test $(NO_STD),rapid --lib -- --include-ignored --skip suite::
 	cargo test $(NO_STD),rapid --lib -- suite::laws suite::coupled suite::configuration suite::allocation suite::rapid:: suite::rapid_calc
+
+evidence-times: $(RELEASED) ## Times of single poses, batches, Python's calls, motions, plans, a RAPID module
+	cargo bench --bench one_pose --bench batch --bench stream
+	$(BIN)/python benches/python_calls.py
+	$(BIN)/python benches/structured_poses.py
+	$(BIN)/python benches/motion.py
+	$(BIN)/python benches/motion_limits.py
+	$(BIN)/python benches/plan.py
+	$(BIN)/python benches/cells.py
+	$(BIN)/python benches/free_motion.py
+	$(BIN)/python benches/stream.py
+	$(BIN)/python benches/reach_map.py
+	$(BIN)/python benches/rapid_module.py
+	$(BIN)/python benches/rapid_check.py
+	$(BIN)/python benches/command.py
+	$(BIN)/python benches/lsp.py
+	$(MAKE) --no-print-directory bench-capi
 
 evidence-stages: | toolchains ## Time of a pose by stages, with perf; SETS="avx2 avx512"
 	@$(PYTHON) benches/stages.py $(SETS)

@@ -1,5 +1,5 @@
-"""Compare irbkin with its peers: `python -m benches.peers [--quick] [--write]`, from the
-repository's root.
+"""Compare irbkin with its peers: `python -m benches.peers [--brief] [--quick] [--write]`, from
+the repository's root.
 """
 
 from __future__ import annotations
@@ -9,10 +9,10 @@ import warnings
 from pathlib import Path
 
 from . import machine, report
-from .arms import IRB2600
+from .arms import IRB2600, PANDA, UR3
 from .contenders import BUILDERS
 from .general_arms import GENERAL
-from .measure import QUICK, Effort
+from .measure import BRIEF, QUICK, Effort
 from .recall import recall, sets_of
 from .rows import ROWS, gather, run
 
@@ -27,7 +27,12 @@ def main() -> None:
         "--quick", action="store_true", help="tiny counts: shows that it runs, measures nothing"
     )
     parser.add_argument("--write", action="store_true", help=f"write {PAGE.name}, too")
+    parser.add_argument(
+        "--brief", action="store_true", help="ratios with bars, two minutes; no count of solutions"
+    )
     arguments = parser.parse_args()
+    if arguments.brief:
+        return in_brief(QUICK if arguments.quick else BRIEF)
     if arguments.quick and arguments.write:
         parser.error("--quick measures nothing that is worth writing")
     effort = QUICK if arguments.quick else Effort()
@@ -69,6 +74,18 @@ def main() -> None:
     if arguments.write:
         report.write(PAGE, report.document(about, recalls, results, missing))
         print(f"\nWrote {PAGE.relative_to(ROOT)}, from which make docs draws its pictures")
+
+
+def in_brief(effort: Effort) -> None:
+    """Print the rows of arms that every package prepares at once, as ratios with bars."""
+    warnings.simplefilter("ignore")
+    print(*machine.describe(BUILDERS), "x: time of irbkin's; checked before the clock.", sep="\n")
+    missing: dict[str, str] = {}
+    for row in ROWS:
+        if row.arm in (IRB2600, UR3, PANDA):
+            result = run(row, effort, missing)
+            print(f"\n{row.title}", report.bars(result), *result.absent, sep="\n", flush=True)
+    print("\nNot installed:", ", ".join(missing) or "none")
 
 
 if __name__ == "__main__":

@@ -39,6 +39,7 @@ class Effort:
     singular: int = 200
 
 
+BRIEF = Effort(rounds=7, batch_rounds=5, turn=0.004, singles=16, batch=10_000)
 QUICK = Effort(rounds=2, batch_rounds=2, turn=0.0, singles=2, batch=20, recall=3, singular=2)
 
 

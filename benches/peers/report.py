@@ -11,6 +11,8 @@ from .recall import Recall
 from .rows import Result
 
 BEGIN, END = "<!-- peers: begin -->", "<!-- peers: end -->"
+# Characters of the longest bar.
+BAR = 32
 Table = list[list[str]]
 
 
@@ -38,6 +40,19 @@ def times(result: Result) -> Table:
             [name, time_of(timing.median, batch), ratio, f"{timing.ratio(stick):.2f}", said]
         )
     return table
+
+
+def bars(result: Result) -> str:
+    """Times of a row as ratios to irbkin's, each with a bar, the fastest first."""
+    own, batch = result.timings[result.own or result.yardstick], result.row.task in BATCHES
+    ratios = {name: timing.ratio(own) for name, timing in result.timings.items()}
+    order, most = sorted(ratios, key=lambda name: ratios[name]), max(ratios.values())
+    width = max(map(len, order))
+    return "\n".join(
+        f"  {name:{width}} {ratios[name]:9.2f} x {time_of(result.timings[name].median, batch):>12} "
+        + "#" * max(1, round(BAR * ratios[name] / most))
+        for name in order
+    )
 
 
 def brief(table: Table) -> Table:
