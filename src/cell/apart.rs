@@ -115,6 +115,14 @@ impl<S: Simd> Axis<S> {
         decided.or(decide(dot(way, way), gaps, limit))
     }
 
+    /// The plane across the way to another axis, which it does not go beyond.
+    #[inline(always)]
+    pub(super) fn plane_to(&self, other: &Self) -> Plane<S> {
+        let (way, _) = other.way_from(self);
+        let reach = dot(way, self.middle) + dot(way, self.half).size();
+        Plane { way, reach, radius: 0.0 }
+    }
+
     /// The way between the points at which it and another axis are nearest, by their parts.
     #[inline(always)]
     pub(super) fn way_from(&self, other: &Self) -> (Point<S>, [Vector<S>; 2]) {
@@ -262,6 +270,17 @@ pub(super) struct Plane<S: Simd> {
     pub(super) radius: f64,
 }
 
+impl<S: Simd> Plane<S> {
+    /// The lanes in which what has a gap to it, times the length of the way, is farther than a limit
+    /// [m].
+    #[inline(always)]
+    pub(super) fn is_below(&self, gap: Vector<S>, limit: Vector<S>) -> u64 {
+        let limit = limit + self.radius;
+        let is_far = (gap * gap).simd_gt(limit * limit * dot(self.way, self.way));
+        (gap.simd_gt(0.0) & is_far).to_bitmask()
+    }
+}
+
 /// The plane across the way from a convex solid to an axis.
 #[inline(always)]
 pub(super) fn plane_to<S: Simd>(shape: &Shape, axis: &Axis<S>) -> Option<Plane<S>> {
@@ -273,9 +292,7 @@ pub(super) fn plane_to<S: Simd>(shape: &Shape, axis: &Axis<S>) -> Option<Plane<S
         }
         Shape::Capsule(own) => {
             let other = Axis::of(simd, &Centered::of(own));
-            let (way, _) = axis.way_from(&other);
-            let reach = dot(way, other.middle) + dot(way, other.half).size();
-            Some(Plane { way, reach, radius: own.radius })
+            Some(Plane { radius: own.radius, ..other.plane_to(axis) })
         }
         _ => {
             let (solid, pose) = Solid::of(shape)?;

@@ -6,7 +6,9 @@ use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
 use super::apart::{ALL, Axis, Point, against_parts, ball_beyond, load, minus};
+use super::drift::Drift;
 use super::obstacles::Cell;
+use super::path::Range;
 use crate::body::{Capsule, Group, Outline, Way};
 use crate::kinematics::{Axes, Robot};
 use crate::lanes::{Column, LANES, Number as _, Vector, VectorKernel, cross, dot, run_vectors};
@@ -21,20 +23,28 @@ pub(super) enum Looked<'a, const N: usize> {
     All,
     /// One that touches something, if there is one.
     Any,
-    /// Which of them may touch something while the joints turn by spans to either side [rad].
-    Swept(&'a [[f64; N]]),
+    /// Which of them may touch something while the joints are in ranges of which they are the middles.
+    Swept(&'a [Range<N>]),
+    /// As [`Self::Swept`], by capsules alone.
+    Roughly(&'a [Range<N>]),
 }
 
 /// Where everything of an arm is, in eight lanes.
+#[derive(Clone)]
 pub(crate) struct Block<const N: usize> {
     frames: [Axes<LANES>; N],
     base: Axes<LANES>,
     /// How far the joints turn to either side [rad]; zero for joint vectors.
     pub(super) spans: [Column; N],
+    /// How far they do along a line, and beside it.
+    pub(super) turns: [Column; N],
+    pub(super) beside: [Column; N],
     /// The middles and the halves of the axes of the capsules around the groups.
     around: Vec<[[Column; 3]; 2]>,
     /// How far the axes of a group move, by the link from which it is seen.
     pub(super) moves: Vec<[Column; N]>,
+    /// How far they are then from where their velocities would lead.
+    pub(super) bends: Vec<[Column; N]>,
     /// The middles and the halves of the capsules' axes, of the groups that are placed.
     axes: Vec<[[Column; 3]; 2]>,
     is_placed: Vec<bool>,
@@ -49,10 +59,22 @@ pub(crate) struct Block<const N: usize> {
 impl<const N: usize> Block<N> {
     pub(super) fn new(robot: &Robot<N>) -> Self {
         let (base, zero) = (Axes::of(robot.base()), [0.0; LANES]);
-        let (frames, spans) = ([base; N], [zero; N]);
-        let (around, moves, axes, is_placed) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (doubts, ways, last) = (Vec::new(), Vec::new(), 0);
-        Self { frames, base, spans, around, moves, axes, is_placed, doubts, ways, last }
+        let (frames, spans, turns, beside) = ([base; N], [zero; N], [zero; N], [zero; N]);
+        Self {
+            frames,
+            base,
+            spans,
+            turns,
+            beside,
+            around: Vec::new(),
+            moves: Vec::new(),
+            bends: Vec::new(),
+            axes: Vec::new(),
+            is_placed: Vec::new(),
+            doubts: Vec::new(),
+            ways: Vec::new(),
+            last: 0,
+        }
     }
 
     /// Take the place of the memory for another arm, of which no answer is left.
@@ -61,6 +83,7 @@ impl<const N: usize> Block<N> {
         self.base = Axes::of(robot.base());
         self.around.resize(groups, [[zero; 3]; 2]);
         self.moves.resize(groups, [zero; N]);
+        self.bends.resize(groups, [zero; N]);
         self.axes.resize(outline.capsules.len(), [[zero; 3]; 2]);
         self.is_placed.resize(groups, false);
         self.ways.clear();
@@ -79,16 +102,23 @@ impl<const N: usize> Block<N> {
         looked: Looked<'_, N>,
     ) -> u64 {
         robot.frames(q, &mut self.frames);
-        if let Looked::Swept(spans) = looked {
-            for (lane, spans) in spans.iter().enumerate() {
-                for (column, span) in self.spans.iter_mut().zip(robot.table_spans(*spans)) {
-                    column[lane] = span;
+        let mut has_lines = false;
+        if let Looked::Swept(ranges) | Looked::Roughly(ranges) = looked {
+            for (lane, range) in ranges.iter().enumerate() {
+                let spans = robot.table_spans(range.spans());
+                let turns = robot.table_turns(&range.turns);
+                let beside = robot.table_spans(range.beside);
+                for joint in 0..N {
+                    self.spans[joint][lane] = spans[joint];
+                    self.turns[joint][lane] = turns[joint];
+                    self.beside[joint][lane] = beside[joint];
+                    has_lines |= turns[joint] != 0.0;
                 }
             }
         }
         let asked = ALL >> (LANES - q.len());
-        let (swept, any) = (matches!(looked, Looked::Swept(_)), matches!(looked, Looked::Any));
-        run_vectors(Touch { block: self, outline, cell, swept, any, all: asked, asked })
+        let all = asked;
+        run_vectors(Touch { block: self, outline, cell, looked, has_lines, all, asked })
     }
 
     pub(super) fn frame(&self, link: usize) -> &Axes<LANES> {
@@ -110,10 +140,9 @@ pub(super) struct Touch<'a, const N: usize> {
     pub(super) block: &'a mut Block<N>,
     pub(super) outline: &'a Outline,
     pub(super) cell: &'a Cell,
-    /// Whether joints turn by spans.
-    pub(super) swept: bool,
-    /// Whether one lane that touches is enough.
-    pub(super) any: bool,
+    looked: Looked<'a, N>,
+    /// Whether joints turn along lines.
+    pub(super) has_lines: bool,
     /// The lanes, as bits.
     all: u64,
     /// The lanes in which nothing touches yet, as bits.
@@ -129,14 +158,14 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
         for group in 0..self.outline.groups.len() {
             self.block.is_placed[group] = false;
             self.put_around(simd, group);
-            if self.swept {
+            if self.is_swept() {
                 self.moves(simd, group);
             }
         }
         let (pairs, groups) = (self.outline.pairs.len(), self.outline.groups.len());
         let all = pairs + groups * self.cell.obstacles().len();
         // If one is enough, what touched last is looked at first.
-        let mut at = if self.any && self.block.last < all { self.block.last } else { 0 };
+        let mut at = if self.is_enough() && self.block.last < all { self.block.last } else { 0 };
         let place = at.saturating_sub(pairs);
         let (mut obstacle, mut group) = (place / groups.max(1), place % groups.max(1));
         for left in (0..all).rev() {
@@ -153,7 +182,7 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
                 self.block.last = at;
                 break;
             }
-            if self.any && left + 1 == all || left == 0 {
+            if self.is_enough() && left + 1 == all || left == 0 {
                 self.decide(simd);
             }
             at += 1;
@@ -166,9 +195,19 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
 }
 
 impl<const N: usize> Touch<'_, N> {
+    /// Whether the joints turn.
+    pub(super) fn is_swept(&self) -> bool {
+        matches!(self.looked, Looked::Swept(_) | Looked::Roughly(_))
+    }
+
+    /// Whether one lane that touches is enough.
+    pub(super) fn is_enough(&self) -> bool {
+        matches!(self.looked, Looked::Any)
+    }
+
     /// Whether nothing more is asked.
     pub(super) fn is_done(&self) -> bool {
-        self.asked == 0 || self.any && self.asked != self.all
+        self.asked == 0 || self.is_enough() && self.asked != self.all
     }
 
     /// A point of a link's frame.
@@ -208,27 +247,49 @@ impl<const N: usize> Touch<'_, N> {
     }
 
     /// How far the axes of a group move at most while its joints turn, seen from the links before
-    /// it: the joints turn one after another, the last one first (eq. 1).
+    /// it: the joints turn one after another, the last one first (eq. 1); and how far from where
+    /// their velocities would lead (eq. 9).
     #[inline(always)]
     fn moves<S: Simd>(&mut self, simd: S, group: usize) {
         let Group { link, spread, .. } = &self.outline.groups[group];
         let center = load(simd, &self.block.around[group][0]);
-        let mut moved = Vector::splat(simd, 0.0);
+        let (mut moved, mut bent) = (Vector::splat(simd, 0.0), Vector::splat(simd, 0.0));
         for joint in (0..*link).rev() {
             let frame = &self.block.frames[joint];
             let arm = minus(center, load(simd, &frame.origin));
             let around = cross(load(simd, &frame.z), arm);
             let span = Vector::load_array_ref(simd, &self.block.spans[joint]);
-            let radius = dot(around, around).root() + *spread;
-            moved = span.times_plus(radius + moved, moved);
+            let beside = Vector::load_array_ref(simd, &self.block.beside[joint]);
+            let radius = dot(around, around).root() + *spread + moved;
+            let own = span * radius;
+            bent = beside.times_plus(radius, span.times_plus(own.scaled_plus(0.5, moved), bent));
+            moved += own;
             moved.store_array(&mut self.block.moves[group][joint]);
+            bent.store_array(&mut self.block.bends[group][joint]);
         }
+    }
+
+    /// How a group moves along the line of its joint angles, seen from a link (eq. 9).
+    #[inline(always)]
+    pub(super) fn drift<S: Simd>(&self, simd: S, group: usize, from: usize) -> Drift<S> {
+        let Group { link, .. } = &self.outline.groups[group];
+        let center = load(simd, &self.block.around[group][0]);
+        let mut drift = Drift::none(center);
+        if *link > from {
+            drift.bent = Vector::load_array_ref(simd, &self.block.bends[group][from]);
+        }
+        for joint in from..*link {
+            let frame = &self.block.frames[joint];
+            let turn = Vector::load_array_ref(simd, &self.block.turns[joint]);
+            drift.turn(load(simd, &frame.z), load(simd, &frame.origin), turn);
+        }
+        drift
     }
 
     /// How far the axes of a group move, seen from a link; zero for joint vectors.
     #[inline(always)]
     fn moved<S: Simd>(&self, simd: S, group: usize, from: usize) -> Vector<S> {
-        if self.swept {
+        if self.is_swept() {
             Vector::load_array_ref(simd, &self.block.moves[group][from])
         } else {
             Vector::splat(simd, 0.0)
@@ -270,6 +331,16 @@ impl<const N: usize> Touch<'_, N> {
         if near == 0 {
             return;
         }
+        let drift = self.drift(simd, pair[1], one.link);
+        let mut near = near;
+        if self.has_lines {
+            let limit = ROUNDING + (one.around.radius + other.around.radius);
+            let plane = self.around(simd, pair[0]).plane_to(&facing);
+            near &= !drift.stays_beyond(&plane, &facing, limit);
+            if near == 0 {
+                return;
+            }
+        }
         self.place(simd, pair[0]);
         self.place(simd, pair[1]);
         let mut doubtful = 0;
@@ -285,15 +356,24 @@ impl<const N: usize> Touch<'_, N> {
             for second in other.capsules.clone() {
                 let limit = moved + (capsule.radius + self.outline.capsules[second].radius);
                 let asked = near & !doubtful;
-                let decided = own.against_axis(&self.axis(simd, second), limit, asked);
-                let open = asked & !decided.lanes();
-                doubtful |= asked & decided.near & !decided.far;
+                let two = self.axis(simd, second);
+                let decided = own.against_axis(&two, limit, asked);
+                let mut asked = asked & !decided.far;
+                if self.has_lines && asked != 0 {
+                    let radii = capsule.radius + self.outline.capsules[second].radius;
+                    asked &= !drift.stays_beyond(&own.plane_to(&two), &two, ROUNDING + radii);
+                }
+                let open = asked & !decided.near;
+                doubtful |= asked & decided.near;
                 if open != 0 {
                     doubtful |= self.settle_links(open, [index, second], limit);
                 }
             }
         }
-        if doubtful == 0 || !(one.has_hulls || other.has_hulls) {
+        if doubtful == 0
+            || matches!(self.looked, Looked::Roughly(_))
+            || !(one.has_hulls || other.has_hulls)
+        {
             self.asked &= !doubtful;
             return;
         }
@@ -321,23 +401,36 @@ impl<const N: usize> Touch<'_, N> {
             return;
         }
         let limit = moved + own.around.radius;
-        let near = near & !against_parts(&self.around(simd, group), shape, limit, near).far;
+        let around = self.around(simd, group);
+        let mut near = near & !against_parts(&around, shape, limit, near).far;
         if near == 0 {
             return;
+        }
+        let drift = self.drift(simd, group, 0);
+        if self.has_lines {
+            near &= !drift.stays_off(shape, &around, margin + own.around.radius);
+            if near == 0 {
+                return;
+            }
         }
         self.place(simd, group);
         let mut doubtful = 0;
         for index in own.capsules.clone() {
-            let limit = moved + self.outline.capsules[index].radius;
+            let radius = self.outline.capsules[index].radius;
+            let axis = self.axis(simd, index);
             let asked = near & self.asked & !doubtful;
-            let decided = against_parts(&self.axis(simd, index), shape, limit, asked);
-            let open = asked & !decided.lanes();
-            doubtful |= asked & decided.near & !decided.far;
+            let decided = against_parts(&axis, shape, moved + radius, asked);
+            let mut asked = asked & !decided.far;
+            if self.has_lines && asked != 0 {
+                asked &= !drift.stays_off(shape, &axis, margin + radius);
+            }
+            let open = asked & !decided.near;
+            doubtful |= asked & decided.near;
             if open != 0 {
                 doubtful |= self.settle_obstacle(open, [index, obstacle], moved);
             }
         }
-        if doubtful == 0 || !own.has_hulls {
+        if doubtful == 0 || matches!(self.looked, Looked::Roughly(_)) || !own.has_hulls {
             self.asked &= !doubtful;
             return;
         }

@@ -3,11 +3,13 @@
 use super::block::{Block, Looked};
 use super::obstacles::Cell;
 use super::pairs::Other;
+use super::path::Range;
 use super::placed::Placed;
 use crate::body::fault::BodyFault;
 use crate::cell::Nearest;
 use crate::error::Error;
 use crate::kinematics::Robot;
+use crate::lanes::LANES;
 
 /// A cell and the places of an arm in it.
 #[derive(Clone)]
@@ -22,7 +24,8 @@ impl<const N: usize> Boxes<N> {
     /// Of an arm in a cell, with so much more margin around the obstacles [m].
     pub(crate) fn new(robot: &Robot<N>, cell: &Cell, margin: f64) -> Result<Self, Error> {
         let outline = robot.outline().ok_or_else(|| robot.no_body())?;
-        let mut block = Block::new(robot, outline);
+        let mut block = Block::new(robot);
+        block.fit(robot, outline);
         let cell = cell.clone().widened(margin)?;
         block.reserve(outline.pairs.len() + outline.groups.len() * cell.obstacles().len());
         Ok(Self { cell, block, reach: Placed::of(robot)?.reach })
@@ -55,7 +58,13 @@ impl<const N: usize> Boxes<N> {
     /// not proven free, as bits.
     pub(crate) fn open(&mut self, robot: &Robot<N>, q: &[[f64; N]], spans: &[[f64; N]]) -> u64 {
         let Some(outline) = robot.outline() else { return u64::MAX };
-        self.block.touching(robot, outline, &self.cell, q, Looked::Swept(spans))
+        let rest = Range { middle: [0.0; N], turns: [0.0; N], beside: [0.0; N] };
+        let mut ranges = [rest; LANES];
+        for ((range, middle), beside) in ranges.iter_mut().zip(q).zip(spans) {
+            (range.middle, range.beside) = (*middle, *beside);
+        }
+        let swept = Looked::Swept(&ranges[..q.len()]);
+        self.block.touching(robot, outline, &self.cell, q, swept)
     }
 
     /// A link, and the link or obstacle for which a box is not proven free.

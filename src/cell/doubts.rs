@@ -7,10 +7,11 @@ use core::mem::take;
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
-use super::apart::{Axis, Plane, Point, load, minus, plane_to};
+use super::apart::{Axis, Plane, Point, ball_beyond, load, minus, plane_to};
 use super::block::{Block, ROUNDING, Touch, bits};
+use super::drift::Drift;
 use crate::body::{Asked, Centered, RoundedHull, Way};
-use crate::lanes::{Column, Vector, dot};
+use crate::lanes::{Column, Number as _, Vector, dot};
 
 /// Numbers of ways between two groups: more hulls than these have some in common.
 const OF_TWO: usize = 11;
@@ -43,20 +44,31 @@ impl<const N: usize> Touch<'_, N> {
     fn decide_links<S: Simd>(&mut self, simd: S, at: usize, pair: [usize; 2], lanes: u64) {
         let [one, other] = pair.map(|group| &self.outline.groups[group]);
         let limits = array::from_fn(|lane| ROUNDING + self.hulls_moved(pair[1], one.link, lane));
+        let limit = Vector::load_array_ref(simd, &limits);
+        let drift = self.hulls_drift(simd, pair[1], one.link);
         let hulls = one.hulls.iter().flat_map(|own| other.hulls.iter().map(move |two| [own, two]));
         for (number, [own, two]) in (OF_TWO * at..).zip(hulls) {
             if lanes & self.asked == 0 || self.is_done() {
                 return;
             }
-            let facing = self.axis_in(simd, other.link, two);
-            let axis = self.axis_in(simd, one.link, own);
             let center = self.placed(simd, other.link, two.center());
             let mut way = minus(self.placed(simd, one.link, own.center()), center);
-            let mut open = lanes & self.asked;
+            let balls = limit + (own.ball() + two.ball());
+            let are_near = dot(way, way).simd_le(balls * balls).to_bitmask();
+            let mut open = lanes & self.asked & are_near;
+            if open == 0 {
+                continue;
+            }
+            let facing = self.axis_in(simd, other.link, two);
+            let axis = self.axis_in(simd, one.link, own);
             for _ in 0..2 {
                 let reach = self.reach(simd, other.link, two, way);
                 let plane = Plane { way, reach, radius: two.radius() };
-                open &= !self.beyond(simd, one.link, own, &plane, &limits);
+                let gap = self.gap(simd, one.link, own, &plane);
+                open &= !plane.is_below(gap, limit + own.radius());
+                if self.has_lines {
+                    open &= !drift.leaves(&plane, gap, own.radius() + ROUNDING);
+                }
                 if open == 0 {
                     break;
                 }
@@ -75,16 +87,25 @@ impl<const N: usize> Touch<'_, N> {
         let (group, shape) = (place % groups.len(), &self.cell.obstacles()[place / groups.len()].1);
         let (own, margin) = (&groups[group], ROUNDING + self.cell.margin());
         let limits = array::from_fn(|lane| margin + self.hulls_moved(group, 0, lane));
+        let limit = Vector::load_array_ref(simd, &limits);
+        let drift = self.hulls_drift(simd, group, 0);
         for (number, hull) in (OF_TWO * at..).zip(&own.hulls) {
             if lanes & self.asked == 0 || self.is_done() {
                 return;
             }
-            // Not by a closure, which would be compiled for the baseline.
-            let beyond = match plane_to(shape, &self.axis_in(simd, own.link, hull)) {
-                Some(plane) => self.beyond(simd, own.link, hull, &plane, &limits),
-                None => 0,
-            };
-            self.settle([at, number], lanes & !beyond, &limits, |block, lane, asked, way| {
+            let center = self.placed(simd, own.link, hull.center());
+            let mut open = lanes & self.asked & !ball_beyond(shape, center, limit + hull.ball());
+            if open == 0 {
+                continue;
+            }
+            if let Some(plane) = plane_to(shape, &self.axis_in(simd, own.link, hull)) {
+                let gap = self.gap(simd, own.link, hull, &plane);
+                open &= !plane.is_below(gap, limit + hull.radius());
+                if self.has_lines {
+                    open &= !drift.leaves(&plane, gap, hull.radius() + margin);
+                }
+            }
+            self.settle([at, number], open, &limits, |block, lane, asked, way| {
                 let pose = block.frame(own.link).pose(lane);
                 shape.separation_of_hull(hull, &pose, asked, way).distance
             });
@@ -106,7 +127,8 @@ impl<const N: usize> Touch<'_, N> {
         for lane in bits(lanes & self.asked) {
             let asked = Asked::whether_above(limits[lane]);
             let mut none = None;
-            let way = if self.swept || self.any { of(&mut ways, number) } else { &mut none };
+            let way =
+                if self.is_swept() || self.is_enough() { of(&mut ways, number) } else { &mut none };
             if !self.is_done() && distance(self.block, lane, asked, way) <= limits[lane] {
                 self.asked &= !(1 << lane);
                 self.block.last = at;
@@ -134,27 +156,42 @@ impl<const N: usize> Touch<'_, N> {
         dot(way, load(simd, &frame.origin)) + hull.reach(simd, &own)
     }
 
-    /// The lanes in which a hull of a link is farther beyond a plane than a limit [m].
+    /// How far the points of a hull of a link are beyond a plane, times the length of its way.
     #[inline(always)]
-    fn beyond<S: Simd>(
+    fn gap<S: Simd>(
         &self,
         simd: S,
         link: usize,
         hull: &RoundedHull,
         plane: &Plane<S>,
-        limits: &Column,
-    ) -> u64 {
+    ) -> Vector<S> {
         let back = [-plane.way[0], -plane.way[1], -plane.way[2]];
-        let gap = -self.reach(simd, link, hull, back) - plane.reach;
-        let limit = Vector::load_array_ref(simd, limits) + (hull.radius() + plane.radius);
-        let is_far = (gap * gap).simd_gt(limit * limit * dot(back, back));
-        (gap.simd_gt(0.0) & is_far).to_bitmask()
+        -self.reach(simd, link, hull, back) - plane.reach
+    }
+
+    /// How a group moves, with what its hulls reach beyond its capsules.
+    #[inline(always)]
+    fn hulls_drift<S: Simd>(&self, simd: S, group: usize, from: usize) -> Drift<S> {
+        let own = &self.outline.groups[group];
+        let mut drift = self.drift(simd, group, from);
+        let (mut moved, mut bent) = (drift.bent.like(0.0), drift.bent.like(0.0));
+        for joint in (from..own.link).rev() {
+            let span = Vector::load_array_ref(simd, &self.block.spans[joint]);
+            let beside = Vector::load_array_ref(simd, &self.block.beside[joint]);
+            let radius = moved + 1.0;
+            let turned = span * radius;
+            bent = beside.times_plus(radius, span.times_plus(turned.scaled_plus(0.5, moved), bent));
+            moved += turned;
+        }
+        drift.bent = bent.scaled_plus(own.beyond, drift.bent);
+        drift.extent = own.spread + own.beyond;
+        drift
     }
 
     /// How far points of hulls of a group move, seen from a link; zero for joint vectors (eq. 8).
     fn hulls_moved(&self, group: usize, from: usize, lane: usize) -> f64 {
         let own = &self.outline.groups[group];
-        if !self.swept || own.link <= from {
+        if !self.is_swept() || own.link <= from {
             return 0.0;
         }
         let spans = self.block.spans[from..own.link].iter();

@@ -4,6 +4,7 @@ mod apart;
 mod block;
 mod boxes;
 mod doubts;
+mod drift;
 mod gradient;
 mod obstacles;
 mod pairs;

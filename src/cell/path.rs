@@ -5,6 +5,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::array;
 use core::mem::replace;
 
 use super::block::Looked;
@@ -39,9 +40,23 @@ pub(crate) trait Motion<const N: usize> {
     /// When it is at a part of a piece.
     fn instant(&self, piece: usize, part: f64) -> f64;
 
-    /// A box that contains the joint angles of a piece from one part of it to another, by its middle
-    /// and how far it goes to either side [rad]; a part is from 0 to 1.
-    fn range(&self, piece: usize, part: [f64; 2]) -> ([f64; N], [f64; N]);
+    /// Where the joint angles of a piece are from one part of it to another; a part is from 0 to 1.
+    fn range(&self, piece: usize, part: [f64; 2]) -> Range<N>;
+}
+
+/// Joint angles `middle + u turns + e` with |u| <= 1 and |e| <= `beside` [rad].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Range<const N: usize> {
+    pub(super) middle: [f64; N],
+    pub(super) turns: [f64; N],
+    pub(super) beside: [f64; N],
+}
+
+impl<const N: usize> Range<N> {
+    /// How far the joints turn from the middle to either side at most.
+    pub(super) fn spans(&self) -> [f64; N] {
+        array::from_fn(|joint| self.turns[joint].abs() + self.beside[joint])
+    }
 }
 
 /// Joint vectors, each joint moving evenly from one to the next.
@@ -60,12 +75,12 @@ impl<const N: usize> Motion<N> for [[f64; N]] {
         piece as f64 + part
     }
 
-    fn range(&self, piece: usize, [from, to]: [f64; 2]) -> ([f64; N], [f64; N]) {
+    fn range(&self, piece: usize, [from, to]: [f64; 2]) -> Range<N> {
         let (first, last) = (&self[piece], &self[(piece + 1).min(self.len() - 1)]);
         let (part, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let way: [f64; N] = core::array::from_fn(|joint| last[joint] - first[joint]);
-        let middle = core::array::from_fn(|joint| first[joint] + part * way[joint]);
-        (middle, way.map(|way| half * way.abs()))
+        let way: [f64; N] = array::from_fn(|joint| last[joint] - first[joint]);
+        let middle = array::from_fn(|joint| first[joint] + part * way[joint]);
+        Range { middle, turns: way.map(|way| half * way), beside: [0.0; N] }
     }
 }
 
@@ -86,9 +101,13 @@ impl<const N: usize> Motion<N> for Trajectory {
         self.time(piece, part)
     }
 
-    fn range(&self, piece: usize, part: [f64; 2]) -> ([f64; N], [f64; N]) {
-        let ranges: [_; N] = core::array::from_fn(|joint| self.hull(joint, piece, part));
-        (ranges.map(|[low, high]| 0.5 * (low + high)), ranges.map(|[low, high]| 0.5 * (high - low)))
+    fn range(&self, piece: usize, part: [f64; 2]) -> Range<N> {
+        let lines: [_; N] = array::from_fn(|joint| self.line(joint, piece, part));
+        Range {
+            middle: lines.map(|[middle, ..]| middle),
+            turns: lines.map(|[_, turns, _]| turns),
+            beside: lines.map(|[.., beside]| beside),
+        }
     }
 }
 
@@ -173,7 +192,7 @@ impl Cell {
         motion: &M,
     ) -> Option<Contact<N>> {
         let Part { piece, part } = self.first_part(placed, motion, RESOLUTION)?;
-        let (q, _) = motion.range(piece, part);
+        let q = motion.range(piece, part).middle;
         let (first, apart) = self.deepest(placed, &q)?;
         let mut depth = self.depth(first.other, &apart);
         for sample in 1..=MOST_SAMPLES {
@@ -185,7 +204,7 @@ impl Cell {
             if later >= motion.pieces() || placed.interrupt.is_raised() {
                 break;
             }
-            let standing = placed.at(&motion.range(later, [at; 2]).0);
+            let standing = placed.at(&motion.range(later, [at; 2]).middle);
             let pairs = self.pairs(placed);
             let of_two = pairs.filter(|pair| pair.link == first.link && pair.other == first.other);
             let depths =
@@ -209,7 +228,7 @@ impl Cell {
     ) -> bool {
         let mut left = Vec::new();
         for piece in 0..motion.pieces() {
-            let most = placed.most_motion(motion.range(piece, [0.0, 1.0]).1);
+            let most = placed.most_motion(motion.range(piece, [0.0, 1.0]).spans());
             let mut from = 0.0;
             while from < 1.0 {
                 let to = if most > LONG { (from + LONG / most).min(1.0) } else { 1.0 };
@@ -251,7 +270,7 @@ impl Cell {
             // The start is in the first piece, and free where that is.
             if replace(&mut is_start_asked, false) && !verdicts[next.len() - 1].is_free() {
                 let start = Part { piece: 0, part: [0.0, 0.0] };
-                if self.collides_at(placed, &motion.range(start.piece, start.part).0) {
+                if self.collides_at(placed, &motion.range(start.piece, start.part).middle) {
                     return Some(start);
                 }
             }
@@ -291,7 +310,7 @@ impl Cell {
         let mut q = [[0.0; N]; LANES];
         for (q, own) in q.iter_mut().zip(parts) {
             let middle = 0.5 * (own.part[0] + own.part[1]);
-            (*q, _) = motion.range(own.piece, [middle; 2]);
+            *q = motion.range(own.piece, [middle; 2]).middle;
         }
         self.colliding(placed, &q[..parts.len()])
     }
@@ -325,16 +344,18 @@ impl Cell {
         parts: &[Part],
         resolution: f64,
     ) -> [Verdict; LANES] {
-        let (mut q, mut spans) = ([[0.0; N]; LANES], [[0.0; N]; LANES]);
-        for (lane, own) in parts.iter().enumerate() {
-            (q[lane], spans[lane]) = motion.range(own.piece, own.part);
+        let rest = Range { middle: [0.0; N], turns: [0.0; N], beside: [0.0; N] };
+        let mut ranges = [rest; LANES];
+        for (range, own) in ranges.iter_mut().zip(parts) {
+            *range = motion.range(own.piece, own.part);
         }
-        let (q, some) = (&q[..parts.len()], &spans[..parts.len()]);
-        let touching = placed.touching(self, q, Looked::Swept(some));
-        core::array::from_fn(|lane| {
+        let q = ranges.map(|range| range.middle);
+        let some = Looked::Swept(&ranges[..parts.len()]);
+        let touching = placed.touching(self, &q[..parts.len()], some);
+        array::from_fn(|lane| {
             if touching >> lane & 1 == 0 {
                 Verdict::Free
-            } else if placed.most_motion(spans[lane]) <= resolution {
+            } else if placed.most_motion(ranges[lane].spans()) <= resolution {
                 Verdict::Contact
             } else {
                 Verdict::Open

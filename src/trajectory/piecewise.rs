@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use super::axis::AxisMotion;
-use super::polynomial::{TERMS, derivatives, hull, shifted};
+use super::polynomial::{TERMS, derivatives, line, shifted};
 use super::sampling::Samples;
 use crate::error::{Error, MotionFault};
 use crate::lanes::run;
@@ -144,11 +144,12 @@ impl Trajectory {
         from + part * (to - from)
     }
 
-    /// Two angles between which a joint is from one part of a piece to another [rad].
-    pub(crate) fn hull(&self, joint: usize, piece: usize, [from, to]: [f64; 2]) -> [f64; 2] {
+    /// The line near which a joint is from one part of a piece to another: its angle is `middle + u
+    /// turn + e` with |u| <= 1, the same in all joints, and |e| <= `beside` [rad].
+    pub(crate) fn line(&self, joint: usize, piece: usize, [from, to]: [f64; 2]) -> [f64; 3] {
         let length = self.knots[piece + 1] - self.knots[piece];
         let terms = &self.terms[piece * self.dof + joint];
-        hull(&shifted(terms, from * length), (to - from) * length)
+        line(&shifted(terms, 0.5 * (from + to) * length), 0.5 * (to - from) * length)
     }
 
     /// Number of joints.

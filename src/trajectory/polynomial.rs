@@ -95,6 +95,26 @@ pub(crate) fn hull(coefficients: &[f64; TERMS], end: f64) -> [f64; 2] {
     [least - HULL_ROUNDING * sum, most + HULL_ROUNDING * sum]
 }
 
+/// The line near which the polynomial is from `-half` to `half`: its value in the middle, how far it
+/// goes to the end, and how far the polynomial is beside it at most, with rounding.
+pub(crate) fn line(coefficients: &[f64; TERMS], half: f64) -> [f64; 3] {
+    let [mut middle, slope, ..] = *coefficients;
+    let (mut beside, mut sum, mut power) = (0.0, middle.abs() + (slope * half).abs(), half);
+    for (index, coefficient) in coefficients.iter().enumerate().skip(2) {
+        power *= half;
+        let term = power * coefficient;
+        sum += term.abs();
+        if index % 2 == 0 {
+            // From zero to the term.
+            middle += 0.5 * term;
+            beside += 0.5 * term.abs();
+        } else {
+            beside += term.abs();
+        }
+    }
+    [middle, slope * half, beside + HULL_ROUNDING * sum]
+}
+
 /// The least and the greatest value from 0 to `end`, and where they are.
 pub(crate) fn extremes(coefficients: &[f64; TERMS], end: f64) -> [[f64; 2]; 2] {
     let mut inner = [0.0; TERMS + 1];

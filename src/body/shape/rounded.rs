@@ -149,7 +149,7 @@ impl RoundedHull {
     }
 
     /// The radius of the ball around it [m].
-    pub(super) fn ball(&self) -> f64 {
+    pub(crate) fn ball(&self) -> f64 {
         self.0.spread + self.0.radius
     }
 

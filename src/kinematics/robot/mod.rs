@@ -305,6 +305,11 @@ impl<const N: usize> Robot<N> {
         spans
     }
 
+    /// How far the joints of the table turn, by how far the controller's do [rad].
+    pub(crate) fn table_turns(&self, turns: &[f64; N]) -> [f64; N] {
+        self.chain.uncoupled(turns)
+    }
+
     /// Geometric Jacobian of the tool: three linear rows [m/rad], three angular [1]; column `i`
     /// belongs to joint `i + 1`.
     #[must_use]
