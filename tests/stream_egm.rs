@@ -7,6 +7,7 @@ use irbkin::stream::egm::{
 use proptest::collection::vec;
 use proptest::option::of;
 use proptest::prelude::*;
+use proptest::sample::Index;
 
 fn headers() -> impl Strategy<Value = EgmHeader> {
     (of(any::<u32>()), of(any::<u32>()), of(any::<i32>()))
@@ -82,9 +83,9 @@ proptest! {
     }
 
     #[test]
-    fn bytes_that_are_cut_off_are_refused_or_the_fields_before(robot in robots(), at in 0.0..1.0) {
+    fn bytes_that_are_cut_off_are_refused_or_the_fields_before(robot in robots(), at in any::<Index>()) {
         let bytes = robot.encode()?;
-        let end = (at * bytes.len() as f64) as usize;
+        let end = at.index(bytes.len() + 1);
         match EgmRobot::decode(&bytes[..end]) {
             Ok(part) => prop_assert_eq!(part.encode()?, &bytes[..end]),
             Err(Error::InvalidMessage(fault)) => prop_assert!(fault.at <= end),
