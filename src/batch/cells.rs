@@ -14,7 +14,7 @@ use crate::lanes::LANES;
 const JOINT_VECTORS: usize = 1024;
 
 /// Parts of a joint's range by which joint vectors are ordered.
-const PARTS: usize = 16;
+const PARTS: u8 = 16;
 
 impl Batch<'_> {
     /// [`Cell::collides`] for rows of `N` joint angles.
@@ -80,18 +80,20 @@ impl Batch<'_> {
 /// The places of joint vectors, ordered by the angles of the shoulder and the elbow: what is far
 /// from one of eight that are looked at together is mostly far from all.
 fn by_posture<const N: usize>(robot: &Robot<N>, q: &[[f64; N]]) -> Vec<usize> {
-    let limits = robot.limits().to_array();
+    let (limits, parts) = (robot.limits().to_array(), usize::from(PARTS));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few parts")]
     let part = |q: &[f64; N], joint: usize| {
         let [lower, upper] = limits[joint];
-        let part = (q[joint] - lower) / (upper - lower) * PARTS as f64;
-        (part as usize).min(PARTS - 1)
+        let part = (q[joint] - lower) / (upper - lower) * f64::from(PARTS);
+        (part as usize).min(parts - 1)
     };
-    let key = |q: &[f64; N]| PARTS * part(q, 1) + part(q, (N - 1) / 2);
+    let key = |q: &[f64; N]| parts * part(q, 1) + part(q, (N - 1) / 2);
     let keys: Vec<usize> = q.iter().map(key).collect();
     // Counted, then put in place.
-    let (mut ends, mut order) = ([0; PARTS * PARTS], vec![0; q.len()]);
-    keys.iter().for_each(|key| ends[*key] += 1);
+    let (mut ends, mut order) = (vec![0; parts * parts], vec![0; q.len()]);
+    for key in &keys {
+        ends[*key] += 1;
+    }
     for key in 1..ends.len() {
         ends[key] += ends[key - 1];
     }
