@@ -32,6 +32,8 @@ pub(super) enum Shown {
     Some,
     /// As many as there are roots, some of them singular.
     Counted,
+    /// As many, on branches that are apart.
+    Closed,
     /// Every one: as many regular solutions as there are roots, and no other (eq. 104).
     All,
 }
@@ -104,8 +106,11 @@ impl<M: ByRoots> VectorKernel for Attempt<'_, M> {
                 });
                 starts.at(simd, method, &posed, simple.chain(places));
             }
-            let is_searched = width == NARROW && M::HAS_EVERY_BRANCH;
-            shown = shown_by(method, &roots, accepted, is_searched).min(most);
+            let is_apart = |root: &Root| method.has_every_branch(&posed, root);
+            let is_merged = |root: &Root| width == NARROW && is_apart(root);
+            shown = shown_by(method, &roots, accepted, is_merged).min(most);
+            let is_closed = shown == Shown::Counted && all.iter().all(is_apart);
+            shown = if is_closed { Shown::Closed } else { shown };
             if shown >= Shown::Counted {
                 break;
             }
@@ -232,17 +237,22 @@ fn lacking(
     all.iter().filter(is_lacking).copied().collect()
 }
 
-/// Return what the roots of a polynomial show of the solutions. Where all branches have been
-/// searched, a singular solution is what its cluster lacks.
-fn shown_by(method: &impl ByRoots, roots: &Roots, accepted: &Accepted, is_searched: bool) -> Shown {
+/// Return what the roots of a polynomial show of the solutions. What a cluster lacks may be known to
+/// be one with its singular solution.
+fn shown_by(
+    method: &impl ByRoots,
+    roots: &Roots,
+    accepted: &Accepted,
+    is_merged: impl Fn(&Root) -> bool,
+) -> Shown {
     if !roots.is_complete {
         return Shown::Some;
     }
     let (mut total, mut shown) = (0, Shown::All);
     for root in roots.as_slice() {
         if found_at(method, root, accepted) < root.most {
-            let is_merged = |one: &Configuration| one.weight() > 1;
-            let is_known = is_searched && those_at(method, root, accepted).any(is_merged);
+            let has_twins = those_at(method, root, accepted).any(|one| one.weight() > 1);
+            let is_known = has_twins && is_merged(root);
             shown = shown.min(if is_known { Shown::Counted } else { Shown::Some });
         }
         total += root.most.min(Accepted::ROOM);

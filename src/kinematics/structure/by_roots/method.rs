@@ -18,10 +18,6 @@ pub(crate) trait ByRoots: Clone + Debug + PartialEq {
     /// A pose, prepared for this arm.
     type Posed;
 
-    /// Whether every solution is on one of few branches, all of which are started from: what the
-    /// roots of a cluster then lack is one with its singular solution.
-    const HAS_EVERY_BRANCH: bool = false;
-
     /// The closure of the arm's joints.
     fn closure(&self) -> &Closure;
 
@@ -51,6 +47,13 @@ pub(crate) trait ByRoots: Clone + Debug + PartialEq {
     /// cluster may be complex, or of a branch that does not reach.
     fn most_in(&self, _posed: &Self::Posed, _root: &Root) -> usize {
         usize::MAX
+    }
+
+    /// Whether every solution in the interval of a cluster is on one of few branches that are apart,
+    /// all of which are started from: nothing is left of a self-motion, and what its roots lack is
+    /// one with its singular solution.
+    fn has_every_branch(&self, _posed: &Self::Posed, _root: &Root) -> bool {
+        false
     }
 
     /// Pass sines and cosines of joint angles from which Newton's method leads to the solutions at

@@ -14,10 +14,6 @@ use crate::lanes::LANES;
 const STARTS: usize = 128;
 const ROUNDS: usize = 4;
 
-/// Least singular value up to which a singular solution is a fold, by the root of a rounding [1]:
-/// what is left of a self-motion has that of what the arm is off.
-const FOLD: f64 = 3e-8;
-
 /// The search for all solutions of a pose.
 pub(crate) struct Search<'a> {
     closure: &'a Closure,
@@ -49,7 +45,7 @@ impl<'a> Search<'a> {
     pub(crate) fn attempt(&mut self, method: &impl ByRoots) {
         let is_done = match self.shown {
             Shown::Some => false,
-            Shown::Counted => !self.accepted.are_regular(),
+            Shown::Counted | Shown::Closed => !self.accepted.are_regular(),
             Shown::All => true,
         };
         if is_done {
@@ -65,10 +61,8 @@ impl<'a> Search<'a> {
     /// Take what Newton's method leads to from all over the joints, if no polynomial has shown
     /// enough, and represent self-motions. Returns whether the solutions are certified to be all.
     pub(crate) fn finish(mut self) -> bool {
-        if self.shown < Shown::All {
-            // A fold to rounding that accounts for its roots leaves no others.
-            let least = if self.shown == Shown::Counted { FOLD } else { 0.0 };
-            self.accepted.follow(self.closure, &self.target, least);
+        if self.shown < Shown::Closed {
+            self.accepted.follow(self.closure, &self.target);
         }
         if self.shown < Shown::Counted {
             self.represent();

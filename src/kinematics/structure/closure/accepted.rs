@@ -169,11 +169,10 @@ impl Accepted {
     }
 
     /// Follow what is left of self-motions, on which there are several solutions next to a singularity
-    /// (eq. 104d), and take these: from those with a least singular value above one.
-    pub(crate) fn follow(&mut self, closure: &Closure, target: &Target, least: f64) {
+    /// (eq. 104d), and take these.
+    pub(crate) fn follow(&mut self, closure: &Closure, target: &Target) {
         let mut found = ArrayVec::<Configuration, ROOM>::new();
-        let is_weak = |one: &Configuration| least <= one.least && one.least <= WEAK;
-        let is_one = |one: &&Configuration| one.moving.is_none() && is_weak(one);
+        let is_one = |one: &&Configuration| one.moving.is_none() && one.least <= WEAK;
         let all: ArrayVec<Configuration, ROOM> = self.all.iter().filter(is_one).copied().collect();
         for one in &all {
             // Others are on the way from the first.

@@ -34,8 +34,6 @@ pub(super) struct AtRoots<'a, S: Simd> {
 impl ByRoots for Constants {
     type Posed = Frame;
 
-    const HAS_EVERY_BRANCH: bool = true;
-
     fn closure(&self) -> &Closure {
         &self.closure
     }
@@ -86,6 +84,10 @@ impl ByRoots for Constants {
 
     fn most_in(&self, posed: &Frame, root: &Root) -> usize {
         self.most_near(posed, root.angle(), root.radius() + AT_ROOT).unwrap_or(usize::MAX)
+    }
+
+    fn has_every_branch(&self, posed: &Frame, root: &Root) -> bool {
+        self.are_apart(posed, root.angle(), root.radius())
     }
 
     /// Every branch, and where the links hardly span the distance of the wrist point that which

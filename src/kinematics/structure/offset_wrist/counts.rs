@@ -20,6 +20,10 @@ const CERTAIN: f64 = 0.5;
 /// structured poses have their solutions in the middle.
 const PARTS: [u8; 2] = [1, 9];
 
+/// Distance of the wrist point from axes 1 and 2 from which on the branches are apart, relative to
+/// the lengths of the arm [1]: next to them solutions are left of self-motions.
+const APART: f64 = 1e-2;
+
 impl Constants {
     /// The most solutions at angles of joint 6 as near to one [rad] as a radius; `None` if a branch
     /// is undecided.
@@ -27,6 +31,19 @@ impl Constants {
         let on =
             |sides| PARTS.iter().find_map(|parts| self.runs(last, angle, radius, sides, *parts));
         SIDES.map(on).into_iter().sum()
+    }
+
+    /// Whether the four branches are apart at angles of joint 6 as near to one [rad] as a radius: the
+    /// wrist point is neither on axis 1 nor on axis 2.
+    pub(super) fn are_apart(&self, last: &Frame, angle: f64, radius: f64) -> bool {
+        let lengths = &self.lengths;
+        let (sin, cos) = sin_cos::<false>(angle);
+        let ([x, y, h], _) = Hand::of(lengths, last).at([sin, cos]);
+        let across = x.hypot(y);
+        let sigma = ((across - lengths.b) * (across + lengths.b)).max(0.0).sqrt();
+        let distances = [1.0, -1.0].map(|side| (side * sigma - lengths.a1).hypot(h));
+        let least = distances.into_iter().fold(across - lengths.b.abs(), f64::min);
+        least > APART * lengths.extent + lengths.circle * radius
     }
 
     /// The runs of parts in which the condition of axis 5 is monotonic on a branch: as many solutions
