@@ -40,7 +40,7 @@ impl<const N: usize> Boxes<N> {
         robot.table_spans(spans).iter().sum::<f64>() * self.reach
     }
 
-    /// What touches at a joint vector, and how deep [m].
+    /// The two that touch at a joint vector, and how deep [m].
     pub(crate) fn collision(
         &self,
         robot: &Robot<N>,

@@ -55,7 +55,7 @@ pub(super) const SPLINES: [(&str, SplineKind); 2] =
 pub(super) const SYNCHRONIZATIONS: [(&str, Synchronization); 2] =
     [("time", Synchronization::Time), ("phase", Synchronization::Phase)];
 
-/// What a guard does with a reference that does not fit.
+/// Responses of a guard to a reference that does not fit.
 pub(super) const VIOLATIONS: [(&str, OnViolation); 2] =
     [("brake", OnViolation::Brake), ("limit", OnViolation::Limit)];
 

@@ -1,4 +1,4 @@
-//! What is ahead: the motion to the next set point and the braking motion after it
+//! The motion ahead: the motion to the next set point and the braking motion after it
 //! (docs/theory/stream.md, eq. 1), and its proof.
 
 #[cfg(not(feature = "std"))]
@@ -23,7 +23,7 @@ const PARTS: usize = 4 * LANES;
 pub(super) struct Ahead<const N: usize> {
     /// The last three control points and the next one.
     pub(super) points: [[f64; N]; 4],
-    /// What follows the next one.
+    /// The braking motions behind the next one.
     pub(super) brakes: [Brake; N],
 }
 
@@ -65,8 +65,8 @@ impl<const N: usize> Ahead<N> {
         [low, high]
     }
 
-    /// A box that contains the joint angles from one cycle to another (eq. 1): the control points of
-    /// all cycles in between, or in one cycle those of the part.
+    /// A box that contains the joint angles from one cycle to another (eq. 1): the control points
+    /// of all cycles in between, or in one cycle the ones of the part.
     pub(super) fn range(&self, [from, to]: [f64; 2]) -> Middle<N> {
         let first = from.floor();
         let is_one = to <= first + 1.0;
@@ -126,8 +126,9 @@ impl<const N: usize> Ahead<N> {
         })
     }
 
-    /// Prove the motion free in a bounded number of looks at up to eight boxes each; else a box that
-    /// is left open. Where the arm would rest is looked at first, or if one look is not enough.
+    /// Prove the motion free in a bounded number of looks at up to eight boxes each; else a box
+    /// that is left open. Where the arm would rest is looked at first, or if one look is not
+    /// enough.
     pub(super) fn prove(
         &self,
         robot: &Robot<N>,
@@ -184,8 +185,8 @@ impl<const N: usize> Ahead<N> {
     }
 }
 
-/// The polar form of the cubic with four control points: at equal arguments the cubic itself, else a
-/// control point of one of its parts (Farin, Curves and Surfaces for CAGD, 2002, 8.1).
+/// The polar form of the cubic with four control points: at equal arguments the cubic itself, else
+/// a control point of one of its parts (Farin, Curves and Surfaces for CAGD, 2002, 8.1).
 fn blossom(points: [f64; 4], [x, y, z]: [f64; 3]) -> f64 {
     let [a, b, c, d] = points;
     let first = [

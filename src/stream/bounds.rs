@@ -10,8 +10,8 @@ use crate::trajectory::thresholds::LIMIT_ROUNDING;
 /// first.
 const ROUNDING: f64 = 2.0 * LIMIT_ROUNDING;
 
-/// Rounding of a third difference, as a part of the control points and a radian [1]: of eight of them,
-/// each given to a few digits of the last place.
+/// Rounding of a third difference, as a part of the control points and a radian [1]: of eight of
+/// them, each given to a few digits of the last place.
 const DIGITS: f64 = 32.0 * f64::EPSILON;
 
 /// A bound that a reference exceeds, the value and the bound [rad, s].

@@ -16,8 +16,8 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Of a joint with limits of velocity, acceleration and jerk, for a cycle [s] (eq. 2). Without a
-    /// limit, what the others leave.
+    /// Of a joint with limits of velocity, acceleration and jerk, for a cycle [s] (eq. 2). Without
+    /// a limit, what the others leave.
     pub(super) fn new(cycle: f64, velocity: f64, acceleration: f64, jerk: f64) -> Self {
         let first = velocity * cycle;
         let second = (acceleration * cycle * cycle).min(2.0 * first);
@@ -57,7 +57,7 @@ impl End {
 struct Phase {
     /// How many there are, a whole number.
     steps: f64,
-    /// Where they begin; its second difference is that of the first step.
+    /// Where they begin; its second difference is the first step's.
     from: End,
     /// The third difference from the second step on.
     third: f64,
@@ -202,8 +202,8 @@ impl Phase {
     }
 }
 
-/// The steps of the braking motion that follow, in which one of its bounds decides, and whether they
-/// end at rest (eq. 10).
+/// The steps of the braking motion that follow, in which one of its bounds decides, and whether
+/// they end at rest (eq. 10).
 fn next_phase(at: End, bounds: &Bounds) -> (Phase, bool) {
     // As if what is left of the velocity were positive.
     let sign = if peak(at, bounds.third) < 0.0 { -1.0 } else { 1.0 };

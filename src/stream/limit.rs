@@ -7,8 +7,8 @@ use super::brake::{Bounds, Brake, End, braking};
 /// of a braking motion.
 const LANDED: f64 = 1e-14;
 
-/// Rounds in which a second difference is sought [1]: false position converges in a few, and what is
-/// left of the way remains for the next cycle.
+/// Rounds in which a second difference is sought [1]: false position converges in a few, and what
+/// is left of the way remains for the next cycle.
 const ROUNDS: usize = 16;
 
 /// Where a joint is to go.
@@ -55,8 +55,8 @@ impl Limited<'_> {
         }
     }
 
-    /// How far beyond a reference that moves at a pace a joint comes to rest beside it, after a step
-    /// by a second difference (eq. 11).
+    /// How far beyond a reference that moves at a pace a joint comes to rest beside it, after a
+    /// step by a second difference (eq. 11).
     fn beyond(&self, second: f64, point: f64, pace: f64) -> f64 {
         let next = self.end.then(second);
         Brake::new(End { first: next.first - pace, ..next }, self.bounds).stop - point

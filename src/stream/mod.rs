@@ -3,8 +3,8 @@
 //!
 //! A [`Guard`] gets a reference in each cycle, or none, and answers with a set point. After every
 //! cycle a braking motion exists that keeps the bounds and is proven free; what does not fit is
-//! refused with the [`Reason`], and the guard brakes. It has no clock and no socket, and a step does
-//! not allocate.
+//! refused with the [`Reason`], and the guard brakes. It has no clock and no socket, and a step
+//! does not allocate.
 //!
 //! ```
 //! use irbkin::Robot;
@@ -25,6 +25,11 @@
 //! assert!(guard.words(&step.reason.unwrap()).starts_with("joint 1 would need"));
 //! # Ok::<(), irbkin::Error>(())
 //! ```
+
+/// The Rust blocks of the guide, run as documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/guide/stream.md")]
+pub struct GuideBlocks;
 
 mod ahead;
 mod bounds;

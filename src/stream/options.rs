@@ -1,4 +1,4 @@
-//! What a guard is given, and what it answers.
+//! Bounds of a guard, and its answers.
 
 use super::reason::Reason;
 use crate::error::{Error, ModelFault, MotionFault};
@@ -7,7 +7,7 @@ use crate::kinematics::Robot;
 /// The longest cycle [s]: one of 4 or 8 is in milliseconds.
 const LONGEST_CYCLE: f64 = 0.5;
 
-/// What a guard does with a reference that does not fit.
+/// The response of a guard to a reference that does not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OnViolation {
     /// It brakes.
@@ -32,7 +32,7 @@ pub struct GuardOptions<const N: usize> {
     pub margin: f64,
     /// Limit of the speed of the tool center point [m/s].
     pub max_tool_speed: Option<f64>,
-    /// What becomes of a reference that does not fit.
+    /// The response to a reference that does not fit.
     pub on_violation: OnViolation,
 }
 
@@ -83,7 +83,7 @@ impl<const N: usize> GuardOptions<N> {
     }
 }
 
-/// What a guard is doing.
+/// The state of a guard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// It goes to the reference, or towards it.
@@ -117,7 +117,7 @@ pub struct Step<const N: usize> {
     pub ddq: [f64; N],
     /// Whether the reference is followed as it is.
     pub accepted: bool,
-    /// What the guard is doing.
+    /// The state after the step.
     pub state: State,
     /// Why the reference is not followed as it is.
     pub reason: Option<Reason>,

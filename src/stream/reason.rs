@@ -5,7 +5,7 @@ use core::fmt;
 use crate::kinematics::Slot;
 use crate::report::{Explanation, excess};
 
-/// What of the motion of a joint is bounded.
+/// A bounded quantity of the motion of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Bound {
@@ -20,7 +20,7 @@ pub enum Bound {
 }
 
 impl Bound {
-    /// What it is, and its unit.
+    /// Its name and its unit.
     fn words(self) -> [&'static str; 2] {
         match self {
             Self::Velocity => ["a velocity", "rad/s"],
@@ -67,9 +67,9 @@ pub enum Reason {
         joint: usize,
         /// The bound.
         bound: Bound,
-        /// What the joint would need.
+        /// The value that the joint would need.
         value: f64,
-        /// What it may have.
+        /// The bound.
         limit: f64,
     },
     /// A joint could not brake inside its limits any more.
@@ -90,7 +90,7 @@ pub enum Reason {
     ToolSpeed {
         /// The bound of the speed that is proven [m/s].
         value: f64,
-        /// What it may have [m/s].
+        /// The limit [m/s].
         limit: f64,
     },
     /// No solution of the pose inside the limits.
@@ -112,7 +112,7 @@ pub enum Reason {
         link: usize,
         /// The other link; `None` of an obstacle.
         other: Option<usize>,
-        /// The place of the obstacle among those of the cell.
+        /// The place of the obstacle in the cell.
         obstacle: Option<usize>,
     },
 }
@@ -127,7 +127,8 @@ impl fmt::Display for Reason {
             Self::NotRigid => f.write_str("the pose is not a rigid transform of finite numbers"),
             Self::Outside { joint, value, limits } => write!(
                 f,
-                "joint {joint} is {value:.6} rad, its limits are {:.6} to {:.6} rad, exceeded {} rad",
+                "joint {joint} is {value:.6} rad, its limits are {:.6} to {:.6} rad, exceeded {} \
+                 rad",
                 limits[0],
                 limits[1],
                 excess(*value, *limits)
