@@ -2029,10 +2029,14 @@ class Step(_Record):
         """Whether the reference is followed as it is."""
     @property
     def state(self) -> Literal["following", "braking", "holding"]:
-        """x"""
+        """What the guard is doing: "following" the reference or going towards it, "braking", or
+        "holding" its place.
+        """
     @property
     def reason(self) -> str | None:
-        """x"""
+        """Why the reference is not followed as it is, with the joint, the value and the bound;
+        None if it is.
+        """
     def __new__(
         cls,
         q: _Floats,
@@ -2045,7 +2049,36 @@ class Step(_Record):
 
 @final
 class Guard:
-    """x"""
+    """A guard in front of a control loop: in each cycle a reference, or none, and a set point
+    within bounds. This is no safety function.
+
+    Every set point is inside the limits of the joints and within the bounds, and so is the motion
+    to it: the cubic of the joint angles and velocities at both ends. After every cycle a braking
+    motion exists that is so too. Both are proven free in the cell (docs/guide/stream.md). The first
+    set points are at rest at `start`; a set point follows its reference one cycle later.
+
+    Args:
+        robot: The arm.
+        cycle: Time from one set point to the next [s], at most 0.5.
+        start: Joint vector at which the arm rests [rad], shape (n,).
+        max_velocity: Limits [rad/s], a number or shape (n,); the robot's when not given.
+        max_acceleration: Limits [rad/s^2], a number or shape (n,).
+        max_jerk: Limits [rad/s^3], a number or shape (n,); none when not given.
+        cell: What is around the arm; when not given, the arm stays clear of itself. False proves
+            nothing.
+        margin: How far the arm stays from obstacles, beyond the margin of the cell [m].
+        max_tool_speed: Limit of the speed of the tool center point [m/s]; none when not given.
+        on_violation: "brake" refuses a reference that does not fit, and brakes; "limit" goes
+            towards it as far and as fast as the bounds allow.
+
+    Raises:
+        InvalidMotionError: A cycle or a limit that is not positive, a cycle above 0.5 s.
+        InvalidModelError: Neither `max_velocity` nor limits of the robot; no body; a negative
+            margin.
+        InvalidJointsError: A start of a wrong shape or that is not finite.
+        UnreachableError: The start is outside the limits or collides.
+        ValueError: Another `on_violation`.
+    """
 
     def __new__(
         cls,
@@ -2063,18 +2096,30 @@ class Guard:
     ) -> Guard: ...
     @property
     def robot(self) -> Robot:
-        """x"""
+        """The arm, an `irbkin.Robot`."""
     @property
     def cycle(self) -> float:
-        """x"""
+        """Time from one set point to the next [s]."""
     @property
     def state(self) -> Literal["following", "braking", "holding"]:
-        """x"""
+        """The state: "following", "braking" or "holding"."""
     @property
     def q(self) -> _Floats:
-        """x"""
+        """The last set point [rad], shape (n,)."""
     def step(self, reference: npt.ArrayLike | None) -> Step:
-        """x"""
+        """Return the next set point.
+
+        Args:
+            reference: Joint vector [rad], shape (n,); or a pose of the tool, shape (4, 4),
+                translation [m], which is solved nearest to the last reference on its branch; or
+                None if none came in this cycle: the guard brakes and holds.
+
+        Returns:
+            The `irbkin.stream.Step`. Numbers that are not finite are refused in its `reason`.
+
+        Raises:
+            InvalidJointsError, InvalidPoseError: A wrong shape; the guard stays as it is.
+        """
 
 # What Python's records of RAPID take: array-likes and iterables of numbers.
 _Numbers: TypeAlias = npt.ArrayLike | Iterable[float]

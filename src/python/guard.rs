@@ -22,10 +22,10 @@ use crate::stream::{Guard, GuardOptions, OnViolation};
 /// A guard in front of a control loop: in each cycle a reference, or none, and a set point within
 /// bounds. This is no safety function.
 ///
-/// Every set point is inside the limits of the joints and within the bounds, and so is the motion to
-/// it: the cubic of the joint angles and velocities at both ends. After every cycle a braking motion
-/// exists that is so too. Both are proven free in the cell (docs/guide/stream.md). The first set
-/// points are at rest at `start`; a set point follows its reference one cycle later.
+/// Every set point is inside the limits of the joints and within the bounds, and so is the motion
+/// to it: the cubic of the joint angles and velocities at both ends. After every cycle a braking
+/// motion exists that is so too. Both are proven free in the cell (docs/guide/stream.md). The first
+/// set points are at rest at `start`; a set point follows its reference one cycle later.
 ///
 /// Args:
 ///     robot: The arm.
@@ -38,12 +38,13 @@ use crate::stream::{Guard, GuardOptions, OnViolation};
 ///         nothing.
 ///     margin: How far the arm stays from obstacles, beyond the margin of the cell [m].
 ///     max_tool_speed: Limit of the speed of the tool center point [m/s]; none when not given.
-///     on_violation: "brake" refuses a reference that does not fit, and brakes; "limit" goes towards
-///         it as far and as fast as the bounds allow.
+///     on_violation: "brake" refuses a reference that does not fit, and brakes; "limit" goes
+///         towards it as far and as fast as the bounds allow.
 ///
 /// Raises:
 ///     InvalidMotionError: A cycle or a limit that is not positive, a cycle above 0.5 s.
-///     InvalidModelError: Neither `max_velocity` nor limits of the robot; no body; a negative margin.
+///     InvalidModelError: Neither `max_velocity` nor limits of the robot; no body; a negative
+///         margin.
 ///     InvalidJointsError: A start of a wrong shape or that is not finite.
 ///     UnreachableError: The start is outside the limits or collides.
 ///     ValueError: Another `on_violation`.
@@ -85,8 +86,8 @@ impl PyGuard {
     ///
     /// Args:
     ///     reference: Joint vector [rad], shape (n,); or a pose of the tool, shape (4, 4),
-    ///         translation [m], which is solved nearest to the last reference on its branch; or None
-    ///         if there is none in this cycle: the guard brakes and holds.
+    ///         translation [m], which is solved nearest to the last reference on its branch; or
+    ///         None if none came in this cycle: the guard brakes and holds.
     ///
     /// Returns:
     ///     The `irbkin.stream.Step`. Numbers that are not finite are refused in its `reason`.
@@ -111,7 +112,7 @@ impl PyGuard {
         on!(&self.guard, guard => guard.cycle())
     }
 
-    /// What the guard is doing: "following", "braking" or "holding".
+    /// The state: "following", "braking" or "holding".
     #[getter]
     fn state(&self) -> &'static str {
         on!(&self.guard, guard => guard.state().name())

@@ -21,7 +21,7 @@ const LIMIT_SLACK: f64 = 5e-10;
 
 /// Looks at eight parts of the motion ahead, after which it counts as not free: of a reference, and
 /// of a shorter step in its place.
-const LOOKS: [usize; 2] = [4, 1];
+const LOOKS: [usize; 2] = [3, 1];
 
 /// A guard in front of a control loop: in each cycle a reference, or none, and a set point.
 ///
@@ -52,11 +52,11 @@ impl<const N: usize> Guard<N> {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidMotion`] for a cycle or a limit that is not positive, or a cycle of more than
-    /// 0.5 s; [`Error::InvalidModel`] if neither the options nor the robot have limits of velocity;
-    /// [`Error::NoMotion`] if the start is outside the limits or collides; [`Error::InvalidJoints`]
-    /// for a start that is not finite; [`Error::InvalidBody`] if the robot has no body, or a margin
-    /// is negative.
+    /// [`Error::InvalidMotion`] for a cycle or a limit that is not positive, or a cycle of more
+    /// than 0.5 s; [`Error::InvalidModel`] if neither the options nor the robot have limits of
+    /// velocity; [`Error::NoMotion`] if the start is outside the limits or collides;
+    /// [`Error::InvalidJoints`] for a start that is not finite; [`Error::InvalidBody`] if the robot
+    /// has no body, or a margin is negative.
     pub fn new(
         robot: &Robot<N>,
         start: &[f64; N],
@@ -107,7 +107,7 @@ impl<const N: usize> Guard<N> {
         self.cycle
     }
 
-    /// What the guard is doing.
+    /// The state after the last step.
     #[must_use]
     pub fn state(&self) -> State {
         self.state
@@ -196,18 +196,18 @@ impl<const N: usize> Guard<N> {
                     .map_or_else(reason, |solutions| Reason::Unreachable(solutions.explain())),
             });
         };
-        match (self.robot.slot_of(here), self.robot.slot_of(&found.q)) {
-            (Some(from), Some(to)) if from != to => {
-                let is_same = |q: &[f64; N]| self.robot.slot_of(q) == Some(from);
-                let lost = Reason::Branch { from, to };
-                if self.robot.redundancy().is_some() {
-                    return Err(lost);
-                }
-                let nearest = self.robot.nearest_accepted(pose, here, &weights, &is_same);
-                nearest.map(|nearest| nearest.q).map_err(|_| lost)
-            }
-            _ => Ok(found.q),
+        let slots = (self.robot.slot_of(here), self.robot.slot_of(&found.q));
+        let (Some(from), Some(to)) = slots else { return Ok(found.q) };
+        if from == to {
+            return Ok(found.q);
         }
+        let lost = Reason::Branch { from, to };
+        if self.robot.redundancy().is_some() {
+            return Err(lost);
+        }
+        let solutions = self.robot.ik_with(pose, None).map_err(reason)?;
+        let own = solutions.slot(from.index()).ok_or(lost)?;
+        self.robot.limits().wrapped_near(&own.q, here).ok_or(lost)
     }
 
     fn end(&self, joint: usize) -> End {
