@@ -5,10 +5,10 @@ use alloc::vec::Vec;
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
-use super::apart::{ALL, Axis, Point, against_parts, ball_beyond, load, minus};
+use super::apart::{ALL, Axis, Point, load, minus};
 use super::drift::Drift;
 use super::obstacles::Cell;
-use super::path::Range;
+use super::range::Range;
 use crate::body::{Capsule, Group, Outline, Way};
 use crate::kinematics::{Axes, Robot};
 use crate::lanes::{Column, LANES, Number as _, Vector, VectorKernel, cross, dot, run_vectors};
@@ -40,7 +40,7 @@ pub(crate) struct Block<const N: usize> {
     pub(super) turns: [Column; N],
     pub(super) beside: [Column; N],
     /// The middles and the halves of the axes of the capsules around the groups.
-    around: Vec<[[Column; 3]; 2]>,
+    pub(super) around: Vec<[[Column; 3]; 2]>,
     /// How far the axes of a group move, by the link from which it is seen.
     pub(super) moves: Vec<[Column; N]>,
     /// How far they are then from where their velocities would lead.
@@ -129,7 +129,7 @@ impl<const N: usize> Block<N> {
     }
 
     /// A capsule in one lane.
-    fn capsule(&self, outline: &Outline, index: usize, lane: usize) -> Capsule {
+    pub(super) fn capsule(&self, outline: &Outline, index: usize, lane: usize) -> Capsule {
         let [middle, half] = self.axes[index].map(|point| point.map(|component| component[lane]));
         outline.capsules[index].at(middle.into(), half.into())
     }
@@ -140,7 +140,7 @@ pub(super) struct Touch<'a, const N: usize> {
     pub(super) block: &'a mut Block<N>,
     pub(super) outline: &'a Outline,
     pub(super) cell: &'a Cell,
-    looked: Looked<'a, N>,
+    pub(super) looked: Looked<'a, N>,
     /// Whether joints turn along lines.
     pub(super) has_lines: bool,
     /// The lanes, as bits.
@@ -241,7 +241,7 @@ impl<const N: usize> Touch<'_, N> {
 
     /// The axis of the capsule around a group.
     #[inline(always)]
-    fn around<S: Simd>(&self, simd: S, group: usize) -> Axis<S> {
+    pub(super) fn around<S: Simd>(&self, simd: S, group: usize) -> Axis<S> {
         let [middle, half] = &self.block.around[group];
         Axis::new(load(simd, middle), load(simd, half), self.outline.groups[group].around.square)
     }
@@ -288,7 +288,7 @@ impl<const N: usize> Touch<'_, N> {
 
     /// How far the axes of a group move, seen from a link; zero for joint vectors.
     #[inline(always)]
-    fn moved<S: Simd>(&self, simd: S, group: usize, from: usize) -> Vector<S> {
+    pub(super) fn moved<S: Simd>(&self, simd: S, group: usize, from: usize) -> Vector<S> {
         if self.is_swept() {
             Vector::load_array_ref(simd, &self.block.moves[group][from])
         } else {
@@ -297,7 +297,7 @@ impl<const N: usize> Touch<'_, N> {
     }
 
     #[inline(always)]
-    fn place<S: Simd>(&mut self, simd: S, group: usize) {
+    pub(super) fn place<S: Simd>(&mut self, simd: S, group: usize) {
         if self.block.is_placed[group] {
             return;
         }
@@ -313,161 +313,10 @@ impl<const N: usize> Touch<'_, N> {
     }
 
     #[inline(always)]
-    fn axis<S: Simd>(&self, simd: S, index: usize) -> Axis<S> {
+    pub(super) fn axis<S: Simd>(&self, simd: S, index: usize) -> Axis<S> {
         let [middle, half] = &self.block.axes[index];
         Axis::new(load(simd, middle), load(simd, half), self.outline.capsules[index].square)
     }
-
-    /// Look at two groups of capsules of the arm.
-    #[inline(always)]
-    fn apart_of_links<S: Simd>(&mut self, simd: S, at: usize) {
-        let pair = self.outline.pairs[at];
-        let [one, other] = pair.map(|group| &self.outline.groups[group]);
-        let moved = self.moved(simd, pair[1], one.link) + ROUNDING;
-        let around = moved + (one.around.radius + other.around.radius);
-        let facing = self.around(simd, pair[1]);
-        let near =
-            self.asked & !self.around(simd, pair[0]).against_axis(&facing, around, self.asked).far;
-        if near == 0 {
-            return;
-        }
-        let drift = self.drift(simd, pair[1], one.link);
-        let mut near = near;
-        if self.has_lines {
-            let limit = ROUNDING + (one.around.radius + other.around.radius);
-            let plane = self.around(simd, pair[0]).plane_to(&facing);
-            near &= !drift.stays_beyond(&plane, &facing, limit);
-            if near == 0 {
-                return;
-            }
-        }
-        self.place(simd, pair[0]);
-        self.place(simd, pair[1]);
-        let mut doubtful = 0;
-        for index in one.capsules.clone() {
-            let capsule = &self.outline.capsules[index];
-            let own = self.axis(simd, index);
-            let limit = moved + (capsule.radius + other.around.radius);
-            let near = near & self.asked & !doubtful;
-            let near = near & !own.against_axis(&facing, limit, near).far;
-            if near == 0 {
-                continue;
-            }
-            for second in other.capsules.clone() {
-                let limit = moved + (capsule.radius + self.outline.capsules[second].radius);
-                let asked = near & !doubtful;
-                let two = self.axis(simd, second);
-                let decided = own.against_axis(&two, limit, asked);
-                let mut asked = asked & !decided.far;
-                if self.has_lines && asked != 0 {
-                    let radii = capsule.radius + self.outline.capsules[second].radius;
-                    asked &= !drift.stays_beyond(&own.plane_to(&two), &two, ROUNDING + radii);
-                }
-                let open = asked & !decided.near;
-                doubtful |= asked & decided.near;
-                if open != 0 {
-                    doubtful |= self.settle_links(open, [index, second], limit);
-                }
-            }
-        }
-        if doubtful == 0
-            || matches!(self.looked, Looked::Roughly(_))
-            || !(one.has_hulls || other.has_hulls)
-        {
-            self.asked &= !doubtful;
-            return;
-        }
-        for first in one.cores.clone() {
-            for second in other.cores.clone() {
-                let both = [first, second].map(|core| &self.outline.capsules[core]);
-                let limit = moved.like(both[0].radius + both[1].radius);
-                let (own, facing) = (self.axis(simd, first), self.axis(simd, second));
-                self.asked &= !(doubtful & own.against_axis(&facing, limit, doubtful).near);
-            }
-        }
-        self.block.doubts.push((at, doubtful));
-    }
-
-    /// Look at a group of capsules and an obstacle.
-    #[inline(always)]
-    fn apart_of_obstacle<S: Simd>(&mut self, simd: S, [group, obstacle]: [usize; 2], at: usize) {
-        let own = &self.outline.groups[group];
-        let shape = &self.cell.obstacles()[obstacle].1;
-        let margin = self.cell.margin() + ROUNDING;
-        let moved = self.moved(simd, group, 0) + margin;
-        let center = load(simd, &self.block.around[group][0]);
-        let near = self.asked & !ball_beyond(shape, center, moved + own.around.ball);
-        if near == 0 {
-            return;
-        }
-        let limit = moved + own.around.radius;
-        let around = self.around(simd, group);
-        let mut near = near & !against_parts(&around, shape, limit, near).far;
-        if near == 0 {
-            return;
-        }
-        let drift = self.drift(simd, group, 0);
-        if self.has_lines {
-            near &= !drift.stays_off(shape, &around, margin + own.around.radius);
-            if near == 0 {
-                return;
-            }
-        }
-        self.place(simd, group);
-        let mut doubtful = 0;
-        for index in own.capsules.clone() {
-            let radius = self.outline.capsules[index].radius;
-            let axis = self.axis(simd, index);
-            let asked = near & self.asked & !doubtful;
-            let decided = against_parts(&axis, shape, moved + radius, asked);
-            let mut asked = asked & !decided.far;
-            if self.has_lines && asked != 0 {
-                asked &= !drift.stays_off(shape, &axis, margin + radius);
-            }
-            let open = asked & !decided.near;
-            doubtful |= asked & decided.near;
-            if open != 0 {
-                doubtful |= self.settle_obstacle(open, [index, obstacle], moved);
-            }
-        }
-        if doubtful == 0 || matches!(self.looked, Looked::Roughly(_)) || !own.has_hulls {
-            self.asked &= !doubtful;
-            return;
-        }
-        for core in own.cores.clone() {
-            let limit = moved.like(margin + self.outline.capsules[core].radius);
-            let decided = against_parts(&self.axis(simd, core), shape, limit, doubtful);
-            self.asked &= !(doubtful & decided.near);
-        }
-        self.block.doubts.push((at, doubtful));
-    }
-
-    /// The lanes in which two capsules touch, of those that bounds leave open.
-    #[cold]
-    #[inline(never)]
-    fn settle_links<S: Simd>(&self, open: u64, [one, other]: [usize; 2], limit: Vector<S>) -> u64 {
-        let radii = self.outline.capsules[one].radius + self.outline.capsules[other].radius;
-        lanes_in(open, |lane| {
-            let own = self.block.capsule(self.outline, one, lane);
-            let apart = own.separation(&self.block.capsule(self.outline, other, lane));
-            apart.distance <= limit.as_array()[lane] - radii
-        })
-    }
-
-    /// The lanes in which a capsule and an obstacle touch, of those that bounds leave open.
-    #[cold]
-    #[inline(never)]
-    fn settle_obstacle<S: Simd>(&self, open: u64, [own, at]: [usize; 2], least: Vector<S>) -> u64 {
-        lanes_in(open, |lane| {
-            let capsule = self.block.capsule(self.outline, own, lane);
-            self.cell.obstacles()[at].1.is_within(&capsule, least.as_array()[lane])
-        })
-    }
-}
-
-/// The lanes of some, as bits, for which something is so.
-fn lanes_in(lanes: u64, is_so: impl Fn(usize) -> bool) -> u64 {
-    bits(lanes).filter(|lane| is_so(*lane)).fold(0, |all, lane| all | 1 << lane)
 }
 
 /// The numbers of the lanes in bits.

@@ -3,8 +3,8 @@
 use super::block::{Block, Looked};
 use super::obstacles::Cell;
 use super::pairs::Other;
-use super::path::Range;
 use super::placed::Placed;
+use super::range::Range;
 use crate::body::fault::BodyFault;
 use crate::cell::Nearest;
 use crate::error::Error;

@@ -79,8 +79,8 @@ mod tests {
 
     use super::super::block::Looked;
     use super::super::obstacles::Cell;
-    use super::super::path::Range;
     use super::super::placed::Placed;
+    use super::super::range::Range;
     use super::*;
     use crate::kinematics::{Pose, Robot};
 

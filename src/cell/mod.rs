@@ -5,12 +5,15 @@ mod block;
 mod boxes;
 mod doubts;
 mod drift;
+mod edges;
 mod gradient;
+mod near;
 mod obstacles;
 mod pairs;
 mod path;
 mod placed;
 mod postures;
+mod range;
 mod standing;
 
 pub(crate) use boxes::Boxes;

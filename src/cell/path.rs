@@ -12,6 +12,7 @@ use super::block::Looked;
 use super::obstacles::Cell;
 use super::placed::Placed;
 use super::postures::Nearest;
+use super::range::Range;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::kinematics::{Robot, check_seed};
@@ -42,21 +43,6 @@ pub(crate) trait Motion<const N: usize> {
 
     /// Where the joint angles of a piece are from one part of it to another; a part is from 0 to 1.
     fn range(&self, piece: usize, part: [f64; 2]) -> Range<N>;
-}
-
-/// Joint angles `middle + u turns + e` with |u| <= 1 and |e| <= `beside` [rad].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Range<const N: usize> {
-    pub(super) middle: [f64; N],
-    pub(super) turns: [f64; N],
-    pub(super) beside: [f64; N],
-}
-
-impl<const N: usize> Range<N> {
-    /// How far the joints turn from the middle to either side at most.
-    pub(super) fn spans(&self) -> [f64; N] {
-        array::from_fn(|joint| self.turns[joint].abs() + self.beside[joint])
-    }
 }
 
 /// Joint vectors, each joint moving evenly from one to the next.

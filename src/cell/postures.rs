@@ -6,10 +6,9 @@ use core::array;
 use core::cell::RefCell;
 use core::fmt;
 
-use super::block::{Looked, bits};
+use super::block::Looked;
 use super::obstacles::Cell;
 use super::pairs::{Other, Pair};
-use super::path::Motion as _;
 use super::placed::Placed;
 use crate::body::Separation;
 use crate::error::Error;
@@ -97,29 +96,6 @@ impl Cell {
             let place = |lane| ((lane + 1) * blocks - block) as f64 / (blocks * LANES) as f64;
             let q: [_; LANES] = array::from_fn(|lane| at(place(lane)));
             placed.are_free(self, &q)
-        })
-    }
-
-    /// Whether an even motion is free: at eight states spread over it, and in each eighth, by a proof
-    /// or at `blocks` more states.
-    #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52")]
-    pub(crate) fn is_free_or_looked_at<const N: usize>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        blocks: usize,
-        ends: &[[f64; N]; 2],
-    ) -> bool {
-        let eighth = |lane: usize| [lane, lane + 1].map(|end| end as f64 / LANES as f64);
-        let at = |part| ends[..].range(0, [part; 2]).middle;
-        if !self.are_free(placed, 1, at) {
-            return false;
-        }
-        let ranges: [_; LANES] = array::from_fn(|lane| ends[..].range(0, eighth(lane)));
-        let open =
-            placed.touching(self, &ranges.map(|range| range.middle), Looked::Roughly(&ranges));
-        bits(open).all(|lane| {
-            let [from, to] = eighth(lane);
-            self.are_free(placed, blocks.div_ceil(LANES), |part| at(from + part * (to - from)))
         })
     }
 

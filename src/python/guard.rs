@@ -1,8 +1,9 @@
 //! `irbkin.stream.Guard`: set points for a control loop.
 
+use pyo3::basic::CompareOp;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyBool;
+use pyo3::types::{PyBool, PyTuple};
 
 use super::arguments::{VIOLATIONS, one_of};
 use super::arm::{Arm, ByJoints, on};
@@ -10,7 +11,8 @@ use super::arrays::{matrix4, vector};
 use super::cell::PyCell;
 use super::errors::Fault;
 use super::outputs::array;
-use super::records::Step;
+use super::record::{self, record, record_methods};
+use super::records::Array;
 use super::robot::PyRobot;
 use super::targets::shape_of;
 use super::trajectories::{read_each, read_limits};
@@ -18,6 +20,27 @@ use crate::cell::Cell;
 use crate::error::Error;
 use crate::kinematics::{Robot, pose_from_rows};
 use crate::stream::{Guard, GuardOptions, OnViolation};
+
+record! {
+    "irbkin.stream";
+    /// A set point of a `Guard`.
+    Step {
+        /// Joint angles [rad], shape (n,).
+        q: Array,
+        /// Velocities [rad/s], shape (n,).
+        dq: Array,
+        /// Accelerations [rad/s^2], shape (n,).
+        ddq: Array,
+        /// Whether the reference is followed as it is.
+        accepted: bool,
+        /// What the guard is doing: "following" the reference or going towards it, "braking", or
+        /// "holding" its place.
+        state: String,
+        /// Why the reference is not followed as it is, with the joint, the value and the bound; None
+        /// if it is.
+        reason: Option<String>,
+    }
+}
 
 /// A guard in front of a control loop: in each cycle a reference, or none, and a set point within
 /// bounds. This is no safety function.

@@ -62,10 +62,11 @@ use pyo3::types::PyTuple;
 use self::arm::{Arm, on};
 use self::cell::PyCell;
 use self::errors::Fault;
+use self::guard::Step;
 use self::records::{
     Break, CatalogEntry, CellContact, CellDistance, ConfigurationBatch, FollowResult, FreeJoint,
-    IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, Step,
-    StrandEnd, ToolSpeedLimits, TrajectorySample,
+    IkBatch, IkMargin, Margin, MotionPeaks, Plan, PlanBreak, PoseCheck, Singularity, StrandEnd,
+    ToolSpeedLimits, TrajectorySample,
 };
 use self::robot::PyRobot;
 use self::shapes::{PyBody, PyShape};

@@ -404,24 +404,3 @@ impl From<&Explanation> for PoseCheck {
         Self { reachable, within_limits, reason: explanation.to_string() }
     }
 }
-
-record! {
-    "irbkin.stream";
-    /// A set point of a `Guard`.
-    Step {
-        /// Joint angles [rad], shape (n,).
-        q: Array,
-        /// Velocities [rad/s], shape (n,).
-        dq: Array,
-        /// Accelerations [rad/s^2], shape (n,).
-        ddq: Array,
-        /// Whether the reference is followed as it is.
-        accepted: bool,
-        /// What the guard is doing: "following" the reference or going towards it, "braking", or
-        /// "holding" its place.
-        state: String,
-        /// Why the reference is not followed as it is, with the joint, the value and the bound; None
-        /// if it is.
-        reason: Option<String>,
-    }
-}

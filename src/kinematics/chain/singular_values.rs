@@ -101,7 +101,7 @@ fn singular_values<const N: usize, const W: usize, const FUSED: bool>(
 }
 
 /// Return the least singular value of a matrix by its rows.
-pub(in crate::kinematics) fn least_singular_value(rows: [[f64; 6]; 6]) -> f64 {
+pub(in crate::kinematics) fn least_singular_value(rows: &[[f64; 6]; 6]) -> f64 {
     let rows = rows.map(|row| row.map(|element| [element]));
     Bidiagonal::of::<6, false>(rows).least_root::<false>()[0].sqrt()
 }

@@ -131,7 +131,7 @@ impl Closure {
 
     /// The least singular value of the derivatives [1].
     pub(crate) fn least_singular_value(&self, theta: &[f64; 6]) -> f64 {
-        least_singular_value(self.derivatives(theta).into())
+        least_singular_value(&self.derivatives(theta).into())
     }
 
     pub(crate) fn target_of(&self, t_first_last: &Pose) -> Target {
