@@ -32,7 +32,7 @@ pub(super) enum Shown {
     Some,
     /// As many as there are roots, some of them singular.
     Counted,
-    /// As many, on branches that are apart.
+    /// As many, on branches that are apart, and folds to rounding where they are not regular.
     Closed,
     /// Every one: as many regular solutions as there are roots, and no other (eq. 104).
     All,
@@ -109,8 +109,9 @@ impl<M: ByRoots> VectorKernel for Attempt<'_, M> {
             let is_apart = |root: &Root| method.has_every_branch(&posed, root);
             let is_merged = |root: &Root| width == NARROW && is_apart(root);
             shown = shown_by(method, &roots, accepted, is_merged).min(most);
-            let is_closed = shown == Shown::Counted && all.iter().all(is_apart);
-            shown = if is_closed { Shown::Closed } else { shown };
+            if shown == Shown::Counted && accepted.are_folds() && all.iter().all(is_apart) {
+                shown = Shown::Closed;
+            }
             if shown >= Shown::Counted {
                 break;
             }
@@ -238,7 +239,7 @@ fn lacking(
 }
 
 /// Return what the roots of a polynomial show of the solutions. What a cluster lacks may be known to
-/// be one with its singular solution.
+/// be one with its fold.
 fn shown_by(
     method: &impl ByRoots,
     roots: &Roots,
@@ -251,8 +252,8 @@ fn shown_by(
     let (mut total, mut shown) = (0, Shown::All);
     for root in roots.as_slice() {
         if found_at(method, root, accepted) < root.most {
-            let has_twins = those_at(method, root, accepted).any(|one| one.weight() > 1);
-            let is_known = has_twins && is_merged(root);
+            let has_fold = those_at(method, root, accepted).any(Configuration::is_fold);
+            let is_known = has_fold && is_merged(root);
             shown = shown.min(if is_known { Shown::Counted } else { Shown::Some });
         }
         total += root.most.min(Accepted::ROOM);

@@ -82,6 +82,11 @@ impl Accepted {
         self.is_whole && !self.all.iter().any(Configuration::is_singular)
     }
 
+    /// Whether each configuration next to a singularity is a fold to rounding.
+    pub(crate) fn are_folds(&self) -> bool {
+        self.all.iter().all(|one| one.least > WEAK || one.is_fold())
+    }
+
     /// Whether Newton's method leads from the angles in a lane [rad] to a configuration that is
     /// known: by the theorem of Newton and Kantorovich (eq. 98b).
     pub(crate) fn attracts(&self, theta: &[Column; 6], lane: usize) -> bool {

@@ -14,6 +14,10 @@ pub(super) const REGULAR: f64 = 1e-5;
 /// Least singular value above which the theorem holds for what closes [1].
 pub(super) const ISOLATED: f64 = 1e-6;
 
+/// Least singular value up to which a solution is a fold, but for the root of a rounding [1]: above,
+/// its twin may be another solution.
+const FOLD: f64 = 3e-8;
+
 /// A solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Configuration {
@@ -36,6 +40,11 @@ impl Configuration {
     /// Whether the theorem of Newton and Kantorovich says nothing about it.
     pub(super) fn is_singular(&self) -> bool {
         self.moving.is_some() || self.least <= REGULAR
+    }
+
+    /// Whether it is two solutions or more that are one to rounding.
+    pub(crate) fn is_fold(&self) -> bool {
+        self.moving.is_none() && self.least <= FOLD
     }
 
     /// Return how many solutions it may be, at least.
