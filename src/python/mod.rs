@@ -20,6 +20,7 @@ mod configured;
 mod corrections;
 mod egm;
 mod errors;
+mod figure;
 mod follow;
 mod follower;
 mod found;

@@ -1,50 +1,17 @@
 //! Records that answers are returned in.
 
-use std::array;
-
 use pyo3::basic::CompareOp;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyFloat, PyTuple, PyType};
+use pyo3::types::{PyTuple, PyType};
 
-use super::arm::{Arm, on};
+use super::figure::Figure;
 use super::record::{self, record, record_methods};
-use crate::kinematics::{self, BreakReason, SingularityKind, Status};
+use crate::kinematics::{BreakReason, SingularityKind, Status};
 use crate::report::{Configuration, Explanation, Reach};
 
 /// An array, or what a field holds in place of one.
 pub(crate) type Array = Py<PyAny>;
-
-/// An array, or a figure of the singular values of one joint vector, which is found when it is read:
-/// that takes longer than the rest of a [`Singularity`].
-pub(crate) enum Figure {
-    Known(Array),
-    Sought(Arm, [f64; 7], fn(&kinematics::Singularity) -> f64),
-}
-
-impl FromPyObject<'_, '_> for Figure {
-    type Error = PyErr;
-
-    fn extract(known: Borrowed<'_, '_, PyAny>) -> PyResult<Self> {
-        Ok(Self::Known(known.to_owned().unbind()))
-    }
-}
-
-impl<'py> IntoPyObject<'py> for &Figure {
-    type Target = PyAny;
-    type Output = Bound<'py, PyAny>;
-    type Error = PyErr;
-
-    fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        Ok(match self {
-            Figure::Known(array) => array.bind(py).clone(),
-            Figure::Sought(arm, q, figure) => {
-                let found = on!(arm, robot => robot.singularity(&array::from_fn(|i| q[i])));
-                PyFloat::new(py, figure(&found)).into_any()
-            }
-        })
-    }
-}
 
 record_methods!(Configuration { cf1: i32, cf4: i32, cf6: i32, cfx: i32 });
 
