@@ -9,7 +9,7 @@ use irbkin::body::Shape;
 use irbkin::cell::Cell;
 use irbkin::stream::{Guard, GuardOptions, OnViolation, Step};
 use irbkin::trajectory::{AxisLimits, Profile, Synchronization, Trajectory, joint_within};
-use irbkin::{JointLimits, Pose, Robot};
+use irbkin::{JointLimits, Joints, Pose, Robot};
 
 const CYCLE: f64 = 0.004;
 const LIMITS: AxisLimits = AxisLimits { velocity: 1.8, acceleration: 8.0, jerk: 60.0 };
@@ -96,7 +96,10 @@ fn references<const N: usize>(
     }
 }
 
-fn times<const N: usize>(name: &str, on_violation: OnViolation, steps: usize) -> Vec<Duration> {
+fn times<const N: usize>(name: &str, on_violation: OnViolation, steps: usize) -> Vec<Duration>
+where
+    Robot<N>: Joints<N>,
+{
     let (robot, mut rng): (Robot<N>, Rng) = (Robot::named(name).unwrap(), Rng(1));
     let cell = cell_of(&robot);
     let start = loop {

@@ -1,6 +1,13 @@
 //! Laws of the guard: whatever the references, set points and the motion between them are within
 //! the bounds and free, and a braking motion that is so exists after every cycle.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "counts of cycles"
+)]
+
 use crate::suite::common::{Rng, poses_or};
 
 use irbkin::body::Shape;
@@ -208,13 +215,13 @@ fn bounds_hold<const N: usize>(robot: &Robot<N>, cycles: usize) {
         let (mut done, mut accepted, mut states) = (0, 0, [0; 3]);
         while done < cycles {
             let burst = Burst::drawn(&case, &mut rng);
-            for at in 0..1 + (rng.bits() % 250) as usize {
+            for at in 0..=(rng.bits() % 250) as usize {
                 let step = burst.step(&mut case, at, &mut rng);
                 case.check(step);
                 accepted += usize::from(step.accepted);
                 states[step.state as usize] += 1;
                 done += 1;
-                if rng.bits() % 199 == 0 {
+                if rng.bits().is_multiple_of(199) {
                     case.check_brake();
                 }
             }

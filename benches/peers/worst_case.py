@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+import textwrap
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -32,9 +33,9 @@ Written by `make evidence SUITE=worst-case`. Microseconds of a call from Python 
 of all calls, 99 % and all took no longer. These are observations, **not bounds**.
 
 The poses, {poses} of each set: random joint vectors; all joints at zero; all at multiples of 90 and
-of 45 deg; J5 at zero and 1e-6 rad off; the elbow straight; the wrist center on axis 1; 1e-9 m
-inside and outside the edge of reach. A set is left out where an arm has none within its limits. The
-seed is the joints that made the pose, each off by up to 0.01 rad. A call counts with the least
+of 45 deg; J5 at zero and 1e-6 rad off; the elbow straight; the wrist center on axis 1; stretched,
+1e-9 m towards the base and away from it. A set is left out where an arm has none within its limits.
+The seed is the joints that made the pose, each off by up to 0.01 rad. A call counts with the least
 processor time of three.
 
 {machine}
@@ -148,7 +149,7 @@ def others(arm: Arm) -> Iterator[str]:
 
 def main() -> None:
     """Print or write the page."""
-    machine = "\n".join(describe(["irbkin", *PEERS])).replace("\n", "  \n")
+    machine = "\n\n".join(textwrap.fill(line, 100) for line in describe(["irbkin", *PEERS]))
     lines = [HEAD.format(poses=POSES, machine=machine) + "\n".join(map(row, irbkin.catalog()))]
     lines.append(OTHERS + "\n".join(line for arm in NAMED.values() for line in others(arm)))
     text = "\n".join(lines) + "\n"

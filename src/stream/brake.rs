@@ -279,23 +279,22 @@ mod tests {
         }
     }
 
+    /// The nearest stop, of all sequences of a few second differences.
+    fn least(at: End, bounds: &Bounds, left: u32) -> f64 {
+        if at.first == 0.0 && at.second.abs() <= bounds.third {
+            return at.point;
+        }
+        if left == 0 || at.first < 0.0 {
+            return f64::INFINITY;
+        }
+        let choices = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|change| at.second + change);
+        let choices = choices.into_iter().filter(|second| second.abs() <= bounds.second);
+        choices.map(|second| least(at.then(second), bounds, left - 1)).fold(f64::INFINITY, f64::min)
+    }
+
     #[test]
     fn no_motion_within_the_bounds_stops_nearer_without_turning_back() {
-        // Of all sequences of a few choices, by their least stop.
         let bounds = Bounds { first: 10.0, second: 3.0, third: 1.0 };
-        fn least(at: End, bounds: &Bounds, left: u32) -> f64 {
-            if at.first == 0.0 && at.second.abs() <= bounds.third {
-                return at.point;
-            }
-            if left == 0 || at.first < 0.0 {
-                return f64::INFINITY;
-            }
-            let choices = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|change| at.second + change);
-            let choices = choices.into_iter().filter(|second| second.abs() <= bounds.second);
-            choices
-                .map(|second| least(at.then(second), bounds, left - 1))
-                .fold(f64::INFINITY, f64::min)
-        }
         for (first, second) in [(2.0, 0.0), (3.0, -1.0), (2.5, 0.5), (4.0, -2.0)] {
             let end = End { point: 0.0, first, second };
             let brake = Brake::new(end, &bounds);
