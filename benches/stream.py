@@ -1,7 +1,7 @@
 """One step of a guard beside a box, a cylinder and a floor: thread CPU time from Python.
 
 References go by turns along smooth motions, to random goals, to obstacles, through singular poses,
-and are broken or missing. CYCLES=10000000 for the table of docs/evidence/performance.md.
+and are broken or missing. CYCLES=40000 for the table of docs/evidence/performance.md.
 """
 
 import os
