@@ -40,8 +40,8 @@ from pathlib import Path
 # since what it instantiates is there twice.
 # A build with `-C llvm-args=-inline-threshold=100` is 7 % smaller, but its batches of singularities
 # and configurations are 17 % and 60 % slower: it was not taken.
-# Set points for control loops (guards for six and seven joints, EGM) and proofs along lines, for each
-# instruction set, are 220 kB.
+# Set points for control loops (guards of six and seven joints, EGM) and proofs along lines, for
+# each instruction set, are 220 kB.
 MOST_BYTES = 5_150_000
 
 SBOM = re.compile(r"irbkin-[^/]+\.dist-info/sboms/irbkin\.cyclonedx\.json")
