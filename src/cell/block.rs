@@ -269,15 +269,17 @@ impl<const N: usize> Touch<'_, N> {
         }
     }
 
-    /// How a group moves along the line of its joint angles, seen from a link (eq. 9).
+    /// How a group moves along the line of its joint angles, seen from a link (eq. 9); not at all
+    /// where there are no lines.
     #[inline(always)]
     pub(super) fn drift<S: Simd>(&self, simd: S, group: usize, from: usize) -> Drift<S> {
         let Group { link, .. } = &self.outline.groups[group];
         let center = load(simd, &self.block.around[group][0]);
         let mut drift = Drift::none(center);
-        if *link > from {
-            drift.bent = Vector::load_array_ref(simd, &self.block.bends[group][from]);
+        if !self.has_lines || *link <= from {
+            return drift;
         }
+        drift.bent = Vector::load_array_ref(simd, &self.block.bends[group][from]);
         for joint in from..*link {
             let frame = &self.block.frames[joint];
             let turn = Vector::load_array_ref(simd, &self.block.turns[joint]);

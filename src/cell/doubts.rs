@@ -174,6 +174,9 @@ impl<const N: usize> Touch<'_, N> {
     fn hulls_drift<S: Simd>(&self, simd: S, group: usize, from: usize) -> Drift<S> {
         let own = &self.outline.groups[group];
         let mut drift = self.drift(simd, group, from);
+        if !self.has_lines {
+            return drift;
+        }
         let (mut moved, mut bent) = (drift.bent.like(0.0), drift.bent.like(0.0));
         for joint in (from..own.link).rev() {
             let span = Vector::load_array_ref(simd, &self.block.spans[joint]);
