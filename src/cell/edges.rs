@@ -26,9 +26,14 @@ impl Cell {
         let ranges: [_; LANES] = array::from_fn(|lane| ends[..].range(0, eighth(lane)));
         let open =
             placed.touching(self, &ranges.map(|range| range.middle), Looked::Roughly(&ranges));
+        // An eighth takes a block of states at least.
+        let own = blocks.div_ceil(LANES);
+        if open.count_ones() as usize * own >= blocks {
+            return self.are_free(placed, blocks, at);
+        }
         bits(open).all(|lane| {
             let [from, to] = eighth(lane);
-            self.are_free(placed, blocks.div_ceil(LANES), |part| at(from + part * (to - from)))
+            self.are_free(placed, own, |part| at(from + part * (to - from)))
         })
     }
 }
