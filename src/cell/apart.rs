@@ -56,7 +56,7 @@ pub(super) fn minus<S: Simd>(one: Point<S>, other: Point<S>) -> Point<S> {
 }
 
 #[inline(always)]
-fn constant<S: Simd>(simd: S, point: &Vector3<f64>) -> Point<S> {
+pub(super) fn constant<S: Simd>(simd: S, point: &Vector3<f64>) -> Point<S> {
     [Vector::splat(simd, point.x), Vector::splat(simd, point.y), Vector::splat(simd, point.z)]
 }
 
@@ -304,11 +304,18 @@ pub(super) fn plane_to<S: Simd>(shape: &Shape, axis: &Axis<S>) -> Option<Plane<S
                 part = clamped(part - dot(half, local) / bend);
                 local = solid.way_to(pose, at(axis.middle, axis.half, part));
             }
-            let way = in_frame(local, &pose.inverse());
-            let origin = constant(simd, &pose.translation.vector);
-            Some(Plane { way, reach: dot(way, origin) + solid.reach(local), radius: 0.0 })
+            plane_across(shape, in_frame(local, &pose.inverse()))
         }
     }
+}
+
+/// The plane across a way that a box or cylinder does not go beyond.
+#[inline(always)]
+pub(super) fn plane_across<S: Simd>(shape: &Shape, way: Point<S>) -> Option<Plane<S>> {
+    let (solid, pose) = Solid::of(shape)?;
+    let origin = constant(way[0].token(), &pose.translation.vector);
+    let reach = dot(way, origin) + solid.reach(in_frame(way, pose));
+    Some(Plane { way, reach, radius: 0.0 })
 }
 
 /// Lanes in which a ball is apart from a shape, or from the ball around the shape; a limit is its

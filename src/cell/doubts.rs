@@ -7,10 +7,12 @@ use core::mem::take;
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
-use super::apart::{Axis, Plane, Point, ball_beyond, load, minus, plane_to};
-use super::block::{Block, ROUNDING, Touch, bits};
+use super::apart::{
+    Axis, Plane, Point, ball_beyond, constant, load, minus, plane_across, plane_to,
+};
+use super::block::{Block, ROUNDING, Touch};
 use super::drift::Drift;
-use crate::body::{Asked, Centered, RoundedHull, Way};
+use crate::body::{Asked, Centered, RoundedHull, Shape, Way};
 use crate::lanes::{Column, Number as _, Vector, dot};
 
 /// Numbers of ways between two groups: more hulls than these have some in common.
@@ -25,6 +27,23 @@ impl<const N: usize> Block<N> {
         self.doubts.reserve(places);
         self.ways.resize(WAYS, (0, None));
     }
+}
+
+/// A hull of a link, and what it faces.
+struct Two<'a, S: Simd> {
+    link: usize,
+    hull: &'a RoundedHull,
+    facing: Facing<'a>,
+    /// Distances above which they are certain to stay apart, and the one above which they are [m].
+    limits: &'a Column,
+    least: f64,
+    drift: &'a Drift<S>,
+}
+
+/// A hull of a link, or an obstacle.
+enum Facing<'a> {
+    Hull(usize, &'a RoundedHull),
+    Shape(&'a Shape),
 }
 
 impl<const N: usize> Touch<'_, N> {
@@ -43,8 +62,8 @@ impl<const N: usize> Touch<'_, N> {
     #[inline(always)]
     fn decide_links<S: Simd>(&mut self, simd: S, at: usize, pair: [usize; 2], lanes: u64) {
         let [one, other] = pair.map(|group| &self.outline.groups[group]);
-        let limits = array::from_fn(|lane| ROUNDING + self.hulls_moved(pair[1], one.link, lane));
-        let limit = Vector::load_array_ref(simd, &limits);
+        let limits = &array::from_fn(|lane| ROUNDING + self.hulls_moved(pair[1], one.link, lane));
+        let limit = Vector::load_array_ref(simd, limits);
         let drift = self.hulls_drift(simd, pair[1], one.link);
         let hulls = one.hulls.iter().flat_map(|own| other.hulls.iter().map(move |two| [own, two]));
         for (number, [own, two]) in (OF_TWO * at..).zip(hulls) {
@@ -52,32 +71,23 @@ impl<const N: usize> Touch<'_, N> {
                 return;
             }
             let center = self.placed(simd, other.link, two.center());
-            let mut way = minus(self.placed(simd, one.link, own.center()), center);
+            let way = minus(self.placed(simd, one.link, own.center()), center);
             let balls = limit + (own.ball() + two.ball());
             let are_near = dot(way, way).simd_le(balls * balls).to_bitmask();
             let mut open = lanes & self.asked & are_near;
             if open == 0 {
                 continue;
             }
-            let facing = self.axis_in(simd, other.link, two);
-            let axis = self.axis_in(simd, one.link, own);
-            for _ in 0..2 {
-                let reach = self.reach(simd, other.link, two, way);
-                let plane = Plane { way, reach, radius: two.radius() };
-                let gap = self.gap(simd, one.link, own, &plane);
-                open &= !plane.is_below(gap, limit + own.radius());
-                if self.has_lines {
-                    open &= !drift.leaves(&plane, gap, own.radius() + ROUNDING);
-                }
-                if open == 0 {
-                    break;
-                }
-                way = axis.way_from(&facing).0;
+            let facing = Facing::Hull(other.link, two);
+            let both =
+                Two { link: one.link, hull: own, facing, limits, least: ROUNDING, drift: &drift };
+            open &= !self.beyond(simd, &both, &self.plane(simd, other.link, two, way));
+            if open != 0 {
+                let facing = self.axis_in(simd, other.link, two);
+                let way = self.axis_in(simd, one.link, own).way_from(&facing).0;
+                open &= !self.beyond(simd, &both, &self.plane(simd, other.link, two, way));
             }
-            self.settle([at, number], open, &limits, |block, lane, asked, way| {
-                let [pose, to] = [one.link, other.link].map(|link| block.frame(link).pose(lane));
-                own.separation(&pose, (two, &to), asked, way).distance
-            });
+            self.settle(simd, [at, number], &both, open);
         }
     }
 
@@ -85,9 +95,9 @@ impl<const N: usize> Touch<'_, N> {
     fn decide_obstacle<S: Simd>(&mut self, simd: S, at: usize, place: usize, lanes: u64) {
         let groups = &self.outline.groups;
         let (group, shape) = (place % groups.len(), &self.cell.obstacles()[place / groups.len()].1);
-        let (own, margin) = (&groups[group], ROUNDING + self.cell.margin());
-        let limits = array::from_fn(|lane| margin + self.hulls_moved(group, 0, lane));
-        let limit = Vector::load_array_ref(simd, &limits);
+        let (own, least) = (&groups[group], ROUNDING + self.cell.margin());
+        let limits = &array::from_fn(|lane| least + self.hulls_moved(group, 0, lane));
+        let limit = Vector::load_array_ref(simd, limits);
         let drift = self.hulls_drift(simd, group, 0);
         for (number, hull) in (OF_TWO * at..).zip(&own.hulls) {
             if lanes & self.asked == 0 || self.is_done() {
@@ -98,43 +108,98 @@ impl<const N: usize> Touch<'_, N> {
             if open == 0 {
                 continue;
             }
+            let facing = Facing::Shape(shape);
+            let two = Two { link: own.link, hull, facing, limits, least, drift: &drift };
             if let Some(plane) = plane_to(shape, &self.axis_in(simd, own.link, hull)) {
-                let gap = self.gap(simd, own.link, hull, &plane);
-                open &= !plane.is_below(gap, limit + hull.radius());
-                if self.has_lines {
-                    open &= !drift.leaves(&plane, gap, hull.radius() + margin);
-                }
+                open &= !self.beyond(simd, &two, &plane);
             }
-            self.settle([at, number], open, &limits, |block, lane, asked, way| {
-                let pose = block.frame(own.link).pose(lane);
-                shape.separation_of_hull(hull, &pose, asked, way).distance
-            });
+            self.settle(simd, [at, number], &two, open);
         }
     }
 
-    /// Decide lanes of two hulls or a hull and a shape, the ways of which have a number, by their
-    /// distance: whether it is above a limit [m].
+    /// Decide lanes of two, the ways between which have a number, by their distance.
     #[inline(always)]
-    fn settle(
+    fn settle<S: Simd>(
         &mut self,
+        simd: S,
         [at, number]: [usize; 2],
-        lanes: u64,
-        limits: &Column,
-        distance: impl Fn(&Block<N>, usize, Asked, &mut Way) -> f64,
+        two: &Two<'_, S>,
+        mut lanes: u64,
     ) {
         // Joint vectors that are near each other have ways in common.
+        let has_ways = self.is_swept() || self.is_enough();
         let mut ways = take(&mut self.block.ways);
-        for lane in bits(lanes & self.asked) {
-            let asked = Asked::whether_above(limits[lane]);
+        lanes &= self.asked;
+        while lanes != 0 && !self.is_done() {
+            let lane = lanes.trailing_zeros() as usize;
+            lanes &= lanes - 1;
+            let far = two.limits[lane];
+            let near = if self.has_lines { two.least } else { far };
             let mut none = None;
-            let way =
-                if self.is_swept() || self.is_enough() { of(&mut ways, number) } else { &mut none };
-            if !self.is_done() && distance(self.block, lane, asked, way) <= limits[lane] {
+            let way = if has_ways { of(&mut ways, number) } else { &mut none };
+            let found = self.distance(two, lane, Asked { far, near }, way);
+            let mut beyond = u64::from(found > far) << lane;
+            // The plane that keeps them apart may do so in other lanes, and along a line.
+            if let Some(way) = way
+                && has_ways
+                && found > near
+                && (lanes != 0 || beyond == 0)
+            {
+                beyond |= self.beyond_across(simd, two, way);
+            }
+            lanes &= !beyond;
+            if beyond >> lane & 1 == 0 {
                 self.asked &= !(1 << lane);
                 self.block.last = at;
             }
         }
         self.block.ways = ways;
+    }
+
+    /// How far two are apart in a lane [m], or what of it is asked, by a way in the frame of the first
+    /// link, or of the cell before an obstacle.
+    fn distance<S: Simd>(&self, two: &Two<'_, S>, lane: usize, asked: Asked, way: &mut Way) -> f64 {
+        let pose = |link| self.block.frame(link).pose(lane);
+        let apart = match two.facing {
+            Facing::Hull(link, hull) => {
+                two.hull.separation(&pose(two.link), (hull, &pose(link)), asked, way)
+            }
+            Facing::Shape(shape) => shape.separation_of_hull(two.hull, &pose(two.link), asked, way),
+        };
+        apart.distance
+    }
+
+    /// The lanes in which a plane across such a way keeps two apart.
+    #[inline(always)]
+    fn beyond_across<S: Simd>(&self, simd: S, two: &Two<'_, S>, way: &Vector3<f64>) -> u64 {
+        let plane = match two.facing {
+            Facing::Hull(link, hull) => {
+                Some(self.plane(simd, link, hull, self.turned(simd, two.link, way)))
+            }
+            Facing::Shape(shape) => plane_across(shape, constant(simd, way)),
+        };
+        plane.map_or(0, |plane| self.beyond(simd, two, &plane))
+    }
+
+    /// The lanes in which the first one of two is farther beyond a plane than they may be, or stays
+    /// beyond it.
+    #[inline(always)]
+    fn beyond<S: Simd>(&self, simd: S, two: &Two<'_, S>, plane: &Plane<S>) -> u64 {
+        let back = [-plane.way[0], -plane.way[1], -plane.way[2]];
+        let gap = -self.reach(simd, two.link, two.hull, back) - plane.reach;
+        let (limit, radius) = (Vector::load_array_ref(simd, two.limits), two.hull.radius());
+        let beyond = plane.is_below(gap, limit + radius);
+        if self.has_lines {
+            beyond | two.drift.leaves(plane, gap, two.least + radius)
+        } else {
+            beyond
+        }
+    }
+
+    /// The plane across a way beyond which a hull of a link does not go.
+    #[inline(always)]
+    fn plane<S: Simd>(&self, simd: S, link: usize, hull: &RoundedHull, way: Point<S>) -> Plane<S> {
+        Plane { way, reach: self.reach(simd, link, hull, way), radius: hull.radius() }
     }
 
     /// The axis of the capsule inside of a hull of a link, or its middle.
@@ -154,19 +219,6 @@ impl<const N: usize> Touch<'_, N> {
         let (x, y, z) = (load(simd, &frame.x), load(simd, &frame.y), load(simd, &frame.z));
         let own = [dot(way, x), dot(way, y), dot(way, z)];
         dot(way, load(simd, &frame.origin)) + hull.reach(simd, &own)
-    }
-
-    /// How far the points of a hull of a link are beyond a plane, times the length of its way.
-    #[inline(always)]
-    fn gap<S: Simd>(
-        &self,
-        simd: S,
-        link: usize,
-        hull: &RoundedHull,
-        plane: &Plane<S>,
-    ) -> Vector<S> {
-        let back = [-plane.way[0], -plane.way[1], -plane.way[2]];
-        -self.reach(simd, link, hull, back) - plane.reach
     }
 
     /// How a group moves, with what its hulls reach beyond its capsules.
