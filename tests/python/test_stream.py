@@ -172,6 +172,8 @@ def test_velocities_that_nobody_knows_are_asked_for():
     own = irbkin.Robot.from_mdh(ROBOT.mdh, limits=ROBOT.limits)
     with pytest.raises(irbkin.InvalidModelError, match="give max_velocity"):
         Guard(own, cycle=CYCLE, start=START, max_acceleration=8.0, cell=False)
+    nameless = Guard(own, cycle=CYCLE, start=START, **LIMITS, cell=False)
+    assert repr(nameless) == "<Guard: cycle 0.004 s, holding, proves nothing free>"
     assert Guard(ROBOT, cycle=CYCLE, start=START, max_acceleration=8.0).state == "holding"
 
 
