@@ -10,6 +10,7 @@ use std::thread_local;
 use super::apart::ALL;
 use super::block::{Block, Looked};
 use super::obstacles::Cell;
+use super::one::is_obstructed;
 use nalgebra::Vector3;
 
 use crate::body::{Capsule, Group, Outline};
@@ -61,6 +62,13 @@ impl<'a, const N: usize> Placed<'a, N> {
         debug_assert!(q.len() <= LANES);
         let block = self.block.as_mut();
         block.map_or(ALL, |block| block.touching(self.robot, self.outline, cell, q, looked))
+    }
+
+    /// Whether one joint vector touches something.
+    pub(super) fn touches(&mut self, cell: &Cell, q: &[f64; N]) -> bool {
+        let alone = Cell::default();
+        self.touching(&alone, core::slice::from_ref(q), Looked::All) != 0
+            || self.block.as_ref().is_none_or(|block| is_obstructed(block, self.outline, cell))
     }
 
     /// Whether eight joint vectors are free.
