@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from irbkin._core import decode, encode, pose, to_xyz_wxyz
-from irbkin.errors import StreamError, UnreachableError
+from irbkin.errors import IrbkinError
 from irbkin.stream.egm._records import (
     EgmHeader,
     EgmPose,
@@ -90,7 +90,7 @@ class Controller:
             sensor = decode(data, EgmSensor)
             seqno = (sensor.header or EgmHeader()).seqno or 0
             newest = self._wanted(sensor.planned or EgmPosition(), sensor.speed_ref or EgmSpeed())
-        except (StreamError, UnreachableError):
+        except IrbkinError:
             return
         if self._last >= 0 and not 0 < (seqno - self._last) % WORD < WORD // 2:
             return
