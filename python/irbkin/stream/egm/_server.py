@@ -98,11 +98,9 @@ class Server:
                 data, sender = self._socket.recvfrom(MOST_BYTES)
                 if answer := session.answer(data, sender, time.monotonic()):
                     self._socket.sendto(answer, sender)
-            except TimeoutError:
+            except (TimeoutError, ConnectionError):
+                # On Windows, ConnectionError: the one before was sent to a port that is closed.
                 pass
-            except ConnectionError:
-                # Windows: the one before was sent to a port that is closed.
-                continue
             except KeyboardInterrupt as interrupt:
                 if session.error or session.heard is None:
                     raise
