@@ -293,5 +293,9 @@ def test_a_program_names_what_it_lacks():
     bare = irbkin.Robot.from_mdh(ROBOT.mdh, limits=ROBOT.limits)
     with pytest.raises(StreamError, match="give max_speed"):
         egm.rapid_module(bare, START)
+    with pytest.raises(StreamError, match="max_speed is nan, it must be positive"):
+        egm.rapid_module(ROBOT, START, max_speed=np.nan)
+    with pytest.raises(irbkin.RapidError, match="expected the module's name"):
+        egm.rapid_module(ROBOT, START, name="if")
     with pytest.raises(StreamError, match='"pose" of six axes'):
         Session(PassThrough(irbkin.Robot("Panda")), swing, mode="pose")
