@@ -169,6 +169,17 @@ def test_old_datagrams_are_not_answered():
     assert session.statistics.lost == 13
 
 
+@pytest.mark.parametrize(("drift", "is_late"), [(5e-4, False), (-5e-4, False), (5e-3, True)])
+def test_clocks_that_drift_apart_make_nothing_late(drift, is_late):
+    """Over 100 s, as the crystals of two clocks do; a link that gets ever slower is none."""
+    session = Session(PassThrough(), swing)
+    for seqno in range(1, 25_000, 40):
+        session.answer(message(seqno), "controller", seqno * CYCLE * (1 + drift))
+        if session.statistics.late:
+            break
+    assert bool(session.statistics.late) == is_late
+
+
 def test_only_the_first_sender_is_answered():
     session = Session(PassThrough(), swing)
     assert session.answer(b"\x00", "a stranger", 0.0) is None

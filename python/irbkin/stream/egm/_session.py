@@ -36,6 +36,8 @@ TOLERANCE = 0.01
 """How far the robot may be from a guard at rest [rad]."""
 TOLERANCE_MM = 1.0
 """How far the tool of a controller may be from the robot's [mm]."""
+DRIFT = 1e-3
+"""By how much the controller's clock may be slower at most [1]."""
 OBSERVED = 25
 """Cycles from which on the cycle time is compared: a time is rounded to 1 ms, 1 % of them."""
 AXES = (0, 1, 3, 4, 5, 6, 2)
@@ -204,9 +206,9 @@ class Session:
     def _gap(self, seqno: int, tm: int, now: float) -> int:
         """How many cycles a datagram is ahead of the last one; 0 for one that is not answered."""
         gap = (seqno - self._last + WORD // 2) % WORD - WORD // 2
-        # The least delay of all is the clocks' difference.
+        # The least delay is the clocks' difference, which drifts.
         delay = now - (tm - self._first[1]) % WORD / 1e3
-        self._offset = min(self._offset, delay)
+        self._offset = min(self._offset + DRIFT * max(gap, 0) * self.cycle, delay)
         if gap > 0 and delay - self._offset <= max(self.bridge, 1) * self.cycle:
             self._seen = (self._seen << min(gap, 64) | 1) & WINDOW
             return gap
