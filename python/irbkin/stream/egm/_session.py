@@ -99,6 +99,10 @@ class Session:
         linger: float = 1.0,
         seconds: float | None = None,
     ) -> None:
+        times = {"bridge": bridge, "watchdog": watchdog, "linger": linger}
+        for name, time in times.items():
+            if not 0 <= time < np.inf:
+                raise StreamError(f"{name} is {time} s, it must be finite and not negative")
         self.guard, self.mode, self.watchdog = guard, mode, watchdog
         self.robot, self.cycle = guard.robot, float(guard.cycle)
         if mode not in ("joint", "pose") or (mode == "pose" and self.robot.dof != 6):
@@ -190,7 +194,7 @@ class Session:
         if len(joints) != min(dof, 6) or len(joints) + len(external) < dof:
             raise StreamError(
                 f"feedback has {len(joints)} joints and {len(external)} external ones, the "
-                f"guard's robot {self.robot.name} has {dof} joints (is it another robot?)"
+                f"guard's has {dof} joints (is it another robot?)"
             )
         q = np.empty(dof)
         q[self.axes] = np.radians((*joints, *external)[:dof])
@@ -257,8 +261,8 @@ class Session:
             if is_asked and not self._is_ending:
                 wanted = self.ask(Feedback(self._cycles * self.cycle, q, self._step, message))
             self._step = self.guard.step(wanted)
-        except Exception as error:
-            # It ends, or is no reference.
+        except BaseException as error:
+            # It ends, is no reference, or Ctrl-C came in it: this cycle is a step all the same.
             self.end(None if isinstance(error, StopIteration) else error)
             wanted = None
             self._step = self.guard.step(None)
