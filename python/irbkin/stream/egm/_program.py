@@ -10,7 +10,7 @@ import numpy as np
 from irbkin._arrays import finite
 from irbkin._core import JointTarget, Pose, ToolData, dump, parse
 from irbkin.errors import InvalidJointsError, StreamError
-from irbkin.stream.egm._session import AXES
+from irbkin.stream.egm._session import axes_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -59,8 +59,7 @@ def rapid_module(
         raise StreamError(
             f"release is {release!r}, mode {mode!r}: they must be RW6 or RW7, joint or pose"
         )
-    q = finite(start, "start", (robot.dof,), InvalidJointsError)
-    q = q[list(AXES)] if robot.dof == 7 else q
+    q = finite(start, "start", (robot.dof,), InvalidJointsError)[axes_of(robot)]
     if max_speed is None and mode == "pose":
         max_speed = 1000.0
     elif max_speed is None:

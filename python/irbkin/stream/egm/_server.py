@@ -142,7 +142,7 @@ class Server:
             until = session.heard + session.watchdog
         if session.is_done or time.monotonic() < until:
             return until
-        if session.is_held:
+        if session.held:
             # The program of the controller has ended, too.
             session.is_done = True
             return until
