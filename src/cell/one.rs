@@ -14,7 +14,8 @@ pub(super) fn is_obstructed<const N: usize>(
     outline: &Outline,
     cell: &Cell,
 ) -> bool {
-    run_vectors(One { block, outline, cell, limit: cell.margin() + ROUNDING })
+    let limit = cell.margin() + ROUNDING;
+    !cell.obstacles().is_empty() && run_vectors(One { block, outline, cell, limit })
 }
 
 struct One<'a, const N: usize> {
