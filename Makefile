@@ -151,10 +151,9 @@ bench-capi: capi ## Compare the time of a pose in C with that in Rust
 check: | toolchains ## Check format, lints, types, stubs, docs, benches and examples
 	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.groups lints
 	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features serde
-	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions --bench stream -- --test
+	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
 	$(STEP) "benches in Python run" env QUICK=1 $(BIN)/python benches/python_calls.py >/dev/null
-	$(STEP) "the bench of structured poses runs" env QUICK=1 $(BIN)/python benches/structured_poses.py >/dev/null
 	$(STEP) "the bench of motion runs" env MOVES=1000 $(BIN)/python benches/motion.py >/dev/null
 	$(STEP) "the bench of limits runs" env TRAJECTORIES=200 LINES=10 $(BIN)/python benches/motion_limits.py >/dev/null
 	$(STEP) "the bench of plans runs" env QUICK=1 $(BIN)/python benches/plan.py >/dev/null
@@ -278,9 +277,8 @@ evidence-no-std: | toolchains ## Laws and unit tests without the standard librar
 	cargo test $(NO_STD),rapid --lib -- suite::laws suite::coupled suite::configuration suite::allocation suite::rapid:: suite::rapid_calc
 
 evidence-times: $(RELEASED) ## Times of single poses, batches, Python's calls, motions, plans, a RAPID module
-	cargo bench --bench one_pose --bench batch --bench stream
+	cargo bench --bench one_pose --bench batch
 	$(BIN)/python benches/python_calls.py
-	$(BIN)/python benches/structured_poses.py
 	$(BIN)/python benches/motion.py
 	$(BIN)/python benches/motion_limits.py
 	$(BIN)/python benches/plan.py

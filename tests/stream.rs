@@ -12,7 +12,7 @@ use crate::suite::common::{Rng, poses_or};
 
 use irbkin::body::Shape;
 use irbkin::cell::Cell;
-use irbkin::stream::{Guard, GuardOptions, OnViolation, Reason, State, Step};
+use irbkin::stream::{Guard, GuardOptions, OnViolation, State, Step};
 use irbkin::trajectory::state::to_rest;
 use irbkin::trajectory::{
     AxisLimits, AxisMotion, AxisState, Profile, Synchronization, Trajectory, joint_within,
@@ -344,35 +344,4 @@ fn goals_are_reached_nearly_as_fast_as_they_can_be() {
     println!("{reached} of {tried} reached, the slowest in {slowest:.3} x, {changes} changes");
     assert!(100 * reached >= 95 * tried, "{reached} of {tried}");
     assert_eq!(changes, 0);
-}
-
-#[test]
-fn a_reason_names_joint_value_and_bound() {
-    let robot = six("IRB 2600-12/1.65");
-    let cell = cell(1.65);
-    let start = [0.0, 0.0, 0.0, 0.0, 0.5, 0.0];
-    let options = options(OnViolation::Brake);
-    let mut guard = Guard::new(&robot, &start, Some(&cell), &options).unwrap();
-    let mut words = |q: [f64; 6]| {
-        let step = guard.step(&q);
-        guard.words(&step.reason.unwrap())
-    };
-    let with = |joint: usize, value: f64| {
-        let mut q = start;
-        q[joint] = value;
-        q
-    };
-    assert_eq!(words(with(1, f64::NAN)), "joint 2 is NaN, it must be finite");
-    assert!(
-        words(with(1, 9.0)).starts_with("joint 2 is 9.000000 rad, its limits are -1.658063 to")
-    );
-    assert_eq!(
-        words(with(2, 0.1)),
-        "joint 3 would need a velocity of 25.0000 rad/s, its bound is 1.8000 rad/s"
-    );
-    assert!(words(with(2, 1e-3)).contains("acceleration of 62.5000 rad/s^2, its bound is 8.0000"));
-    assert!(words(with(2, 1e-5)).contains("jerk of 156.2500 rad/s^3, its bound is 60.0000"));
-    let step = guard.step_none();
-    assert_eq!(step.reason, Some(Reason::Missing));
-    assert_eq!(step.state, State::Holding);
 }

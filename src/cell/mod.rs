@@ -9,6 +9,7 @@ mod edges;
 mod gradient;
 mod near;
 mod obstacles;
+mod one;
 mod pairs;
 mod path;
 mod placed;

@@ -107,9 +107,9 @@ impl Cell {
 
     /// Less than the distance of a pair [m], by the balls around the two; nothing if these touch.
     fn bound<const N: usize>(&self, pair: &Pair, at: &Standing<'_, N>) -> f64 {
-        let (center, radius) = at.ball(pair.places[0]);
+        let (center, radius) = at.balls[pair.places[0]];
         let apart = match pair.other {
-            Other::Link(_) => Some(at.ball(pair.places[1])),
+            Other::Link(_) => Some(at.balls[pair.places[1]]),
             Other::Obstacle(at) => self.obstacles()[at].1.ball(),
         };
         let apart = apart.map_or(0.0, |(other, more)| (other - center).norm() - radius - more);

@@ -10,9 +10,10 @@ use std::thread_local;
 use super::apart::ALL;
 use super::block::{Block, Looked};
 use super::obstacles::Cell;
+use super::one::is_obstructed;
 use nalgebra::Vector3;
 
-use crate::body::{Capsule, Group, Outline};
+use crate::body::{Capsule, Centered, Group, Outline};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::kinematics::{Pose, Robot};
@@ -63,6 +64,13 @@ impl<'a, const N: usize> Placed<'a, N> {
         block.map_or(ALL, |block| block.touching(self.robot, self.outline, cell, q, looked))
     }
 
+    /// Whether one joint vector touches something.
+    pub(super) fn touches(&mut self, cell: &Cell, q: &[f64; N]) -> bool {
+        let alone = Cell::default();
+        self.touching(&alone, core::slice::from_ref(q), Looked::All) != 0
+            || self.block.as_ref().is_none_or(|block| is_obstructed(block, self.outline, cell))
+    }
+
     /// Whether eight joint vectors are free.
     pub(super) fn are_free(&mut self, cell: &Cell, q: &[[f64; N]; LANES]) -> bool {
         self.touching(cell, q, Looked::Any) == 0
@@ -75,15 +83,18 @@ impl<'a, const N: usize> Placed<'a, N> {
 
     /// The arm at a joint vector.
     pub(super) fn at(&self, q: &[f64; N]) -> Standing<'_, N> {
-        let mut standing =
-            Standing { placed: self, frames: self.robot.link_frames(q).0, capsules: Vec::new() };
-        for group in &self.outline.groups {
+        let frames = self.robot.link_frames(q).0;
+        let Outline { capsules: all, groups, .. } = self.outline;
+        let (capsules, balls) = (Vec::with_capacity(all.len()), Vec::with_capacity(groups.len()));
+        let mut standing = Standing { placed: self, frames, capsules, balls };
+        for group in groups {
             let frame = standing.pose(group);
-            let own = &self.outline.capsules[group.capsules.start..group.cores.end];
-            standing.capsules.extend(own.iter().map(|own| {
-                let center = frame.rotation * own.center + frame.translation.vector;
-                own.at(center, frame.rotation * own.half)
-            }));
+            let at = |own: &Centered| frame.rotation * own.center + frame.translation.vector;
+            standing.balls.push((at(&group.around), group.around.ball));
+            let capsule = |own: &Centered| own.at(at(own), frame.rotation * own.half);
+            standing
+                .capsules
+                .extend(all[group.capsules.start..group.cores.end].iter().map(capsule));
         }
         standing
     }
@@ -104,6 +115,8 @@ pub(super) struct Standing<'a, const N: usize> {
     frames: [Pose; N],
     /// The capsules, in the order of the outline.
     capsules: Vec<Capsule>,
+    /// The middle and the radius of the ball around each group [m].
+    pub(super) balls: Vec<(Vector3<f64>, f64)>,
 }
 
 impl<const N: usize> Standing<'_, N> {
@@ -113,13 +126,6 @@ impl<const N: usize> Standing<'_, N> {
             Some(joint) => self.frames[joint],
             None => *self.placed.robot.base(),
         }
-    }
-
-    /// The ball around a group [m].
-    pub(super) fn ball(&self, group: usize) -> (Vector3<f64>, f64) {
-        let group = &self.placed.outline.groups[group];
-        let pose = self.pose(group);
-        (pose.rotation * group.around.center + pose.translation.vector, group.around.ball)
     }
 
     /// The capsules of a group.

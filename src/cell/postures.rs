@@ -66,7 +66,7 @@ impl Cell {
         placed: &mut Placed<'_, N>,
         q: &[f64; N],
     ) -> bool {
-        self.colliding(placed, core::slice::from_ref(q)) != 0
+        placed.touches(self, q)
     }
 
     /// Whether each joint vector is free.

@@ -144,17 +144,15 @@ impl PyGuard {
     /// The last set point [rad], shape (n,).
     #[getter]
     fn q(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        on!(&self.guard, guard => {
-            let q = guard.q();
-            array(py, q, &[q.len()])
-        })
+        on!(&self.guard, guard => array(py, guard.q(), &[guard.q().len()]))
     }
 
     fn __repr__(&self) -> String {
         on!(&self.guard, guard => {
             let proven = if guard.proves_free() { "" } else { ", proves nothing free" };
             let (name, cycle) = (guard.robot().name(), guard.cycle());
-            format!("<Guard: {name}, cycle {cycle} s, {}{proven}>", guard.state().name())
+            let comma = if name.is_empty() { "" } else { ", " };
+            format!("<Guard: {name}{comma}cycle {cycle} s, {}{proven}>", guard.state().name())
         })
     }
 }

@@ -169,6 +169,17 @@ def test_old_datagrams_are_not_answered():
     assert session.statistics.lost == 13
 
 
+@pytest.mark.parametrize(("drift", "is_late"), [(5e-4, False), (-5e-4, False), (5e-3, True)])
+def test_clocks_that_drift_apart_make_nothing_late(drift, is_late):
+    """Over 100 s, as the crystals of two clocks do; a link that gets ever slower is none."""
+    session = Session(PassThrough(), swing)
+    for seqno in range(1, 25_000, 40):
+        session.answer(message(seqno), "controller", seqno * CYCLE * (1 + drift))
+        if session.statistics.late:
+            break
+    assert bool(session.statistics.late) == is_late
+
+
 def test_only_the_first_sender_is_answered():
     session = Session(PassThrough(), swing)
     assert session.answer(b"\x00", "a stranger", 0.0) is None
@@ -203,7 +214,7 @@ def test_broken_datagrams_are_counted_and_change_nothing():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"q": DEGREES[:5]}, r"5 joints and 0 external ones.*IRB 2600-12/1\.65 has 6 joints"),
+        ({"q": DEGREES[:5]}, r"5 joints and 0 external ones.*the guard's has 6 joints"),
         ({"q": (*DEGREES[:5], DEGREES[5] + 1)}, "joint 6 of the robot is at 12.46 deg.*11.46 deg"),
     ],
 )
@@ -238,18 +249,19 @@ def test_another_cycle_time_and_a_jump_are_refused():
         answers(Session(PassThrough(), swing), [1, 1001])
 
 
-@pytest.mark.parametrize("end", ["iterable", "seconds", "error", "shape"])
+@pytest.mark.parametrize("end", ["iterable", "seconds", "error", "interrupt", "shape"])
 def test_a_session_brakes_and_holds_at_its_end(end):
     guard = PassThrough()
 
     def wrong(feedback):
         if feedback.t > 0.1:
-            raise ZeroDivisionError
+            raise errors[end]
         return START
 
-    references = {"iterable": [START] * 25, "error": wrong, "shape": [START] * 25 + ["here"]}
+    errors = {"error": ZeroDivisionError, "interrupt": KeyboardInterrupt, "shape": TypeError}
+    references = {"iterable": [START] * 25, "shape": [START] * 25 + ["here"], "seconds": swing}
     seconds = 0.1 if end == "seconds" else None
-    session = Session(guard, references.get(end, swing), seconds=seconds, linger=0.05)
+    session = Session(guard, references.get(end, wrong), seconds=seconds, linger=0.05)
     sent = 0
     while not session.is_done:
         sent += 1
@@ -257,9 +269,7 @@ def test_a_session_brakes_and_holds_at_its_end(end):
     assert guard.state == "holding"
     # 25 cycles of the reference and 12 of linger.
     assert sent == pytest.approx(38, abs=2)
-    assert isinstance(
-        session.error, {"error": ZeroDivisionError, "shape": TypeError}.get(end, object)
-    )
+    assert isinstance(session.error, errors.get(end, object))
     assert (session.error is None) == (end in ("iterable", "seconds"))
     assert session.statistics.stops == 0
 
@@ -293,5 +303,11 @@ def test_a_program_names_what_it_lacks():
     bare = irbkin.Robot.from_mdh(ROBOT.mdh, limits=ROBOT.limits)
     with pytest.raises(StreamError, match="give max_speed"):
         egm.rapid_module(bare, START)
+    with pytest.raises(StreamError, match="max_speed is nan, it must be positive"):
+        egm.rapid_module(ROBOT, START, max_speed=np.nan)
+    with pytest.raises(irbkin.RapidError, match="expected the module's name"):
+        egm.rapid_module(ROBOT, START, name="if")
+    with pytest.raises(StreamError, match=r"bridge is -0\.1 s, it must be finite"):
+        Session(PassThrough(), swing, bridge=-0.1)
     with pytest.raises(StreamError, match='"pose" of six axes'):
         Session(PassThrough(irbkin.Robot("Panda")), swing, mode="pose")

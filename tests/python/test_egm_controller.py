@@ -78,6 +78,10 @@ def test_states_and_the_end_after_the_timeout():
             position = egm.EgmPosition(tuple((np.degrees(START) + 5).tolist()))
             header = egm.EgmHeader(tick, 0, 3)
             controller.receive(egm.encode(egm.EgmSensor(header, position)))
+    for tool in (egm.EgmPose((np.nan,) * 3, (1, 0, 0, 0)), egm.EgmPose((9e9,) * 3, (1, 0, 0, 0))):
+        wrong = egm.EgmSensor(egm.EgmHeader(tick, 0, 3), egm.EgmPosition(cartesian=tool))
+        controller.receive(egm.encode(wrong))
+        assert controller.state == "DISCONNECTED"
     assert states[2] == "DISCONNECTED"
     assert states[5] == "CONNECTED"
     assert states[20] == "RUNNING"

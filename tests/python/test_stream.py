@@ -103,7 +103,7 @@ def test_what_does_not_fit_is_refused_with_joint_value_and_bound():
     own = guard()
     for joint, value, words in [
         (1, np.nan, "joint 2 is NaN, it must be finite"),
-        (1, 9.0, "joint 2 is 9.000000 rad, its limits are"),
+        (1, 9.0, "joint 2 is 9.000000 rad, its limits are -1.658063 to"),
         (2, 0.1, "joint 3 would need a velocity of 25.0000 rad/s, its bound is 1.8000 rad/s"),
         (2, 1e-3, "joint 3 would need an acceleration of 62.5000 rad/s^2, its bound is 8.0000"),
         (2, 1e-5, "joint 3 would need a jerk of 156.2500 rad/s^3, its bound is 60.0000 rad/s^3"),
@@ -172,6 +172,8 @@ def test_velocities_that_nobody_knows_are_asked_for():
     own = irbkin.Robot.from_mdh(ROBOT.mdh, limits=ROBOT.limits)
     with pytest.raises(irbkin.InvalidModelError, match="give max_velocity"):
         Guard(own, cycle=CYCLE, start=START, max_acceleration=8.0, cell=False)
+    nameless = Guard(own, cycle=CYCLE, start=START, **LIMITS, cell=False)
+    assert repr(nameless) == "<Guard: cycle 0.004 s, holding, proves nothing free>"
     assert Guard(ROBOT, cycle=CYCLE, start=START, max_acceleration=8.0).state == "holding"
 
 

@@ -12,7 +12,6 @@ from controllers import ROBOT, START, PassThrough, swing
 from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
 from irbkin.errors import StreamError
 from irbkin.stream import egm
-from irbkin.stream.egm._session import Session
 
 MESSAGES = int(os.environ.get("IRBKIN_MESSAGES", "2000"))
 #: Fields of each message by number: name, type, and where it is not optional the label.
@@ -166,33 +165,6 @@ def test_broken_datagrams_raise_or_are_what_protobuf_reads_and_nothing_grows():
     assert refused + read == count
     assert min(refused, read) > MESSAGES
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 4096
-
-
-def test_a_session_counts_broken_datagrams_and_goes_on():
-    guard = PassThrough()
-    session = Session(guard, swing)
-    session.answer(next(iter_good(1)), "controller", 0.0)
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    count = 10 * MESSAGES
-    noise = random.Random(11)
-    for _ in range(count):
-        # A wire type that does not exist.
-        data = b"\x0f" + noise.randbytes(noise.randrange(100))
-        assert session.answer(data, "controller", 0.004) is None
-    assert session.statistics.broken == count
-    assert guard.steps == 1
-    assert session.answer([*iter_good(2)][1], "controller", 0.004)
-    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 4096
-
-
-def iter_good(count):
-    """Messages of a robot at rest."""
-    for seqno in range(1, count + 1):
-        header, feedback = (
-            egm.EgmHeader(seqno, 4 * seqno, 2),
-            egm.EgmPosition(tuple(np.degrees(START))),
-        )
-        yield egm.encode(egm.EgmRobot(header, feedback, mci_state=3))
 
 
 def test_abbrobotegm_reads_the_controller_and_moves_it():

@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from irbkin._core import decode, encode, pose, to_xyz_wxyz
-from irbkin.errors import StreamError, UnreachableError
+from irbkin._core import decode, encode, pose
+from irbkin.errors import IrbkinError
 from irbkin.stream.egm._records import (
     EgmHeader,
-    EgmPose,
     EgmPosition,
     EgmRobot,
     EgmSensor,
@@ -23,7 +22,7 @@ from irbkin.stream.egm._records import (
     MciState,
     MessageType,
 )
-from irbkin.stream.egm._session import AXES, WORD
+from irbkin.stream.egm._session import WORD, axes_of, tool_at
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -73,7 +72,7 @@ class Controller:
         self.dq = np.zeros_like(self.q)
         self.state: Literal["DISCONNECTED", "CONNECTED", "RUNNING"] = "DISCONNECTED"
         self.seqno, self.ticks = seqno, 0
-        self._axes = list(AXES) if robot.dof == 7 else list(range(robot.dof))
+        self._axes = axes_of(robot)
         self._speeds = np.full(robot.dof, max_speed)
         if robot.max_velocity is not None:
             self._speeds = np.minimum(self._speeds, robot.max_velocity)
@@ -90,7 +89,7 @@ class Controller:
             sensor = decode(data, EgmSensor)
             seqno = (sensor.header or EgmHeader()).seqno or 0
             newest = self._wanted(sensor.planned or EgmPosition(), sensor.speed_ref or EgmSpeed())
-        except (StreamError, UnreachableError):
+        except IrbkinError:
             return
         if self._last >= 0 and not 0 < (seqno - self._last) % WORD < WORD // 2:
             return
@@ -151,6 +150,5 @@ class Controller:
     def _position(self, q: Floats) -> EgmPosition:
         """Joints, and the tool at them."""
         degrees = np.degrees(q)[self._axes].tolist()
-        xyz, wxyz = to_xyz_wxyz(self.robot.fk(q))
-        tool = EgmPose(tuple((xyz * 1e3).tolist()), tuple(wxyz.tolist()))
-        return EgmPosition(tuple(degrees[:6]), tool, tuple(degrees[6:]) or None)
+        external = tuple(degrees[6:]) or None
+        return EgmPosition(tuple(degrees[:6]), tool_at(self.robot, q), external)

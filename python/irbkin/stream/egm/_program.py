@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from irbkin._arrays import finite
-from irbkin._core import JointTarget, Pose, ToolData, dump
+from irbkin._core import JointTarget, Pose, ToolData, dump, parse
 from irbkin.errors import InvalidJointsError, StreamError
-from irbkin.stream.egm._session import AXES
+from irbkin.stream.egm._session import axes_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -51,21 +51,23 @@ def rapid_module(
             1000 mm/s. Without it a controller would move by 1 deg/s.
 
     Raises:
-        StreamError: Another release or mode, or no speed is known.
+        StreamError: Another release or mode, no speed is known or it is not positive.
+        RapidError: A name that RAPID does not read.
         InvalidJointsError: The start has another shape, or is not finite.
     """
     if release not in SETTINGS or mode not in ("joint", "pose"):
         raise StreamError(
             f"release is {release!r}, mode {mode!r}: they must be RW6 or RW7, joint or pose"
         )
-    q = finite(start, "start", (robot.dof,), InvalidJointsError)
-    q = q[list(AXES)] if robot.dof == 7 else q
+    q = finite(start, "start", (robot.dof,), InvalidJointsError)[axes_of(robot)]
     if max_speed is None and mode == "pose":
         max_speed = 1000.0
     elif max_speed is None:
         if robot.max_velocity is None:
             raise StreamError("the robot has no max_velocity: give max_speed [deg/s]")
         max_speed = math.ceil(np.degrees(robot.max_velocity).max())
+    if not 0 < max_speed < math.inf:
+        raise StreamError(f"max_speed is {max_speed}, it must be positive [deg/s or mm/s]")
     extax = np.degrees(q[6:]).round(6).tolist()
     target = JointTarget(np.degrees(q[:6]).round(6).tolist(), [*extax, *[9e9] * (6 - len(extax))])
     tool, declared = "tool0", ""
@@ -79,7 +81,7 @@ def rapid_module(
     declared += "\n    CONST pose egmFrame:=[[0,0,0],[1,0,0,0]];" if mode == "pose" else ""
     within = "".join(f"\\{axis}:=egmWithin" for axis in axes)
     all_axes = "".join(f"\\{axis}" for axis in axes)
-    return f"""MODULE {name}
+    text = f"""MODULE {name}
     ! {SETTINGS[release]} {device}:
     ! its Remote Address and Remote Port lead to the server.
     CONST jointtarget jStart:={dump(target)};
@@ -105,3 +107,6 @@ def rapid_module(
     ENDPROC
 ENDMODULE
 """
+    # A name may be none.
+    parse(text)
+    return text

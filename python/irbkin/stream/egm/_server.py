@@ -98,11 +98,9 @@ class Server:
                 data, sender = self._socket.recvfrom(MOST_BYTES)
                 if answer := session.answer(data, sender, time.monotonic()):
                     self._socket.sendto(answer, sender)
-            except TimeoutError:
+            except (TimeoutError, ConnectionError):
+                # On Windows, ConnectionError: the one before was sent to a port that is closed.
                 pass
-            except ConnectionError:
-                # Windows: the one before was sent to a port that is closed.
-                continue
             except KeyboardInterrupt as interrupt:
                 if session.error or session.heard is None:
                     raise
@@ -144,7 +142,7 @@ class Server:
             until = session.heard + session.watchdog
         if session.is_done or time.monotonic() < until:
             return until
-        if session.is_held:
+        if session.held:
             # The program of the controller has ended, too.
             session.is_done = True
             return until

@@ -23,6 +23,7 @@ from irbkin.stream.egm._records import (
 )
 
 if TYPE_CHECKING:
+    from irbkin import Robot
     from irbkin._arrays import Floats
 
 log = logging.getLogger("irbkin.stream.egm")
@@ -36,10 +37,10 @@ TOLERANCE = 0.01
 """How far the robot may be from a guard at rest [rad]."""
 TOLERANCE_MM = 1.0
 """How far the tool of a controller may be from the robot's [mm]."""
+DRIFT = 1e-3
+"""By how much the controller's clock may be slower at most [1]."""
 OBSERVED = 25
 """Cycles from which on the cycle time is compared: a time is rounded to 1 ms, 1 % of them."""
-AXES = (0, 1, 3, 4, 5, 6, 2)
-"""Of seven joints from the base on, ABB's axes 1 to 7."""
 
 
 class Statistics(NamedTuple):
@@ -97,6 +98,10 @@ class Session:
         linger: float = 1.0,
         seconds: float | None = None,
     ) -> None:
+        times = {"bridge": bridge, "watchdog": watchdog, "linger": linger}
+        for name, time in times.items():
+            if not 0 <= time < np.inf:
+                raise StreamError(f"{name} is {time} s, it must be finite and not negative")
         self.guard, self.mode, self.watchdog = guard, mode, watchdog
         self.robot, self.cycle = guard.robot, float(guard.cycle)
         if mode not in ("joint", "pose") or (mode == "pose" and self.robot.dof != 6):
@@ -106,14 +111,17 @@ class Session:
             )
         self.bridge, self.linger = int(bridge / self.cycle), int(linger / self.cycle)
         self.most = np.inf if seconds is None else seconds / self.cycle
-        self.ask = reference if callable(reference) else _asked(reference)
-        self.axes = list(AXES) if self.robot.dof == 7 else list(range(self.robot.dof))
+        left = iter(()) if callable(reference) else iter(reference)
+        self.ask = reference if callable(reference) else lambda feedback: next(left)
+        self.axes = axes_of(self.robot)
         self.heard: float | None = None
         self.error: BaseException | None = None
         self.is_done = False
+        # Cycles since the end.
+        self.held = 0
         self._peer: object = None
         self._count: Counter[str] = Counter()
-        self._cycles = self._held = self._sent = self._seen = 0
+        self._cycles = self._sent = self._seen = 0
         self._offset = np.inf
         self._is_ending = self._was_running = self._was_following = False
         self._step: Any = None
@@ -122,11 +130,6 @@ class Session:
     def statistics(self) -> Statistics:
         """The counts until now."""
         return Statistics(*(self._count[name] for name in Statistics._fields))
-
-    @property
-    def is_held(self) -> bool:
-        """Whether the end is reached, and held."""
-        return self._held > 0
 
     def end(self, error: BaseException | None = None) -> None:
         """Brake from now on, hold, and be done; `error` is why."""
@@ -155,22 +158,22 @@ class Session:
         if self._peer not in (None, sender):
             self._count["foreign"] += 1
             return None
+        is_message = False
         try:
             message = decode(data, EgmRobot)
             seqno, tm = _head(message)
-        except StreamError:
-            self._count["broken"] += 1
-            return None
-        try:
+            is_message = True
             q = self._joints(message)
         except StreamError:
-            if self._peer is None:
+            if is_message and self._peer is None:
                 raise
             self._count["broken"] += 1
             return None
         if self._peer is None:
             self._peer, self._first, self._last = sender, (seqno, tm), (seqno - 1) % WORD
-            self._others = self._external(message)
+            external = (message.feedback or EgmPosition()).external_joints or ()
+            # Axes that are none of the robot's [deg or mm].
+            self._others = external[max(self.robot.dof - 6, 0) :]
         gap = self._gap(seqno, tm, now)
         if gap == 0:
             return None
@@ -188,7 +191,7 @@ class Session:
         if len(joints) != min(dof, 6) or len(joints) + len(external) < dof:
             raise StreamError(
                 f"feedback has {len(joints)} joints and {len(external)} external ones, the "
-                f"guard's robot {self.robot.name} has {dof} joints (is it another robot?)"
+                f"guard's has {dof} joints (is it another robot?)"
             )
         q = np.empty(dof)
         q[self.axes] = np.radians((*joints, *external)[:dof])
@@ -196,17 +199,12 @@ class Session:
             raise StreamError(f"feedback.joints is {joints}: every joint must be finite")
         return q
 
-    def _external(self, message: EgmRobot) -> tuple[float, ...]:
-        """External axes that are none of the robot's [deg or mm]."""
-        feedback = message.feedback or EgmPosition()
-        return (feedback.external_joints or ())[max(self.robot.dof - 6, 0) :]
-
     def _gap(self, seqno: int, tm: int, now: float) -> int:
         """How many cycles a datagram is ahead of the last one; 0 for one that is not answered."""
         gap = (seqno - self._last + WORD // 2) % WORD - WORD // 2
-        # The least delay of all is the clocks' difference.
+        # The least delay is the clocks' difference, which drifts.
         delay = now - (tm - self._first[1]) % WORD / 1e3
-        self._offset = min(self._offset, delay)
+        self._offset = min(self._offset + DRIFT * max(gap, 0) * self.cycle, delay)
         if gap > 0 and delay - self._offset <= max(self.bridge, 1) * self.cycle:
             self._seen = (self._seen << min(gap, 64) | 1) & WINDOW
             return gap
@@ -244,8 +242,8 @@ class Session:
             self._cycle(is_running and (left == 0 or is_bridged), q, message)
             self._cycles += is_running
         is_held = self._is_ending and self._step.state == "holding"
-        self._held = self._held + 1 if is_held else 0
-        self.is_done = is_held and (not is_running or self._held > self.linger)
+        self.held = self.held + 1 if is_held else 0
+        self.is_done = is_held and (not is_running or self.held > self.linger)
 
     def _cycle(self, is_asked: bool, q: Floats, message: EgmRobot) -> None:
         """Step the guard, by the reference if it is asked."""
@@ -255,8 +253,8 @@ class Session:
             if is_asked and not self._is_ending:
                 wanted = self.ask(Feedback(self._cycles * self.cycle, q, self._step, message))
             self._step = self.guard.step(wanted)
-        except Exception as error:
-            # It ends, or is no reference.
+        except BaseException as error:
+            # It ends, is no reference, or Ctrl-C came in it: this cycle is a step all the same.
             self.end(None if isinstance(error, StopIteration) else error)
             wanted = None
             self._step = self.guard.step(None)
@@ -296,8 +294,7 @@ class Session:
         q, dq = (np.degrees(it)[self.axes].tolist() for it in (self._step.q, self._step.dq))
         external = (*q[6:], *self._others) or None
         if self.mode == "pose":
-            xyz, wxyz = to_xyz_wxyz(self.robot.fk(self._step.q))
-            pose = EgmPose(tuple((xyz * 1e3).tolist()), tuple(wxyz.tolist()))
+            pose = tool_at(self.robot, self._step.q)
             return encode(EgmSensor(header, EgmPosition(None, pose, external)))
         speeds = (*dq[6:], *(0.0 for _ in self._others)) or None
         planned = EgmPosition(tuple(q[:6]), external_joints=external)
@@ -305,10 +302,15 @@ class Session:
         return encode(EgmSensor(header, planned, speed))
 
 
-def _asked(references: Iterable[Any]) -> Callable[[Feedback], Any]:
-    """A function that returns one after the other."""
-    left = iter(references)
-    return lambda feedback: next(left)
+def axes_of(robot: Robot) -> list[int]:
+    """The robot's joints in the order of ABB's axes: axis 7 of seven is the third from the base."""
+    return [0, 1, 3, 4, 5, 6, 2] if robot.dof == 7 else list(range(robot.dof))
+
+
+def tool_at(robot: Robot, q: Floats) -> EgmPose:
+    """The pose of the tool."""
+    xyz, wxyz = to_xyz_wxyz(robot.fk(q))
+    return EgmPose(tuple((xyz * 1e3).tolist()), tuple(wxyz.tolist()))
 
 
 def _head(message: EgmRobot) -> tuple[int, int]:
