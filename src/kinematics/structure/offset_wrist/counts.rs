@@ -40,10 +40,26 @@ impl Constants {
         let (sin, cos) = sin_cos::<false>(angle);
         let ([x, y, h], _) = Hand::of(lengths, last).at([sin, cos]);
         let across = x.hypot(y);
-        let sigma = ((across - lengths.b) * (across + lengths.b)).max(0.0).sqrt();
+        let (sigma, [_, _, rate]) = (self.aside(across), self.rates(across, radius));
         let distances = [1.0, -1.0].map(|side| (side * sigma - lengths.a1).hypot(h));
         let least = distances.into_iter().fold(across - lengths.b.abs(), f64::min);
-        least > APART * lengths.extent + lengths.circle * radius
+        // False where there is no number.
+        least > APART * lengths.extent + rate * radius
+    }
+
+    /// How far the wrist point is from axis 1 aside from its part along axes 2 and 3 (eq. 122).
+    fn aside(&self, across: f64) -> f64 {
+        let b = self.lengths.b;
+        ((across - b) * (across + b)).max(0.0).sqrt()
+    }
+
+    /// That distance at least at angles of joint 6 as near as a radius, the most rate of axis 1, and
+    /// of the wrist point in the plane of the arm (eq. 145).
+    fn rates(&self, across: f64, radius: f64) -> [f64; 3] {
+        let (b, w) = (self.lengths.b.abs(), self.lengths.circle);
+        let nearest = self.aside((across - w * radius).max(b));
+        let first = w / nearest;
+        [nearest, first, w + if b == 0.0 { 0.0 } else { first * b }]
     }
 
     /// The runs of parts in which the condition of axis 5 is monotonic on a branch: as many solutions
@@ -82,11 +98,7 @@ impl Constants {
         let upper = lengths.upper.abs();
         let ([x, y, h], _) = hand.at;
         let across = x.hypot(y);
-        let aside = |across: f64| ((across - b) * (across + b)).max(0.0).sqrt();
-        let (sigma, nearest) = (aside(across), aside((across - w * radius).max(b)));
-        // Eq. 145: the rate of axis 1, and of the wrist point in the plane of the arm.
-        let first = w / nearest;
-        let rate = w + if b == 0.0 { 0.0 } else { first * b };
+        let (sigma, [nearest, first, rate]) = (self.aside(across), self.rates(across, radius));
         let distance = (shoulder * sigma - lengths.a1).hypot(h);
         let ends = [distance - rate * radius, distance + rate * radius];
         let (shortest, longest) = ((upper - forearm).abs(), upper + forearm);
