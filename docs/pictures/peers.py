@@ -64,7 +64,8 @@ class Row(NamedTuple):
 def read(page: Path) -> dict[str, Row]:
     """The tables of times by their titles."""
     found = {}
-    for section in page.read_text().split("\n### ")[1:]:
+    tables, _ = page.read_text().split("<!-- peers: end -->")
+    for section in tables.split("\n### ")[1:]:
         title, *lines = section.splitlines()
         cells = [re.split(r" *\| *", line.strip("| ")) for line in lines if line.startswith("| ")]
         if not cells or cells[0][:2] not in (["a call", "/ irbkin"], ["a pose", "/ irbkin"]):
