@@ -33,6 +33,10 @@ impl<const N: usize> Block<N> {
 /// which they are certain not to: nearer ones hardly stay apart, and take the longest [1].
 const DEEPER: f64 = 0.5;
 
+/// How far points move at least where it goes on so far [m]: the last parts before a contact are
+/// decided by the distance alone, the same of a box and of its mesh.
+const LEAST: f64 = 1e-3;
+
 /// A hull of a link, and what it faces.
 struct Two<'a, S: Simd> {
     link: usize,
@@ -138,7 +142,8 @@ impl<const N: usize> Touch<'_, N> {
             let lane = lanes.trailing_zeros() as usize;
             lanes &= lanes - 1;
             let far = two.limits[lane];
-            let near = if self.has_lines { two.least + DEEPER * (far - two.least) } else { far };
+            let moved = far - two.least;
+            let near = if self.has_lines && moved > LEAST { far - DEEPER * moved } else { far };
             let mut none = None;
             let way = if has_ways { of(&mut ways, number) } else { &mut none };
             let found = self.distance(two, lane, Asked { far, near }, way);
