@@ -163,7 +163,9 @@ _OTHERS = {
 
 
 def __getattr__(name: str) -> ModuleType | Callable[..., Any]:
-    """Import `irbkin.rapid` and the like when they are first asked for."""
+    """Import `irbkin.rapid` and the like when they are first asked for; one that lacks its extra is
+    an AttributeError, so that `hasattr` says no.
+    """
     if name == "calibrate":
         from irbkin.calibration import calibrate
 
@@ -171,7 +173,10 @@ def __getattr__(name: str) -> ModuleType | Callable[..., Any]:
     if name in _MODULES:
         import importlib
 
-        return importlib.import_module(f"irbkin.{name}")
+        try:
+            return importlib.import_module(f"irbkin.{name}")
+        except ImportError as missing:
+            raise AttributeError(str(missing)) from missing
     hint = f": use {_OTHERS[name]}" if name in _OTHERS else ""
     raise AttributeError(f"module 'irbkin' has no attribute {name!r}{hint}")
 

@@ -4,6 +4,7 @@ import collections.abc
 import copy
 import operator
 import pickle
+import sys
 import weakref
 
 import irbkin
@@ -436,3 +437,16 @@ def test_modules_without_their_extra_are_not_listed(monkeypatch):
     assert "plot" in dir(irbkin)
     monkeypatch.undo()
     assert "map" in dict(inspect.getmembers(irbkin))
+
+
+def test_a_module_without_its_extra_is_no_attribute_and_names_the_extra(monkeypatch):
+    """Also where matplotlib is installed: it is taken away."""
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    for name in [name for name in sys.modules if name.startswith("irbkin.plot")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.delattr(irbkin, "plot", raising=False)
+    assert not hasattr(irbkin, "plot")
+    with pytest.raises(AttributeError, match=r"needs matplotlib: pip install 'irbkin\[plot\]'$"):
+        _ = irbkin.plot
+    with pytest.raises(ImportError, match=r"needs matplotlib: pip install 'irbkin\[plot\]'$"):
+        from irbkin import plot  # noqa: F401
