@@ -411,9 +411,9 @@ fn every_arm_has_sane_limits() {
             arm.payload.is_none_or(|kilograms| kilograms > 0.0)
                 && arm.reach.is_none_or(|meters| meters > 0.0)
         );
-        assert!(arm.max_velocity.is_none_or(
-            |velocity| velocity.len() == arm.dof() && velocity.iter().all(|speed| *speed > 0.0)
-        ));
+        for rates in [arm.max_velocity, arm.max_acceleration].into_iter().flatten() {
+            assert!(rates.len() == arm.dof() && rates.iter().all(|rate| *rate > 0.0));
+        }
         for [lower, upper] in arm.limits {
             assert!(lower < upper, "{}", arm.name);
             if matches!(arm.geometry, CatalogGeometry::Abb { .. }) {

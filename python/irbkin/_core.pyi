@@ -163,7 +163,8 @@ def catalog(
     """
 
 def catalog_entry(name: str) -> CatalogEntry:
-    """Return what the catalog has of an arm: payload, reach, limits, velocities, sources.
+    """Return what the catalog has of an arm: payload, reach, limits, speeds, accelerations,
+    sources.
 
     Args:
         name: Catalog name or alias, as `Robot` takes it.
@@ -620,6 +621,11 @@ class CatalogEntry(_Record):
     def max_velocity(self) -> _Floats | None:
         """Largest velocity of each joint [rad/s], shape (n,), or None where no source has it."""
     @property
+    def max_acceleration(self) -> _Floats | None:
+        """Largest acceleration of each joint [rad/s^2], shape (n,), or None where no source has
+        it.
+        """
+    @property
     def is_coupled(self) -> bool:
         """Whether a parallelogram linkage couples axes 2 and 3."""
     @property
@@ -640,6 +646,7 @@ class CatalogEntry(_Record):
         reach: float | None,
         limits: _Floats,
         max_velocity: _Floats | None,
+        max_acceleration: _Floats | None,
         is_coupled: bool,
         sources: int,
         provenance: str,

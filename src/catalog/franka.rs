@@ -2,8 +2,11 @@
 //!
 //! Denavit-Hartenberg rows as published by Franka (control parameters documentation), with the
 //! flange in the last row; validated against a pose recorded on a machine
-//! (petercorke/robotics-toolbox-matlab#107). Limits and velocities come from Franka's data
-//! sheet.
+//! (petercorke/robotics-toolbox-matlab#107). Limits and velocities are those of the maker's
+//! description (`frankaemika/franka_description` @ b299b39d96, `robots/fer` and `robots/fr3`),
+//! accelerations those of the maker's library (`frankarobotics/libfranka`,
+//! `include/franka/rate_limiting.h` @ f3b8d775a9, release 0.9.2, for the Panda and @ 6474466b74
+//! for the FR3).
 
 use super::{AngleUnit, CatalogArm, CatalogGeometry};
 
@@ -36,9 +39,10 @@ const PANDA: CatalogArm = CatalogArm {
         [-2.8973, 2.8973],
     ],
     max_velocity: Some(&[2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61]),
+    max_acceleration: Some(&[15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0]),
     sources: 2,
     provenance: "Franka control parameters, petercorke/robotics-toolbox-matlab#107 (a recorded pose); \
-        limits are general knowledge of the data sheet",
+        limits and speeds of frankaemika/franka_description; accelerations of libfranka 0.9.2",
 };
 
 const FR3: CatalogArm = CatalogArm {
@@ -57,8 +61,10 @@ const FR3: CatalogArm = CatalogArm {
         [0.5445, 4.5169],
         [-3.0159, 3.0159],
     ],
-    max_velocity: None,
+    max_velocity: Some(&[2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26]),
+    max_acceleration: Some(&[10.0; 7]),
     sources: 2,
     provenance: "Franka control parameters, petercorke/robotics-toolbox-matlab#107 (of the Panda: its \
-        geometry); limits are general knowledge of the data sheet",
+        geometry); limits and speeds of frankaemika/franka_description; accelerations of libfranka; \
+        near the ends of a joint the controller allows less speed, which is not modeled",
 };

@@ -39,18 +39,35 @@ pub struct CatalogArm {
     pub reach: Option<f64>,
     /// Its geometry.
     pub geometry: CatalogGeometry,
-    /// Unit of the limits and velocities.
+    /// Unit of the limits, velocities and accelerations.
     pub angles: AngleUnit,
     /// (lower, upper) limit of each joint.
     pub limits: &'static [[f64; 2]],
     /// Largest velocity of each joint; `None` if no source states it.
     pub max_velocity: Option<&'static [f64]>,
+    /// Largest acceleration of each joint; `None` if no source states it.
+    pub max_acceleration: Option<&'static [f64]>,
     /// Number of independent sources that agree on the lengths: the confidence in them.
     pub sources: u8,
     /// These sources, then, after semicolons, sources of other figures, where they disagree, and
     /// limits that depend on another axis, which are not modeled.
     pub provenance: &'static str,
 }
+
+/// An arm of which no source states anything: the rows say what they know.
+const NOTHING_KNOWN: CatalogArm = CatalogArm {
+    name: "",
+    maker: "",
+    payload: None,
+    reach: None,
+    geometry: CatalogGeometry::Mdh(&[]),
+    angles: AngleUnit::Degrees,
+    limits: &[],
+    max_velocity: None,
+    max_acceleration: None,
+    sources: 0,
+    provenance: "",
+};
 
 /// The unit of an arm's angles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,7 @@
 //! table (`xArm-Developer/ufactory_docs`), its URDF (`xArm-Developer/xarm_ros2`) and Viam's model
 //! (`viamrobotics/rdk`), with two poses of whose tests it is validated.
 
-use super::{AngleUnit, CatalogArm, CatalogGeometry};
+use super::{CatalogArm, CatalogGeometry, NOTHING_KNOWN};
 
 pub(super) const ARMS: &[CatalogArm] = &[GOFA_5, GOFA_10, GOFA_12, CRX_10IA, CRX_10IAL, XARM_6];
 
@@ -25,7 +25,6 @@ const GOFA_5: CatalogArm = CatalogArm {
         [90.0, 0.0, 0.0, 0.0],
         [-90.0, 80.0, 101.0, 180.0],
     ]),
-    angles: AngleUnit::Degrees,
     limits: &[
         [-180.0, 180.0],
         [-180.0, 180.0],
@@ -40,6 +39,7 @@ const GOFA_5: CatalogArm = CatalogArm {
         robotkinematicscatalogue, work-r-labs/robots, RobotStudio (axes); axis 6 is +-180 deg in \
         ros-industrial/abb_experimental and robotkinematicscatalogue, +-270 deg in three \
         controllers; axis 3 is to 55 deg in work-r-labs/robots",
+    ..NOTHING_KNOWN
 };
 
 const GOFA_10: CatalogArm = CatalogArm {
@@ -55,13 +55,13 @@ const GOFA_10: CatalogArm = CatalogArm {
         [90.0, 0.0, 0.0, 0.0],
         [-90.0, 80.0, 101.0, 180.0],
     ]),
-    angles: AngleUnit::Degrees,
     limits: GOFA_LARGE_LIMITS,
     max_velocity: Some(GOFA_LARGE_SPEEDS),
     sources: 4,
     provenance: "RobotComponents, visose/Robots, robotkinematicscatalogue, work-r-labs/robots; \
         visose/Robots has 399, 636 and 100.5 mm for d1, d4 and d6, and +-180 deg for axes 1 and 6; \
         speeds of work-r-labs/robots alone: other sources have the GoFa 5's",
+    ..NOTHING_KNOWN
 };
 
 const GOFA_LARGE_SPEEDS: &[f64] = &[120.0, 120.0, 125.0, 200.0, 200.0, 200.0];
@@ -88,12 +88,12 @@ const GOFA_12: CatalogArm = CatalogArm {
         [90.0, 0.0, 0.0, 0.0],
         [-90.0, 80.0, 101.0, 180.0],
     ]),
-    angles: AngleUnit::Degrees,
     limits: GOFA_LARGE_LIMITS,
     max_velocity: Some(GOFA_LARGE_SPEEDS),
     sources: 3,
     provenance: "RobotComponents, robotkinematicscatalogue, work-r-labs/robots; speeds of \
         work-r-labs/robots alone",
+    ..NOTHING_KNOWN
 };
 
 const CRX_SPEEDS: &[f64] = &[120.0, 120.0, 180.0, 180.0, 180.0, 180.0];
@@ -104,7 +104,6 @@ const CRX_10IA: CatalogArm = CatalogArm {
     payload: Some(10.0),
     reach: Some(1.249),
     geometry: CatalogGeometry::Crx { d1: 245.0, a2: 540.0, d4: 540.0, d5: 150.0, d6: 160.0 },
-    angles: AngleUnit::Degrees,
     limits: &[
         [-190.0, 190.0],
         [-179.9, 179.9],
@@ -117,6 +116,7 @@ const CRX_10IA: CatalogArm = CatalogArm {
     sources: 2,
     provenance: "FANUC-CORPORATION/fanuc_description, Abbes and Poisson; joint 3 is measured from \
         the upper arm, as in the maker's URDF: the controller's J3 plus its J2",
+    ..NOTHING_KNOWN
 };
 
 const CRX_10IAL: CatalogArm = CatalogArm {
@@ -125,7 +125,6 @@ const CRX_10IAL: CatalogArm = CatalogArm {
     payload: Some(10.0),
     reach: Some(1.418),
     geometry: CatalogGeometry::Crx { d1: 245.0, a2: 710.0, d4: 540.0, d5: 150.0, d6: 160.0 },
-    angles: AngleUnit::Degrees,
     limits: &[
         [-179.9, 179.9],
         [-179.9, 179.9],
@@ -138,6 +137,7 @@ const CRX_10IAL: CatalogArm = CatalogArm {
     sources: 2,
     provenance: "FANUC-CORPORATION/fanuc_description, Abbes and Poisson; joint 3 as of the \
         CRX-10iA",
+    ..NOTHING_KNOWN
 };
 
 const XARM_6: CatalogArm = CatalogArm {
@@ -154,7 +154,6 @@ const XARM_6: CatalogArm = CatalogArm {
         [90.0, 0.0, 0.0, 0.0],
         [-90.0, 76.0, 97.0, 0.0],
     ]),
-    angles: AngleUnit::Degrees,
     limits: &[
         [-360.0, 360.0],
         [-118.0, 120.0],
@@ -168,4 +167,5 @@ const XARM_6: CatalogArm = CatalogArm {
     provenance: "UFACTORY (table and URDF), Viam; the a of 289.48866 mm in the maker's table is \
         hypot(284.5, 53.5) mistyped; payload and reach are general knowledge of the \
         data sheet",
+    ..NOTHING_KNOWN
 };

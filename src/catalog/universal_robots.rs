@@ -8,14 +8,15 @@
 //! the UR30, and no source with a second one has those of the UR8 Long, UR15 and UR18. Planners
 //! usually limit joint 3 to +-180 deg; the machine does not.
 
-use super::{AngleUnit, CatalogArm, CatalogGeometry};
+use super::{CatalogArm, CatalogGeometry, NOTHING_KNOWN};
 
-const LIMITS: &[[f64; 2]] = &[[-360.0, 360.0]; 6];
+/// The fields that all rows share.
+const UR: CatalogArm =
+    CatalogArm { maker: "Universal Robots", limits: &[[-360.0, 360.0]; 6], ..NOTHING_KNOWN };
 
 pub(super) const ARMS: &[CatalogArm] = &[
     CatalogArm {
         name: "UR3",
-        maker: "Universal Robots",
         payload: Some(3.0),
         reach: Some(0.5),
         geometry: CatalogGeometry::ThreeParallel {
@@ -26,15 +27,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 85.35,
             d6: 81.9,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[180.0, 180.0, 180.0, 360.0, 360.0, 360.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; joint 6 of the machine turns without end",
+        ..UR
     },
     CatalogArm {
         name: "UR3e",
-        maker: "Universal Robots",
         payload: Some(3.0),
         reach: Some(0.5),
         geometry: CatalogGeometry::ThreeParallel {
@@ -45,15 +44,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 85.35,
             d6: 92.1,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[180.0, 180.0, 180.0, 360.0, 360.0, 360.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; joint 6 of the machine turns without end",
+        ..UR
     },
     CatalogArm {
         name: "UR5",
-        maker: "Universal Robots",
         payload: Some(5.0),
         reach: Some(0.85),
         geometry: CatalogGeometry::ThreeParallel {
@@ -64,15 +61,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 94.65,
             d6: 82.3,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[180.0, 180.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
+        ..UR
     },
     CatalogArm {
         name: "UR5e",
-        maker: "Universal Robots",
         payload: Some(5.0),
         reach: Some(0.85),
         geometry: CatalogGeometry::ThreeParallel {
@@ -83,15 +78,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 99.7,
             d6: 99.6,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[180.0, 180.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
+        ..UR
     },
     CatalogArm {
         name: "UR7e",
-        maker: "Universal Robots",
         payload: Some(7.5),
         reach: Some(0.85),
         geometry: CatalogGeometry::ThreeParallel {
@@ -102,15 +95,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 99.7,
             d6: 99.6,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[180.0, 180.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; the UR5e under a new name",
+        ..UR
     },
     CatalogArm {
         name: "UR8 Long",
-        maker: "Universal Robots",
         payload: Some(8.0),
         reach: Some(1.75),
         geometry: CatalogGeometry::ThreeParallel {
@@ -121,15 +112,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 136.1,
             d6: 143.4,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: None,
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
+        ..UR
     },
     CatalogArm {
         name: "UR10",
-        maker: "Universal Robots",
         payload: Some(10.0),
         reach: Some(1.3),
         geometry: CatalogGeometry::ThreeParallel {
@@ -140,15 +129,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 115.7,
             d6: 92.2,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[120.0, 120.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
+        ..UR
     },
     CatalogArm {
         name: "UR10e",
-        maker: "Universal Robots",
         payload: Some(10.0),
         reach: Some(1.3),
         geometry: CatalogGeometry::ThreeParallel {
@@ -159,15 +146,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 119.85,
             d6: 116.55,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[120.0, 120.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
+        ..UR
     },
     CatalogArm {
         name: "UR12e",
-        maker: "Universal Robots",
         payload: Some(12.5),
         reach: Some(1.3),
         geometry: CatalogGeometry::ThreeParallel {
@@ -178,15 +163,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 119.85,
             d6: 116.55,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[120.0, 120.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik; the UR10e under a new name",
+        ..UR
     },
     CatalogArm {
         name: "UR15",
-        maker: "Universal Robots",
         payload: Some(15.0),
         reach: Some(1.3),
         geometry: CatalogGeometry::ThreeParallel {
@@ -197,15 +180,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 136.1,
             d6: 143.4,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: None,
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
+        ..UR
     },
     CatalogArm {
         name: "UR16e",
-        maker: "Universal Robots",
         payload: Some(16.0),
         reach: Some(0.9),
         geometry: CatalogGeometry::ThreeParallel {
@@ -216,15 +197,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 119.85,
             d6: 116.55,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[120.0, 120.0, 180.0, 180.0, 180.0, 180.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
+        ..UR
     },
     CatalogArm {
         name: "UR18",
-        maker: "Universal Robots",
         payload: Some(18.0),
         reach: Some(0.95),
         geometry: CatalogGeometry::ThreeParallel {
@@ -235,15 +214,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 136.1,
             d6: 143.4,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: None,
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
+        ..UR
     },
     CatalogArm {
         name: "UR20",
-        maker: "Universal Robots",
         payload: Some(20.0),
         reach: Some(1.75),
         geometry: CatalogGeometry::ThreeParallel {
@@ -254,15 +231,13 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 159.3,
             d6: 154.3,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[120.0, 120.0, 150.0, 210.0, 210.0, 210.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
+        ..UR
     },
     CatalogArm {
         name: "UR30",
-        maker: "Universal Robots",
         payload: Some(30.0),
         reach: Some(1.3),
         geometry: CatalogGeometry::ThreeParallel {
@@ -273,10 +248,9 @@ pub(super) const ARMS: &[CatalogArm] = &[
             d5: 159.3,
             d6: 154.3,
         },
-        angles: AngleUnit::Degrees,
-        limits: LIMITS,
         max_velocity: Some(&[120.0, 120.0, 150.0, 210.0, 210.0, 210.0]),
         sources: 2,
         provenance: "Universal Robots, ur-analytic-ik",
+        ..UR
     },
 ];

@@ -11,7 +11,7 @@ use super::records::CatalogEntry;
 use crate::catalog::{catalog as every_arm, find};
 use crate::kinematics::thresholds::MOST_REACH;
 
-/// Return what the catalog has of an arm: payload, reach, limits, velocities, sources.
+/// Return what the catalog has of an arm: payload, reach, limits, speeds, accelerations, sources.
 ///
 /// Args:
 ///     name: Catalog name or alias, as `Robot` takes it.
@@ -27,7 +27,7 @@ pub(super) fn catalog_entry(py: Python<'_>, name: &str) -> PyResult<CatalogEntry
     let arm = find(name)?;
     let radians = |angle: f64| arm.angles.to_radians(angle);
     let limits = arm.limits.as_flattened().iter().map(|&limit| radians(limit));
-    let velocities = |all: &[f64]| column(py, all.iter().map(|&velocity| radians(velocity)));
+    let rates = |all: &[f64]| column(py, all.iter().map(|&rate| radians(rate)));
     Ok(CatalogEntry {
         name: arm.name.to_owned(),
         maker: arm.maker.to_owned(),
@@ -36,7 +36,8 @@ pub(super) fn catalog_entry(py: Python<'_>, name: &str) -> PyResult<CatalogEntry
         payload: arm.payload,
         reach: arm.reach,
         limits: array(py, limits, &[arm.dof(), 2])?,
-        max_velocity: arm.max_velocity.map(velocities),
+        max_velocity: arm.max_velocity.map(rates),
+        max_acceleration: arm.max_acceleration.map(rates),
         is_coupled: arm.is_coupled(),
         sources: arm.sources.into(),
         provenance: arm.provenance.to_owned(),

@@ -206,6 +206,8 @@ record! {
         limits: Array,
         /// Largest velocity of each joint [rad/s], shape (n,), or None where no source has it.
         max_velocity: Option<Array>,
+        /// Largest acceleration of each joint [rad/s^2], shape (n,), or None where no source has it.
+        max_acceleration: Option<Array>,
         /// Whether a parallelogram linkage couples axes 2 and 3.
         is_coupled: bool,
         /// Number of independent sources of the lengths: the confidence in them.

@@ -91,7 +91,8 @@ ABB = {
 }
 # fmt: on
 
-# Franka's control parameters; the limits and velocities are printed in radians.
+# Franka's control parameters; limits and velocities of the maker's description, in radians
+# (frankaemika/franka_description @ b299b39d96, robots/fer/joint_limits.yaml).
 PANDA = Arm(
     "Panda",
     ((0, 0, 333, 0), (-90, 0, 0, 0), (90, 0, 316, 0), (90, 82.5, 0, 0),
@@ -101,13 +102,13 @@ PANDA = Arm(
     tuple(np.rad2deg([2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61])),
 )  # fmt: skip
 
-# Franka Research 3: the Panda's geometry between other limits; no source has its speeds.
+# Franka Research 3: the Panda's geometry between other limits (robots/fr3/joint_limits.yaml).
 FR3 = Arm(
     "FR3",
     PANDA.rows_mm_deg,
     tuple(np.rad2deg([(-2.7437, 2.7437), (-1.7837, 1.7837), (-2.9007, 2.9007), (-3.0421, -0.1518),
                       (-2.8065, 2.8065), (0.5445, 4.5169), (-3.0159, 3.0159)])),
-    None,
+    tuple(np.rad2deg([2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26])),
 )  # fmt: skip
 
 # Universal Robots' figures in standard Denavit-Hartenberg form: d1, a2, a3, d4, d5, d6 [m].

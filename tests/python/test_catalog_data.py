@@ -76,6 +76,18 @@ def test_figures_are_those_of_the_source_that_the_row_names(name):
     assert source in irbkin.catalog_entry(name).provenance
 
 
+# libfranka, include/franka/rate_limiting.h: @ f3b8d775a9 (release 0.9.2), @ 6474466b74 [rad/s^2].
+ACCELERATIONS = {"Panda": (15, 7.5, 10, 12.5, 15, 20, 20), "FR3": (10,) * 7}
+
+
+@pytest.mark.parametrize("name", ACCELERATIONS)
+def test_figures_of_franka_are_the_makers(name):
+    entry = irbkin.catalog_entry(name)
+    np.testing.assert_array_equal(entry.max_acceleration, ACCELERATIONS[name])
+    assert "limits and speeds of frankaemika/franka_description" in entry.provenance
+    assert "general knowledge" not in entry.provenance
+
+
 def test_49_abb_arms_have_speeds():
     entries = [irbkin.catalog_entry(name) for name in irbkin.catalog()]
     abb = [it.max_velocity is not None for it in entries if it.maker == "ABB"]

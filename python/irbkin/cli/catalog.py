@@ -93,6 +93,8 @@ def _show_one(arguments: argparse.Namespace, entry: CatalogEntry) -> None:
             [np.nan] * len(limits) if speeds is None else speeds
         ),
     }
+    if entry.max_acceleration is not None:
+        columns[Column("acceleration", "7.0f", "deg/s^2")] = np.degrees(entry.max_acceleration)
     notes = [("alias", other, f"also {other}") for other in entry.aliases]
     provenance = entry.provenance.replace("; ", "\n- ")
     notes.append(("provenance", entry.provenance, f"sources: {provenance}"))

@@ -25,21 +25,10 @@ mod yumi;
 
 pub(super) use yumi::RULES as YUMI_RULES;
 
-use super::{AngleUnit, CatalogArm, CatalogGeometry, Linkage};
+use super::{CatalogArm, CatalogGeometry, Linkage, NOTHING_KNOWN};
 
 /// The fields that all rows share.
-const ABB: CatalogArm = CatalogArm {
-    name: "",
-    maker: "ABB",
-    payload: None,
-    reach: None,
-    geometry: lengths([0.0; 6], Linkage::None),
-    angles: AngleUnit::Degrees,
-    limits: &[],
-    max_velocity: None,
-    sources: 0,
-    provenance: "",
-};
+const ABB: CatalogArm = CatalogArm { maker: "ABB", ..NOTHING_KNOWN };
 
 /// The geometry of an arm by a1, a2, c1, c2, c3, c4 [mm].
 const fn lengths(mm: [f64; 6], linkage: Linkage) -> CatalogGeometry {

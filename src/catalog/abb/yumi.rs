@@ -6,7 +6,7 @@
 //! `gravity_alpha`, `gravity_beta` and `gravity_gamma` of a controller's MOC.cfg; their places are
 //! fitted to its home targets, and the ones in `yumi_description` are within 0.2 mm.
 
-use crate::catalog::{AngleUnit, CatalogArm, CatalogGeometry};
+use crate::catalog::{CatalogArm, CatalogGeometry, NOTHING_KNOWN};
 use crate::report::ConfigurationRule;
 
 pub(super) const ARMS: &[CatalogArm] = &[LEFT, RIGHT, SINGLE];
@@ -51,13 +51,13 @@ const SINGLE: CatalogArm = CatalogArm {
     payload: Some(0.5),
     reach: Some(0.5),
     geometry: CatalogGeometry::Mdh(&rows(306.0)),
-    angles: AngleUnit::Degrees,
     limits: LIMITS,
     max_velocity: Some(VELOCITY),
     sources: 3,
     provenance: "robotkinematicscatalogue, ARTE, RobotStudio (poses in rpiRobotics/yumi-ik); limits \
         and speeds of OrebroUniversity/yumi; axis 2 is at 305 mm in robotkinematicscatalogue, and \
         its axis 2 ends at 143.5 deg; axes in the order 1, 2, 7, 3, 4, 5, 6",
+    ..NOTHING_KNOWN
 };
 
 const LEFT: CatalogArm = CatalogArm {
