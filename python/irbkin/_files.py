@@ -9,6 +9,7 @@ import io
 import os
 import stat
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from typing import IO, Any, BinaryIO
 
 STREAMS = ("/dev/fd/", "/dev/std", "/proc/")
@@ -19,6 +20,14 @@ def shown(name: str) -> str:
     """How messages name an input: a path in the working folder is relative."""
     here = os.path.join(os.getcwd(), "")
     return name[len(here) :] if os.path.isabs(name) and name.startswith(here) else name
+
+
+def ways(path: str | os.PathLike[str]) -> tuple[Path, ...]:
+    """Return the absolute paths of a file or folder: as it is spelled, and without links; the
+    second alone where a `..` behind a link leads elsewhere than it reads.
+    """
+    spelled, real = Path(os.path.abspath(path)), Path(os.path.realpath(path))
+    return (spelled, real) if Path(os.path.realpath(spelled)) == real else (real,)
 
 
 @contextlib.contextmanager

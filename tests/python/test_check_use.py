@@ -155,6 +155,50 @@ def test_a_folder_in_a_backup_or_above_it_is_checked_with_its_robots(tmp_path, m
     assert "2 backups, give one: " in command.refused("check", "cells")
 
 
+def test_a_backup_gets_the_same_answer_from_any_folder(tmp_path, monkeypatch):
+    backup = copytree(EXAMPLE, tmp_path / "cells" / "one")
+    task = backup / "RAPID" / "TASK1"
+    (tmp_path / "beside").mkdir()
+    (tmp_path / "link").symlink_to(backup)
+    (tmp_path / "task").symlink_to(task)
+
+    def answer(here, *names):
+        monkeypatch.chdir(here)
+        done = run(*names, "--json", "--select", "ALL")
+        assert done.returncode == 1, (names, done.stderr)
+        found = json.loads(done.stdout)["findings"]
+        return {(os.path.realpath(it["file"]), it["line"], it["code"]) for it in found}
+
+    wanted = answer(tmp_path, str(backup))
+    assert len(wanted) > 10
+    for here, *names in [
+        (tmp_path / "beside", "../cells/one"),
+        (tmp_path / "beside", "../cells/one/"),
+        (tmp_path / "beside", "../link"),
+        (tmp_path, "link"),
+        (tmp_path, "beside/../cells/one", "link/RAPID"),
+        (tmp_path, "cells/one", str(backup)),
+        (task, "../.."),
+        (tmp_path, "task/../.."),
+    ]:
+        assert answer(here, *names) == wanted, (here, names)
+    # The task alone; and from a backup what is no part of it is another one.
+    alone = answer(tmp_path, "cells/one/RAPID/TASK1")
+    for here, name in [
+        (tmp_path / "beside", "../cells/one/RAPID/TASK1"),
+        (tmp_path, "task"),
+        (task, "."),
+        (backup / "SYSPAR", "../RAPID/TASK1/"),
+    ]:
+        assert answer(here, name) == alone, (here, name)
+    copytree(backup, tmp_path / "cells" / "two")
+    monkeypatch.chdir(backup)
+    assert "2 backups, give one" in command.refused("check", "../../cells")
+    assert command.run("diff", "../two", "../../link").stdout == b"Nothing differs.\n"
+    with pytest.raises(IrbkinError, match="2 backups, give one"):
+        irbkin.abb.load_backup("../../cells")
+
+
 def test_the_robot_may_come_first(seam, tmp_path, monkeypatch):  # noqa: F811
     expected = output(seam)
     for name in (NAME, "irb2600_12/1.65"):

@@ -6,6 +6,7 @@ import os
 from collections import deque
 from pathlib import Path
 
+from irbkin._files import ways
 from irbkin._words import listed
 from irbkin.abb.archives import archive_of, unpacked_of
 from irbkin.abb.folders import Folder
@@ -46,9 +47,9 @@ def _root(start: Path, archive: Path | None, unpacked: Path | None) -> Path:
     if _parts(start):
         return start
     # Not above an archive, and not the root of the file system.
-    above = [it for it in start.parents if unpacked is None or it.is_relative_to(unpacked)]
-    for folder in above[:4]:
-        if _parts(folder) > 1:
+    above = [it for way in ways(start) for it in way.parents[:4]]
+    for folder in above:
+        if (unpacked is None or folder.is_relative_to(unpacked)) and _parts(folder) > 1:
             return folder
     if _has_cfg(start):
         return start
@@ -65,7 +66,8 @@ def _root(start: Path, archive: Path | None, unpacked: Path | None) -> Path:
 
 def backup_above(path: Path) -> Path | None:
     """Return the root of the backup that a path is or is in; None if it is in no backup."""
-    return next((it for it in (path, *path.parents[:5]) if _parts(it) > 1), None)
+    own = (it for way in ways(path) for it in (way, *way.parents[:5]))
+    return next((it for it in own if _parts(it) > 1), None)
 
 
 def backups_of(path: Path) -> list[Path]:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from irbkin._files import replaced, shown
+from irbkin._files import replaced, shown, ways
 from irbkin.errors import IrbkinError
 
 if TYPE_CHECKING:
@@ -129,8 +129,7 @@ def write(file: ModuleFile, before: str, after: str, say: Callable[[str], object
 
 def _checksum_of(name: str) -> Path | None:
     """The checksum list of the backup that a file is in; None if the file is not listed."""
-    path = Path(os.path.abspath(name))
-    for root in path.parents:
+    for path, root in ((way, it) for way in ways(name) for it in way.parents):
         if (file := root / "BACKINFO" / "checksum.txt").is_file():
             own = f"/{path.relative_to(root).as_posix()}".lower()
             lines = file.read_text(encoding="latin-1").replace("\\", "/").lower().splitlines()

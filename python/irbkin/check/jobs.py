@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -32,12 +32,12 @@ class Job:
     """The units that external axes belong to, as `rapid.check_program` takes them."""
     is_whole: bool | None = None
     """Whether every module of the task is there; None if that is not known."""
-    given: Sequence[Path] = ()
-    """Files and folders of the backup that alone are corrected; all if empty."""
+    given: Collection[str] | None = None
+    """Files of the program that alone are corrected; all if None."""
 
     def is_given(self, file: str) -> bool:
         """Whether a file may be corrected."""
-        return not self.given or any(Path(file).is_relative_to(own) for own in self.given)
+        return self.given is None or file in self.given
 
 
 def job_of_files(robot: Robot, given: Sequence[str | ModuleFile], settings: Settings) -> Job:
@@ -79,11 +79,10 @@ def jobs_of_backup(path: str, names: Sequence[str] = ()) -> tuple[list[Job], lis
 
     backup = load_backup(path)
     programs = [(task, backup.programs[task.name]) for task in backup.tasks if task.modules]
-    given = [Path(os.path.abspath(name)) for name in names]
-    given = [] if any(backup.origin.is_relative_to(name) for name in given) else given
+    given = _given(backup, names)
     every = [replace(job_of_task(backup, *own), given=given) for own in programs]
     asked = [job for job in every if any(job.is_given(it.path) for it in job.program.files)]
-    if given and not asked:
+    if given is not None and not asked:
         raise IrbkinError(f"{names[0]}: is in no task of {path}: give --robot, or the backup")
     jobs = [job for job in asked if job.robot is not None]
     left_open = of_backup(backup)
@@ -91,6 +90,23 @@ def jobs_of_backup(path: str, names: Sequence[str] = ()) -> tuple[list[Job], lis
         reasons = "; ".join(found.message for found in left_open[:3])
         raise IrbkinError(f"{path}: has no task whose robot is known: {reasons}")
     return jobs, left_open
+
+
+def _given(backup: Backup, names: Sequence[str]) -> set[str] | None:
+    """Return the files of a backup's programs that are given, or are in given folders; None if
+    these have the whole backup.
+    """
+    real = {Path(os.path.realpath(name)) for name in names}
+    root = Path(os.path.realpath(backup.origin))
+    if not real or not real.isdisjoint((root, *root.parents)):
+        return None
+    given = set()
+    for program in backup.programs.values():
+        for file in program.files:
+            own = root / Path(file.path).relative_to(backup.origin)
+            if any(Path(os.path.realpath(it)) in real for it in (own, *own.parents)):
+                given.add(file.path)
+    return given
 
 
 def backup_of(names: Sequence[str]) -> str | None:
@@ -101,17 +117,17 @@ def backup_of(names: Sequence[str]) -> str | None:
     """
     from irbkin.abb.roots import backups_of
 
-    found: dict[str, None] = {}
+    found: dict[str, str] = {}
     for name in names:
-        path = Path(os.path.abspath(name))
-        roots = [name] if is_backup(name) else list(map(str, backups_of(path)))
+        roots = [name] if is_backup(name) else list(map(str, backups_of(Path(name).absolute())))
         if not roots:
             return None
-        found.update(dict.fromkeys(roots))
+        for root in roots:
+            found.setdefault(os.path.realpath(root), root)
     if len(found) > 1:
-        listed = ", ".join(list(found)[:10])
+        listed = ", ".join(list(found.values())[:10])
         raise IrbkinError(f"{' and '.join(names)}: {len(found)} backups, give one: {listed}")
-    return next(iter(found), None)
+    return next(iter(found.values()), None)
 
 
 def is_backup(name: str) -> bool:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from irbkin._arm_options import is_arm_file
+from irbkin._files import ways
 from irbkin.check.codes import codes, meant
 from irbkin.errors import InvalidModelError, IrbkinError
 
@@ -44,10 +45,10 @@ class Settings(NamedTuple):
             return False
         from fnmatch import fnmatch
 
-        path = os.path.relpath(name, os.path.dirname(self.file)).replace(os.sep, "/")
+        path = os.path.relpath(ways(name)[0], os.path.dirname(self.file)).replace(os.sep, "/")
         parts = path.split("/")
-        ways = {"/".join(parts[:count]) for count in range(1, len(parts) + 1)} | {*parts}
-        return any(fnmatch(way, pattern.rstrip("/")) for pattern in patterns for way in ways)
+        prefixes = {"/".join(parts[:count]) for count in range(1, len(parts) + 1)} | {*parts}
+        return any(fnmatch(way, pattern.rstrip("/")) for pattern in patterns for way in prefixes)
 
 
 def settings_of(names: Sequence[str]) -> Settings:
@@ -58,9 +59,9 @@ def settings_of(names: Sequence[str]) -> Settings:
 
 def option_files(names: Sequence[str]) -> Iterator[str]:
     """Yield the files that may have the options of some files, the nearest first."""
-    paths = [os.path.abspath(name) for name in names]
-    folder = Path(os.path.commonpath(paths) if paths else os.getcwd())
-    for above in (folder, *folder.parents):
+    paths = [ways(name)[0] for name in names]
+    folder = os.path.commonpath(paths) if paths else os.getcwd()
+    for above in (it for way in ways(folder) for it in (way, *way.parents)):
         yield from (str(above / name) for name in TABLES)
 
 

@@ -103,7 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
         return _check(arguments)
     if STDIN in names:
         raise CommandError("--watch takes files, not stdin")
-    roots = () if arguments.robot else map(backup_above, map(Path, map(os.path.abspath, names)))
+    roots = () if arguments.robot else map(backup_above, map(Path, names))
     beside = filter(None, (arguments.cell, arguments.robot, *roots, *option_files(names)))
     repeated(lambda: _check(arguments), [*names, *map(str, beside)], arguments.output_file)
 

@@ -86,7 +86,8 @@ class Programs:
     def is_shared(self, path: str) -> bool:
         """Whether several tasks of a backup have a file."""
         tasks = (task for backup in [*self._backups.values()] for task in backup.tasks)
-        return sum(Path(path) in {own.path for own in task.modules} for task in tasks) > 1
+        own = _place(path)
+        return sum(any(_place(str(it.path)) == own for it in task.modules) for task in tasks) > 1
 
     def forget(self) -> None:
         """Read backups again."""
@@ -124,6 +125,10 @@ def _paths(path: str, settings: Settings) -> tuple[list[str], list[str]]:
 
 
 def _with(paths: Sequence[str], path: str) -> list[str]:
-    """Paths with one in the editor's spelling, whose letter case may differ."""
-    own = os.path.normcase(path)
-    return [path if os.path.normcase(file) == own else file for file in paths]
+    """Paths with one in the editor's spelling: its letter case may differ, and links lead to it."""
+    own = _place(path)
+    return [path if _place(file) == own else file for file in paths]
+
+
+def _place(path: str) -> str:
+    return os.path.normcase(os.path.realpath(path))

@@ -253,6 +253,15 @@ async def test_a_backup_gives_the_arm_and_the_other_modules(backup):
 
 
 @pytest.mark.asyncio
+async def test_a_file_behind_a_link_into_a_backup_has_its_arm(backup, tmp_path):
+    (tmp_path / "programs").symlink_to(main_of(backup).parent)
+    async with editing() as editor:
+        codes = await editor.codes(editor.open(main_of(backup)))
+        assert await editor.codes(editor.open(tmp_path / "programs" / "MainModule.mod")) == codes
+        assert "R101" in codes
+
+
+@pytest.mark.asyncio
 async def test_hovers_show_joints_confdata_and_distances(seam):
     async with editing(options=OPTIONS) as editor:
         uri = editor.open(seam)
