@@ -1,5 +1,6 @@
 """Robots from RobotStudio's files: what is in them is read, what contradicts itself is refused."""
 
+import os
 import subprocess
 import sys
 
@@ -310,6 +311,76 @@ def test_sizes_are_checked_before_they_are_read(tmp_path, monkeypatch):
     monkeypatch.setattr(containers, "MOST_BYTES", 10_000)
     several = {f"Libraries/{i}.rslib": files.archive({"PIM.xml": bytes(6_000)}) for i in range(3)}
     refused(tmp_path, files.archive(several), "a", "a.rspag")
+
+
+def mechanism(inside, key=1, document=-1):
+    definition = f'<Definition DocID="{document}" ID="5"/>'
+    return f'<MechanismInstance ID="{key}" NumJoints="6">{definition}{inside}</MechanismInstance>'
+
+
+def link(count):
+    frame = f"<CorrectionTransform>{'<a/>' * count}1 2 3</CorrectionTransform>"
+    return (
+        f'<MechanismLinkInstance ID="5">{frame}<Transform>1 2 3</Transform></MechanismLinkInstance>'
+    )
+
+
+CHILDREN = "<ChildInstances>" + "<c ID='5'/>" * 4_000 + "</ChildInstances>"
+SEVERAL = "".join(mechanism("", key) for key in range(500))
+
+
+def limits(inside):
+    return mechanism(f"<JointLimitsVector>{inside}</JointLimitsVector>")
+
+
+@pytest.mark.parametrize(
+    ("body", "is_packed"),
+    [
+        (mechanism(CHILDREN) + link(12_000), False),
+        (mechanism(CHILDREN) + link(100_000), True),
+        ('<MechanismDef ID="5">' + "<a/>" * 12_000 + "</MechanismDef>" + SEVERAL, False),
+        (
+            '<DocRef ID="1">'
+            + "<a/>" * 12_000
+            + "</DocRef>"
+            + "".join(mechanism("", key, 1) for key in range(500)),
+            False,
+        ),
+        (limits("<a>" * 900 + "<b/>" * 20_000 + "</a>" * 900), False),
+        (limits(f"<a>{'1 ' * 450_000}</a>" * 9), True),
+        ("<a/>" * 2_400_000, True),
+        (mechanism("<a/>" * 2_400_000), True),
+    ],
+)
+def test_a_file_of_100_kb_takes_a_second_and_150_mb(tmp_path, body, is_packed):
+    file = tmp_path / "a.rslib"
+    content = f"<P>{body}</P>".encode()
+    if is_packed:
+        # Geometry, which is not read, lets so much be unpacked.
+        content = files.archive({"PIM.xml": content, "shape.bin": os.urandom(85_000)})
+    assert len(content) < 110_000
+    file.write_bytes(content)
+    words = (
+        "import irbkin, numpy, resource, sys, time\n"
+        "used = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
+        "from irbkin._robotstudio import pim\n"
+        "began, before = time.process_time(), used()\n"
+        "try:\n"
+        "    irbkin.Robot.from_robotstudio(sys.argv[1])\n"
+        "except irbkin.InvalidModelError:\n"
+        "    print(time.process_time() - began, (used() - before) / 1024)\n"
+    )
+    command = [sys.executable, "-c", words, str(file)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
+    seconds, megabytes = map(float, done.stdout.split())
+    # Half as much again for the other processes of this machine.
+    assert seconds < 1.5
+    assert megabytes < 150.0
+
+
+def test_what_is_unpacked_is_bounded_by_the_size_of_the_file(tmp_path):
+    held = files.archive({"PIM.xml": b"<a>" + b" " * 2_000_000 + b"</a>"})
+    refused(tmp_path, held, "PIM.xml has 2000007 bytes, at most 1048576 are read", "a.rslib")
 
 
 def test_a_missing_file_is_an_error_of_the_system(tmp_path):

@@ -18,6 +18,8 @@ from irbkin.errors import InvalidModelError
 MOST_NUMBER = 10.0
 """The largest number of a row, and of a position [m, rad]: arms reach up to 5 m."""
 MOST_JOINTS = 7
+MOST_LIMITS = 1_000
+"""Limits of an arm: a lower and an upper one of each joint, and some of linkages."""
 _NUMBERS = ("twist", "length", "rotation", "offset")
 
 
@@ -68,6 +70,8 @@ def check_pose(name: str, found: Array, wanted: Array, most: float) -> None:
 def arm_of(kinematics: Element, flange_link: int | None) -> Arm:
     """The chain from the base to a link; to the only end of all joints when not given."""
     active = xml.integer(kinematics, "numactivekjoints", "numactivejoints")
+    if not 6 <= active <= MOST_JOINTS:
+        raise InvalidModelError(f"its table has {active} active joints, an arm has 6 or 7")
     rows, is_revolute = _rows(kinematics)
     starts = _starts(kinematics)
     before = {row.following: link for link, row in rows.items() if row.following >= 0}
@@ -169,6 +173,8 @@ def limits_of(element: Element, active: int) -> tuple[Array, Array] | None:
     bounds = np.array(xml.numbers(xml.child(element, "jointlimitsvector")))
     if not given and not len(bounds):
         return None
+    if len(bounds) > MOST_LIMITS:
+        raise InvalidModelError(f"has {len(bounds)} limits, at most {MOST_LIMITS} are read")
     if len(given) == len(bounds) * active:
         for matrix in (np.reshape(given, (active, -1)).T, np.reshape(given, (-1, active))):
             alone = matrix[(matrix != 0.0).sum(axis=1) == 1]

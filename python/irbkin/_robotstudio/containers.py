@@ -14,12 +14,16 @@ MOST_XML = 2**26
 """Bytes of one document: the largest public station has 11 MB."""
 MOST_BYTES = 2**29
 """Bytes of all that is unpacked; geometry is not."""
+LEAST_BYTES, MOST_RATIO = 2**20, 100
+"""Bytes that are unpacked of any file, and of a larger one for each of its bytes."""
 
 
 def documents(path: str) -> Iterator[tuple[str, bytes]]:
     """The XML documents of a file, with the lower-case name of the library or station."""
     with open(path, "rb") as file:
-        yield from _documents(file, os.path.basename(path).lower(), [MOST_BYTES], True)
+        most = max(LEAST_BYTES, MOST_RATIO * os.fstat(file.fileno()).st_size)
+        left = [min(MOST_BYTES, most)]
+        yield from _documents(file, os.path.basename(path).lower(), left, True)
 
 
 def _documents(

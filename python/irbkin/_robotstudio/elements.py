@@ -18,6 +18,12 @@ Array = npt.NDArray[np.float64]
 Element = ElementTree.Element
 SKEW = 1e-5
 """How far a rotation may be from an orthonormal one [1]."""
+MOST_ELEMENTS, LEAST_SIZE = 100_000, 12
+"""Elements of any document, and least bytes of each in a larger one: RobotStudio's have 18."""
+MOST_DEPTH = 32
+"""Elements of a mechanism in each other: RobotStudio writes five."""
+MOST_TEXT, MOST_NUMBERS = 1_000_000, 100_000
+"""Characters of a text with numbers, and numbers of an element."""
 
 
 def elements_of(content: bytes, *wanted: str) -> Iterator[Element]:
@@ -30,18 +36,30 @@ def elements_of(content: bytes, *wanted: str) -> Iterator[Element]:
             raise InvalidModelError("has a <!DOCTYPE>, RobotStudio writes none: remove it")
         # The text may declare another encoding.
         parser = ElementTree.XMLParser(encoding="utf-8")
-        inside = 0
+        above: list[Element] = []
+        most = max(MOST_ELEMENTS, len(content) // LEAST_SIZE)
+        # How many are open from the first on that is wanted; these are kept.
+        depth = count = 0
         for event, element in ElementTree.iterparse(
             io.BytesIO(text.encode()), ("start", "end"), parser
         ):
             is_wanted = local(element) in wanted
             if event == "start":
-                inside += is_wanted
-            elif is_wanted:
-                inside -= 1
+                above.append(element)
+                depth += depth > 0 or is_wanted
+                count += 1
+                if count > most or depth > MOST_DEPTH:
+                    raise InvalidModelError(
+                        f"has more than {most} elements, or mechanisms of more than {MOST_DEPTH} "
+                        "elements in each other: RobotStudio writes fewer"
+                    )
+                continue
+            above.pop()
+            depth -= depth > 0
+            if is_wanted:
                 yield element
-            elif not inside:
-                element.clear()
+            if not depth and above:
+                above[-1].remove(element)
     except UnicodeDecodeError as error:
         raise InvalidModelError(f"is not UTF-8 at byte {error.start}") from None
     except ElementTree.ParseError as error:
@@ -95,7 +113,11 @@ def numbers(element: Element | None) -> list[float]:
     """All numbers in an element in their order, as many as its sizes say; none of no element."""
     if element is None:
         return []
-    found = [value for text in _texts(element) for value in floats(text)]
+    found: list[float] = []
+    for text in _texts(element):
+        found += floats(text)
+        if len(found) > MOST_NUMBERS:
+            raise InvalidModelError(f"{local(element)} has more than {MOST_NUMBERS} numbers")
     size = [integer(element, it) for it in ("numrows", "numcols") if word(element, it)]
     if not np.isfinite(found).all() or (size and len(found) != np.prod(size)):
         raise InvalidModelError(
@@ -114,6 +136,8 @@ def _texts(element: Element) -> Iterator[str]:
 
 def floats(text: str) -> list[float]:
     """The numbers of a text; none if it is another one."""
+    if len(text) > MOST_TEXT:
+        raise InvalidModelError(f"has a text of {len(text)} characters, at most {MOST_TEXT}")
     try:
         return [float(part) for part in text.replace(",", " ").split()]
     except ValueError:

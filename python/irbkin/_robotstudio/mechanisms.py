@@ -11,6 +11,7 @@ import numpy as np
 from irbkin._core import Robot, to_xyz_euler_zyx
 from irbkin._robotstudio.chains import MOST_NUMBER, Arm, check_pose, poses_of
 from irbkin._robotstudio.elements import Array
+from irbkin._words import listed
 from irbkin.errors import InvalidModelError
 
 SNAP = 1e-6
@@ -41,11 +42,11 @@ def chosen(mechanisms: list[Mechanism], name: str | None) -> Mechanism:
         arms = [it for it in arms if name.lower() in (own.lower() for own in it.names)]
     if len({(it.names[0].lower(), it.same) for it in arms}) == 1:
         return arms[0]
-    listed = ", ".join(f'"{it.names[0]}" of {it.joints} joints' for it in arms or mechanisms)
+    words = listed(f'"{it.names[0]}" of {it.joints} joints' for it in arms or mechanisms)
     if arms:
-        raise InvalidModelError(f"has several arms, pass name= to choose one: {listed}")
+        raise InvalidModelError(f"has several arms, pass name= to choose one: {words}")
     what = "arm" if name is None else f"arm {name!r}"
-    raise InvalidModelError(f"has no {what} of 6 or 7 joints; it has {listed or 'no mechanism'}")
+    raise InvalidModelError(f"has no {what} of 6 or 7 joints; it has {words or 'no mechanism'}")
 
 
 def robot_of_arm(arm: Arm, name: str, coupled_limits: bool) -> Robot:

@@ -21,6 +21,15 @@ TABLE, REFERENCE = "forwardkinematicsdh", "docref"
 _Elements = dict[str, dict[int, Element]]
 
 
+class _Model(NamedTuple):
+    """A definition, by which each of its instances is read."""
+
+    definition: Element | None
+    table: Element | None
+    name: str
+    joints: int | None
+
+
 class _Link(NamedTuple):
     name: str
     frame: Array
@@ -32,16 +41,18 @@ class _Link(NamedTuple):
 def mechanisms_of(documents: Iterable[tuple[str, bytes]]) -> list[Mechanism]:
     """The mechanisms of documents: instances, then definitions that have none."""
     read = [(name, _by_kind(content)) for name, content in documents]
-    libraries, found, used = dict(read), [], set()
+    libraries, found = dict(read), []
+    models: dict[tuple[str, int], _Model] = {}
     for name, own in read:
+        locations = {key: xml.word(it, "location") for key, it in own[REFERENCE].items()}
         for instance in own[INSTANCE].values():
-            home, key = _definition(name, own, instance)
-            used.add((home, key))
-            links = _links(own, instance)
-            found.append(_mechanism(libraries.get(home, {}), (home, key), instance, links))
+            same = _definition(name, locations, instance)
+            if same not in models:
+                models[same] = _model(libraries.get(same[0], {}), same[1])
+            found.append(_mechanism(models[same], same, instance, own))
     for name, own in read:
-        unused = [key for key in own[DEFINITION] if (name, key) not in used]
-        found += [_mechanism(own, (name, key), None, []) for key in unused]
+        unused = [(name, key) for key in own[DEFINITION] if (name, key) not in models]
+        found += [_mechanism(_model(own, same[1]), same, None, own) for same in unused]
     return found
 
 
@@ -52,7 +63,7 @@ def _by_kind(content: bytes) -> _Elements:
     return elements
 
 
-def _definition(name: str, own: _Elements, instance: Element) -> tuple[str, int]:
+def _definition(name: str, locations: dict[int, str], instance: Element) -> tuple[str, int]:
     """The library and the number of the definition of an instance."""
     reference = xml.child(instance, "definition")
     if reference is None:
@@ -60,34 +71,46 @@ def _definition(name: str, own: _Elements, instance: Element) -> tuple[str, int]
     key, library = xml.integer(reference, "id"), xml.word(reference, "docid") or "-1"
     if library == "-1":
         return name, key
-    location = xml.word(own[REFERENCE].get(xml.integer(reference, "docid")), "location")
+    location = locations.get(xml.integer(reference, "docid"), "")
     return re.split(r"[\\/]", location)[-1].lower(), key
 
 
 def _links(own: _Elements, instance: Element) -> list[_Link]:
     """The links of an instance, in the order in which a table counts them."""
-    links = []
-    for reference in xml.parts(instance, "childinstances"):
-        element = own[LINK].get(xml.integer(reference, "id"))
-        correction, pose = (xml.child(element, it) for it in ("correctiontransform", "transform"))
-        if correction is not None and pose is not None:
-            frame = np.asarray(np.linalg.inv(xml.transform(correction)), dtype=float)
-            links.append(_Link(xml.word(element, "name"), frame, xml.transform(pose) @ frame))
-    return links
+    keys = [xml.integer(reference, "id") for reference in xml.parts(instance, "childinstances")]
+    # One that is referred to more than once is read once.
+    known = {key: _link(own[LINK].get(key)) for key in dict.fromkeys(keys)}
+    return [link for link in map(known.__getitem__, keys) if link is not None]
+
+
+def _link(element: Element | None) -> _Link | None:
+    correction, pose = (xml.child(element, it) for it in ("correctiontransform", "transform"))
+    if correction is None or pose is None:
+        return None
+    frame = np.asarray(np.linalg.inv(xml.transform(correction)), dtype=float)
+    return _Link(xml.word(element, "name"), frame, xml.transform(pose) @ frame)
+
+
+def _model(home: _Elements, key: int) -> _Model:
+    definition = home.get(DEFINITION, {}).get(key)
+    reference = xml.child(definition, "forwardkinematics")
+    table = None if reference is None else home[TABLE].get(xml.integer(reference, "id"))
+    joints = None if table is None else xml.integer(table, "numactivekjoints")
+    return _Model(definition, table, xml.word(definition, "modelname"), joints)
 
 
 def _mechanism(
-    home: _Elements, same: tuple[str, int], instance: Element | None, links: list[_Link]
+    model: _Model, same: tuple[str, int], instance: Element | None, own: _Elements
 ) -> Mechanism:
-    definition = home.get(DEFINITION, {}).get(same[1])
-    reference = xml.child(definition, "forwardkinematics")
-    table = None if reference is None else home[TABLE].get(xml.integer(reference, "id"))
-    given = (xml.word(instance, "name"), xml.word(definition, "modelname"))
-    names = [it for it in given if it] or ["an arm without a name"]
-    counts = ((table, "numactivekjoints"), (instance, "numjoints"))
-    joints = next((xml.integer(it, key) for it, key in counts if it is not None), 0)
+    definition, table = model.definition, model.table
+    names = [it for it in (xml.word(instance, "name"), model.name) if it]
+    names = names or ["an arm without a name"]
+    joints = model.joints
+    if joints is None:
+        joints = 0 if instance is None else xml.integer(instance, "numjoints")
 
     def read() -> Arm:
+        links = [] if instance is None else _links(own, instance)
         if instance is not None and any(xml.numbers(xml.child(instance, "jointmodeloffset"))):
             raise InvalidModelError("has a JointModelOffset, which is not supported")
         if definition is not None and table is not None:
@@ -95,8 +118,8 @@ def _mechanism(
         else:
             assert instance is not None
             arm = _by_links(instance, links, joints)
-        own = None if instance is None else limits_of(instance, joints)
-        return arm if own is None else arm._replace(limits=own)
+        limits = None if instance is None else limits_of(instance, joints)
+        return arm if limits is None else arm._replace(limits=limits)
 
     own_limits = xml.numbers(xml.child(instance, "jointlimitsvector"))
     return Mechanism(names, joints, (same, *own_limits), read)
