@@ -14,6 +14,21 @@ import numpy.typing as npt
 from irbkin._arguments import close
 from irbkin.errors import InvalidModelError, IrbkinError
 
+MOST_CHARACTERS = 10_000_000
+"""Characters of a TOML text, which take seconds to parse."""
+MOST_PARTS = 32
+"""Parts of a dotted key: a parser takes time and memory with the square of their number."""
+PART = r"""(?:[\w-]+|"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*(?:"|(?=[\\\n]|\Z))|'[^'\n]*(?:'|(?=\n|\Z)))"""
+TOKEN = re.compile(
+    r"#[^\n]*"
+    r'|"{3}[^"\\]*(?:(?:\\.|"(?!""))[^"\\]*)*(?:"{3}|\\?\Z)'
+    r"|'{3}.*?(?:'{3}|\Z)"
+    rf"|(?P<key>{PART}(?:[ \t]*\.[ \t]*{PART})*)"
+    r"""|[^\w#"'-]+|.""",
+    re.DOTALL,
+)
+"""Comments, texts of several lines, dotted keys or single values, and what is between them."""
+
 
 class EntryError(InvalidModelError):
     """An error that names an entry of a file."""
@@ -101,6 +116,7 @@ class Entry:
 
 def parsed(text: str) -> dict[str, Any]:
     """The table of a TOML text."""
+    _bound(text)
     try:
         import tomllib
     except ImportError:
@@ -115,6 +131,23 @@ def parsed(text: str) -> dict[str, Any]:
     # Python refuses whole numbers of thousands of digits.
     except ValueError as error:
         raise InvalidModelError(f"is not TOML: {error}") from None
+    except RecursionError:
+        raise InvalidModelError("is not TOML that can be read: it is nested too deeply") from None
+
+
+def _bound(text: str) -> None:
+    """Refuse a text that takes a parser long."""
+    if len(text) > MOST_CHARACTERS:
+        raise InvalidModelError(f"has more than {MOST_CHARACTERS} characters, the most of TOML")
+    for token in TOKEN.finditer(text):
+        key = token["key"]
+        if key is not None and key.count(".") >= MOST_PARTS:
+            parts = len(re.findall(PART, key))
+            if parts > MOST_PARTS:
+                line = text.count("\n", 0, token.start()) + 1
+                raise InvalidModelError(
+                    f"line {line}: the key {key[:20]}.. has {parts} parts, at most {MOST_PARTS}"
+                )
 
 
 def _is_number(value: object) -> bool:

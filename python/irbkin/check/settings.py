@@ -69,13 +69,13 @@ def _read(file: str, keys: Sequence[str]) -> Settings | None:
     """The options in the table of a file; None if it has no such table."""
     if not os.path.isfile(file):
         return None
+    from irbkin._cell.entries import MOST_CHARACTERS, Entry, parsed
+
     with open(file, "rb") as stream:
-        content = stream.read()
+        content = stream.read(4 * MOST_CHARACTERS + 1)
     # The file belongs to other tools, too: it is not parsed without this word.
     if len(keys) > 1 and b"irbkin" not in content:
         return None
-    from irbkin._cell.entries import Entry, parsed
-
     try:
         text = content.decode("utf-8-sig")
         entry = Entry(text, os.path.dirname(file), (), parsed(text))
