@@ -1,5 +1,6 @@
 """Inputs of 100 kB that once took minutes or gigabytes: they are bounded, and said to be."""
 
+import itertools
 import time
 
 import command
@@ -40,3 +41,51 @@ def test_dots_in_texts_and_comments_are_no_keys():
     text = f'x = "a\\"{DEEP}"\ny = \'{DEEP}\' # {DEEP}\nz = """\n{DEEP} \\""" "" {DEEP}"""\n'
     assert parsed(text)["y"] == DEEP
     assert parsed(".".join("a" * 32) + "=1")["a"]
+
+
+FAR = "[9E9,9E9,9E9,9E9,9E9,9E9]"
+DATA = f"CONST robtarget p:=[[9000,0,500],[0,0,1,0],[0,0,0,0],{FAR}];"
+MOVE = "MoveL Offs(p,0,0,0),v100,z10,tool0;"
+
+
+def one_line(file, count, end=""):
+    body = (MOVE + end) * count
+    file.write_text(f"MODULE a\n{DATA}\nPROC main()\n{body}\nENDPROC\nENDMODULE\n", newline="")
+
+
+@pytest.mark.parametrize("end", ["", "\r"])
+@pytest.mark.parametrize("form", ["text", "concise", "html", "json", "sarif", "github", "junit"])
+def test_a_report_grows_with_the_text_although_it_is_one_line(tmp_path, form, end):
+    file = tmp_path / "a.mod"
+    sizes = []
+    for count in (200, 800):
+        one_line(file, count, end)
+        done = command.run("check", "IRB 2600-12/1.65", file, "--output-format", form)
+        assert done.stdout.count(b"R101") >= count
+        sizes.append(len(done.stdout))
+    assert sizes[1] < 4.5 * sizes[0]
+
+
+def test_an_excerpt_has_the_statement_below_which_the_caret_is(tmp_path):
+    file = tmp_path / "a.mod"
+    for end in ("", "\r"):
+        one_line(file, 100, end)
+        lines = command.run("check", "IRB 2600-12/1.65", file).stdout.decode().split("\n")
+        rows = [pair for pair in itertools.pairwise(lines) if "^" in pair[1]]
+        assert len(rows) >= 100
+        for above, below in rows:
+            marked = above[below.index("^") : below.rindex("^") + 1]
+            assert marked == MOVE[:-1], (above, below)
+            assert len(above) < 220
+            assert end == "" or above.count("MoveL") == 1
+
+
+def test_a_correction_in_a_long_line_shows_its_part(tmp_path):
+    target = f"[[900,-300,500],[0,0,1,0],[1,0,1,0],{FAR}]"
+    moves = f"MoveJ {target},v100,fine,tool0;" * 100
+    file = tmp_path / "a.mod"
+    file.write_text(f"MODULE a\nPROC main()\n{moves}\nENDPROC\nENDMODULE\n")
+    text = command.run("check", "IRB 2600-12/1.65", file).stdout.decode()
+    fixes = [line for line in text.split("\n") if "fix in line 3" in line]
+    assert len(fixes) >= 100
+    assert all(len(line) < 250 and "[-1,0,-1,0]" in line.replace(" ", "") for line in fixes)

@@ -10,6 +10,7 @@ from shutil import make_archive
 import command
 import irbkin
 import pytest
+from backups import SMALL, written
 from hypothesis import given
 from hypothesis import strategies as st
 from irbkin import rapid
@@ -97,8 +98,9 @@ def test_places_of_bytes_are_lines_and_columns_in_characters(text, data):
     assert own.line(0) == own.line(text.count("\n") + 2) == ""
     end = index + len(text[index:].split("\n")[0])
     edit = (len(before.encode()), len(text[:end].encode()), "new")
-    whole = f"{before}new{text[end:]}".split("\n")[wanted[0] - 1]
-    assert own.corrected((edit,)) == {wanted[0]: whole.strip()}
+    # What is shown begins behind a carriage return.
+    shown = f"{before}new".split("\n")[-1].split("\r")[-1]
+    assert own.corrected((edit,)) == {wanted[0]: shown.strip()}
 
 
 def test_colors_are_for_terminals_and_as_chosen(seam):
@@ -501,3 +503,52 @@ def test_every_format_takes_a_broken_file(form, tmp_path):
 def test_findings_of_python_have_severities():
     found = rapid.check(irbkin.Robot(NAME), rapid.parse(SEAM))
     assert {it.severity for it in found} == {"error", "warning", "note"}
+
+
+HOSTILE = "\x1b]0;owned\x07\u202e\x9b31m"
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        (),
+        ("--output-format", "concise"),
+        ("--output-format", "github"),
+        ("--verdict",),
+        ("--diff",),
+        ("--fix",),
+    ],
+)
+def test_names_and_comments_do_not_reach_the_terminal(tmp_path, monkeypatch, options):
+    monkeypatch.chdir(tmp_path)
+    name = f"x\n::error::owned{HOSTILE}.mod"
+    source = SEAM.replace("tGun;\n", f"tGun; ! {HOSTILE}\n")
+    (tmp_path / name).write_text(source, encoding="utf-8")
+    done = command.run("check", NAME, name, *options)
+    assert done.returncode == 1 or options == ("--fix",)
+    for text in (done.stdout.decode(), done.stderr.decode()):
+        assert not set(text) & set("\x1b\x07\u202e\x9b")
+        if "github" not in options:
+            assert "\n::error::owned" not in text
+    assert b"\\x1b" in done.stdout
+    # The file keeps what it had.
+    assert HOSTILE in (tmp_path / name).read_text(encoding="utf-8")
+
+
+def test_the_names_of_a_table_do_not_reach_the_terminal(tmp_path):
+    robot = irbkin.Robot("UR5e").to_urdf().replace('name="UR5e"', 'name="UR5e&#10;&#27;[31m"', 1)
+    (tmp_path / "a.urdf").write_text(robot)
+    done = command.run("fk", tmp_path / "a.urdf", "--joints", *"000000")
+    assert b"\x1b" not in done.stdout + done.stderr
+    assert command.run("diff", NAME, "a\x1b[31m.mod", "b.mod").stderr.count(b"\x1b") == 0
+
+
+def test_lines_count_from_one(tmp_path):
+    backup = written(tmp_path, SMALL)
+    (backup / "SYSPAR" / "SYS.cfg").unlink()
+    for form in ("text", "concise", "json", "github", "sarif", "junit"):
+        text = command.run("check", backup, "--output-format", form).stdout.decode()
+        assert "SYS.cfg is missing" in text
+        assert not re.search(r'[.\w]:0|line(=|": )0\b|[lL]ine": 0|line 0|col(umn": |=)0', text), (
+            text
+        )

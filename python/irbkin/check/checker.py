@@ -104,10 +104,19 @@ def _silenced(program: rapid.Program) -> Callable[[rapid.Finding], bool]:
     """Return a predicate: whether a `noqa` comment of a program suppresses a finding."""
     sources = (module.source for module in program.modules)
     lines = [source.split("\n") if "noqa" in source.lower() else None for source in sources]
+    known: dict[tuple[int, int, int], re.Match[str] | None] = {}
 
     def is_silent(finding: rapid.Finding) -> bool:
         own = lines[finding.module]
-        match = NOQA.search(own[finding.line - 1]) if own else None
+        if own is None:
+            return False
+        line = own[finding.line - 1]
+        # A carriage return alone ends a line, too; one line may have very many findings.
+        begin = line.rfind("\r", 0, finding.column) + 1
+        place = (finding.module, finding.line, begin)
+        if place not in known:
+            known[place] = NOQA.search(line[begin:].partition("\r")[0])
+        match = known[place]
         if match is None:
             return False
         words = [word.strip().upper() for word in (match[1] or "").split(",")]

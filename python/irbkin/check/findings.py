@@ -32,14 +32,22 @@ class Finding(NamedTuple):
 
 
 def of_file(found: rapid.FileFinding) -> Finding:
-    """Return a finding on the file of a module."""
-    place = (found.file, found.line, found.column, found.code)
+    """Return a finding on the file of a module; one on the whole file is at its beginning."""
+    place = (found.file, max(found.line, 1), max(found.column, 1), found.code)
     return Finding(*place, codes()[found.code].name, found.severity, found.message)
 
 
 def of_backup(backup: Backup) -> list[Finding]:
-    """Return the findings on the files of a backup."""
+    """Return the findings on the files of a backup; one on a whole file is at its beginning."""
     return [
-        Finding(str(backup.origin / it.file), it.line, 1, BACKUP, it.code, it.severity, it.message)
+        Finding(
+            str(backup.origin / it.file),
+            max(it.line, 1),
+            1,
+            BACKUP,
+            it.code,
+            it.severity,
+            it.message,
+        )
         for it in backup.findings
     ]

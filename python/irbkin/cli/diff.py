@@ -16,6 +16,7 @@ import os
 from collections import Counter
 from dataclasses import asdict, replace
 
+from irbkin._words import visible
 from irbkin.abb import Change, Difference, TargetChange, diff
 from irbkin.abb.differences import compared
 from irbkin.abb.sides import Side
@@ -45,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
         every = (*difference.data, *difference.moves, *difference.targets)
         places = (str(replace(it, file=shown(it.file))) for it in every)
         lines = [*difference.robots, *difference.modules, *places]
-        print("".join(f"{line}\n" for line in lines), end="")
+        print("".join(f"{visible(line)}\n" for line in lines), end="")
         print(_last(difference))
     return FOUND if any(vars(difference).values()) else FINE
 

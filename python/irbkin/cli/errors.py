@@ -6,6 +6,7 @@ import signal
 import sys
 from collections.abc import Callable
 
+from irbkin._words import visible
 from irbkin.errors import IrbkinError, UnreachableError
 
 FINE = 0
@@ -57,7 +58,7 @@ def complain(message: object) -> None:
     line = " ".join(str(message).split())
     for words, own in OWN_WORDS.items():
         line = line.replace(words, own)
-    print(f"irbkin: {line}", file=sys.stderr)
+    print(f"irbkin: {visible(line)}", file=sys.stderr)
 
 
 def guarded(run: Callable[[], int]) -> int:

@@ -10,6 +10,7 @@ from typing import Any, BinaryIO, NamedTuple, TypeAlias
 
 import numpy as np
 
+from irbkin._words import visible
 from irbkin.cli.errors import CommandError
 from irbkin.cli.files import STDIN, replaced
 
@@ -31,7 +32,8 @@ class Column(NamedTuple):
         if value is None or (isinstance(value, float) and math.isnan(value)):
             return "-"
         # Whole numbers with gaps are floats.
-        return format(int(value) if self.form[-1] == "d" else value, self.form.lstrip("<"))
+        own = visible(value) if isinstance(value, str) else value
+        return format(int(own) if self.form[-1] == "d" else own, self.form.lstrip("<"))
 
 
 Floats: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
@@ -94,7 +96,7 @@ class Table(Rows):
         form = (" " * GAP).join(f"{{:{sign}{width}}}" for sign, width in pairs)
         lines = [[it.cell(own) for it, own in zip(self.columns, row, strict=True)] for row in rows]
         if rows and not self.count:
-            self.put(f"{self.heading}\n\n")
+            self.put(f"{visible(self.heading)}\n\n")
             lines = [[*it] for it in zip(*self.heads, strict=True) if any(it)] + lines
         self.put("".join(f"{form.format(*line).rstrip()}\n" for line in lines))
 
@@ -118,7 +120,7 @@ class Screen(Table):
 
     def _add(self, rows: Cells, array: Any) -> None:
         if rows and not self.count:
-            self.console.print(self.heading, style="bold")
+            self.console.print(visible(self.heading), style="bold")
         for start in range(0, len(rows), PAGE):
             own = zip(self.columns, zip(*rows[start : start + PAGE], strict=True), strict=True)
             self._page([[*map(it.cell, values)] for it, values in own])

@@ -30,6 +30,10 @@ ENDINGS = {
     ".txt": "text",
 }
 """The format of a file by its ending."""
+WIDTH = 200
+"""Characters that are shown of a line: one may have a whole module."""
+LONGEST = 1_000
+"""Characters of a statement that are marked."""
 
 
 class SourceText:
@@ -42,6 +46,10 @@ class SourceText:
     def lines(self) -> list[str]:
         """Its lines, without their ends."""
         return [line.rstrip("\r") for line in self.text.split("\n")]
+
+    @cached_property
+    def _is_ascii(self) -> bool:
+        return self.text.isascii()
 
     @cached_property
     def _rows(self) -> list[bytes]:
@@ -59,29 +67,60 @@ class SourceText:
     def position(self, byte: int) -> tuple[int, int]:
         """Line and column, from 1 and in characters, of a byte of the text in UTF-8."""
         number = bisect(self._starts, byte)
-        before = self._rows[number - 1][: byte - self._starts[number - 1]]
-        return number, len(before.decode()) + 1
+        column = byte - self._starts[number - 1]
+        if not self._is_ascii:
+            column = len(self._rows[number - 1][:column].decode())
+        return number, column + 1
 
     def corrected(self, edits: Iterable[tuple[int, int, str]]) -> dict[int, str]:
-        """Edited lines by number; each edit lies within one line."""
-        lines: dict[int, bytes] = {}
-        for begin, end, new in sorted(edits, reverse=True):
-            number = bisect(self._starts, begin)
-            start = self._starts[number - 1]
-            line = lines.get(number, self._rows[number - 1])
-            lines[number] = line[: begin - start] + new.encode() + line[end - start :]
-        return {number: lines[number].decode().strip() for number in sorted(lines)}
+        """Edited lines by number, of long ones an excerpt; each edit lies within one line."""
+        of_line: dict[int, list[tuple[int, int, str]]] = {}
+        for edit in sorted(edits):
+            of_line.setdefault(bisect(self._starts, edit[0]), []).append(edit)
+        return {number: self._edited(number, own) for number, own in of_line.items()}
+
+    def _edited(self, number: int, edits: Sequence[tuple[int, int, str]]) -> str:
+        """The part of a line around its first edit, edited."""
+        row, start = self._rows[number - 1], self._starts[number - 1]
+        # A character has at most four bytes; those that are cut are outside the excerpt.
+        low = max(edits[0][0] - start - 4 * WIDTH, 0)
+        high = edits[-1][1] - start + 4 * WIDTH
+        parts, at = [], low
+        for begin, end, new in edits:
+            parts += [row[at : begin - start], new.encode()]
+            at = end - start
+        first = len(parts[0].decode(errors="ignore"))
+        line = b"".join([*parts, row[at:high]]).decode(errors="ignore")
+        return excerpt(line, first)[0].strip()
+
+
+def excerpt(line: str, column: int) -> tuple[str, int]:
+    """The part of a line around a column from 0, and what is to be added to columns in it.
+
+    A carriage return alone ends a line, too.
+    """
+    start, stop = 0, len(line)
+    if stop > WIDTH:
+        start = max(column - WIDTH // 4, 0)
+        stop = min(start + WIDTH, stop)
+    ahead, behind = "..." * (start > 0), "..." * (stop < len(line))
+    if (end := line.rfind("\r", start, column)) >= 0:
+        start, ahead = end + 1, ""
+    if (end := line.find("\r", column, stop)) >= 0:
+        stop, behind = end, ""
+    return f"{ahead}{line[start:stop]}{behind}", len(ahead) - start
 
 
 def span(found: Finding, line: str) -> tuple[int, int]:
     """The columns of a finding in its line, from 0, end exclusive.
 
-    A statement without its semicolon; one character of a syntax error.
+    A statement without its semicolon, of a long one the beginning; one character of a syntax
+    error.
     """
     begin = min(found.column - 1, len(line))
     if found.code.startswith("E"):
         return begin, begin + 1
-    statement = line[begin:].partition(";")[0].partition("!")[0].rstrip()
+    statement = line[begin : begin + LONGEST].partition(";")[0].partition("!")[0].rstrip()
     return begin, begin + max(len(statement), 1)
 
 

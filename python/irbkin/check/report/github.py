@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from irbkin._words import visible
 from irbkin.check.report import Report
 from irbkin.check.report.text import heading
 
@@ -20,7 +21,7 @@ def render(report: Report) -> str:
             "endColumn": end + 1,
         }
         words = ",".join(f"{key}={_escaped(value, ':,')}" for key, value in properties.items())
-        text = _escaped(heading(found, is_colored=False), "")
+        text = _escaped(heading(found, is_colored=False, show=str), "")
         lines.append(f"::{found.severity.replace('note', 'notice')} {words}::{text}\n")
     if not report.is_quiet:
         lines.append(f"::notice title=irbkin::{_escaped(report.coverage, '')}\n")
@@ -32,4 +33,4 @@ def _escaped(value: object, beside: str) -> str:
     text = str(value)
     for character in f"%\r\n{beside}":
         text = text.replace(character, f"%{ord(character):02X}")
-    return text
+    return visible(text)

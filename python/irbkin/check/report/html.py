@@ -13,7 +13,7 @@ from string import Template
 
 from irbkin.check.codes import LEVELS, rules
 from irbkin.check.findings import Finding
-from irbkin.check.report import Report
+from irbkin.check.report import Report, excerpt
 from irbkin.check.report.pictures import bars, gauge, share
 from irbkin.check.report.places import views
 from irbkin.check.report.routines import HEADINGS, routines, unused
@@ -122,10 +122,12 @@ def _excerpt(found: Finding, report: Report) -> str:
     rows = []
     first = max(found.line - AROUND, 1)
     for number, line in enumerate(lines[first - 1 : found.line + AROUND], first):
-        text = escape(line)
+        text = escape(excerpt(line, 0)[0])
         if number == found.line:
             _, begin, end = report.place(found)
-            before, own, after = map(escape, (line[:begin], line[begin:end], line[end:]))
+            part, shift = excerpt(line, begin)
+            begin, end = begin + shift, end + shift
+            before, own, after = map(escape, (part[:begin], part[begin:end], part[end:]))
             text = f"{before}<mark>{own}</mark>{after}"
         rows.append(f'<span class="number">{number:5} </span>{text}')
     return f"<pre>{chr(10).join(rows)}</pre>" if rows else ""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
+from irbkin._words import visible
 from irbkin.check.findings import Finding
-from irbkin.check.report import Report
+from irbkin.check.report import Report, excerpt
 from irbkin.check.report.routines import COUNTS, HEADINGS, routines, unused
 
 STYLES = {"error": "bold red", "warning": "bold yellow", "note": "bold blue"}
@@ -51,7 +52,7 @@ def _routines(report: Report) -> Iterator[str]:
     every = [HEADINGS, *(row for rows in tables.values() for row in rows)]
     widths = [max(map(len, column)) for column in zip(*every, strict=True)]
     for place, rows in tables.items():
-        yield from ("", place)
+        yield from ("", visible(place))
         for row in (HEADINGS, *rows):
             cells = [
                 f"{cell:>{width}}" if 0 < column < COUNTS else f"{cell:<{width}}"
@@ -62,30 +63,33 @@ def _routines(report: Report) -> Iterator[str]:
         yield from ("", words)
 
 
-def heading(found: Finding, is_colored: bool) -> str:
-    """A finding in one line, as linters print it."""
-    place = f"{found.file}:{found.line}:{found.column}"
+def heading(found: Finding, is_colored: bool, show: Callable[[str], str] = visible) -> str:
+    """A finding in one line, as linters print it; names and messages as a function shows them."""
+    place = show(f"{found.file}:{found.line}:{found.column}")
     mark = f"[{styled('*', 'cyan', is_colored)}] " if found.edits else ""
     code = styled(found.code, found.severity, is_colored)
-    return f"{styled(place, 'bold', is_colored)}: {code} {mark}{found.message}"
+    return f"{styled(place, 'bold', is_colored)}: {code} {mark}{show(found.message)}"
 
 
 def _block(found: Finding, report: Report) -> str:
     is_colored = report.is_colored
     line, begin, end = report.place(found)
+    part, shift = excerpt(line, begin)
+    begin += shift
+    end = max(min(end + shift, len(part)), begin + 1)
     width = len(str(found.line))
 
     def margin(number: str, mark: str = "|") -> str:
         return styled(f"{number:>{width}} {mark}", "note", is_colored)
 
     rows = [heading(found, is_colored)]
-    if line.strip():
-        blank = "".join("\t" if own == "\t" else " " for own in line[:begin])
+    if part.strip():
+        blank = "".join("\t" if own == "\t" else " " for own in part[:begin])
         caret = styled(f"{'^' * (end - begin)} {found.severity}", found.severity, is_colored)
-        source = "".join(own if own.isprintable() or own == "\t" else "\ufffd" for own in line)
+        source = "".join(own if own.isprintable() or own == "\t" else "\ufffd" for own in part)
         rows += [f"{margin(str(found.line))} {source}", f"{margin('')} {blank}{caret}"]
     rows += (
-        f"{margin('', '=')} fix in line {number}: {new}"
+        f"{margin('', '=')} fix in line {number}: {visible(new)}"
         for number, new in report.corrected(found).items()
     )
     return "\n".join(rows)
