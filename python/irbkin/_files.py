@@ -22,6 +22,23 @@ def shown(name: str) -> str:
     return name[len(here) :] if os.path.isabs(name) and name.startswith(here) else name
 
 
+def read(path: str | os.PathLike[str]) -> bytes:
+    """Return the content of a file.
+
+    Raises:
+        OSError: It cannot be read, or it is a pipe, a socket or a device: these may never end.
+    """
+    name = os.fspath(path)
+    if not name.startswith(STREAMS) and not is_plain(os.stat(name)):
+        raise OSError(errno.EINVAL, "is a pipe, a socket or a device", name)
+    return _content(name)
+
+
+def is_plain(of: os.stat_result) -> bool:
+    """Whether a path is a file or a folder."""
+    return stat.S_ISREG(of.st_mode) or stat.S_ISDIR(of.st_mode)
+
+
 def ways(path: str | os.PathLike[str]) -> tuple[Path, ...]:
     """Return the absolute paths of a file or folder: as it is spelled, and without links; the
     second alone where a `..` behind a link leads elsewhere than it reads.

@@ -1,12 +1,17 @@
 """Inputs of 100 kB that once took minutes or gigabytes: they are bounded, and said to be."""
 
 import itertools
+import os
+import re
+import socket
 import time
 
 import command
 import pytest
+from backups import SMALL, written
 from irbkin import Cell
 from irbkin._cell.entries import parsed
+from irbkin.cli.watch import _stamps
 from irbkin.errors import InvalidModelError
 
 DEEP = ".".join("a" * 33)
@@ -89,3 +94,30 @@ def test_a_correction_in_a_long_line_shows_its_part(tmp_path):
     fixes = [line for line in text.split("\n") if "fix in line 3" in line]
     assert len(fixes) >= 100
     assert all(len(line) < 250 and "[-1,0,-1,0]" in line.replace(" ", "") for line in fixes)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes with names")
+def test_pipes_and_sockets_among_files_are_passed_over_by_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    one_line(tmp_path / "a.mod", 1)
+    os.mkfifo("pipe.mod")
+    os.mkfifo(tmp_path / "list.pgf")
+    assert "E002" in command.run("check", "UR5e", "list.pgf").stdout.decode()
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind("socket.mod")
+        for names in (["."], ["a.mod", "pipe.mod", "socket.mod"]):
+            done = command.run("check", "IRB 2600-12/1.65", *names)
+            lines = [it for it in done.stdout.decode().split("\n") if "E002" in it]
+            assert len(lines) == 2, done.stdout
+            assert "pipe.mod:1:1: E002" in lines[0]
+            assert "is a pipe, a socket or a device" in lines[0]
+            assert "R101" in done.stdout.decode()
+    backup = written(tmp_path / "backup", SMALL)
+    os.mkfifo(backup / "RAPID" / "TASK1" / "PROGMOD" / "Pipe.mod")
+    (backup / "SYSPAR" / "SYS.cfg").unlink()
+    os.mkfifo(backup / "SYSPAR" / "SYS.cfg")
+    text = command.run("check", backup, "--output-format", "concise").stdout.decode()
+    assert len(re.findall(r"(Pipe.mod|SYS.cfg):1:1: B001 is a pipe, a socket", text)) == 2
+    (tmp_path / "irbkin.toml").write_text('[check]\nrobot = "IRB 2600-12/1.65"\n')
+    os.mkfifo("pipe.urdf")
+    assert [*_stamps([str(tmp_path)], "")]

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
+from irbkin._files import is_plain
 from irbkin.abb.archives import Unpacked
 from irbkin.abb.findings import Finding
 from irbkin.rapid.program import ENDINGS, ModuleFile
@@ -65,6 +66,9 @@ class Folder:
         for path in paths:
             if path.is_symlink() and not self._is_inside(path):
                 self.report(path, "symlink", "is a link out of the backup: not followed")
+            elif path.exists() and not is_plain(path.stat()):
+                message = "is a pipe, a socket or a device: it is not read"
+                self.report(path, "unreadable", message)
             elif path.name.lower() in names:
                 self.report(
                     path, "doubled-name", "differs from another name only in case: not read"

@@ -69,7 +69,8 @@ def _stamps(names: Iterable[str], output: str) -> dict[str, tuple[int, int, int]
                 left += (it.path for it in inside if it.name[0] != "." or it.is_file())
             elif path not in found and path != output:
                 found[path] = (of.st_mtime_ns, of.st_size, of.st_ino)
-                left += _named(path) if path.lower().endswith(NAMING) else ()
+                is_naming = path.lower().endswith(NAMING) and os.path.isfile(path)
+                left += _named(path) if is_naming else ()
         except OSError:
             continue
         if len(found) > MOST_FILES:

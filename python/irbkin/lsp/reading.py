@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from irbkin._core import differing_names, read_module
+from irbkin._files import read
 from irbkin.lsp.names import unread
 from irbkin.lsp.text import NAME
 from irbkin.rapid.program import FileFinding, ModuleFile, program_from
@@ -156,5 +157,4 @@ def _stamp(path: str) -> tuple[int, int]:
 def _content(path: str) -> bytes:
     if os.path.getsize(path) > MOST_BYTES:
         raise OSError(f"is larger than {MOST_BYTES / 1e6:g} MB: irbkin check reads it")
-    with open(path, "rb") as file:
-        return file.read()
+    return read(path)

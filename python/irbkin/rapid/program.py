@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from irbkin._core import check_program, read_modules
+from irbkin._files import STREAMS, is_plain, read
 
 if TYPE_CHECKING:
     from irbkin import Robot
@@ -172,17 +173,17 @@ def _contents(path: str, findings: list[FileFinding]) -> Iterator[tuple[str, byt
     if os.path.isdir(path):
         for name in modules_in(path):
             try:
-                content = Path(name).read_bytes()
+                yield name, read(name)
             except OSError as error:
                 message = f"cannot be read: {error.strerror}"
                 findings.append(FileFinding(name, 0, 0, "E002", message))
-                continue
-            yield name, content
+    elif not (path.startswith(STREAMS) or is_plain(os.stat(path))):
+        message = "is a pipe, a socket or a device: it is not read"
+        findings.append(FileFinding(path, 0, 0, "E002", message))
     elif path.lower().endswith(LIST):
         yield from _listed(path, findings)
     else:
-        with open(path, "rb") as file:
-            yield path, file.read()
+        yield path, read(path)
 
 
 def modules_in(folder: str) -> list[str]:
