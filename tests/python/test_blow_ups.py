@@ -102,7 +102,7 @@ def test_pipes_and_sockets_among_files_are_passed_over_by_name(tmp_path, monkeyp
     one_line(tmp_path / "a.mod", 1)
     os.mkfifo("pipe.mod")
     os.mkfifo(tmp_path / "list.pgf")
-    assert "E002" in command.run("check", "UR5e", "list.pgf").stdout.decode()
+    assert "E002" in command.run("check", "IRB 2600-12/1.65", "list.pgf").stdout.decode()
     with socket.socket(socket.AF_UNIX) as server:
         server.bind("socket.mod")
         for names in (["."], ["a.mod", "pipe.mod", "socket.mod"]):
