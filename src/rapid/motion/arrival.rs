@@ -4,10 +4,12 @@ use alloc::format;
 
 use super::drive::{Drive, apart};
 use super::goal::Place;
+use super::joints::nearest_written;
 use crate::kinematics::SingularityMode;
+use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 use crate::rapid::calc::confdata::{near, over_quarters};
 use crate::rapid::data::finding::{Code, Finding};
-use crate::rapid::motion::thresholds::NEAR_CONFDATA;
+use crate::rapid::motion::thresholds::{NEAR_CONFDATA, NEAR_CONFDATA_OF_LINE};
 
 impl<const N: usize> Drive<'_, '_, N> {
     /// The joints at the target of a line or an arc, and whether they have its configuration.
@@ -33,8 +35,14 @@ impl<const N: usize> Drive<'_, '_, N> {
         if found == confdata || is_met() {
             return q;
         }
-        let over = over_quarters(self.flange, &q, confdata);
-        if let Some(over) = over.filter(|over| over.by <= NEAR_CONFDATA) {
+        let is_nearest = |by: f64| {
+            nearest_written(self.flange, &pose, &wanted)
+                .is_none_or(|(_, least)| by <= least.by + CONFIGURATION_EDGE)
+        };
+        let over = over_quarters(self.flange, &q, confdata).filter(|over| {
+            over.by <= NEAR_CONFDATA || over.by <= NEAR_CONFDATA_OF_LINE && is_nearest(over.by)
+        });
+        if let Some(over) = over {
             self.found(index, near(&over, confdata, found));
         } else {
             let words = format!(

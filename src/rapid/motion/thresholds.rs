@@ -5,9 +5,13 @@ use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 /// How far an axis may be over the quarter of a target's confdata [rad] to be met: one quarter.
 ///
 /// ABB's manual has a controller go to the closest configuration and stop beyond a number of degrees
-/// that it does not give; users report 90. Public programs that are filmed on a real IRB 140, without
-/// ConfL and ConfJ, are up to 98 deg over with MoveL and up to 85 deg with MoveJ.
+/// that it does not give; users report 90.
 pub(crate) const NEAR_CONFDATA: f64 = core::f64::consts::FRAC_PI_2 + CONFIGURATION_EDGE;
+
+/// The same at the end of a line or an arc, where no other joints are nearer to the confdata [rad]:
+/// 110 deg. Public programs that ran on a real IRB 140, without `ConfL` and `ConfJ`, are up to 109.2
+/// deg over with `MoveL` and up to 85 deg with `MoveJ`.
+pub(crate) const NEAR_CONFDATA_OF_LINE: f64 = 1.92;
 
 /// Angle between upper arm and forearm from stretched or folded below which a move of a program
 /// passes the elbow singularity [rad]: one degree, as `WRIST_ZONE`.

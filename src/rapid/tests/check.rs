@@ -14,7 +14,7 @@ const DATA: &str = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,
     CONST robtarget b:=[[900,300,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
     CONST robtarget out:=[[2900,300,500],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
     CONST robtarget c{2}:=[[[900,-250,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]],
-        [[900,-200,500],[0,0,1,0],[ 1, 0 , 1,0 ],[9E9,9E9,9E9,9E9,9E9,9E9]]];";
+        [[900,-200,500],[0,0,1,0],[ 2, 0 , 2,0 ],[9E9,9E9,9E9,9E9,9E9,9E9]]];";
 
 fn text(moves: &str) -> String {
     format!("MODULE M\n{DATA}\nPROC main()\n{moves}\nENDPROC\nENDMODULE")
@@ -183,7 +183,7 @@ fn a_branch_is_checked_from_where_the_robot_is_before_it() {
 fn corrections_change_numbers_of_confdata_and_nothing_else() {
     let before = text("MoveJ c{1},v100,fine,t; MoveL c{2},v100,fine,t;");
     let after = corrected(&before);
-    assert_eq!(after, before.replace("[ 1, 0 , 1,0 ]", "[ -1, 0 , -1,0 ]"));
+    assert_eq!(after, before.replace("[ 2, 0 , 2,0 ]", "[ -1, 0 , -1,0 ]"));
     assert_eq!(checked(&after), []);
 }
 
@@ -224,11 +224,28 @@ fn a_target_is_met_up_to_a_quarter_beside_its_own() {
         let near = "[[900,-250,500],[0,0,1,0],[0,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
         let moves = moves.replace("at", near);
         assert!(codes(&moves).iter().all(|it| *it == wanted), "{moves}: {:?}", codes(&moves));
-        for (of, far) in [("[0,0,-1,0]", "[1,0,-1,0]"), ("[0,0,-1,0]", "[0,0,-1,1]")] {
+        for (of, far) in [("[0,0,-1,0]", "[2,0,-1,0]"), ("[0,0,-1,0]", "[0,0,-1,1]")] {
             let found = codes(&moves.replace(of, far));
             let is_wrong = |it: &Code| matches!(it, Code::WrongConfdata | Code::OtherConfiguration);
-            assert!(!found.is_empty() && found.iter().all(is_wrong), "{moves}: {found:?}");
+            assert!(found.first().is_some_and(is_wrong), "{moves}: {found:?}");
         }
+    }
+}
+
+#[test]
+fn a_line_may_arrive_up_to_110_deg_over_a_quarter_unless_its_wrist_is_another() {
+    // Axis 1 is at -9.5 deg and at -20.6 deg: 99.5 and 110.6 deg over the quarter 1.
+    for (y, confdata, wanted) in [
+        (-150, "[1,0,-1,0]", Code::NearConfdata),
+        (-338, "[1,0,-1,0]", Code::OtherConfiguration),
+        (-150, "[1,0,-1,1]", Code::OtherConfiguration),
+    ] {
+        let to = format!("[[900,{y},500],[0,0,1,0],{confdata},[9E9,9E9,9E9,9E9,9E9,9E9]]");
+        assert_eq!(
+            codes(&format!("MoveJ a,v100,fine,t; MoveL {to},v100,fine,t;")),
+            [wanted],
+            "{to}"
+        );
     }
 }
 
