@@ -180,6 +180,10 @@ impl<'a, 'm> Finder<'a, 'm> {
             (module, datum)
         } else {
             let (id, datum) = self.program.datum(module, &lower)?;
+            // The assignment has the confdata, not the declaration.
+            if self.program.assigns_confdata(id) {
+                return None;
+            }
             (id.module, datum)
         };
         let span = match &datum.content {

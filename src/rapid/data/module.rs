@@ -238,6 +238,11 @@ impl Module {
         self.index.get(&name.to_lowercase()).copied()
     }
 
+    /// Whether a name in lower case is of its own data, or of a component of them.
+    pub(crate) fn declares(&self, lower: &str) -> bool {
+        self.index.contains_key(lower) || self.parts.contains_key(lower)
+    }
+
     /// The module without lines, columns and spans: two that are equal so say the same.
     #[must_use]
     pub fn without_positions(mut self) -> Self {

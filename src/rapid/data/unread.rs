@@ -83,16 +83,19 @@ pub enum Unresolved {
 pub enum AssignedBy {
     /// The statement on a line, from 1; 0 if it was not read from a text.
     Line(usize),
-    /// Another module, with its name.
-    Module(Option<String>),
+    /// Another module, with its name, and the line there, from 1, if that is known.
+    Module(Option<String>, Option<usize>),
 }
 
 impl fmt::Display for AssignedBy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(line) => write!(f, "which line {line} assigns"),
-            Self::Module(Some(module)) => write!(f, "which module {module} assigns"),
-            Self::Module(None) => f.write_str("which another module assigns"),
+            Self::Module(Some(module), Some(line)) => {
+                write!(f, "which line {line} of module {module} assigns")
+            }
+            Self::Module(Some(module), None) => write!(f, "which module {module} assigns"),
+            Self::Module(None, _) => f.write_str("which another module assigns"),
         }
     }
 }

@@ -64,8 +64,8 @@ pub(crate) struct Cause<'a> {
 #[derive(Clone, Copy)]
 pub(crate) enum By<'a> {
     Line(usize),
-    /// Another module.
-    Module(Option<&'a str>),
+    /// Another module, and the line there, if that is known.
+    Module(Option<&'a str>, Option<usize>),
 }
 
 impl Cause<'_> {
@@ -73,7 +73,7 @@ impl Cause<'_> {
     pub(crate) fn of(&self, referred: &str) -> Unresolved {
         let by = match self.by {
             By::Line(line) => AssignedBy::Line(line),
-            By::Module(module) => AssignedBy::Module(module.map(String::from)),
+            By::Module(module, line) => AssignedBy::Module(module.map(String::from), line),
         };
         if lower(self.name) == lower(referred) {
             Unresolved::Assigned { by }

@@ -9,6 +9,7 @@ use core::mem;
 use core::ops::Range;
 
 use super::arguments::{Parameter, arguments, assignment, called, referred};
+use super::effects::MOST_CALLED;
 use super::frame::{Frame, Site};
 use super::state::{Local, Locals, MOST_KNOWN};
 use super::walker::Walk;
@@ -57,6 +58,8 @@ impl<'m> Walk<'_, 'm> {
     /// Follow a statement that may be a call.
     pub(super) fn call(&mut self, skipped: &'m Skipped) {
         let Some(name) = called(&skipped.text) else {
+            // It may assign any datum.
+            self.state.forget_globals(None);
             let words = "the name of the routine is calculated".to_string();
             return self.not_followed(skipped, words);
         };
@@ -83,7 +86,7 @@ impl<'m> Walk<'_, 'm> {
                 self.bound(skipped, parameters, arguments.required, arguments.optional)
             }
             (why, _) => {
-                let assigned = program.effects.assigned_by(Vec::from([(home, name)]));
+                let assigned = program.effects.assigned_by(Vec::from([(home, name)]), MOST_CALLED);
                 self.state.forget_globals(assigned.as_ref());
                 if acts.moves {
                     let words = why.unwrap_or_else(|| "its arguments are not read".to_string());
@@ -159,7 +162,8 @@ impl<'m> Walk<'_, 'm> {
             return;
         }
         if let Some((datum, _)) = self.program.datum(self.frame.module, lower) {
-            self.state.set_global(datum, content);
+            let is_certain = !self.program.effects.is_interrupted(datum);
+            self.state.set_global(datum, content.filter(|_| is_certain));
         }
     }
 
@@ -268,7 +272,9 @@ impl<'m> Walk<'_, 'm> {
         use crate::rapid::expression::tree::Form;
         let Form::Name(_) = value.form else { return None };
         match self.scope().find(At::default(), name) {
-            Found::Datum { content: content @ Content::Array { .. }, .. } => Some(content.clone()),
+            Found::Datum { content: content @ Content::Array { .. }, cause: None, .. } => {
+                Some(content.clone())
+            }
             _ => None,
         }
     }

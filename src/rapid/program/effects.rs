@@ -4,6 +4,7 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use super::arguments::{Parameter, arguments, assignment, called, referred};
 use super::index::{DatumId, Index};
@@ -12,12 +13,14 @@ use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::unread::{NotRead, Skipped};
+use crate::rapid::data::value::DataType;
+use crate::rapid::resolve::resolver::atoms_of;
 
 /// How often effects are passed on from routine to routine: chains of calls are no longer.
 const PASSES: usize = 64;
 
 /// Most routines with the data that they assign that are told apart: many assign any.
-const MOST_CALLED: usize = 1000;
+pub(super) const MOST_CALLED: usize = 1000;
 
 /// A routine by its module and its name in lower case.
 type Name = (usize, String);
@@ -58,6 +61,15 @@ impl Assigned {
         };
         component.is_empty() || self.components.iter().all(is_within)
     }
+
+    /// Whether an assignment changes some of these atoms of a datum of a type.
+    pub(super) fn meets(&self, data_type: DataType, atoms: &Range<usize>) -> bool {
+        self.components.iter().any(|it| {
+            let components: Vec<&str> = it.split('.').filter(|part| !part.is_empty()).collect();
+            let own = atoms_of(data_type.described(), &components);
+            own.start < atoms.end && atoms.start < own.end
+        })
+    }
 }
 
 /// A call of a procedure, with the name that each argument refers to.
@@ -77,6 +89,8 @@ pub(super) struct Effects {
     assigned: BTreeMap<DatumId, Assigned>,
     /// The data that a routine assigns to which they are passed.
     by_reference: BTreeSet<DatumId>,
+    /// The data that traps and handlers assign: at a time that is not known.
+    interrupted: BTreeSet<DatumId>,
 }
 
 impl Effects {
@@ -95,7 +109,30 @@ impl Effects {
         }
         effects.pass_on(names, &calls);
         effects.calls = calls;
+        effects.interrupted = effects.of_interrupts(names);
         effects
+    }
+
+    /// The data that traps and handlers assign.
+    fn of_interrupts(&self, names: &Index<'_>) -> BTreeSet<DatumId> {
+        let (mut found, mut called) = (BTreeSet::new(), Vec::new());
+        for (module, bodies) in names.bodies.iter().enumerate() {
+            for (routine, body) in bodies {
+                let trap = names.is_trap(module, routine).then_some(&body.main);
+                for block in body.handlers.iter().chain(trap) {
+                    let (own, calls, _) = self.of_statements(names, (module, routine), block);
+                    found.extend(own);
+                    called.extend(calls);
+                }
+            }
+        }
+        found.extend(self.assigned_by(called, usize::MAX).unwrap_or_default());
+        found
+    }
+
+    /// Whether a trap or a handler may assign a datum at any time.
+    pub(super) fn is_interrupted(&self, datum: DatumId) -> bool {
+        self.interrupted.contains(&datum)
     }
 
     /// The effects of a routine.
@@ -122,9 +159,22 @@ impl Effects {
     pub(super) fn of_block(
         &self,
         names: &Index<'_>,
-        (module, routine): (usize, &str),
+        place: (usize, &str),
         block: &Block<'_>,
     ) -> (Option<BTreeSet<DatumId>>, BTreeSet<String>) {
+        let (own, called, locals) = self.of_statements(names, place, block);
+        let others = self.assigned_by(called, MOST_CALLED);
+        (others.map(|others| own.into_iter().chain(others).collect()), locals)
+    }
+
+    /// The data that a block of a routine assigns by itself, the routines that it calls, and the
+    /// names of locals that it assigns.
+    fn of_statements(
+        &self,
+        names: &Index<'_>,
+        (module, routine): (usize, &str),
+        block: &Block<'_>,
+    ) -> (BTreeSet<DatumId>, Vec<Name>, BTreeSet<String>) {
         let mut assigned = BTreeMap::new();
         let mut reader = Reader::new(names, (module, routine), &mut assigned);
         reader.block(block);
@@ -140,18 +190,22 @@ impl Effects {
             called.push(call.to);
         }
         locals.extend(acts.assigned_parameters);
-        let others = self.assigned_by(called);
-        (others.map(|others| acts.own.into_iter().chain(others).collect()), locals)
+        (acts.own, called, locals)
     }
 
-    /// The data that routines assign, with the ones that they call; `None` if these are many.
-    pub(super) fn assigned_by(&self, mut open: Vec<Name>) -> Option<BTreeSet<DatumId>> {
+    /// The data that routines assign, with the ones that they call; `None` if these are more than
+    /// `most`.
+    pub(super) fn assigned_by(
+        &self,
+        mut open: Vec<Name>,
+        most: usize,
+    ) -> Option<BTreeSet<DatumId>> {
         let (mut found, mut seen) = (BTreeSet::new(), BTreeSet::new());
         while let Some(name) = open.pop() {
             let Some(acts) = self.of_routines.get(&name).filter(|acts| acts.assigns) else {
                 continue;
             };
-            if seen.len() + open.len() + found.len() + acts.own.len() > MOST_CALLED {
+            if seen.len() + open.len() + found.len() + acts.own.len() > most {
                 return None;
             }
             found.extend(acts.own.iter().copied());

@@ -21,8 +21,9 @@ pub(in crate::rapid) struct Index<'m> {
     pub(in crate::rapid) modules: Vec<&'m Module>,
     /// The parameters of the routines of each module by their names in lower case.
     parameters: Vec<BTreeMap<String, Vec<Parameter>>>,
-    /// The names in lower case of the procedures of each module.
+    /// The names in lower case of the procedures and the traps of each module.
     procedures: Vec<BTreeSet<String>>,
+    traps: Vec<BTreeSet<String>>,
     /// The first module that has a global procedure, by its name in lower case.
     global_procedures: BTreeMap<String, usize>,
     /// The first module that has a global datum, by its name in lower case.
@@ -41,6 +42,7 @@ impl<'m> Index<'m> {
             modules: modules.to_vec(),
             parameters: Vec::with_capacity(modules.len()),
             procedures: Vec::with_capacity(modules.len()),
+            traps: Vec::with_capacity(modules.len()),
             global_procedures: BTreeMap::new(),
             global_data: BTreeMap::new(),
             locals: modules.iter().map(|module| locals(module)).collect(),
@@ -49,9 +51,13 @@ impl<'m> Index<'m> {
         };
         for (index, module) in modules.iter().enumerate() {
             let (mut all, mut own) = (BTreeMap::new(), BTreeSet::new());
+            let mut traps = BTreeSet::new();
             for routine in &module.routines {
                 let name = routine.name.to_lowercase();
                 all.entry(name.clone()).or_insert_with(|| parameters(routine));
+                if routine.kind == RoutineKind::Trap {
+                    traps.insert(name.clone());
+                }
                 if routine.kind != RoutineKind::Proc {
                     continue;
                 }
@@ -62,6 +68,7 @@ impl<'m> Index<'m> {
             }
             names.parameters.push(all);
             names.procedures.push(own);
+            names.traps.push(traps);
             for (name, datum) in &module.index {
                 if module.data.get(*datum).is_some_and(|it| it.scope != Scope::Local) {
                     names.global_data.entry(name.clone()).or_insert(index);
@@ -77,6 +84,11 @@ impl<'m> Index<'m> {
             return Some(module);
         }
         self.global_procedures.get(lower).copied()
+    }
+
+    /// Whether a routine is a trap, by its name in lower case.
+    pub(super) fn is_trap(&self, module: usize, lower: &str) -> bool {
+        self.traps.get(module).is_some_and(|names| names.contains(lower))
     }
 
     /// The datum of a module that a name in lower case refers to in a module.

@@ -84,9 +84,11 @@ impl Scope<'_, '_> {
                     argument.text.clone_from(given);
                 }
             }
-            // The reader knows better why, except of parameters.
+            // The reader knows better why, except of parameters and of lines of other modules.
             Err(reason) => {
-                if argument.value.is_ok() || is_parameter(&argument.value) {
+                let is_assigned =
+                    matches!(reason, Reason::Reference { why: Unresolved::Assigned { .. }, .. });
+                if argument.value.is_ok() || is_parameter(&argument.value) || is_assigned {
                     argument.value = Err(frame.named(reason));
                 }
             }

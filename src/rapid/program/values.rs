@@ -1,17 +1,17 @@
 //! Values at a place of a program: names looked up, arguments evaluated, assignments made.
 
-use alloc::string::ToString;
 use core::cell::Cell;
+use core::ops::Range;
 
 use super::index::DatumId;
 use super::state::State;
 use super::whole::Program;
-use crate::rapid::data::module::{Content, Storage};
+use crate::rapid::data::module::{Content, Datum, Storage};
 use crate::rapid::data::types::{Atoms, Record};
-use crate::rapid::data::unread::{AssignedBy, Reason, Unresolved};
+use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
-use crate::rapid::expression::names::{At, Found, Names, lower, predefined};
+use crate::rapid::expression::names::{At, By, Cause, Found, Names, lower, predefined};
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Expression, Form};
 use crate::rapid::text::place::Place;
@@ -49,37 +49,44 @@ impl Names for Scope<'_, '_> {
         if let Some(content) = self.state.global(id) {
             return known(content);
         }
-        match self.cause(id, datum.storage) {
-            None => known(&datum.content),
-            Some(_) if self.takes_last && datum.storage == Storage::Pers => {
+        match self.cause(id, datum) {
+            Ok(Some(_)) | Err(_) if self.takes_last && datum.storage == Storage::Pers => {
                 self.has_taken.set(true);
                 known(&datum.content)
             }
-            Some(why) => Found::Unknown(why),
+            Ok(cause) => Found::Datum { content: &datum.content, can_change: false, cause },
+            Err(why) => Found::Unknown(why),
         }
+    }
+
+    fn cause_of(&self, at: At, name: &str, atoms: Range<usize>) -> Option<Cause<'_>> {
+        let Found::Datum { cause: Some(cause), .. } = self.find(at, name) else { return None };
+        let (id, datum) = self.program.datum(self.module, &lower(name))?;
+        let assigned = self.program.effects.assigned(id)?;
+        assigned.meets(datum.data_type, &atoms).then_some(cause)
     }
 }
 
 impl<'s> Scope<'s, '_> {
-    /// The reason why the declared content of a datum may not be what it has here.
-    fn cause(&self, id: DatumId, storage: Storage) -> Option<Unresolved> {
-        if storage == Storage::Const {
-            return None;
+    /// Why the declared content of a datum, or a part of it, may not be what it has here; an error
+    /// if it is declared by an expression of data that are assigned.
+    fn cause(&self, id: DatumId, datum: &'s Datum) -> Result<Option<Cause<'s>>, Unresolved> {
+        if datum.storage == Storage::Const {
+            return Ok(None);
         }
         if let Some(assigned) = self.program.effects.assigned(id) {
-            // No move depends on a load.
             let (module, line) = assigned.by;
+            let of = self.program.modules.get(module);
             let by = if module == self.module {
-                AssignedBy::Line(line)
+                By::Line(line)
             } else {
-                let of = self.program.modules.get(module);
-                AssignedBy::Module(of.and_then(|it| it.name()).map(ToString::to_string))
+                By::Module(of.and_then(|it| it.name()), Some(line))
             };
-            return (!assigned.are_within("tload")).then_some(Unresolved::Assigned { by });
+            return Ok(Some(Cause { name: &datum.name, by }));
         }
-        // It is declared by an expression of data that are assigned.
-        let home = self.program.modules.get(id.module)?;
-        home.expressions.contains_key(&id.datum).then_some(Unresolved::ValueNotKnown)
+        let home = self.program.modules.get(id.module);
+        let is_expression = home.is_some_and(|it| it.expressions.contains_key(&id.datum));
+        if is_expression { Err(Unresolved::ValueNotKnown) } else { Ok(None) }
     }
 
     fn evaluator<'a>(&'s self, text: &'a str) -> Evaluator<'s, 'a> {

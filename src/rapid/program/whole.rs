@@ -3,8 +3,10 @@
 use core::ops::Deref;
 
 use super::effects::Effects;
-use super::index::Index;
+use super::index::{DatumId, Index};
 use crate::rapid::data::module::Module;
+use crate::rapid::data::value::DataType;
+use crate::rapid::resolve::resolver::atoms_of;
 
 /// Modules that know each other.
 pub(in crate::rapid) struct Program<'m> {
@@ -17,6 +19,13 @@ impl<'m> Program<'m> {
         let index = Index::new(modules);
         let effects = Effects::of(&index);
         Self { index, effects }
+    }
+
+    /// Whether the program assigns a target with its confdata.
+    pub(in crate::rapid) fn assigns_confdata(&self, target: DatumId) -> bool {
+        let atoms = atoms_of(DataType::RobTarget.described(), &["robconf"]);
+        let assigned = self.effects.assigned(target);
+        assigned.is_some_and(|it| it.meets(DataType::RobTarget, &atoms))
     }
 }
 

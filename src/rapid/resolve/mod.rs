@@ -1,7 +1,7 @@
 //! Resolve names to values: data after the data that they refer to, then the moves.
 
 mod moves;
-mod resolver;
+pub(crate) mod resolver;
 
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
@@ -42,7 +42,8 @@ pub(crate) fn resolved(written: Written<'_>, context: &[&Module]) -> Result<Modu
     calls.dedup_by_key(|call| call.name.start);
     // Data with unknown parts are not resolved yet: none of their reasons is used before.
     let contents = contents.into_iter().map(|known| known.ok_or(Reason::Unfinished)).collect();
-    let causes = Causes::new(&assignments, &declared, &scopes, &blocks);
+    let mut causes = Causes::new(&assignments, &declared, &scopes, &blocks);
+    causes.add_assigned_elsewhere(name, context, &declared, &scopes);
     let parts = &parts;
     let mut resolver = Resolver {
         text,

@@ -273,6 +273,35 @@ impl<'a> Causes<'a> {
         causes
     }
 
+    /// Add the causes from assignments of other modules, to data that they see.
+    pub(super) fn add_assigned_elsewhere(
+        &mut self,
+        own: Option<&str>,
+        context: &[&'a Module],
+        declared: &[Declared<'a>],
+        scopes: &Scopes,
+    ) {
+        for module in context.iter().filter(|module| own.is_none() || module.name() != own) {
+            for name in module.assigned.iter().filter(|name| !module.declares(name)) {
+                let data = match scopes.find(0, name) {
+                    Some(Named::Datum(datum)) => Vec::from([*datum]),
+                    Some(Named::Other(_)) => {
+                        let parts = scopes.parts(0, name, &[]);
+                        parts.into_iter().map(|(part, _)| part).collect()
+                    }
+                    None => continue,
+                };
+                for datum in data {
+                    let Some(of) = declared.get(datum) else { continue };
+                    if of.storage != Storage::Const && of.scope != Scope::Local {
+                        let cause = Cause { name: of.name, by: By::Module(module.name(), None) };
+                        self.add(datum, ALL, cause);
+                    }
+                }
+            }
+        }
+    }
+
     fn add(&mut self, datum: usize, atoms: Range<usize>, cause: Cause<'a>) {
         let causes = self.of_data.entry(datum).or_default();
         let is_known =
@@ -313,12 +342,12 @@ impl<'a> Causes<'a> {
         let whole = lower.split('.').next().unwrap_or(lower);
         let assigns = |module: &&&Module| {
             [lower, whole].into_iter().any(|name| module.assigned.contains(name))
-                && (core::ptr::eq(**module, home) || module.find(lower).is_none())
+                && (core::ptr::eq(**module, home) || !module.declares(lower))
         };
         let of_context = || {
             let module = context.iter().find(assigns)?;
             let name = home.find(lower).or_else(|| home.parts.get(lower))?.name.as_str();
-            Some(Cause { name, by: By::Module(module.name()) })
+            Some(Cause { name, by: By::Module(module.name(), None) })
         };
         let own = self.of_others.get(lower).or_else(|| self.of_others.get(whole));
         own.copied().or_else(of_context)
@@ -347,7 +376,7 @@ impl<'a> Causes<'a> {
 const ALL: Range<usize> = 0..usize::MAX;
 
 /// The atoms of a component; all if there is no such component.
-fn atoms_of(mut of: &'static Type, components: &[&str]) -> Range<usize> {
+pub(crate) fn atoms_of(mut of: &'static Type, components: &[&str]) -> Range<usize> {
     let mut begin = 0;
     for component in components {
         let Some((part, before)) = of.component(component) else { return ALL };

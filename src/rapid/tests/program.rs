@@ -131,6 +131,82 @@ fn assigned_values_are_known_behind_their_assignments() {
     }
 }
 
+/// The codes of two modules, in each order as in one text: `go` is a routine of the first.
+fn split(step: &str, main: &str) -> Vec<Code> {
+    let part = format!(
+        "{}VAR robtarget p:=a; VAR robtarget q:=p; PERS num dx:=0;
+        PERS wobjdata o:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+        VAR robtarget s{{2}}:=[a,a]; PROC go() {step},v100,fine,t; ENDPROC\n",
+        data()
+    );
+    let main = format!("PROC main() {main} ENDPROC\n");
+    let module = |name: &str, body: &str| format!("MODULE {name}\n{body}ENDMODULE");
+    let outcome = |texts: &[&str]| {
+        let found = checked(texts, &CheckOptions::default());
+        let mut codes = codes(&found.findings);
+        codes.sort_unstable();
+        let known = found.moves.iter().filter(|it| it.unchecked.is_none()).count();
+        (codes, known, found.moves.len())
+    };
+    let whole = outcome(&[&module("One", &format!("{part}{main}"))]);
+    let [part, main] = [module("Part", &part), module("Main", &main)];
+    assert_eq!(outcome(&[&part, &main]), whole, "{part}\n{main}");
+    assert_eq!(outcome(&[&main, &part]), whole, "{main}\n{part}");
+    whole.0
+}
+
+#[test]
+fn data_that_another_module_assigns_are_as_in_one_text() {
+    let (reach, unknown) = (Code::OutOfReach, Code::UnknownValue);
+    for (step, main, wanted) in [
+        ("MoveJ p", "p:=out; go;", vec![reach]),
+        ("MoveJ p", "p:=out; p:=a; go;", vec![]),
+        ("MoveJ p", "go; p:=out;", vec![unknown]),
+        ("MoveJ p", "p:=a; IF dx=2 p:=out; go;", vec![unknown]),
+        ("MoveJ p", "p.trans.x:=3000; go;", vec![reach]),
+        ("MoveJ p", "set p; go; ENDPROC PROC set(INOUT robtarget x) x:=out;", vec![reach]),
+        ("MoveJ p", "set; go; ENDPROC PROC set() p:=out;", vec![reach]),
+        ("MoveJ p", "p:=a; go; ENDPROC TRAP stir p:=out; ENDTRAP PROC no()", vec![unknown]),
+        ("MoveJ p", "p:=a; go; ENDPROC PROC no() ERROR p:=out; RETRY;", vec![unknown]),
+        ("MoveJ p", "p:=a; %name%; go;", vec![unknown, Code::NotFollowed]),
+        ("MoveJ q", "p:=out; go;", vec![unknown]),
+        ("MoveJ Offs(a,p.trans.x-900,0,0)", "p.trans.y:=9000; go;", vec![]),
+        ("MoveJ Offs(a,p.trans.x-900,0,0)", "p.trans.x:=9000; go;", vec![reach]),
+        ("MoveJ Offs(a,dx,0,0)", "dx:=2000; go;", vec![reach]),
+        ("MoveJ Offs(a,dx,0,0)", "Incr dx; go;", vec![unknown]),
+        ("MoveJ s{1}", "s{1}:=out; go;", vec![unknown]),
+        ("MoveJ s{1}", "s{dx}:=out; go;", vec![unknown]),
+        ("MoveJ RelTool(a,0,0,0)\\WObj:=o", "o.uframe.trans.x:=3000; go;", vec![reach]),
+        ("MoveJ a,v100,fine,v;  MoveJ a", "v.tframe.trans.z:=3000; go;", vec![reach]),
+        ("MoveJ a,v100,fine,v;  MoveJ a", "v:=u; v.tload.mass:=1; go;", vec![]),
+    ] {
+        let step = step.replace(")\\WObj:=o", "),v100,fine,t\\WObj:=o; MoveJ a");
+        assert_eq!(split(&step, main), wanted, "{step}: {main}");
+    }
+}
+
+#[test]
+fn the_place_of_an_assignment_in_another_module_is_named() {
+    let part = "MODULE Part VAR robtarget p:=a; PROC go() MoveJ p,v100,fine,tool0; ENDPROC \
+        ENDMODULE";
+    let data = format!("MODULE Data\n{}ENDMODULE", data());
+    let main = "MODULE Main\nPROC main()\ngo;\np:=out;\nENDPROC\nENDMODULE";
+    let found = checked(&[part, main, &data], &CheckOptions::default());
+    assert_eq!(codes(&found.findings), [Code::UnknownValue]);
+    let message = &found.findings[0].message;
+    assert!(message.contains("refers to p, which line 4 of module Main assigns"), "{message}");
+}
+
+#[test]
+fn confdata_of_an_assigned_target_is_not_corrected_in_its_declaration() {
+    let turned = format!("[[900,-250,500],[0,0,1,0],[1,0,1,0],{FAR}]");
+    let found = of(&format!(
+        "p:={turned}; MoveJ p,v100,fine,t; ENDPROC PROC no() ENDPROC VAR robtarget p:=a; PROC x()"
+    ));
+    assert_eq!(codes(&found.findings), [Code::WrongConfdata]);
+    assert_eq!(found.findings[0].edits, []);
+}
+
 #[test]
 fn components_of_records_are_passed_on() {
     let record = "RECORD station robtarget p; num n; ENDRECORD\n\
