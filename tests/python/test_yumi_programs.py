@@ -96,16 +96,65 @@ def test_an_arm_angle_that_is_missing_is_asked_for():
     assert "eax_a" in finding.message
 
 
-def test_an_old_cfx_is_named_and_taken_as_bits():
-    q = next(it for it, _ in pairs(200, 0.1) if YUMI.configuration(it).cfx in (2, 3, 6, 7))
+def old_target(q, cfx):
+    """The target of joints with quarters from 0 to 90 deg, as old confdata has them."""
     own = target(q)
-    bits = int(f"{own.robconf.cfx:b}")
-    old = rapid.RobTarget(own.trans_mm, own.rot, (*own.robconf[:3], bits), own.extax)
-    module = program(("MoveJ", old))
-    (finding,) = rapid.check(YUMI, module)
-    assert finding.code == "C205"
-    assert f"cfx {bits} is an old form of {own.robconf.cfx}" in finding.message
-    np.testing.assert_allclose(rapid.motion(YUMI, module).moves[0].q, q, atol=1e-6)
+    quarters = np.floor(np.degrees(q[[0, 4, 6]]) / 90).astype(int)
+    return rapid.RobTarget(own.trans_mm, own.rot, (*map(int, quarters), cfx), own.extax)
+
+
+def test_old_confdata_with_cfx_11_have_4_and_quarters_that_begin_at_zero():
+    of_4 = [it for it, _ in pairs(60, 0.1) if YUMI.configuration(it).cfx == 4]
+    assert len(of_4) > 3
+    for q in of_4[:4]:
+        module = program(("MoveJ", old_target(q, 11)))
+        (finding,) = rapid.check(YUMI, module)
+        assert finding.code == "C205"
+        now = list(YUMI.configuration(q))
+        assert f"cfx 11 is an old form of 4, now its confdata is {now}" in finding.message
+        np.testing.assert_allclose(rapid.motion(YUMI, module).moves[0].q, q, atol=1e-6)
+
+
+def test_an_old_cfx_that_nobody_explains_is_named_and_not_guessed():
+    q = pairs(1, 0.1)[0][0]
+    for cfx in (10, 100, 101, 110, 111):
+        module = program(("MoveJ", old_target(q, cfx)))
+        (finding,) = rapid.check(YUMI, module)
+        assert finding.code == "C205"
+        assert f"cfx {cfx} has an old form that is not known" in finding.message
+        assert rapid.motion(YUMI, module).moves[0].q is None
+
+
+# Taught by hand, with tool0 or a gripper of the same direction: TechnoX/ABB-YUMI-LIB. All that the
+# joints inside the limits can have of these poses and arm angles.
+OLD = [
+    ("left", [428.802, 107.913, 336.046], [0.969237, 0.186976, 0.159937, -0.0062316], [-1, -1, -2],
+     157.51),
+    ("left", [400, 200, 400], [0.962975, -0.00425686, -0.269271, -0.0124256], [-2, -1, -2],
+     110.128),
+    ("right", [431.13, -60, 337.42], [0.963594, 0.0128811, -0.26702, 0.00459979], [1, -1, 1],
+     -102.057),
+    ("right", [368.07, -60, 424.92], [0.963598, 0.0129005, -0.267003, 0.0046068], [1, -1, 1],
+     -102.03),
+    ("right", [425.57, -60, 457.94], [0.963591, 0.0128538, -0.267033, 0.0046038], [1, 0, 1],
+     -102.11),
+    ("right", [395.6, -295.28, 111.92], [6.11021e-05, -0.526551, -0.850144, 2.23703e-05],
+     [0, -2, 0], -158.118),
+]  # fmt: skip
+
+
+def test_taught_targets_with_cfx_11_are_met_with_4_and_floor_alone():
+    for side, trans, rot, quarters, angle in OLD:
+        arm = irbkin.Robot(f"IRB 14000-0.5/0.5 ({side})")
+        T = irbkin.pose(np.array(trans) / 1e3, wxyz=rot)
+        every = arm.ik_configured(T, None, arm_angle=np.radians(angle), every=True)
+        inside = [it.q for it in every if it.is_within_limits]
+        written = [
+            arm.configuration(q).cfx
+            for q in inside
+            if (np.floor(np.degrees(q[[0, 4, 6]]) / 90) == quarters).all()
+        ]
+        assert written == [4]
 
 
 def test_confdata_of_another_branch_is_found_and_corrected():

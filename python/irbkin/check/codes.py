@@ -39,6 +39,7 @@ REASONS = {
     "N602": "unknown tools",
     "N603": "unknown work objects",
     "R106": "absent axes",
+    "C205": "old confdata",
     "D701": "invalid frames",
 }
 """Why a move is not checked, by the code of the finding on it."""

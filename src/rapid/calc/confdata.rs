@@ -4,7 +4,7 @@ use alloc::format;
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
 
-use crate::kinematics::Robot;
+use crate::kinematics::{ConfigurationRequest, Pose, Robot};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::report::Configuration;
 
@@ -31,11 +31,22 @@ pub(in crate::rapid) fn over_quarters<const N: usize>(
     q: &[f64; N],
     wanted: Configuration,
 ) -> Option<Over> {
+    let (_, zero) = robot.counted_joints().ok()?;
+    over_quarters_from(zero, robot, q, wanted)
+}
+
+/// The same with a quarter 0 that begins at an angle [rad].
+fn over_quarters_from<const N: usize>(
+    zero: f64,
+    robot: &Robot<N>,
+    q: &[f64; N],
+    wanted: Configuration,
+) -> Option<Over> {
     let found = robot.configuration(q).ok()?;
     if found.cfx != wanted.cfx {
         return None;
     }
-    let (joints, zero) = robot.counted_joints().ok()?;
+    let (joints, _) = robot.counted_joints().ok()?;
     let quarters = [wanted.cf1, wanted.cf4, wanted.cf6];
     let over = AXES.into_iter().zip(joints).zip(quarters).map(|((axis, joint), cf)| {
         let quarter = core::f64::consts::FRAC_PI_2;
@@ -46,13 +57,32 @@ pub(in crate::rapid) fn over_quarters<const N: usize>(
     over.max_by(|a, b| a.by.total_cmp(&b.by))
 }
 
-/// The confdata that is meant by an old one of a `YuMi`, whose cfx has digits that are bits, as 11:
-/// docs/guide/abb.md has the evidence.
-pub(in crate::rapid) fn of_old_form<const N: usize>(old: Configuration) -> Option<Configuration> {
-    let digits = [100, 10, 1].map(|place| old.cfx / place % 10);
-    let is_old = N == 7 && (10..=111).contains(&old.cfx) && digits.iter().all(|it| *it <= 1);
-    let cfx = digits.iter().fold(0, |bits, digit| 2 * bits + digit);
-    is_old.then_some(Configuration { cfx, ..old })
+/// Whether the cfx of a `YuMi` has an old form, of digits 0 and 1.
+pub(in crate::rapid) fn is_old_form<const N: usize>(cfx: i32) -> bool {
+    let mut digits = [100, 10, 1].map(|place| cfx / place % 10).into_iter();
+    N == 7 && (10..=111).contains(&cfx) && digits.all(|it| it <= 1)
+}
+
+/// The confdata in the new form of a flange pose with an old one, whose quarters begin at multiples
+/// of 90 deg; `None` but for cfx 11, which is 4: docs/guide/abb.md has the evidence.
+pub(in crate::rapid) fn of_old_form<const N: usize>(
+    robot: &Robot<N>,
+    pose: &Pose,
+    old: &ConfigurationRequest<N>,
+) -> Option<Configuration> {
+    let wanted = Configuration { cfx: 4, ..old.configuration };
+    if old.configuration.cfx != 11 {
+        return None;
+    }
+    let inside = robot.ik_inside_at(pose, old.arm_angle).unwrap_or_default();
+    let near = inside.into_iter().filter_map(|q| {
+        let over = over_quarters_from(0.0, robot, &q, wanted)?;
+        // As of a new one that is met: up to a quarter.
+        (over.by <= core::f64::consts::FRAC_PI_2).then_some((q, over.by))
+    });
+    let nearest = near.min_by(|a, b| a.1.total_cmp(&b.1));
+    let found = nearest.and_then(|(q, _)| robot.configuration(&q).ok());
+    Some(found.unwrap_or(wanted))
 }
 
 /// A target that is a little over the edge of a quarter.

@@ -8,10 +8,10 @@ use alloc::vec::Vec;
 use crate::error::Error;
 use crate::kinematics::{ConfigurationRequest, Pose, Robot};
 use crate::paths::Zone;
-use crate::rapid::calc::confdata::of_old_form;
+use crate::rapid::calc::confdata::{is_old_form, of_old_form};
 use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::table::{frames_of, target_of};
-use crate::rapid::calc::target::{absent_axis, joint_vector, request, target_pose};
+use crate::rapid::calc::target::{absent_axis, joint_vector, request, target_pose, with_flange};
 use crate::rapid::calc::units::Units;
 use crate::rapid::calc::wrong::{Found, absent, displaced, not_solved, outside};
 use crate::rapid::data::finding::{Code, Finding};
@@ -19,6 +19,7 @@ use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::RobTarget;
 use crate::rapid::data::settings::CirPathMode;
 use crate::rapid::program::walker::Stepped;
+use crate::report::Configuration;
 
 /// The destination of a move.
 #[derive(Clone, Copy)]
@@ -80,15 +81,17 @@ impl<'m, const N: usize> Goal<'m, N> {
         let mut found = |finding: Finding| findings.push(finding.at(step, move_index));
         let frames = frames_of(robot, step, units);
         let mut place = placed(robot, step, &frames).map_err(|finding| found(*finding)).ok();
-        if let Some(Place::Tool(_, wanted)) = &mut place
-            && let Some(now) = of_old_form::<N>(wanted.configuration)
+        if let (Some(Place::Tool(pose, wanted)), Ok(frames)) = (&mut place, &frames)
+            && is_old_form::<N>(wanted.configuration.cfx)
         {
-            let words = format!(
-                "cfx {} is an old form of {}: controllers with the new one refuse it (event 50488)",
-                wanted.configuration.cfx, now.cfx,
-            );
-            found(Finding::new(Code::OldConfdata, words));
-            wanted.configuration = now;
+            let now = with_flange(robot)
+                .ok()
+                .and_then(|flange| of_old_form(&flange, &frames.flange(pose), wanted));
+            found(old_confdata(wanted.configuration.cfx, now));
+            match now {
+                Some(now) => wanted.configuration = now,
+                None => place = None,
+            }
         }
         if let Some(Place::Joints(q)) = &place {
             outside(robot, q).into_iter().for_each(&mut found);
@@ -137,6 +140,19 @@ impl<'m, const N: usize> Goal<'m, N> {
             from_unknown: false,
         }
     }
+}
+
+/// A target whose cfx has an old form, and its confdata in the new one, if that is known.
+fn old_confdata(cfx: i32, now: Option<Configuration>) -> Finding {
+    let words = match now {
+        Some(now) => format!(
+            "cfx {cfx} is an old form of {}, now its confdata is {now}: controllers with the new \
+             one refuse it (event 50488)",
+            now.cfx,
+        ),
+        None => format!("cfx {cfx} has an old form that is not known: teach the target again"),
+    };
+    Finding::new(Code::OldConfdata, words)
 }
 
 /// The destination of a move.
