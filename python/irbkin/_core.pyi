@@ -2062,7 +2062,8 @@ class Guard:
     Every set point is inside the limits of the joints and within the bounds, and so is the motion
     to it: the cubic of the joint angles and velocities at both ends. After every cycle a braking
     motion exists that is so too. Both are proven free in the cell (docs/guide/stream.md). The first
-    set points are at rest at `start`; a set point follows its reference one cycle later.
+    set points are at rest at `start`; a set point follows its reference one cycle later. Steps of
+    several threads follow one another.
 
     Args:
         robot: The arm.

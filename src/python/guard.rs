@@ -1,5 +1,7 @@
 //! `irbkin.stream.Guard`: set points for a control loop.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use pyo3::basic::CompareOp;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -18,7 +20,7 @@ use super::targets::shape_of;
 use super::trajectories::{read_each, read_limits};
 use crate::cell::Cell;
 use crate::error::Error;
-use crate::kinematics::{Robot, pose_from_rows};
+use crate::kinematics::{Pose, Robot, pose_from_rows};
 use crate::stream::{Guard, GuardOptions, OnViolation};
 
 record! {
@@ -48,7 +50,8 @@ record! {
 /// Every set point is inside the limits of the joints and within the bounds, and so is the motion
 /// to it: the cubic of the joint angles and velocities at both ends. After every cycle a braking
 /// motion exists that is so too. Both are proven free in the cell (docs/guide/stream.md). The first
-/// set points are at rest at `start`; a set point follows its reference one cycle later.
+/// set points are at rest at `start`; a set point follows its reference one cycle later. Steps of
+/// several threads follow one another.
 ///
 /// Args:
 ///     robot: The arm.
@@ -71,9 +74,9 @@ record! {
 ///     InvalidJointsError: A start of a wrong shape or that is not finite.
 ///     UnreachableError: The start is outside the limits or collides.
 ///     ValueError: Another `on_violation`.
-#[pyclass(name = "Guard", module = "irbkin.stream")]
+#[pyclass(name = "Guard", module = "irbkin.stream", frozen)]
 pub(super) struct PyGuard {
-    guard: ByJoints<Guard<6>, Guard<7>>,
+    guard: ByJoints<Mutex<Guard<6>>, Mutex<Guard<7>>>,
     robot: Py<PyRobot>,
 }
 
@@ -99,8 +102,8 @@ impl PyGuard {
         let asked = Asked { cycle, start, limits, margin, max_tool_speed, on_violation };
         let cell = read_cell(cell)?;
         let guard = match robot.get().arm() {
-            Arm::Six(robot) => ByJoints::Six(asked.guard(robot, cell.as_ref())?),
-            Arm::Seven(robot) => ByJoints::Seven(asked.guard(robot, cell.as_ref())?),
+            Arm::Six(robot) => ByJoints::Six(Mutex::new(asked.guard(robot, cell.as_ref())?)),
+            Arm::Seven(robot) => ByJoints::Seven(Mutex::new(asked.guard(robot, cell.as_ref())?)),
         };
         Ok(Self { guard, robot: robot.clone().unbind() })
     }
@@ -118,9 +121,8 @@ impl PyGuard {
     /// Raises:
     ///     InvalidJointsError, InvalidPoseError: A wrong shape; the guard stays as it is.
     #[pyo3(signature = (reference))]
-    fn step(&mut self, reference: &Bound<'_, PyAny>) -> PyResult<Step> {
-        let py = reference.py();
-        on!(&mut self.guard, guard => taken(py, guard, reference))
+    fn step(&self, reference: &Bound<'_, PyAny>) -> PyResult<Step> {
+        on!(&self.guard, guard => taken(guard, reference))
     }
 
     /// The arm, an `irbkin.Robot`.
@@ -132,23 +134,27 @@ impl PyGuard {
     /// Time from one set point to the next [s].
     #[getter]
     fn cycle(&self) -> f64 {
-        on!(&self.guard, guard => guard.cycle())
+        on!(&self.guard, guard => locked(guard).cycle())
     }
 
     /// The state: "following", "braking" or "holding".
     #[getter]
     fn state(&self) -> &'static str {
-        on!(&self.guard, guard => guard.state().name())
+        on!(&self.guard, guard => locked(guard).state().name())
     }
 
     /// The last set point [rad], shape (n,).
     #[getter]
     fn q(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        on!(&self.guard, guard => array(py, guard.q(), &[guard.q().len()]))
+        on!(&self.guard, guard => {
+            let q = locked(guard).q();
+            array(py, q, &[q.len()])
+        })
     }
 
     fn __repr__(&self) -> String {
         on!(&self.guard, guard => {
+            let guard = locked(guard);
             let proven = if guard.proves_free() { "" } else { ", proves nothing free" };
             let (name, cycle) = (guard.robot().name(), guard.cycle());
             let comma = if name.is_empty() { "" } else { ", " };
@@ -201,22 +207,45 @@ fn read_cell(cell: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Cell>> {
     Ok(Some(Cell::clone(&cell.get().0)))
 }
 
-/// The next set point.
-fn taken<const N: usize>(
-    py: Python<'_>,
-    guard: &mut Guard<N>,
-    reference: &Bound<'_, PyAny>,
-) -> PyResult<Step> {
-    let step = if reference.is_none() {
-        guard.step_none()
-    } else if shape_of(reference).is_some_and(|shape| shape.len() > 1) {
-        match pose_from_rows(&matrix4(reference, "reference", Fault::Pose)?) {
-            Ok(pose) => guard.step_pose(&pose),
-            Err(Error::InvalidPose(_)) => guard.step_not_rigid(),
-            Err(error) => return Err(error.into()),
+/// The guard, for one thread at a time. No code of Python runs while it is locked: a thread that
+/// holds the interpreter never waits.
+fn locked<const N: usize>(guard: &Mutex<Guard<N>>) -> MutexGuard<'_, Guard<N>> {
+    guard.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A reference that is not None.
+enum Reference<const N: usize> {
+    Joints([f64; N]),
+    Pose(Pose),
+    NotRigid,
+}
+
+impl<const N: usize> Reference<N> {
+    fn read(reference: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if shape_of(reference).is_none_or(|shape| shape.len() < 2) {
+            return Ok(Self::Joints(vector(reference, "reference", Fault::Joints)?));
         }
-    } else {
-        guard.step(&vector(reference, "reference", Fault::Joints)?)
+        match pose_from_rows(&matrix4(reference, "reference", Fault::Pose)?) {
+            Ok(pose) => Ok(Self::Pose(pose)),
+            Err(Error::InvalidPose(_)) => Ok(Self::NotRigid),
+            Err(error) => Err(error.into()),
+        }
+    }
+}
+
+/// The next set point.
+fn taken<const N: usize>(guard: &Mutex<Guard<N>>, reference: &Bound<'_, PyAny>) -> PyResult<Step> {
+    let py = reference.py();
+    let reference = (!reference.is_none()).then(|| Reference::read(reference)).transpose()?;
+    let (step, reason) = {
+        let mut guard = locked(guard);
+        let step = match reference {
+            None => guard.step_none(),
+            Some(Reference::Joints(q)) => guard.step(&q),
+            Some(Reference::Pose(pose)) => guard.step_pose(&pose),
+            Some(Reference::NotRigid) => guard.step_not_rigid(),
+        };
+        (step, step.reason.map(|reason| guard.words(&reason)))
     };
     Ok(Step {
         q: array(py, step.q, &[N])?,
@@ -224,6 +253,6 @@ fn taken<const N: usize>(
         ddq: array(py, step.ddq, &[N])?,
         accepted: step.accepted,
         state: step.state.name().to_owned(),
-        reason: step.reason.map(|reason| guard.words(&reason)),
+        reason,
     })
 }

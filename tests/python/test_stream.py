@@ -1,6 +1,8 @@
 """The guard from Python: what it answers, what it refuses and how, and its loop on a trajectory."""
 
 import pickle
+import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import irbkin
 import numpy as np
@@ -187,3 +189,27 @@ def test_seven_axes():
     assert np.array_equal(own.q, goal)
     T = panda.fk(own.q)
     assert own.step(T).accepted
+
+
+def test_a_watchdog_in_another_thread_brakes_a_guard_that_is_in_a_step():
+    own = guard(on_violation="limit")
+    for _ in range(50):
+        own.step(START + 1.0)
+    inside, gone = threading.Event(), threading.Event()
+
+    class Slow:
+        """A reference whose conversion takes long, as a list of many numbers may."""
+
+        def __array__(self, dtype=None, copy=None):
+            inside.set()
+            assert gone.wait(10.0)
+            return START + 1.0
+
+    with ThreadPoolExecutor(1) as pool:
+        late = pool.submit(own.step, Slow())
+        assert inside.wait(10.0)
+        steps = rest(own)
+        gone.set()
+        assert late.result().state == "following"
+    assert {step.state for step in steps} == {"braking", "holding"}
+    assert own.state == "following"
