@@ -2,9 +2,9 @@
 //!
 //! Denavit-Hartenberg rows as published by Franka (control parameters documentation), with the
 //! flange in the last row; validated against a pose recorded on a machine
-//! (petercorke/robotics-toolbox-matlab#107). Limits and velocities are those of the maker's
+//! (petercorke/robotics-toolbox-matlab#107). Limits and velocities come from the maker's
 //! description (`frankaemika/franka_description` @ b299b39d96, `robots/fer` and `robots/fr3`),
-//! accelerations those of the maker's library (`frankarobotics/libfranka`,
+//! accelerations from the maker's library (`frankarobotics/libfranka`,
 //! `include/franka/rate_limiting.h` @ f3b8d775a9, release 0.9.2, for the Panda and @ 6474466b74
 //! for the FR3).
 

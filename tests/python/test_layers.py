@@ -8,7 +8,6 @@ from python_modules import PACKAGE
 from rust_modules import SRC, cycles, expanded, home, modules, used_by
 
 ARCHITECTURE = SRC.parent / "ARCHITECTURE.md"
-LINES = 400
 
 
 def layers(title: str) -> list[list[str]]:
@@ -70,15 +69,6 @@ def test_no_files_use_one_another_in_a_circle():
     # For its type alone: a scene has a method that returns its view, which is made of it.
     graph["scene/_data"].remove("scene/_widget")
     assert cycles(graph) == []
-
-
-@pytest.mark.parametrize(
-    "file", [path.relative_to(SRC).as_posix() for path in sorted(SRC.rglob("*.rs"))]
-)
-def test_a_file_is_no_longer_than_it_may_be(file):
-    # The arms of the catalog and their bodies are blocks of numbers, RAPID's instructions of rows.
-    if not file.startswith(("catalog/", "body/arms/", "rapid/data/table.rs")):
-        assert len((SRC / file).read_text().splitlines()) <= LINES
 
 
 def test_nested_braces_are_taken_apart():

@@ -10,7 +10,7 @@ import pytest
 from arms import CATALOG, GOFA, IRB2400, PANDA
 from hypothesis import assume, given, reject
 from hypothesis import strategies as st
-from irbkin import Reach
+from irbkin import Reach, SingularityKind
 from reference import apart, fk, fk_opw, jacobian, reach, reach_opw, rounding
 from strategies import joints, numbers, poses
 
@@ -33,9 +33,14 @@ class Subject:
         return self.robot.ik(T, q7) if self.robot.dof == 7 else self.robot.ik(T)
 
     def check_closure(self, every_q, T):
-        """Every joint vector brings the tool to the pose, by NumPy's forward kinematics."""
+        """Every joint vector brings the tool to the pose, by NumPy's forward kinematics; a
+        stretched arm, to a pose that is up to 1e-9 m beyond its reach.
+        """
         for q in every_q:
-            np.testing.assert_allclose(self.fk(q), T, rtol=0, atol=2 * rounding(self.reach))
+            kinds = self.robot.singularity(q).kinds
+            slack = 1e-9 if SingularityKind.ELBOW in kinds else 0.0
+            atol = slack + 2 * rounding(self.reach)
+            np.testing.assert_allclose(self.fk(q), T, rtol=0, atol=atol)
 
     def conditioning(self, q):
         """Least singular value of the Jacobian of the joints that are solved for [1]."""

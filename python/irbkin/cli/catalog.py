@@ -94,7 +94,8 @@ def _show_one(arguments: argparse.Namespace, entry: CatalogEntry) -> None:
         ),
     }
     if entry.max_acceleration is not None:
-        columns[Column("acceleration", "7.0f", "deg/s^2")] = np.degrees(entry.max_acceleration)
+        accelerations = Column("acceleration", "7.0f", "deg/s^2")
+        columns = {**columns, accelerations: np.degrees(entry.max_acceleration)}
     notes = [("alias", other, f"also {other}") for other in entry.aliases]
     provenance = entry.provenance.replace("; ", "\n- ")
     notes.append(("provenance", entry.provenance, f"sources: {provenance}"))

@@ -35,7 +35,7 @@ pub(in crate::rapid) fn over_quarters<const N: usize>(
     over_quarters_from(zero, robot, q, wanted)
 }
 
-/// The same with a quarter 0 that begins at an angle [rad].
+/// As above, with a quarter 0 that begins at an angle [rad].
 fn over_quarters_from<const N: usize>(
     zero: f64,
     robot: &Robot<N>,

@@ -8,7 +8,7 @@ use crate::kinematics::thresholds::CONFIGURATION_EDGE;
 /// that it does not give; users report 90.
 pub(crate) const NEAR_CONFDATA: f64 = core::f64::consts::FRAC_PI_2 + CONFIGURATION_EDGE;
 
-/// The same at the end of a line or an arc, where no other joints are nearer to the confdata [rad]:
+/// As above at the end of a line or an arc, where no other joints are nearer to the confdata [rad]:
 /// 110 deg. Public programs that ran on a real IRB 140, without `ConfL` and `ConfJ`, are up to 109.2
 /// deg over with `MoveL` and up to 85 deg with `MoveJ`.
 pub(crate) const NEAR_CONFDATA_OF_LINE: f64 = 1.92;
