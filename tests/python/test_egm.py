@@ -1,6 +1,7 @@
 """EGM: bytes of messages, and what a session answers to datagrams."""
 
 import struct
+import tracemalloc
 
 import irbkin
 import numpy as np
@@ -169,6 +170,117 @@ def test_old_datagrams_are_not_answered():
     assert session.statistics.lost == 13
 
 
+def test_numbers_before_the_first_are_late_and_nothing_else():
+    guard = PassThrough()
+    session = Session(guard, swing)
+    assert [bool(it) for it in answers(session, [10, 9, 8, 9, 11, 12])] == [1, 0, 0, 0, 1, 1]
+    assert session.statistics[:4] == (3, 0, 2, 1)
+    assert guard.steps == 3
+
+
+def test_a_number_far_ahead_after_a_slow_reference_costs_no_memory():
+    slow = Slow({1: 3.0})
+    session = Session(PassThrough(), slow, clock=lambda: slow.now)
+    assert answers(session, [1])[0]
+    tracemalloc.start()
+    assert session.answer(message(2**31 - 1, tm=4000), "controller", 4.0)
+    assert tracemalloc.get_traced_memory()[1] < 1e6
+    tracemalloc.stop()
+
+
+@pytest.mark.parametrize("first", [0, WORD - 20])
+@pytest.mark.parametrize("seed", range(10))
+def test_every_number_is_counted_once_in_any_order(first, seed):
+    """What came is answered, late or a duplicate; what never came is lost, never less than 0."""
+    draw = np.random.default_rng(seed)
+    numbers = np.repeat(np.arange(300), draw.choice([0, 1, 2], 300, p=[0.1, 0.8, 0.1]))
+    numbers = numbers[np.argsort(numbers + draw.uniform(0, 8, len(numbers)))]
+    session = Session(PassThrough(), swing)
+    newest = -1
+    for number in numbers.tolist():
+        newest = max(newest, number)
+        tm = (int(number * CYCLE * 1e3) - 50) % WORD
+        session.answer(message(first + number, tm=tm), "controller", newest * CYCLE)
+        assert session.statistics.lost >= 0
+    counted = session.statistics
+    assert counted.received + counted.late + counted.duplicate == len(numbers)
+    within = [number for number in {*numbers.tolist()} if number >= numbers[0]]
+    assert counted.lost == newest - numbers[0] + 1 - len(within)
+
+
+@pytest.mark.parametrize("at", [2, 13, 60])
+@pytest.mark.parametrize(("wrong", "is_set"), [(16_000, False), (-45, True), (45, True), (-9e8, 1)])
+def test_the_number_counts_where_the_time_is_wrong(at, wrong, is_set):
+    """One wrong time, and a clock that is set: neither ends a session, nor makes others late."""
+    session = Session(PassThrough(), swing)
+    for number in range(1, 200):
+        is_off = number >= at if is_set else number == at
+        tm = (int(number * CYCLE * 1e3) + int(wrong) * is_off) % WORD
+        assert session.answer(message(number, tm=tm), "controller", number * CYCLE)
+    assert session.statistics[:4] == (199, 0, 0, 0)
+    # A datagram that is too old is still seen to be.
+    data = message(200, tm=(int(200 * CYCLE * 1e3) + int(wrong) * bool(is_set)) % WORD)
+    assert session.answer(data, "controller", 200 * CYCLE + 0.06) is None
+
+
+class Slow:
+    """A reference that takes some seconds at some calls, by a clock of its own."""
+
+    def __init__(self, calls, reference=swing):
+        self.calls, self.reference, self.now, self.count = calls, reference, 0.0, 0
+
+    def __call__(self, feedback):
+        self.count += 1
+        self.now += self.calls.get(self.count, 0.0)
+        return self.reference(feedback)
+
+
+def test_a_slow_reference_is_named():
+    """In motion the guard brakes: the controller got no set point for so long."""
+    slow = Slow({50: 0.3})
+    guard = PassThrough()
+    session = Session(guard, slow, clock=lambda: slow.now, linger=0.05)
+    number = 0
+    while not session.is_done:
+        number += 1 + 74 * (slow.count == 50 and session.error is not None and session.held == 0)
+        assert answers(session, [number])[0]
+        assert number < 1000
+    assert str(session.error).startswith("the reference took 300 ms, at most 0.25 s")
+    assert guard.state == "holding"
+    assert session.statistics.slow == 1
+
+
+@pytest.mark.parametrize("took", [0.06, 0.24, 0.25, 1.0, 3.0])
+def test_a_slow_first_reference_only_delays(took):
+    """The robot rests: time does not go on meanwhile, and the motion is without a step."""
+    slow = Slow({1: took})
+    guard = PassThrough()
+    session = Session(guard, slow, clock=lambda: slow.now)
+    assert answers(session, [1])[0]
+    # A socket keeps the oldest: the newest of them is late, too.
+    behind = 1 + int(took / CYCLE)
+    numbers = range(2, min(behind, 270))
+    for number in numbers:
+        session.take(message(number), "controller", behind * CYCLE)
+    session.reply()
+    assert all(answers(session, range(behind + 1, behind + 100)))
+    assert session.error is None
+    assert np.abs(np.diff(guard.set_points, axis=0)).max() < 0.1 * 0.5 * CYCLE
+    assert session.statistics.slow == 1
+
+
+def test_of_what_waits_the_newest_is_answered():
+    guard = PassThrough()
+    session = Session(guard, swing)
+    assert answers(session, [1])[0]
+    for number in range(2, 9):
+        session.take(message(number), "controller", 8 * CYCLE)
+    assert session.reply()
+    assert session.reply() is None
+    assert session.statistics[:4] == (2, 0, 6, 0)
+    assert guard.steps == 8
+
+
 @pytest.mark.parametrize(("drift", "is_late"), [(5e-4, False), (-5e-4, False), (5e-3, True)])
 def test_clocks_that_drift_apart_make_nothing_late(drift, is_late):
     """Over 100 s, as the crystals of two clocks do; a link that gets ever slower is none."""
@@ -239,6 +351,45 @@ def test_a_robot_that_is_not_moved_by_egm_gets_no_reference():
     assert asked == []
     answers(session, [4, 5])
     assert asked == pytest.approx([0, CYCLE])
+
+
+def follow(speed, robot_at, **options):
+    """Answer until the end a robot that is somewhere, by the time and the reference."""
+    guard = PassThrough()
+    session = Session(guard, lambda it: START + speed * it.t, linger=0.02, **options)
+    for number in range(1, 400):
+        q = robot_at(number * CYCLE, guard.q)
+        answers(session, [number], q=tuple(np.degrees(q).tolist()))
+        if session.is_done:
+            break
+    return guard, session
+
+
+STANDS = {"stands": lambda t, q: START, "jumps": lambda t, q: q + (t > 0.4) * np.eye(6)[2]}
+
+
+@pytest.mark.parametrize("robot_at", STANDS.values(), ids=STANDS)
+@pytest.mark.parametrize("speed", [0.05, 0.7, 2.0])
+def test_a_robot_that_does_not_follow_is_noticed(robot_at, speed):
+    """The guard brakes before it is farther away than the default bound, and says so."""
+    guard, session = follow(speed, robot_at)
+    assert isinstance(session.error, StreamError)
+    assert "of the robot is at" in str(session.error)
+    assert "max_following_error" in str(session.error)
+    assert guard.state == "holding"
+    assert np.abs(guard.q - START).max() <= max(0.01 + 0.2 * speed + 2 * speed * CYCLE, 0.5 * speed)
+
+
+def test_a_following_error_of_each_joint():
+    stands = STANDS["stands"]
+    bounds = [9, 9, 0.05, 9, 9, 9]
+    guard, session = follow(0.7, stands, max_following_error=bounds)
+    assert str(session.error).startswith("joint 3 of the robot")
+    assert np.abs(guard.q - START).max() == pytest.approx(0.05, abs=2 * 0.7 * CYCLE)
+    assert follow(0.7, stands, max_following_error=np.inf)[1].error is None
+    for wrong in (0, -1, float("nan"), [0.1] * 5, [0.1, 0.1, 0, 0.1, 0.1, 0.1]):
+        with pytest.raises(StreamError, match=r"max_following_error is .* it must be positive"):
+            Session(PassThrough(), swing, max_following_error=wrong)
 
 
 def test_another_cycle_time_and_a_jump_are_refused():

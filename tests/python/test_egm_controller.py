@@ -1,8 +1,12 @@
 """The model of a controller, in virtual time and on loopback, with a server and its guard."""
 
 import asyncio
+import contextlib
 import socket
+import subprocess
+import sys
 import threading
+import time
 
 import irbkin
 import numpy as np
@@ -292,15 +296,23 @@ def test_a_server_refuses_a_robot_that_is_elsewhere(way, playing):
 
 
 @pytest.mark.parametrize("way", [blocking, looping])
-def test_a_server_counts_strangers_and_what_is_broken(way, playing):
+def test_a_server_counts_strangers(way, playing):
     def before(address):
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
-            for data in (b"", b"\xff" * 100, b"\x0a"):
-                own.sendto(data, address)
+        def stray(feedback):
+            # What waits when a session begins is dropped: they come in the middle of it.
+            if feedback.t == 0:
+                with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
+                    for data in (b"", b"\xff" * 100, b"\x0a"):
+                        own.sendto(data, address)
+            return swing(feedback)
+
+        reference.append(stray)
         playing(address)
 
+    reference = []
     guard = Guard(ROBOT, cycle=CYCLE, start=START, on_violation="limit", **LIMITS)
-    assert served(guard, way(swing, 0.2, before)).broken == 3
+    counted = served(guard, way(lambda feedback: reference[0](feedback), 0.2, before))
+    assert (counted.foreign, counted.broken) == (3, 0)
 
 
 @pytest.mark.parametrize("way", [blocking, looping])
@@ -315,6 +327,116 @@ def test_what_a_reference_raises_is_raised_after_braking(way, playing):
     with pytest.raises(ZeroDivisionError, match="of the reference"):
         served(guard, way(wrong, 60.0, playing))
     assert guard.state == "holding"
+
+
+@pytest.mark.parametrize("mode", ["joint", "pose"])
+@pytest.mark.parametrize("losses", [{}, LOSSES])
+def test_a_lag_of_100_ms_at_full_speed_is_no_following_error(mode, losses):
+    def full(feedback):
+        q = START.copy()
+        q[0] += 1.2 * (1 - np.cos(2.4 * feedback.t))
+        q[5] += 1.5 * (1 - np.cos(3 * feedback.t))
+        return q if mode == "joint" else ROBOT.fk(q)
+
+    guard = Guard(ROBOT, cycle=CYCLE, start=START, cell=False, on_violation="limit", **LIMITS)
+    guard = Recorded(guard)
+    controller = egm.Controller(ROBOT, START, lag=0.1)
+    egm.simulated(guard, controller, full, seconds=6, mode=mode, seed=3, **losses)
+    fastest = np.abs([step.dq for step in guard.rows]).max(axis=0)
+    assert fastest[0] > 0.9 * ROBOT.max_velocity[0]
+
+
+def test_a_robot_that_is_held_in_the_middle_stops_the_guard():
+    """It stands from the second second on: the guard brakes near it, and `run` raises."""
+
+    class Held(egm.Controller):
+        def tick(self):
+            if self.ticks * CYCLE > 2:
+                self._speeds[:] = 0.0
+            return super().tick()
+
+    guard = Guard(ROBOT, cycle=CYCLE, start=START, cell=False, **LIMITS)
+    controller = Held(ROBOT, START)
+    with pytest.raises(StreamError, match=r"more than .* deg apart \(max_following_error\)"):
+        egm.simulated(guard, controller, swing, seconds=20)
+    assert guard.state == "holding"
+    assert np.abs(guard.q - controller.q).max() < 0.06
+
+
+def test_three_runs_of_one_server_move_as_one_does():
+    """Beside the command: with pauses the robot moves at once, and never faster than it is told."""
+    guard = Guard(
+        ROBOT,
+        cycle=CYCLE,
+        start=START,
+        max_velocity=1.0,
+        cell=False,
+        on_violation="limit",
+        **LIMITS,
+    )
+    with egm.Server(guard, port=0, connect=SECONDS, watchdog=5.0, linger=0.3) as server:
+        where = ["--port", str(server.address[1]), "--joints", *map(str, np.degrees(START))]
+        command = [sys.executable, "-m", "irbkin", "egm-sim", ROBOT.name, "--seconds", "15"]
+        with subprocess.Popen([*command, *where], stdout=subprocess.DEVNULL) as controller:
+            try:
+                for pause in (0.0, 0.5, 2.0):
+                    rows, begin = [], guard.q[0]
+
+                    def onward(feedback, rows=rows, begin=begin):
+                        header = feedback.message.header
+                        rows.append((time.monotonic(), header.seqno, feedback.q[0]))
+                        return START + (begin - START[0] + 0.5 * feedback.t) * np.eye(6)[0]
+
+                    start = time.monotonic()
+                    counted = server.run(onward, seconds=0.5)
+                    t, seqno, q = np.array(rows).T
+                    # No burst: the guard's cycles are not ahead of the time.
+                    assert counted.received * CYCLE < time.monotonic() - start + 0.05
+                    speed = np.diff(q) / np.maximum(np.diff(seqno), 1) / CYCLE
+                    assert np.abs(speed).max() < 1.0
+                    # The guard and the robot arrive, and the first motion is soon.
+                    assert guard.q[0] - begin == pytest.approx(0.25, abs=0.05)
+                    assert pause == 0.0 or t[0] - start < 1.0
+                    time.sleep(pause)
+            finally:
+                controller.kill()
+
+
+@pytest.mark.parametrize("way", [blocking, looping])
+def test_what_waits_before_a_run_is_dropped(way):
+    """300 datagrams of a controller that goes on after a run: none of them is a cycle."""
+    guard = PassThrough()
+    asked = []
+
+    def reference(feedback):
+        asked.append(feedback.message.header.seqno)
+        return START
+
+    def send(own, seqno):
+        header = egm.EgmHeader(seqno, int(seqno * CYCLE * 1e3), 2)
+        feedback = egm.EgmPosition(tuple(np.degrees(START).tolist()))
+        own.send(egm.encode(egm.EgmRobot(header, feedback, mci_state=3)))
+
+    def before(address):
+        own.connect(address)
+        for seqno in range(300):
+            send(own, seqno)
+        thread.start()
+
+    def later():
+        time.sleep(0.3)
+        # Until the session has ended, and its socket is closed.
+        with contextlib.suppress(ConnectionError):
+            for seqno in range(375, 425):
+                send(own, seqno)
+                time.sleep(CYCLE)
+
+    thread = threading.Thread(target=later)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
+        counted = served(guard, way(reference, 0.1, before), linger=0.02)
+        thread.join(SECONDS)
+    assert min(asked) >= 375
+    assert counted.lost == 0
 
 
 def test_a_port_in_use_is_an_error():

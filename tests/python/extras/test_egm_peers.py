@@ -5,6 +5,7 @@ import random
 import resource
 import socket
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -207,6 +208,8 @@ def test_abbrobotegm_reads_the_set_points_of_a_server():
         controller.settimeout(20)
         own = threading.Thread(target=server.run, args=(swing,), kwargs={"seconds": 0.1})
         own.start()
+        # What comes before the run is dropped.
+        time.sleep(0.2)
         for seqno in range(1, 60):
             sent = egm_pb2.EgmRobot()
             sent.header.seqno, sent.header.tm, sent.header.mtype = seqno, int(seqno * 4.032), 2

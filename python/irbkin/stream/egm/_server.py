@@ -5,22 +5,28 @@ from __future__ import annotations
 import asyncio
 import socket
 import time
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Literal
 
 from irbkin.errors import StreamError
 from irbkin.stream.egm._session import Session, Statistics
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from irbkin.stream.egm._session import Reference
 
 MOST_BYTES = 65_536
+MOST_WAITING = 65_536
+"""Datagrams that are read at once: far more than a socket keeps, and an end of a flood."""
 
 
 class Server:
     """The sensor, as ABB calls it: the controller sends first, each of its datagrams is answered
     by a set point of the guard.
 
-    The first sender of a message is the only one of a session; what others send is counted. Each
+    The first sender of a message is the only one of a session; what others send is counted. What
+    waits in the socket when a session begins is dropped; later the newest is answered. Each
     sequence number is one cycle of the guard. Of cycles whose datagrams are missing, the reference
     is asked in the first ones (`bridge`), in further ones the guard brakes; none is left out, so
     that set points are of one motion within the bounds, whichever of them arrive. Where the
@@ -38,6 +44,7 @@ class Server:
         watchdog: float = 0.25,
         connect: float = 60.0,
         linger: float = 1.0,
+        max_following_error: npt.ArrayLike | None = None,
     ) -> None:
         """Bind a socket.
 
@@ -51,13 +58,23 @@ class Server:
             watchdog: Time without datagrams after which the session ends [s].
             connect: Time to wait for the first datagram [s].
             linger: Time in which the last set point is held after the end [s].
+            max_following_error: How far the robot may be from the guard while it follows [rad], a
+                number or shape (n,): beyond it the guard brakes, and `run` raises. By default
+                0.01 rad and the way in 0.2 s (pose: 0.4 s) at the guard's fastest speed until then.
 
         Raises:
             OSError: The address cannot be bound.
+            StreamError: An option that is not positive, or of a wrong shape.
         """
         self._guard, self._connect = guard, connect
-        options = {"mode": mode, "bridge": bridge, "watchdog": watchdog, "linger": linger}
-        self._options: dict[str, Any] = options
+        self._options: dict[str, Any] = {
+            "mode": mode,
+            "bridge": bridge,
+            "watchdog": watchdog,
+            "linger": linger,
+            "max_following_error": max_following_error,
+            "clock": time.monotonic,
+        }
         self._session: Session | None = None
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
@@ -75,7 +92,11 @@ class Server:
     @property
     def statistics(self) -> Statistics:
         """The counts of the last session; zeros before the first."""
-        return self._session.statistics if self._session else Statistics(*[0] * 9)
+        return (
+            self._session.statistics
+            if self._session
+            else Statistics(*[0] * len(Statistics._fields))
+        )
 
     def run(self, reference: Reference, *, seconds: float | None = None) -> Statistics:
         """Serve one session.
@@ -96,9 +117,9 @@ class Server:
             try:
                 self._socket.settimeout(max(until - time.monotonic(), 1e-6))
                 data, sender = self._socket.recvfrom(MOST_BYTES)
-                if answer := session.answer(data, sender, time.monotonic()):
-                    self._socket.sendto(answer, sender)
-            except (TimeoutError, ConnectionError):
+                if answer := self.answer(session, data, sender):
+                    self._socket.sendto(answer, session.peer)
+            except (TimeoutError, BlockingIOError, ConnectionError):
                 # On Windows, ConnectionError: the one before was sent to a port that is closed.
                 pass
             except KeyboardInterrupt as interrupt:
@@ -114,7 +135,8 @@ class Server:
         loop = asyncio.get_running_loop()
         failed: asyncio.Future[None] = loop.create_future()
         transport, _ = await loop.create_datagram_endpoint(
-            lambda: _Protocol(session, failed), sock=self._socket.dup()
+            lambda: _Protocol(self, session, failed),
+            sock=self._socket.dup(),
         )
         try:
             while not session.is_done:
@@ -133,8 +155,31 @@ class Server:
         return self._end(session)
 
     def _begin(self, reference: Reference, seconds: float | None) -> tuple[Session, float]:
-        self._session = Session(self._guard, reference, seconds=seconds, **self._options)
+        sent = self._session.sent if self._session else 0
+        options = {"seconds": seconds, "sent": sent, **self._options}
+        self._session = Session(self._guard, reference, **options)
+        for _ in self._waiting():
+            pass
         return self._session, time.monotonic() + self._connect
+
+    def answer(self, session: Session, data: bytes, sender: object) -> bytes | None:
+        """Take a datagram and those that wait behind it, and answer the newest."""
+        now = time.monotonic()
+        session.take(data, sender, now)
+        for behind in self._waiting():
+            session.take(*behind, now)
+        return session.reply()
+
+    def _waiting(self) -> Iterator[tuple[bytes, object]]:
+        """The datagrams that wait in the socket."""
+        self._socket.settimeout(0.0)
+        for _ in range(MOST_WAITING):
+            try:
+                yield self._socket.recvfrom(MOST_BYTES)
+            except BlockingIOError:
+                return
+            except ConnectionError:
+                continue
 
     def _until(self, session: Session, until: float) -> float:
         """The time until which a datagram must come; raise if it is over."""
@@ -173,8 +218,8 @@ class Server:
 class _Protocol(asyncio.DatagramProtocol):
     """Answers each datagram when it comes."""
 
-    def __init__(self, session: Session, failed: asyncio.Future[None]) -> None:
-        self.session, self.failed = session, failed
+    def __init__(self, server: Server, session: Session, failed: asyncio.Future[None]) -> None:
+        self.server, self.session, self.failed = server, session, failed
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Remember where answers are sent."""
@@ -185,8 +230,8 @@ class _Protocol(asyncio.DatagramProtocol):
         if self.failed.done():
             return
         try:
-            if answer := self.session.answer(data, sender, time.monotonic()):
-                self.transport.sendto(answer, sender)
+            if answer := self.server.answer(self.session, data, sender):
+                self.transport.sendto(answer, self.session.peer)
         except Exception as error:
             self.failed.set_exception(error)
             return

@@ -23,6 +23,8 @@ from irbkin.stream.egm._records import (
 )
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from irbkin import Robot
     from irbkin._arrays import Floats
 
@@ -31,16 +33,21 @@ log.addHandler(logging.NullHandler())
 
 WORD = 2**32
 """Sequence numbers and times [ms] are 32 bits."""
-WINDOW = 2**64 - 1
-"""Of the last 64 sequence numbers it is known whether they came."""
+WINDOW = 1024
+"""Of so many of the last sequence numbers it is known whether they came."""
 TOLERANCE = 0.01
 """How far the robot may be from a guard at rest [rad]."""
 TOLERANCE_MM = 1.0
 """How far the tool of a controller may be from the robot's [mm]."""
 DRIFT = 1e-3
 """By how much the controller's clock may be slower at most [1]."""
-OBSERVED = 25
-"""Cycles from which on the cycle time is compared: a time is rounded to 1 ms, 1 % of them."""
+JITTER = 0.002
+"""By how much a time of the controller is off at most [s]: it is rounded to 1 ms."""
+OBSERVED = 12
+"""Cycles over which the cycle time is measured: a time is rounded to 1 ms, 2 % of them."""
+FOLLOWING = {"joint": 0.2, "pose": 0.4}
+"""How far behind a robot may be by default, in time at the guard's fastest speed until then [s]:
+0.18 s are needed with a lag of 0.1 s and a ramp of 0.5 s, and 1 / k more without speeds."""
 
 
 class Statistics(NamedTuple):
@@ -51,7 +58,7 @@ class Statistics(NamedTuple):
     lost: int
     """Sequence numbers that never came."""
     late: int
-    """Datagrams behind a later one, or too old: not answered."""
+    """Datagrams behind a later one, or too old, or read together with a later one: not answered."""
     duplicate: int
     """Datagrams that came again: not answered."""
     broken: int
@@ -64,6 +71,8 @@ class Statistics(NamedTuple):
     """References that the guard did not take as they are."""
     stops: int
     """Times that the guard stopped following a reference, before the end."""
+    slow: int
+    """Answers for which the reference took longer than a cycle."""
 
 
 class Feedback(NamedTuple):
@@ -96,8 +105,12 @@ class Session:
         bridge: float = 0.04,
         watchdog: float = 0.25,
         linger: float = 1.0,
+        max_following_error: npt.ArrayLike | None = None,
         seconds: float | None = None,
+        sent: int = 0,
+        clock: Callable[[], float] = lambda: 0.0,
     ) -> None:
+        """`sent` is the last sequence number that was sent, by `clock` a reference is slow [s]."""
         times = {"bridge": bridge, "watchdog": watchdog, "linger": linger}
         for name, time in times.items():
             if not 0 <= time < np.inf:
@@ -109,6 +122,13 @@ class Session:
                 f'mode is {mode!r}, it must be "joint", or "pose" of six axes '
                 f"(this robot has {self.robot.dof})"
             )
+        bound = np.array(np.inf if max_following_error is None else max_following_error, float)
+        if bound.shape not in ((), (self.robot.dof,)) or not (bound > 0).all():
+            raise StreamError(
+                f"max_following_error is {max_following_error!r}, it must be positive [rad], a "
+                f"number or one for each of {self.robot.dof} joints"
+            )
+        self._bound = None if max_following_error is None else bound
         self.bridge, self.linger = int(bridge / self.cycle), int(linger / self.cycle)
         self.most = np.inf if seconds is None else seconds / self.cycle
         left = iter(()) if callable(reference) else iter(reference)
@@ -119,10 +139,16 @@ class Session:
         self.is_done = False
         # Cycles since the end.
         self.held = 0
-        self._peer: object = None
+        self.peer: Any = None
+        self.sent = sent
+        self._clock = clock
         self._count: Counter[str] = Counter()
-        self._cycles = self._sent = self._seen = 0
-        self._offset = np.inf
+        self._cycles = self._seen = self._span = self._disagreed = 0
+        self._offset = self._took = self._measured = 0.0
+        # The datagram to answer, and the number of the last that was answered.
+        self._waiting: tuple[int, Floats, EgmRobot, float] | None = None
+        self._last: int | None = None
+        self._fastest = np.zeros(self.robot.dof)
         self._is_ending = self._was_running = self._was_following = False
         self._step: Any = None
 
@@ -145,7 +171,12 @@ class Session:
         )
 
     def answer(self, data: bytes, sender: object, now: float) -> bytes | None:
-        """The datagram that answers one, or None.
+        """The datagram that answers one, or None: as `take` and `reply`."""
+        self.take(data, sender, now)
+        return self.reply()
+
+    def take(self, data: bytes, sender: object, now: float) -> None:
+        """Take a datagram; of several, `reply` answers the newest.
 
         Args:
             data: The datagram.
@@ -155,9 +186,9 @@ class Session:
         Raises:
             StreamError: The controller and the guard do not go together.
         """
-        if self._peer not in (None, sender):
+        if self.peer not in (None, sender):
             self._count["foreign"] += 1
-            return None
+            return
         is_message = False
         try:
             message = decode(data, EgmRobot)
@@ -165,23 +196,42 @@ class Session:
             is_message = True
             q = self._joints(message)
         except StreamError:
-            if is_message and self._peer is None:
+            if is_message and self.peer is None:
                 raise
             self._count["broken"] += 1
-            return None
-        if self._peer is None:
-            self._peer, self._first, self._last = sender, (seqno, tm), (seqno - 1) % WORD
+            return
+        if self.peer is None:
+            self.peer, self._newest, self._start = sender, (seqno - 1) % WORD, (seqno, tm)
+            self._tm, self._time = tm, now
             external = (message.feedback or EgmPosition()).external_joints or ()
             # Axes that are none of the robot's [deg or mm].
             self._others = external[max(self.robot.dof - 6, 0) :]
-        gap = self._gap(seqno, tm, now)
-        if gap == 0:
+        ahead = _signed(seqno - self._newest)
+        if self._is_new(ahead):
+            self._check_cycle(seqno, tm)
+            is_late = self._is_late(tm, ahead, now)
+            self._count["late"] += is_late or self._waiting is not None
+            if not is_late:
+                self._waiting = (seqno, q, message, now)
+
+    def reply(self) -> bytes | None:
+        """The answer to the newest datagram that was taken, or None.
+
+        Raises:
+            StreamError: The controller and the guard do not go together.
+        """
+        if self._waiting is None:
             return None
-        self._check_cycle(seqno, tm, gap)
-        self._last, self.heard = seqno, now
+        (seqno, q, message, now), self._waiting = self._waiting, None
+        gap = 1 if self._last is None else (seqno - self._last) % WORD
+        self._check_gap(gap)
+        self._last = seqno
         self._count["received"] += 1
-        self._count["lost"] += gap - 1
+        is_resting = self._step is None or not np.any(self._step.dq)
+        self._took = 0.0
         self._advance(gap, q, message)
+        self.heard = now + self._took
+        self._judge_reference(is_resting)
         return self._set_point(now)
 
     def _joints(self, message: EgmRobot) -> Floats:
@@ -199,35 +249,77 @@ class Session:
             raise StreamError(f"feedback.joints is {joints}: every joint must be finite")
         return q
 
-    def _gap(self, seqno: int, tm: int, now: float) -> int:
-        """How many cycles a datagram is ahead of the last one; 0 for one that is not answered."""
-        gap = (seqno - self._last + WORD // 2) % WORD - WORD // 2
-        # The least delay is the clocks' difference, which drifts.
-        delay = now - (tm - self._first[1]) % WORD / 1e3
-        self._offset = min(self._offset + DRIFT * max(gap, 0) * self.cycle, delay)
-        if gap > 0 and delay - self._offset <= max(self.bridge, 1) * self.cycle:
-            self._seen = (self._seen << min(gap, 64) | 1) & WINDOW
-            return gap
-        bit = 1 << min(-gap, 64) if gap <= 0 else 0
-        is_again = bool((self._seen | ~WINDOW) & bit)
-        self._seen |= bit & WINDOW
+    def _is_new(self, ahead: int) -> bool:
+        """Whether a number is ahead of all others; count those that are missing, and old ones."""
+        if ahead > 0:
+            self._check_gap(ahead)
+            self._seen = (self._seen << min(ahead, WINDOW) | 1) & (1 << WINDOW) - 1
+            self._span += ahead
+            self._count["lost"] += ahead - 1
+            return True
+        is_again = bool(self._seen >> -ahead & 1)
+        self._seen |= 1 << -ahead if -ahead < WINDOW else 0
         self._count["duplicate" if is_again else "late"] += 1
-        self._count["lost"] -= not is_again
-        return 0
+        # One before the first was not missed.
+        self._count["lost"] -= not is_again and -ahead < min(self._span, WINDOW)
+        return False
 
-    def _check_cycle(self, seqno: int, tm: int, gap: int) -> None:
-        """Refuse a controller that jumps, and one of another cycle time."""
-        if gap * self.cycle > self.watchdog:
+    def _is_late(self, tm: int, ahead: int, now: float) -> bool:
+        """Whether a datagram with a new number took too long."""
+        step, wanted = _signed(tm - self._tm) / 1e3, ahead * self.cycle
+        self._newest, self._tm = (self._newest + ahead) % WORD, tm
+        # The least delay is the clocks' difference, which drifts.
+        self._offset += DRIFT * wanted
+        self._time += step
+        if abs(step - wanted) > JITTER + 0.1 * wanted:
+            # The controller's clock was set, or its time is wrong: it says nothing of the delay.
+            self._time = now - self._offset
+        delay = now - self._time
+        self._offset = min(self._offset, delay)
+        return delay - self._offset > max(self.bridge, 1) * self.cycle
+
+    def _check_gap(self, gap: int) -> None:
+        """Refuse a controller that jumps, and answers that come too late."""
+        if self._last is not None and gap * self.cycle > self.watchdog + self._took:
             raise StreamError(
                 f"header.seqno jumps by {gap}, {gap * self.cycle:.3g} s: at most "
-                f"{self.watchdog:g} s may be missing (watchdog)"
+                f"{self.watchdog:g} s may be missing or late (watchdog)"
             )
-        cycles = (seqno - self._first[0]) % WORD
-        measured = (tm - self._first[1]) % WORD / 1e3 / max(cycles, 1)
-        if cycles >= OBSERVED and abs(measured - self.cycle) > 0.1 * self.cycle:
+
+    def _check_cycle(self, seqno: int, tm: int) -> None:
+        """Refuse a controller of another cycle time, which three times in a row are the same: one
+        time alone may be wrong.
+        """
+        cycles = (seqno - self._start[0]) % WORD
+        if cycles < OBSERVED:
+            return
+        measured = (tm - self._start[1]) % WORD / 1e3 / cycles
+        is_same = abs(measured - self._measured) <= 0.1 * measured
+        is_other = abs(measured - self.cycle) > 0.1 * self.cycle
+        self._disagreed = is_other * (1 + is_same * self._disagreed)
+        self._start, self._measured = (seqno, tm), measured
+        if self._disagreed > 2:
             raise StreamError(
                 f"the controller's cycle is {measured * 1e3:.2f} ms, the guard's "
                 f"{self.cycle * 1e3:.2f} ms: make a Guard of the controller's cycle"
+            )
+
+    def _judge_reference(self, is_resting: bool) -> None:
+        """Say that a reference was slow, and end if the guard moved meanwhile for too long."""
+        text = f"the reference took {self._took * 1e3:.0f} ms"
+        self._count["slow"] += self._took > self.cycle
+        if self._took <= max(self.bridge, 1) * self.cycle:
+            return
+        log.warning("cycle %d: %s", self._cycles, text)
+        if is_resting or self._took > self.watchdog:
+            # The next datagram is one cycle on, whatever its number is: meanwhile none was lost.
+            self._last = None
+        if not is_resting and self._took > self.watchdog:
+            self.end(
+                StreamError(
+                    f"{text}, at most {self.watchdog:g} s are allowed while the guard moves "
+                    "(watchdog): calculate ahead, or in another thread"
+                )
             )
 
     def _advance(self, gap: int, q: Floats, message: EgmRobot) -> None:
@@ -235,6 +327,8 @@ class Session:
         is_running = message.mci_state in (None, MciState.RUNNING) and message.motor_state != 2
         if not (is_running and self._was_running):
             self._check_posture(q, message)
+        elif not self._is_ending:
+            self._check_following(q)
         self._was_running = is_running
         for left in range(gap - 1, -1, -1):
             is_bridged = left > 0 and gap - 1 - left < self.bridge
@@ -248,6 +342,7 @@ class Session:
     def _cycle(self, is_asked: bool, q: Floats, message: EgmRobot) -> None:
         """Step the guard, by the reference if it is asked."""
         wanted = None
+        begin = self._clock()
         self._is_ending |= self._cycles >= self.most
         try:
             if is_asked and not self._is_ending:
@@ -258,6 +353,8 @@ class Session:
             self.end(None if isinstance(error, StopIteration) else error)
             wanted = None
             self._step = self.guard.step(None)
+        self._took += self._clock() - begin
+        self._fastest = np.maximum(self._fastest, np.abs(self._step.dq))
         is_refused = wanted is not None and not self._step.accepted
         self._count["refused"] += is_refused
         is_following = self._step.state == "following"
@@ -268,29 +365,47 @@ class Session:
 
     def _check_posture(self, q: Floats, message: EgmRobot) -> None:
         """Refuse a robot that is not where the guard is."""
-        own = np.asarray(self.guard.q)
-        joint = int(np.abs(q - own).argmax())
-        if abs(q[joint] - own[joint]) > TOLERANCE:
-            raise StreamError(
-                f"joint {joint + 1} of the robot is at {np.degrees(q[joint]):.2f} deg, of the "
-                f"guard at {np.degrees(own[joint]):.2f} deg, more than "
-                f"{np.degrees(TOLERANCE):.2f} deg apart: start a Guard where the robot is"
-            )
+        if apart := self._apart(q, TOLERANCE):
+            raise StreamError(f"{apart}: start a Guard where the robot is")
         pose = message.feedback.cartesian if message.feedback else None
         if self.mode == "pose" and pose and pose.pos:
-            apart = float(np.linalg.norm(self.robot.fk(q)[:3, 3] * 1e3 - pose.pos))
-            if not apart <= TOLERANCE_MM:
+            off = float(np.linalg.norm(self.robot.fk(q)[:3, 3] * 1e3 - pose.pos))
+            if not off <= TOLERANCE_MM:
                 raise StreamError(
-                    f"the tool of the controller is {apart:.1f} mm from the robot's, more than "
+                    f"the tool of the controller is {off:.1f} mm from the robot's, more than "
                     f"{TOLERANCE_MM:g} mm: give the robot the tool and the base that EGMActPose has"
                 )
+
+    def _check_following(self, q: Floats) -> None:
+        """Brake if the robot does not follow."""
+        default = TOLERANCE + FOLLOWING[self.mode] * self._fastest
+        if apart := self._apart(q, default if self._bound is None else self._bound):
+            self.end(
+                StreamError(
+                    f"{apart} (max_following_error): the guard has braked; is the robot held, or "
+                    "MaxSpeedDeviation too low?"
+                )
+            )
+            log.warning("cycle %d: %s", self._cycles, self.error)
+
+    def _apart(self, q: Floats, most: npt.ArrayLike) -> str | None:
+        """Which joint of the robot is farther from the guard's than its bound."""
+        own, bound = np.asarray(self.guard.q), np.broadcast_to(most, len(q))
+        joint = int((np.abs(q - own) - bound).argmax())
+        if abs(q[joint] - own[joint]) <= bound[joint]:
+            return None
+        return (
+            f"joint {joint + 1} of the robot is at {np.degrees(q[joint]):.2f} deg, of the "
+            f"guard at {np.degrees(own[joint]):.2f} deg, more than "
+            f"{np.degrees(bound[joint]):.2f} deg apart"
+        )
 
     def _set_point(self, now: float) -> bytes:
         """The message of the last step. In pose mode speeds are left out: the manual has no units
         of a rotation's.
         """
-        self._sent = (self._sent + 1) % WORD
-        header = EgmHeader(self._sent, int(now * 1e3) % WORD, MessageType.CORRECTION)
+        self.sent = (self.sent + 1) % WORD
+        header = EgmHeader(self.sent, int(now * 1e3) % WORD, MessageType.CORRECTION)
         q, dq = (np.degrees(it)[self.axes].tolist() for it in (self._step.q, self._step.dq))
         external = (*q[6:], *self._others) or None
         if self.mode == "pose":
@@ -311,6 +426,11 @@ def tool_at(robot: Robot, q: Floats) -> EgmPose:
     """The pose of the tool."""
     xyz, wxyz = to_xyz_wxyz(robot.fk(q))
     return EgmPose(tuple((xyz * 1e3).tolist()), tuple(wxyz.tolist()))
+
+
+def _signed(difference: int) -> int:
+    """A difference of numbers of 32 bits that wrap."""
+    return (difference + WORD // 2) % WORD - WORD // 2
 
 
 def _head(message: EgmRobot) -> tuple[int, int]:

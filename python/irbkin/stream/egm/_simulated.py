@@ -85,7 +85,7 @@ def simulated(
         duplicate: Share that comes twice.
         late: Share that comes one to five cycles late.
         cut: Times between which all are lost [s].
-        options: `mode`, `bridge`, `watchdog` and `linger` as of `Server`.
+        options: `mode`, `bridge`, `watchdog`, `linger`, `max_following_error` as of `Server`.
 
     Raises:
         StreamError: As of `Server.run`.
