@@ -48,7 +48,7 @@ MSRV := $(shell sed -nE 's/^rust-version = "(.*)"/\1/p' Cargo.toml)
 SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 
 .PHONY: help run test test-oracles check bench bench-peers evidence soak fuzz mutants docs site test-recipes test-ros page \
-	test-page capi test-capi bench-capi wheel packages ship test-platforms reproducible thirdparty deny \
+	test-page capi test-capi bench-capi speed wheel packages ship test-platforms reproducible thirdparty deny \
 	semver msrv stubs clean toolchains lints rust-tests $(SUITES:%=evidence-%)
 
 help: ## List the targets
@@ -151,7 +151,7 @@ bench-capi: capi ## Compare the time of a pose in C with that in Rust
 check: | toolchains ## Check format, lints, types, stubs, docs, benches and examples
 	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.groups lints
 	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features serde
-	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions -- --test
+	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions --bench microsecond -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
 	$(STEP) "benches in Python run" env QUICK=1 $(BIN)/python benches/python_calls.py >/dev/null
 	$(STEP) "the bench of motion runs" env MOVES=1000 $(BIN)/python benches/motion.py >/dev/null
@@ -196,7 +196,11 @@ $(PEERS)/.irbkin-built: $(PEERS)/.made $(RUST_SOURCES) $(wildcard python/irbkin/
 	@$(PEERS)/bin/pip install --quiet --force-reinstall --no-deps $(PEERS)/wheel/irbkin-*.whl
 	@touch $@
 
-bench: $(PEERS)/.irbkin-built ## What is fast, against whom: ratios with bars, in two minutes once the peers are installed
+speed: | toolchains ## Criterion: every solution of a pose below 1 us; valgrind: no call by 3 % more instructions
+	$(STEP) "every solution of a pose is below a microsecond" cargo bench --quiet --bench microsecond
+	$(STEP) "instructions of single calls" $(PYTHON) benches/instructions.py --check
+
+bench: speed $(PEERS)/.irbkin-built ## What is fast, against whom: ratios with bars, in two minutes once the peers are installed
 	@$(PEERS)/bin/python -m benches.peers --brief $(if $(QUICK),--quick)
 
 bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages; WRITE=1 writes docs/evidence/benchmarks.md

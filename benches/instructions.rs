@@ -15,11 +15,13 @@ mod poses;
 /// Poses of a batch.
 const POSES: u32 = 512;
 
-const ALL: [&str; 10] = [
+const ALL: [&str; 12] = [
     "fk",
     "jacobian",
     "ik, 8 solutions",
     "ik, wrist singular",
+    "UR3: ik, 8 solutions",
+    "Panda: ik, 8 solutions",
     "ik_nearest",
     "singularity",
     "batch fk",
@@ -60,6 +62,16 @@ fn repeat(robot: &Robot<6>, what: &str, times: u32) {
             again(times, || robot.ik_nearest(black_box(&pose), black_box(&q), &[1.0; 6]));
         }
         "singularity" => again(times, || robot.singularity(black_box(&q))),
+        "UR3: ik, 8 solutions" => {
+            let robot = Robot::<6>::named("UR3").unwrap();
+            let pose = robot.fk(&poses::Q_UR3);
+            again(times, || robot.ik(black_box(&pose)));
+        }
+        "Panda: ik, 8 solutions" => {
+            let robot = Robot::<7>::named("Panda").unwrap();
+            let pose = robot.fk(&poses::Q_PANDA);
+            again(times, || robot.ik(black_box(&pose), poses::Q_PANDA[6]));
+        }
         _ => repeat_batch(robot, what, times),
     }
 }

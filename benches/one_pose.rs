@@ -30,7 +30,7 @@ fn one_pose(criterion: &mut Criterion) {
 
 fn other_structures(criterion: &mut Criterion) {
     let (ur3, panda) = (Robot::<6>::named("UR3").unwrap(), Robot::<7>::named("Panda").unwrap());
-    let (q_ur3, q_panda) = ([0.4, -1.9, 1.5, -0.6, 1.1, 0.3], poses::Q_PANDA);
+    let (q_ur3, q_panda) = (poses::Q_UR3, poses::Q_PANDA);
     let (pose_ur3, pose_panda, above) =
         (ur3.fk(&q_ur3), panda.fk(&q_panda), panda.fk(&q_panda.map(|angle| angle + 0.01)));
     let singular = ur3.fk(&[0.4, -1.9, 1.5, -0.6, 0.0, 0.3]);

@@ -132,6 +132,23 @@ def batches(robot: irbkin.Robot) -> list[list[Row]]:
     ]
 
 
+def four_arms() -> None:
+    """Print the median and the longest time of `ik(T).q` over poses spread inside the limits, of
+    five turns the least: what another process does is not counted.
+    """
+    count, calls = (10, 1) if QUICK else (1000, 20)
+    print(f"\n{'ik(T).q, us':24}{'p50':>12}{'most':>12}")
+    for name in ("IRB 1600-6/1.45", "IRB 2600-12/1.65", "UR3", "Panda"):
+        robot = irbkin.Robot(name)
+        times = []
+        for q in np.random.default_rng(3).uniform(*robot.limits.T, size=(count, robot.dof)):
+            given = q[6:].tolist()
+            solve = partial(robot.ik, robot.fk(q), *given)
+            turns = timeit.repeat(lambda solve=solve: solve().q, number=calls, repeat=5)
+            times.append(min(turns) / calls * 1e6)
+        print(f"{name:24}{np.median(times):12.2f}{max(times):12.2f}")
+
+
 def sizes(robot: irbkin.Robot) -> None:
     """Print the time of a pose in batches of many sizes, on one thread and on two: the threads are
     worth it from 5,000 poses on, and a million poses are written to memory, not to a cache.
@@ -187,6 +204,7 @@ def main() -> None:
     print(f"\n{'One pose':24}{'ns a call':>12}{columns}")
     measure(single_calls(robot), CALLS, 1)
     measure(seven_joints(), CALLS // 10, 1)
+    four_arms()
     print(f"\n{f'{POSES} poses, out=':24}{'ns a pose':>12}{columns}")
     for rows in batches(robot):
         measure(rows, 1, POSES)

@@ -14,6 +14,9 @@ pub(crate) fn robot() -> Robot<6> {
     Robot::named("IRB 2600-12/1.65").unwrap()
 }
 
+/// A joint vector of the UR3 whose pose has all eight solutions.
+pub(crate) const Q_UR3: [f64; 6] = [0.4, -1.9, 1.5, -0.6, 1.1, 0.3];
+
 /// A joint vector of the Panda whose pose has all eight solutions with joint 7 there.
 pub(crate) const Q_PANDA: [f64; 7] = [0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6];
 
