@@ -51,10 +51,11 @@ def ways(path: str | os.PathLike[str]) -> tuple[Path, ...]:
 def replaced(path: str | os.PathLike[str], before: bytes | None = None) -> Iterator[BinaryIO]:
     """A file to write, which takes the place of another one when it is whole.
 
-    It is written beside it, under a name that nobody can foretell, and renamed. Permissions of a
-    file that is there are kept, its owner and group where this user may set them. A link stays a
-    link; one that leads out of its folder is refused. What is not a plain file, such as a pipe, is
-    written directly.
+    It is written without a name, or under one beside it that nobody can foretell, and renamed.
+    Permissions and extended attributes of a file that is there are kept, its owner and group where
+    this user may set them. A link stays a link; one that leads out of its folder is refused. A file
+    of several names (hard links) keeps them: when all is written, it is overwritten. What is not a
+    plain file, such as a pipe, is written directly.
 
     Args:
         path: The file.
@@ -75,25 +76,36 @@ def replaced(path: str | os.PathLike[str], before: bytes | None = None) -> Itera
         words = "is read-only: make it writable first, or give another file"
         raise PermissionError(errno.EACCES, words, name)
     beside = os.path.join(os.path.dirname(target), f".{os.urandom(8).hex()}.part")
-    flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+    content = None
     try:
         # Until it has the permissions of the old file, nobody else may open it.
-        handle = os.open(beside, flags, 0o666 if old is None else 0o600)
+        handle, is_nameless = _created(beside, 0o666 if old is None else 0o600)
         try:
             with open(handle, "w+b") as file:
                 if old is not None:
                     _keep(old, handle, beside)
+                    _keep_attributes(target, handle)
                 yield file
                 file.flush()
                 os.fsync(handle)
-            if before is not None and _content(target) != before:
-                words = "has changed since it was read: it is left as it is, run this again"
-                raise OSError(errno.EBUSY, words, name)
-            os.replace(beside, target)
-        except BaseException:
+                if before is not None and _content(target) != before:
+                    words = "has changed since it was read: it is left as it is, run this again"
+                    raise OSError(errno.EBUSY, words, name)
+                if old is not None and old.st_nlink > 1:
+                    file.seek(0)
+                    content = file.read()
+                elif is_nameless:
+                    # Given a folder, `os.link` follows the link to the file.
+                    os.link(f"/proc/self/fd/{handle}", beside, src_dir_fd=handle)
+            if content is None:
+                os.replace(beside, target)
+            else:
+                with open(target, "r+b") as file:
+                    file.write(content)
+                    file.truncate()
+        finally:
             with contextlib.suppress(OSError):
                 os.unlink(beside)
-            raise
     except OSError as error:
         if error.errno is None or error.filename not in (None, beside):
             raise
@@ -172,6 +184,23 @@ def _keep(old: os.stat_result, handle: int, beside: str) -> None:
     mode = old.st_mode & 0o777
     if os.fstat(handle).st_mode & 0o777 != mode:
         os.chmod(handle if os.chmod in os.supports_fd else beside, mode)
+
+
+def _created(beside: str, mode: int) -> tuple[int, bool]:
+    """Open a new file; where the system can, without a name: a killed process leaves nothing."""
+    with contextlib.suppress(AttributeError, OSError):
+        os.stat("/proc/self/fd")
+        return os.open(os.path.dirname(beside) or ".", os.O_RDWR | os.O_TMPFILE, mode), True
+    flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+    return os.open(beside, flags, mode), False
+
+
+def _keep_attributes(old: str, handle: int) -> None:
+    """Give a new file the extended attributes of the old one, where the system has them."""
+    with contextlib.suppress(AttributeError, OSError):
+        for name in os.listxattr(old):
+            with contextlib.suppress(OSError):
+                os.setxattr(handle, name, os.getxattr(old, name))
 
 
 def _content(name: str) -> bytes:

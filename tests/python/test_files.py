@@ -297,3 +297,47 @@ def test_a_file_is_on_the_disk_before_it_has_its_name(tmp_path, monkeypatch):
     with _files.replaced(tmp_path / "a") as file:
         file.write(b"rows")
     assert calls == ["fsync", "replace"]
+
+
+def test_a_file_of_several_names_keeps_them(tmp_path):
+    file, other = tmp_path / "seam.mod", tmp_path / "other.mod"
+    file.write_text(SEAM)
+    os.link(file, other)
+    run("check", NAME, "--fix", file)
+    assert file.samefile(other)
+    assert file.read_text() == other.read_text() != SEAM
+    assert sorted(os.listdir(tmp_path)) == ["other.mod", "seam.mod"]
+
+
+@pytest.mark.skipif(not hasattr(os, "setxattr"), reason="needs extended attributes")
+def test_extended_attributes_are_kept(tmp_path):
+    file = tmp_path / "seam.mod"
+    file.write_text(SEAM)
+    try:
+        os.setxattr(file, "user.origin", b"cell 3")
+    except OSError:
+        pytest.skip("the file system has no extended attributes")
+    run("check", NAME, "--fix", file)
+    assert file.read_text() != SEAM
+    assert os.getxattr(file, "user.origin") == b"cell 3"
+
+
+@pytest.mark.skipif(not hasattr(os, "O_TMPFILE"), reason="needs files without a name")
+def test_a_killed_process_leaves_nothing(tmp_path):
+    file = tmp_path / "seam.mod"
+    file.write_text(SEAM)
+    words = (
+        "import sys, time\n"
+        "from irbkin._files import replaced\n"
+        "with replaced(sys.argv[1]) as file:\n"
+        "    file.write(b'rows' * 10_000)\n"
+        "    file.flush()\n"
+        "    print(flush=True)\n"
+        "    time.sleep(60)\n"
+    )
+    command = [sys.executable, "-c", words, str(file)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as process:
+        process.stdout.readline()
+        process.kill()
+    assert os.listdir(tmp_path) == ["seam.mod"]
+    assert file.read_text() == SEAM
