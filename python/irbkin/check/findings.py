@@ -39,15 +39,6 @@ def of_file(found: rapid.FileFinding) -> Finding:
 
 def of_backup(backup: Backup) -> list[Finding]:
     """Return the findings on the files of a backup; one on a whole file is at its beginning."""
-    return [
-        Finding(
-            str(backup.origin / it.file),
-            max(it.line, 1),
-            1,
-            BACKUP,
-            it.code,
-            it.severity,
-            it.message,
-        )
-        for it in backup.findings
-    ]
+    places = [(str(backup.origin / it.file), max(it.line, 1), 1, BACKUP) for it in backup.findings]
+    own = zip(places, backup.findings, strict=True)
+    return [Finding(*place, it.code, it.severity, it.message) for place, it in own]

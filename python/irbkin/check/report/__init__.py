@@ -48,10 +48,6 @@ class SourceText:
         return [line.rstrip("\r") for line in self.text.split("\n")]
 
     @cached_property
-    def _is_ascii(self) -> bool:
-        return self.text.isascii()
-
-    @cached_property
     def _rows(self) -> list[bytes]:
         return self.text.encode().split(b"\n")
 
@@ -67,31 +63,22 @@ class SourceText:
     def position(self, byte: int) -> tuple[int, int]:
         """Line and column, from 1 and in characters, of a byte of the text in UTF-8."""
         number = bisect(self._starts, byte)
-        column = byte - self._starts[number - 1]
-        if not self._is_ascii:
-            column = len(self._rows[number - 1][:column].decode())
-        return number, column + 1
+        before = self._rows[number - 1][: byte - self._starts[number - 1]]
+        return number, len(before.decode()) + 1
 
     def corrected(self, edits: Iterable[tuple[int, int, str]]) -> dict[int, str]:
         """Edited lines by number, of long ones an excerpt; each edit lies within one line."""
-        of_line: dict[int, list[tuple[int, int, str]]] = {}
-        for edit in sorted(edits):
-            of_line.setdefault(bisect(self._starts, edit[0]), []).append(edit)
-        return {number: self._edited(number, own) for number, own in of_line.items()}
-
-    def _edited(self, number: int, edits: Sequence[tuple[int, int, str]]) -> str:
-        """The part of a line around its first edit, edited."""
-        row, start = self._rows[number - 1], self._starts[number - 1]
-        # A character has at most four bytes; those that are cut are outside the excerpt.
-        low = max(edits[0][0] - start - 4 * WIDTH, 0)
-        high = edits[-1][1] - start + 4 * WIDTH
-        parts, at = [], low
-        for begin, end, new in edits:
-            parts += [row[at : begin - start], new.encode()]
-            at = end - start
-        first = len(parts[0].decode(errors="ignore"))
-        line = b"".join([*parts, row[at:high]]).decode(errors="ignore")
-        return excerpt(line, first)[0].strip()
+        lines: dict[int, tuple[bytes, bytes]] = {}
+        for begin, end, new in sorted(edits, reverse=True):
+            number = bisect(self._starts, begin)
+            start, row = self._starts[number - 1], self._rows[number - 1]
+            before, after = lines.get(number, (row, b""))
+            after = new.encode() + before[end - start :] + after
+            lines[number] = before[: begin - start], after
+        return {
+            number: excerpt((before + after).decode(), len(before.decode()))[0].strip()
+            for number, (before, after) in sorted(lines.items())
+        }
 
 
 def excerpt(line: str, column: int) -> tuple[str, int]:
