@@ -3911,7 +3911,7 @@ def joint(
         InvalidMotionError: A limit or the duration is not positive, the duration is too short for
             a limit, a joint moves and no limit binds it or leaves `limits`, or the profile cannot
             have what is given for an end.
-        InvalidJointsError: A wrong shape.
+        InvalidJointsError: A wrong shape, or angles in degrees without `limits`.
     """
 
 def spline(
@@ -3950,12 +3950,12 @@ def spline(
         InvalidMotionError: Fewer than two waypoints, waypoints that repeat the one before without
             `t`, times that do not increase, a limit that is exceeded or not positive, or a joint
             that leaves `limits`: the message has the joint, the time, its angle and the limit.
-        InvalidJointsError: A wrong shape.
+        InvalidJointsError: A wrong shape, or angles in degrees without `limits`.
     """
 
 def retime(
     q: npt.ArrayLike,
-    max_velocity: npt.ArrayLike,
+    max_velocity: npt.ArrayLike | None,
     max_acceleration: npt.ArrayLike,
     *,
     max_jerk: npt.ArrayLike | None = None,
@@ -3998,15 +3998,18 @@ def retime(
             time, its angle and the limit) or, with `max_tool_speed`, a part of the path on which
             the tool only turns, or a step of a joint above 0.1 rad, between whose samples the tool
             would leave `T`.
-        InvalidJointsError: A wrong shape, or an angle that is not finite.
-        InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+        InvalidJointsError: A wrong shape, an angle that is not finite, or angles in degrees without
+            `limits`.
+        InvalidPoseError: A pose is not a rigid transform or in millimeters, or `T` has another
+            number of poses.
+        TypeError: `max_velocity` is None.
     """
 
 def at_tool_speed(
     q: npt.ArrayLike,
     T: npt.ArrayLike,
     speed: float,
-    max_velocity: npt.ArrayLike,
+    max_velocity: npt.ArrayLike | None,
     max_acceleration: npt.ArrayLike | None = None,
     *,
     limits: npt.ArrayLike | None = None,
@@ -4039,7 +4042,7 @@ def at_tool_speed(
 def tool_speed_limits(
     q: npt.ArrayLike,
     T: npt.ArrayLike,
-    max_velocity: npt.ArrayLike,
+    max_velocity: npt.ArrayLike | None,
     max_acceleration: npt.ArrayLike | None = None,
 ) -> ToolSpeedLimits:
     """Return the highest constant speed of the tool that the limits of the joints allow, and which
@@ -4091,7 +4094,7 @@ def path_spline(
         steps along the curve.
 
     Raises:
-        InvalidPoseError: A pose is not a rigid transform.
+        InvalidPoseError: A pose is not a rigid transform, or in millimeters.
         InvalidMotionError: No pose, a turn by 180 deg between two poses, fewer `steps` than poses,
             or a spacing that does not say how many poses there are.
     """
@@ -4125,7 +4128,7 @@ def line(
         Poses, shape (m, 4, 4). Of equal poses with `step`: one.
 
     Raises:
-        InvalidPoseError: A pose is not a rigid transform.
+        InvalidPoseError: A pose is not a rigid transform, or in millimeters.
         InvalidMotionError: The tool turns by 180 deg and `axis` does not say how, or neither
             `step` nor `turn` says how many poses there are.
     """
@@ -4161,7 +4164,7 @@ def arc(
         Poses, shape (m, 4, 4).
 
     Raises:
-        InvalidPoseError: A pose is not a rigid transform.
+        InvalidPoseError: A pose is not a rigid transform, or in millimeters.
         InvalidMotionError: The points lie on a line or coincide, or the tool turns by 180 deg.
     """
 
@@ -4195,7 +4198,7 @@ def polyline(
         angle a, is passed at a distance of r / 2 sin(a / 2).
 
     Raises:
-        InvalidPoseError: A pose is not a rigid transform.
+        InvalidPoseError: A pose is not a rigid transform, or in millimeters.
         InvalidMotionError: No pose, another number of zones, a zone that is negative or not known,
             or a turn by 180 deg between two poses.
     """

@@ -119,7 +119,10 @@ def state_to_state(
             f"the motion takes {motion.duration:g} s, it must take at most {LONGEST:g} s: are the "
             "limits in rad and s?"
         )
-    if limits is not None:
+    if limits is None:
+        # It asks back for degrees.
+        joint(start, end)
+    else:
         motion.check_limits(as_array(limits, "limits", (dof, 2), InvalidMotionError))
     return motion.resampled(steps)
 
@@ -180,6 +183,7 @@ class _Problem(NamedTuple):
                 start_acceleration=start[1],
                 end_velocity=end[0],
                 end_acceleration=end[1],
+                limits=np.full((len(q0), 2), [-np.inf, np.inf]),
             )
             if self._is_kept_by(motion):
                 return motion

@@ -8,8 +8,8 @@ use super::errors::Fault;
 use super::outputs::column;
 use super::records::ToolSpeedLimits;
 use super::signals::detached_until;
-use super::targets::read_path_poses;
-use super::trajectories::{inside, read_each, read_rows};
+use super::targets::{check_meters, read_path_poses};
+use super::trajectories::{check_turns, inside, read_each, read_rows};
 use super::trajectory::PyTrajectory;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
@@ -42,6 +42,7 @@ impl Path {
     /// The lengths of the tool's path `T` up to each row.
     fn read_lengths(&self, tool: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
         let poses = read_path_poses(tool)?;
+        check_meters(&poses)?;
         let (found, wanted) = (poses.len(), self.rows());
         if found != wanted {
             let message = format!(
@@ -64,7 +65,9 @@ impl Path {
         let limits = read_angle_limits(limits, self.max_velocity.len())?;
         let motion =
             detached_until(py, |interrupt| inside(time(self, interrupt)?, limits.as_deref()))?;
-        PyTrajectory::even(py, motion?, steps)
+        let motion = motion?;
+        check_turns("q", &self.q, self.max_velocity.len(), limits.as_deref())?;
+        PyTrajectory::even(py, motion, steps)
     }
 }
 
@@ -100,8 +103,11 @@ impl Path {
 ///         time, its angle and the limit) or, with `max_tool_speed`, a part of the path on which
 ///         the tool only turns, or a step of a joint above 0.1 rad, between whose samples the tool
 ///         would leave `T`.
-///     InvalidJointsError: A wrong shape, or an angle that is not finite.
-///     InvalidPoseError: A pose is not a rigid transform, or `T` has another number of poses.
+///     InvalidJointsError: A wrong shape, an angle that is not finite, or angles in degrees without
+///         `limits`.
+///     InvalidPoseError: A pose is not a rigid transform or in millimeters, or `T` has another
+///         number of poses.
+///     TypeError: `max_velocity` is None.
 #[pyfunction]
 #[pyo3(signature = (q, max_velocity, max_acceleration, *, max_jerk=None, T=None,
     max_tool_speed=None, start_velocity=None, end_velocity=None, limits=None, steps=None))]

@@ -6,9 +6,13 @@ use pyo3::prelude::*;
 use super::arrays::{Rows, copied_matrix4, copied_vector, matrix4, together, vector};
 use super::errors::{Fault, index_in, shape_text};
 use super::outputs::matrix;
+use crate::kinematics::thresholds::MOST_REACH;
 use crate::kinematics::{
     Pose, check_seed, check_weights, pose_from_rows, pose_from_wxyz, pose_to_rows,
 };
+
+/// Longest path of an arm without a rail [m]: no arm of the catalog reaches 5 m.
+const LONGEST: f64 = 10.0;
 
 /// Poses that are read between two looks at the signals.
 const POSES_AT_A_TIME: usize = 1 << 18;
@@ -69,6 +73,24 @@ pub(super) fn read_path_poses(path: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
     let is_path = |shape: &[usize]| matches!(shape, [_, 4, 4]);
     let rows = Rows::shaped(path, || "(m, 4, 4)", "T", Fault::Pose, is_path)?;
     read_path(path.py(), &rows, &rows.lead[..1])
+}
+
+/// Ask back for the poses of a path in millimeters: a path that no arm makes. It may be far away, in
+/// the frame of a site, or long near its origin, along a rail.
+pub(super) fn check_meters(poses: &[Pose]) -> PyResult<()> {
+    let most = |from: &Pose| {
+        let distances =
+            poses.iter().map(|it| (it.translation.vector - from.translation.vector).norm());
+        distances.fold(0.0, f64::max)
+    };
+    let (away, long) = (most(&Pose::identity()), poses.first().map_or(0.0, most));
+    if away <= MOST_REACH || long <= LONGEST {
+        return Ok(());
+    }
+    Err(Fault::Pose.error(format_args!(
+        "the path is {long:.1} m long and {away:.1} m away, it must be at most {LONGEST} m long \
+         where it is beyond {MOST_REACH} m (is the pose in millimeters? meters are wanted)"
+    )))
 }
 
 /// Every pose of paths of the shape `shape`, checked.

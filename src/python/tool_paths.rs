@@ -8,7 +8,7 @@ use super::arguments::{ORIENTATIONS, one_of, read_steps};
 use super::arrays::{matrix4, vector};
 use super::errors::Fault;
 use super::outputs::array;
-use super::targets::read_path_poses;
+use super::targets::{check_meters, read_path_poses};
 use crate::error::Error;
 use crate::kinematics::{Pose, pose_from_rows, pose_to_rows};
 use crate::paths::{Spacing, Zone};
@@ -62,7 +62,7 @@ fn read_spacing(
 ///     Poses, shape (m, 4, 4). Of equal poses with `step`: one.
 ///
 /// Raises:
-///     InvalidPoseError: A pose is not a rigid transform.
+///     InvalidPoseError: A pose is not a rigid transform, or in millimeters.
 ///     InvalidMotionError: The tool turns by 180 deg and `axis` does not say how, or neither
 ///         `step` nor `turn` says how many poses there are.
 #[pyfunction]
@@ -80,10 +80,11 @@ pub(super) fn line(
     axis: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let py = T0.py();
-    let (start, end) = (read_end(T0, "T0")?, read_end(T1, "T1")?);
+    let ends = [read_end(T0, "T0")?, read_end(T1, "T1")?];
+    check_meters(&ends)?;
     let axis = axis.map(|axis| vector::<3>(axis, "axis", Fault::Motion)).transpose()?;
     let spacing = read_spacing(steps, [step, turn, speed, dt])?;
-    pose_rows(py, crate::paths::line(&start, &end, spacing, axis))
+    pose_rows(py, crate::paths::line(&ends[0], &ends[1], spacing, axis))
 }
 
 /// Move the tool on a circular arc through three poses.
@@ -105,7 +106,7 @@ pub(super) fn line(
 ///     Poses, shape (m, 4, 4).
 ///
 /// Raises:
-///     InvalidPoseError: A pose is not a rigid transform.
+///     InvalidPoseError: A pose is not a rigid transform, or in millimeters.
 ///     InvalidMotionError: The points lie on a line or coincide, or the tool turns by 180 deg.
 #[pyfunction]
 #[pyo3(signature = (T0, T_via, T1, *, orientation="path", steps=None, step=None, turn=None,
@@ -124,6 +125,7 @@ pub(super) fn arc(
 ) -> PyResult<Py<PyAny>> {
     let py = T0.py();
     let poses = [read_end(T0, "T0")?, read_end(T_via, "T_via")?, read_end(T1, "T1")?];
+    check_meters(&poses)?;
     let orientation = one_of("orientation", orientation, &ORIENTATIONS)?;
     let spacing = read_spacing(steps, [step, turn, speed, dt])?;
     pose_rows(py, crate::paths::arc(&poses[0], &poses[1], &poses[2], orientation, spacing))
@@ -149,7 +151,7 @@ pub(super) fn arc(
 ///     angle a, is passed at a distance of r / 2 sin(a / 2).
 ///
 /// Raises:
-///     InvalidPoseError: A pose is not a rigid transform.
+///     InvalidPoseError: A pose is not a rigid transform, or in millimeters.
 ///     InvalidMotionError: No pose, another number of zones, a zone that is negative or not known,
 ///         or a turn by 180 deg between two poses.
 #[pyfunction]
@@ -167,6 +169,7 @@ pub(super) fn polyline(
 ) -> PyResult<Py<PyAny>> {
     let py = T.py();
     let poses = read_path_poses(T)?;
+    check_meters(&poses)?;
     let zones = read_zones(zones, poses.len())?;
     let spacing = read_spacing(steps, [step, turn, speed, dt])?;
     pose_rows(py, crate::paths::polyline(&poses, &zones, spacing))
@@ -192,7 +195,7 @@ pub(super) fn polyline(
 ///     steps along the curve.
 ///
 /// Raises:
-///     InvalidPoseError: A pose is not a rigid transform.
+///     InvalidPoseError: A pose is not a rigid transform, or in millimeters.
 ///     InvalidMotionError: No pose, a turn by 180 deg between two poses, fewer `steps` than poses,
 ///         or a spacing that does not say how many poses there are.
 #[pyfunction]
@@ -208,6 +211,7 @@ pub(super) fn spline(
 ) -> PyResult<Py<PyAny>> {
     let py = T.py();
     let poses = read_path_poses(T)?;
+    check_meters(&poses)?;
     let spacing = read_spacing(steps, [step, turn, speed, dt])?;
     pose_rows(py, py.detach(|| crate::paths::spline(&poses, spacing)))
 }

@@ -1,5 +1,7 @@
 //! The functions of `irbkin.trajectory`: motions of joints over time.
 
+use std::f64::consts::{FRAC_PI_2, TAU};
+
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
@@ -11,7 +13,14 @@ use super::arrays::{Rows, copied_numbers, numbers};
 use super::errors::{Fault, shape_text};
 use super::trajectory::PyTrajectory;
 use crate::error::Error;
+use crate::kinematics::thresholds::FARTHEST_OUTSIDE;
 use crate::trajectory::{AxisLimits, AxisState, Trajectory, joint_within};
+
+/// Joints of an arm, at least: external axes, which turn on and on, are fewer.
+const LEAST_JOINTS: usize = 4;
+
+/// How far the sine of two times an angle may be off zero where it is quarter turns [1]: rounding.
+const QUARTER_ROUNDING: f64 = 1e-6;
 
 /// Joint vectors, shape (m, n): the numbers, and n.
 pub(super) fn read_rows(
@@ -71,6 +80,38 @@ pub(super) fn inside(motion: Trajectory, limits: Option<&[[f64; 2]]>) -> Result<
     limits.map_or(Ok(()), |limits| motion.inside(limits)).map(|()| motion)
 }
 
+/// Ask back for joint vectors in degrees: an angle beyond four turns, where most angles but zero are
+/// beyond one. Whole quarter turns are in radians, a path of steps below one may be of samples, and
+/// `limits` answer the question.
+pub(super) fn check_turns(
+    field: &'static str,
+    q: &[f64],
+    dof: usize,
+    limits: Option<&[[f64; 2]]>,
+) -> PyResult<()> {
+    let mut steps = q.iter().zip(q.iter().skip(dof)).map(|(from, to)| (to - from).abs());
+    let is_sampled = q.len() > dof && steps.all(|step| step < FRAC_PI_2);
+    if limits.is_some() || dof < LEAST_JOINTS || is_sampled {
+        return Ok(());
+    }
+    let is_far = |angle: &f64| {
+        angle.abs() > FARTHEST_OUTSIDE && (2.0 * angle).sin().abs() > QUARTER_ROUNDING
+    };
+    for row in q.chunks_exact(dof) {
+        let beyond = |least: f64| row.iter().filter(|angle| angle.abs() > least).count();
+        let far = row.iter().position(is_far);
+        if let Some(joint) = far.filter(|_| 2 * beyond(TAU) > beyond(0.0)) {
+            return Err(Fault::Joints.error(format_args!(
+                "{field}: joint {} is {:.2} rad, beyond {FARTHEST_OUTSIDE:.2} rad (did you pass \
+                 degrees? otherwise give limits)",
+                joint + 1,
+                row[joint]
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// Limits of the joints; infinite where none is given.
 fn read_axis_limits(
     [velocity, acceleration, jerk]: [Option<&Bound<'_, PyAny>>; 3],
@@ -114,7 +155,7 @@ fn read_axis_limits(
 ///     InvalidMotionError: A limit or the duration is not positive, the duration is too short for
 ///         a limit, a joint moves and no limit binds it or leaves `limits`, or the profile cannot
 ///         have what is given for an end.
-///     InvalidJointsError: A wrong shape.
+///     InvalidJointsError: A wrong shape, or angles in degrees without `limits`.
 #[pyfunction]
 #[pyo3(signature = (q0, q1, *, steps=50, duration=None, profile="quintic", start_velocity=None,
     end_velocity=None, start_acceleration=None, end_acceleration=None, max_velocity=None,
@@ -178,7 +219,10 @@ pub(super) fn joint(
         crate::trajectory::joint(profile, &from, &to, duration.unwrap_or(1.0))
             .and_then(|motion| motion.within(&limits).map(|()| motion))
     };
-    PyTrajectory::even(py, inside(motion?, angles.as_deref())?, steps)
+    let motion = inside(motion?, angles.as_deref())?;
+    check_turns("q0", &start, dof, angles.as_deref())?;
+    check_turns("q1", &end, dof, angles.as_deref())?;
+    PyTrajectory::even(py, motion, steps)
 }
 
 /// Move through many joint vectors on a smooth curve, at rest at both ends.
@@ -205,7 +249,7 @@ pub(super) fn joint(
 ///     InvalidMotionError: Fewer than two waypoints, waypoints that repeat the one before without
 ///         `t`, times that do not increase, a limit that is exceeded or not positive, or a joint
 ///         that leaves `limits`: the message has the joint, the time, its angle and the limit.
-///     InvalidJointsError: A wrong shape.
+///     InvalidJointsError: A wrong shape, or angles in degrees without `limits`.
 #[pyfunction]
 #[pyo3(signature = (q, *, t=None, steps=100, duration=None, profile="quintic", max_velocity=None,
     max_acceleration=None, max_jerk=None, limits=None))]
@@ -236,5 +280,7 @@ pub(super) fn spline(
         crate::trajectory::through(kind, &points, dof, times.as_deref(), duration, &limits)
             .and_then(|motion| inside(motion, angles.as_deref()))
     });
-    PyTrajectory::even(py, motion?, steps)
+    let motion = motion?;
+    check_turns("q", &points, dof, angles.as_deref())?;
+    PyTrajectory::even(py, motion, steps)
 }

@@ -5,7 +5,7 @@ import itertools
 import irbkin
 import numpy as np
 import pytest
-from irbkin import InvalidMotionError, InvalidPoseError, paths
+from irbkin import InvalidMotionError, InvalidPoseError, paths, trajectory
 from reference import rotation_apart
 
 A = irbkin.pose([0.8, -0.2, 0.6], euler_zyx=[0.0, 3.0, 0.2])
@@ -164,3 +164,30 @@ NAN[0, 3] = np.nan
 def test_what_makes_no_path_is_refused(call, error, words):
     with pytest.raises(error, match=words):
         call()
+
+
+RETIMED = np.linspace(0, 0.1, 18).reshape(3, 6)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda A, B, C: paths.line(A, B, steps=3),
+        lambda A, B, C: paths.arc(A, B, C, steps=3),
+        lambda A, B, C: paths.polyline([A, B, C], "z10", steps=5),
+        lambda A, B, C: paths.spline([A, B, C], steps=5),
+        lambda *T: trajectory.retime(RETIMED, 1.0, 1.0, T=T, max_tool_speed=0.1),
+        lambda *T: trajectory.at_tool_speed(RETIMED, T, 0.01, 1.0),
+        lambda *T: trajectory.tool_speed_limits(RETIMED, T, 1.0),
+    ],
+)
+def test_a_path_in_millimeters_is_asked_back(call):
+    poses = [irbkin.pose(xyz) for xyz in ([0.85, 0.3, 0.6], [0.9, 0.0, 0.6], [0.85, -0.3, 0.6])]
+    site, rail = irbkin.pose([4e5, -300, 2]), np.array(poses)
+    rail[:, 0, 3] += [0, 40, 80]
+    for path in (poses, site @ poses, rail):
+        call(*path)
+    for pose in poses:
+        pose[:3, 3] *= 1e3
+    with pytest.raises(irbkin.InvalidPoseError, match="is the pose in millimeters"):
+        call(*poses)

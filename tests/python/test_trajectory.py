@@ -420,3 +420,32 @@ def test_a_path_is_retimed_with_limits_of_jerk():
     np.testing.assert_allclose(smooth.ddq[[0, -1]], 0, atol=1e-9)
     with pytest.raises(irbkin.InvalidMotionError, match="end_velocity must be zero with max_jerk"):
         trajectory.retime(q, 2.0, 8.0, max_jerk=60.0, end_velocity=[-0.1, 0.0])
+
+
+OPEN = [[-np.inf, np.inf]] * 6
+SCREW = [*START[:5], 45.0]
+
+
+@pytest.mark.parametrize("turned", [[90.0, 0, 0, 0, 0, 0], [12.5, -20.1, 0, 1.0, 35.5, 0]])
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda q, **limits: trajectory.joint([0] * 6, q, **limits),
+        lambda q, **limits: trajectory.joint(q, START, max_velocity=1.0, **limits),
+        lambda q, **limits: trajectory.spline([[0] * 6, q, [1] * 6], **limits),
+        lambda q, **limits: trajectory.retime([[0] * 6, [1] * 6, q], 1.0, 1.0, **limits),
+    ],
+)
+def test_a_motion_in_degrees_is_asked_back_unless_limits_answer(call, turned):
+    with pytest.raises(InvalidJointsError, match=r"joint [15] is [93][05].[05]0 rad.* degrees\?"):
+        call(turned)
+    assert call(turned, limits=OPEN).duration > 0.0
+
+
+@pytest.mark.parametrize(
+    "q", [[90.0], [0.5, 40.0], SCREW, [0, 0, 0, 0, 0, 20 * np.pi], [0, 6, 0, 0, 0, 40]]
+)
+def test_motions_of_many_turns_need_no_limits(q):
+    assert trajectory.joint([0] * len(q), q).duration == 1.0
+    assert trajectory.spline([[0] * len(q), q]).duration == 1.0
+    assert trajectory.retime(np.linspace([0] * 6, [90, 8, 8, 8, 0, 0], 100), 1.0, 1.0).duration > 0

@@ -50,3 +50,9 @@ def names(module: rapid.Module) -> None:
     data: Mapping[str, object] = module
     payload: float | None = irbkin.catalog_entry("UR5e").payload
     print(len(data), data.get("p10"), payload)
+
+
+def motions(robot: irbkin.Robot, plan: irbkin.Plan, T: npt.NDArray[np.float64]) -> None:
+    timed: irbkin.trajectory.Trajectory = irbkin.trajectory.retime(plan.q, robot.max_velocity, 8.0)
+    steady = irbkin.trajectory.at_tool_speed(plan.q, T, 0.1, robot.max_velocity)
+    print(timed.duration, steady.duration)

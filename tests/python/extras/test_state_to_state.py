@@ -301,3 +301,13 @@ def test_without_ruckig_the_error_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "ruckig", None)
     with pytest.raises(ImportError, match=r"needs ruckig: pip install 'irbkin\[time\]'$"):
         trajectory.state_to_state([0.0], [1.0], **LIMITS)
+
+
+def test_degrees_are_asked_back_unless_limits_answer():
+    def move(q1, **limits):
+        most = {"max_velocity": 3.0, "max_acceleration": 8.0, "max_jerk": 90.0}
+        return trajectory.state_to_state([0.0] * 6, q1, **most, **limits)
+
+    with pytest.raises(irbkin.InvalidJointsError, match=r"q1: joint 1 is 90.00 rad, .*degrees"):
+        move([90.0, 0, 0, 0, 0, 0])
+    assert move([90.0, 0, 0, 0, 0, 0], limits=[[-np.inf, np.inf]] * 6).duration > 30.0
