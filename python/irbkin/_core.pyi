@@ -952,7 +952,8 @@ class Robot:
 
         Args:
             text_or_path: The text, str that begins with "<" or bytes, or the path of a file, of
-                URDF 1.0 to 1.2. Xacro must be expanded first.
+                URDF 1.0 to 1.2. Xacro must be expanded first. Of a text that others send give
+                bytes, which name no file.
             base: Link in whose frame poses are given; the one without a parent when not given.
             tip: Link that poses are of; when not given, the only one at the end of a chain of six
                 or seven joints, if the last of these can be no gripper's.

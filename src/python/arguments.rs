@@ -77,26 +77,28 @@ pub(super) const AXES: [(&str, ToolAxis); 3] =
 /// A number of samples or poses: its bounds are checked where it is used, if it has a sign that
 /// counts can have and a size that is one.
 pub(super) fn read_steps(steps: &Bound<'_, PyAny>) -> PyResult<usize> {
-    let py = steps.py();
-    steps.extract().map_err(|error: PyErr| {
-        if error.is_instance_of::<PyOverflowError>(py) {
-            Fault::Motion.error(format_args!("steps must be 2 to {MOST_SAMPLES}, got {steps}"))
-        } else {
-            error
-        }
-    })
+    let message = || format!("steps must be 2 to {MOST_SAMPLES}, got {steps}");
+    steps.extract().map_err(|error| or_overflow(steps, error, || Fault::Motion.error(message())))
 }
 
 /// The seed of random samples.
 pub(super) fn read_seed(seed: &Bound<'_, PyAny>) -> PyResult<u64> {
-    let py = seed.py();
-    seed.extract().map_err(|error: PyErr| {
-        if error.is_instance_of::<PyOverflowError>(py) {
-            PyValueError::new_err(format!("seed is {seed}, it must be 0 to {}", u64::MAX))
-        } else {
-            error
-        }
-    })
+    let message = || format!("seed is {seed}, it must be 0 to {}", u64::MAX);
+    seed.extract().map_err(|error| or_overflow(seed, error, || PyValueError::new_err(message())))
+}
+
+/// A number of threads.
+pub(super) fn read_threads(threads: &Bound<'_, PyAny>) -> PyResult<isize> {
+    let most = isize::MAX;
+    let message = || format!("threads must be 0 (one per core) to {most}, got {threads}");
+    threads
+        .extract()
+        .map_err(|error| or_overflow(threads, error, || PyValueError::new_err(message())))
+}
+
+/// An error of reading a number: `overflow` if it is too large for its type.
+fn or_overflow(value: &Bound<'_, PyAny>, error: PyErr, overflow: impl FnOnce() -> PyErr) -> PyErr {
+    if error.is_instance_of::<PyOverflowError>(value.py()) { overflow() } else { error }
 }
 
 /// A number of threads; 0 is one a core.

@@ -8,7 +8,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::arguments::thread_count;
+use super::arguments::{read_threads, thread_count};
 use super::arm::{Arm, joints, on};
 use super::arrays::{Rows, copied_pair, vector};
 use super::errors::Fault;
@@ -153,7 +153,7 @@ impl PyCell {
         robot: &PyRobot,
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: isize,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (q.py(), thread_count(threads)?);
         if out.is_none() && self.0.obstacles().len() <= FEW {

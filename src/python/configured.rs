@@ -7,7 +7,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
 
-use super::arguments::thread_count;
+use super::arguments::{read_threads, thread_count};
 use super::arm::{Arm, joints, on, seven_joints};
 use super::arrays::{Rows, together};
 use super::errors::Fault;
@@ -132,7 +132,7 @@ impl PyRobot {
         seed: Option<&Bound<'py, PyAny>>,
         every: bool,
         out: Option<&Bound<'py, PyAny>>,
-        threads: isize,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, arm, threads) = (T.py(), self.arm(), thread_count(threads)?);
         let Some(configuration) = configuration else {

@@ -6,7 +6,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arguments::{SINGULARITY_MODES, one_of, thread_count};
+use super::arguments::{SINGULARITY_MODES, one_of, read_threads, thread_count};
 use super::arm::Arm;
 use super::arrays::{Rows, together};
 use super::errors::{Fault, index_in};
@@ -67,7 +67,7 @@ impl PyRobot {
         singularity_mode: &str,
         zone: Option<f64>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: isize,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
     ) -> PyResult<FollowResult> {
         let mode = one_of("singularity_mode", singularity_mode, &SINGULARITY_MODES)?;
         let zone = zone.unwrap_or(WRIST_ZONE);

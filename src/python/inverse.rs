@@ -9,7 +9,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyTuple};
 
-use super::arguments::thread_count;
+use super::arguments::{read_threads, thread_count};
 use super::arm::{Arm, on};
 use super::cell::PyCell;
 use super::errors::of_seed;
@@ -115,7 +115,7 @@ impl PyRobot {
         q7: Option<&Bound<'py, PyAny>>,
         given: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: isize,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
     ) -> PyResult<IkBatch> {
         let threads = thread_count(threads)?;
         let Some(given) = given else { return solved(self.arm(), T, ("q7", q7), out, threads) };
@@ -156,7 +156,7 @@ impl PyRobot {
         &self,
         T: &Bound<'py, PyAny>,
         q7: Option<&Bound<'py, PyAny>>,
-        threads: isize,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
         cell: Option<&Bound<'py, PyCell>>,
     ) -> PyResult<IkMargin> {
         let cell = cell.map(|cell| &*cell.get().0);
@@ -214,7 +214,7 @@ impl PyRobot {
         seed: Option<&Bound<'py, PyAny>>,
         weights: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: isize,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
         cell: Option<&Bound<'py, PyCell>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (T.py(), thread_count(threads)?);

@@ -7,7 +7,7 @@ use numpy::ndarray::arr0;
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
-use super::arguments::{FRAMES, one_of, thread_count};
+use super::arguments::{FRAMES, one_of, read_threads, thread_count};
 use super::arm::{Arm, joints, on};
 use super::arrays::copied_vector;
 use super::figure::Figure;
@@ -119,7 +119,11 @@ impl PyRobot {
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single joint vector that is not finite.
     #[pyo3(signature = (q, *, threads=1))]
-    fn singularity(&self, q: &Bound<'_, PyAny>, threads: isize) -> PyResult<Singularity> {
+    fn singularity(
+        &self,
+        q: &Bound<'_, PyAny>,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
+    ) -> PyResult<Singularity> {
         let (py, threads) = (q.py(), thread_count(threads)?);
         on!(self.arm(), robot => {
             if let Some(q) = plain_joints(q, robot.limits())? {
@@ -171,7 +175,11 @@ impl PyRobot {
     /// Raises:
     ///     InvalidJointsError: A wrong shape, or a single row with a NaN or inf.
     #[pyo3(signature = (q, *, threads=1))]
-    fn margin(&self, q: &Bound<'_, PyAny>, threads: isize) -> PyResult<Margin> {
+    fn margin(
+        &self,
+        q: &Bound<'_, PyAny>,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
+    ) -> PyResult<Margin> {
         let (py, threads) = (q.py(), thread_count(threads)?);
         let one = on!(self.arm(), robot => {
             plain_joints(q, robot.limits())?.map(|q| robot.margin(&q))

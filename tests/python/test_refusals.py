@@ -3,6 +3,7 @@ and the likely slip. Beside it, what is legitimate and stays accepted.
 """
 
 import inspect
+import json
 
 import irbkin
 import numpy as np
@@ -20,6 +21,7 @@ from irbkin import (
     UnreachableError,
     rapid,
 )
+from irbkin.scene._solved import Joints
 
 ROBOT = Robot("IRB 2600-12/1.65")
 PANDA = Robot("Panda")
@@ -367,3 +369,30 @@ def test_joints_may_be_four_turns_outside_the_limits():
         with pytest.raises(InvalidJointsError, match=f"joint {joint + 1} is .* far outside"):
             ROBOT.fk(put(Q, joint, upper[joint] + 8 * np.pi + 1e-3))
     ROBOT.with_limits(put([[-1.0, 2.0]] * 6, 0, [-np.inf, np.inf])).fk(put(Q, 0, 300.0))
+
+
+def test_small_slips_get_errors_of_our_own(tmp_path):
+    robot = irbkin.Robot("IRB 2600-12/1.65")
+    with pytest.raises(TypeError, match=r"plan must be a Plan, .*got int"):
+        irbkin.rapid.plan_targets(robot, 5)
+    for text in ("1" * 100_000, "[,]", '{"format": "irbkin scene", "version": 2}'):
+        with pytest.raises(irbkin.IrbkinError, match=r"not a scene: |version is 2"):
+            irbkin.scene.Scene.from_json(text)
+    data = json.loads(irbkin.scene.of(robot).to_json())
+    data["arms"][0]["coupling"] = 10**400
+    with pytest.raises(irbkin.IrbkinError, match="must be a finite number"):
+        irbkin.scene.Scene.from_json(json.dumps(data))
+    (file := tmp_path / "arm.urdf").write_text(robot.to_urdf())
+    del data["arms"][0]["coupling"]
+    data["arms"][0]["urdf"] = str(file)
+    with pytest.raises(irbkin.InvalidModelError, match="XML"):
+        Joints(irbkin.scene.Scene.from_dict(data)).nearest(np.eye(4), [0] * 6)
+    for threads in (2**63, -(2**70), 10**30):
+        with pytest.raises(ValueError, match="threads must be 0"):
+            robot.ik_batch(np.eye(4)[None], threads=threads)
+    pytest.importorskip("yaml")
+    for key in ("on", "yes", "1", "2001-01-01", "~"):
+        file = tmp_path / "scene.yaml"
+        file.write_text(f"world: {{collision_objects: [{{id: a, {key}: 1}}]}}\n")
+        with pytest.raises(irbkin.InvalidModelError, match="is no text: write it in quotes"):
+            irbkin.Cell.load(file)

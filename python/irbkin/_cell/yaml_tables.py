@@ -26,7 +26,12 @@ def parsed(content: bytes) -> Any:
             if len(keys) > len(set(keys)):
                 twice = f"{max(keys, key=keys.count)} is given twice"
                 raise yaml.MarkedYAMLError(problem=twice, problem_mark=node.start_mark)
-            return super().construct_mapping(node, deep)
+            table = super().construct_mapping(node, deep)
+            # YAML 1.1 takes on, off, yes and no for truth values.
+            for key in (it for it in table if not isinstance(it, str)):
+                words = f"the key {key!r} is no text: write it in quotes"
+                raise yaml.MarkedYAMLError(problem=words, problem_mark=node.start_mark)
+            return table
 
     Loader.add_implicit_resolver("tag:yaml.org,2002:float", _FLOAT, list("-+.0123456789"))
     try:

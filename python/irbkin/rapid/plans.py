@@ -20,13 +20,14 @@ from irbkin._core import (
 )
 from irbkin.errors import RapidError
 from irbkin.freedom import Positioner, Track
+from irbkin.records import Plan
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     import numpy.typing as npt
 
-    from irbkin import Plan, Robot
+    from irbkin import Robot
     from irbkin._core import Module, Trajectory
 
 MOST_EXTERNAL = 6
@@ -66,6 +67,8 @@ def plan_targets(
         InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa of the
             catalog.
     """
+    if not isinstance(plan, Plan):
+        raise TypeError(f"plan must be a Plan, as of robot.plan, got {type(plan).__name__}")
     q = as_array(plan.q, "plan.q", (None, 6), RapidError)
     for index in np.flatnonzero(~np.isfinite(q).all(axis=1)):
         raise RapidError(f"plan.q[{index}] has no joint angles: a plan with breaks has no targets")

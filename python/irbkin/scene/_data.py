@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from irbkin._core import Shape
 from irbkin._files import replaced
+from irbkin.errors import IrbkinError
 from irbkin.scene._plain import plain, read
 
 if TYPE_CHECKING:
@@ -248,12 +249,12 @@ class Scene(_Part):
         """Make a scene of dicts and lists.
 
         Raises:
-            ValueError: A field is missing, unknown or of another type: the message has its place.
+            IrbkinError: A field is missing, unknown or of another type: the message has its place.
         """
         if not isinstance(data, dict) or data.get("format") != FORMAT:
-            raise ValueError(f'not a scene: it has no "format": "{FORMAT}"')
+            raise IrbkinError(f'not a scene: it has no "format": "{FORMAT}"')
         if data.get("version") != VERSION:
-            raise ValueError(f"version is {data.get('version')!r}, this irbkin reads {VERSION}")
+            raise IrbkinError(f"version is {data.get('version')!r}, this irbkin reads {VERSION}")
         own = {key: value for key, value in data.items() if key not in ("format", "version")}
         scene: Scene = read(cls, own, "scene")
         for at, arm in enumerate(scene.arms):
@@ -263,7 +264,7 @@ class Scene(_Part):
             try:
                 _shape(obstacle.shape)
             except (AttributeError, KeyError, TypeError, ValueError) as error:
-                raise ValueError(f"scene.obstacles[{index}].shape: {error}") from None
+                raise IrbkinError(f"scene.obstacles[{index}].shape: {error}") from None
         return scene
 
     @classmethod
@@ -271,12 +272,16 @@ class Scene(_Part):
         """Make a scene of JSON.
 
         Raises:
-            ValueError: The text is not JSON, or as `from_dict`.
+            IrbkinError: The text is not JSON, or as `from_dict`.
         """
         try:
             return cls.from_dict(json.loads(text))
         except RecursionError:
-            raise ValueError("not a scene: it is nested too deeply") from None
+            raise IrbkinError("not a scene: it is nested too deeply") from None
+        except IrbkinError:
+            raise
+        except ValueError as error:
+            raise IrbkinError(f"not a scene: {error}") from None
 
     def to_html(self) -> str:
         """Return the scene as a page that opens in any browser without a network, draws and plays.
@@ -308,7 +313,7 @@ class Scene(_Part):
         """Read a scene from a file.
 
         Raises:
-            ValueError: As `from_json`.
+            IrbkinError: As `from_json`.
             OSError: The file cannot be read.
         """
         with open(path, encoding="utf-8") as file:
@@ -319,10 +324,10 @@ def _check_hull(hull: LinkHull, place: str) -> None:
     """Check that faces are triangles of points that there are."""
     count = len(hull.points)
     if not count or any(len(it) != 3 for it in hull.points):
-        raise ValueError(f"{place}.points must be one or more of three numbers")
+        raise IrbkinError(f"{place}.points must be one or more of three numbers")
     for face in hull.faces:
         if len(face) != 3 or not 0 <= min(face) <= max(face) < count:
-            raise ValueError(
+            raise IrbkinError(
                 f"{place}.faces has {list(face)}, it must be three of the {count} points, from 0"
             )
 
@@ -333,6 +338,6 @@ def _shape(data: dict[str, Any]) -> Shape:
     if data.get("kind") == "union":
         return Shape.union([_shape(part) for part in own["shapes"]])
     if data.get("kind") not in KINDS:
-        raise ValueError(f"kind is {data.get('kind')!r}, it must be one of {', '.join(KINDS)}")
+        raise IrbkinError(f"kind is {data.get('kind')!r}, it must be one of {', '.join(KINDS)}")
     shape: Shape = getattr(Shape, data["kind"])(**own)
     return shape

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import math
+import sys
 import types
 from dataclasses import MISSING, fields, is_dataclass
 from functools import cache
 from typing import Any, Union, get_args, get_origin, get_type_hints
+
+from irbkin.errors import IrbkinError
 
 
 def plain(value: Any) -> Any:
@@ -34,7 +36,7 @@ def read(of: Any, data: Any, place: str) -> Any:
     """Make a value of a type from plain data.
 
     Raises:
-        ValueError: The data do not fit; the message begins with the place.
+        IrbkinError: The data do not fit; the message begins with the place.
     """
     if is_dataclass(of):
         return _read_fields(of, data, place)
@@ -50,7 +52,9 @@ def read(of: Any, data: Any, place: str) -> Any:
         (each, *_) = get_args(of)
         return tuple(read(each, it, f"{place}[{index}]") for index, it in enumerate(data))
     if of is float:
-        if isinstance(data, bool) or not isinstance(data, int | float) or not math.isfinite(data):
+        is_number = isinstance(data, int | float) and not isinstance(data, bool)
+        # A whole number may be larger than any float.
+        if not (is_number and abs(data) <= sys.float_info.max):
             raise _wrong(place, data, "a finite number")
         return float(data)
     kind = origin or of
@@ -66,17 +70,17 @@ def _read_fields(of: Any, data: Any, place: str) -> Any:
     own = {field.name: field for field in fields(of)}
     for key in data:
         if key not in own:
-            raise ValueError(f"{place}: has no field {key!r}, its fields are {', '.join(own)}")
+            raise IrbkinError(f"{place}: has no field {key!r}, its fields are {', '.join(own)}")
     hints = _hints(of)
     values = {}
     for name, field in own.items():
         if name in data:
             values[name] = read(hints[name], data[name], f"{place}.{name}")
         elif field.default is MISSING:
-            raise ValueError(f"{place}: lacks the field {name!r}")
+            raise IrbkinError(f"{place}: lacks the field {name!r}")
     return of(**values)
 
 
-def _wrong(place: str, data: Any, wanted: str) -> ValueError:
+def _wrong(place: str, data: Any, wanted: str) -> IrbkinError:
     text = repr(data)
-    return ValueError(f"{place} is {text[:60]}{'..' * (len(text) > 60)}, it must be {wanted}")
+    return IrbkinError(f"{place} is {text[:60]}{'..' * (len(text) > 60)}, it must be {wanted}")

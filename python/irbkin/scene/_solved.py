@@ -90,7 +90,9 @@ class Joints:
         if arm is None or not (arm.urdf or arm.name in catalog()):
             name = "the scene has no arm" if arm is None else f"{arm.name} is not in the catalog"
             raise InvalidModelError(f"{name}: T cannot be set, q can")
-        bare: Any = Robot.from_urdf(arm.urdf) if arm.urdf else Robot(arm.name)
+        # As bytes a text of others names no file.
+        urdf = arm.urdf.encode(errors="surrogatepass")
+        bare: Any = Robot.from_urdf(urdf) if urdf else Robot(arm.name)
         # The scene has the tool behind the last joint, a robot behind the flange.
         flange = bare.with_base(np.eye(4)).fk(np.zeros(bare.dof))
         tool = np.linalg.solve(np.array(arm.base) @ flange, self.tool(np.zeros(bare.dof)))
