@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from irbkin.check.codes import NOT_CHECKED, REASONS, UNREAD, selected
@@ -103,20 +104,18 @@ class Checker:
 def _silenced(program: rapid.Program) -> Callable[[rapid.Finding], bool]:
     """Return a predicate: whether a `noqa` comment of a program suppresses a finding."""
     sources = (module.source for module in program.modules)
-    lines = [source.split("\n") if "noqa" in source.lower() else None for source in sources]
-    known: dict[tuple[int, int, int], re.Match[str] | None] = {}
+    lines = [source.split("\n") if "noqa" in source.lower() else [] for source in sources]
+
+    # One line may have very many findings.
+    @cache
+    def comment(module: int, line: int, begin: int) -> re.Match[str] | None:
+        return NOQA.search(lines[module][line - 1][begin:].partition("\r")[0])
 
     def is_silent(finding: rapid.Finding) -> bool:
         own = lines[finding.module]
-        if own is None:
-            return False
-        line = own[finding.line - 1]
-        # A carriage return alone ends a line, too; one line may have very many findings.
-        begin = line.rfind("\r", 0, finding.column) + 1
-        place = (finding.module, finding.line, begin)
-        if place not in known:
-            known[place] = NOQA.search(line[begin:].partition("\r")[0])
-        match = known[place]
+        # A carriage return alone ends a line, too.
+        begin = own[finding.line - 1].rfind("\r", 0, finding.column) + 1 if own else 0
+        match = comment(finding.module, finding.line, begin) if own else None
         if match is None:
             return False
         words = [word.strip().upper() for word in (match[1] or "").split(",")]

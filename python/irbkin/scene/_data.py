@@ -316,7 +316,7 @@ class Scene(_Part):
             IrbkinError: As `from_json`.
             OSError: The file cannot be read.
         """
-        with open(path, encoding="utf-8") as file:
+        with open(path, "rb") as file:
             return cls.from_json(file.read())
 
 
