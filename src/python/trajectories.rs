@@ -19,8 +19,9 @@ use crate::trajectory::{AxisLimits, AxisState, Trajectory, joint_within};
 /// Joints of an arm, at least: external axes, which turn on and on, are fewer.
 const LEAST_JOINTS: usize = 4;
 
-/// How far the sine of two times an angle may be off zero where it is quarter turns [1]: rounding.
-const QUARTER_ROUNDING: f64 = 1e-6;
+/// How far an angle may be off zero, and the sine of twice an angle of quarter turns, by rounding
+/// [rad, 1].
+const ROUNDING: f64 = 1e-6;
 
 /// Joint vectors, shape (m, n): the numbers, and n.
 pub(super) fn read_rows(
@@ -94,16 +95,16 @@ pub(super) fn check_turns(
     if limits.is_some() || dof < LEAST_JOINTS || is_sampled {
         return Ok(());
     }
-    let is_far = |angle: &f64| {
-        angle.abs() > FARTHEST_OUTSIDE && (2.0 * angle).sin().abs() > QUARTER_ROUNDING
-    };
-    for row in q.chunks_exact(dof) {
+    let is_far =
+        |angle: &f64| angle.abs() > FARTHEST_OUTSIDE && (2.0 * angle).sin().abs() > ROUNDING;
+    for (index, row) in q.chunks_exact(dof).enumerate() {
         let beyond = |least: f64| row.iter().filter(|angle| angle.abs() > least).count();
         let far = row.iter().position(is_far);
-        if let Some(joint) = far.filter(|_| 2 * beyond(TAU) > beyond(0.0)) {
+        if let Some(joint) = far.filter(|_| 2 * beyond(TAU) > beyond(ROUNDING)) {
+            let place = if q.len() > dof { format!("row {index} of ") } else { String::new() };
             return Err(Fault::Joints.error(format_args!(
-                "{field}: joint {} is {:.2} rad, beyond {FARTHEST_OUTSIDE:.2} rad (did you pass \
-                 degrees? otherwise give limits)",
+                "{place}{field}: joint {} is {:.2} rad, beyond {FARTHEST_OUTSIDE:.2} rad (did you \
+                 pass degrees? otherwise give limits)",
                 joint + 1,
                 row[joint]
             )));

@@ -426,7 +426,7 @@ OPEN = [[-np.inf, np.inf]] * 6
 SCREW = [*START[:5], 45.0]
 
 
-@pytest.mark.parametrize("turned", [[90.0, 0, 0, 0, 0, 0], [12.5, -20.1, 0, 1.0, 35.5, 0]])
+@pytest.mark.parametrize("turned", [[90.0, 1e-15, 0, 0, -2e-14, 0], [12.5, -20.1, 0, 1.0, 35.5, 0]])
 @pytest.mark.parametrize(
     "call",
     [
@@ -437,7 +437,7 @@ SCREW = [*START[:5], 45.0]
     ],
 )
 def test_a_motion_in_degrees_is_asked_back_unless_limits_answer(call, turned):
-    with pytest.raises(InvalidJointsError, match=r"joint [15] is [93][05].[05]0 rad.* degrees\?"):
+    with pytest.raises(InvalidJointsError, match=r"q[01]?: joint [15] is .* pass degrees\?"):
         call(turned)
     assert call(turned, limits=OPEN).duration > 0.0
 
