@@ -1,8 +1,8 @@
-"""Arrays of Python code: arguments, and samples of long ones; the extension reads its own."""
+"""Arrays of Python code: arguments, as the extension reads its own, and samples of long ones."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +22,18 @@ def evenly(count: int, most: int) -> npt.NDArray[np.int64]:
     return np.unique(np.linspace(0, count - 1, most).round().astype(np.int64))
 
 
+def all_poses(value: Any) -> Any:
+    """What NumPy is given for a value: of an object of several poses, as spatialmath's `SE3`, the
+    list of their matrices, for NumPy would take the first alone; in lists, too.
+    """
+    if isinstance(value, (list, tuple)):
+        if not value or isinstance(value[0], (float, int)):
+            return value
+        return [all_poses(one) for one in value]
+    matrices = getattr(value, "A", None)
+    return matrices if isinstance(matrices, list) else value
+
+
 def as_array(
     value: npt.ArrayLike, name: str, shape: tuple[int | None, ...], error: type[IrbkinError]
 ) -> Floats:
@@ -33,8 +45,8 @@ def as_array(
     wanted = ", ".join("m" if size is None else str(size) for size in shape)
     wanted = f"{name} must have shape ({wanted}{',' * (len(shape) == 1)})"
     try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError) as fault:
+        array = np.asarray(all_poses(value), dtype=np.float64)
+    except (TypeError, ValueError, RecursionError) as fault:
         raise error(f"{wanted}, got what is no array of numbers: {fault}") from fault
     is_fit = array.ndim == len(shape) and all(
         size == found or (size is None and found > 0)

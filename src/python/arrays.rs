@@ -282,25 +282,23 @@ fn readable<'py>(
             };
         }
     }
-    let array = as_array(value, field, fault)?;
+    let array = as_array(value).map_err(|cause| {
+        let cause = cause.value(value.py());
+        fault.error(format_args!("{field} must be an array of numbers: {cause}"))
+    })?;
     if is_any_written() && !is_free(&extent(&array)?, Access::Read) {
         return Err(written());
     }
     converted(value, &array, field)?.try_readonly().map_err(|_| written())
 }
 
-/// Let NumPy make an array of a value.
-fn as_array<'py>(
-    value: &Bound<'py, PyAny>,
-    field: &str,
-    fault: Fault,
-) -> PyResult<Bound<'py, PyUntypedArray>> {
+/// Let NumPy make an array of a value, of all poses of an object of several.
+pub(super) fn as_array<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
     let py = value.py();
+    let arrays = py.import(intern!(py, "irbkin._arrays"))?;
+    let all = arrays.call_method1(intern!(py, "all_poses"), (value,))?;
     let numpy = py.import(intern!(py, "numpy"))?;
-    let array = numpy.call_method1(intern!(py, "asarray"), (value,)).map_err(|cause| {
-        fault.error(format_args!("{field} must be an array of numbers: {}", cause.value(py)))
-    })?;
-    Ok(array.cast_into::<PyUntypedArray>()?)
+    Ok(numpy.call_method1(intern!(py, "asarray"), (all,))?.cast_into()?)
 }
 
 /// A real array as an aligned C-contiguous one of float64.

@@ -1,9 +1,9 @@
 //! Poses, seeds and weights: what a solve is asked for.
 
-use numpy::PyArray2;
+use numpy::{PyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-use super::arrays::{Rows, copied_matrix4, copied_vector, matrix4, together, vector};
+use super::arrays::{Rows, as_array, copied_matrix4, copied_vector, matrix4, together, vector};
 use super::errors::{Fault, index_in, shape_text};
 use super::outputs::matrix;
 use crate::kinematics::thresholds::MOST_REACH;
@@ -108,10 +108,9 @@ pub(super) fn read_path(py: Python<'_>, rows: &Rows<'_>, shape: &[usize]) -> PyR
     Ok(poses)
 }
 
-/// The shape that NumPy sees in an argument.
+/// The shape of an argument.
 pub(super) fn shape_of(value: &Bound<'_, PyAny>) -> Option<Vec<usize>> {
-    let numpy = value.py().import("numpy").ok()?;
-    numpy.call_method1("shape", (value,)).ok()?.extract().ok()
+    Some(as_array(value).ok()?.shape().to_vec())
 }
 
 /// A pose as a (4, 4) array.

@@ -223,3 +223,79 @@ def test_overlap_is_seen_through_two_views_of_a_buffer(robot, many):
     q[...] = many
     with pytest.raises(ValueError, match="must not overlap"):
         robot.fk(q, out=out)
+
+
+class Several:
+    """Poses in one object, as spatialmath's `SE3`: NumPy sees the first alone."""
+
+    def __init__(self, matrices):
+        self.A = list(matrices)
+        self.__array_interface__ = self.A[0].__array_interface__
+
+
+def spatialmath_poses(matrices):
+    from spatialmath import SE3
+
+    return SE3(list(matrices), check=False)
+
+
+SEVERAL = [
+    pytest.param(Several, id="stand-in"),
+    pytest.param(spatialmath_poses, id="spatialmath", marks=pytest.mark.extra),
+]
+
+
+@pytest.mark.parametrize("make", SEVERAL)
+def test_an_object_of_several_poses_is_all_of_them(robot, many, make):
+    matrices = robot.fk(many[:3])
+    poses = make(matrices)
+    assert np.asarray(poses).shape == (4, 4)
+    np.testing.assert_array_equal(robot.ik_batch(poses).q, robot.ik_batch(matrices).q)
+    np.testing.assert_array_equal(
+        robot.ik_batch([poses, poses]).q, robot.ik_batch([matrices, matrices]).q
+    )
+    seed = many[0]
+    np.testing.assert_array_equal(robot.ik_nearest(poses, seed), robot.ik_nearest(matrices, seed))
+    assert robot.plan(poses) == robot.plan(matrices)
+    assert robot.follow(poses, seed) == robot.follow(matrices, seed)
+    assert irbkin.to_xyz_wxyz(poses)[0].shape == (3, 3)
+    region = irbkin.placement.Region(x=(0.0, 0.1))
+    placed = irbkin.placement.best_base(robot, poses, region, steps=2)
+    assert placed.slack.shape == (3,)
+
+
+@pytest.mark.parametrize("make", SEVERAL)
+def test_an_object_of_several_poses_is_refused_where_one_is_wanted(robot, many, make):
+    poses = make(robot.fk(many[:3]))
+    for call in (
+        robot.ik,
+        robot.check_pose,
+        robot.with_tool,
+        robot.with_base,
+        lambda T: robot.go(Q, T, irbkin.Cell()),
+        lambda T: irbkin.paths.line(T, T, steps=2),
+        lambda T: irbkin.body.Shape.box([1.0, 1.0, 1.0], pose=T),
+        lambda T: irbkin.Cell({"box": irbkin.body.Shape.box([1.0, 1.0, 1.0], T)}),
+        lambda T: irbkin.placement.best_base(
+            robot, [np.eye(4)], irbkin.placement.Region(), steps=1, frame=T
+        ),
+    ):
+        with pytest.raises(irbkin.InvalidPoseError, match=r"\(4, 4\), got \(3, 4, 4\)"):
+            call(poses)
+    with pytest.raises(irbkin.InvalidPoseError, match="for many poses take ik_batch"):
+        robot.ik(poses)
+
+
+@pytest.mark.extra
+def test_rotations_of_several_in_one_object_are_all_of_them():
+    from spatialmath import SO3, UnitQuaternion
+
+    angles = [0.1, 0.2]
+    many = np.array([SO3.Rx(angle).A for angle in angles])
+    rotations = SO3([SO3.Rx(angle) for angle in angles])
+    quaternions = UnitQuaternion([UnitQuaternion.Rx(angle) for angle in angles])
+    origin = [0.0, 0.0, 0.0]
+    np.testing.assert_array_equal(irbkin.pose(origin, rotation=rotations)[:, :3, :3], many)
+    reached = irbkin.map.reach(irbkin.Robot("UR5e"), 0.4, 0.1, 0.3, rotations)
+    np.testing.assert_array_equal(reached.orientations, many)
+    np.testing.assert_allclose(irbkin.pose(origin, wxyz=quaternions)[:, :3, :3], many, atol=1e-15)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from irbkin._arguments import check_robot, count, reporter
-from irbkin._arrays import as_array, finite
+from irbkin._arrays import all_poses, as_array, finite
 from irbkin._core import Cell, Robot, __version__
 from irbkin.errors import InvalidPoseError
 from irbkin.map._store import FIELDS, RECORD, Slab
@@ -105,7 +105,7 @@ def _axis(name: str, values: npt.ArrayLike) -> Floats:
 
 def _rotations(robot: Robot, given: npt.ArrayLike, q7: float | None) -> Floats:
     """Rotations that `ik` takes, one by one."""
-    shape = (3, 3) if np.ndim(given) == 2 else (None, 3, 3)
+    shape = (3, 3) if np.ndim(all_poses(given)) == 2 else (None, 3, 3)
     rotations = as_array(given, "orientations", shape, InvalidPoseError).reshape(-1, 3, 3)
     pose = np.eye(4)
     for index, rotation in enumerate(rotations):
