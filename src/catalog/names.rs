@@ -1,6 +1,7 @@
 //! Finds arms by name: normalizes spelling, and lists the names closest to an unknown one.
 
 use alloc::borrow::ToOwned;
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::iter;
@@ -14,6 +15,9 @@ use crate::spelling::similar;
 
 /// Number of close names in the message for an unknown one.
 const MOST_CLOSE: usize = 6;
+
+/// Bytes of the longest name that is looked up: three times the longest designation.
+const LONGEST: usize = 200;
 
 /// Other names of arms.
 pub(super) const ALIASES: &[(&str, &str)] = &[
@@ -40,13 +44,18 @@ pub(super) const ALIASES: &[(&str, &str)] = &[
 /// `IRB 4600-40/2.55 Type C`): series, payload and reach in either order, with or without `IRB`.
 /// The drive generation (`Type C`) and Foundry (`1300F`) do not matter.
 ///
-/// Names are not guessed: a name that lacks a figure is unknown, even if only one arm has it.
+/// Names are not guessed: a name that lacks a figure is unknown, even if only one arm has it; so is
+/// one of more than 200 bytes.
 ///
 /// # Errors
 ///
 /// [`Error::UnknownRobot`] with the reason for which the arm is left out, or with up to six names
 /// that are close, the closest first.
 pub fn find(name: &str) -> Result<&'static CatalogArm, Error> {
+    if name.len() > LONGEST {
+        let name = format!("{name:.20}..");
+        return Err(UnknownRobot { name, close: Vec::new(), left_out: None }.into());
+    }
     let alias = ALIASES.iter().find(|(alias, _)| *alias == name);
     let exact = alias.map_or(name, |(_, name)| name);
     if let Some(arm) = catalog().find(|arm| arm.name == exact) {
@@ -170,8 +179,6 @@ fn spelled_like(_: &str) -> Vec<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use alloc::format;
-
     use super::*;
 
     #[test]

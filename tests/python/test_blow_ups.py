@@ -9,7 +9,7 @@ import time
 import command
 import pytest
 from backups import SMALL, written
-from irbkin import Cell
+from irbkin import Cell, Robot, UnknownRobotError, catalog_entry
 from irbkin._cell.entries import parsed
 from irbkin.cli.watch import _stamps
 from irbkin.errors import InvalidModelError
@@ -46,6 +46,32 @@ def test_dots_in_texts_and_comments_are_no_keys():
     text = f'x = "a\\"{DEEP}"\ny = \'{DEEP}\' # {DEEP}\nz = """\n{DEEP} \\""" "" {DEEP}"""\n'
     assert parsed(text)["y"] == DEEP
     assert parsed(".".join("a" * 32) + "=1")["a"]
+
+
+LONG = {
+    "10 MB": "a" * 10_000_000,
+    "series": "IRB 2600-" * 10_000,
+    "digits": "9" * 100_000,
+    "dashes": "IRB 2600-12/1.65" + "-" * 200,
+    "not ASCII": "\u00e4" * 100_000,
+}
+
+
+@pytest.mark.parametrize("name", LONG.values(), ids=LONG)
+def test_a_name_longer_than_any_designation_is_refused_at_once(tmp_path, name):
+    file = tmp_path / "cell.toml"
+    file.write_text(f'[robots.r]\nname = "{name[:100_000]}"\nq = [0, 0, 0, 0, 0, 0]\n')
+    began = time.process_time()
+    for call in (Robot, catalog_entry):
+        with pytest.raises(UnknownRobotError, match=r'^unknown robot "') as refusal:
+            call(name)
+        assert len(str(refusal.value)) < 200
+    with pytest.raises(InvalidModelError, match=r'robots\.r: unknown robot "') as refusal:
+        Cell.load(file)
+    assert len(str(refusal.value)) < 300
+    message = command.refused("fk", name[:100_000], *"000000")
+    assert len(message) < 300
+    assert time.process_time() - began < 0.5
 
 
 FAR = "[9E9,9E9,9E9,9E9,9E9,9E9]"

@@ -2,6 +2,7 @@ use core::cell::Cell;
 use core::ffi::{CStr, c_char};
 use core::ptr::{null, null_mut};
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::ffi::CString;
 
 use irbkin::{catalog, on};
 
@@ -168,4 +169,13 @@ fn texts_are_refused_that_are_no_utf_8() {
     let code = unsafe { irbkin_robot_named(name.as_ptr().cast::<c_char>(), &raw mut robot) };
     assert_eq!((code, robot.is_null()), (IrbkinCode::InvalidArgument, true));
     assert_eq!(message(), "name is not UTF-8 from byte 2 on");
+}
+
+#[test]
+fn a_name_of_10_mb_is_refused_at_once_with_a_short_message() {
+    let (name, mut robot) = (CString::new(vec![b'a'; 10_000_000]).unwrap(), null_mut());
+    // SAFETY: both are living values.
+    let code = unsafe { irbkin_robot_named(name.as_ptr(), &raw mut robot) };
+    assert_eq!((code, robot.is_null()), (IrbkinCode::UnknownRobot, true));
+    assert!(message().len() < 200, "{}", message().len());
 }
