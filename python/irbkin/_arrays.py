@@ -23,8 +23,8 @@ def evenly(count: int, most: int) -> npt.NDArray[np.int64]:
 
 
 def all_poses(value: Any) -> Any:
-    """What NumPy is given for a value: of an object of several poses, as spatialmath's `SE3`, the
-    list of their matrices, for NumPy would take the first alone; in lists, too.
+    """Return what NumPy is given for a value: of an object of several poses, as spatialmath's
+    `SE3`, the list of their matrices, for NumPy would take the first alone; in lists, too.
     """
     if isinstance(value, (list, tuple)):
         if not value or isinstance(value[0], (float, int)):
