@@ -2,6 +2,7 @@
 //!
 //! Laws of one structure alone are in the folder `laws`.
 
+mod near_singularities;
 mod of_robots;
 mod of_tables;
 mod profile;

@@ -521,8 +521,9 @@ class Singularity(_Record):
         """sqrt(det(J J^T)), the product of the singular values."""
     @property
     def kinds(self) -> Any:
-        """The singularities that the joint vector is at, a `SingularityKind`; for many its
-        values, uint8.
+        """The singularities that the joint vector is at, those at which branches merge, a
+        `SingularityKind`; for many its values, uint8. Empty beside them, however near; `near`
+        has a zone.
         """
     def __new__(
         cls,
@@ -533,6 +534,21 @@ class Singularity(_Record):
         manipulability: Any,
         kinds: Any,
     ) -> Singularity: ...
+    def near(self, angle: float = ..., length: float = ...) -> Any:
+        """The singularities that joint vectors are at or near.
+
+        Args:
+            angle: Distance from the wrist and from the elbow singularity [rad]; 1 deg by default.
+                Of an arm whose singularities have no names the least singular value, which then
+                counts as an elbow.
+            length: Distance from the shoulder singularity [m]; 10 mm by default.
+
+        Returns:
+            SingularityKind, with those in `kinds`; for many its values, uint8, shape (...).
+
+        Raises:
+            ValueError: A distance that is not positive and finite.
+        """
 
 @final
 class Margin(_Record):

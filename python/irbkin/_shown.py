@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from irbkin._core import catalog, catalog_entry
-from irbkin._words import counted
+from irbkin._words import counted, singularities
 
 if TYPE_CHECKING:
-    from irbkin._core import FollowResult, IkBatch, Plan, Robot
+    from irbkin._core import FollowResult, IkBatch, Plan, Robot, Singularity
 
 MOST_LINES = 8
 """Breaks of an answer that are listed."""
@@ -61,10 +61,25 @@ def of_follow_result(result: FollowResult) -> str:
     return _with_breaks(head, gaps)
 
 
+def of_singularity(at: Singularity) -> str:
+    """The distances, and the singularities that they are near; of many how many are near one."""
+    near = np.asarray(at.near())
+    if near.ndim:
+        words = f"{counted(near.size, 'joint vector')}, {np.count_nonzero(near & 28):,} near one"
+    else:
+        wrist, elbow, shoulder = np.degrees(at.wrist), np.degrees(at.elbow), 1e3 * at.shoulder
+        words = f"wrist {wrist:.3g} deg, elbow {elbow:.3g} deg, shoulder {shoulder:.3g} mm, "
+        words = "" if np.isnan(wrist) else words
+        words += f"least singular value {at.min_singular_value:.3g}, "
+        words += singularities(at.kinds, int(near)) or "near none"
+    return f"<Singularity: {words}>"
+
+
 ANSWERS: dict[str, Callable[[Any], str]] = {
     "FollowResult": of_follow_result,
     "IkBatch": of_ik_batch,
     "Plan": of_plan,
+    "Singularity": of_singularity,
 }
 
 

@@ -24,6 +24,13 @@ def counted(count: int, noun: str) -> str:
     return f"{count:,} {noun}{'s' * (count != 1)}"
 
 
+def singularities(at: int, near: int) -> str:
+    """The singularities among flags of `SingularityKind`: "at wrist, near elbow"."""
+    kinds = (4, "wrist"), (8, "elbow"), (16, "shoulder")
+    words = (f"{'at' if at & bit else 'near'} {word}" for bit, word in kinds if near & bit)
+    return ", ".join(words)
+
+
 def visible(text: str) -> str:
     """A text of a file or a user in one line, with escapes for what a terminal would obey."""
     return CONTROL.sub(lambda match: match[0].encode("unicode_escape").decode(), text)

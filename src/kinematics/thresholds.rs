@@ -215,6 +215,14 @@ pub(crate) const STEADY_STEP: f64 = 0.1;
 /// orientation.
 pub const WRIST_ZONE: f64 = 0.0175;
 
+/// Angle from a wrist or an elbow singularity within which tables name it [rad]: one degree, where
+/// joints 4 and 6 turn 57 times as fast as the tool.
+pub const NEAR_ANGLE: f64 = core::f64::consts::PI / 180.0;
+
+/// Distance from the shoulder singularity within which tables name it [m]: there joint 1 turns at
+/// 100 rad/s where the wrist passes axis 1 at 1 m/s.
+pub const NEAR_LENGTH: f64 = 0.01;
+
 /// How close to the edge of a quarter turn an angle matches either side of it in a configuration
 /// [rad]: 0.01 deg, the rounding of a robtarget's printed digits.
 pub const CONFIGURATION_EDGE: f64 = 0.01 * core::f64::consts::PI / 180.0;

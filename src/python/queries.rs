@@ -4,12 +4,14 @@ use std::array;
 
 use numpy::PyArray0;
 use numpy::ndarray::arr0;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
 use super::arguments::{FRAMES, one_of, read_threads, thread_count};
 use super::arm::{Arm, joints, on};
-use super::arrays::copied_vector;
+use super::arrays::{Rows, copied_vector};
+use super::errors::Fault;
 use super::figure::Figure;
 use super::outputs::{Output, answer, array};
 use super::records::{self, Margin, Singularity};
@@ -17,6 +19,7 @@ use super::robot::PyRobot;
 use super::signals::detached;
 use crate::batch::Batch;
 use crate::error::Error;
+use crate::kinematics::thresholds::{NEAR_ANGLE, NEAR_LENGTH};
 use crate::kinematics::{
     self, JointLimits, SingularDistances, SingularityKind, Status, check_joints, check_near,
     pose_to_rows,
@@ -199,6 +202,55 @@ impl PyRobot {
             |batch| on!(self.arm(), robot => batch.margin(robot, q, to_limits, to)),
         )?;
         Ok(Margin { limits: limits.array(), singularities: singularities.array() })
+    }
+}
+
+#[pymethods]
+impl Singularity {
+    /// The singularities that joint vectors are at or near.
+    ///
+    /// Args:
+    ///     angle: Distance from the wrist and from the elbow singularity [rad]; 1 deg by default.
+    ///         Of an arm whose singularities have no names the least singular value, which then
+    ///         counts as an elbow.
+    ///     length: Distance from the shoulder singularity [m]; 10 mm by default.
+    ///
+    /// Returns:
+    ///     SingularityKind, with those in `kinds`; for many its values, uint8, shape (...).
+    ///
+    /// Raises:
+    ///     ValueError: A distance that is not positive and finite.
+    #[pyo3(signature = (angle=NEAR_ANGLE, length=NEAR_LENGTH))]
+    fn near<'py>(slf: &Bound<'py, Self>, angle: f64, length: f64) -> PyResult<Bound<'py, PyAny>> {
+        for (name, bound) in [("angle", angle), ("length", length)] {
+            if !(bound > 0.0 && bound.is_finite()) {
+                let words = format!("{name} is {bound}, it must be positive and finite");
+                return Err(PyValueError::new_err(words));
+            }
+        }
+        let read =
+            |field| Rows::shaped(&slf.getattr(field)?, || "(...)", field, Fault::Joints, |_| true);
+        let wrist = read("wrist")?;
+        let fields = [read("elbow")?, read("shoulder")?, read("min_singular_value")?];
+        let others = [fields[0].data()?, fields[1].data()?, fields[2].data()?];
+        let mut beside = wrist.data()?.iter().enumerate().map(|(row, &wrist)| {
+            let [elbow, shoulder, min_singular_value] =
+                others.map(|field| field.get(row).copied().unwrap_or(f64::NAN));
+            let distances = SingularDistances { wrist, elbow, shoulder };
+            let one = kinematics::Singularity {
+                distances: (!wrist.is_nan()).then_some(distances),
+                min_singular_value,
+                manipulability: f64::NAN,
+                kinds: SingularityKind::empty(),
+            };
+            one.near(angle, length)
+        });
+        let beside = if wrist.is_single() {
+            records::kinds(slf.py(), beside.next().unwrap_or_default())?
+        } else {
+            array(slf.py(), beside.map(|it| it.bits()), &wrist.lead)?.into_bound(slf.py())
+        };
+        slf.getattr("kinds")?.bitor(beside)
     }
 }
 

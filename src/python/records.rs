@@ -101,8 +101,9 @@ record! {
         min_singular_value: Figure,
         /// sqrt(det(J J^T)), the product of the singular values.
         manipulability: Figure,
-        /// The singularities that the joint vector is at, a `SingularityKind`; for many its values,
-        /// uint8.
+        /// The singularities that the joint vector is at, those at which branches merge, a
+        /// `SingularityKind`; for many its values, uint8. Empty beside them, however near; `near`
+        /// has a zone.
         kinds: Array,
     }
 }

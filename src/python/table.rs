@@ -1,6 +1,7 @@
 //! Solutions as a table of text, in degrees.
 
-use crate::kinematics::{JointLimits, Robot, SingularityKind, Solution};
+use crate::kinematics::thresholds::{NEAR_ANGLE, NEAR_LENGTH};
+use crate::kinematics::{JointLimits, Robot, Solution};
 use crate::report::Configuration;
 
 /// Most rows that are shown: turns may be a million.
@@ -23,7 +24,7 @@ fn cells<const N: usize>(solution: &Solution<N>, robot: &Robot<N>) -> Vec<String
             },
         ));
     }
-    cells.push(singularities(solution));
+    cells.push(singularities(solution, robot));
     cells
 }
 
@@ -57,17 +58,12 @@ fn outside<const N: usize>(solution: &Solution<N>, limits: &JointLimits<N>) -> S
     format!("{} outside", names.join(", ")).trim_start().to_owned()
 }
 
-fn singularities<const N: usize>(solution: &Solution<N>) -> String {
-    let kinds = [
-        (SingularityKind::WRIST, "wrist"),
-        (SingularityKind::ELBOW, "elbow"),
-        (SingularityKind::SHOULDER, "shoulder"),
-    ];
-    let mut words: Vec<String> = kinds
-        .into_iter()
-        .filter(|(kind, _)| solution.singularities().contains(*kind))
-        .map(|(_, word)| word.to_owned())
-        .collect();
+/// The singularities that a solution is at, then those that it is near.
+fn singularities<const N: usize>(solution: &Solution<N>, robot: &Robot<N>) -> String {
+    let at = solution.singularities();
+    let near = robot.singularity(&solution.q).near(NEAR_ANGLE, NEAR_LENGTH) - at;
+    let mut words: Vec<String> = at.words().map(str::to_owned).collect();
+    words.extend(near.words().map(|word| format!("near {word}")));
     if let Some(free) = solution.free_joint {
         words.push(format!("J{} free ({} fixed)", free.joint(), free.fixed()));
     }

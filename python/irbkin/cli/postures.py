@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from irbkin import Robot, to_xyz_euler_zyx, to_xyz_wxyz
+from irbkin._words import singularities
 from irbkin.cli.output import Column, Columns, Floats
 from irbkin.errors import InvalidModelError
 
@@ -64,6 +65,8 @@ def posture_columns(robot: Robot, q: Floats, *, with_joints: bool = True) -> Col
     margin = each[np.arange(len(q)), joint]
     near = np.array([f"J{number + 1}" for number in range(robot.dof)])[joint]
     at = robot.singularity(filled)
+    flags = zip(at.kinds.tolist(), at.near().tolist(), strict=True)
+    words = np.array([singularities(*both) for both in flags], dtype=str)
     return {
         **confdata,
         **(joint_columns(q) if with_joints else {}),
@@ -73,6 +76,7 @@ def posture_columns(robot: Robot, q: Floats, *, with_joints: bool = True) -> Col
         Column("wrist", "6.1f", "deg"): masked(np.degrees(at.wrist)),
         Column("elbow", "6.1f", "deg"): masked(np.degrees(at.elbow)),
         Column("shoulder", "7.1f", "mm"): masked(np.asarray(at.shoulder) * 1e3),
+        Column("singular", "<12s"): np.where(known, words, ""),
     }
 
 

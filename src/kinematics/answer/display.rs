@@ -3,7 +3,6 @@
 use core::fmt;
 
 use super::solutions::{Solution, Solutions};
-use super::status::SingularityKind;
 
 /// An angle in degrees with two decimals, without the sign of a rounded zero.
 struct Degrees(f64);
@@ -23,14 +22,8 @@ impl<const N: usize> fmt::Display for Remarks<'_, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(solution) = self;
         f.write_str(if solution.is_within_limits() { "inside limits" } else { "outside limits" })?;
-        for (kind, name) in [
-            (SingularityKind::WRIST, "wrist"),
-            (SingularityKind::ELBOW, "elbow"),
-            (SingularityKind::SHOULDER, "shoulder"),
-        ] {
-            if solution.singularities().contains(kind) {
-                write!(f, ", {name} singularity")?;
-            }
+        for name in solution.singularities().words() {
+            write!(f, ", {name} singularity")?;
         }
         match solution.free_joint {
             Some(free) => write!(f, ", J{} undetermined", free.joint()),

@@ -29,6 +29,30 @@ pub struct Singularity {
     pub min_singular_value: f64,
     /// Yoshikawa's manipulability, sqrt(det(J J^T)): the product of the singular values.
     pub manipulability: f64,
-    /// The singularities that the joint vector is at.
+    /// The singularities that the joint vector is at: those at which branches merge. Empty beside
+    /// them, however near; [`Singularity::near`] has a zone.
     pub kinds: SingularityKind,
+}
+
+impl Singularity {
+    /// The singularities that the joint vector is at or near: [`Singularity::kinds`], the wrist and
+    /// the elbow whose distance is at most `angle` [rad], the shoulder within `length` [m].
+    ///
+    /// Of an arm whose singularities have no names: [`SingularityKind::ELBOW`] if the least singular
+    /// value is at most `angle`. Some motion of the joints by 1 rad then moves the tool by no more
+    /// than that, in meters and radians.
+    #[must_use]
+    pub fn near(&self, angle: f64, length: f64) -> SingularityKind {
+        let is_near = self.distances.map_or(
+            [false, self.min_singular_value <= angle, false],
+            |SingularDistances { wrist, elbow, shoulder }| {
+                [wrist <= angle, elbow <= angle, shoulder <= length]
+            },
+        );
+        let mut near = self.kinds;
+        for ((kind, _), is_near) in SingularityKind::NAMED.into_iter().zip(is_near) {
+            near |= if is_near { kind } else { SingularityKind::empty() };
+        }
+        near
+    }
 }

@@ -55,6 +55,15 @@ impl Status {
 }
 
 impl SingularityKind {
+    /// Each with its word.
+    pub(crate) const NAMED: [(Self, &'static str); 3] =
+        [(Self::WRIST, "wrist"), (Self::ELBOW, "elbow"), (Self::SHOULDER, "shoulder")];
+
+    /// The words for all of them.
+    pub(crate) fn words(self) -> impl Iterator<Item = &'static str> {
+        Self::NAMED.into_iter().filter(move |(kind, _)| self.contains(*kind)).map(|(_, word)| word)
+    }
+
     /// The word for the one that explains a jump: the first of wrist, shoulder and elbow.
     pub(crate) fn word(self) -> Option<&'static str> {
         let words = [(Self::WRIST, "wrist"), (Self::SHOULDER, "shoulder"), (Self::ELBOW, "elbow")];
