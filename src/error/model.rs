@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 use core::fmt;
 
+use alloc::boxed::Box;
 use alloc::string::String;
 
 use thiserror::Error;
@@ -67,6 +68,9 @@ pub enum ModelFault {
     Velocity { joint: usize, value: f64 },
     #[error("the robot has {found} joints, it must have {wanted}")]
     JointCount { found: usize, wanted: usize },
+    /// `fault`: why the arm between two links of a URDF is refused.
+    #[error("URDF: the arm from {base:?} to {tip:?} is refused: {fault}")]
+    Chain { base: String, tip: String, fault: Box<Self> },
     #[error("no inverse kinematics for this arm: {0}")]
     UnknownStructure(UnknownStructure),
     #[error(

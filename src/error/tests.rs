@@ -162,6 +162,7 @@ fn messages_of_urdf() {
                 wanted: vec![6, 7],
                 ends: names(&["\"e\" (5)"]),
                 most: 5,
+                grips: false,
             }
             .into(),
             "URDF: 6 or 7 revolute joints lead from \"b\" to no end of a chain: \"e\" (5); 5 are not \

@@ -2,6 +2,7 @@
 
 use alloc::borrow::ToOwned;
 use alloc::boxed::Box;
+use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::String;
 use alloc::vec;
@@ -39,9 +40,10 @@ pub(super) fn chain_between<'t, 'a>(
         Some(name) => named(tree, "base", name)?,
         None => only_root(tree)?,
     };
-    let (tip, remark) = match tip {
+    let grips = grippers(tree);
+    let (tip, mut remark) = match tip {
         Some(name) => (named(tree, "tip", name)?, String::new()),
-        None => only_tip(tree, base, wanted)?,
+        None => only_tip(tree, base, wanted, &grips)?,
     };
     let mut chain = Vec::new();
     let mut link = tip;
@@ -50,7 +52,11 @@ pub(super) fn chain_between<'t, 'a>(
             tip: tree.links[tip].to_owned(),
             base: tree.links[base].to_owned(),
         };
-        let joint = &tree.joints[tree.above[link].ok_or_else(names)?];
+        let above = tree.above[link].ok_or_else(names)?;
+        let joint = &tree.joints[above];
+        if grips[above] {
+            remark = format!("joint {:?} may be a gripper's", joint.name);
+        }
         chain.push(joint);
         link = joint.parent;
     }
@@ -64,7 +70,7 @@ pub(super) fn chain_between<'t, 'a>(
         }
         Err(fault) => fault,
     };
-    Err(proposing(fault, tree, base, &[tip], wanted))
+    Err(proposing(fault, tree, base, &[tip], (wanted, &grips)))
 }
 
 /// A fault of the chains to `ends`, with the bases and tips of chains on them that could be taken.
@@ -73,11 +79,11 @@ fn proposing(
     tree: &Tree<'_>,
     base: usize,
     ends: &[usize],
-    wanted: &[usize],
+    (wanted, grips): (&[usize], &[bool]),
 ) -> UrdfFault {
     let mut chains = Vec::new();
     for &end in ends.iter().take(MOST_ENDS) {
-        for chain in chains_above(tree, base, end, wanted) {
+        for chain in chains_above(tree, base, end, (wanted, grips)) {
             if !chains.contains(&chain) {
                 chains.push(chain);
             }
@@ -95,19 +101,19 @@ fn proposing(
 }
 
 /// The chains of a wanted number of revolute joints between a base and an end below it, as first
-/// link, last link and number: between two joints that must not be in a chain, all; of more joints
-/// than an arm has, the first and the last ones.
+/// link, last link and number: between two joints that must not be in a chain, or may be a gripper's,
+/// all; of more joints than an arm has, the first and the last ones.
 fn chains_above(
     tree: &Tree<'_>,
     base: usize,
     end: usize,
-    wanted: &[usize],
+    (wanted, grips): (&[usize], &[bool]),
 ) -> Vec<(usize, usize, usize)> {
     let mut joints = Vec::new();
     let mut link = end;
     while link != base {
         let Some(above) = tree.above[link] else { break };
-        joints.push(&tree.joints[above]);
+        joints.push(above);
         link = tree.joints[above].parent;
     }
     let most = wanted.iter().copied().max().unwrap_or_default();
@@ -115,8 +121,10 @@ fn chains_above(
     let (mut way, mut first) = (Way::default(), link);
     // The links on both sides of each revolute joint since `first`.
     let mut turning: Vec<[usize; 2]> = Vec::new();
-    for joint in joints.into_iter().rev().map(Some).chain([None]) {
-        if let Some((joint, Ok(next))) = joint.map(|joint| (joint, way.through(joint))) {
+    for index in joints.into_iter().rev().map(Some).chain([None]) {
+        let joint = index.map(|index| &tree.joints[index]);
+        let arm = joint.filter(|_| index.is_some_and(|index| !grips[index]));
+        if let Some((joint, Ok(next))) = arm.map(|joint| (joint, way.through(joint))) {
             way = next;
             if joint.turns() {
                 turning.push([joint.parent, joint.child]);
@@ -192,6 +200,8 @@ struct Way<'a> {
     coupled: bool,
     /// The first joint that must not be on the path.
     barred_by: Option<usize>,
+    /// The first joint that may be a gripper's.
+    gripper: Option<usize>,
 }
 
 impl<'a> Way<'a> {
@@ -209,32 +219,84 @@ impl<'a> Way<'a> {
     }
 }
 
+/// Joints of a finger, at most.
+const MOST_FINGER: usize = 2;
+
+/// Of each joint, whether it may be a gripper's: by its name, as a last one that another one follows,
+/// or as one of several fingers on a link.
+fn grippers<'a>(tree: &Tree<'a>) -> Vec<bool> {
+    let carriers = carriers(tree);
+    let follower = |joint: &Joint<'a>| (joint.followed(), carriers[joint.parent]);
+    let followed: BTreeSet<_> = tree.joints.iter().map(follower).collect();
+    let is_end = |link: &usize| tree.below[*link].is_empty();
+    let ends: BTreeSet<_> =
+        (0..tree.links.len()).filter(is_end).map(|link| carriers[link]).collect();
+    let is_own = |joint: &Joint<'_>| joint.turns() && joint.followed().is_empty();
+    // Joints on the longest way from a link to an end.
+    let mut longest = vec![0; tree.links.len()];
+    for link in tree.hanging_on(tree.roots()).into_iter().rev() {
+        let below = tree.below[link].iter().map(|&index| &tree.joints[index]);
+        let lengths = below.map(|joint| longest[joint.child] + usize::from(is_own(joint)));
+        longest[link] = lengths.max().unwrap_or(0);
+    }
+    let is_short = |joint: &Joint<'_>| is_own(joint) && longest[joint.child] < MOST_FINGER;
+    let mut fingers = vec![0; tree.links.len()];
+    for joint in tree.joints.iter().filter(|joint| is_short(joint)) {
+        fingers[carriers[joint.parent]] += 1;
+    }
+    let grips = |joint: &Joint<'_>| {
+        let moves_one_beside = followed.contains(&(joint.name, carriers[joint.parent]));
+        let moves_the_tip =
+            followed.contains(&(joint.name, joint.child)) && !ends.contains(&joint.child);
+        let drives = moves_one_beside || moves_the_tip || joint.name.contains("drive");
+        let is_finger = is_short(joint) && fingers[carriers[joint.parent]] > 1;
+        is_finger || (drives && longest[joint.child] == 0) || is_named_as_gripper(tree, joint)
+    };
+    tree.joints.iter().map(|joint| joint.turns() && grips(joint)).collect()
+}
+
 /// Whether a joint moves a part of a gripper, by its name or that of its link. A link may be a whole
-/// gripper that an arm carries.
-fn is_of_gripper(tree: &Tree<'_>, joint: &Joint<'_>) -> bool {
+/// gripper that an arm carries, and a wrist may turn one.
+fn is_named_as_gripper(tree: &Tree<'_>, joint: &Joint<'_>) -> bool {
     let [name, link] = [joint.name, tree.links[joint.child]].map(str::to_lowercase);
-    let parts = ["jaw", "finger", "claw"];
-    name.contains("gripper") || parts.iter().any(|it| name.contains(it) || link.contains(it))
+    let has = |text: &str, words: &[&str]| words.iter().any(|word| text.contains(word));
+    let parts = ["jaw", "finger", "claw", "knuckle", "thumb", "proximal", "distal"];
+    let is_whole = has(&name, &["gripper", "palm"]) && !has(&name, &["yaw", "pitch", "roll"]);
+    is_whole || has(&name, &parts) || has(&link, &parts)
+}
+
+/// The link behind the last joint above each link that is not fixed.
+fn carriers(tree: &Tree<'_>) -> Vec<usize> {
+    let mut carriers: Vec<usize> = (0..tree.links.len()).collect();
+    for link in tree.hanging_on(tree.roots()) {
+        let below = tree.below[link].iter().map(|&index| &tree.joints[index]);
+        for joint in below.filter(|joint| joint.kind == "fixed") {
+            carriers[joint.child] = carriers[link];
+        }
+    }
+    carriers
 }
 
 /// The only link at the end of a chain whose number of joints is in `wanted`. A frame is never
 /// guessed: if there are several, none is chosen, except [`TOOL`] if all of them are fixed to one
-/// link, which the remark says then. Nor if the last joint may be a gripper's: its name has a word
-/// of one, or another end is on a link before it.
-fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<(usize, String), UrdfFault> {
+/// link, which the remark says then. Nor if a joint may be a gripper's: one of [`grippers`], or the
+/// last one if another end is on a link before it.
+fn only_tip(
+    tree: &Tree<'_>,
+    base: usize,
+    wanted: &[usize],
+    grips: &[bool],
+) -> Result<(usize, String), UrdfFault> {
     let mut ways = vec![Way::default(); tree.links.len()];
-    // The link behind the last joint above each link that is not fixed.
-    let mut carriers: Vec<usize> = (0..tree.links.len()).collect();
+    let carriers = carriers(tree);
     let mut ends = Vec::new();
     for link in tree.hanging_on([base].into_iter()) {
         for &index in &tree.below[link] {
             let joint = &tree.joints[index];
             let way = ways[link];
             let barred = Way { barred_by: way.barred_by.or(Some(index)), ..way };
-            ways[joint.child] = way.through(joint).unwrap_or(barred);
-            if joint.kind == "fixed" {
-                carriers[joint.child] = carriers[link];
-            }
+            let gripper = way.gripper.or(grips[index].then_some(index));
+            ways[joint.child] = Way { gripper, ..way.through(joint).unwrap_or(barred) };
         }
         if tree.below[link].is_empty() {
             ends.push(link);
@@ -246,7 +308,10 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<(usize, St
     let base = tree.links[base].to_owned();
     let above = |link: usize| tree.above[carriers[link]].map(|joint| &tree.joints[joint]);
     let before = |link: usize| above(link).map(|joint| joint.parent);
-    let last = ends.iter().find(can_be).and_then(|&tip| above(tip));
+    let tips: Vec<usize> = ends.iter().filter(can_be).copied().collect();
+    let (arms, hands): (Vec<usize>, Vec<usize>) =
+        tips.iter().copied().partition(|tip| ways[*tip].gripper.is_none());
+    let last = arms.first().and_then(|&tip| above(tip));
     // A finger may have two joints.
     let others = last.map(|last| [Some(last.parent), before(last.parent)]);
     let others = others.map(|others| others.map(|it| it.map(|link| carriers[link])));
@@ -256,40 +321,47 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<(usize, St
     };
     let shorter: Vec<usize> = ends.iter().filter(is_before).copied().collect();
     let named = |link: usize| remark(tree, link, ways[link]);
-    let tips: Vec<usize> = ends.iter().filter(can_be).copied().collect();
+    let are_on_one_link = |tips: &[usize]| tips.iter().all(|it| carriers[*it] == carriers[tips[0]]);
     let chosen = match tips[..] {
         [tip] => Some(tip),
-        _ if tips.iter().all(|tip| carriers[*tip] == carriers[tips[0]]) => {
-            tips.iter().copied().find(|tip| tree.links[*tip] == TOOL)
-        }
+        _ if are_on_one_link(&tips) => tips.iter().copied().find(|tip| tree.links[*tip] == TOOL),
         _ => None,
     };
     match (last, chosen) {
-        (Some(last), Some(tip)) if is_of_gripper(tree, last) || !shorter.is_empty() => {
-            let shorter = if shorter.is_empty() { vec![last.parent] } else { shorter };
-            let ends = core::iter::once(tip).chain(shorter).map(named).collect();
+        (Some(last), _) if !shorter.is_empty() && are_on_one_link(&arms) => {
+            let ends = arms.into_iter().chain(shorter).map(named).collect();
             Err(UrdfFault::MayBeGripper { base, joint: last.name.to_owned(), ends })
         }
-        (_, Some(tip)) => {
+        (Some(_), Some(tip)) => {
             let others = tree.quoted(tips.into_iter().filter(|it| *it != tip));
             let remark = format!("tip {:?}, beside it {others}", tree.links[tip]);
             Ok((tip, if others.is_empty() { String::new() } else { remark }))
         }
         (Some(_), None) => {
-            let tips = tips.into_iter().chain(shorter).map(named).collect();
+            let hands = (!hands.is_empty()).then(|| format!("{} of a gripper", hands.len()));
+            let tips = arms.into_iter().chain(shorter).map(named).chain(hands).collect();
             Err(UrdfFault::SeveralTips { base, wanted: wanted_counts, tips })
         }
-        (None, None) => {
-            let remarks = ends.iter().map(|&link| remark(tree, link, ways[link])).collect();
+        (None, _) => {
+            let remarks = ends.iter().copied().map(named).collect();
+            let before = |end: &usize| ways[*end].gripper.map(|joint| tree.joints[joint].parent);
+            let axes = ends.iter().filter_map(before).map(|link| ways[link].turning).max();
+            // Wheels are no gripper's.
+            let axes = axes.filter(|axes| *axes > 2);
             let is_whole = |way: &Way<'_>| way.barred_by.is_none() && !way.coupled;
             let of_ends = || ends.iter().map(|&link| ways[link]);
             let most = of_ends()
                 .map(|way| way.turning)
                 .max()
                 .filter(|_| of_ends().all(|it| is_whole(&it)));
-            let most = most.unwrap_or_default();
-            let fault = UrdfFault::NoTip { base, wanted: wanted_counts, ends: remarks, most };
-            Err(proposing(fault, tree, base_link, &ends, wanted))
+            let fault = UrdfFault::NoTip {
+                base,
+                wanted: wanted_counts,
+                ends: remarks,
+                most: axes.or(most).unwrap_or_default(),
+                grips: axes.is_some(),
+            };
+            Err(proposing(fault, tree, base_link, &ends, (wanted, grips)))
         }
     }
 }
@@ -297,6 +369,12 @@ fn only_tip(tree: &Tree<'_>, base: usize, wanted: &[usize]) -> Result<(usize, St
 /// A link at the end of a chain, and the reason why it cannot be the tip.
 fn remark(tree: &Tree<'_>, link: usize, way: Way<'_>) -> String {
     let name = tree.links[link];
+    if let Some(joint) = way.gripper {
+        return format!(
+            "{name:?} (behind joint {:?}, which may be a gripper's)",
+            tree.joints[joint].name
+        );
+    }
     match way.barred_by.map(|joint| &tree.joints[joint]) {
         Some(joint) if joint.turns() || joint.is_linkage() => {
             format!("{name:?} (behind joint {:?}, a mimic)", joint.name)

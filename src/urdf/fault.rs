@@ -3,6 +3,7 @@
 use core::fmt;
 
 use alloc::boxed::Box;
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -94,12 +95,15 @@ pub enum UrdfFault {
          name the end of the arm"
     )]
     MayBeGripper { base: String, joint: String, ends: Names },
-    /// The ends of chains, each with the reason why it is not the tip. `most`: joints of the longest.
+    /// The ends of chains, each with the reason why it is not the tip. `most`: joints of the longest,
+    /// before a gripper's if it `grips`.
     #[error(
-        "{} revolute joints lead from {base:?} to no end of a chain: {ends}{}",
-        Listed(.wanted, " or "), TooFew(*.most)
+        "{} revolute joints lead from {base:?} to no end of a chain: {ends}{}{}",
+        Listed(.wanted, " or "),
+        if *.grips { format!("; {most} axes and a gripper") } else { String::new() },
+        TooFew(*.most)
     )]
-    NoTip { base: String, wanted: Vec<usize>, ends: Names, most: usize },
+    NoTip { base: String, wanted: Vec<usize>, ends: Names, most: usize, grips: bool },
     /// `chains`: the bases and tips of chains that could be taken.
     #[error("{fault}; pass {}", Listed(.chains, " or "))]
     Proposing { fault: Box<Self>, chains: Vec<String> },

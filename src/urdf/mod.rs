@@ -14,6 +14,7 @@ mod text;
 mod tree;
 mod write;
 
+use alloc::boxed::Box;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -64,11 +65,11 @@ where
     /// # Errors
     ///
     /// [`Error::InvalidModel`] when the text is not a URDF, `base` or `tip` are not links of a
-    /// chain of `N` revolute joints or are ambiguous, the last joint may be a gripper's and `tip` is
-    /// not given, or six joints are not independent.
+    /// chain of `N` revolute joints or are ambiguous, a joint may be a gripper's and `tip` is not
+    /// given, or six joints are not independent.
     /// [`Robot::serial_chain_from_urdf`] accepts such an arm, without its inverse.
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.robot(0.0)?.with_inverse()
+        UrdfArm::read(text, base, tip, &[N])?.solved(0.0)
     }
 
     /// As [`Robot::from_urdf`], with each angle of an origin, and each axis, that is within `snap`
@@ -83,7 +84,7 @@ where
         tip: Option<&str>,
         snap: f64,
     ) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.robot(snap)?.with_inverse()
+        UrdfArm::read(text, base, tip, &[N])?.solved(snap)
     }
 
     /// As [`Robot::from_urdf`], of joints that are not independent too: then without the inverse.
@@ -118,6 +119,8 @@ type Moving = (String, usize, Carrier);
 /// The arm of a URDF, with any number of joints.
 pub(crate) struct UrdfArm {
     name: String,
+    /// Base and tip.
+    ends: [String; 2],
     labels: (Vec<String>, String),
     joints: Vec<Placed>,
     /// The shapes of its links, if all are read, and a remark on those beside the chain.
@@ -135,12 +138,14 @@ impl UrdfArm {
         read_document(text, |document, skipped| {
             let tree = Tree::new(document, skipped)?;
             let (base, chain, remark) = chain_between(&tree, base, tip, wanted)?;
+            let tip = chain.last().map_or(base, |joint| joint.child);
+            let ends = [base, tip].map(|link| tree.links[link].to_string());
             let solids = solids(&tree, document.root_element(), base, &chain);
             let turning = chain.iter().filter(|joint| joint.turns());
             let names = turning.map(|joint| joint.name.to_string()).collect();
             let placed = |joint: &Joint<'_>| joint.placed(tree.version);
             let joints = chain.into_iter().map(placed).collect::<Result<_, _>>()?;
-            Ok(Self { name: tree.name.to_string(), labels: (names, remark), joints, solids })
+            Ok(Self { name: tree.name.to_string(), ends, labels: (names, remark), joints, solids })
         })
     }
 
@@ -180,9 +185,24 @@ impl UrdfArm {
     /// As [`Self::robot`], of six or seven joints.
     pub(crate) fn any_robot(&self, snap: f64) -> Result<AnyRobot, Error> {
         match self.motions().count() {
-            7 => self.robot::<7>(snap)?.with_inverse().map(AnyRobot::from),
-            _ => self.robot::<6>(snap)?.with_inverse().map(AnyRobot::from),
+            7 => self.solved::<7>(snap).map(AnyRobot::from),
+            _ => self.solved::<6>(snap).map(AnyRobot::from),
         }
+    }
+
+    /// As [`Self::robot`], with its inverse; a refusal names the chain.
+    fn solved<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
+    where
+        Robot<N>: Joints<N>,
+    {
+        self.robot(snap).and_then(Robot::with_inverse).map_err(|error| match error {
+            Error::InvalidModel(ModelFault::Urdf(_) | ModelFault::Snap { .. }) => error,
+            Error::InvalidModel(fault) => {
+                let [base, tip] = self.ends.clone();
+                ModelFault::Chain { base, tip, fault: Box::new(fault) }.into()
+            }
+            _ => error,
+        })
     }
 
     /// The robot, which must have `N` joints. Angles within `snap` of a multiple of 90 deg [rad]

@@ -1,4 +1,4 @@
-"""Limits of a URDF that are not the catalog's: `repr` has these, the robot keeps the file's."""
+"""Notes of `repr` on a URDF: other limits than of the catalog, and a joint of a gripper."""
 
 import irbkin
 import numpy as np
@@ -49,3 +49,15 @@ def test_another_arm_has_no_note():
     rows[2, 1] += 0.01
     robot = read(Robot.from_mdh(rows, limits=np.tile([-1, 1], (6, 1))))
     assert "catalog" not in repr(robot)
+
+
+def test_a_grippers_joint_that_a_given_tip_is_behind_is_noted():
+    text = IRB.to_urdf().replace("<robot name=", "<robot name='own' was=")
+    for name in ("gripper", "left_knuckle_joint"):
+        renamed = text.replace('name="joint_6"', f'name="{name}"')
+        with pytest.raises(irbkin.InvalidModelError, match="may be a gripper's"):
+            Robot.from_urdf(renamed)
+        noted = Robot.from_urdf(renamed, tip="tool0")
+        assert repr(noted).endswith(f', joint "{name}" may be a gripper\'s>')
+        assert noted.fk(np.zeros(6)).tolist() == read(IRB).fk(np.zeros(6)).tolist()
+    assert "gripper" not in repr(Robot.from_urdf(text, tip="tool0"))
