@@ -305,7 +305,9 @@ fn add(
     components: String,
 ) {
     let none = || Assigned { by, components: BTreeSet::new() };
-    all.entry(datum).or_insert_with(none).components.insert(components);
+    let assigned = all.entry(datum).or_insert_with(none);
+    assigned.by = assigned.by.min(by);
+    assigned.components.insert(components);
 }
 
 impl<'e, 'm> Reader<'e, 'm> {

@@ -14,7 +14,7 @@ use crate::rapid::calc::units::MOST_DEGREES;
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::{RapidPose, RobTarget};
 use crate::rapid::data::types::Record;
-use crate::rapid::data::unread::{Reason, Skipped, Unresolved};
+use crate::rapid::data::unread::{AssignedBy, Reason, Skipped, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
 
 impl Scope<'_, '_> {
@@ -86,9 +86,14 @@ impl Scope<'_, '_> {
             }
             // The reader knows better why, except of parameters and of lines of other modules.
             Err(reason) => {
-                let is_assigned =
-                    matches!(reason, Reason::Reference { why: Unresolved::Assigned { .. }, .. });
-                if argument.value.is_ok() || is_parameter(&argument.value) || is_assigned {
+                let is_elsewhere = matches!(
+                    &argument.value,
+                    Err(Reason::Reference {
+                        why: Unresolved::Assigned { by: AssignedBy::Module(..) },
+                        ..
+                    })
+                );
+                if argument.value.is_ok() || is_parameter(&argument.value) || is_elsewhere {
                     argument.value = Err(frame.named(reason));
                 }
             }

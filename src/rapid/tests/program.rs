@@ -198,6 +198,28 @@ fn the_place_of_an_assignment_in_another_module_is_named() {
 }
 
 #[test]
+fn the_first_of_several_assignments_is_named() {
+    let main = "PROC main()\ngo;\np:=out;\nENDPROC\n";
+    let set = "PROC set()\np:=out;\nENDPROC\n";
+    let go = "PROC go()\nMoveJ p,v100,fine,t;\nENDPROC\n";
+    let declared = format!("{}VAR robtarget p:=a;\n", data());
+    // The order of the text decides, not that of the names of routines.
+    for (routines, line) in [(format!("{set}{main}"), 3), (format!("{main}{set}"), 4)] {
+        let main = format!("MODULE Main\n{routines}ENDMODULE");
+        let part = format!("MODULE Part\n{go}ENDMODULE");
+        let data = format!("MODULE Data\n{declared}ENDMODULE");
+        let one = format!("MODULE One\n{routines}{go}{declared}ENDMODULE");
+        let of_main = format!("p, which line {line} of module Main assigns");
+        let of_one = format!("p, which line {line} assigns");
+        for (texts, named) in [(&[&*part, &main, &data][..], of_main), (&[&one], of_one)] {
+            let found = checked(texts, &CheckOptions::default());
+            assert_eq!(codes(&found.findings), [Code::UnknownValue]);
+            assert!(found.findings[0].message.contains(&named), "{}", found.findings[0].message);
+        }
+    }
+}
+
+#[test]
 fn confdata_of_an_assigned_target_is_not_corrected_in_its_declaration() {
     let turned = format!("[[900,-250,500],[0,0,1,0],[1,0,1,0],{FAR}]");
     let found = of(&format!(
