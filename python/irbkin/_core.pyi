@@ -3188,6 +3188,7 @@ def check_program(
     | None = None,
     last_values: bool = False,
     whole: bool | None = None,
+    of_system: Sequence[int] | None = None,
     carried: Mapping[str, Shape | Sequence[Shape]] | None = None,
 ) -> Checked:
     """Check every move of a program: modules that know each other.
@@ -3208,6 +3209,8 @@ def check_program(
         carried: Shapes in the flange frame, by the name of the tool or work object they move with.
         whole: Whether every module of the task is given: a call of what none declares is an error
             then, and a note if some are missing. None if it is not known.
+        of_system: Indices of modules of the system that do not say so by their attributes: a call
+            of what none declares is a note there.
 
     Returns:
         `Checked`.

@@ -1,8 +1,10 @@
 """Calls of routines in `irbkin check`: names that are meant, and modules that are missing."""
 
 import json
+import time
 
 import command
+import irbkin
 import pytest
 from irbkin._core import instructions
 
@@ -49,3 +51,37 @@ def test_instructions_and_functions_are_listed_for_editors():
     assert rows["Offs"][0] == "function"
     assert rows["OpMode"] == ("function", "")
     assert rows["MoveL"][1].startswith(r"\switch Conc,robtarget ToPoint")
+
+
+def test_what_a_module_of_the_system_or_a_call_by_name_lacks_is_a_note(tmp_path):
+    for call in ('%"rPart7"%;', '% "Part7:rPart8" % 1;'):
+        [(code, line, message)] = found(tmp_path, call)
+        assert (code, line) == ("U808", 3)
+        assert message.startswith(f"{call[:-1]}: no module that is here declares it")
+    assert found(tmp_path, '%"M:rOpenGripper"%;') == []
+    # A file .sys is a module of the system, whatever its attributes.
+    (tmp_path / "n.sys").write_text("MODULE N\nPROC go()\nrDriver;\nENDPROC\nENDMODULE\n")
+    assert [it[0] for it in found(tmp_path, "rPart7;")] == ["N606", "U808"]
+
+
+def test_names_that_options_have_are_no_errors(tmp_path):
+    calls = (
+        "CornerPathWarning FALSE;\nLinked_m_exe;\nEventLog 1,2;\nSoftElbow\\On;\n"
+        "FitSphere ps,pc,r,e;\nCnvPredictReach p;\nTcPickupTool t;\nSMoveL p,v100,z10,t;\n"
+        'ConsoleWrite "a";\nIF HR_RobotInHome() HR_Exit;\nGetItmTgt s,t;\nPmWaitProjStart;'
+    )
+    assert [it for it in found(tmp_path, calls) if it[0].startswith("N")] == []
+
+
+def test_many_unknown_names_are_found_within_a_second():
+    robot = irbkin.Robot(NAME)
+    calls = "".join(f"rOpenGriper{number} 1;\n" for number in range(5000))
+    data = "".join(f"VAR robtarget alikeAlikeAlike{number};\n" for number in range(1200))
+    moves = "".join(f"MoveJ alikeAlikeAlice{number},v9,fine,t;\n" for number in range(1200))
+    for text in (CALLS.format(calls), CALLS.format(moves).replace("PROC", f"{data}PROC", 1)):
+        module = irbkin.rapid.parse(text)
+        begin = time.process_time()
+        found = irbkin.rapid.check(robot, module)
+        assert time.process_time() - begin < 1.0
+        assert len(found) >= 1200
+        assert "did you mean" in found[0].message

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from irbkin import Robot
     from irbkin._core import Checked, Module
 
-ENDINGS = (".mod", ".modx", ".sys", ".sysx", ".prg")
+SYSTEM = (".sys", ".sysx")
+"""Endings of files of modules of the system."""
+ENDINGS = (".mod", ".modx", *SYSTEM, ".prg")
 """Endings of files of modules."""
 LIST = ".pgf"
 """Ending of a list of modules."""
@@ -103,7 +105,9 @@ class Program:
         Raises:
             IrbkinError: As `rapid.check`.
         """
-        return check_program(robot, list(self.modules), **options)
+        names = [file.path.lower() for file in self.files]
+        of_system = [index for index, name in enumerate(names) if name.endswith(SYSTEM)]
+        return check_program(robot, list(self.modules), of_system=of_system, **options)
 
     def __repr__(self) -> str:
         """Return the numbers of modules, moves and findings."""

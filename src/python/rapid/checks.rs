@@ -88,6 +88,8 @@ pub(crate) fn check<'py>(
 ///     carried: Shapes in the flange frame, by the name of the tool or work object they move with.
 ///     whole: Whether every module of the task is given: a call of what none declares is an error
 ///         then, and a note if some are missing. None if it is not known.
+///     of_system: Indices of modules of the system that do not say so by their attributes: a call
+///         of what none declares is a note there.
 ///
 /// Returns:
 ///     `Checked`.
@@ -98,7 +100,8 @@ pub(crate) fn check<'py>(
 ///     InvalidModelError: As of `check`.
 #[pyfunction]
 #[pyo3(signature = (robot, modules, *, codes=None, max_velocity=None, step=0.005, turn=None,
-    cell=None, units=None, last_values=false, whole=None, carried=None))]
+    cell=None, units=None, last_values=false, whole=None, of_system=None,
+    carried=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 #[expect(clippy::needless_pass_by_value, reason = "a sequence is extracted by value")]
 pub(crate) fn check_program<'py>(
@@ -112,6 +115,7 @@ pub(crate) fn check_program<'py>(
     units: Option<Vec<GivenUnit<'py>>>,
     last_values: bool,
     whole: Option<bool>,
+    of_system: Option<Vec<usize>>,
     carried: Option<BTreeMap<String, Shapes<'py>>>,
 ) -> PyResult<Checked> {
     let py = robot.py();
@@ -120,7 +124,8 @@ pub(crate) fn check_program<'py>(
     let options = (max_velocity, step, turn);
     let carried = carried.into_iter().flatten();
     let carried = carried.map(|(name, shapes)| (name.to_lowercase(), shapes.read())).collect();
-    let extent = Extent { units, takes_last: last_values, is_whole: whole, carried };
+    let of_system = of_system.unwrap_or_default();
+    let extent = Extent { units, takes_last: last_values, is_whole: whole, of_system, carried };
     let codes = codes.map(read_codes).transpose()?;
     let (mut findings, moves) = checked(robot, &modules, options, cell, &extent)?;
     add_unused(&mut findings, &modules, codes.as_deref());
@@ -152,6 +157,7 @@ struct Extent {
     units: Units,
     takes_last: bool,
     is_whole: Option<bool>,
+    of_system: Vec<usize>,
     carried: Carried,
 }
 
@@ -184,6 +190,7 @@ fn checked_arm<const N: usize>(
         units: Some(&extent.units),
         takes_last: extent.takes_last,
         is_whole: extent.is_whole,
+        of_system: &extent.of_system,
         carried: Some(&extent.carried),
         ..CheckOptions::default()
     };
@@ -221,9 +228,14 @@ fn records<'py>(
     let modules: Vec<&Module> = modules.iter().map(|it| &it.get().module).collect();
     let is_wanted = |code: Code| codes.is_none_or(|codes| codes.contains(&code));
     let wanted = found.filter(|finding| is_wanted(finding.code));
-    let records = wanted.map(|finding| record(py, finding, &modules));
+    let mut left = MOST_COMPARED;
+    let records = wanted.map(|finding| record(py, finding, &modules, &mut left));
     PyTuple::new(py, records.collect::<PyResult<Vec<_>>>()?)
 }
+
+/// Pairs of letters of unknown and of known names that are compared [1]: 0.1 s. Of many unknown
+/// names the last have no suggestion.
+const MOST_COMPARED: usize = 40_000_000;
 
 /// Codes by their ids.
 fn read_codes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Code>> {
@@ -240,10 +252,17 @@ fn read_codes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Code>> {
 }
 
 /// A finding; its message names what an unknown name could mean.
-fn record(py: Python<'_>, mut finding: rapid::Finding, modules: &[&Module]) -> PyResult<Finding> {
-    if let Some(unknown) = &finding.unknown {
+fn record(
+    py: Python<'_>,
+    mut finding: rapid::Finding,
+    modules: &[&Module],
+    left: &mut usize,
+) -> PyResult<Finding> {
+    if let Some(unknown) = finding.unknown.as_ref().filter(|_| *left > 0) {
         let names = rapid::candidates(&finding, modules);
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let letters: usize = names.iter().map(|name| name.len()).sum();
+        *left = left.saturating_sub(letters.saturating_mul(unknown.len()));
         let close = close_names(unknown, &names);
         if !close.is_empty() {
             finding.message = format!("{}; did you mean {}?", finding.message, close.join(", "));

@@ -47,6 +47,9 @@ pub struct CheckOptions<'a, const N: usize = 6> {
     /// Whether every module of the program is here; if that is not known, calls by calculated names
     /// lead to others. A routine that nothing declares is an error in a whole program.
     pub is_whole: Option<bool>,
+    /// Modules, by their indices, that are modules of the system although their attributes do not
+    /// say so: what they call may be the system's.
+    pub of_system: &'a [usize],
     /// Ends the check early, with [`Error::Interrupted`].
     pub interrupt: Interrupt<'a>,
 }
@@ -141,7 +144,8 @@ pub fn check<const N: usize>(
         checker.add(run)?;
     }
     checker.found.extend(notes);
-    checker.found.extend(undeclared(&modules, &sources, options.is_whole));
+    let CheckOptions { is_whole, of_system, interrupt, .. } = *options;
+    checker.found.extend(undeclared(&modules, &sources, is_whole, of_system, interrupt)?);
     let Checker { found, demands, moves, .. } = checker;
     Ok(Checked { findings: sorted(found, &demands), moves: each_once(moves) })
 }

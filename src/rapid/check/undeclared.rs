@@ -5,6 +5,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use crate::interrupt::{Interrupt, Interrupted};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::fit::Fit;
 use crate::rapid::data::instructions::Effect;
@@ -58,12 +59,14 @@ fn may_be_elsewhere(modules: &[&Module], is_whole: Option<bool>) -> bool {
     is_whole == Some(false) || modules.iter().any(is_open)
 }
 
-/// The findings on the calls of a program.
+/// The findings on the calls of a program; `of_system` are modules that do not say that they are.
 pub(super) fn undeclared(
     modules: &[&Module],
     sources: &[&str],
     is_whole: Option<bool>,
-) -> Vec<Finding> {
+    of_system: &[usize],
+    interrupt: Interrupt<'_>,
+) -> Result<Vec<Finding>, Interrupted> {
     let mut routines: BTreeMap<String, Vec<(usize, &Routine)>> = BTreeMap::new();
     for (index, module) in modules.iter().enumerate() {
         for routine in &module.routines {
@@ -72,11 +75,16 @@ pub(super) fn undeclared(
     }
     let mut found = Vec::new();
     // The first finding on each name, and how often it is called.
-    let mut unknown: BTreeMap<String, (usize, usize)> = BTreeMap::new();
+    let mut unknown: BTreeMap<(String, Option<&str>), (usize, usize)> = BTreeMap::new();
     for (index, (module, source)) in modules.iter().zip(sources).enumerate() {
         let (mut tokens, unread) = (Tokens::of(source), unread_names(module));
-        for call in &module.calls {
-            let name = source.get(call.name.clone()).unwrap_or_default();
+        let of_system = of_system.contains(&index) || is_of_system(module);
+        for (at, call) in module.calls.iter().enumerate() {
+            interrupt.check(at)?;
+            let written = source.get(call.name.clone()).unwrap_or_default();
+            // A call by name may name the module, too.
+            let name = written.rsplit(':').next().unwrap_or(written);
+            let place = begin(source, call);
             let lower = name.to_lowercase();
             let all = routines.get(&lower).map_or(&[][..], Vec::as_slice);
             let own = all.iter().find(|(home, _)| *home == index);
@@ -97,22 +105,21 @@ pub(super) fn undeclared(
                     Some(of) => fits_not(&mut tokens, call, of),
                     None if unread.contains(&lower) || is_of_add_in(name) => None,
                     None => {
-                        let first = unknown.entry(lower).or_insert((found.len(), 0));
+                        let elsewhere = elsewhere(place < call.name.start, of_system);
+                        let first = unknown.entry((lower, elsewhere)).or_insert((found.len(), 0));
                         first.1 += 1;
-                        (first.1 == 1).then(|| Finding {
-                            unknown: Some(name.to_string()),
-                            ..Finding::new(Code::UnknownRoutine, "nothing declares it")
-                        })
+                        (first.1 == 1).then(|| unknown_routine(name, elsewhere))
                     }
                 },
             };
-            let (line, column) = tokens.line_and_column(call.name.start);
+            let (line, column) = tokens.line_and_column(place);
             // An argument that lacks is a fault of the move already.
             let is_told = || module.faults.iter().any(|it| it.line == line);
-            let Some(finding) = finding.filter(|it| it.unknown.is_some() || !is_told()) else {
+            let is_new = |it: &Finding| it.code != Code::WrongArguments || !is_told();
+            let Some(finding) = finding.filter(is_new) else {
                 continue;
             };
-            let what = if call.is_function { name } else { statement(source, begin(source, call)) };
+            let what = if call.is_function { name } else { statement(source, place) };
             let behind = module.routines.partition_point(|it| it.line <= line);
             let routine = behind.checked_sub(1).map(|at| module.routines[at].name.clone());
             found.push(finding.placed((line, column), routine, 0, what).in_module(index));
@@ -132,16 +139,47 @@ pub(super) fn undeclared(
                 format!("no module that is here declares {}: modules are missing", listed(&names));
             Finding { code: Code::MissingRoutines, unknown: None, message, ..first }
         }));
-        return others;
+        return Ok(others);
     }
-    found
+    Ok(found)
 }
 
-/// The first byte of the name of a call; of a call by a constant name its quotation mark.
+/// Whether a module is one of the system, by its attributes.
+fn is_of_system(module: &Module) -> bool {
+    let is_one = |it: &String| {
+        ["SYSMODULE", "NOVIEW", "VIEWONLY"].iter().any(|of| of.eq_ignore_ascii_case(it))
+    };
+    module.attributes.iter().any(is_one)
+}
+
+/// Where a routine may be that nothing here declares, if a controller loads the module without it.
+fn elsewhere(is_by_name: bool, of_system: bool) -> Option<&'static str> {
+    match (is_by_name, of_system) {
+        (true, _) => Some("it is looked for when the call is made"),
+        (_, true) => Some("the system may have it"),
+        _ => None,
+    }
+}
+
+/// The finding on a call of a routine that nothing declares.
+fn unknown_routine(name: &str, elsewhere: Option<&str>) -> Finding {
+    match elsewhere {
+        Some(words) => {
+            let words = format!("no module that is here declares it: {words}");
+            Finding::new(Code::MissingRoutines, words)
+        }
+        None => Finding {
+            unknown: Some(name.to_string()),
+            ..Finding::new(Code::UnknownRoutine, "nothing declares it")
+        },
+    }
+}
+
+/// The first byte of a call; of one by a constant name its percent sign.
 fn begin(source: &str, call: &Called) -> usize {
-    let (before, behind) = (call.name.start.wrapping_sub(1), call.name.end);
-    let is_text = [before, behind].iter().all(|at| source.as_bytes().get(*at) == Some(&b'"'));
-    call.name.start - usize::from(is_text)
+    let start = call.name.start;
+    let ahead = source[..start].strip_suffix('"').map(str::trim_ascii_end);
+    ahead.and_then(|it| it.strip_suffix('%')).map_or(start, str::len)
 }
 
 /// The statement that begins at a byte, without its semicolon.
@@ -208,9 +246,9 @@ fn fits_not(
     call: &Called,
     (name, arguments): (&str, &str),
 ) -> Option<Finding> {
-    let is_text = begin(tokens.text, call) < call.name.start;
-    tokens.resume(call.name.end + usize::from(is_text));
-    if call.is_function || is_text {
+    let is_by_name = begin(tokens.text, call) < call.name.start;
+    tokens.resume(call.name.end + usize::from(is_by_name));
+    if call.is_function || is_by_name {
         tokens.take().ok()?;
     }
     let mut fit = Fit::with(name, Some(arguments));

@@ -10,6 +10,7 @@ use super::moves::MoveKind::{self, MoveAbsJ, MoveC, MoveExtJ, MoveJ, MoveL};
 use super::moving::{
     AFTER, ALONG, EXTERNAL, Layout, MoveInstruction, PLAIN, SEARCH, SEARCH_EXTERNAL, STOPS, THEN,
 };
+use super::options::OPTIONS;
 
 /// An instruction or a function of RAPID.
 pub(crate) struct Entry {
@@ -221,6 +222,11 @@ static TABLE: &[Entry] = &[
     function("GOutput", "signalgo Signal"),
     call("GripLoad", r"loaddata Load\..."),
     function("HexToDec", "string Str"),
+    does("HR_ContMove", "...", Moves),
+    does("HR_MoveBack", "...", Moves),
+    does("HR_MoveRoutine", "...", Moves),
+    does("HR_MoveTo", "...", Moves),
+    does("HR_MoveToHome", "...", Moves),
     call("IDelete", "intnum Interrupt"),
     call("IError", r"errdomain ErrorDomain\num ErrorId,errtype ErrorType,intnum Interrupt"),
     call("Incr", "INOUT num Name"),
@@ -356,6 +362,8 @@ static TABLE: &[Entry] = &[
     function("RunMode", r"\switch Main"),
     call("Save", r"\string TaskRef|string TaskName,string ModuleName\string FilePath\string File"),
     call("SaveCfgData", r"string FilePath\string File,cfgdomain Domain"),
+    does("SCSSDeactMoveL", "...", Moves),
+    does("Search_1D", "...", Moves),
     goes("SearchC", MoveC, SEARCH, concat!(r"\switch Stop|switch PStop|switch SStop|switch Sup,signaldi Signal\...,INOUT robtarget SearchPoint,", via!(), with!())),
     goes("SearchExtJ", MoveExtJ, SEARCH_EXTERNAL, concat!(r"\switch Stop|switch PStop|switch SStop|switch Sup,signaldi Signal\...,INOUT jointtarget SearchJointPos,", joints!(), r"\...")),
     goes("SearchL", MoveL, SEARCH, concat!(r"\switch Stop|switch PStop|switch SStop|switch Sup,signaldi Signal\...,INOUT robtarget SearchPoint,", to!(), with!())),
@@ -371,6 +379,14 @@ static TABLE: &[Entry] = &[
     call("SetSysData", r"anytype SourceObject\..."),
     function("Sin", "num Angle"),
     does("SingArea", r"\switch Wrist|switch LockAxis4|switch Arm|switch Off", Sets),
+    does("SMoveJ", "...", Moves),
+    does("SMoveJDO", "...", Moves),
+    does("SMoveJGO", "...", Moves),
+    does("SMoveJSync", "...", Moves),
+    does("SMoveL", "...", Moves),
+    does("SMoveLDO", "...", Moves),
+    does("SMoveLGO", "...", Moves),
+    does("SMoveLSync", "...", Moves),
     does("SocketAccept", r"socketdev Socket,INOUT socketdev ClientSocket\string ClientAddress\num Time", Waits),
     call("SocketBind", "socketdev Socket,string LocalAddress,num LocalPort"),
     call("SocketClose", "socketdev Socket"),
@@ -394,6 +410,7 @@ static TABLE: &[Entry] = &[
     goes("SpotML", MoveL, STOPS, concat!(to!(), ",...", meets!())),
     call("SpyStart", "string File"),
     function("Sqrt", "num Value"),
+    does("SSearchL", "...", Moves),
     call("StartLoad", r"\switch Dynamic,string FilePath\string File,INOUT loadsession LoadNo"),
     call("StartMove", r"\switch AllMotionTasks"),
     does("StepBwdPath", "num StepLength,num StepTime", Moves),
@@ -407,6 +424,8 @@ static TABLE: &[Entry] = &[
     function("StrDigCmp", "stringdig StrDig1,opnum Relation,stringdig StrDig2"),
     function("StrFind", r"string Str,num ChPos,string Set\switch NotInSet"),
     function("StrFormat", r"string Format\..."),
+    does("STriggJ", "...", Moves),
+    does("STriggL", "...", Moves),
     function("StrLen", "string Str"),
     function("StrMap", "string Str,string FromMap,string ToMap"),
     function("StrMatch", "string Str,num ChPos,string Pattern"),
@@ -499,7 +518,7 @@ static TABLE: &[Entry] = &[
 ];
 
 /// Names with the same arguments, and whether they are functions.
-type Group = (&'static str, &'static str, bool);
+pub(super) type Group = (&'static str, &'static str, bool);
 
 /// Without arguments; then others, most of add-ins, whose arguments are not known.
 static GROUPS: [Group; 4] = [
@@ -554,7 +573,7 @@ const OTHERS: &str = "ActivateProfile AliasCamera ArcClrPath ArcKill ArcRefresh 
     SwSetIntGunData SwSetIntSimData SwSetIntSpotData SyncToSensor TriggStopProc UIMsgWrite \
     UIShow UseACCProfile WaitAndRecProf WriteBlock WriteVar WriteVarArr";
 const OTHER_FUNCTIONS: &str = "CalcRotAxFrameZ CalcRotAxisFrame CapGetFailSigs DaCheckMMSOpt DaGetFstTimeEvt DaGetMP \
-    DaGetRobotName DaGetTaskName DefAccFrame FCGetForce FCGetProcessData FCIsForceMode FCLoadID FitCircle \
+    DaGetRobotName DaGetTaskName DefAccFrame FCGetForce FCGetProcessData FCIsForceMode FCLoadID \
     g_GetPos g_GetPressure1 g_GetPressure2 g_IsCalibrated g_IsInPos GetAxisDistance \
     GetAxisMoveTime GetNextCyclicBool GetNextMechUnit GetServiceInfo GetSignal GetTSPStatus \
     Hand_GetActualPos Hand_GetStatus Hand_GetVacuumPressure1 Hand_GetVacuumPressure2 \
@@ -602,13 +621,14 @@ impl Entry {
                     .split(' ')
                     .any(|it| it.len() == name.len() && it.eq_ignore_ascii_case(name))
         };
-        GROUPS.iter().find(is_of).map(|(_, arguments, _)| *arguments)
+        GROUPS.iter().chain(&OPTIONS).find(is_of).map(|(_, arguments, _)| *arguments)
     }
 
     /// The names, the arguments, and whether it is a function, of all.
     pub(crate) fn all() -> impl Iterator<Item = (&'static str, &'static str, bool)> {
         let known = TABLE.iter().map(|it| (it.name, it.arguments, it.is_function));
-        known.chain(GROUPS.iter().flat_map(|(names, arguments, is_function)| {
+        let groups = GROUPS.iter().chain(&OPTIONS);
+        known.chain(groups.flat_map(|(names, arguments, is_function)| {
             names.split(' ').map(move |name| (name, *arguments, *is_function))
         }))
     }

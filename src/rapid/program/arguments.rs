@@ -108,7 +108,9 @@ pub(in crate::rapid) fn called(statement: &str) -> Option<String> {
     match name.kind {
         TokenKind::Name if !first.is(b'%') => Some(tokens.text_of(name).to_lowercase()),
         TokenKind::Text if tokens.peek().is(b'%') => {
-            Some(tokens.text_of(name).trim_matches('"').to_lowercase())
+            // It may name the module, too: "Part:rGo".
+            let name = tokens.text_of(name).trim_matches('"');
+            Some(name.rsplit(':').next().unwrap_or(name).trim().to_lowercase())
         }
         _ => None,
     }
@@ -160,6 +162,7 @@ mod tests {
         assert_eq!((found.required.len(), found.optional.len()), (3, 2));
         assert_eq!(arguments("%\"rGo\"% p1, 2;").unwrap().required.len(), 2);
         assert_eq!(called("%\"rGo\"% p1;").as_deref(), Some("rgo"));
+        assert_eq!(called("%\"Part:rGo\"% p1;").as_deref(), Some("rgo"));
         assert_eq!(called("%\"r\"+n% p1;"), None);
         assert_eq!(called("RGO;").as_deref(), Some("rgo"));
     }

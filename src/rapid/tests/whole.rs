@@ -278,7 +278,6 @@ fn a_call_that_nothing_declares_is_an_error_and_a_note_if_modules_are_missing() 
     let twice = (Code::UnknownRoutine, 3, "MovL 1,2: nothing declares it (2 calls)".to_string());
     assert_eq!(only("MovL 1,2;\nMovL 3;"), twice);
     assert_eq!(only("x:=1+fOne(2);").2, "fOne: nothing declares it");
-    assert_eq!(only("%\"rOpne\"% 1;").0, Code::UnknownRoutine);
     let note = (
         Code::MissingRoutines,
         3,
@@ -290,6 +289,30 @@ fn a_call_that_nothing_declares_is_an_error_and_a_note_if_modules_are_missing() 
         findings("rOpen 1; ROPEN 2\\b; %\"rOpen\"% 3\\c:=4; ArcRefresh 1; ArcLNew 1; g_init;"),
         []
     );
+}
+
+#[test]
+fn a_routine_that_may_be_elsewhere_is_a_note() {
+    let late = "no module that is here declares it: it is looked for when the call is made";
+    assert_eq!(
+        findings("%\"rOther\"% 1;\n% \"Part:rOther\" %;\nrOthar;"),
+        [
+            (Code::MissingRoutines, 3, format!("%\"rOther\"% 1: {late} (2 calls)")),
+            (Code::UnknownRoutine, 5, "rOthar: nothing declares it".to_string()),
+        ]
+    );
+    assert_eq!(findings("%\"Part:rOpen\"% 1;"), []);
+    for (attributes, wanted) in [
+        ("", Code::UnknownRoutine),
+        ("(NOSTEPIN)", Code::UnknownRoutine),
+        ("(SYSMODULE)", Code::MissingRoutines),
+        ("(NoView,NOSTEPIN)", Code::MissingRoutines),
+        ("(VIEWONLY)", Code::MissingRoutines),
+    ] {
+        let text = format!("MODULE M{attributes}\nPROC main()\nrOther;\nENDPROC\nENDMODULE");
+        let found: Vec<Code> = wrong(&text).1.iter().map(|it| it.code).collect();
+        assert_eq!(found, [wanted], "{attributes}");
+    }
 }
 
 #[test]
