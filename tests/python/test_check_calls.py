@@ -1,6 +1,8 @@
 """Calls of routines in `irbkin check`: names that are meant, and modules that are missing."""
 
 import json
+import subprocess
+import sys
 import time
 
 import command
@@ -85,3 +87,48 @@ def test_many_unknown_names_are_found_within_a_second():
         assert time.process_time() - begin < 1.0
         assert len(found) >= 1200
         assert "did you mean" in found[0].message
+
+
+T = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];\n"
+P = "CONST robtarget p:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+KNOWN = "".join(f"g{number}:={number};\n" for number in range(900))
+FANS = {
+    "calls": ("", "", "{next};{next};", ""),
+    "arguments": ("", "num x", "{next} x+1;{next} x+2;", " 1"),
+    "arrays": ("VAR robtarget b{500};\n", "robtarget x{*}", "{next} x;{next} x;", " b"),
+    "data of routines": ("", "", "VAR robtarget l{900};VAR num b:=1;\n{next};{next};", ""),
+    "data": ("", "", "IF g1=1 THEN\ng2:={count};\nENDIF\n{next};{next};", ""),
+    "loops": ("", "", "WHILE TRUE DO\n{next};{next};\nENDWHILE", ""),
+    "labels": ("", "", "again:\ng2:=1;\n{next};{next};", ""),
+}
+
+
+@pytest.mark.parametrize("fan", FANS)
+def test_calls_that_fan_out_take_a_second_and_150_mb(tmp_path, fan):
+    data, parameter, body, given = FANS[fan]
+    known = "".join(f"VAR num g{number}:=0;\n" for number in range(900))
+    parts = ["MODULE M\n", T, P, data, known, f"PROC main()\n{KNOWN}a0{given};\nENDPROC\n"]
+    size = sum(map(len, parts))
+    count = 0
+    while size < 98_000:
+        calls = body.replace("{next}", f"a{count + 1}").replace("{count}", str(count))
+        parts.append(f"PROC a{count}({parameter})\n{calls}\nENDPROC\n")
+        size += len(parts[-1])
+        count += 1
+    parts.append(f"PROC a{count}({parameter})\nMoveJ p,v100,fine,t;\nENDPROC\nENDMODULE\n")
+    (tmp_path / "m.mod").write_text("".join(parts))
+    program = """
+import resource, sys, time
+import irbkin
+robot, module = irbkin.Robot("IRB 2600-12/1.65"), irbkin.rapid.load(sys.argv[1])
+used = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+began, before = time.process_time(), used()
+irbkin.rapid.check(robot, module)
+print(time.process_time() - began, (used() - before) / 1024)
+"""
+    command = [sys.executable, "-c", program, str(tmp_path / "m.mod")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
+    seconds, megabytes = map(float, done.stdout.split())
+    # Half as much again for the other processes of this machine.
+    assert seconds < 1.5
+    assert megabytes < 150.0

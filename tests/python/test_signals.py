@@ -41,6 +41,7 @@ CALLS = {
     "rapid.parse": "irbkin.rapid.parse(text)",
     "rapid.load": "irbkin.rapid.load(file)",
     "rapid.check": "irbkin.rapid.check(robot, module)",
+    "rapid.check of calls that fan out": "irbkin.rapid.check(robot, fan)",
     "rapid.check of long moves": "irbkin.rapid.check(robot, module, step=3e-9)",
 }
 
@@ -68,7 +69,17 @@ text = "\\n".join(["MODULE M", "PROC main()", *moves, "ENDPROC", "ENDMODULE"])
 file = pathlib.Path(tempfile.mkdtemp(), "M.mod")
 file.write_text(text)
 """
+# Routines that call the next one twice.
+FAN = """
+move = "MoveJ [[900,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;"
+names = [f"rCalls{{at}}" for at in range(3000)]
+calls = [f"PROC {{name}}() {{next}};{{next}}; ENDPROC" for name, next in zip(names, names[1:])]
+fan = irbkin.rapid.parse(
+    "\\n".join(["MODULE M", *calls, f"PROC {{names[-1]}}() {{move}} ENDPROC", "ENDMODULE"])
+)
+"""
 BUILT = {
+    "rapid.check of calls that fan out": FAN.format(),
     "check_path": CELL.format(count=100_000),
     "check_path of a trajectory": CELL.format(count=100_000)
     + "motion = irbkin.trajectory.spline(way, max_velocity=3.0)",

@@ -116,7 +116,7 @@ pub fn check<const N: usize>(
     let (modules, sources): (Vec<&Module>, Vec<&str>) = modules.iter().copied().unzip();
     let program = Program::new(&modules);
     let units = Units::default();
-    let (runs, notes) = runs(&program, options.takes_last);
+    let (runs, notes) = runs(&program, options.takes_last, options.interrupt)?;
     let carried = options.carried.unwrap_or(const { &Carried::new() });
     let arms = options.cell.map(|_| carriers(robot, &runs, carried)).transpose()?;
     let arms = arms.unwrap_or_default();

@@ -105,7 +105,12 @@ pub(super) fn undeclared(
                     Some(of) => fits_not(&mut tokens, call, of),
                     None if unread.contains(&lower) || is_of_add_in(name) => None,
                     None => {
-                        let elsewhere = elsewhere(place < call.name.start, of_system);
+                        // A controller loads the module all the same.
+                        let elsewhere = if place < call.name.start {
+                            Some("it is looked for when the call is made")
+                        } else {
+                            of_system.then_some("the system may have it")
+                        };
                         let first = unknown.entry((lower, elsewhere)).or_insert((found.len(), 0));
                         first.1 += 1;
                         (first.1 == 1).then(|| unknown_routine(name, elsewhere))
@@ -152,16 +157,7 @@ fn is_of_system(module: &Module) -> bool {
     module.attributes.iter().any(is_one)
 }
 
-/// Where a routine may be that nothing here declares, if a controller loads the module without it.
-fn elsewhere(is_by_name: bool, of_system: bool) -> Option<&'static str> {
-    match (is_by_name, of_system) {
-        (true, _) => Some("it is looked for when the call is made"),
-        (_, true) => Some("the system may have it"),
-        _ => None,
-    }
-}
-
-/// The finding on a call of a routine that nothing declares.
+/// The finding on a call of a routine that nothing declares: a note if it may be elsewhere.
 fn unknown_routine(name: &str, elsewhere: Option<&str>) -> Finding {
     match elsewhere {
         Some(words) => {

@@ -22,6 +22,9 @@ use crate::rapid::expression::tree::Expression;
 /// Most calls within calls.
 const DEEPEST_CALLS: usize = 32;
 
+/// The statements that a call takes as long as, beside its routine [1].
+const CALL: usize = 4;
+
 impl Program<'_> {
     /// The data and the parameters of a routine at its beginning: parameters are unknown unless
     /// they are `given`, in their order.
@@ -70,13 +73,13 @@ impl<'m> Walk<'_, 'm> {
         if !acts.matters() {
             return;
         }
-        let is_circular = self.frame.above.iter().any(|it| *it == (home, name.clone()))
+        let is_circular = self.above.iter().any(|it| (it.0, &it.1) == (home, &name))
             || (self.frame.module, &self.frame.routine) == (home, &name);
         let why = if is_circular {
             Some(format!("{name} calls itself"))
-        } else if self.frame.above.len() >= DEEPEST_CALLS {
+        } else if self.above.len() >= DEEPEST_CALLS {
             Some(format!("more than {DEEPEST_CALLS} calls within calls"))
-        } else if self.steps_left == 0 || self.moves_left == 0 {
+        } else if self.is_spent() {
             Some("the program has too many calls within calls to follow each".to_string())
         } else {
             None
@@ -118,14 +121,12 @@ impl<'m> Walk<'_, 'm> {
             },
         };
         let site = self.frame.site.clone().or_else(|| Some(own_site()));
-        let mut above = self.frame.above.clone();
-        above.push((self.frame.module, self.frame.routine.clone()));
         let next = self.chains.len() + 1;
         let call = (self.frame.chain, self.frame.module, skipped.start);
         let chain = *self.chains.entry(call).or_insert(next);
         let before: Locals = given.iter().cloned().collect();
         let locals = self.program.locals_of(home, &name, Some(given));
-        self.steps_left = self.steps_left.saturating_sub(locals.len());
+        self.spend(CALL + locals.values().map(Local::size).sum::<usize>());
         let frame = Frame {
             module: home,
             routine: name,
@@ -135,11 +136,12 @@ impl<'m> Walk<'_, 'm> {
             absent,
             present,
             texts,
-            above,
         };
         let own_frame = mem::replace(&mut self.frame, frame);
+        self.above.push((own_frame.module, own_frame.routine.clone()));
         let own_locals = mem::replace(&mut self.state.locals, locals);
         self.routine();
+        self.above.pop();
         self.frame = own_frame;
         let after = mem::replace(&mut self.state.locals, own_locals);
         for (parameter, name) in names {

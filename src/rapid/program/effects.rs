@@ -4,6 +4,7 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::cell::Cell;
 use core::ops::Range;
 
 use super::arguments::{Parameter, arguments, assignment, called, referred};
@@ -91,6 +92,8 @@ pub(super) struct Effects {
     by_reference: BTreeSet<DatumId>,
     /// The data that traps and handlers assign: at a time that is not known.
     interrupted: BTreeSet<DatumId>,
+    /// The routines that were gone through for the data that others assign.
+    pub(super) gone_through: Cell<usize>,
 }
 
 impl Effects {
@@ -202,6 +205,7 @@ impl Effects {
     ) -> Option<BTreeSet<DatumId>> {
         let (mut found, mut seen) = (BTreeSet::new(), BTreeSet::new());
         while let Some(name) = open.pop() {
+            self.gone_through.update(|count| count + 1);
             let Some(acts) = self.of_routines.get(&name).filter(|acts| acts.assigns) else {
                 continue;
             };

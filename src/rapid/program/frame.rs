@@ -36,8 +36,6 @@ pub(super) struct Frame {
     pub(super) present: BTreeSet<String>,
     /// The text of its arguments, with their modules and bytes, by the names of its parameters.
     pub(super) texts: BTreeMap<String, (String, usize, Range<usize>)>,
-    /// The routines that are being followed.
-    pub(super) above: Vec<(usize, String)>,
 }
 
 impl Frame {

@@ -1,10 +1,10 @@
 //! Loops: each pass is followed where its bounds are known.
 
 use alloc::rc::Rc;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::state::{Here, Local, State};
+use super::state::{Here, Local};
 use super::tree::{Block, Node};
 use super::walker::{Walk, word_of};
 use crate::rapid::data::unread::{Skipped, Unresolved};
@@ -23,6 +23,7 @@ impl<'m> Walk<'_, 'm> {
         let before = name.as_ref().and_then(|name| self.state.locals.get(name).cloned());
         if let Some((name, passes)) = &counted
             && !passes.is_empty()
+            && !self.is_spent()
             && passes.len().saturating_mul(size(body)) <= self.steps_left.min(self.moves_left)
             && (self.is_one || mentions(body, name))
         {
@@ -33,9 +34,15 @@ impl<'m> Walk<'_, 'm> {
                 if self.state.here == Here::Left {
                     break;
                 }
+                if self.is_spent() {
+                    let words = "the program has too many passes of loops to follow each";
+                    self.not_followed(head, words.to_string());
+                    self.forget(body);
+                    break;
+                }
             }
         } else {
-            if self.acts(body) {
+            if self.is_one && self.acts(body) {
                 self.decides(head.line, word_of(head));
             }
             self.forget(body);
@@ -47,7 +54,7 @@ impl<'m> Walk<'_, 'm> {
             let entry = self.state.clone();
             self.block(body);
             let ends = Vec::from([entry.clone(), self.state.clone()]);
-            self.state = State::joined(entry, ends, head.line);
+            self.join(entry, ends, head.line);
         }
         if let Some(name) = name {
             let locals = Rc::make_mut(&mut self.state.locals);
@@ -114,7 +121,7 @@ fn values_of(bounds: [Option<f64>; 3]) -> Vec<f64> {
 }
 
 /// The number of statements in a block.
-fn size(block: &Block<'_>) -> usize {
+pub(super) fn size(block: &Block<'_>) -> usize {
     let of = |node: &Node<'_>| match node {
         Node::Branches { parts, .. } => parts.iter().map(size).sum::<usize>() + 1,
         Node::Loop { body, .. } => size(body) + 1,

@@ -52,6 +52,14 @@ impl Local {
     pub(super) fn single(value: Value) -> Self {
         Self { data_type: Some(value.data_type()), content: Ok(Content::Single(value)) }
     }
+
+    /// How many values it has, at least one.
+    pub(super) fn size(&self) -> usize {
+        match &self.content {
+            Ok(Content::Array { values, .. }) => values.len().max(1),
+            _ => 1,
+        }
+    }
 }
 
 /// The data and the parameters of a routine by their names in lower case.
@@ -80,6 +88,14 @@ impl State {
             globals: Rc::default(),
             locals: Rc::default(),
         }
+    }
+
+    /// How many contents were copied since it was the other one: all or none.
+    pub(super) fn copied(&self, other: &Self) -> usize {
+        let globals =
+            if Rc::ptr_eq(&self.globals, &other.globals) { 0 } else { self.globals.len() };
+        let locals = if Rc::ptr_eq(&self.locals, &other.locals) { 0 } else { self.locals.len() };
+        globals + locals
     }
 
     /// The content of an assigned datum; `None` if it is not known.

@@ -15,6 +15,7 @@ use super::state::{Displacement, Here, State};
 use super::tree::{Block, Node};
 use super::walker::{Filled, Run, Step, Stepped, Uncertain, Walk, word_of};
 use super::whole::Program;
+use crate::interrupt::{Interrupt, Interrupted};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind};
@@ -28,8 +29,9 @@ use crate::rapid::data::unread::{NotRead, Skipped};
 pub(in crate::rapid) fn runs<'m>(
     program: &Program<'m>,
     takes_last: bool,
-) -> (Vec<Run<'m>>, Vec<Finding>) {
-    let mut walk = Walk::new(program, takes_last);
+    interrupt: Interrupt<'_>,
+) -> Result<(Vec<Run<'m>>, Vec<Finding>), Interrupted> {
+    let mut walk = Walk::new(program, takes_last, interrupt);
     let mains = (0..program.modules.len()).map(|module| (module, "main".to_string()));
     let all = program.routines().into_iter();
     for (module, routine) in mains.chain(all) {
@@ -39,7 +41,7 @@ pub(in crate::rapid) fn runs<'m>(
         }
     }
     walk.note_left();
-    (walk.runs, walk.notes)
+    if walk.is_ended { Err(Interrupted) } else { Ok((walk.runs, walk.notes)) }
 }
 
 /// The steps of a routine of the first module, in the order of execution, up to what ends it; and
@@ -48,7 +50,8 @@ pub(in crate::rapid) fn steps<'m>(
     program: &Program<'m>,
     routine: &str,
 ) -> (Vec<Step<'m>>, Option<Uncertain>) {
-    let mut walk = Walk { is_one: true, ..Walk::new(program, false) };
+    let mut walk = Walk::new(program, false, Interrupt::none());
+    walk.is_one = true;
     walk.root((0, routine.to_lowercase()));
     let steps = walk.runs.into_iter().flat_map(|run| run.steps);
     (steps.collect(), walk.uncertain)
@@ -75,7 +78,7 @@ impl<'m> Walk<'_, 'm> {
         self.block(&body.main);
         let mut ends = core::mem::take(&mut self.frame.exits);
         ends.push(self.state.clone());
-        self.state = State::joined(entry, ends, 0);
+        self.join(entry, ends, 0);
         if !is_first || self.is_one {
             return;
         }
@@ -93,7 +96,10 @@ impl<'m> Walk<'_, 'm> {
     pub(super) fn block(&mut self, block: &Block<'m>) {
         let mut is_dead = false;
         for node in block {
-            self.steps_left = self.steps_left.saturating_sub(1);
+            self.spend(1);
+            if self.ends() {
+                return;
+            }
             if self.state.here == Here::Left && !is_dead {
                 is_dead = self.note_dead(node);
             }
@@ -102,7 +108,7 @@ impl<'m> Walk<'_, 'm> {
                 Node::Setting(setting) => self.set(setting),
                 Node::Other(skipped) => self.statement(skipped),
                 Node::Branches { head, parts, is_complete } => {
-                    if parts.iter().any(|part| self.acts(part)) {
+                    if self.is_one && parts.iter().any(|part| self.acts(part)) {
                         self.decides(head.line, word_of(head));
                     }
                     let entry = self.state.clone();
@@ -128,7 +134,7 @@ impl<'m> Walk<'_, 'm> {
                         self.block(part);
                         ends.push(self.state.clone());
                     }
-                    self.state = State::joined(entry, ends, head.line);
+                    self.join(entry, ends, head.line);
                 }
                 Node::Loop { head, body } if never_holds(&head.text) => self.never_run(head, body),
                 Node::Loop { head, body } => self.repeat(head, body),
@@ -222,7 +228,7 @@ impl<'m> Walk<'_, 'm> {
             Cow::Borrowed(step) => Filled::Same(step),
             Cow::Owned(step) => Filled::Other(Box::new(step)),
         };
-        self.moves_left = self.moves_left.saturating_sub(1);
+        self.spend_move(&step);
         let stepped = Stepped { module, instruction, step, chain, takes_last, halt, displaced_on };
         self.push(Step::Move(Box::new(stepped)));
         if let Some(name) = written_by(written) {

@@ -7,21 +7,27 @@ use alloc::vec::Vec;
 use core::cell::Cell;
 use core::ops::Deref;
 
+use nalgebra::Vector3;
+
 use super::frame::Frame;
+use super::loops::size;
 use super::state::{Here, State};
 use super::tree::{Block, Node};
 use super::values::Scope;
 use super::whole::Program;
+use crate::interrupt::Interrupt;
 use crate::rapid::data::finding::Finding;
 use crate::rapid::data::instructions::Effect;
-use crate::rapid::data::moves::{Move, MoveKind};
+use crate::rapid::data::moves::{Move, MoveKind, Target};
 use crate::rapid::data::unread::{NotRead, Skipped};
 
-/// Statements, and moves, that are followed for each statement of the program, and beyond these: a
-/// routine is followed again for each of its callers. Witness: a production cell of 3,297
-/// statements needs more than 300 and 32.
-const STEPS: usize = 600;
+/// Statements, moves, and the way of the tool [mm] that are followed for each hundred bytes of the
+/// program, and beyond these so many more statements, moves and a hundred times the way: a routine
+/// is followed again for each of its callers. What takes as long as a statement counts as one.
+/// Witness: a production cell of 257,241 bytes needs 737, 39 and 4,542.
+const STEPS: usize = 800;
 const MOVES: usize = 40;
+const WAY: usize = 5_000;
 const SPARE: usize = 10_000;
 
 /// A step of a program.
@@ -96,15 +102,27 @@ pub(super) struct Walk<'p, 'm> {
     /// Chains of calls: the number of each by that of the chain before its last call, with the
     /// module and the first byte of that call.
     pub(super) chains: BTreeMap<(usize, usize, usize), usize>,
-    /// Statements, and moves among them, that may still be followed in calls and loops.
+    /// The routines that are being followed, above that of the frame.
+    pub(super) above: Vec<(usize, String)>,
+    /// Statements, moves among them, and their way that may still be followed in calls and loops.
     pub(super) steps_left: usize,
     pub(super) moves_left: usize,
+    way_left: usize,
+    /// The target of the last move [mm], if it is known.
+    last_place: Option<[f64; 3]>,
+    interrupt: Interrupt<'p>,
+    /// Whether the caller has ended the walk, which asks at some of its statements.
+    pub(super) is_ended: bool,
+    statements: usize,
 }
 
 impl<'p, 'm> Walk<'p, 'm> {
-    pub(super) fn new(program: &'p Program<'m>, takes_last: bool) -> Self {
-        let statements: usize =
-            program.modules.iter().map(|it| it.moves.len() + it.skipped.len()).sum();
+    pub(super) fn new(
+        program: &'p Program<'m>,
+        takes_last: bool,
+        interrupt: Interrupt<'p>,
+    ) -> Self {
+        let bytes: usize = program.modules.iter().map(|it| it.text_length).sum();
         Self {
             program,
             is_one: false,
@@ -117,9 +135,57 @@ impl<'p, 'm> Walk<'p, 'm> {
             frame: Frame::default(),
             followed: BTreeSet::new(),
             chains: BTreeMap::new(),
-            steps_left: STEPS * statements + SPARE,
-            moves_left: MOVES * statements + SPARE,
+            above: Vec::new(),
+            steps_left: STEPS * bytes / 100 + SPARE,
+            moves_left: MOVES * bytes / 100 + SPARE,
+            way_left: WAY * bytes / 100 + 100 * SPARE,
+            last_place: None,
+            interrupt,
+            is_ended: false,
+            statements: 0,
         }
+    }
+
+    /// Take a move, with the samples on its way, from what is left.
+    pub(super) fn spend_move(&mut self, step: &Move) {
+        self.moves_left = self.moves_left.saturating_sub(1);
+        let place = match &step.target.value {
+            Ok(Target::RobTarget(target)) => Some(target.trans_mm),
+            _ => None,
+        };
+        let from = core::mem::replace(&mut self.last_place, place);
+        if let (Some(from), Some(to)) = (from, place)
+            && matches!(step.kind, MoveKind::MoveL | MoveKind::MoveC)
+        {
+            let way = (Vector3::from(to) - Vector3::from(from)).norm();
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
+            let way = way as usize;
+            self.way_left = self.way_left.saturating_sub(way);
+        }
+    }
+
+    /// Take what takes as long as so many statements from what is left.
+    pub(super) fn spend(&mut self, statements: usize) {
+        let gone_through = self.program.effects.gone_through.take();
+        self.steps_left = self.steps_left.saturating_sub(statements + gone_through);
+    }
+
+    /// Whether nothing is left for calls and loops.
+    pub(super) fn is_spent(&self) -> bool {
+        self.steps_left == 0 || self.moves_left == 0 || self.way_left == 0
+    }
+
+    /// Whether the caller ends the walk; asked at each statement.
+    pub(super) fn ends(&mut self) -> bool {
+        self.statements += 1;
+        self.is_ended |= self.interrupt.ends(self.statements);
+        self.is_ended
+    }
+
+    /// The knowledge behind parts that begin with `entry` and end with `ends`.
+    pub(super) fn join(&mut self, entry: State, ends: Vec<State>, line: usize) {
+        self.spend(ends.iter().map(|end| end.copied(&entry)).sum());
+        self.state = State::joined(entry, ends, line);
     }
 
     /// Record a place that decides on steps.
@@ -129,6 +195,11 @@ impl<'p, 'm> Walk<'p, 'm> {
 
     /// Forget the data that a block assigns.
     pub(super) fn forget(&mut self, block: &Block<'m>) {
+        self.spend(size(block));
+        if self.steps_left == 0 {
+            self.state.forget_globals(None);
+            return self.state.forget_locals(|_, _| true);
+        }
         let place = (self.frame.module, self.frame.routine.as_str());
         let (globals, locals) = self.program.effects.of_block(self.program, place, block);
         self.state.forget_globals(globals.as_ref());
