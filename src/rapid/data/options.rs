@@ -3,10 +3,8 @@
 //! Without another source they are from the word list of KnoP-01/rapid-for-vim, which gives the
 //! option of each word. Moves of options are in the table of instructions.
 
-use super::table::Group;
-
 /// Names with arguments that are not known, and whether they are functions.
-pub(super) static OPTIONS: [Group; 14] = [
+pub(super) static OPTIONS: [(&str, &str, bool); 14] = [
     // RobotWare; of `FitSphere` there is only a program that calls it.
     (
         "CornerPathWarning FitCircle FitSphere IoCtrlAxis_RefSync IoCtrlAxis_RefSyncOff \

@@ -518,7 +518,7 @@ static TABLE: &[Entry] = &[
 ];
 
 /// Names with the same arguments, and whether they are functions.
-pub(super) type Group = (&'static str, &'static str, bool);
+type Group = (&'static str, &'static str, bool);
 
 /// Without arguments; then others, most of add-ins, whose arguments are not known.
 static GROUPS: [Group; 4] = [

@@ -5,7 +5,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use super::state::{Here, Local};
-use super::tree::{Block, Node};
+use super::tree::{Block, Node, size};
 use super::walker::{Walk, word_of};
 use crate::rapid::data::unread::{Skipped, Unresolved};
 use crate::rapid::data::value::Value;
@@ -118,16 +118,6 @@ fn values_of(bounds: [Option<f64>; 3]) -> Vec<f64> {
         value += step;
     }
     if values.len() > MOST_PASSES { Vec::new() } else { values }
-}
-
-/// The number of statements in a block.
-pub(super) fn size(block: &Block<'_>) -> usize {
-    let of = |node: &Node<'_>| match node {
-        Node::Branches { parts, .. } => parts.iter().map(size).sum::<usize>() + 1,
-        Node::Loop { body, .. } => size(body) + 1,
-        _ => 1,
-    };
-    block.iter().map(of).sum()
 }
 
 /// Whether a block has a word, in lower case.

@@ -34,6 +34,16 @@ pub(super) enum Node<'m> {
     },
 }
 
+/// The number of statements in a block.
+pub(super) fn size(block: &Block<'_>) -> usize {
+    let of = |node: &Node<'_>| match node {
+        Node::Branches { parts, .. } => parts.iter().map(size).sum::<usize>() + 1,
+        Node::Loop { body, .. } => size(body) + 1,
+        _ => 1,
+    };
+    block.iter().map(of).sum()
+}
+
 /// The statements of a routine.
 #[derive(Default)]
 pub(super) struct Body<'m> {

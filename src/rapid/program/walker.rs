@@ -10,9 +10,8 @@ use core::ops::Deref;
 use nalgebra::Vector3;
 
 use super::frame::Frame;
-use super::loops::size;
 use super::state::{Here, State};
-use super::tree::{Block, Node};
+use super::tree::{Block, Node, size};
 use super::values::Scope;
 use super::whole::Program;
 use crate::interrupt::Interrupt;
@@ -102,7 +101,7 @@ pub(super) struct Walk<'p, 'm> {
     /// Chains of calls: the number of each by that of the chain before its last call, with the
     /// module and the first byte of that call.
     pub(super) chains: BTreeMap<(usize, usize, usize), usize>,
-    /// The routines that are being followed, above that of the frame.
+    /// The routines that are being followed and called the one of the frame.
     pub(super) above: Vec<(usize, String)>,
     /// Statements, moves among them, and their way that may still be followed in calls and loops.
     pub(super) steps_left: usize,

@@ -203,7 +203,7 @@ fn the_first_of_several_assignments_is_named() {
     let set = "PROC set()\np:=out;\nENDPROC\n";
     let go = "PROC go()\nMoveJ p,v100,fine,t;\nENDPROC\n";
     let declared = format!("{}VAR robtarget p:=a;\n", data());
-    // The order of the text decides, not that of the names of routines.
+    // The order of the text decides, not the names of routines.
     for (routines, line) in [(format!("{set}{main}"), 3), (format!("{main}{set}"), 4)] {
         let main = format!("MODULE Main\n{routines}ENDMODULE");
         let part = format!("MODULE Part\n{go}ENDMODULE");
