@@ -258,6 +258,7 @@ fn record(
     modules: &[&Module],
     left: &mut usize,
 ) -> PyResult<Finding> {
+    py.check_signals()?;
     if let Some(unknown) = finding.unknown.as_ref().filter(|_| *left > 0) {
         let names = rapid::candidates(&finding, modules);
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
