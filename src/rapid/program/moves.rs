@@ -84,16 +84,19 @@ impl Scope<'_, '_> {
                     argument.text.clone_from(given);
                 }
             }
-            // The reader knows better why, except of parameters and of lines of other modules.
+            // The reader knows better why, except of parameters and of lines that it does not name.
             Err(reason) => {
-                let is_elsewhere = matches!(
+                let is_assigned =
+                    matches!(reason, Reason::Reference { why: Unresolved::Assigned { .. }, .. });
+                let is_named = matches!(
                     &argument.value,
                     Err(Reason::Reference {
-                        why: Unresolved::Assigned { by: AssignedBy::Module(..) },
+                        why: Unresolved::Assigned { by: AssignedBy::Line(_) },
                         ..
                     })
                 );
-                if argument.value.is_ok() || is_parameter(&argument.value) || is_elsewhere {
+                let is_better = is_parameter(&argument.value) || is_assigned && !is_named;
+                if argument.value.is_ok() || is_better {
                     argument.value = Err(frame.named(reason));
                 }
             }
