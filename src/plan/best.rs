@@ -1,8 +1,9 @@
 //! The best joint path through the layers: how wide its windows need to be, and the turns of which
 //! joints need to be counted; the best closed one (docs/guide/plan.md, sections 3, 6).
 
+use alloc::vec;
 use alloc::vec::Vec;
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 use super::answer::PlanError;
 use super::graph::Node;
@@ -82,7 +83,8 @@ impl Ladder<'_> {
     /// reached; `None` without a node to begin at.
     ///
     /// Turns are counted only of joints for which the best joint path without would leave the
-    /// limits: it is the best under fewer conditions, so if it meets all of them, it is the best.
+    /// limits, or cost more than at the turns amid them: it is the best under fewer conditions, so
+    /// if it meets all of them, it is the best.
     pub(super) fn best_path(
         &self,
         from: usize,
@@ -97,7 +99,7 @@ impl Ladder<'_> {
                     let others = ties.filter_map(|tie| self.with_turns(tie, from, states).ok());
                     return Ok(Some(self.with_most_room(path, others)));
                 }
-                Err(joint) => states.add(joint, self.joints)?,
+                Err(joints) => states.add(&joints, self.joints)?,
             }
         }
     }
@@ -167,8 +169,8 @@ impl Ladder<'_> {
                     Some(parts) => open.extend(parts),
                     None => match self.with_turns(region.found, 0, states) {
                         Ok(path) => return Ok(Some(path)),
-                        Err(joint) => {
-                            states.add(joint, self.joints)?;
+                        Err(joints) => {
+                            states.add(&joints, self.joints)?;
                             continue 'with_turns;
                         }
                     },
@@ -305,18 +307,44 @@ impl Ladder<'_> {
         }
     }
 
-    /// The joint angles of a joint path with their turns; otherwise a joint whose turns have to be
-    /// counted, because it would leave its limits or miss the ends.
+    /// Of the joints whose turns are not counted, those whose turns along a joint path cost more
+    /// than those that the search assumed, the ones amid the limits.
+    fn costlier_turns(
+        &self,
+        from: usize,
+        rows: &[[f64; 6]],
+        states: &TurnStates,
+        squares: f64,
+    ) -> Vec<usize> {
+        let Some(cost) = self.node_cost else { return Vec::new() };
+        let mut above = [0.0; 6];
+        // The first node costs nothing.
+        for (step, q) in rows.iter().enumerate().skip(1) {
+            let amid = self.joints.amid(q);
+            for joint in (0..6).filter(|joint| !states.has(*joint)) {
+                if !self.joints.is_wide(joint) && (q[joint] - amid[joint]).abs() > PI {
+                    let mut other = *q;
+                    other[joint] = amid[joint];
+                    let time = self.time(from + step);
+                    above[joint] += cost.at(q, time) - cost.at(&other, time);
+                }
+            }
+        }
+        (0..6).filter(|joint| above[*joint] > BOTTLENECK_ROUNDING * squares).collect()
+    }
+
+    /// The joint angles of a joint path with their turns; otherwise joints whose turns have to be
+    /// counted, because they would leave their limits, miss the ends or cost more.
     fn with_turns(
         &self,
         found: Found,
         from: usize,
         states: &TurnStates,
-    ) -> Result<JointPath, usize> {
+    ) -> Result<JointPath, Vec<usize>> {
         let Found { nodes, states: [begin, _], bottleneck, squares, slots } = found;
         let mut turns = states.turns(begin);
         for joint in (0..6).filter(|joint| !states.has(*joint)) {
-            turns[joint] = self.turn_along(&nodes, from, joint).ok_or(joint)?;
+            turns[joint] = self.turn_along(&nodes, from, joint).ok_or_else(|| vec![joint])?;
         }
         let mut before: Option<[f64; 6]> = None;
         let mut rows = Vec::with_capacity(nodes.len());
@@ -329,6 +357,10 @@ impl Ladder<'_> {
             }
             let angle = |joint: usize| self.joints.angle(joint, q[joint], turns[joint]);
             rows.push(core::array::from_fn(angle));
+        }
+        let costlier = self.costlier_turns(from, &rows, states, squares);
+        if !costlier.is_empty() {
+            return Err(costlier);
         }
         Ok(JointPath { from, nodes, q: rows, bottleneck, squares, slots })
     }

@@ -254,14 +254,6 @@ impl<'a> NodeCost<'a> {
         (limits > 0.0 || singularities > 0.0).then_some(Self { robot, limits, singularities })
     }
 
-    /// Whether the turns of a joint differ in cost.
-    pub(super) fn depends_on_turns(&self, joints: &PlannedJoints, joint: usize) -> bool {
-        self.limits > 0.0
-            && joints.wraps[joint]
-            && !joints.is_unlimited(joint)
-            && !joints.is_wide(joint)
-    }
-
     /// The cost of joint angles at which a step ends that takes `time` [s].
     pub(super) fn at(&self, q: &[f64; 6], time: f64) -> f64 {
         let mut cost = 0.0;
@@ -282,26 +274,63 @@ pub(super) struct TurnStates {
     joints: [Option<usize>; 6],
     /// The turns of each state; 0 of the other joints.
     turns: Vec<[i32; 6]>,
+    /// What a turn of each joint adds to the code of a state; 0 if its turns are not counted.
+    pub(super) strides: [f64; 6],
+    /// The code of each state, and the state of each code: there are codes of one turn before the
+    /// first and of one after the last, too.
+    codes: Vec<f64>,
+    by_code: Vec<Option<usize>>,
 }
 
 impl Default for TurnStates {
     fn default() -> Self {
-        Self { joints: [None; 6], turns: vec![[0; 6]] }
+        Self::new([None; 6])
     }
 }
 
 impl TurnStates {
-    /// Count the turns of another joint.
-    pub(super) fn add(&mut self, joint: usize, joints: &PlannedJoints) -> Result<(), Error> {
-        let found = self.len().saturating_mul(joints.count(joint));
+    fn new(joints: [Option<usize>; 6]) -> Self {
+        let (mut strides, mut size) = ([0.0; 6], 1);
+        for (stride, count) in strides.iter_mut().zip(joints) {
+            let Some(count) = count else { continue };
+            *stride = f64::from(whole(size));
+            size *= count + 2;
+        }
+        let states = 0..joints.iter().flatten().product();
+        let turns: Vec<[i32; 6]> = states.map(|state| decoded(&joints, state)).collect();
+        let code = |turns: &[i32; 6]| {
+            turns.iter().zip(strides).map(|(turn, stride)| f64::from(turn + 1) * stride).sum()
+        };
+        let codes: Vec<f64> = turns.iter().map(code).collect();
+        let mut by_code = vec![None; size];
+        for (state, code) in codes.iter().enumerate() {
+            by_code[count(*code)] = Some(state);
+        }
+        Self { joints, turns, strides, codes, by_code }
+    }
+
+    /// Count the turns of other joints.
+    pub(super) fn add(&mut self, others: &[usize], joints: &PlannedJoints) -> Result<(), Error> {
+        let turns = others.iter().map(|joint| joints.count(*joint));
+        let found = turns.fold(self.len(), usize::saturating_mul);
         if found > MOST_TURN_STATES {
             #[expect(clippy::cast_precision_loss, reason = "for a message")]
             let found = found as f64;
             return Err(PlanFault::Turns { found, most: MOST_TURN_STATES }.into());
         }
-        self.joints[joint] = Some(joints.count(joint));
-        self.turns = (0..found).map(|state| self.decoded(state)).collect();
+        let mut counted = self.joints;
+        for joint in others {
+            counted[*joint] = Some(joints.count(*joint));
+        }
+        *self = Self::new(counted);
         Ok(())
+    }
+
+    /// The state from which an edge leads to another, by the code of the turns that it carries, at
+    /// most one of each joint.
+    #[inline]
+    pub(super) fn before(&self, state: usize, carried: f64) -> Option<usize> {
+        *self.by_code.get(count(self.codes[state] + carried))?
     }
 
     pub(super) fn has(&self, joint: usize) -> bool {
@@ -316,17 +345,6 @@ impl TurnStates {
     /// The turn of each joint in a state; 0 of a joint whose turns are not counted.
     pub(super) fn turns(&self, state: usize) -> [i32; 6] {
         self.turns[state]
-    }
-
-    fn decoded(&self, mut state: usize) -> [i32; 6] {
-        core::array::from_fn(|joint| match self.joints[joint] {
-            None => 0,
-            Some(count) => {
-                let turn = state % count;
-                state /= count;
-                whole(turn)
-            }
-        })
     }
 
     /// The state of turns, if they have one.
@@ -346,6 +364,18 @@ impl TurnStates {
         let turns = self.turns(state);
         (0..6).all(|joint| !self.has(joint) || turns[joint] <= joints.last_turn(joint, q[joint]))
     }
+}
+
+/// The turn of each joint in a state; 0 of a joint whose turns are not counted.
+fn decoded(joints: &[Option<usize>; 6], mut state: usize) -> [i32; 6] {
+    joints.map(|count| match count {
+        None => 0,
+        Some(count) => {
+            let turn = state % count;
+            state /= count;
+            whole(turn)
+        }
+    })
 }
 
 fn count(number: f64) -> usize {

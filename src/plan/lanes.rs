@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
 use super::graph::Moved;
-use super::joints::PlannedJoints;
+use super::joints::{PlannedJoints, TurnStates};
 use crate::lanes::{Column, Kernel, LANES, nearest_whole};
 
 /// Factors of the costs of the edges into a layer.
@@ -85,6 +85,8 @@ struct Edges {
     block: usize,
     most: Column,
     squares: Column,
+    /// The code of the turns that each carries, if any does.
+    carried: Option<Column>,
 }
 
 /// Memory that a search keeps from layer to layer.
@@ -95,8 +97,7 @@ pub(super) struct Work {
     edges: Vec<Edges>,
 }
 
-/// The best edges into the targets from nodes on their branches and, of joints whose turns are
-/// counted, at their turns.
+/// The best edges into the targets from nodes on their branches.
 pub(super) struct Relaxation<'a, const SQUARES: bool> {
     /// Joint angles of the layer before, and the costs of the paths to its nodes: for each
     /// combination of turns, of each node.
@@ -107,11 +108,10 @@ pub(super) struct Relaxation<'a, const SQUARES: bool> {
     /// Costs of the paths to the nodes of the next layer, and which node each comes from.
     pub(super) after: &'a mut [Column],
     pub(super) by: &'a mut [[u32; LANES]],
-    /// The cost of each node, for each combination of turns; empty if none.
-    pub(super) node_costs: &'a [Column],
     pub(super) rates: Rates,
-    /// Joints whose turns are counted.
-    pub(super) counted: [bool; 6],
+    pub(super) states: &'a TurnStates,
+    /// Whether a joint path leads to each combination of turns.
+    pub(super) live: &'a [bool],
     pub(super) cap: f64,
     pub(super) work: &'a mut Work,
 }
@@ -131,27 +131,41 @@ impl<const SQUARES: bool> Kernel for Relaxation<'_, SQUARES> {
                 if self.are_too_fast(&source, next) {
                     continue;
                 }
-                let [most, squares] = self.costs(&source, next);
+                let [most, squares, carried] = self.costs(&source, next);
                 if self.is_any_within(&source, &most) {
-                    self.work.edges.push(Edges { block: source.block, most, squares });
+                    let turned = core::array::from_fn(|lane| {
+                        if carried[lane] == 0.0 { f64::NAN } else { most[lane] }
+                    });
+                    let carried = self.is_any_within(&source, &turned).then_some(carried);
+                    self.work.edges.push(Edges { block: source.block, most, squares, carried });
                 }
             }
-            let mut state = 0;
-            while state < self.after.len() {
-                self.enter(state, block, next);
-                state += self.q.len();
+            let is_any_carried = self.work.edges.iter().any(|edges| edges.carried.is_some());
+            for state in 0..self.states.len() {
+                if self.live[state] || is_any_carried {
+                    self.enter(state, block, next);
+                }
             }
         }
     }
 }
 
 impl<const SQUARES: bool> Relaxation<'_, SQUARES> {
-    /// Take the best edges for a combination of turns, whose costs begin at `state`.
+    /// Take the best edges for a combination of turns.
     #[inline(always)]
     fn enter(&mut self, state: usize, block: usize, next: &[Column; 6]) {
+        let size = self.q.len();
+        let at = state * size + block;
         let (mut best, mut best_block) = ([f64::INFINITY; LANES], [0_u64; LANES]);
-        for Edges { block, most, squares } in &self.work.edges {
-            let cost = &self.before[state + block];
+        for Edges { block, most, squares, carried } in &self.work.edges {
+            let mut cost = self.before[state * size + block];
+            if let Some(carried) = carried {
+                for lane in 0..LANES {
+                    let before = self.states.before(state, carried[lane]);
+                    let cost_before = before.map(|before| self.before[before * size + block][lane]);
+                    cost[lane] = cost_before.unwrap_or(f64::INFINITY);
+                }
+            }
             for lane in 0..LANES {
                 let continued = if SQUARES {
                     cost[lane] + squares[lane]
@@ -170,19 +184,14 @@ impl<const SQUARES: bool> Relaxation<'_, SQUARES> {
             best[lane] = if next[0][lane].is_nan() { f64::INFINITY } else { best[lane] };
         }
         if SQUARES {
-            if let Some(costs) = self.node_costs.get(state + block) {
-                for lane in 0..LANES {
-                    best[lane] += costs[lane];
-                }
-            }
-            let by = &mut self.by[state + block];
+            let by = &mut self.by[at];
             for lane in 0..LANES {
                 #[expect(clippy::cast_possible_truncation, reason = "nodes of a layer are few")]
                 let number = (LANES as u64 * best_block[lane]) as u32 + lane as u32;
                 by[lane] = number;
             }
         }
-        self.after[state + block] = best;
+        self.after[at] = best;
     }
 
     /// Whether all of eight edges are above the cap, by the step of the last joint alone: of all
@@ -212,10 +221,12 @@ impl<const SQUARES: bool> Relaxation<'_, SQUARES> {
         any
     }
 
-    /// The two costs of eight edges side by side (eq. 3, 4).
+    /// The two costs of eight edges side by side (eq. 3, 4), and the codes of the turns that they
+    /// carry.
     #[inline(always)]
-    fn costs(&self, source: &Source, next: &[Column; 6]) -> [Column; 2] {
+    fn costs(&self, source: &Source, next: &[Column; 6]) -> [Column; 3] {
         let (mut most, mut squares) = ([source.moved.most; LANES], [source.moved.squares; LANES]);
+        let mut carried = [0.0; LANES];
         for joint in 0..6 {
             let before = &self.q[source.block][joint];
             let mut step = [0.0; LANES];
@@ -223,13 +234,11 @@ impl<const SQUARES: bool> Relaxation<'_, SQUARES> {
                 step[lane] = next[joint][lane] - before[lane];
             }
             if self.rates.wraps[joint] {
-                let is_counted = self.counted[joint];
+                let stride = self.states.strides[joint];
                 for lane in 0..LANES {
                     let turns = nearest_whole(step[lane] * (1.0 / TAU));
                     step[lane] -= TAU * turns;
-                    // Edges to another turn are not taken in lanes.
-                    let leaves = is_counted & (turns != 0.0);
-                    most[lane] = if leaves { f64::INFINITY } else { most[lane] };
+                    carried[lane] += stride * turns;
                 }
             }
             for lane in 0..LANES {
@@ -240,6 +249,6 @@ impl<const SQUARES: bool> Relaxation<'_, SQUARES> {
                 }
             }
         }
-        [most, squares]
+        [most, squares, carried]
     }
 }

@@ -65,11 +65,6 @@ impl<'a> Planner<'a> {
             order: options.order,
             states: TurnStates::default(),
         };
-        for joint in 0..6 {
-            if arm.node_cost.is_some_and(|cost| cost.depends_on_turns(arm.joints, joint)) {
-                planner.states.add(joint, arm.joints)?;
-            }
-        }
         let [first, last] = given;
         let closing = if options.closed { first } else { last };
         let count = planner.layers.len();

@@ -5,15 +5,11 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::graph::{Edge, Node, Window};
-use super::joints::{TurnStates, whole};
+use super::joints::TurnStates;
 use super::ladder::Ladder;
 use super::lanes::{Pass, Relaxation, Source, Target, Work};
 use super::windows::Windows;
 use crate::lanes::{LANES, run};
-
-/// Difference of two angles of a joint that may lead to another turn [rad]: a little less than half
-/// a turn.
-const OTHER_TURN: f64 = 3.0;
 
 /// Sources of edges that are kept at a time.
 const MOST_SOURCES: usize = 4096;
@@ -71,13 +67,11 @@ pub(super) struct End {
 }
 
 /// A step to a layer, and how it is taken.
-struct Step<'a> {
+struct Step {
     layer: usize,
     pass: Pass,
     cap: f64,
     window: Window,
-    /// The cost of each node of the layer, for each combination of turns; empty if none.
-    node_costs: &'a [f64],
 }
 
 /// The costs before and after a step, and which node each node is entered from.
@@ -85,6 +79,8 @@ struct Costs<'a> {
     before: &'a [f64],
     after: &'a mut [f64],
     by: &'a mut [u32],
+    /// Whether any node is reached, for each combination of turns.
+    live: &'a [bool],
 }
 
 impl Search<'_> {
@@ -101,7 +97,6 @@ impl Search<'_> {
         let is_summed = pass == Pass::Squares;
         let mut all_by = vec![0; if is_summed { (to - from) * size } else { 0 }];
         let mut unused = vec![0; if is_summed { 0 } else { size }];
-        let mut node_costs = Vec::new();
         let mut slots = vec![SlotReach { layer: from, nodes: Vec::new() }; grid.slots];
         let mut live = vec![[true; LANES]; grid.len() / LANES];
         let mut work = Work::default();
@@ -110,21 +105,22 @@ impl Search<'_> {
             if interrupt.ends(layer) {
                 return None;
             }
-            if is_summed {
-                self.add_node_costs(layer, &mut node_costs);
-            }
             let by = if is_summed {
                 &mut all_by[(layer - from - 1) * size..(layer - from) * size]
             } else {
                 &mut unused[..]
             };
-            // Edges to another turn are infinitely fast in lanes, and are left out there.
-            let cap = cap.min(layers[layer].cap).min(f64::MAX);
+            let cap = cap.min(layers[layer].cap);
             let window = self.windows.at(layer);
-            let step = Step { layer, pass, cap, window, node_costs: &node_costs };
-            let mut costs = Costs { before: &before, after: &mut after, by };
+            let step = Step { layer, pass, cap, window };
+            let is_live = |costs: &[f64]| costs.iter().any(|cost| *cost < f64::INFINITY);
+            let states: Vec<bool> = before.chunks(grid.len()).map(is_live).collect();
+            let mut costs = Costs { before: &before, after: &mut after, by, live: &states };
             self.step(&step, &mut costs, &live, &mut work);
             self.relax_singly(&step, &mut costs);
+            if is_summed {
+                self.add_node_costs(layer, &mut after);
+            }
             if !self.notes_reached(layer, [&before, &after], &mut live, &mut slots) {
                 return Some(Passed { reached: layer - 1, slots, costs: before, by: all_by });
             }
@@ -133,24 +129,24 @@ impl Search<'_> {
         Some(Passed { reached: to, slots, costs: before, by: all_by })
     }
 
-    /// The cost of each node of a layer, with each combination of turns.
-    fn add_node_costs(&self, layer: usize, costs: &mut Vec<f64>) {
+    /// Add the cost of each node of a layer that is reached, with each combination of turns.
+    fn add_node_costs(&self, layer: usize, costs: &mut [f64]) {
         let Ladder { grid, joints, layers, node_cost: Some(node_cost), .. } = self.ladder else {
             return;
         };
-        costs.resize(self.states.len() * grid.len(), 0.0);
         for (node, q) in layers[layer].nodes(&grid) {
-            for state in 0..self.states.len() {
+            let amid = joints.amid(&q);
+            let own = costs.iter_mut().skip(grid.number(node)).step_by(grid.len());
+            for (state, cost) in own.enumerate().filter(|(_, cost)| **cost < f64::INFINITY) {
                 let turns = self.states.turns(state);
-                let amid = joints.amid(&q);
+                // Of a joint whose turns are not counted, no turn costs less than the one amid.
                 let q = core::array::from_fn(|joint| {
-                    if joints.is_wide(joint) && !self.states.has(joint) {
+                    if !self.states.has(joint) {
                         return amid[joint];
                     }
                     joints.angle(joint, q[joint], turns[joint])
                 });
-                let at = state * grid.len() + grid.number(node);
-                costs[at] = node_cost.at(&q, self.ladder.time(layer));
+                *cost += node_cost.at(&q, self.ladder.time(layer));
             }
         }
     }
@@ -246,13 +242,7 @@ impl Search<'_> {
     }
 
     /// Take the edges on their own branch.
-    fn step(
-        &self,
-        step: &Step<'_>,
-        costs: &mut Costs<'_>,
-        live: &[[bool; LANES]],
-        work: &mut Work,
-    ) {
+    fn step(&self, step: &Step, costs: &mut Costs<'_>, live: &[[bool; LANES]], work: &mut Work) {
         let Ladder { grid, layers, .. } = self.ladder;
         let blocks = grid.width / LANES;
         costs.after.fill(f64::INFINITY);
@@ -278,7 +268,7 @@ impl Search<'_> {
     }
 
     /// Take the edges from sources into targets, in lanes; empty both.
-    fn step_in_lanes(&self, step: &Step<'_>, costs: &mut Costs<'_>, work: &mut Work) {
+    fn step_in_lanes(&self, step: &Step, costs: &mut Costs<'_>, work: &mut Work) {
         let layers = self.ladder.layers;
         macro_rules! relax {
             ($squares:literal) => {
@@ -288,9 +278,9 @@ impl Search<'_> {
                     next: &layers[step.layer].q,
                     after: costs.after.as_chunks_mut().0,
                     by: costs.by.as_chunks_mut().0,
-                    node_costs: step.node_costs.as_chunks().0,
                     rates: self.ladder.rates(step.layer),
-                    counted: core::array::from_fn(|joint| self.states.has(joint)),
+                    states: self.states,
+                    live: costs.live,
                     cap: step.cap,
                     work: &mut *work,
                 })
@@ -304,10 +294,10 @@ impl Search<'_> {
         work.sources.clear();
     }
 
-    /// Take the edges that lanes do not take: those to another turn, those into nodes with a
-    /// refused edge, and those from one branch to another.
-    fn relax_singly(&self, step: &Step<'_>, costs: &mut Costs<'_>) {
-        let Ladder { grid, layers, .. } = self.ladder;
+    /// Take the edges that lanes do not take: those into nodes with a refused edge, and those from
+    /// one branch to another. Leave out the turns that a node does not have.
+    fn relax_singly(&self, step: &Step, costs: &mut Costs<'_>) {
+        let Ladder { grid, joints, layers, .. } = self.ladder;
         let next = &layers[step.layer];
         let mut refused: Vec<usize> = next.refused.iter().map(|[_, to]| *to).collect();
         refused.sort_unstable();
@@ -320,7 +310,12 @@ impl Search<'_> {
         }
         if self.states.len() > 1 {
             for (node, q) in next.nodes(&grid) {
-                self.turn(step, grid.number(node), &q, costs);
+                let own = costs.after.iter_mut().skip(grid.number(node)).step_by(grid.len());
+                for (state, cost) in own.enumerate().filter(|(_, cost)| **cost < f64::INFINITY) {
+                    if !self.states.holds(joints, &q, state) {
+                        *cost = f64::INFINITY;
+                    }
+                }
             }
         }
         for edge in next.crossings.iter().filter(|edge| !next.refused.contains(edge)) {
@@ -329,7 +324,7 @@ impl Search<'_> {
     }
 
     /// Take all edges on its own branch into a node.
-    fn enter(&self, step: &Step<'_>, number: usize, costs: &mut Costs<'_>) {
+    fn enter(&self, step: &Step, number: usize, costs: &mut Costs<'_>) {
         let Ladder { grid, layers, .. } = self.ladder;
         let node = grid.node(number);
         for cell in grid.around(node.cell, &step.window) {
@@ -340,31 +335,8 @@ impl Search<'_> {
         }
     }
 
-    /// Leave out the turns that a node does not have; take the edges into it that lead to another
-    /// turn.
-    fn turn(&self, step: &Step<'_>, number: usize, q: &[f64; 6], costs: &mut Costs<'_>) {
-        let Ladder { grid, joints, layers, .. } = self.ladder;
-        let counted = || (0..6).filter(|joint| self.states.has(*joint));
-        if counted().any(|joint| joints.last_turn(joint, q[joint]) + 1 < whole(joints.count(joint)))
-        {
-            for state in (0..self.states.len()).filter(|s| !self.states.holds(joints, q, *s)) {
-                costs.after[state * grid.len() + number] = f64::INFINITY;
-            }
-        }
-        let node = grid.node(number);
-        let is_far = |cell: usize| {
-            let before = layers[step.layer - 1].joints(&grid, Node { cell, ..node });
-            before.is_some_and(|before| {
-                counted().any(|joint| (q[joint] - before[joint]).abs() > OTHER_TURN)
-            })
-        };
-        if grid.around(node.cell, &step.window).any(is_far) {
-            self.enter(step, number, costs);
-        }
-    }
-
     /// Take an edge if it is better than the one that was taken, for every combination of turns.
-    fn relax(&self, step: &Step<'_>, edge: Edge, costs: &mut Costs<'_>) {
+    fn relax(&self, step: &Step, edge: Edge, costs: &mut Costs<'_>) {
         let Ladder { grid, joints, layers, .. } = self.ladder;
         let [from, to] = edge.map(|number| grid.node(number));
         let q_before = layers[step.layer - 1].joints(&grid, from);
@@ -386,8 +358,7 @@ impl Search<'_> {
             let turns_before = core::array::from_fn(|joint| turns[joint] + carried[joint]);
             let Some(state_before) = self.states.state(&turns_before) else { continue };
             let (before, at) = (state_before * grid.len() + from, state * grid.len() + to);
-            let node_cost = step.node_costs.get(at).copied().unwrap_or_default();
-            let continued = step.pass.continued(costs.before[before], cost, step.cap) + node_cost;
+            let continued = step.pass.continued(costs.before[before], cost, step.cap);
             if continued < costs.after[at] {
                 costs.after[at] = continued;
                 if let Some(by) = costs.by.get_mut(at) {

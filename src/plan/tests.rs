@@ -99,7 +99,7 @@ fn the_best_path_is_that_of_an_exhaustive_search() {
         let freedom = random_freedom(&mut rng);
         let (grid, layers) = random_layers(&mut rng, &joints, &freedom);
         let speed = if case % 3 == 0 { rng.between(2.0, 12.0) } else { f64::INFINITY };
-        let (order, node_cost, mut states) = random_costs(&mut rng, &robot, &joints);
+        let (order, node_cost) = random_costs(&mut rng, &robot);
         let ladder = Ladder {
             grid,
             joints: &joints,
@@ -114,7 +114,7 @@ fn the_best_path_is_that_of_an_exhaustive_search() {
             interrupt: Interrupt::none(),
         };
         let (count, bottleneck, squares) = exhaustive(&ladder, |_, _| true);
-        let Some(best) = ladder.best_path(0, &mut states).unwrap() else {
+        let Some(best) = ladder.best_path(0, &mut TurnStates::default()).unwrap() else {
             assert_eq!(count, 0, "case {case}");
             continue;
         };
@@ -131,22 +131,12 @@ fn the_best_path_is_that_of_an_exhaustive_search() {
     assert!(whole > 3_000, "{whole} whole paths");
 }
 
-/// An order of costs and, in half of the cases, costs of being near limits and singularities, with
-/// the joints whose turns they make count.
-fn random_costs<'a>(
-    rng: &mut Rng,
-    robot: &'a Robot<6>,
-    joints: &PlannedJoints,
-) -> (PlanOrder, Option<NodeCost<'a>>, TurnStates) {
+/// An order of costs and, in half of the cases, costs of being near limits and singularities.
+fn random_costs<'a>(rng: &mut Rng, robot: &'a Robot<6>) -> (PlanOrder, Option<NodeCost<'a>>) {
     let order = if below(rng, 2) == 0 { PlanOrder::Bottleneck } else { PlanOrder::Sum };
     let mut cost = || if below(rng, 4) == 0 { rng.between(0.0, 1e4) } else { 0.0 };
-    let (node_cost, mut states) = (NodeCost::new(robot, cost(), cost()), TurnStates::default());
-    for joint in 0..6 {
-        if node_cost.is_some_and(|cost| cost.depends_on_turns(joints, joint)) {
-            states.add(joint, joints).unwrap();
-        }
-    }
-    (order, node_cost, states)
+    let node_cost = NodeCost::new(robot, cost(), cost());
+    (order, node_cost)
 }
 
 /// A track with a few values or none, and a few tool angles or none, all around or not.
@@ -179,7 +169,7 @@ fn the_best_closed_path_is_that_of_an_exhaustive_search() {
         let last = rest.last_mut().unwrap();
         last.q = first.q.clone();
         last.first = first.first;
-        let (order, node_cost, mut states) = random_costs(&mut rng, &robot, &joints);
+        let (order, node_cost) = random_costs(&mut rng, &robot);
         let ladder = Ladder {
             grid,
             joints: &joints,
@@ -197,7 +187,7 @@ fn the_best_closed_path_is_that_of_an_exhaustive_search() {
             first.number == last.number && largest(&steps(&first.q, &last.q)) < 1e-9
         };
         let (count, bottleneck, squares) = exhaustive(&ladder, is_closed);
-        let best = ladder.best_closed_path(&mut states).unwrap();
+        let best = ladder.best_closed_path(&mut TurnStates::default()).unwrap();
         assert_eq!(best.is_some(), count == layers.len(), "case {case}");
         let Some(best) = best else { continue };
         assert!(
