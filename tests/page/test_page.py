@@ -94,6 +94,68 @@ def test_every_arm_of_the_catalog_opens_and_is_drawn(opened):
         assert page.evaluate("() => irbkin.arm.meshes.some((it) => it.index.length)")
 
 
+def choose_arm(page, name):
+    """Type the name of an arm, as a person does."""
+    page.get_by_label("arm", exact=True).fill(name)
+    page.keyboard.press("Enter")
+    page.wait_for_function("(name) => irbkin.state.name === name", arg=name)
+    state(page)
+
+
+def test_another_arm_is_seen_whole(opened):
+    """Also one with more axes or fewer than the arm before."""
+    page = opened()
+    for name in ("Panda", "UR5e", "IRB 14000-0.5/0.5 (left)", "IRB 8700-800/3.5"):
+        choose_arm(page, name)
+        target = page.evaluate("() => irbkin.view.camera.target")
+        at = page.evaluate("""() => {
+            const { camera } = irbkin.view;
+            const points = irbkin.arm.points(irbkin.state.q).map((it) => camera.project(it));
+            return points.map(([x, y]) => [x / camera.size[0], y / camera.size[1]]);
+        }""")
+        # JSON has no NaN: a number that is none is null.
+        assert None not in target, name
+        assert 0 < np.min(at) < np.max(at) < 1, name
+        # And no smaller than it needs to be.
+        assert np.ptp(at, axis=0).max() > 0.4, name
+
+
+def test_the_page_says_whether_an_arm_moves_toward_what_it_does_not_reach(opened):
+    page = opened()
+    for q, words, moves in (
+        ([0.1, 0.3, 0.2, 0.4, 0.5, 0.6], "as near as it gets on the straight way.", True),
+        # Of this pose no solution is inside the limits.
+        ([2.2, -2.9, 1.4, -2.0, 2.3, 0.3], "The arm stays where it is.", False),
+    ):
+        page.evaluate("(q) => irbkin.setJoints(q)", q)
+        page.fill("aside textarea", "")
+        page.fill("aside textarea", "2900 -300 500 180 0 180")
+        assert (state(page)["q"] != q) == moves
+        assert page.locator(".verdict").inner_text().endswith(words)
+
+
+def test_confdata_are_not_the_reason_where_reach_is(opened):
+    page = opened()
+    words = page.locator("textarea + p")
+    conf = "[0,-1,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+    page.fill("aside textarea", f"[[2900,-300,500],[0,0,1,0],{conf}")
+    state(page)
+    assert words.inner_text() == "read as a robtarget"
+    page.fill("aside textarea", f"[[900,-300,500],[0,0,1,0],{conf}")
+    state(page)
+    assert "no solution inside the limits has its confdata [0, -1, 0, 0]" in words.inner_text()
+
+
+def test_what_was_said_with_an_arm_is_gone_with_it(opened):
+    page = opened(hash="arm=UR5e&tool=0,0,150,0,0,0")
+    page.fill("aside textarea", "hello")
+    words = page.locator("textarea + p")
+    assert "hello" in words.inner_text()
+    choose_arm(page, "Panda")
+    assert words.inner_text() == ""
+    np.testing.assert_allclose(np.reshape(state(page)["tool"], (4, 4)), np.eye(4))
+
+
 def test_dragging_the_handle_changes_the_solutions(opened):
     page = opened()
     before = settled(page)

@@ -77,15 +77,23 @@ class App {
   }
 
   // Take another arm: of the catalog, or of a URDF, drawn as in a scene if it is of one.
-  async setArm(source, q) {
-    const { tool, base } = this.state;
+  async setArm(source, q, otherTool) {
+    const { base } = this.state;
+    const tool = otherTool ?? this.state.tool;
     const { name, urdf, tip } = source;
     const robot = await this.tell({ do: "robot", name, urdf, tip, tool: toRows(tool), base_pose: toRows(base) });
+    if (otherTool) this.state.tool = otherTool;
     return this.takeArm(robot, source.drawn?.(base, tool) ?? DrawnArm.ofEngine(robot), source, q);
   }
 
+  // Another arm, of a user: base and work object are of the cell and stay. The tool was of the arm
+  // before, in fields that are folded: its poses would not be those of the flange.
+  changeArm(source) {
+    return this.setArm(source, undefined, identity());
+  }
+
   takeArm(robot, arm, source, q) {
-    const isOther = robot.name !== this.robot?.name;
+    const isOther = robot.name !== this.robot?.name || robot.dof !== this.robot.dof;
     Object.assign(this, { source, robot, arm });
     this.parts.node.classList.toggle("bare", !source);
     this.state.name = robot.name;
@@ -105,10 +113,13 @@ class App {
     if (isOther) {
       this.program.forgetMotion();
       Object.assign(this.view, { way: [], frames: [], marks: [], extra: [] });
+      // What was said of a text, was said with the arm before.
+      this.parts.pasteWords.textContent = "";
     }
-    if (isOther) this.view.fit();
     this.readProgram(isOther);
-    return this.setJoints(own);
+    const solving = this.setJoints(own);
+    if (isOther) this.view.fit();
+    return solving;
   }
 
   // Check the program again: at once with another arm, after a pause with another frame.
@@ -129,6 +140,7 @@ class App {
   setJoints(q, { light = false } = {}) {
     if (q.length !== this.robot.dof || !q.every(Number.isFinite)) return undefined;
     this.state.q = q;
+    this.from = q;
     this.state.T = this.arm.frames(q).tool;
     return this.solve(light);
   }
@@ -137,6 +149,8 @@ class App {
   setPose(T, { drag = false } = {}) {
     if (!this.source || !T.every(Number.isFinite)) return undefined;
     this.state.T = T;
+    // Of a drag, where it began.
+    if (!drag) this.from = this.state.q;
     return this.solve(drag, true);
   }
 
@@ -222,7 +236,8 @@ class App {
     else parts.verdict.textContent = state.refused ?? (state.isReached
       ? `${state.solutions.length} solutions, ${inside} inside the limits`
         + (state.certified ? ", certified to be all" : "")
-      : `Not reached: ${state.reason}. The arm is as near as it gets on the straight way.`);
+      : `Not reached: ${state.reason}. ${same(state.q, this.from)
+        ? "The arm stays where it is." : "The arm is as near as it gets on the straight way."}`);
     this.facts();
     this.view.ask();
   }
@@ -278,8 +293,11 @@ class App {
     } else if (target.q) {
       this.setJoints(target.q);
     } else {
-      this.setPose(multiply(wobj, fromRows(target.T)));
-      meant.form += `, whose confdata [${target.confdata.join(", ")}] no solution inside the limits has`;
+      await this.setPose(multiply(wobj, fromRows(target.T)));
+      // Out of reach, confdata are not the reason.
+      if (this.state.isReached) {
+        meant.form += `; no solution inside the limits has its confdata [${target.confdata.join(", ")}]`;
+      }
     }
   }
 
@@ -329,12 +347,12 @@ class App {
   // A URDF; of several ends, the one that is a tool's by its name.
   async setUrdf(name, text) {
     try {
-      await this.setArm({ urdf: text });
+      await this.changeArm({ urdf: text });
     } catch (fault) {
       const ends = fault.message.includes("tip must name") ? fault.message.match(/"[^"]+"/g) : null;
       const tip = ends?.map((it) => it.slice(1, -1)).find((it) => /tool|flange|tcp/i.test(it));
       if (!tip) throw fault;
-      await this.setArm({ urdf: text, tip });
+      await this.changeArm({ urdf: text, tip });
       this.notes.add(`${name} has several ends: the arm ends at ${tip}.`);
     }
   }

@@ -6,7 +6,7 @@ function panels(app) {
 
   parts.arm = el("input", {
     type: "search", list: "irbkin-arms", ariaLabel: "arm", spellcheck: false, className: "arm",
-    onchange: () => app.guard(parts.armWords, () => app.setArm({ name: parts.arm.value })),
+    onchange: () => app.guard(parts.armWords, () => app.changeArm({ name: parts.arm.value })),
     onfocus: () => parts.arm.select(),
   });
   parts.arms = el("datalist", { id: "irbkin-arms" });
