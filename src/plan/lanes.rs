@@ -136,7 +136,8 @@ impl<const SQUARES: bool> Kernel for Relaxation<'_, SQUARES> {
                     let turned = core::array::from_fn(|lane| {
                         if carried[lane] == 0.0 { f64::NAN } else { most[lane] }
                     });
-                    let carried = self.is_any_within(&source, &turned).then_some(carried);
+                    let is_turned = self.states.len() > 1 && self.is_any_within(&source, &turned);
+                    let carried = is_turned.then_some(carried);
                     self.work.edges.push(Edges { block: source.block, most, squares, carried });
                 }
             }

@@ -113,7 +113,9 @@ impl Search<'_> {
             let cap = cap.min(layers[layer].cap);
             let window = self.windows.at(layer);
             let step = Step { layer, pass, cap, window };
-            let is_live = |costs: &[f64]| costs.iter().any(|cost| *cost < f64::INFINITY);
+            let is_live = |costs: &[f64]| {
+                self.states.len() == 1 || costs.iter().any(|cost| *cost < f64::INFINITY)
+            };
             let states: Vec<bool> = before.chunks(grid.len()).map(is_live).collect();
             let mut costs = Costs { before: &before, after: &mut after, by, live: &states };
             self.step(&step, &mut costs, &live, &mut work);
