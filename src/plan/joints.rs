@@ -274,7 +274,7 @@ pub(super) struct TurnStates {
     joints: [Option<usize>; 6],
     /// The turns of each state; 0 of the other joints.
     turns: Vec<[i32; 6]>,
-    /// What a turn of each joint adds to the code of a state; 0 if its turns are not counted.
+    /// Step of a state's code for a turn of each joint; 0 if its turns are not counted.
     pub(super) strides: [f64; 6],
     /// The code of each state, and the state of each code: there are codes of one turn before the
     /// first and of one after the last, too.

@@ -113,7 +113,7 @@ class App {
     if (isOther) {
       this.program.forgetMotion();
       Object.assign(this.view, { way: [], frames: [], marks: [], extra: [] });
-      // What was said of a text, was said with the arm before.
+      // A sentence on a text holds of the arm before.
       this.parts.pasteWords.textContent = "";
     }
     this.readProgram(isOther);
