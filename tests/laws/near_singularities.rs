@@ -46,8 +46,10 @@ fn near_names_a_singularity_that_kinds_has_left<const N: usize>(structure: &Stru
                     };
                     let q = subject.arm.q(theta);
                     let found = near(subject, &q);
-                    // Where links of one length are folded, the shoulder is the wrist: no angle there.
-                    if *at == At::Forearm && found.contains(SingularityKind::ELBOW) {
+                    // Where links of about one length are folded, the shoulder is at the wrist: the
+                    // angle between axis 5 or 6 and the line to it is not determined.
+                    let is_on_axis = matches!(at, At::Forearm | At::Hand);
+                    if is_on_axis && found.contains(SingularityKind::ELBOW) {
                         continue;
                     }
                     assert!(found.contains(kind), "{}, {at:?} {off:e}: {found:?}", subject.name);
