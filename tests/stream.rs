@@ -137,14 +137,15 @@ impl<const N: usize> Burst<N> {
                 let [low, high] = limits.to_array()[i];
                 if rng.unit() < 0.3 { if rng.unit() < 0.5 { low } else { high } } else { here[i] }
             })),
-            _ => {
-                let goal = rng.inside(limits);
-                let limits = [LIMITS; N];
-                let synchronization = Synchronization::Time;
-                let motion = joint_within(Profile::SCurve, &here, &goal, &limits, synchronization);
-                Self::Recorded(motion.unwrap(), rng.between(0.9, 1.05))
-            }
+            _ => Self::recorded(case, rng),
         }
+    }
+
+    fn recorded(case: &Case<N>, rng: &mut Rng) -> Self {
+        let (here, goal) = (case.guard.q(), rng.inside(case.robot.limits()));
+        let synchronization = Synchronization::Time;
+        let motion = joint_within(Profile::SCurve, &here, &goal, &[LIMITS; N], synchronization);
+        Self::Recorded(motion.unwrap(), rng.between(0.9, 1.05))
     }
 
     fn step(&self, case: &mut Case<N>, at: usize, rng: &mut Rng) -> Step<N> {
@@ -215,6 +216,13 @@ fn bounds_hold<const N: usize>(robot: &Robot<N>, cycles: usize) {
         let (mut done, mut accepted, mut states) = (0, 0, [0; 3]);
         while done < cycles {
             let burst = Burst::drawn(&case, &mut rng);
+            // A recorded motion begins at rest; of several, the guard is at rest in every other.
+            let waits = matches!(burst, Burst::Recorded(..)) && rng.unit() < 0.5;
+            while waits && case.last.state != State::Holding {
+                let step = case.guard.step_none();
+                case.check(step);
+            }
+            let burst = if waits { Burst::recorded(&case, &mut rng) } else { burst };
             for at in 0..=(rng.bits() % 250) as usize {
                 let step = burst.step(&mut case, at, &mut rng);
                 case.check(step);
@@ -344,4 +352,191 @@ fn goals_are_reached_nearly_as_fast_as_they_can_be() {
     println!("{reached} of {tried} reached, the slowest in {slowest:.3} x, {changes} changes");
     assert!(100 * reached >= 95 * tried, "{reached} of {tried}");
     assert_eq!(changes, 0);
+}
+
+/// What a reference is disturbed by.
+#[derive(Clone, Copy, Debug)]
+enum Disturbance {
+    /// Evenly within a size [rad].
+    Noise(f64),
+    /// Of the time, evenly within so many cycles.
+    Jitter(f64),
+    /// To a unit [rad].
+    Rounding(f64),
+}
+
+/// Cycles [s] and limits of controllers.
+fn common_limits() -> [(f64, AxisLimits); 4] {
+    let of = |velocity, acceleration, jerk| AxisLimits { velocity, acceleration, jerk };
+    [
+        (0.001, of(2.0, 8.0, 60.0)),
+        (0.004, of(2.0, 8.0, 60.0)),
+        (0.004, of(1.0, 2.0, 10.0)),
+        (0.004, of(3.0, 20.0, 400.0)),
+    ]
+}
+
+const START: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 0.5, 0.0];
+
+/// A guard that proves nothing.
+fn bare(cycle: f64, limits: AxisLimits, on_violation: OnViolation, hold: f64) -> Guard<6> {
+    let options = GuardOptions {
+        max_velocity: Some([limits.velocity; 6]),
+        max_jerk: Some([limits.jerk; 6]),
+        on_violation,
+        hold,
+        ..GuardOptions::new(cycle, [limits.acceleration; 6])
+    };
+    Guard::new(&six("IRB 2600-12/1.65"), &START, None, &options).unwrap()
+}
+
+/// Give joint 1 a reference.
+fn turned(angle: f64) -> [f64; 6] {
+    let mut q = START;
+    q[0] = angle;
+    q
+}
+
+/// A sine with at most a part of the limits of velocity, acceleration and jerk, eased in.
+fn sine(limits: AxisLimits, part: f64) -> impl Fn(f64) -> f64 {
+    let AxisLimits { velocity, acceleration, jerk } = limits;
+    let rate = (acceleration / velocity).min((jerk / velocity).sqrt());
+    move |time| {
+        let turn = (rate * time / core::f64::consts::TAU).min(1.0);
+        let ease = turn.powi(4) * (35.0 - 84.0 * turn + 70.0 * turn.powi(2) - 20.0 * turn.powi(3));
+        part * velocity / rate * (rate * time).sin() * ease
+    }
+}
+
+/// How far a joint goes beyond one cycle of lag from a clean reference that it gets disturbed, and
+/// the largest deviation of the references [rad].
+fn disturbed(guard: &mut Guard<6>, clean: impl Fn(f64) -> f64, by: Disturbance) -> [f64; 2] {
+    let cycle = guard.cycle();
+    let mut rng = Rng::new(5);
+    let [mut most, mut lag, mut deviation] = [0.0_f64; 3];
+    for count in 0..(12.0 / cycle) as usize {
+        let time = count as f64 * cycle;
+        let own = clean(time);
+        let given = match by {
+            Disturbance::Noise(size) => own + size * rng.between(-1.0, 1.0),
+            Disturbance::Jitter(cycles) => clean(time + cycles * cycle * rng.between(-1.0, 1.0)),
+            Disturbance::Rounding(unit) => (own / unit).round() * unit,
+        };
+        let q = guard.step(&turned(given)).q[0];
+        most = most.max((q - own).abs());
+        lag = lag.max((own - clean(time - cycle)).abs());
+        deviation = deviation.max((given - own).abs());
+    }
+    [most - lag, deviation]
+}
+
+#[test]
+fn noise_jitter_and_rounding_are_amplified_by_three_at_most() {
+    use Disturbance::{Jitter, Noise, Rounding};
+    let noises = [1e-6, 1e-5, 1e-4, 1e-3].map(Noise);
+    let others = [Rounding(1e-5), Rounding(1e-4), Rounding(1.745e-4), Rounding(1e-3)];
+    let others = [&others[..], &[Jitter(0.1), Jitter(1.0)]].concat();
+    for (cycle, limits) in common_limits() {
+        // The least change of a set point that a limit of jerk allows.
+        let least = limits.jerk * cycle.powi(3);
+        for part in [0.0, 0.05, 0.1, 0.25] {
+            let kinds = if part > 0.0 { &others[..] } else { &[] };
+            for by in noises.iter().chain(kinds) {
+                let mut guard = bare(cycle, limits, OnViolation::Limit, 0.0);
+                let [beyond, deviation] = disturbed(&mut guard, sine(limits, part), *by);
+                println!("{cycle} s, {part} of {limits:?}, {by:?}: {:.2}", beyond / deviation);
+                let most = 3.0 * deviation + 8.0 * least;
+                assert!(beyond <= most, "{cycle} s, {part} of {limits:?}, {by:?}: {beyond}");
+            }
+        }
+    }
+}
+
+#[test]
+fn whatever_the_references_a_joint_stays_within_25_times_their_deviation() {
+    let mut worst = 0.0_f64;
+    for (cycle, limits) in common_limits() {
+        for size in [1e-5, 1e-4, 1e-3, 1e-2, 1e-1] {
+            let mut rng = Rng::new(9);
+            let mut guard = bare(cycle, limits, OnViolation::Limit, 0.0);
+            for _ in 0..poses_or(4000) / 50 {
+                let rate = 10.0_f64.powf(rng.between(-3.0, 0.5));
+                let (kind, period) = (rng.bits() % 4, 1 + rng.bits() % 60);
+                let offset = rng.between(-1.0, 1.0);
+                for count in 0..200_u32 {
+                    let angle = rate * f64::from(count);
+                    let given = match kind {
+                        0 => (angle + offset).sin(),
+                        1 => (angle + offset).sin().signum(),
+                        2 => {
+                            if u64::from(count) % period == 0 {
+                                offset
+                            } else {
+                                -offset
+                            }
+                        }
+                        _ => rng.between(-1.0, 1.0),
+                    };
+                    let q = guard.step(&turned(size * given)).q[0];
+                    worst = worst.max(q.abs() / size);
+                    assert!(q.abs() <= 25.0 * size, "{cycle} s, {limits:?}, {size}: {q}");
+                }
+            }
+        }
+    }
+    println!("at most {worst:.2} times");
+    assert!(worst > 1.0);
+}
+
+#[test]
+fn rounded_references_are_followed_by_a_guard_that_brakes() {
+    let limits = LIMITS;
+    for by in [Disturbance::Rounding(1.745e-4), Disturbance::Noise(1e-5)] {
+        let mut guard = bare(CYCLE, limits, OnViolation::Brake, 0.0);
+        let [beyond, deviation] = disturbed(&mut guard, sine(limits, 0.1), by);
+        println!("{by:?}: {:.2}", beyond / deviation);
+        assert!(beyond <= 3.0 * deviation, "{by:?}: {beyond}");
+        let here = guard.q()[0];
+        for count in 0..500 {
+            let step = guard.step(&turned(here + 0.5));
+            assert!(!step.accepted && step.state != State::Following, "{count}");
+        }
+        assert!((guard.q()[0] - here).abs() < 0.1);
+    }
+}
+
+#[test]
+fn references_at_30_hz_are_gone_towards_for_the_time_of_the_hold() {
+    for on_violation in [OnViolation::Brake, OnViolation::Limit] {
+        let clean = sine(LIMITS, 0.25);
+        let mut guard = bare(CYCLE, LIMITS, on_violation, 0.04);
+        let (mut last, mut most) = (-1, 0.0_f64);
+        for count in 0..3000 {
+            let time = f64::from(count) * CYCLE;
+            let frame = (30.0 * time).floor() as i32;
+            let step = if frame == last {
+                guard.step_none()
+            } else {
+                guard.step(&turned(clean(f64::from(frame) / 30.0)))
+            };
+            last = frame;
+            most = most.max((step.q[0] - clean(time)).abs());
+        }
+        // A reference is a thirtieth of a second old at most.
+        let oldest = 0.25 * LIMITS.velocity / 30.0;
+        println!("{on_violation:?}: {:.2} of the way in a frame", most / oldest);
+        assert!(most <= 3.0 * oldest, "{on_violation:?}: {most}");
+        let states: Vec<State> = (0..200).map(|_| guard.step_none().state).collect();
+        let held = states.iter().take_while(|state| **state == State::Following).count();
+        assert!((2..=10).contains(&held) && states[199] == State::Holding, "{held}");
+    }
+}
+
+#[test]
+fn a_hold_is_from_nothing_to_ten_seconds() {
+    for hold in [-0.1, f64::NAN, 40.0] {
+        let options = GuardOptions { hold, ..options(OnViolation::Brake) };
+        let fault = Guard::new(&six("IRB 2600-12/1.65"), &START, None, &options).err().unwrap();
+        assert!(fault.to_string().contains("it must be from 0 to 10 s"), "{fault}");
+    }
 }

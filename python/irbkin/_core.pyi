@@ -2094,10 +2094,13 @@ class Guard:
         margin: How far the arm stays from obstacles, beyond the margin of the cell [m].
         max_tool_speed: Limit of the speed of the tool center point [m/s]; none when not given.
         on_violation: "brake" refuses a reference that does not fit, and brakes; "limit" goes
-            towards it as far and as fast as the bounds allow.
+            towards it as far and as fast as the bounds allow. In "brake", too, the guard goes on
+            towards references that stay near, as those with noise, jitter or rounding do.
+        hold: For how long None goes on towards the last reference, before it brakes [s].
 
     Raises:
-        InvalidMotionError: A cycle or a limit that is not positive, a cycle above 0.5 s.
+        InvalidMotionError: A cycle or a limit that is not positive, a cycle above 0.5 s, a hold
+            below 0 or above 10 s.
         InvalidModelError: Neither `max_velocity` nor limits of the robot; no body; a negative
             margin.
         InvalidJointsError: A start of a wrong shape or that is not finite.
@@ -2118,6 +2121,7 @@ class Guard:
         margin: float = 0.0,
         max_tool_speed: float | None = None,
         on_violation: Literal["brake", "limit"] = "brake",
+        hold: float = 0.0,
     ) -> Guard: ...
     @property
     def robot(self) -> Robot:
@@ -2129,6 +2133,9 @@ class Guard:
     def state(self) -> Literal["following", "braking", "holding"]:
         """The state: "following", "braking" or "holding"."""
     @property
+    def hold(self) -> float:
+        """For how long None goes on towards the last reference [s]."""
+    @property
     def q(self) -> _Floats:
         """The last set point [rad], shape (n,)."""
     def step(self, reference: npt.ArrayLike | None) -> Step:
@@ -2137,7 +2144,7 @@ class Guard:
         Args:
             reference: Joint vector [rad], shape (n,); or a pose of the tool, shape (4, 4),
                 translation [m], which is solved nearest to the last reference on its branch; or
-                None if none came in this cycle: the guard brakes and holds.
+                None if none came in this cycle: the guard goes on for its `hold`, then it brakes.
 
         Returns:
             The `irbkin.stream.Step`. Numbers that are not finite are refused in its `reason`.

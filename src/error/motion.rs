@@ -22,6 +22,8 @@ pub enum MotionFault {
     NotPositive { field: &'static str, index: Option<usize>, value: f64 },
     #[error("cycle is {value:?} s, it must be at most {bound} s (did you pass milliseconds?)")]
     Cycle { value: f64, bound: f64 },
+    #[error("hold is {value:?} s, it must be from 0 to {bound} s (did you pass milliseconds?)")]
+    Hold { value: f64, bound: f64 },
     #[error("{field} has {found} rows, it must have at least {least}")]
     TooFew { field: &'static str, found: usize, least: usize },
     #[error("{field} has no joints, it must have at least 1")]

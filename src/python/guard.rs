@@ -65,10 +65,13 @@ record! {
 ///     margin: How far the arm stays from obstacles, beyond the margin of the cell [m].
 ///     max_tool_speed: Limit of the speed of the tool center point [m/s]; none when not given.
 ///     on_violation: "brake" refuses a reference that does not fit, and brakes; "limit" goes
-///         towards it as far and as fast as the bounds allow.
+///         towards it as far and as fast as the bounds allow. In "brake", too, the guard goes on
+///         towards references that stay near, as those with noise, jitter or rounding do.
+///     hold: For how long None goes on towards the last reference, before it brakes [s].
 ///
 /// Raises:
-///     InvalidMotionError: A cycle or a limit that is not positive, a cycle above 0.5 s.
+///     InvalidMotionError: A cycle or a limit that is not positive, a cycle above 0.5 s, a hold
+///         below 0 or above 10 s.
 ///     InvalidModelError: Neither `max_velocity` nor limits of the robot; no body; a negative
 ///         margin.
 ///     InvalidJointsError: A start of a wrong shape or that is not finite.
@@ -83,7 +86,7 @@ pub(super) struct PyGuard {
 #[pymethods]
 impl PyGuard {
     #[new]
-    #[pyo3(signature = (robot, *, cycle, start, max_velocity=None, max_acceleration, max_jerk=None, cell=None, margin=0.0, max_tool_speed=None, on_violation="brake"))]
+    #[pyo3(signature = (robot, *, cycle, start, max_velocity=None, max_acceleration, max_jerk=None, cell=None, margin=0.0, max_tool_speed=None, on_violation="brake", hold=0.0))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn new(
         robot: &Bound<'_, PyRobot>,
@@ -96,10 +99,11 @@ impl PyGuard {
         margin: f64,
         max_tool_speed: Option<f64>,
         on_violation: &str,
+        hold: f64,
     ) -> PyResult<Self> {
         let on_violation = one_of("on_violation", on_violation, &VIOLATIONS)?;
         let limits = [max_velocity, Some(max_acceleration), max_jerk];
-        let asked = Asked { cycle, start, limits, margin, max_tool_speed, on_violation };
+        let asked = Asked { cycle, start, limits, margin, max_tool_speed, on_violation, hold };
         let cell = read_cell(cell)?;
         let guard = match robot.get().arm() {
             Arm::Six(robot) => ByJoints::Six(Mutex::new(asked.guard(robot, cell.as_ref())?)),
@@ -113,7 +117,7 @@ impl PyGuard {
     /// Args:
     ///     reference: Joint vector [rad], shape (n,); or a pose of the tool, shape (4, 4),
     ///         translation [m], which is solved nearest to the last reference on its branch; or
-    ///         None if none came in this cycle: the guard brakes and holds.
+    ///         None if none came in this cycle: the guard goes on for its `hold`, then it brakes.
     ///
     /// Returns:
     ///     The `irbkin.stream.Step`. Numbers that are not finite are refused in its `reason`.
@@ -141,6 +145,12 @@ impl PyGuard {
     #[getter]
     fn state(&self) -> &'static str {
         on!(&self.guard, guard => locked(guard).state().name())
+    }
+
+    /// For how long None goes on towards the last reference [s].
+    #[getter]
+    fn hold(&self) -> f64 {
+        on!(&self.guard, guard => locked(guard).hold())
     }
 
     /// The last set point [rad], shape (n,).
@@ -172,6 +182,7 @@ struct Asked<'a, 'py> {
     margin: f64,
     max_tool_speed: Option<f64>,
     on_violation: OnViolation,
+    hold: f64,
 }
 
 impl Asked<'_, '_> {
@@ -188,6 +199,7 @@ impl Asked<'_, '_> {
             margin: self.margin,
             max_tool_speed: self.max_tool_speed,
             on_violation: self.on_violation,
+            hold: self.hold,
         };
         Ok(Guard::new(robot, &vector(self.start, "start", Fault::Joints)?, cell, &options)?)
     }

@@ -14,6 +14,16 @@ const ROUNDING: f64 = 2.0 * LIMIT_ROUNDING;
 /// them, each given to a few digits of the last place.
 const DIGITS: f64 = 32.0 * f64::EPSILON;
 
+/// Rounding of a third difference of control points near one [rad].
+pub(super) fn digits_of(point: f64) -> f64 {
+    DIGITS * (1.0 + point.abs())
+}
+
+/// Whether a difference is beyond its bound (eq. 3).
+pub(super) fn exceeds(value: f64, limit: f64, digits: f64) -> bool {
+    value.is_nan() || value.abs() > limit * (1.0 + ROUNDING) + digits
+}
+
 /// A bound that a reference exceeds, the value and the bound [rad, s].
 pub(super) type Exceeded = (Bound, f64, f64);
 
@@ -22,7 +32,7 @@ impl Bounds {
     pub(super) fn check(&self, end: End, next: f64, cycle: f64) -> Result<End, Exceeded> {
         let first = next - end.point;
         let behind = End { point: next, first, second: first - end.first };
-        let digits = DIGITS * (1.0 + next.abs().max(end.point.abs()));
+        let digits = digits_of(next.abs().max(end.point.abs()));
         let left = peak(behind, self.third);
         let square = cycle * cycle;
         for (bound, value, limit, unit) in [
@@ -31,7 +41,7 @@ impl Bounds {
             (Bound::Jerk, behind.second - end.second, self.third, square * cycle),
             (Bound::VelocityAhead, left, self.first * (1.0 + ROUNDING), cycle),
         ] {
-            if value.is_nan() || value.abs() > limit * (1.0 + ROUNDING) + digits {
+            if exceeds(value, limit, digits) {
                 return Err((bound, value / unit, limit / unit));
             }
         }

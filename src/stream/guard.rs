@@ -9,6 +9,7 @@ use super::limit::{Goal, Limited};
 use super::options::{GuardOptions, OnViolation, State, Step};
 use super::reason::{NOT_FREE, Reason};
 use super::tool::ToolSpeed;
+use super::track::Track;
 use crate::cell::{Boxes, Cell, Nearest, Other};
 use crate::error::Error;
 use crate::go::fault::GoFault;
@@ -22,6 +23,10 @@ const LIMIT_SLACK: f64 = 5e-10;
 /// Looks at eight parts of the motion ahead, after which it counts as not free: of a reference, and
 /// of a shorter step in its place.
 const LOOKS: [usize; 2] = [3, 1];
+
+/// References that do not fit, though they stay near, that are refused in a row with
+/// [`OnViolation::Brake`].
+const REFUSED: usize = 2;
 
 /// A guard in front of a control loop: in each cycle a reference, or none, and a set point.
 ///
@@ -40,8 +45,14 @@ pub struct Guard<const N: usize> {
     on_violation: OnViolation,
     /// The last three control points.
     points: [[f64; N]; 3],
-    /// The last reference, by which one that moves is recognized.
-    reference: [f64; N],
+    /// The references of each joint.
+    tracks: [Track; N],
+    /// References in a row that are near and do not fit.
+    misfits: usize,
+    /// For how long the guard goes on without a reference [s].
+    hold: f64,
+    /// Cycles in a row without one.
+    missing: u32,
     state: State,
     /// Whether the last motion that was looked at is not free: the order of looks at the next one.
     was_blocked: bool,
@@ -89,7 +100,10 @@ impl<const N: usize> Guard<N> {
             boxes,
             on_violation: options.on_violation,
             points: [start; 3],
-            reference: start,
+            tracks: start.map(Track::new),
+            misfits: 0,
+            hold: options.hold,
+            missing: 0,
             state: State::Holding,
             was_blocked: false,
         })
@@ -105,6 +119,12 @@ impl<const N: usize> Guard<N> {
     #[must_use]
     pub fn cycle(&self) -> f64 {
         self.cycle
+    }
+
+    /// For how long the guard goes on without a reference [s].
+    #[must_use]
+    pub fn hold(&self) -> f64 {
+        self.hold
     }
 
     /// The state after the last step.
@@ -139,9 +159,22 @@ impl<const N: usize> Guard<N> {
         }
     }
 
-    /// The next set point, without a reference: the guard brakes.
+    /// The next set point, without a reference: the guard goes on towards the last one as long as
+    /// it holds, else it brakes.
     pub fn step_none(&mut self) -> Step<N> {
-        self.refuse(Reason::Missing)
+        self.missing = self.missing.saturating_add(1);
+        // The hold may be a whole number of cycles, but for rounding.
+        let is_over = f64::from(self.missing) > self.hold / self.cycle + 1e-9;
+        if is_over || self.state != State::Following {
+            return self.refuse(Reason::Missing);
+        }
+        let last = core::array::from_fn(|joint| self.tracks[joint].point());
+        let goals = self.goals(&last);
+        let next = self.toward(&goals);
+        match self.admit(&next, LOOKS[0]) {
+            Ok(()) => self.advance(next, State::Following, Some(Reason::Missing)),
+            Err(reason) => self.refuse(reason),
+        }
     }
 
     /// The next set point, where the reference is no pose: the guard brakes.
@@ -216,15 +249,17 @@ impl<const N: usize> Guard<N> {
 
     /// Go to a reference, or towards it; brake if neither can be.
     fn go(&mut self, reference: &[f64; N], checked: Result<(), Reason>) -> Step<N> {
-        let last = core::mem::replace(&mut self.reference, *reference);
-        let refused = match checked.and_then(|()| self.behind(reference).map(|_| ())) {
-            Err(reason @ Reason::NotFinite { .. }) => return self.refuse(reason),
-            Err(reason) if self.on_violation == OnViolation::Brake => return self.refuse(reason),
-            refused => refused.err(),
-        };
-        let next = match self.on_violation {
-            OnViolation::Brake => *reference,
-            OnViolation::Limit => self.toward(reference, &last),
+        let refused = checked.and_then(|()| self.behind(reference).map(|_| ())).err();
+        if let Some(reason @ Reason::NotFinite { .. }) = refused {
+            return self.refuse(reason);
+        }
+        let goals = self.goals(reference);
+        let is_borne = self.is_borne(reference, refused.as_ref());
+        self.missing = 0;
+        let next = match (self.on_violation, refused) {
+            (OnViolation::Brake, None) if !is_borne => *reference,
+            (OnViolation::Brake, Some(reason)) if !is_borne => return self.refuse(reason),
+            _ => self.toward(&goals),
         };
         if largest(&steps(&next, reference)) == 0.0 {
             return match self.admit(&next, LOOKS[0]) {
@@ -279,18 +314,42 @@ impl<const N: usize> Guard<N> {
         })
     }
 
+    /// Whether a reference that does not fit is so near that the guard goes towards it all the same:
+    /// as far as the joints may have gone since the last one, and not the first of its kind.
+    fn is_borne(&mut self, reference: &[f64; N], refused: Option<&Reason>) -> bool {
+        let cycles = 1.0 + f64::from(self.missing);
+        let is_near = (0..N).all(|joint| {
+            let end = self.end(joint);
+            let far = (reference[joint] - end.point - end.first).abs();
+            far <= cycles * self.bounds[joint].first
+        });
+        match refused {
+            None if self.tracks.iter().all(Track::fits) => self.misfits = 0,
+            None => {}
+            Some(Reason::Beyond { .. }) if is_near => self.misfits += 1,
+            Some(_) => self.misfits = 0,
+        }
+        self.misfits > REFUSED
+    }
+
+    /// Where the joints are to go for a reference, or for the last one again.
+    fn goals(&mut self, reference: &[f64; N]) -> [Goal; N] {
+        core::array::from_fn(|joint| {
+            let (bounds, [lower, upper]) = (&self.bounds[joint], self.limits[joint]);
+            let end = self.end(joint);
+            let track = &mut self.tracks[joint];
+            let is_followed = end.point - track.point() == 0.0;
+            track.take(reference[joint].max(lower).min(upper), bounds);
+            track.goal(bounds, is_followed)
+        })
+    }
+
     /// The next control point towards a reference (eq. 11, 12).
-    fn toward(&self, reference: &[f64; N], last: &[f64; N]) -> [f64; N] {
+    fn toward(&self, goals: &[Goal; N]) -> [f64; N] {
         core::array::from_fn(|joint| {
             let (bounds, end) = (&self.bounds[joint], self.end(joint));
-            let pace = reference[joint] - last[joint];
-            let goal = Goal {
-                point: reference[joint],
-                // One that jumps does not move.
-                pace: if pace.abs() <= bounds.first { pace } else { 0.0 },
-                is_followed: end.point - last[joint] == 0.0,
-            };
-            Limited { bounds, end, limits: self.limits[joint] }.toward(&goal)
+            let limits = self.tracks[joint].limits(self.limits[joint]);
+            Limited { bounds, end, limits }.toward(&goals[joint])
         })
     }
 

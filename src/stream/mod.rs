@@ -40,6 +40,7 @@ mod limit;
 mod options;
 mod reason;
 mod tool;
+mod track;
 
 pub use guard::Guard;
 pub use options::{GuardOptions, OnViolation, State, Step};

@@ -7,10 +7,13 @@ use crate::kinematics::Robot;
 /// The longest cycle [s]: one of 4 or 8 is in milliseconds.
 const LONGEST_CYCLE: f64 = 0.5;
 
+/// The longest time for which a guard goes on without a reference [s].
+const LONGEST_HOLD: f64 = 10.0;
+
 /// The response of a guard to a reference that does not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OnViolation {
-    /// It brakes.
+    /// It brakes; but goes towards references that stay near, as those with noise do.
     #[default]
     Brake,
     /// It goes towards the reference as far and as fast as the bounds allow.
@@ -34,6 +37,9 @@ pub struct GuardOptions<const N: usize> {
     pub max_tool_speed: Option<f64>,
     /// The response to a reference that does not fit.
     pub on_violation: OnViolation,
+    /// For how long the guard goes on towards the last reference if none comes, before it brakes
+    /// [s].
+    pub hold: f64,
 }
 
 impl<const N: usize> GuardOptions<N> {
@@ -48,6 +54,7 @@ impl<const N: usize> GuardOptions<N> {
             margin: 0.0,
             max_tool_speed: None,
             on_violation: OnViolation::Brake,
+            hold: 0.0,
         }
     }
 
@@ -61,6 +68,9 @@ impl<const N: usize> GuardOptions<N> {
         positive("cycle", None, self.cycle)?;
         if self.cycle > LONGEST_CYCLE {
             return Err(MotionFault::Cycle { value: self.cycle, bound: LONGEST_CYCLE }.into());
+        }
+        if !(0.0..=LONGEST_HOLD).contains(&self.hold) {
+            return Err(MotionFault::Hold { value: self.hold, bound: LONGEST_HOLD }.into());
         }
         let velocity = self.max_velocity.or_else(|| robot.max_velocity().copied());
         let velocity = velocity.ok_or(ModelFault::NoVelocity)?;

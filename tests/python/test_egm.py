@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from controllers import ROBOT, START, PassThrough, swing
 from irbkin.errors import StreamError
-from irbkin.stream import egm
+from irbkin.stream import Guard, egm
 from irbkin.stream.egm import EgmHeader, EgmPose, EgmPosition, EgmRobot, EgmSensor
 from irbkin.stream.egm._session import WORD, Session
 
@@ -148,6 +148,18 @@ def test_sequence_numbers_are_cycles_of_the_guard():
     assert counted[:4] == (6, 6, 1, 2)
     assert counted.bridged == 5
     assert counted.stops == 1
+
+
+def test_a_gap_is_bridged_for_the_hold_of_the_guard():
+    def bridged(hold, **options):
+        own = Guard(ROBOT, cycle=CYCLE, start=START, max_acceleration=8.0, cell=False, hold=hold)
+        session = Session(own, lambda feedback: START, **options)
+        answers(session, [1, 40])
+        return session.statistics.bridged
+
+    assert bridged(0.02) == int(0.02 / CYCLE)
+    assert bridged(0.0) == int(0.04 / CYCLE)
+    assert bridged(0.02, bridge=3.5 * CYCLE) == 3
 
 
 def test_sequence_numbers_wrap():

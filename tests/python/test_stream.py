@@ -213,3 +213,36 @@ def test_a_watchdog_in_another_thread_brakes_a_guard_that_is_in_a_step():
         assert late.result().state == "following"
     assert {step.state for step in steps} == {"braking", "holding"}
     assert own.state == "following"
+
+
+@pytest.mark.parametrize("on_violation", ["brake", "limit"])
+def test_noise_is_not_amplified(on_violation):
+    noise = 1e-4 * np.random.default_rng(0).standard_normal((2000, 6))
+    own = guard(on_violation=on_violation, cell=False)
+    q = np.array([own.step(START + row).q for row in noise])
+    assert abs(q - START).max() <= 3 * abs(noise).max()
+
+
+@pytest.mark.parametrize("on_violation", ["brake", "limit"])
+def test_references_at_30_hz_lead_a_loop_of_250_for_the_time_of_the_hold(on_violation):
+    turn = np.array([1.0, 0, 0, 0, 0, 0])
+    own = guard(on_violation=on_violation, hold=0.04, cell=False)
+    assert own.hold == 0.04
+    frames = np.floor(30 * CYCLE * np.arange(1000)) / 30
+    clean = 0.2 * (1 - np.cos(frames))
+    is_new = np.diff(frames, prepend=-1) > 0
+    steps = [
+        own.step(START + angle * turn if new else None)
+        for angle, new in zip(clean, is_new, strict=True)
+    ]
+    assert {step.state for step in steps[100:]} == {"following"}
+    late = abs(np.array([step.q[0] for step in steps]) - clean)
+    assert late.max() <= 3 * 0.2 / 30
+    assert guard().hold == 0.0
+    states = [own.step(None).state for _ in range(200)]
+    assert states[9] == "braking"
+    assert states[-1] == "holding"
+    with pytest.raises(
+        irbkin.InvalidMotionError, match=r"hold is 40\.0 s, it must be from 0 to 10"
+    ):
+        guard(hold=40)

@@ -40,7 +40,7 @@ class Server:
         host: str = "127.0.0.1",
         *,
         mode: Literal["joint", "pose"] = "joint",
-        bridge: float = 0.04,
+        bridge: float | None = None,
         watchdog: float = 0.25,
         connect: float = 60.0,
         linger: float = 1.0,
@@ -54,7 +54,8 @@ class Server:
             host: Address to bind: this machine alone unless another one is given.
             mode: "joint", or "pose" for a program that runs EGMRunPose; then the tool and the base
                 of the robot are as of EGMActPose.
-            bridge: Time without datagrams in which the reference is asked [s].
+            bridge: Time without datagrams in which the reference is asked [s]; when not given, the
+                `hold` of the guard, 0.04 if it is 0.
             watchdog: Time without datagrams after which the session ends [s].
             connect: Time to wait for the first datagram [s].
             linger: Time in which the last set point is held after the end [s].

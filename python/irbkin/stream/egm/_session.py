@@ -35,6 +35,8 @@ WORD = 2**32
 """Sequence numbers and times [ms] are 32 bits."""
 WINDOW = 1024
 """Of so many of the last sequence numbers it is known whether they came."""
+BRIDGE = 0.04
+"""Time without datagrams in which the reference is asked, for guards without a hold [s]."""
 TOLERANCE = 0.01
 """How far the robot may be from a guard at rest [rad]."""
 TOLERANCE_MM = 1.0
@@ -102,7 +104,7 @@ class Session:
         reference: Reference,
         *,
         mode: Literal["joint", "pose"] = "joint",
-        bridge: float = 0.04,
+        bridge: float | None = None,
         watchdog: float = 0.25,
         linger: float = 1.0,
         max_following_error: npt.ArrayLike | None = None,
@@ -111,6 +113,7 @@ class Session:
         clock: Callable[[], float] = lambda: 0.0,
     ) -> None:
         """`sent` is the last sequence number that was sent, by `clock` a reference is slow [s]."""
+        bridge = (getattr(guard, "hold", 0.0) or BRIDGE) if bridge is None else bridge
         times = {"bridge": bridge, "watchdog": watchdog, "linger": linger}
         for name, time in times.items():
             if not 0 <= time < np.inf:
