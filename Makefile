@@ -14,11 +14,8 @@ PROFILE ?= develop
 BUILT := $(VENV)/.irbkin-$(PROFILE)
 RELEASED := $(VENV)/.irbkin-release
 PEERS := .venv-peers
+export BENCHES := python_calls motion motion_limits plan cells free_motion stream reach_map rapid_module rapid_check command lsp
 NO_STD := --no-default-features --features libm
-# A recipe for each instruction set of this processor; ends with `; done`. The shell's -e stops at
-# the first that fails. The widest set is the default.
-ON_EACH_SET := sets=$$(cargo run --quiet --example instruction_sets); \
-	for set in $$sets; do export IRBKIN_INSTRUCTION_SET=$$set;
 # Run a command under a name; if it takes long, print the name and the seconds. With -q what it
 # prints is kept until it fails, and crates are counted.
 STEP := @tests/step.sh
@@ -45,16 +42,13 @@ TOOL = tests/step.sh "Compile $(1) (a minute or more)" \
 	cargo install --quiet --locked --debug --root target/tools $(1)@$(2)
 MSRV := $(shell sed -nE 's/^rust-version = "(.*)"/\1/p' Cargo.toml)
 
-SUITES := $(shell sed -nE 's/^evidence-([a-z-]+):.*/\1/p' $(firstword $(MAKEFILE_LIST)))
-
 .PHONY: help run test test-oracles check bench bench-peers evidence soak fuzz mutants docs site test-recipes test-ros page \
 	test-page capi test-capi bench-capi speed wheel packages ship test-platforms reproducible thirdparty deny \
-	semver msrv stubs clean toolchains lints rust-tests $(SUITES:%=evidence-%)
+	semver msrv stubs clean toolchains lints rust-tests package
 
 help: ## List the targets
-	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | grep -v '^evidence-' | sed -E 's/:.*## /\t/' | expand -t 16
-	@echo; echo "Suites of \`make evidence\`:"
-	@sed -nE 's/^evidence-([a-z-]+):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 16
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
+	@echo; benches/evidence.sh
 
 toolchains:
 	@command -v cargo >/dev/null || { echo "cargo is missing: install a Rust toolchain (1.89 or newer), https://rustup.rs"; exit 1; }
@@ -88,6 +82,9 @@ $(VENV)/.site: $(VENV)/.made pyproject.toml
 run: $(BUILT) ## Solve a pose of an IRB 2600 and show all solutions
 	@$(BIN)/python examples/01_solve_a_pose.py
 	@printf '\nnext: source $(BIN)/activate; irbkin view "IRB 2600-12/1.65"; irbkin --help\n'
+
+# What suites of evidence need.
+package: $(BUILT) $(VENV)/.groups
 
 # The extension and the Rust tests are of different profiles: they compile at the same time.
 test: | toolchains ## Run the tests in Rust, and those in Python that need no extras
@@ -153,22 +150,13 @@ check: | toolchains ## Check format, lints, types, stubs, docs, benches and exam
 	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features serde
 	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions --bench microsecond -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
-	$(STEP) "benches in Python run" env QUICK=1 $(BIN)/python benches/python_calls.py >/dev/null
-	$(STEP) "the bench of motion runs" env MOVES=1000 $(BIN)/python benches/motion.py >/dev/null
-	$(STEP) "the bench of limits runs" env TRAJECTORIES=200 LINES=10 $(BIN)/python benches/motion_limits.py >/dev/null
-	$(STEP) "the bench of plans runs" env QUICK=1 $(BIN)/python benches/plan.py >/dev/null
-	$(STEP) "the bench of cells runs" env QUICK=1 $(BIN)/python benches/cells.py >/dev/null
-	$(STEP) "the bench of free motions runs" env QUICK=1 $(BIN)/python benches/free_motion.py >/dev/null
-	$(STEP) "the bench of guards runs" env QUICK=1 $(BIN)/python benches/stream.py >/dev/null
-	$(STEP) "the bench of maps runs" env QUICK=1 $(BIN)/python benches/reach_map.py >/dev/null
-	$(STEP) "the bench of a module runs" env TARGETS=1000 $(BIN)/python benches/rapid_module.py >/dev/null
-	$(STEP) "the bench of a check runs" env MOVES=1000 $(BIN)/python benches/rapid_check.py >/dev/null
-	$(STEP) "the bench of the command runs" env CALLS=1 $(BIN)/python benches/command.py >/dev/null
-	$(STEP) "the bench of the language server runs" env MOVES=200 KEYS=3 OTHERS=3 $(BIN)/python benches/lsp.py >/dev/null
+	$(STEP) "benches in Python run" env QUICK=1 MOVES=1000 TRAJECTORIES=200 LINES=10 TARGETS=1000 CALLS=1 KEYS=3 OTHERS=3 \
+		bash -eu -c 'for bench in $(BENCHES); do $(BIN)/python "benches/$$bench.py" >/dev/null; done'
 	$(STEP) "the tails compile" cargo check --quiet --manifest-path benches/tails/Cargo.toml --target-dir target/tails
 	$(STEP) "peers are compared" $(BIN)/python -m benches.peers --quick >/dev/null
 	$(STEP) "peers are compared in brief" $(BIN)/python -m benches.peers --brief --quick >/dev/null
-	$(BIN)/python tests/rooms.py
+	$(BIN)/python tests/weight.py
+	$(BIN)/python tests/names.py
 	$(STEP) "licenses of the wheel" $(BIN)/python ship/thirdparty.py --check
 	$(STEP) "workflows" $(BIN)/zizmor --quiet --offline --persona auditor --strict-collection .github
 	$(BIN)/python ship/sbom.py --check
@@ -230,87 +218,8 @@ mutants: | toolchains ## Change the solvers (FILES) in one place after another f
 		case $$? in 2 | 3 | 124) ;; *) exit 1 ;; esac
 	@cd target/mutants.out; echo "Seen: $$(wc -l <caught.txt). Not seen:"; cat missed.txt
 
-evidence: ## Run a suite of long tests or counts: SUITE=...
-	@echo " $(SUITES) " | grep -q " $(or $(SUITE),-) " || { echo "SUITE= is one of: $(SUITES)"; exit 2; }
-	@$(MAKE) --no-print-directory evidence-$(SUITE)
-
-evidence-million: | toolchains ## A million poses of each arm on each instruction set: missed, incorrect
-	$(ON_EACH_SET) IRBKIN_POSES=1000000 $(SUITE) --quiet --release -- recall:: --nocapture --test-threads=1; done
-
-evidence-general: $(BUILT) $(VENV)/.groups ## POSES (20,000) poses of 20 arms without a closed form: found, lost
-	IRBKIN_POSES=$(or $(POSES),20000) $(SUITE) --quiet --release -- recall::general recall::offset_wrist --nocapture --test-threads=1
-	IRBKIN_POSES=$(or $(POSES),20000) $(SUITE) --quiet --release structure::general -- --nocapture --test-threads=1
-	IRBKIN_POSES=200 $(BIN)/python -m pytest --quiet tests/python/extras/test_general_oracles.py -m "extra or evidence"
-
-evidence-certificates: | toolchains ## POSES (10,000,000) poses drawn to be hard: certified, missed
-	IRBKIN_POSES=$(or $(POSES),10000000) $(SUITE) --quiet --release -- certificates:: --nocapture
-
-evidence-offset-wrists: | toolchains ## JOINT_VECTORS (1000) of each set, arms with an offset wrist
-	JOINT_VECTORS=$(or $(JOINT_VECTORS),1000) $(SUITE) --release offset_wrist::tests::each_arm -- --nocapture
-
-evidence-tails: | toolchains ## POSES (2000) poses at each singularity: p50 to the most, with a peer
-	@POSES=$(or $(POSES),2000) cargo run --quiet --release --manifest-path benches/tails/Cargo.toml --target-dir target/tails
-
-evidence-worst-case: $(PEERS)/.irbkin-built ## POSES (60) hard poses of each set: p50 to the most, other packages; writes a page
-	POSES=$(or $(POSES),60) $(PEERS)/bin/python -m benches.peers.worst_case --write
-
-evidence-hardsets: | toolchains ## Poses and paths at and near every singularity
-	$(ON_EACH_SET) IRBKIN_POSES=2000 $(SUITE) --quiet --release -- hard_sets:: follow:: --nocapture --test-threads=1; done
-	$(ON_EACH_SET) IRBKIN_POSES=200 $(SUITE) --quiet --release -- reach_and_paths:: --nocapture --test-threads=1; done
-	IRBKIN_POSES=1000 $(SUITE) --quiet --release structure::spherical_shoulder -- --nocapture --test-threads=1
-	IRBKIN_POSES=20 $(SUITE) --quiet --release -- redundancy:: nearest:: --nocapture --test-threads=1
-
-evidence-plans: $(BUILT) $(VENV)/.groups ## 100,000 random lines planned, each step halved
-	IRBKIN_PLANS=50000 $(BIN)/python -m pytest --quiet -s -k hides_a_jump tests/python/test_plan.py
-
-evidence-stream: | toolchains ## CYCLES (10,000,000) cycles of guards: set points out of bounds, not free
-	IRBKIN_POSES=$$(($(or $(CYCLES),10000000) / 14)) $(SUITE) --quiet --release -- suite::stream --nocapture
-
-evidence-configurations: | toolchains ## confdata at 100,000 poses of every ABB arm
-	IRBKIN_POSES=100000 $(SUITE) --quiet --release -- suite::configuration --nocapture --test-threads=1
-
-evidence-egm: $(BUILT) $(VENV)/.groups ## MESSAGES (100,000) of EGM beside protobuf, ten times as many broken, hours of losses
-	IRBKIN_MESSAGES=$(or $(MESSAGES),100000) $(BIN)/python -m pytest --quiet -s -m "extra or evidence" \
-		tests/python/extras/test_egm_peers.py tests/python/test_egm_controller.py
-
-evidence-ulp: | toolchains ## Arc tangent, sine and cosine against correctly rounded ones
-	IRBKIN_POINTS=10000000 $(SUITE) --quiet --release lanes::functions -- --nocapture --test-threads=1
-
-evidence-no-std: | toolchains ## Laws and unit tests without the standard library
-	cargo test $(NO_STD),rapid --lib -- --include-ignored --skip suite::
-	cargo test $(NO_STD),rapid --lib -- suite::laws suite::coupled suite::configuration suite::allocation suite::rapid:: suite::rapid_calc
-
-evidence-times: $(RELEASED) ## Times of single poses, batches, Python's calls, motions, plans, a RAPID module
-	cargo bench --bench one_pose --bench batch
-	$(BIN)/python benches/python_calls.py
-	$(BIN)/python benches/motion.py
-	$(BIN)/python benches/motion_limits.py
-	$(BIN)/python benches/plan.py
-	$(BIN)/python benches/cells.py
-	$(BIN)/python benches/free_motion.py
-	$(BIN)/python benches/stream.py
-	$(BIN)/python benches/reach_map.py
-	$(BIN)/python benches/rapid_module.py
-	$(BIN)/python benches/rapid_check.py
-	$(BIN)/python benches/command.py
-	$(BIN)/python benches/lsp.py
-	$(MAKE) --no-print-directory bench-capi
-
-evidence-stages: | toolchains ## Time of a pose by stages, with perf; SETS="avx2 avx512"
-	@$(PYTHON) benches/stages.py $(SETS)
-
-evidence-instructions: | toolchains ## Instructions of a call, with valgrind; WRITE=1 records them
-	@$(PYTHON) benches/instructions.py $(if $(WRITE),--write)
-
-evidence-ros-starts: $(BUILT) ## COUNT (200) nodes of each ROS ended with SIGTERM: none may hang
-	@tests/ros/test.sh --starts $(or $(COUNT),200) $(abspath $(BIN)/python)
-
-# One at a time: one without a wheel for this Python does not exclude the others.
-evidence-readers: $(BUILT) $(VENV)/.groups ## to_urdf of every arm in eleven programs that read URDFs: wrong, farthest
-	@for reader in $$(sed -nE '/^readers = /s/[][",]//g; s/^readers = //p' pyproject.toml); do \
-		$(PIP_INSTALL) "$$reader" || echo "$$reader cannot be installed: left out"; \
-	done
-	$(BIN)/python -m pytest --quiet -m evidence tests/python/extras/test_readers.py
+evidence: | toolchains ## Run a suite of long tests or counts: SUITE=...
+	@benches/evidence.sh $(SUITE)
 
 docs: $(BUILT) $(VENV)/.groups $(VENV)/.site ## Write generated tables and transcripts, draw the pictures, build cargo doc and the site
 	IRBKIN_WRITE=1 $(SUITE) --quiet -- catalog_page::
