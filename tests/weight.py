@@ -15,7 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 RECORD = ROOT / "tests" / "weight.txt"
 # Data count as code does.
-ENDINGS = {".rs", ".h", ".hpp", ".py", ".js", ".css", ".html", ".md", ".toml", ".csv"}
+ENDINGS = {".rs", ".h", ".hpp", ".py", ".js", ".css", ".html", ".md", ".toml", ".csv", ".txt"}
 TESTS = re.compile(r"(^|[/_])tests?(/|\.rs$)|/exhaustive\.rs$")
 UNIT_TESTS = re.compile(r"^#\[cfg\((?:all\()?test\b.*\]\n(?:#\[.*\n)*mod \w+ \{", re.MULTILINE)
 PART = re.compile(r"^([\w-]+) (\d+)$", re.MULTILINE)
