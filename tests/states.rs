@@ -201,6 +201,26 @@ fn no_motion_is_slower_than_ruckig_found_it() {
 }
 
 #[test]
+fn a_motion_that_touches_the_limit_of_acceleration_in_one_point_is_found() {
+    // Jerks j, -j, -j, 0, j, each for a / j, move by 6 a^3 / j^2 from a velocity of a^2 / j to rest.
+    // ruckig 0.19.4 takes 2.4 times as long.
+    for (acceleration, jerk) in [(1.4, 7.0), (2.0, 10.0), (0.5, 5.0), (10.0, 40.0)] {
+        let case = Case {
+            start: AxisState {
+                position: 0.0,
+                velocity: acceleration * acceleration / jerk,
+                acceleration: 0.0,
+            },
+            limits: AxisLimits { velocity: acceleration, acceleration, jerk },
+            target: 6.0 * acceleration.powi(3) / (jerk * jerk),
+        };
+        let motion = case.motion();
+        let late = (ROUNDING * case.target / jerk).cbrt();
+        assert!((motion.duration() - 5.0 * acceleration / jerk).abs() <= late, "{motion:?}");
+    }
+}
+
+#[test]
 fn from_rest_to_rest_it_is_the_s_curve() {
     let mut rng = Rng::new(3);
     for _ in 0..5_000 {
