@@ -51,7 +51,7 @@ from irbkin.errors import (
     UnknownRobotError,
     UnreachableError,
 )
-from irbkin.freedom import Positioner, ToolCone, ToolOffset, ToolRotation, Track
+from irbkin.freedom import Positioner, ToolCone, ToolRotation, Track
 from irbkin.records import (
     CatalogEntry,
     Configuration,
@@ -107,7 +107,6 @@ __all__ = [
     "Solutions",
     "Status",
     "ToolCone",
-    "ToolOffset",
     "ToolRotation",
     "Track",
     "UnknownRobotError",

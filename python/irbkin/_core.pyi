@@ -27,7 +27,7 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin._arguments import Bar, Report
-from irbkin.freedom import Positioner, ToolCone, ToolOffset, ToolRotation, Track
+from irbkin.freedom import Positioner, ToolCone, ToolRotation, Track
 from irbkin.records import BreakReason, Reach, SingularityKind, SingularityMode, Status
 from irbkin.stream.egm._records import EgmRobot, EgmSensor
 
@@ -783,8 +783,8 @@ class Plan(_Record):
         """
     @property
     def tolerance(self) -> _Floats:
-        """Deviation within `tolerance` at each pose, shape (m, t): of a cone the tilts about the
-        two axes that the tool does not point in [rad], of an offset the shift [m].
+        """Deviation within `tolerance` at each pose, shape (m, t): the tilts about the two axes
+        that the tool does not point in [rad]; t is 0 without a cone.
         """
     @property
     def cost(self) -> float:
@@ -1502,7 +1502,7 @@ class Robot:
         accept: Callable[[_Floats], npt.ArrayLike] | None = None,
         cell: Cell | None = None,
         carrier: Track | Positioner | Sequence[Track | Positioner] | None = None,
-        tolerance: ToolCone | ToolOffset | Sequence[ToolCone | ToolOffset] | None = None,
+        tolerance: ToolCone | None = None,
         redundancy: int | None = None,
         order: Literal["bottleneck", "sum"] = "bottleneck",
         limit_cost: float = 0.0,
@@ -1550,8 +1550,7 @@ class Robot:
                 carrier, which moves the base.
             carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
                 them. Their steps count for bottleneck and cost as steps of joints do.
-            tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
-                `irbkin.ToolOffset`, or one of each.
+            tolerance: How far the tool may be tilted from the poses: an `irbkin.ToolCone`.
             redundancy: Number of angles of joint 7 or 1 that are searched first, of an arm of seven
                 joints none of which is locked; 36 when not given. The joint is one of at most three
                 external axes.

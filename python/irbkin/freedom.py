@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-__all__ = ["Positioner", "ToolCone", "ToolOffset", "ToolRotation", "Track"]
+__all__ = ["Positioner", "ToolCone", "ToolRotation", "Track"]
 
 
 class ToolRotation(NamedTuple):
@@ -39,19 +39,6 @@ class ToolCone(NamedTuple):
     """The largest tilt [rad], up to pi / 2."""
     steps: int = 5
     """Number of tilts across, odd."""
-
-
-class ToolOffset(NamedTuple):
-    """How far `Robot.plan` may shift the tool along an axis of each pose."""
-
-    lower: float
-    """Lower end [m]."""
-    upper: float
-    """Upper end [m]."""
-    steps: int = 5
-    """Number of shifts, refined to half a millimeter."""
-    axis: Literal["x", "y", "z"] = "z"
-    """Axis of the pose."""
 
 
 class Track(NamedTuple):

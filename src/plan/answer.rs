@@ -20,8 +20,8 @@ pub struct Plan<const N: usize = 6> {
     /// The values of the external axes at each pose [m, rad]; none where a plan with breaks has no
     /// joint angles.
     pub external: Vec<Vec<f64>>,
-    /// The part of the tolerances that is used at each pose: the tilts about the two axes that the
-    /// tool does not point in [rad], if there is a cone, then the offset [m], if there is one.
+    /// The part of the tolerance that is used at each pose: the tilts about the two axes that the
+    /// tool does not point in [rad], if there is a cone.
     pub tolerance: Vec<Vec<f64>>,
     /// The slot of the branch at each pose.
     pub slot: Vec<Option<usize>>,

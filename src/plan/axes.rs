@@ -1,5 +1,5 @@
-//! Free axes of a plan: the angle of the tool, its tilt and its offset, a track under the robot, a
-//! positioner that holds the work object.
+//! Free axes of a plan: the angle of the tool, its tilt, a track under the robot, a positioner that
+//! holds the work object.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -185,49 +185,6 @@ impl ToolCone {
     #[must_use]
     pub fn steps(&self) -> usize {
         self.steps
-    }
-}
-
-/// How far the tool may be shifted along an axis of each pose.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToolOffset {
-    range: [f64; 2],
-    steps: usize,
-    axis: ToolAxis,
-}
-
-impl ToolOffset {
-    /// One of `steps` shifts from `lower` to `upper` [m] along an axis of the pose.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::InvalidPlan`] for an empty range, and fewer than 2 or more than
-    /// 1001 steps.
-    pub fn new(lower: f64, upper: f64, steps: usize, axis: ToolAxis) -> Result<Self, Error> {
-        let range = [lower, upper];
-        Ok(Self {
-            range,
-            steps: checked_steps("tool offset", range, steps, MOST_AXIS_STEPS)?,
-            axis,
-        })
-    }
-
-    /// The least and the largest shift [m].
-    #[must_use]
-    pub fn range(&self) -> [f64; 2] {
-        self.range
-    }
-
-    /// Number of shifts.
-    #[must_use]
-    pub fn steps(&self) -> usize {
-        self.steps
-    }
-
-    /// The axis.
-    #[must_use]
-    pub fn axis(&self) -> ToolAxis {
-        self.axis
     }
 }
 

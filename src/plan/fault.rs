@@ -77,9 +77,9 @@ pub enum PlanFault {
          {found} such values"
     )]
     EndExternal { field: &'static str, found: usize, wanted: usize },
-    /// Axes are the external ones, then tilts, then the offset.
+    /// Axes are the external ones, then tilts.
     #[error(
-        "{field}: free axis {index} (external axes, tilts, offset) is at {value:.6}, its range is \
+        "{field}: free axis {index} (external axes, tilts) is at {value:.6}, its range is \
          {:.6} to {:.6} (m or rad)",
         .bounds[0], .bounds[1]
     )]

@@ -33,7 +33,7 @@ impl Robot<7> {
         interrupt: Interrupt<'_>,
     ) -> Result<Option<Plan<7>>, PlanError<7>> {
         let is_tool_free = options.rotation.is_some() || options.cone.is_some();
-        if is_tool_free || options.offset.is_some() || !options.external.is_empty() {
+        if is_tool_free || !options.external.is_empty() {
             return Ok(None);
         }
         for start in self.starts(&path[0], options)? {

@@ -4,13 +4,13 @@ use alloc::vec::Vec;
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
-use nalgebra::{Matrix3, Rotation3, Translation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::axes::{Carried, ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
+use super::axes::{Carried, ExternalAxis, ToolAxis, ToolCone, ToolRotation};
 use super::graph::{Grid, Moved, Values};
 use crate::kinematics::thresholds::LIMIT_TOLERANCE;
 use crate::kinematics::{Pose, nearest_turn, rotation_vector};
-use crate::plan::thresholds::{MOST_FREE_AXES, REFINED_OFFSET, REFINED_TOOL_STEP, REFINED_TRACK};
+use crate::plan::thresholds::{MOST_FREE_AXES, REFINED_TOOL_STEP, REFINED_TRACK};
 
 /// The motion of a free axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,8 +19,6 @@ pub(super) enum Motion {
     Carrier(Carried),
     /// The tool is tilted about its first or second other axis.
     Tilt(usize),
-    /// The tool is shifted along an axis of the pose.
-    Offset(ToolAxis),
     /// The tool is turned about one of its axes.
     Rotation(ToolAxis),
 }
@@ -57,7 +55,6 @@ impl FreeAxis {
     pub(super) fn finest(&self) -> f64 {
         match self.motion {
             Motion::Carrier(Carried::Robot(_)) => REFINED_TRACK,
-            Motion::Offset(_) => REFINED_OFFSET,
             _ => REFINED_TOOL_STEP,
         }
     }
@@ -91,7 +88,6 @@ impl Freedom {
     pub(super) fn new(
         external: &[ExternalAxis],
         cone: Option<ToolCone>,
-        offset: Option<ToolOffset>,
         rotation: Option<ToolRotation>,
     ) -> Self {
         let carrier = |axis: &ExternalAxis| FreeAxis {
@@ -104,10 +100,6 @@ impl Freedom {
             let range = [-cone.angle(), cone.angle()];
             let tilt = |axis| FreeAxis::of_tool(Motion::Tilt(axis), range, cone.steps());
             axes.extend([0, 1].map(tilt));
-        }
-        if let Some(offset) = offset {
-            let motion = Motion::Offset(offset.axis());
-            axes.push(FreeAxis::of_tool(motion, offset.range(), offset.steps()));
         }
         if let Some(rotation) = rotation {
             let (motion, steps) = (Motion::Rotation(rotation.axis()), rotation.steps());
@@ -185,14 +177,8 @@ impl Freedom {
         let mut tool = self.carried(pose, values);
         let mut tilt = Vector3::zeros();
         for (axis, value) in self.axes.iter().zip(values) {
-            match axis.motion {
-                Motion::Carrier(_) | Motion::Rotation(_) => {}
-                Motion::Tilt(number) => tilt[self.pointing().others()[number]] = *value,
-                Motion::Offset(axis) => {
-                    let direction = tool.rotation.matrix().column(axis.index()).into_owned();
-                    let shifted = tool.translation.vector + direction * *value;
-                    tool.translation = Translation3::from(shifted);
-                }
+            if let Motion::Tilt(number) = axis.motion {
+                tilt[self.pointing().others()[number]] = *value;
             }
         }
         if self.cone > 0.0 {
@@ -262,13 +248,10 @@ impl Freedom {
         let mut about = Vector3::zeros();
         about[self.pointing().index()] = -angle;
         let tilt = rotation_vector(&(relative * Rotation3::new(about)));
-        let shift =
-            carried.rotation.inverse() * (tool.translation.vector - carried.translation.vector);
         for (axis, value) in self.axes.iter().zip(&mut values) {
             match axis.motion {
                 Motion::Carrier(_) => {}
                 Motion::Tilt(number) => *value = tilt[[first, second][number]],
-                Motion::Offset(axis) => *value = shift[axis.index()],
                 Motion::Rotation(_) => *value = angle,
             }
         }

@@ -40,8 +40,6 @@ pub(super) struct PlannedJoints {
     /// Velocity limits [rad/s]; ones where none is known.
     pub(super) velocity: [f64; 6],
     pub(super) weights: [f64; 6],
-    /// How far the tool is from each axis at most [m].
-    pub(super) reach: f64,
 }
 
 impl PlannedJoints {
@@ -66,17 +64,7 @@ impl PlannedJoints {
         let are_narrow = core::array::from_fn(|joint| high[joint] - low[joint] < TAU);
         let velocity = robot.max_velocity().copied().unwrap_or([1.0; 6]);
         let (wraps, middle) = (counts.map(|count| count > 1), [0; 6]);
-        Self {
-            low,
-            high,
-            are_narrow,
-            counts,
-            middle,
-            wraps,
-            velocity,
-            weights,
-            reach: longest(robot),
-        }
+        Self { low, high, are_narrow, counts, middle, wraps, velocity, weights }
     }
 
     /// Count the turns of joints without limits around the turns of `q`, and those of joints with
@@ -391,12 +379,4 @@ fn count(number: f64) -> usize {
 /// A count of turns as a number that may be negative.
 pub(super) fn whole(count: usize) -> i32 {
     i32::try_from(count).unwrap_or(i32::MAX)
-}
-
-/// The length of an arm with its tool as a chain [m]: no axis is farther from the tool.
-fn longest(robot: &Robot<6>) -> f64 {
-    let rows = robot.mdh().rows;
-    let links: f64 = rows.iter().map(|row| row.a.abs() + row.d.abs()).sum();
-    let fixed = [robot.mdh().flange.translation, robot.tool().translation];
-    fixed.iter().fold(links, |length, own| length + own.vector.norm())
 }

@@ -1,11 +1,8 @@
 //! The layers of a path as a graph to search, and how far apart what is free at two neighboring
 //! poses needs to be searched (docs/guide/plan.md, eq. 7).
 
-use alloc::vec::Vec;
-
 #[cfg(not(feature = "std"))]
 use nalgebra::ComplexField as _;
-use nalgebra::Vector3;
 
 use super::axes::Carried;
 use super::freedom::{FreeAxis, Freedom, Motion};
@@ -83,17 +80,13 @@ impl Most {
     }
 }
 
-/// How far the tool may come, times a factor, if each joint and each external axis moves as far as
+/// How far the tool may turn, times a factor, if each joint and each external axis moves as far as
 /// it may.
 #[derive(Clone)]
 pub(super) struct Farthest {
     most: Most,
     /// How far it may turn [rad].
     turn: f64,
-    /// How far it may move [m], by joints and tracks.
-    shift: f64,
-    /// How far positioners may turn, with the points they turn about.
-    positioners: Vec<(Vector3<f64>, f64)>,
 }
 
 impl Ladder<'_> {
@@ -136,30 +129,15 @@ impl Ladder<'_> {
         let of_axis = |axis: &FreeAxis| most.of_axis(axis.velocity, axis.weight);
         let each = self.joints.velocity.iter().zip(&self.joints.weights);
         let joints = most.of_axes(each.map(|(velocity, weight)| most.of_axis(*velocity, *weight)));
-        let positioners: Vec<_> = axes()
-            .filter_map(|axis| match axis.motion {
-                Motion::Carrier(Carried::Object(_, point) | Carried::Arm(_, point)) => {
-                    Some((point, of_axis(axis)))
-                }
-                _ => None,
-            })
-            .collect();
-        // How far an axis shifts the tool and turns it, that is not a positioner's.
-        let moves = |axis: &FreeAxis| match axis.motion {
-            Motion::Carrier(Carried::Robot(_)) => [of_axis(axis), 0.0],
-            Motion::Carrier(Carried::Tool(_, point)) => {
-                [point.norm(), 1.0].map(|own| own * of_axis(axis))
-            }
-            _ => [0.0; 2],
+        let turns = |is_one: fn(&Carried) -> bool| -> f64 {
+            let turning = axes()
+                .filter(|axis| matches!(axis.motion, Motion::Carrier(carried) if is_one(&carried)));
+            turning.map(of_axis).sum()
         };
-        let [shift, turn] =
-            axes().map(moves).fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
-        Farthest {
-            most,
-            turn: joints + turn + positioners.iter().map(|(_, turn)| turn).sum::<f64>(),
-            shift: joints * self.joints.reach + shift,
-            positioners,
-        }
+        let by_tool = turns(|carried| matches!(carried, Carried::Tool(..)));
+        let by_positioners =
+            turns(|carried| matches!(carried, Carried::Object(..) | Carried::Arm(..)));
+        Farthest { most, turn: joints + by_tool + by_positioners }
     }
 
     /// The window into a layer outside of which every edge costs more (eq. 7).
@@ -176,7 +154,6 @@ impl Ladder<'_> {
                 Motion::Carrier(_) => factor * most.of_axis(axis.velocity, axis.weight),
                 // How much faster the two angles of a tilted tool are than its direction.
                 Motion::Tilt(_) => turned * cone / cone.sin(),
-                Motion::Offset(_) => shifted(before, layer, factor, farthest),
                 // How much faster the twist of a tilted tool is than the tool.
                 Motion::Rotation(_) => turned / (0.5 * cone).cos(),
             };
@@ -201,13 +178,4 @@ fn count(distance: f64, step: f64, full: usize) -> usize {
     )]
     let count = whole_below(distance / step + ROUNDING).clamp(0.0, full as f64) as usize;
     count
-}
-
-/// How far the tool may move relative to the path [m].
-fn shifted(before: &Layer, layer: &Layer, factor: f64, farthest: &Farthest) -> f64 {
-    let [from, to] = [before, layer].map(|layer| layer.pose.translation.vector);
-    let about =
-        |(point, turn): &(Vector3<f64>, f64)| turn * (from - point).norm().max((to - point).norm());
-    let positioners: f64 = farthest.positioners.iter().map(about).sum();
-    (to - from).norm() + factor * (farthest.shift + positioners)
 }

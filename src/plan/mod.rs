@@ -54,7 +54,7 @@ mod tested;
 mod timed;
 
 pub use answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd, StrandReason};
-pub use axes::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
+pub use axes::{ExternalAxis, ToolAxis, ToolCone, ToolRotation};
 pub use options::{Accept, PlanOptions, PlanOrder};
 
 #[cfg(test)]

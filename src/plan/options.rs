@@ -4,7 +4,7 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::answer::StrandReason;
-use super::axes::{ExternalAxis, ToolCone, ToolOffset, ToolRotation};
+use super::axes::{ExternalAxis, ToolCone, ToolRotation};
 use super::graph::Values;
 use crate::cell::Cell;
 use crate::error::{Error, MotionFault};
@@ -45,8 +45,6 @@ pub struct PlanOptions<const N: usize = 6> {
     pub external: Vec<ExternalAxis>,
     /// How far the tool may be tilted.
     pub cone: Option<ToolCone>,
-    /// How far the tool may be shifted.
-    pub offset: Option<ToolOffset>,
     /// The time of each pose [s]. Then no joint may be faster than its limit. `None`: the poses are
     /// equally far apart in time, and nothing is too fast.
     pub times: Option<Vec<f64>>,
@@ -87,7 +85,6 @@ impl<const N: usize> Default for PlanOptions<N> {
             rotation: None,
             external: Vec::new(),
             cone: None,
-            offset: None,
             times: None,
             start: None,
             end: None,

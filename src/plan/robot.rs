@@ -184,7 +184,7 @@ fn reached_from_the_end(
 pub(super) fn freedoms(options: &PlanOptions) -> [Freedom; 2] {
     let coarse = options.rotation.map(|rotation| rotation.coarser(COARSEST_TOOL_STEP));
     [options.rotation, coarse]
-        .map(|rotation| Freedom::new(&options.external, options.cone, options.offset, rotation))
+        .map(|rotation| Freedom::new(&options.external, options.cone, rotation))
 }
 
 /// The poses of a path with their times.

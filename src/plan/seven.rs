@@ -187,14 +187,13 @@ impl Seven<'_> {
         };
         let (start, start_external) = end("start", options.start, &options.start_external)?;
         let (end, end_external) = end("end", options.end, &options.end_external)?;
-        let PlanOptions { rotation, cone, offset, closed, order, .. } = *options;
+        let PlanOptions { rotation, cone, closed, order, .. } = *options;
         let PlanOptions { limit_cost, singularity_cost, redundancy, .. } = *options;
         Ok(PlanOptions {
             redundancy,
             rotation,
             external,
             cone,
-            offset,
             times: options.times.clone(),
             start,
             end,

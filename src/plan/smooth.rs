@@ -68,7 +68,7 @@ impl Planner<'_> {
 
     /// The bottleneck with nothing free, or less; infinite if there is no joint path.
     fn fixed_bottleneck(&self) -> Result<f64, PlanError> {
-        let freedom = Freedom::new(&[], None, None, None);
+        let freedom = Freedom::new(&[], None, None);
         let arm = Arm { freedom: &freedom, ..self.arm };
         let (grid, count) = (arm.grid(), self.layers.len());
         let fixed = |layer: &Layer| {

@@ -154,7 +154,7 @@ fn random_freedom(rng: &mut Rng) -> Freedom {
     let count = 1 + below(rng, if steps > 1 { 2 } else { 3 });
     let upper = if below(rng, 2) == 0 { PI } else { 0.0 };
     let rotation = ToolRotation::new(count, -PI, upper, ToolAxis::Z).ok();
-    Freedom::new(&external, None, None, rotation)
+    Freedom::new(&external, None, rotation)
 }
 
 #[test]

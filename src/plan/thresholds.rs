@@ -13,9 +13,8 @@ pub(crate) const MOST_AXIS_STEPS: usize = 1001;
 /// Most external axes of a plan [1]: a track and a positioner of two axes.
 pub(crate) const MOST_EXTERNAL: usize = 3;
 
-/// Most axes that are free in a plan [1]: [`MOST_EXTERNAL`], two of a cone, an offset and the tool
-/// angle.
-pub(crate) const MOST_FREE_AXES: usize = MOST_EXTERNAL + 4;
+/// Most axes that are free in a plan [1]: [`MOST_EXTERNAL`], two of a cone and the tool angle.
+pub(crate) const MOST_FREE_AXES: usize = MOST_EXTERNAL + 3;
 
 /// Largest value of an external axis [m, rad].
 pub(crate) const MOST_EXTERNAL_VALUE: f64 = 1000.0;
@@ -48,9 +47,6 @@ pub(crate) const COARSEST_TOOL_STEP: f64 = 0.174_532_925_199_432_95;
 
 /// Distance of the values of a track down to which a plan refines them [m].
 pub(crate) const REFINED_TRACK: f64 = 5e-3;
-
-/// Distance of the offsets of a tool down to which a plan refines them [m].
-pub(crate) const REFINED_OFFSET: f64 = 5e-4;
 
 /// How far rounding may raise the cost of a step, relative to it [1]: that of joint angles, 1e-15
 /// rad, in steps of a millionth of a radian.

@@ -8,7 +8,7 @@ use super::arguments::{AXES, one_of};
 use super::arrays::{Rows, vector};
 use super::errors::Fault;
 use crate::plan::thresholds::MOST_TOOL_ANGLES;
-use crate::plan::{ExternalAxis, ToolAxis, ToolCone, ToolOffset, ToolRotation};
+use crate::plan::{ExternalAxis, ToolAxis, ToolCone, ToolRotation};
 
 /// A tuple of `irbkin.freedom`, as the argument `field`.
 struct Fields<'a, 'py> {
@@ -104,29 +104,13 @@ pub(super) fn read_carrier(carrier: &Bound<'_, PyAny>) -> PyResult<Vec<ExternalA
     Ok(axes)
 }
 
-/// Tolerances from `irbkin.ToolCone`, `irbkin.ToolOffset`, or one of each.
-pub(super) fn read_tolerance(
-    tolerance: &Bound<'_, PyAny>,
-) -> PyResult<(Option<ToolCone>, Option<ToolOffset>)> {
-    let wanted = "tolerance must be an irbkin.ToolCone, an irbkin.ToolOffset, or one of each";
-    let kinds = [class(tolerance.py(), "ToolCone")?, class(tolerance.py(), "ToolOffset")?];
-    let (mut cone, mut offset) = (None, None);
-    for one in &each(tolerance, &kinds, wanted)? {
-        let is_second = if one.is_instance(&kinds[0])? {
-            let fields = Fields { tuple: one, field: "ToolCone" };
-            let made = ToolCone::new(fields.number("angle")?, fields.count("steps")?);
-            cone.replace(made?).is_some()
-        } else {
-            let fields = Fields { tuple: one, field: "ToolOffset" };
-            let (lower, upper) = (fields.number("lower")?, fields.number("upper")?);
-            let made = ToolOffset::new(lower, upper, fields.count("steps")?, fields.axis("axis")?);
-            offset.replace(made?).is_some()
-        };
-        if is_second {
-            return Err(other(wanted, tolerance));
-        }
+/// A tolerance from `irbkin.ToolCone`.
+pub(super) fn read_tolerance(tolerance: &Bound<'_, PyAny>) -> PyResult<ToolCone> {
+    if !tolerance.is_instance(&class(tolerance.py(), "ToolCone")?)? {
+        return Err(other("tolerance must be an irbkin.ToolCone", tolerance));
     }
-    Ok((cone, offset))
+    let fields = Fields { tuple: tolerance, field: "ToolCone" };
+    Ok(ToolCone::new(fields.number("angle")?, fields.count("steps")?)?)
 }
 
 /// A class of `irbkin.freedom`.

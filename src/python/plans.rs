@@ -65,8 +65,7 @@ impl PyRobot {
     ///         carrier, which moves the base.
     ///     carrier: External axes: an `irbkin.Track`, an `irbkin.Positioner`, or up to three of
     ///         them. Their steps count for bottleneck and cost as steps of joints do.
-    ///     tolerance: How far the tool may be from the poses: an `irbkin.ToolCone`, an
-    ///         `irbkin.ToolOffset`, or one of each.
+    ///     tolerance: How far the tool may be tilted from the poses: an `irbkin.ToolCone`.
     ///     redundancy: Number of angles of joint 7 or 1 that are searched first, of an arm of seven
     ///         joints none of which is locked; 36 when not given. The joint is one of at most three
     ///         external axes.
@@ -186,7 +185,6 @@ struct Asked<'a, 'py> {
 
 impl Asked<'_, '_> {
     fn options<const N: usize>(&self) -> PyResult<PlanOptions<N>> {
-        let (cone, offset) = self.tolerance.map(read_tolerance).transpose()?.unwrap_or_default();
         let external = self.carrier.map(read_carrier).transpose()?.unwrap_or_default();
         let (start, start_external) = read_end(self.start, "start", external.len())?;
         let (end, end_external) = read_end(self.end, "end", external.len())?;
@@ -200,8 +198,7 @@ impl Asked<'_, '_> {
             end,
             start_external,
             end_external,
-            cone,
-            offset,
+            cone: self.tolerance.map(read_tolerance).transpose()?,
             closed: self.closed,
             weights: read_weights(self.weights)?,
             order: one_of("order", self.order, &ORDERS)?,

@@ -300,8 +300,8 @@ record! {
         /// Values of the external axes of `carrier` at each pose [m, rad], shape (m, k); NaN where
         /// a plan with breaks has none.
         external: Array,
-        /// Deviation within `tolerance` at each pose, shape (m, t): of a cone the tilts about the
-        /// two axes that the tool does not point in [rad], of an offset the shift [m].
+        /// Deviation within `tolerance` at each pose, shape (m, t): the tilts about the two axes
+        /// that the tool does not point in [rad]; t is 0 without a cone.
         tolerance: Array,
         /// Weighted sum of the squares of all joint steps, with the costs of being near limits and
         /// singularities [rad^2].

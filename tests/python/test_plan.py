@@ -314,7 +314,7 @@ def test_a_positioner_turns_the_object():
     assert plan.bottleneck < 0.7 * ROBOT.plan(T).bottleneck
 
 
-def test_tolerances_tilt_and_shift_the_tool():
+def test_a_tolerance_tilts_the_tool():
     T = weld(100)
     plan = ROBOT.plan(T, tolerance=irbkin.ToolCone(0.2))
     assert plan.tolerance.shape == (100, 2)
@@ -326,12 +326,6 @@ def test_tolerances_tilt_and_shift_the_tool():
     angles = np.arccos(np.clip(np.einsum("mi,mi->m", tool[:, :3, 2], T[:, :3, 2]), -1, 1))
     np.testing.assert_allclose(angles, tilt, atol=1e-6)
     assert plan.bottleneck < ROBOT.plan(T).bottleneck
-    plan = ROBOT.plan(T, tolerance=[irbkin.ToolOffset(-0.02, 0.01, axis="x")], rotation=12)
-    assert plan.tolerance.shape == (100, 1)
-    shift = np.einsum("mi,mi->m", ROBOT.fk(plan.q)[:, :3, 3] - T[:, :3, 3], T[:, :3, 0])
-    np.testing.assert_allclose(shift, plan.tolerance[:, 0], atol=1e-9)
-    assert shift.min() >= -0.02 - 1e-9
-    assert shift.max() <= 0.01 + 1e-9
 
 
 @pytest.mark.parametrize("rotation", [36, 360, irbkin.ToolRotation(181, -1.5, 1.5)])
@@ -373,8 +367,7 @@ def test_a_gap_is_seen_from_both_ends():
         ({"carrier": irbkin.Positioner([0, 0, 0], [0, 0, 0])}, irbkin.InvalidMotionError, "length"),
         ({"tolerance": irbkin.ToolCone(15)}, irbkin.InvalidMotionError, "degrees"),
         ({"tolerance": irbkin.ToolCone(0.1, 4)}, irbkin.InvalidMotionError, "odd"),
-        ({"tolerance": [irbkin.ToolCone(0.1)] * 2}, TypeError, "one of each"),
-        ({"tolerance": irbkin.ToolOffset(0, 0)}, irbkin.InvalidMotionError, "empty"),
+        ({"tolerance": [irbkin.ToolCone(0.1)]}, TypeError, "must be an irbkin.ToolCone, got"),
         (
             {"carrier": irbkin.Track("y", 0, 1), "start": np.zeros(6)},
             irbkin.InvalidJointsError,
