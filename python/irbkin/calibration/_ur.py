@@ -132,7 +132,7 @@ def _rotation(roll: float, pitch: float, yaw: float) -> Floats:
 
 
 def _urdf(frames: list[Floats], limits: Floats, velocity: Floats | None) -> str:
-    """The chain as URDF: frames between axes along z, the last one that of the tool."""
+    """The chain as URDF: frames between axes along z, the last one of the tool."""
     from irbkin._core import to_xyz_euler_zyx
 
     lines = ['<robot name="ur"><link name="l0"/>']
