@@ -1,4 +1,4 @@
-"""The cost of a map of reach, on one and on two threads, and written as a slab.
+"""The cost of a map of reach, on one and on two threads, and written into a file.
 
 POSES is about the number of poses, 10^6 if not given; QUICK=1 takes 10^5. Each row runs in a
 process of its own; memory is its peak.
@@ -22,8 +22,8 @@ POSES = 1e5 if QUICK else float(os.environ.get("POSES", "1e6"))
 ROWS = {
     "one thread": 1,
     "two threads": 2,
-    # The only slab, on one thread, in a file.
-    "as a slab": 0,
+    # On one thread.
+    "into a file": 0,
 }
 
 
@@ -49,9 +49,8 @@ def mapped(threads: int) -> None:
         if threads:
             found = irbkin.map.reach(robot, *axes, orientations, threads=threads)
         else:
-            irbkin.map.slab(robot, *axes, orientations, (1, 1), f"{folder}/part")
+            found = irbkin.map.reach(robot, *axes, orientations, output=f"{folder}/map.npz")
         duration, after = time.perf_counter() - begin, usage()
-        found = found if threads else irbkin.map.load(f"{folder}/part")
     poses = found.reached.size * len(orientations)
     print(
         f"{poses:12,} poses {duration:8.1f} s {1e9 * duration / poses:6.0f} ns a pose"

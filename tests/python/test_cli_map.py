@@ -36,42 +36,15 @@ def test_a_cell_takes_positions_away(tmp_path):
     assert wanted.solutions.sum() < rows(run("map", NAME, *GRID, "--csv"))["solutions"].sum()
 
 
-def test_slabs_by_the_command_are_the_map(tmp_path):
-    whole, parts = tmp_path / "whole.npz", [tmp_path / f"part-{it}" for it in (1, 2, 3)]
-    run("map", NAME, *GRID, "-o", whole)
-    for number, part in enumerate(parts, 1):
-        done = run("map", NAME, *GRID, "--slab", f"{number}/3", "-o", part)
-        # A slab that reaches nothing is none that failed.
-        assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
-    done = run("map", "--merge", *parts, "-o", tmp_path / "map.npz", IRBKIN_ROBOT=NAME)
-    assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
-    assert (tmp_path / "map.npz").read_bytes() == whole.read_bytes()
-    shown = run("map", NAME, *GRID, "-o", tmp_path / "map.npz")
-    assert shown.stdout == run("map", NAME, *GRID).stdout
-    missing = refused("map", "--merge", *parts[1:], "-o", tmp_path / "other.npz")
-    assert missing == "irbkin: no file has slab 1/3\n"
-
-
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ([NAME, *GRID, "--slab", "3/2", "-o", "part"], "slab 3/2: it must be at most 2/2"),
-        ([NAME, *GRID, "--slab", "3", "-o", "part"], "as 3/64"),
-        ([NAME, *GRID, "--slab", "0/3", "-o", "part"], "--slab: 0 must be 1 to"),
-        ([NAME, *GRID, "--slab", "1/99", "-o", "part"], "of 48 positions are at most"),
-        ([NAME, *GRID, "--slab", "1/3"], "--slab writes a file: give -o"),
-        ([NAME, *GRID, "--slab", "1/3", "-o", "part.csv"], "--slab writes a file: give -o"),
-        (["--merge", "part-1"], "--merge takes slabs and -o FILE.npz"),
-        (["--merge", "part-1", *GRID, "-o", "map.npz"], "no grid: they have it"),
-        (["--merge", "absent", "-o", "map.npz"], "absent: No such file"),
         ([NAME], "give --x, --y and --z"),
         (GRID, "no robot: give ROBOT first"),
     ],
 )
-def test_slabs_that_make_no_sense_are_refused(words, message, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_what_is_missing_is_named(words, message):
     assert message in refused("map", *words)
-    assert not list(tmp_path.iterdir())
 
 
 def test_nothing_reached_is_a_finding():

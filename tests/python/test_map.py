@@ -207,102 +207,28 @@ def test_the_map_of_something_else_is_not_touched(tmp_path):
         irbkin.map.load(tmp_path / "none.npz")
 
 
-def parts_of(folder, count, robot=ROBOT, spread=SPREAD, **options):
-    """The files of all slabs."""
-    parts = [folder / f"part-{number}" for number in range(1, count + 1)]
-    for number, part in enumerate(parts, 1):
-        irbkin.map.slab(robot, X, Y, Z, spread, (number, count), part, **options)
-    return parts
-
-
-@pytest.mark.parametrize("count", [1, 2, 7, 60])
-def test_slabs_are_the_map_byte_by_byte(tmp_path, count):
-    whole_file = tmp_path / "whole.npz"
-    irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, output=whole_file, cell=TABLE)
-    # A robot from another process, other blocks, another order.
-    other = pickle.loads(pickle.dumps(ROBOT))
-    parts = parts_of(tmp_path, count, other, block=4, cell=TABLE)
-    irbkin.map.merge(reversed(parts), tmp_path / "map.npz")
-    assert (tmp_path / "map.npz").read_bytes() == whole_file.read_bytes()
-    assert len(list(tmp_path.iterdir())) == count + 2
-    sizes = [len(np.load(part)["reached"].ravel()) for part in parts]
-    assert sum(sizes) == 60
-    assert max(sizes) - min(sizes) <= 1
-
-
-def test_a_slab_that_was_ended_goes_on_where_it_was(tmp_path):
-    (wanted,) = parts_of(tmp_path, 1)
+def test_a_run_goes_on_wherever_its_file_was_cut(tmp_path):
+    wanted = tmp_path / "wanted.npz"
+    irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, output=wanted)
     for size in (0, 20, 32, 33, 32 + 32 * 30 + 5):
-        part = tmp_path / f"again-{size}"
+        output = tmp_path / f"again-{size}.npz"
 
         def ended(done, count):
             if done >= 40:
                 raise KeyboardInterrupt
 
         with pytest.raises(KeyboardInterrupt):
-            irbkin.map.slab(ROBOT, X, Y, Z, SPREAD, (1, 1), part, block=1, progress=ended)
-        assert not part.exists()
-        beside = tmp_path / f".{part.name}.part"
+            irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, output=output, block=1, progress=ended)
+        assert not output.exists()
+        beside = tmp_path / f".{output.name}.part"
         # Cut anywhere, as by a machine that went off.
         beside.write_bytes(beside.read_bytes()[:size])
         again = mock.Mock()
-        irbkin.map.slab(ROBOT, X, Y, Z, SPREAD, (1, 1), part, progress=again)
+        irbkin.map.reach(ROBOT, X, Y, Z, SPREAD, output=output, progress=again)
         ready = max(size - 32, 0) // 32
         assert again.call_args_list == [mock.call(ready, 60), mock.call(60, 60)]
-        assert part.read_bytes() == wanted.read_bytes()
+        assert output.read_bytes() == wanted.read_bytes()
         assert not beside.exists()
-
-
-def test_slabs_that_do_not_make_a_map_are_named(tmp_path):
-    one, two, three = parts_of(tmp_path, 3)
-    output = tmp_path / "map.npz"
-
-    def refusal(*parts):
-        with pytest.raises(irbkin.IrbkinError) as caught:
-            irbkin.map.merge(parts, output)
-        assert not output.exists()
-        return str(caught.value)
-
-    assert refusal(one, three) == "no file has slab 2/3"
-    assert refusal(two) == "no file has slab 1/3, 3/3"
-    twin = three.rename(tmp_path / "twin")
-    parts_of(tmp_path, 3)
-    words = f"{three} and {twin} are both slab 3/3: leave one out"
-    assert refusal(one, two, three, twin) == words
-    assert refusal() == "parts is empty, it must have the files of all slabs"
-    for name, change in {
-        "robot": {"robot": ROBOT.with_tool(np.eye(4))},
-        "cell": {"cell": TABLE},
-        "orientations": {"spread": SPREAD[:-1]},
-        "number of slabs": {"count": 4},
-        "robot, cell": {"robot": ROBOT.with_base(irbkin.pose([0, 0, 1])), "cell": TABLE},
-    }.items():
-        (folder := tmp_path / name).mkdir()
-        other = parts_of(folder, **{"count": 3, **change})[1]
-        assert refusal(one, other, three) == f"{other} is of another map than {one}: other {name}"
-    # What is no slab, or broken: cut, or with a bit that is another.
-    content = two.read_bytes()
-    for wrong in (b"", b"PK", content[: len(content) // 2], _turned(content)):
-        two.write_bytes(wrong)
-        assert refusal(one, two, three).startswith(f"{two} is not a map: ")
-    with pytest.raises(irbkin.IrbkinError, match=r"part-1 is slab 1/3 of a map: merge them"):
-        irbkin.map.load(one)
-    with pytest.raises(FileExistsError, match=r"is of another map \(slab 1/3\): delete it"):
-        irbkin.map.slab(ROBOT, X, Y, Z, SPREAD, (2, 3), one)
-    with pytest.raises(FileExistsError, match=r"part-1 is of another map \(x\): delete it"):
-        irbkin.map.slab(ROBOT, X + 1, Y, Z, SPREAD, (1, 3), one)
-    for number, words in (
-        ((4, 3), "must be at most 3/3"),
-        ((1, 61), "of 60 positions are at most"),
-    ):
-        with pytest.raises(irbkin.InvalidPoseError, match=words):
-            irbkin.map.slab(ROBOT, X, Y, Z, SPREAD, number, tmp_path / "part")
-
-
-def _turned(content):
-    """A bit of the last field is another."""
-    at = content.index(b"singularities.npy") + 200
-    return content[:at] + bytes([content[at] ^ 1]) + content[at + 1 :]
 
 
 # The peak of the process [kB]; getrusage has that of the parent, too.
@@ -336,32 +262,6 @@ print(peak() - before)
         timeout=120,
     )
     assert int(run.stdout) < 60_000
-
-
-def test_a_slab_of_a_hundred_million_poses_needs_little_memory(tmp_path):
-    """Neither it nor the merge holds the map: the files of the rest need no poses."""
-    program = """
-import sys
-import numpy as np
-import irbkin, irbkin.map
-
-robot = irbkin.Robot("IRB 2600-12/1.65")
-axis, spread = np.linspace(-1.5, 1.5, 100), irbkin.map.orientations(25, 4)
-parts = [f"{sys.argv[1]}/part-{number}" for number in range(1, 65)]
-irbkin.map.slab(robot, axis, axis, axis, spread, (33, 64), parts[32])
-stored = dict(np.load(parts[32]))
-for number, part in enumerate(parts, 1):
-    if number != 33:
-        with open(part, "wb") as file:
-            np.savez(file, **{**stored, "slab": np.array([number, 64])})
-irbkin.map.merge(parts, f"{sys.argv[1]}/map.npz")
-print(peak())
-"""
-    run = subprocess.run(
-        [sys.executable, "-c", PEAK + program, tmp_path], capture_output=True, text=True, check=True
-    )
-    assert int(run.stdout) < 80_000
-    assert irbkin.map.load(tmp_path / "map.npz").reached.size == 10**6
 
 
 def test_orientations_are_spread_evenly():

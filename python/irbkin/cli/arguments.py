@@ -53,7 +53,7 @@ class Parser:
     def parsed(self, given: Sequence[str]) -> argparse.Namespace:
         """The arguments; a negative number is not an option, with an exponent either."""
         words = [f" {it}" if NUMBER.fullmatch(it) else it for it in given]
-        if self.needs_robot and not {"-h", "--help", "--merge"} & {*words}:
+        if self.needs_robot and not {"-h", "--help"} & {*words}:
             words = self._with_robot(words)
         arguments = self.parser.parse_intermixed_args(words)
         for name in ("tool", "base", "wobj"):
@@ -88,10 +88,10 @@ class Parser:
         complain(f"{', '.join(('robot', *own)).replace('_', '-')} of {settings.file}")
         return [settings.options["robot"], *words]
 
-    def add_robot(self, nargs: str | None = None) -> None:
+    def add_robot(self) -> None:
         """The arm, and what it carries."""
         self.needs_robot = True
-        self.add("robot", metavar="ROBOT", nargs=nargs, help=ROBOT_HELP)
+        self.add("robot", metavar="ROBOT", help=ROBOT_HELP)
         words = "the same: -r ROBOT or IRBKIN_ROBOT=ROBOT takes the place of the first argument"
         self.add("-r", "--robot", dest="robot_", metavar="ROBOT", help=words)
         self.add_frames()

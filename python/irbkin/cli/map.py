@@ -1,14 +1,11 @@
 """A grid of positions, each with every orientation of the tool: the share that is reached
 inside the limits without a collision, the number of solutions, the smallest margin from limits and
 singularities. A map in a file .npz (as of irbkin.map) goes on where a run was ended, and is shown
-level by level. --slab makes a part of it, on this machine or another; --merge puts all parts
-together. The exit code is 1 if nothing is reached.
+level by level. The exit code is 1 if nothing is reached.
 
 Examples:
   irbkin map "IRB 2600-12/1.65" --x 400 1600 --y -800 800 --z 0 1600 --step 200
   irbkin map "IRB 120-3/0.58" --x -600 600 --y -600 600 --z 0 900 --step 25 -o reach.npz
-  irbkin map "IRB 120-3/0.58" --x -600 600 --y -600 600 --z 0 900 --slab 3/64 -o part-3
-  irbkin map --merge part-* -o reach.npz
 """
 
 import argparse
@@ -31,7 +28,7 @@ MOST_THREADS = 1024
 
 
 def add_arguments(parser: Parser) -> None:
-    parser.add_robot(nargs="?")
+    parser.add_robot()
     add = parser.add
     for axis in "xyz":
         ends, words = ("FROM", "TO"), f"positions along {axis} [mm]"
@@ -45,26 +42,16 @@ def add_arguments(parser: Parser) -> None:
     parser.add_cell()
     threads = count(0, MOST_THREADS)
     add("--threads", type=threads, default=1, help="number of threads; 0 for one a core")
-    add("--slab", type=_slab, metavar="K/N", help="write slab K of N, from 1, to -o FILE")
-    add("--merge", nargs="+", metavar="PART", help="write the map of the files of all slabs")
     parser.add_formats("x, y, z [m], share, solutions, margin, shape (m, 6)", ".npz")
 
 
 def run(arguments: argparse.Namespace) -> int:
     output: str | None = arguments.output
-    ending = os.path.splitext(output or "")[1].lower()
-    is_map = ending == ".npz"
+    is_map = os.path.splitext(output or "")[1].lower() == ".npz"
     ends = [getattr(arguments, axis) for axis in "xyz"]
-    if arguments.merge:
-        if output is None or not is_map or any(ends) or arguments.slab:
-            raise CommandError("--merge takes slabs and -o FILE.npz, no grid: they have it")
-        maps.merge(arguments.merge, output)
-        return FINE
     robot = read_robot(arguments)
     if None in ends:
         raise CommandError("give --x, --y and --z (irbkin map --help)")
-    if arguments.slab and (output is None or ending not in ("", ".npz")):
-        raise CommandError("--slab writes a file: give -o with an ending .npz or none")
     x, y, z = (_positions(*it, arguments.step) for it in zip("xyz", ends, strict=True))
     positions = len(x) * len(y) * len(z)
     if positions > MOST_POSITIONS:
@@ -74,9 +61,6 @@ def run(arguments: argparse.Namespace) -> int:
     with Progress("positions", positions) as progress:
         options = {"threads": arguments.threads, "progress": progress.at}
         options |= {"q7": read_q7(arguments, robot), "cell": read_cell(arguments)}
-        if arguments.slab and output:
-            maps.slab(robot, x, y, z, orientations, arguments.slab, output, **options)
-            return FINE
         options["output"] = output if is_map else None
         found = maps.reach(robot, x, y, z, orientations, **options)
     heading = f"{robot.name}: {positions:,} positions, {len(orientations)} orientations each"
@@ -99,15 +83,6 @@ def _orientations(arguments: argparse.Namespace) -> Floats:
         words = f"it must be at most {MOST_ORIENTATIONS:,}"
         raise CommandError(f"--directions times --turns is {many:,}, {words}")
     return maps.orientations(arguments.directions, arguments.turns)
-
-
-def _slab(text: str) -> tuple[int, int]:
-    """The number of a slab, and how many there are."""
-    many = count(1, MOST_POSITIONS)
-    number, slash, of = text.partition("/")
-    if not slash:
-        raise argparse.ArgumentTypeError(f"{text!r} must be a slab and how many there are, as 3/64")
-    return many(number), many(of)
 
 
 def _positions(name: str, ends: list[float], step: float) -> list[float]:

@@ -1,4 +1,4 @@
-"""Maps of reach and dexterity; docs/guide/recipes.md has one on a cluster.
+"""Maps of reach and dexterity; docs/guide/recipes.md has one of many processes.
 
 >>> import irbkin, irbkin.map
 >>> robot = irbkin.Robot("IRB 2600-12/1.65")
@@ -11,7 +11,7 @@
 from __future__ import annotations
 
 from irbkin._grids import ReachMap
-from irbkin.map._reach import orientations, reach, slab
-from irbkin.map._store import load, merge
+from irbkin.map._reach import orientations, reach
+from irbkin.map._store import load
 
-__all__ = ["ReachMap", "load", "merge", "orientations", "reach", "slab"]
+__all__ = ["ReachMap", "load", "orientations", "reach"]

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,23 +14,13 @@ from irbkin.map._store import FIELDS, checked_output, load, records
 
 if TYPE_CHECKING:
     from os import PathLike
+    from pathlib import Path
 
     import numpy.typing as npt
-    from typing_extensions import Unpack
 
     from irbkin import Cell, Robot
     from irbkin._arguments import Bar, Report
     from irbkin._arrays import Floats
-
-
-class Options(TypedDict, total=False):
-    """Options of `reach` that do not say where the map goes."""
-
-    q7: float | None
-    cell: Cell | None
-    threads: int
-    block: int | None
-    progress: Report | Bar | None
 
 
 def orientations(directions: int, turns: int = 1) -> Floats:
@@ -112,63 +101,38 @@ def reach(
         FileExistsError: `output` is the map of something else.
         FileNotFoundError: The folder of `output` does not exist.
     """
-    options: Options = {"q7": q7, "cell": cell, "threads": threads, "block": block}
-    options["progress"] = progress
-    if output is not None:
-        slab(robot, x, y, z, orientations, (1, 1), checked_output(output), **options)
-        return load(output)
-    grid = Grid(robot, x, y, z, orientations, **options)
-    fields = {name: np.zeros(np.prod(grid.shape), kind) for name, kind in FIELDS.items()}
-    for rows, found in grid.blocks(0, 0, len(fields["reached"])):
+    path = None if output is None else checked_output(output)
+    grid = Grid(
+        robot,
+        x,
+        y,
+        z,
+        orientations,
+        q7=q7,
+        cell=cell,
+        threads=threads,
+        block=block,
+        progress=progress,
+    )
+    if path is not None:
+        _write(grid, path)
+        return load(path)
+    fields = {name: np.zeros(grid.size, kind) for name, kind in FIELDS.items()}
+    for rows, found in grid.blocks(0):
         for name, field in fields.items():
             field[rows] = found[name]
     whole = {name: field.reshape(grid.shape) for name, field in fields.items()}
     return ReachMap(*grid.axes, grid.orientations, **whole)
 
 
-def slab(
-    robot: Robot,
-    x: npt.ArrayLike,
-    y: npt.ArrayLike,
-    z: npt.ArrayLike,
-    orientations: npt.ArrayLike,
-    number: tuple[int, int],
-    output: str | PathLike[str],
-    **options: Unpack[Options],
-) -> None:
-    """Map a slab of a grid into a file, for machines that share the work; `merge` makes the map of
-    all slabs. Memory holds one block.
-
-    Args:
-        robot: The arm, with its tool and base.
-        x: Positions of the whole grid along x [m], shape (i,), as of `reach`.
-        y: Along y.
-        z: Along z.
-        orientations: Orientations of the tool, shape (o, 3, 3).
-        number: Number of the slab, from 1, and how many there are: (3, 64).
-        output: Its file. A run that was ended goes on where it was.
-        **options: `q7`, `cell`, `threads`, `block`, `progress` of `reach`.
-
-    Raises:
-        InvalidPoseError: `number` is not from 1 to the number of slabs, or there are more slabs
-            than positions; otherwise as `reach`, as all errors.
-        FileExistsError: `output` is of another map or slab.
-    """
-    grid, path = Grid(robot, x, y, z, orientations, **options), Path(output)
-    own, of = (count(it, "number", InvalidPoseError) for it in number)
-    if own > of:
-        raise InvalidPoseError(f"slab {own}/{of}: it must be at most {of}/{of}")
-    if of > (positions := int(np.prod(grid.shape))):
-        raise InvalidPoseError(
-            f"slab {own}/{of}: of {positions} positions are at most as many slabs"
-        )
-    part = grid.slab((own, of))
-    first, last = part.span
-    if part.is_in(path):
-        grid.report(last - first, last - first)
+def _write(grid: Grid, path: Path) -> None:
+    """Write the map of a grid into a file, from where a run was ended."""
+    job = grid.job()
+    if job.is_in(path):
+        grid.report(grid.size, grid.size)
         return
-    with records(path, part) as (file, ready):
-        for _, found in grid.blocks(first, first + ready, last):
+    with records(path, job) as (file, ready):
+        for _, found in grid.blocks(ready):
             file.write(found.tobytes())
             file.flush()
 

@@ -10,7 +10,7 @@ from irbkin._arguments import check_robot, count, reporter
 from irbkin._arrays import all_poses, as_array, finite
 from irbkin._core import Cell, Robot, __version__
 from irbkin.errors import InvalidPoseError
-from irbkin.map._store import FIELDS, RECORD, Slab
+from irbkin.map._store import FIELDS, RECORD, Job
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -52,18 +52,23 @@ class Grid:
         if block is not None:
             self.block = count(block, "block", InvalidPoseError)
 
-    def slab(self, number: tuple[int, int]) -> Slab:
-        """A slab of it."""
-        job = (self.robot, self.q7, self.cell, __version__)
-        return Slab.of(number, job, (*self.axes, self.orientations))
+    @property
+    def size(self) -> int:
+        """Number of positions."""
+        return int(np.prod(self.shape))
 
-    def blocks(self, begin: int, first: int, last: int) -> Iterator[tuple[slice, npt.NDArray[Any]]]:
-        """The records of positions from `first` on, of a slab that begins before, in blocks."""
-        self.report(first - begin, last - begin)
-        for low in range(first, last, self.block):
-            high = min(low + self.block, last)
+    def job(self) -> Job:
+        """What its file names beside the numbers."""
+        inputs = (self.robot, self.q7, self.cell, __version__)
+        return Job.of(inputs, (*self.axes, self.orientations))
+
+    def blocks(self, first: int) -> Iterator[tuple[slice, npt.NDArray[Any]]]:
+        """The records of positions from `first` on, in blocks."""
+        self.report(first, self.size)
+        for low in range(first, self.size, self.block):
+            high = min(low + self.block, self.size)
             yield slice(low, high), self.solved(low, high)
-            self.report(high - begin, last - begin)
+            self.report(high, self.size)
 
     def solved(self, first: int, last: int) -> npt.NDArray[Any]:
         """Return the records of a range of positions."""

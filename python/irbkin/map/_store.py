@@ -1,6 +1,4 @@
-"""Maps in files, whole or in slabs: written block by block, so that memory does not grow with them
-and a run that was ended goes on where it was.
-"""
+"""Maps in files: written block by block, so that a run that was ended goes on where it was."""
 
 from __future__ import annotations
 
@@ -19,11 +17,10 @@ import numpy.typing as npt
 from irbkin._arrays import Floats
 from irbkin._files import continued, replaced
 from irbkin._grids import ReachMap
-from irbkin._words import listed
 from irbkin.errors import IrbkinError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
     from os import PathLike
 
 FIELDS = {"reached": "<i8", "solutions": "<i8", "margin": "<f8", "singularities": "<f8"}
@@ -31,62 +28,40 @@ RECORD = np.dtype([*FIELDS.items()])
 """The numbers of a position."""
 CHUNK = 1 << 20
 """Bytes that are copied at a time."""
-JOB = ("robot", "q7", "cell", "version of irbkin")
+INPUTS = ("robot", "q7", "cell", "version of irbkin")
 """Inputs of a map beside its grid."""
 
 
-class Slab(NamedTuple):
-    """A part of a map, as its file has it beside the numbers."""
+class Job(NamedTuple):
+    """The inputs of a map, as its file has them beside the numbers."""
 
     job: npt.NDArray[Any]
-    """Digests of JOB."""
-    slab: npt.NDArray[np.int64]
-    """Its number from 1, and how many there are."""
+    """Digests of INPUTS."""
     x: Floats
     y: Floats
     z: Floats
     orientations: Floats
 
     @classmethod
-    def of(cls, number: Sequence[int], job: Sequence[Any], grid: Sequence[Floats]) -> Slab:
-        """A slab of a map."""
-        digests = [hashlib.sha256(pickle.dumps(it, protocol=4)).hexdigest() for it in job]
-        return cls(np.array(digests), np.array(number), *grid)
-
-    @classmethod
-    def read(cls, path: Path) -> Slab:
-        """The slab in a file.
-
-        Raises:
-            IrbkinError: It has no slab.
-        """
-        return cls(**_arrays(path, cls._fields))
-
-    @property
-    def name(self) -> str:
-        """Its number, as 3/64."""
-        return "{}/{}".format(*self.slab)
+    def of(cls, inputs: Sequence[Any], grid: Sequence[Floats]) -> Job:
+        """The job of inputs and a grid."""
+        digests = [hashlib.sha256(pickle.dumps(it, protocol=4)).hexdigest() for it in inputs]
+        return cls(np.array(digests), *grid)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Numbers of positions of the whole map."""
+        """Numbers of positions."""
         return len(self.x), len(self.y), len(self.z)
 
-    @property
-    def span(self) -> tuple[int, int]:
-        """Its positions, x the slowest, end exclusive."""
-        (number, of), count = self.slab.tolist(), int(np.prod(self.shape))
-        return count * (number - 1) // of, count * number // of
-
-    def differences(self, other: Slab) -> str:
-        """Inputs of another slab that are not its own, if it is of another map."""
-        names = [it for it, own, its in zip(JOB, self.job, other.job, strict=True) if own != its]
+    def differences(self, other: Job) -> str:
+        """Inputs of another job that are not its own."""
+        names = [it for it, own, its in zip(INPUTS, self.job, other.job, strict=True) if own != its]
         grid = ("x", "y", "z", "orientations")
         names += [it for it in grid if not np.array_equal(getattr(self, it), getattr(other, it))]
-        return ", ".join([*names, *["number of slabs"] * bool(self.slab[1] != other.slab[1])])
+        return ", ".join(names)
 
     def is_in(self, path: Path) -> bool:
-        """Whether it is in a file already.
+        """Whether its map is in a file already.
 
         Raises:
             FileExistsError: The file has something else.
@@ -94,8 +69,7 @@ class Slab(NamedTuple):
         if not path.exists():
             return False
         try:
-            found = Slab.read(path)
-            what = self.differences(found) or f"slab {found.name}" * (found.name != self.name)
+            what = self.differences(Job(**_arrays(path, Job._fields)))
         except IrbkinError as error:
             what = str(error)
         if what:
@@ -108,9 +82,9 @@ def _another(path: Path, what: str) -> FileExistsError:
 
 
 @contextlib.contextmanager
-def records(path: Path, slab: Slab) -> Iterator[tuple[BinaryIO, int]]:
+def records(path: Path, job: Job) -> Iterator[tuple[BinaryIO, int]]:
     """A file beside `path` that records are appended to, and how many it has; with all, it becomes
-    the file. Two processes that write one slab at once write the same.
+    the file. Two processes that write one map at once write the same.
 
     Raises:
         FileExistsError: The file beside it is of another map, or a link.
@@ -120,7 +94,7 @@ def records(path: Path, slab: Slab) -> Iterator[tuple[BinaryIO, int]]:
     if not path.parent.is_dir():
         words = "cannot be written: its folder does not exist"
         raise FileNotFoundError(errno.ENOENT, words, str(path))
-    begin = hashlib.sha256(b"".join(it.tobytes() for it in slab)).digest()
+    begin = hashlib.sha256(b"".join(it.tobytes() for it in job)).digest()
     with continued(beside) as file:
         if not begin.startswith(file.read(len(begin))):
             raise _another(beside, "a run of it was ended")
@@ -135,72 +109,23 @@ def records(path: Path, slab: Slab) -> Iterator[tuple[BinaryIO, int]]:
             while content := file.read(CHUNK):
                 yield np.frombuffer(content, RECORD)[name].tobytes()
 
-        _write(path, slab, column)
+        _write(path, job, column)
     beside.unlink(missing_ok=True)
 
 
-def _write(path: Path, slab: Slab, column: Callable[[str], Iterator[bytes]]) -> None:
-    """Write a slab as `numpy.savez` would; the only one is a map."""
-    form, (first, last) = np.lib.format, slab.span
-    shape = slab.shape if slab.slab[1] == 1 else (last - first,)
+def _write(path: Path, job: Job, column: Callable[[str], Iterator[bytes]]) -> None:
+    """Write a map as `numpy.savez` would."""
+    form = np.lib.format
     with replaced(path) as file, zipfile.ZipFile(file, "w") as archive:
-        for name, array in slab._asdict().items():
+        for name, array in job._asdict().items():
             with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
                 form.write_array(entry, array)
         for name, kind in FIELDS.items():
-            head = {"descr": kind, "fortran_order": False, "shape": shape}
+            head = {"descr": kind, "fortran_order": False, "shape": job.shape}
             with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
                 form.write_array_header_1_0(entry, head)
                 for content in column(name):
                     entry.write(content)
-
-
-def merge(parts: Iterable[str | PathLike[str]], output: str | PathLike[str]) -> None:
-    """Put the slabs of a map together: byte by byte the file of a map that was made in one piece.
-    Memory holds a megabyte of it.
-
-    Args:
-        parts: The files of all slabs, which `slab` has written, in any order.
-        output: File (.npz) of the map, which `load` reads.
-
-    Raises:
-        OSError: A file cannot be read or written.
-        IrbkinError: A file is no slab, or of another map than the first one (the message has what
-            differs); a slab is missing, or given twice.
-    """
-    path, files = checked_output(output), dict[int, Path]()
-    slab = origin = None
-    for part in map(Path, parts):
-        own = Slab.read(part)
-        slab, origin = slab or own, origin or part
-        if what := slab.differences(own):
-            raise IrbkinError(f"{part} is of another map than {origin}: other {what}")
-        if twin := files.get(number := int(own.slab[0])):
-            raise IrbkinError(f"{twin} and {part} are both slab {own.name}: leave one out")
-        files[number] = part
-    if slab is None:
-        raise IrbkinError("parts is empty, it must have the files of all slabs")
-    count = int(slab.slab[1])
-    if missing := [f"{it}/{count}" for it in range(1, count + 1) if it not in files]:
-        raise IrbkinError(f"no file has slab {listed(missing)}")
-
-    def column(name: str) -> Iterator[bytes]:
-        for number, part in sorted(files.items()):
-            first, last = slab._replace(slab=np.array([number, count])).span
-            yield from _column(part, name, last - first)
-
-    _write(path, slab._replace(slab=np.array([1, 1])), column)
-
-
-def _column(path: Path, name: str, count: int) -> Iterator[bytes]:
-    """The bytes of a field of a slab."""
-    with _named(path), zipfile.ZipFile(path) as archive, archive.open(f"{name}.npy") as entry:
-        np.lib.format.read_magic(entry)
-        shape, is_fortran, kind = np.lib.format.read_array_header_1_0(entry)
-        if (int(np.prod(shape)), is_fortran, kind.str) != (count, False, FIELDS[name]):
-            raise ValueError(f"{name} has {kind} of shape {shape}")
-        while content := entry.read(CHUNK):
-            yield content
 
 
 @contextlib.contextmanager
@@ -233,16 +158,13 @@ def checked_output(output: str | PathLike[str]) -> Path:
 
 
 def load(path: str | PathLike[str]) -> ReachMap:
-    """Read a map that `reach` or `merge` has written.
+    """Read a map that `reach` has written.
 
     Args:
         path: The file.
 
     Raises:
         OSError: The file cannot be read.
-        IrbkinError: It is not a map, or one slab of it.
+        IrbkinError: It is not a map.
     """
-    fields = _arrays(Path(path), (*ReachMap._fields, "slab"))
-    if (of := fields.pop("slab").tolist())[1] != 1:
-        raise IrbkinError(f"{path} is slab {of[0]}/{of[1]} of a map: merge them, then load the map")
-    return ReachMap(**fields)
+    return ReachMap(**_arrays(Path(path), ReachMap._fields))
