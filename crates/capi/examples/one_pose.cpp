@@ -22,7 +22,7 @@ int main() {
         const irbkin::Pose pose = {1, 0, 0, 0.85, 0, -1, 0, 0.32, 0, 0, -1, 0.64, 0, 0, 0, 1};
         const auto solutions = robot.ik(pose);
         std::printf("%s: %zu solutions\n", robot.name().c_str(), solutions.size());
-        for (const auto solution : solutions) {
+        for (const auto &solution : solutions) {
             std::printf("slot %zu, %s the limits:", solution.slot,
                         solution.is_within_limits() ? " inside" : "outside");
             print(solution.q);
