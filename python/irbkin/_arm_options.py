@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 MOST_TURN = 360.0
 """The largest Euler angle that the library takes [deg]."""
-ROBOTSTUDIO = re.compile(r"(.+\.(?:rslib|rsstnx?|rspag|glb))(?::(.+))?", re.IGNORECASE)
+ROBOTSTUDIO = re.compile(r"(.+\.(?:rslib|rsstnx?|rspag))(?::(.+))?", re.IGNORECASE)
 """A file of RobotStudio, and behind a colon an arm in it."""
 LEAST_LENGTH = 5.0
 """Coordinates that are all below it may be in meters [mm]."""

@@ -167,8 +167,7 @@ impl PyRobot {
     /// docs/guide/robotstudio.md.
     ///
     /// Args:
-    ///     path: A library, .rslib, a station, .rsstn, .rsstnx or .rspag, or an export, .glb, which
-    ///         is taken only if its table reproduces its own nodes.
+    ///     path: A library, .rslib, or a station, .rsstn, .rsstnx or .rspag.
     ///     name: Name of the arm in the file; needed if the file has several.
     ///     coupled_limits: False to leave out limits that couple axes. Only a robot with a linkage
     ///         can have them, and only of axes 2 and 3: of any other they are an error.

@@ -1,8 +1,6 @@
-"""RobotStudio's files of an arm of our own, in each spelling: XML, archives and GLB."""
+"""RobotStudio's files of an arm of our own, in each spelling: XML and archives."""
 
 import io
-import json
-import struct
 import zipfile
 
 import numpy as np
@@ -97,12 +95,11 @@ def matrix(name, values):
     return (name, size, [("MatrixElements", {}, doubles(values.T))])
 
 
-def joint_infos(rows, kinds, names, following=None):
-    wrapper, row_name = names
+def joint_infos(rows, kinds, following=None):
     following = following or [*range(1, len(rows)), -1]
     return [
         (
-            wrapper,
+            "Element",
             {"IsRevoluteJoint": str(kind).lower()},
             [
                 (
@@ -110,7 +107,7 @@ def joint_infos(rows, kinds, names, following=None):
                     {},
                     [
                         (
-                            row_name,
+                            "Element",
                             {"NextJoint": following[i], "Link": i + 1}
                             | dict(
                                 zip(("Twist", "Length", "Rotation", "Offset"), row, strict=True)
@@ -168,7 +165,7 @@ def definition(
                 (
                     "JointInfos",
                     {},
-                    joint_infos(rows, kinds or [True] * n, ("Element", "Element"), following),
+                    joint_infos(rows, kinds or [True] * n, following),
                 ),
             ],
         ),
@@ -242,58 +239,3 @@ def archive(members):
         for name, content in members.items():
             file.writestr(name, content)
     return held.getvalue()
-
-
-def kinematics(spelling="attributes", rows=ROWS, coupled=(), active=6, more=()):
-    """The XML in a GLB."""
-    a, b = matrix_of(coupled=coupled)
-    flat = [" ".join(repr(float(it)) for it in np.ravel(values)) for values in (BASE.T, a.T, b)]
-    return spelled(
-        (
-            "ForwardKinematics",
-            {"NumActiveJoints": active, "NumLinks": len(rows) + 1},
-            [
-                ("KinematicBaseFrame", {}, [flat[0]]),
-                ("JointInfos", {}, joint_infos(rows, [True] * len(rows), ("JointInfo", "DH"))),
-                ("JointLimitsMatrix", {"NumRows": len(b), "NumCols": 6}, [flat[1]]),
-                ("JointLimitsVector", {"NumRows": len(b), "NumCols": 1}, [flat[2]]),
-                *more,
-            ],
-        ),
-        spelling,
-    )
-
-
-def nodes(text, first=1, name="SYN6_5_120__01", q=POSE, links=True, offset=None, **extras):
-    """Nodes of a mechanism that begin at the number `first`."""
-    offset = OFFSET.T.ravel().tolist() if offset is None else offset
-    mechanism = {
-        "name": name,
-        "extras": {
-            "ABB_ro_int_kinematics": text,
-            "ABB_ro_int_jointvalues": [*q],
-            "ABB_ro_int_mountLinkIndex": 6,
-            "ABB_ro_int_mountOffset": offset,
-        }
-        | extras,
-    }
-    if not links:
-        return [mechanism]
-    mechanism["children"] = [first + 1 + i for i in range(7)]
-    places = [np.eye(4), *poses(q)]
-    return [
-        mechanism,
-        *(
-            {"name": f"Link{i}" if i else "Base", "matrix": np.round(it.T, 6).ravel().tolist()}
-            for i, it in enumerate(places)
-        ),
-    ]
-
-
-def glb(own):
-    """A GLB of nodes below a root that turns y up."""
-    root = {"name": "root", "rotation": [-HALF / 2, 0, 0, 0.7], "children": [1]}
-    text = json.dumps({"asset": {"version": "2.0"}, "nodes": [root, *own]}).encode()
-    text += b" " * (-len(text) % 4)
-    chunk = struct.pack("<I4s", len(text), b"JSON") + text
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunk)) + chunk

@@ -71,7 +71,6 @@ def sound_scene():
 
 
 STATION = robotstudio_files.pim(robotstudio_files.definition(), robotstudio_files.instance())
-NODES = robotstudio_files.nodes(robotstudio_files.kinematics())
 READERS = {
     "urdf": (read_urdf, (DATA / "ur5e.urdf").read_bytes(), irbkin.IrbkinError),
     "scene": (read_scene, sound_scene(), ValueError),
@@ -79,7 +78,6 @@ READERS = {
     "moveit": (read_moveit, MOVEIT, irbkin.IrbkinError),
     "station": (read_studio, STATION.replace(b"><", b">\n<"), irbkin.IrbkinError),
     "library": (read_studio, robotstudio_files.archive({"PIM.xml": STATION}), irbkin.IrbkinError),
-    "glb": (read_studio, robotstudio_files.glb(NODES), irbkin.IrbkinError),
 }
 
 

@@ -16,22 +16,18 @@ __all__ = ["robot_of"]
 
 
 def robot_of(path: str | os.PathLike[str], name: str | None, coupled_limits: bool) -> Robot:
-    """Read the arm of a name, or the only one, of a station, a library or a GLB."""
+    """Read the arm of a name, or the only one, of a station or a library."""
     import numpy as np
 
     from irbkin._robotstudio.containers import documents
-    from irbkin._robotstudio.glb import mechanisms_of_glb
     from irbkin._robotstudio.mechanisms import chosen, robot_of_arm
     from irbkin._robotstudio.pim import mechanisms_of
 
     where = path = os.fspath(path)
     try:
-        with open(path, "rb") as file:
-            is_glb = file.read(4) == b"glTF"
         # Numbers that overflow are as far from their bounds as NaN.
         with np.errstate(all="ignore"):
-            mechanisms = mechanisms_of_glb(path) if is_glb else mechanisms_of(documents(path))
-            found = chosen(mechanisms, name)
+            found = chosen(mechanisms_of(documents(path)), name)
             where = f"{path}: {found.names[0]}"
             return robot_of_arm(found.read(), found.names[0], coupled_limits)
     except RecursionError:

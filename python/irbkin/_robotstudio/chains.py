@@ -69,7 +69,7 @@ def check_pose(name: str, found: Array, wanted: Array, most: float) -> None:
 
 def arm_of(kinematics: Element, flange_link: int | None) -> Arm:
     """The chain from the base to a link; to the only end of all joints when not given."""
-    active = xml.integer(kinematics, "numactivekjoints", "numactivejoints")
+    active = xml.integer(kinematics, "numactivekjoints")
     if not 6 <= active <= MOST_JOINTS:
         raise InvalidModelError(f"its table has {active} active joints, an arm has 6 or 7")
     rows, is_revolute = _rows(kinematics)

@@ -36,7 +36,7 @@ def _documents(
         yield name, _bounded(file, name, MOST_XML)
         return
     if not start.startswith(b"PK"):
-        raise InvalidModelError(f"{name} is no .rslib, .rsstn, .rspag, .rsstnx or .glb")
+        raise InvalidModelError(f"{name} is no .rslib, .rsstn, .rspag or .rsstnx")
     try:
         with zipfile.ZipFile(file) as archive:
             for member in archive.infolist():

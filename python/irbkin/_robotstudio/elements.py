@@ -149,21 +149,13 @@ def transform(element: Element) -> Array:
     numbers.
     """
     rows = [it for it in element if local(it) in ("rowx", "rowy", "rowz", "rowt")]
-    given = [number(row, axis) for row in rows for axis in "xyzw"] or numbers(element)
-    return rigid(given, local(element))
-
-
-def rigid(values: list[float], name: str) -> Array:
-    """A rigid transform of 16 numbers, by columns or by rows, or of a translation [m]."""
-    if len(values) not in (3, 16):
-        raise InvalidModelError(f"{name} has {len(values)} numbers, a transform has 16 or 3")
-    found = np.eye(4)
-    if len(values) == 3:
-        found[:3, 3] = values
-    else:
-        found = np.reshape(values, (4, 4))
-        # glTF and RobotStudio have the translation last: then the zeros are in the last column.
-        found = found.T if (found[:, 3] == [0.0, 0.0, 0.0, 1.0]).all() else found
+    values = [number(row, axis) for row in rows for axis in "xyzw"] or numbers(element)
+    name = local(element)
+    if len(values) != 16:
+        raise InvalidModelError(f"{name} has {len(values)} numbers, a transform has 16")
+    found = np.reshape(values, (4, 4))
+    # RobotStudio has the translation last: then the zeros are in the last column.
+    found = found.T if (found[:, 3] == [0.0, 0.0, 0.0, 1.0]).all() else found
     skew = np.abs(found[:3, :3] @ found[:3, :3].T - np.eye(3)).max()
     is_turn = skew <= SKEW and np.linalg.det(found[:3, :3]) > 0.0
     if not is_turn or (found[3] != [0.0, 0.0, 0.0, 1.0]).any():
