@@ -113,11 +113,11 @@ lints:
 rust-tests:
 	$(STEP) -q "Compile the Rust tests" $(SUITE) --no-run
 
-test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars, xarray, rerun; run the recipes and read files of rerun
+test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars, xarray, rerun; run the recipes
 	@if tests/step.sh "Install what recipes need" $(PIP_INSTALL) --group recipes; then \
 		tests/step.sh "Recipes" $(BIN)/python -m pytest --quiet -m recipes; \
 	else \
-		echo "SKIPPED: recipes and files of rerun were not run: their packages cannot be installed (the reason is above)"; \
+		echo "SKIPPED: recipes were not run: their packages cannot be installed (the reason is above)"; \
 	fi
 
 # In a ROS of its own each; only where one cannot be installed it is skipped, with the reason.

@@ -26,6 +26,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from irbkin import _other_names
 from irbkin._core import (
     Cell,
     Follower,
@@ -144,21 +145,7 @@ _MODULES = (
 )
 _EXTRAS = {"plot": "matplotlib"}
 
-# Names of other packages, and what to use here.
-_OTHERS = {
-    "from_urdf": "Robot.from_urdf",
-    "load_urdf": "Robot.from_urdf",
-    "list_robots": "catalog",
-    "robots": "catalog",
-    "models": "Robot",
-    "Chain": "Robot.from_urdf",
-    "DHRobot": "Robot.from_sdh",
-    "Item": "Robot",
-    "ctraj": "paths.line",
-    "jtraj": "trajectory.joint",
-    "tooldata": "rapid.ToolData",
-    "wobjdata": "rapid.WobjData",
-}
+_other_names.add_to_robot()
 
 
 def __getattr__(name: str) -> ModuleType | Callable[..., Any]:
@@ -176,8 +163,9 @@ def __getattr__(name: str) -> ModuleType | Callable[..., Any]:
             return importlib.import_module(f"irbkin.{name}")
         except ImportError as missing:
             raise AttributeError(str(missing)) from missing
-    hint = f": use {_OTHERS[name]}" if name in _OTHERS else ""
-    raise AttributeError(f"module 'irbkin' has no attribute {name!r}{hint}")
+    own = _other_names.by_other(_other_names.OF_PACKAGE).get(name)
+    instead = f": use {own}" if own else ""
+    raise AttributeError(f"module 'irbkin' has no attribute {name!r}{instead}")
 
 
 def __dir__() -> list[str]:

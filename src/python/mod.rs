@@ -27,7 +27,6 @@ mod found;
 mod freedoms;
 mod go;
 mod guard;
-mod hints;
 mod inverse;
 mod meshes;
 mod models;

@@ -4,6 +4,7 @@
 use std::sync::{Arc, OnceLock};
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -276,6 +277,17 @@ impl PyRobot {
     ///         GoFa, whose controller measures joint 3 from the upper arm.
     fn coupled(&self) -> PyResult<Self> {
         Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).coupled()?)).into())
+    }
+
+    #[expect(clippy::unused_self, reason = "the arguments of Python's slot")]
+    fn __setattr__(&self, name: &str, _value: &Bound<'_, PyAny>) -> PyResult<()> {
+        let own = match name {
+            "tool" | "base" | "limits" | "body" => format!("with_{name}"),
+            "name" | "max_velocity" => "from_mdh or from_urdf".to_owned(),
+            _ => "a name of your own".to_owned(),
+        };
+        let message = format!("a Robot is frozen, '{name}' cannot be set: use {own}");
+        Err(PyAttributeError::new_err(message))
     }
 
     fn __hash__(&self) -> u64 {

@@ -227,7 +227,6 @@ def test_what_libraries_write_goes_through_it():
         ("plot/_picture.py", "savefig", "file"),
         # Names and files of `write_by_name`.
         ("plot/_animation.py", "save", "own"),
-        ("scene/_rerun.py", "save", "path"),
         # A scene, which is a writer above.
         ("cli/view.py", "save", "output"),
     }

@@ -59,7 +59,7 @@ def test_a_picture_has_the_arms_and_the_way_of_the_tool(tmp_path):
 
 @pytest.mark.parametrize("name", ["a.png", "a.pdf", "a", "a.json.txt", "a.xml"])
 def test_an_ending_that_is_unknown_is_refused_with_those_known(tmp_path, name):
-    with pytest.raises(ValueError, match=r"must end in \.json, \.html, \.htm, \.svg or \.rrd"):
+    with pytest.raises(ValueError, match=r"must end in \.json, \.html, \.htm, \.svg$"):
         scene.of(ROBOT).save(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
 

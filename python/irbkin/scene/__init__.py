@@ -16,7 +16,6 @@ True
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from irbkin.scene._arms import arm_of
@@ -61,15 +60,16 @@ __all__ = [
 ]
 
 
-def _late(module: str, name: str) -> Any:
-    """A face that needs an extra, imported when it is first asked for."""
-    return lambda *own, **more: getattr(import_module(module), name)(*own, **more)
+def _widget(*arguments: Any, **options: Any) -> Any:
+    """A widget of a notebook: it needs an extra, which is imported when it is first used."""
+    from irbkin.scene._widget import View
+
+    return View(*arguments, **options)
 
 
 # A scene is data: it does not know the faces that know it.
 FACES.update({".html": page, ".htm": page, ".svg": of_scene})
-FACES[".rrd"] = _late("irbkin.scene._rerun", "write")
-FACES["view"] = _late("irbkin.scene._widget", "View")
+FACES["view"] = _widget
 
 
 def __getattr__(name: str) -> Any:

@@ -291,19 +291,15 @@ class Scene(_Part):
         return text
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the scene to a file, by its ending: a page (.html), JSON, a picture of its arms and
-        paths (.svg), or for the viewer of rerun (.rrd), which needs `pip install 'irbkin[rerun]'`.
+        """Write the scene to a file, by its ending: a page (.html), JSON, or a picture of its arms
+        and paths (.svg).
 
         Raises:
             ValueError: Another ending; no arm, of a .svg.
-            ImportError: rerun-sdk is not installed, of a .rrd.
         """
         ending = os.path.splitext(path)[1].lower()
-        if ending == ".rrd":
-            FACES[ending](self, os.fspath(path))
-            return
         if ending not in ENDINGS:
-            raise ValueError(f"{os.fspath(path)}: must end in {', '.join(ENDINGS)} or .rrd")
+            raise ValueError(f"{os.fspath(path)}: must end in {', '.join(ENDINGS)}")
         text = self.to_json() if ending == ".json" else FACES[ending](self)
         with replaced(path) as file:
             file.write(text.encode())

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from irbkin._arrays import Floats
 
 # Seen from the front on the right, from above.
@@ -21,19 +19,6 @@ LIGHT = SIDEWAYS * -0.35 + UPWARD * 0.75 + TOWARD * 0.56
 """The direction to the light, of length 1."""
 BASE, LINKS, CARRIED = "#5b6470", ("#e8912d", "#f3ae5c"), "#6f7a88"
 """Colors of the base, of the links in turn, and of what the flange carries."""
-GHOST = (150, 165, 190)
-OBSTACLE = (120, 145, 130)
-PATH = (30, 110, 190)
-SEVERITIES = {"error": (200, 40, 40), "warning": (200, 130, 0), "note": PATH}
-"""Colors of marks: red, green and blue, to 255."""
-
-
-def value_colors(values: npt.ArrayLike) -> npt.NDArray[np.uint8]:
-    """Return the colors of a cloud's values, shape (m, 3), from yellow to violet."""
-    numbers = np.asarray(values, dtype=float)
-    part = numbers[:, None] / max(float(numbers.max()), 1e-9)
-    colors = (1 - part) * [253, 231, 37] + part * [68, 1, 84]
-    return colors.clip(0, 255).astype(np.uint8)
 
 
 def link_color(link: int) -> str:
