@@ -69,14 +69,14 @@ impl PyCell {
     /// Read a cell of TOML, of URDF or of MoveIt, as described in docs/guide/cell.md.
     ///
     /// Args:
-    ///     path: A file in .toml, .urdf, .xml, .scene or .yaml, or a PlanningScene or its dict.
+    ///     path: A file in .toml, .urdf or .xml, or a PlanningScene or its dict.
     ///     joints: Where the joints of a URDF are that are of no arm, by name [rad or m].
     ///     solid: False to take open meshes by their surface alone, inside of which is free.
     ///
     /// Raises:
     ///     InvalidModelError: An unknown key or frame, a shape that cannot be; the message names
     ///         the entry and, where there is one, the line.
-    ///     ImportError: A mesh is in the file and trimesh is not installed, or YAML without PyYAML.
+    ///     ImportError: A mesh is in the file and trimesh is not installed.
     ///     OSError: The file cannot be read.
     #[staticmethod]
     #[pyo3(signature = (path, *, joints=None, solid=true))]

@@ -1,7 +1,6 @@
-"""Scenes of others as cells: URDF with doors and drawers, MoveIt's messages and texts."""
+"""Scenes of others as cells: URDF with doors and drawers, MoveIt's messages."""
 
 import array
-import re
 from types import SimpleNamespace
 
 import irbkin
@@ -423,106 +422,9 @@ def test_what_is_no_scene_is_a_type_error():
         irbkin.Cell.load(3)
 
 
-NEW = """(noname)+
-* big box
-1 0.2 0.3
-0 0 0.6 0.8
-1
-box
-0.3 0.4 0.5
-0.1 0 -0.2
-0.6 0 0 0.8
-0 0 0 0
-1
-top
-0 0 1
-0 0 0 1
-* both
-0 0 0
-0 0 0 1
-2
-sphere
-0.2
-1 0.2 0.3
-0 0 0.6 0.8
-0 0 0 0
-cylinder
-0.1 0.5
-0.1 0 -0.2
-0.6 0 0 0.8
-0.5 0 0 1
-0
-* mesh
-1 0.2 0.3
-0 0 0.6 0.8
-1
-mesh
-4 4
-0 0 0
-0.3 0 0
-0 0.3 0
-0 0 0.3
-0 2 1
-0 1 3
-1 2 3
-0 3 2
-0 0 0
-0 0 0 1
-0 0 0 0
-0
-* plane
-0 0 0
-0 0 0 1
-1
-plane
-0 0 2 1
-0 0 0
-0 0 0 1
-0 0 0 0
-0
-.
-"""
-OLD = (
-    re.sub(r"(\* .*\n).*\n.*\n", r"\1", NEW.split("* mesh")[0])
-    .replace("1\ntop\n0 0 1\n0 0 0 1\n", "")
-    .replace("0.5 0 0 1\n0\n", "0.5 0 0 1\n.\n")
-)
-
-
-def text(folder, content):
-    path = folder / "cell.scene"
-    path.write_text(content)
-    return irbkin.Cell.load(path)
-
-
-def test_a_text_of_moveit_is_the_cell_that_it_describes(tmp_path):
-    expected = {"big box" if name == "box" else name: it for name, it in EXPECTED.items()}
-    assert_same(text(tmp_path, NEW), expected)
-    # Before MoveIt 1.1 an object had no pose and no subframes.
-    expected = {
-        "big box": Shape.box([0.3, 0.4, 0.5], T_SHELF),
-        "both": expected["both"],
-    }
-    assert_same(text(tmp_path, OLD), expected)
-    assert text(tmp_path, "empty\n.\n") == irbkin.Cell()
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        (".\n", "", r"does not end with the line \. .*cut off"),
-        ("sphere\n0.2", "cone\n0.2 0.3", "both: unknown shape cone; known: box, sphere, cylin"),
-        ("0.3 0.4 0.5", "0.3 0.4 x", "big box: '0.3 0.4 x' must be 3 numbers"),
-        ("0.3 0.4 0.5", "0.3 0.4 0", "big box: size is 0 m"),
-        ("0.3 0.4 0.5", "300 400 500", "big box: box size is 300 m, .*in millimeters"),
-        ("0 0 0.6 0.8", "0 0 0.6 0.6", r"big box\.pose: quaternion norm"),
-        ("2\nsphere", "two\nsphere", "both: 'two' must be a count"),
-        ("2\nsphere", "1\nsphere", "both: '.*' (must be|is behind)"),
-        ("0 2 1\n", "0 2 7\n", "mesh.*triangles of three of their numbers"),
-        ("* both", "* big box", "big box: is added twice"),
-    ],
-)
-def test_bad_texts_are_named(tmp_path, old, new, words):
-    assert old in NEW
-    with pytest.raises(irbkin.InvalidModelError, match=words):
-        text(tmp_path, NEW.replace(old, new, 1) if old != ".\n" else NEW[:-2])
+def test_an_open_mesh_of_a_message_is_a_surface_only_when_that_is_asked_for():
+    part = {"id": "part", "pose": {}, "meshes": [{"vertices": TETRAHEDRON, "triangles": FACES[1:]}]}
+    with pytest.raises(irbkin.InvalidModelError, match=r"part.*: the mesh is not closed"):
+        irbkin.Cell.load(scene(part))
+    cell = irbkin.Cell.load(scene(part), solid=False)
+    assert not cell.obstacles["part"].data()["shapes"][0]["solid"]

@@ -23,20 +23,6 @@ cylinder = { radius = 0.05, length = 0.8 }
 pose = { xyz = [0.8, 0.4, 0.4] }
 """
 
-MOVEIT = b"""scene
-* post
-0.8 0.4 0.4
-0 0 0.6 0.8
-1
-cylinder
-0.05 0.8
-0 0 0.1
-0 0 0 1
-0 0 0 0
-0
-.
-"""
-
 
 def read_urdf(content, path):
     path = path.with_suffix(".urdf")
@@ -48,14 +34,10 @@ def read_scene(content, path):
     scene.Scene.from_json(content)
 
 
-def read_cell(content, path, ending=".toml"):
-    path = path.with_suffix(ending)
+def read_cell(content, path):
+    path = path.with_suffix(".toml")
     path.write_bytes(content)
     irbkin.Cell.load(path)
-
-
-def read_moveit(content, path):
-    read_cell(content, path, ".scene")
 
 
 def read_studio(content, path):
@@ -75,7 +57,6 @@ READERS = {
     "urdf": (read_urdf, (DATA / "ur5e.urdf").read_bytes(), irbkin.IrbkinError),
     "scene": (read_scene, sound_scene(), ValueError),
     "cell": (read_cell, CELL, irbkin.IrbkinError),
-    "moveit": (read_moveit, MOVEIT, irbkin.IrbkinError),
     "station": (read_studio, STATION.replace(b"><", b">\n<"), irbkin.IrbkinError),
     "library": (read_studio, robotstudio_files.archive({"PIM.xml": STATION}), irbkin.IrbkinError),
 }

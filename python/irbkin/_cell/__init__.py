@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 __all__ = ["load"]
 
 _URDF = (".urdf", ".xml")
-_MOVEIT = (".scene", ".yaml", ".yml")
 
 
 def load(source: Any, solid: bool = True, joints: Mapping[str, float] | None = None) -> Cell:
@@ -40,11 +39,8 @@ def read(
     """Read a cell, and the shapes of tools and parts in the flange frame, by lower-case names."""
     path = os.fsdecode(path)
     ending = os.path.splitext(path)[1].lower()
-    if ending not in (".toml", *_URDF, *_MOVEIT):
-        raise InvalidModelError(
-            f"{path}: a cell is in a file that ends in .toml, .urdf or .xml, or in .scene, .yaml "
-            "or .yml of MoveIt"
-        )
+    if ending not in (".toml", *_URDF):
+        raise InvalidModelError(f"{path}: a cell is in a file that ends in .toml, .urdf or .xml")
     if joints is not None and ending not in _URDF:
         raise InvalidModelError(f"{path}: joints are of a URDF, not of a file in {ending}")
     with open(path, "rb") as file:
@@ -60,19 +56,10 @@ def read(
 def _read(
     content: bytes, path: str, ending: str, solid: bool, joints: Mapping[str, float]
 ) -> tuple[Cell, dict[str, list[Shape]]]:
-    folder = os.path.dirname(path)
     if ending == ".toml":
         from irbkin._cell.tables import cell_of
 
-        return cell_of(content, folder, solid)
-    if ending in _URDF:
-        from irbkin._cell.urdf import cell_of_urdf
+        return cell_of(content, os.path.dirname(path), solid)
+    from irbkin._cell.urdf import cell_of_urdf
 
-        return cell_of_urdf(content, path, joints, solid), {}
-    if ending == ".scene":
-        from irbkin._cell.scene_text import cell_of_text
-
-        return cell_of_text(content, folder, solid), {}
-    from irbkin._cell.moveit import cell_of_yaml
-
-    return cell_of_yaml(content, folder, solid), {}
+    return cell_of_urdf(content, path, joints, solid), {}

@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin._cell.entries import Entry
-from irbkin._cell.urdf import file_of
 from irbkin._core import Shape, pose
-from irbkin._mesh_files import mesh, triangles
+from irbkin._mesh_files import mesh
 from irbkin.errors import IrbkinError
 
 _Array = npt.NDArray[np.float64]
@@ -53,10 +52,7 @@ def _primitive(entry: Entry) -> Shape:
 
 
 def _mesh(entry: Entry) -> Shape:
-    entry.check("vertices", "triangles", "resource", "dimensions")
-    if "resource" in entry.table:
-        scale = entry.numbers("dimensions", 3) if "dimensions" in entry.table else np.ones(3)
-        return mesh(triangles(file_of(entry.name("resource"), entry.folder)) * scale, entry.solid)
+    entry.check("vertices", "triangles")
     try:
         corners = [_values(own, "x", "y", "z") for own in list_of(entry, "vertices")]
         rows = [_values(own, "vertex_indices") for own in list_of(entry, "triangles")]

@@ -1,4 +1,4 @@
-"""Cells from PlanningScene messages of ROS: as objects, as tables, as YAML.
+"""Cells from PlanningScene messages of ROS, as objects or as tables.
 
 Nothing of ROS is imported. The messages are in docs.ros.org under moveit_msgs and shape_msgs.
 """
@@ -25,20 +25,26 @@ subframe_names subframe_poses operation""".split()  # noqa: SIM905
 _OPERATIONS = ("add", "remove", "append", "move")
 
 
-def cell_of_yaml(content: bytes, folder: str, solid: bool) -> Cell:
-    """The cell of a PlanningScene in YAML."""
-    from irbkin._cell.yaml_tables import parsed
-
-    return cell_of_tables(parsed(content), folder, solid)
-
-
 def cell_of_message(message: Any, solid: bool) -> Cell:
     """The cell of a PlanningScene, a PlanningSceneWorld or the dict of one."""
-    table = _plain(message)
-    if not isinstance(table, Mapping):
+    scene = _plain(message)
+    if not isinstance(scene, Mapping):
         kind = type(message).__name__
         raise TypeError(f"a cell is loaded from a path, a PlanningScene or its dict, not {kind}")
-    return cell_of_tables(table, "", solid)
+    if scene.keys().isdisjoint(("world", "collision_objects")):
+        raise InvalidModelError("is no PlanningScene: it has no world with collision_objects")
+    root = Entry("", "", (), scene if "world" in scene else {"world": scene}, solid)
+    root.check(*_SCENE)
+    _check_world(root)
+    frames = _frames(root)
+    found: dict[str, list[Shape]] = {}
+    for number, item in enumerate(items_of(root.sub("world"), "collision_objects")):
+        name = str(item.table.get("id") or "")
+        entry = Entry("", "", (name or f"collision_objects[{number}]",), item.table, solid)
+        entry.check(*_OBJECT)
+        _apply(found, name, entry, frames)
+    _check_robot(root, found)
+    return Cell({name: Shape.union(shapes) for name, shapes in found.items()})
 
 
 def _plain(value: Any) -> Any:
@@ -57,32 +63,19 @@ def _plain(value: Any) -> Any:
     return {name: _plain(getattr(value, name)) for name in names}
 
 
-def cell_of_tables(scene: Any, folder: str, solid: bool) -> Cell:
-    """The cell of the table of a PlanningScene or of its world."""
-    if not isinstance(scene, Mapping) or scene.keys().isdisjoint(("world", "collision_objects")):
-        raise InvalidModelError("is no PlanningScene: it has no world with collision_objects")
-    root = Entry("", folder, (), scene if "world" in scene else {"world": scene}, solid)
-    root.check(*_SCENE)
-    world, state = root.sub("world"), root.sub("robot_state")
+def _check_world(root: Entry) -> None:
+    """Refuse octomaps, and objects that are attached to the arm."""
+    world = root.sub("world")
     world.check("collision_objects", "octomap")
     octomap = world.sub("octomap")
     if octomap.table.get("data") or octomap.sub("octomap").table.get("data"):
         world.refuse("is not read: give its points by Shape.points", "octomap")
-    for item in items_of(state, "attached_collision_objects"):
+    for item in items_of(root.sub("robot_state"), "attached_collision_objects"):
         name = item.sub("object").table.get("id")
         item.refuse(
             f"{name} is attached to {item.table.get('link_name')} and moves with the arm: take it "
             "out of the scene, and give it to robot.with_attached"
         )
-    frames = _frames(root)
-    found: dict[str, list[Shape]] = {}
-    for number, item in enumerate(items_of(world, "collision_objects")):
-        name = str(item.table.get("id") or "")
-        entry = Entry("", folder, (name or f"collision_objects[{number}]",), item.table, solid)
-        entry.check(*_OBJECT)
-        _apply(found, name, entry, frames)
-    _check_robot(root, found)
-    return Cell({name: Shape.union(shapes) for name, shapes in found.items()})
 
 
 def _apply(

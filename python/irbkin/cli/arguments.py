@@ -120,7 +120,7 @@ class Parser:
 
     def add_cell(self) -> None:
         """The cell around the arm."""
-        self.add("--cell", metavar="FILE", help="what the arm must not touch: .toml, .urdf, .scene")
+        self.add("--cell", metavar="FILE", help="what the arm must not touch: .toml, .urdf")
 
     def add_pose(self) -> None:
         """One pose of the tool."""
