@@ -99,7 +99,6 @@ __all__ = [
     "__version__",
     "_between",
     "_restore",
-    "_trajectory_of",
     "_urdf_links",
     "_urdf_swept",
     "_urdf_text",
@@ -266,9 +265,6 @@ def _urdf_swept(
     capsules: npt.ArrayLike,
 ) -> tuple[_Floats, float]: ...
 def _urdf_text(text: str | bytes) -> str | bytes: ...
-def _trajectory_of(
-    joints: list[list[list[float]]], duration: float, end: list[float]
-) -> Trajectory: ...
 def _between(
     start: list[list[float]], end: list[list[float]], limits: list[list[float]]
 ) -> Trajectory: ...

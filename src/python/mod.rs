@@ -162,7 +162,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     ], functions [
         catalog::catalog, catalog::catalog_entry, instruction_set, instruction_sets,
         use_instruction_set, restore, poses::pose, poses::to_xyz_wxyz,
-        poses::to_xyz_euler_zyx, trajectory::trajectory_of, trajectory::between, trajectories::joint,
+        poses::to_xyz_euler_zyx, trajectory::between, trajectories::joint,
         trajectories::spline, retiming::retime, retiming::at_tool_speed,
         models::urdf_links, models::urdf_swept, models::urdf_text, retiming::tool_speed_limits,
         tool_paths::line, tool_paths::arc, tool_paths::polyline, egm::encode, egm::decode,

@@ -276,18 +276,6 @@ fn whole_steps(steps: &Bound<'_, PyAny>) -> PyResult<usize> {
     read_steps(steps)
 }
 
-/// The trajectory of phases of each joint: rows of duration, position, velocity, acceleration and
-/// jerk. It ends after a duration [s] at an end [rad].
-#[pyfunction(name = "_trajectory_of")]
-pub(super) fn trajectory_of(
-    py: Python<'_>,
-    joints: Vec<[[f64; 5]; 10]>,
-    duration: f64,
-    end: Vec<f64>,
-) -> PyResult<PyTrajectory> {
-    PyTrajectory::even(py, Trajectory::of_phases(joints, duration, end)?, 2)
-}
-
 /// A motion between two states of joints, by way of rest; their limits of velocity, acceleration
 /// and jerk.
 #[pyfunction(name = "_between")]

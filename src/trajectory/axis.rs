@@ -7,9 +7,8 @@ use super::phase::{AxisState, Phase};
 use super::polynomial::{TERMS, derivatives};
 use crate::spline::{hermite, quintic_between};
 
-/// Most pieces of one motion: a motion of ruckig has two phases that brake, seven that move,
-/// and a rest.
-pub(super) const MOST_PIECES: usize = 10;
+/// Most pieces of one motion: three phases to a velocity, one at it, three to rest.
+const MOST_PIECES: usize = 7;
 
 /// Limits of one joint; infinity for none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -190,16 +189,6 @@ impl AxisMotion {
         }
         motion.count = motion.count.max(1);
         motion
-    }
-
-    /// The motion that ends at a time [s]: its last piece is longer or shorter.
-    #[cfg(feature = "python")]
-    pub(super) fn ending(mut self, time: f64) -> Self {
-        for start in &mut self.starts {
-            *start = start.min(time);
-        }
-        self.starts[self.count] = time;
-        self
     }
 
     /// Duration [s].

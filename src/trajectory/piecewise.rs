@@ -13,18 +13,6 @@ use crate::error::{Error, MotionFault};
 use crate::lanes::run;
 use crate::paths::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
 use crate::trajectory::thresholds::{JOINED_POSITION, LIMIT_ROUNDING};
-#[cfg(feature = "python")]
-use {
-    super::axis::MOST_PIECES,
-    super::phase::{AxisState, Phase},
-    crate::spline::quintic_between,
-    core::array,
-};
-
-/// Most that another planner's motion may miss its end [rad]: some rounding of angles. To spread it
-/// over a short motion would take more jerk than it is worth.
-#[cfg(feature = "python")]
-const MET: f64 = 1e-12;
 
 /// Joint angles, velocities and accelerations over time, exact at any time.
 ///
@@ -309,42 +297,6 @@ impl Trajectory {
             }));
         }
         Self { dof: self.dof, knots, terms }
-    }
-
-    /// Another planner's phases of each joint: rows of duration, position, velocity, acceleration
-    /// and jerk. They end after a duration [s] at an end [rad]; what they miss of it is spread
-    /// (docs/guide/motion.md, eq. 8b).
-    #[cfg(feature = "python")]
-    pub(crate) fn of_phases(
-        joints: Vec<[[f64; 5]; MOST_PIECES]>,
-        duration: f64,
-        end: Vec<f64>,
-    ) -> Result<Self, Error> {
-        if joints.is_empty() {
-            return Err(MotionFault::NoJoints { field: "q0" }.into());
-        }
-        let axes = joints.into_iter().map(|rows| {
-            let phases = rows.map(|[duration, position, velocity, acceleration, jerk]| {
-                let start = AxisState { position, velocity, acceleration };
-                Phase { duration, start, jerk }
-            });
-            AxisMotion::of_phases(&phases).ending(duration)
-        });
-        let mut motion = Self::of_axes(&axes.collect::<Vec<_>>());
-        let [_, found] = motion.ends();
-        let missing: Vec<f64> =
-            end.into_iter().zip(found).map(|(end, found)| end - found).collect();
-        if duration > 0.0 && missing.iter().any(|missing| missing.abs() > MET) {
-            let mut unit = [0.0; TERMS];
-            unit[..6].copy_from_slice(&quintic_between([0.0; 3], [1.0, 0.0, 0.0], duration));
-            for (terms, knot) in motion.terms.chunks_exact_mut(missing.len()).zip(&motion.knots) {
-                let around = shifted(&unit, *knot);
-                for (terms, missing) in terms.iter_mut().zip(&missing) {
-                    *terms = array::from_fn(|degree| terms[degree] + missing * around[degree]);
-                }
-            }
-        }
-        motion.checked()
     }
 
     /// The part from one time to another [s], which begins at 0.

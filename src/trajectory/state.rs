@@ -24,6 +24,7 @@ use super::axis::{AxisLimits, AxisMotion};
 use super::check::{check_axes, check_finite};
 use super::phase::{AxisState, Phase};
 use super::piecewise::Trajectory;
+use super::thresholds::{JOINED_POSITION, LIMIT_ROUNDING};
 use crate::error::{Error, MotionFault};
 
 /// How far the target may be from where the joint stops anyway, as a part of the angles [1]: what
@@ -97,7 +98,8 @@ pub fn brake(state: &AxisState, limits: &AxisLimits) -> Result<AxisMotion, Error
 }
 
 /// A motion between any two states: to rest where the way to the end begins, which is the shortest
-/// motion if the end is at rest, and on to the end.
+/// motion if the end is at rest, and on to the end. It takes no time if all joints are at the end,
+/// to 1e-9 rad and 1e-9 of the limits.
 ///
 /// # Errors
 ///
@@ -114,7 +116,14 @@ pub fn between(
         let (found, wanted) = (start.len(), end.len());
         return Err(Error::WrongLength { field: "start", found, wanted });
     }
+    check(start, limits)?;
     check(end, limits)?;
+    if start.iter().zip(end).zip(limits).all(|((start, end), limits)| is_at(start, end, limits)) {
+        let still = |end: &AxisState| {
+            AxisMotion::of_phases(&[Phase { duration: 0.0, start: *end, jerk: 0.0 }])
+        };
+        return Ok(Trajectory::of_axes(&end.iter().map(still).collect::<Vec<_>>()));
+    }
     // The way to the end is the stop from it, passed the other way.
     let stops = end.iter().zip(limits).map(|(end, limits)| brake(&end.reversed(), limits));
     let stops: Vec<AxisMotion> = stops.collect::<Result<_, _>>()?;
@@ -123,6 +132,13 @@ pub fn between(
     to_rest(start, &begins, limits, &mut motions)?;
     let (motion, stop) = (Trajectory::of_axes(&motions), Trajectory::of_axes(&stops));
     if stop.duration() > 0.0 { motion.then(&stop.reversed()) } else { Ok(motion) }
+}
+
+/// Whether a joint is at its end already.
+fn is_at(start: &AxisState, end: &AxisState, limits: &AxisLimits) -> bool {
+    (start.position - end.position).abs() <= JOINED_POSITION
+        && (start.velocity - end.velocity).abs() <= LIMIT_ROUNDING * limits.velocity
+        && (start.acceleration - end.acceleration).abs() <= LIMIT_ROUNDING * limits.acceleration
 }
 
 /// Refuses a motion that a double cannot hold.
