@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from command import JOINTS, NAME, ROBOT, XYZ, joints_of, refused, rows, run
 from irbkin.cli import VERBS, parser_of
-from irbkin.cli.tool_paths import ZONES
 
 EVERY_VERB = list(VERBS)
 NAMES = "x_mm,y_mm,z_mm,rz_deg,ry_deg,rx_deg\n"
@@ -21,13 +20,6 @@ NAMES = "x_mm,y_mm,z_mm,rz_deg,ry_deg,rx_deg\n"
 def joints_csv(tmp_path):
     file = tmp_path / "joints.csv"
     np.savetxt(file, JOINTS, delimiter=",")
-    return file
-
-
-@pytest.fixture
-def corners(tmp_path):
-    file = tmp_path / "corners.csv"
-    file.write_text("900,-200,600,0,160,0\n900,200,600,0,160,0\n1000,200,600,0,160,0\n")
     return file
 
 
@@ -311,7 +303,6 @@ def test_unknown_names_have_the_close_ones():
     assert "did you mean ik?" in refused("ikk")
     assert '"IRB 2600-12/1.65"' in refused("ik", "IRB 2600-12", *XYZ)
     assert "unrecognized arguments: --xzy" in refused("fk", NAME, "--xzy", 1)
-    assert "invalid choice" in refused("path", NAME, "-", "--through", "walls")
     assert "No such file" in refused("fk", NAME, "nowhere.csv")
     assert refused("ik", NAME) == (
         "irbkin: give a pose by --xyz, as a robtarget, or a FILE of poses (irbkin ik --help)\n"
@@ -320,7 +311,7 @@ def test_unknown_names_have_the_close_ones():
 
 
 @pytest.mark.parametrize("number", ["0", "-5", "nan", "inf", "1e400", "-1e308", "1e12"])
-def test_numbers_that_cannot_be_are_refused_or_answered_in_a_line(number, corners):
+def test_numbers_that_cannot_be_are_refused_or_answered_in_a_line(number):
     # `run` asserts that no error is one of our own.
     for words in (
         ["catalog", "--reach", number],
@@ -333,11 +324,6 @@ def test_numbers_that_cannot_be_are_refused_or_answered_in_a_line(number, corner
         ["ik", NAME, "--xyz", 900, 0, 900, "--seed", number, 0, 0, 0, 0, 0],
         ["ik", NAME, "--xyz", 900, 0, 900, "--confdata", number, 0, 0, 0],
         ["ik", "Panda", "--xyz", 400, 0, 400, "--q7", number],
-        ["path", NAME, corners, "--through", "lines", "--step", number],
-        ["path", NAME, corners, "--through", "lines", "--zone", number],
-        ["path", NAME, corners, "--through", "spline", "--step", number],
-        ["plan", NAME, corners, "--start", number, 0, 0, 0, 0, 0],
-        ["plan", NAME, corners, "--rotation", number],
     ):
         done = run(*words)
         assert done.returncode in (0, 1, 2)
@@ -419,119 +405,6 @@ def test_a_pose_far_beyond_reach_is_explained_in_millimeters():
     assert b"(arguments and CSV are in millimeters, .npy files in meters)" in done.stderr
 
 
-@pytest.mark.extra
-def test_a_pose_without_solutions_is_not_drawn(tmp_path):
-    done = run("plot", NAME, "solutions", "--xyz", 8500, 0, 0, "-o", tmp_path / "ik.svg")
-    assert done.stderr.startswith(b"irbkin: the pose has no solution to draw: wrist center ")
-
-
-POSES = irbkin.pose(
-    [[0.9, -0.2, 0.6], [0.9, 0.2, 0.6], [1.0, 0.2, 0.6]], euler_zyx=np.radians([0, 160, 0])
-)
-
-
-def test_a_path_is_that_of_the_library(corners, tmp_path):
-    q = tmp_path / "q.npy"
-    lines = irbkin.paths.polyline(POSES, 0.02, step=0.01, turn=np.radians(2))
-    assert (
-        run(
-            "path", NAME, corners, "--through", "lines", "--zone", 20, "--step", 10, "-o", q
-        ).returncode
-        == 0
-    )
-    np.testing.assert_allclose(np.load(q), ROBOT.follow(lines, np.zeros(6)).q, atol=1e-9)
-    round_ = corners.with_name("round.csv")
-    round_.write_text("900,-200,600,0,160,0\n950,0,600,0,160,0\n900,200,600,0,160,0\n")
-    via = irbkin.pose([0.95, 0.0, 0.6], euler_zyx=np.radians([0, 160, 0]))
-    arc = irbkin.paths.arc(POSES[0], via, POSES[1], step=0.005, turn=np.radians(2))
-    assert run("path", NAME, round_, "--through", "arc", "-o", q).returncode == 0
-    np.testing.assert_allclose(np.load(q), ROBOT.follow(arc, np.zeros(6)).q, atol=1e-9)
-    spline = irbkin.paths.spline(POSES, step=0.005, turn=np.radians(2))
-    done = run("path", NAME, corners, "--through", "spline", "--json")
-    assert len(json.loads(done.stdout)["rows"]) == len(spline)
-    assert json.loads(done.stdout)["fastest_mm_s"] > 0
-    assert "zone" in refused("path", NAME, corners, "--through", "lines", "--zone", "z7")
-
-
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["--step", 5], "--step goes with --through lines, spline or arc"),
-        (["--zone", "z10"], "--zone goes with --through lines"),
-        (["--through", "spline", "--zone", "z10"], "--zone goes with --through lines"),
-        (["--through", "lines", "--step", -3], "--step: -3 must be positive"),
-        (["--through", "lines", "--step", "1e-9"], "poses, at most 1e7 are given: take a larger"),
-        (["--through", "lines", "--zone", "z33"], "--zone: 'z33' must be a radius of 0 mm"),
-        (["--through", "lines", "--zone", -3], "--zone: '-3' must be a radius"),
-    ],
-)
-@pytest.mark.parametrize("verb", ["path", "plan"])
-def test_options_of_a_path_have_effect_or_are_refused(verb, words, message, corners):
-    assert message in refused(verb, NAME, corners, *words)
-    assert "Panda has 7" in refused(verb, "Panda", corners)
-
-
-def test_every_zone_of_the_message_is_one_of_the_library(corners):
-    for zone in ZONES:
-        assert len(irbkin.paths.polyline(POSES, zone, step=0.1))
-
-
-def test_a_track_has_a_direction_and_a_range(corners):
-    assert "0 0 0" in refused("plan", NAME, corners, "--track", 0, 0, 0, 0, 100)
-    assert "its ends 100 and 0 mm" in refused("plan", NAME, corners, "--track", 0, 1, 0, 100, 0)
-
-
-def test_a_broken_path_is_reported(tmp_path):
-    far = tmp_path / "far.csv"
-    far.write_text("900,0,600,0,160,0\n9000,0,600,0,160,0\n")
-    done = run("path", NAME, far)
-    assert done.returncode == 1
-    assert done.stderr.startswith(b"irbkin: pose 1: ")
-    assert done.stderr.count(b"\n") == 1
-    far.write_text("900,0,600,0,160,0\n" + "9000,0,600,0,160,0\n" * 30)
-    assert run("path", NAME, far).stderr.endswith(b"irbkin: 20 more breaks\n")
-    done = run("plan", NAME, far)
-    assert done.returncode == 1
-    assert done.stderr.startswith(b"irbkin: no branch reaches pose 1 from the start: ")
-    assert done.stderr.count(b"slot 0 at pose 1: ") == 1
-    assert done.stderr.count(b"\n") == 1
-    far.write_text("900,0,600,0,160,0\nnan,0,600,0,160,0\n")
-    assert "far.csv:2:1: 'nan' is not a finite number" in refused("plan", NAME, far)
-
-
-def test_a_plan_is_that_of_the_library(corners, tmp_path):
-    q = tmp_path / "q.npy"
-    lines = irbkin.paths.polyline(POSES, "fine", step=0.05, turn=np.radians(2))
-    for words, options in (
-        ([], {}),
-        (["--rotation", 12], {"rotation": 12}),
-        (
-            ["--start", *np.degrees(ROBOT.ik_nearest(POSES[0], np.zeros(6)))],
-            {"start": ROBOT.ik_nearest(POSES[0], np.zeros(6))},
-        ),
-    ):
-        done = run("plan", NAME, corners, "--through", "lines", "--step", 50, *words, "-o", q)
-        assert done.returncode == 0, done
-        np.testing.assert_allclose(np.load(q), ROBOT.plan(lines, **options).q, atol=1e-9)
-
-
-def test_a_plan_stays_out_of_a_cell(corners, tmp_path):
-    file, q = tmp_path / "cell.toml", tmp_path / "q.npy"
-    file.write_text("[obstacles.ball]\nsphere = 0.05\npose = { xyz = [-0.4, 0, 1.2] }\n")
-    words = ["plan", NAME, corners, "--cell", file]
-    done = run(*words, "-o", q)
-    assert done.returncode == 0, done
-    assert irbkin.Cell.load(file).check_path(ROBOT, np.load(q)) is None
-    wrist = ROBOT.link_frames(np.load(q)[0])[4, :3, 3]
-    file.write_text(f"[obstacles.ball]\nsphere = 2.0\npose = {{ xyz = {wrist.tolist()} }}\n")
-    done = run(*words)
-    assert done.returncode == 1
-    assert b" and ball" in done.stderr
-    assert b"accept" not in done.stderr
-    file.write_text("[obstacles.ball]\nspere = 2.0\n")
-    assert "did you mean sphere" in refused(*words)
-
-
 PROGRAM = """MODULE Weld
     PERS tooldata tGun:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
     CONST robtarget a:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
@@ -580,23 +453,6 @@ def test_rapid_takes_the_speeds_of_the_joints(tmp_path):
     assert "0 must be positive" in refused("rapid", longer, file, "--max-velocity", 0)
 
 
-@pytest.mark.extra
-def test_plots_are_files_of_their_format(tmp_path, joints_csv):
-    for kind, words, ending, start in (
-        ("solutions", XYZ, "svg", b"<?xml"),
-        ("path", [joints_csv], "png", b"\x89PNG"),
-        ("singularity", [joints_csv], "pdf", b"%PDF"),
-        ("reach", ["--euler", 0, 180, 0], "png", b"\x89PNG"),
-    ):
-        file = tmp_path / f"{kind}.{ending}"
-        done = run("plot", NAME, kind, *words, "-o", file)
-        assert done.returncode == 0, done
-        assert file.read_bytes().startswith(start)
-    assert ".foo is not among" in refused("plot", NAME, "solutions", *XYZ, "-o", "a.foo")
-    assert "has no ending" in refused("plot", NAME, "solutions", *XYZ, "-o", "a")
-    assert "takes a FILE" in refused("plot", NAME, "path", "-o", "a.svg")
-
-
 @pytest.mark.skipif(not hasattr(irbkin.Robot, "to_urdf"), reason="needs Robot.to_urdf")
 def test_urdf_is_read_back_as_the_same_arm(tmp_path):
     file = tmp_path / "arm.urdf"
@@ -607,25 +463,6 @@ def test_urdf_is_read_back_as_the_same_arm(tmp_path):
     wanted = ROBOT.fk(np.radians([0, 0, 0, 0, 30, 0]))[:3, 3] * 1e3
     np.testing.assert_allclose([found[f"{axis}_mm"][0] for axis in "xyz"], wanted, atol=1e-6)
     np.testing.assert_allclose(irbkin.Robot.from_urdf(file).fk(q), ROBOT.fk(q), atol=1e-12)
-
-
-def test_a_plan_with_a_track_has_its_place(tmp_path):
-    seam = tmp_path / "seam.csv"
-    seam.write_text("1100,-2000,600,0,155,0\n1100,2000,600,0,155,0\n")
-    words = ["plan", NAME, seam, "--through", "lines", "--step", "500"]
-    assert run(*words).returncode == 1
-    words += ["--track", "0", "1", "0", "-3000", "3000"]
-    table = rows(run(*words, "--csv"))
-    place = table["track_mm"]
-    assert place[0] < -300 < 300 < place[-1]
-    for index in (0, 4, 8):
-        q = np.radians([table[f"q{joint}_deg"][index] for joint in range(1, 7)])
-        tool = ROBOT.with_base(irbkin.pose([0, place[index] / 1e3, 0])).fk(q)
-        np.testing.assert_allclose(tool[:3, 3], [1.1, 0.5 * index - 2.0, 0.6], atol=1e-9)
-    start = [*(table[f"q{joint}_deg"][0] for joint in range(1, 7)), place[0]]
-    again = rows(run(*words, "--csv", "--start", *start))
-    np.testing.assert_allclose(again["track_mm"][0], place[0], atol=1e-6)
-    assert "6 angles" in refused(*words, "--start", "1", "2")
 
 
 URDF = """<robot name="a">%s<joint name="g" type="prismatic"><parent link="l6"/><child link="l7"/>
@@ -682,15 +519,6 @@ def test_an_ending_without_a_format_is_refused(tmp_path):
         assert "ends in .xlsx, it must end in .csv, .json, .npy, .txt" in message
     assert not list(tmp_path.iterdir())
     assert run("ik", NAME, *XYZ, "-o", tmp_path / "x.txt").returncode == 0
-
-
-def test_a_plan_is_written_as_rapid(tmp_path):
-    seam, module = tmp_path / "seam.csv", tmp_path / "weld.mod"
-    seam.write_text("1100,-100,600,0,155,0\n1100,100,600,0,155,0\n")
-    assert run("plan", NAME, seam, "--through", "lines", "-o", module).returncode == 0
-    moves = irbkin.rapid.load(module).moves
-    assert [move.kind for move in moves[:2]] == ["MoveJ", "MoveL"]
-    assert run("check", "--robot", NAME, module).returncode == 0
 
 
 def test_the_reason_is_in_the_json():

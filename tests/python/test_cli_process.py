@@ -9,7 +9,6 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from unittest import mock
 
 import numpy as np
 import pytest
@@ -183,20 +182,10 @@ def test_progress_has_its_rate_and_remaining_time_on_a_terminal(monkeypatch, cap
 def test_the_total_of_an_array_is_known(monkeypatch, tmp_path):
     np.save(tmp_path / "q.npy", np.zeros((5, 6)))
     totals = []
-    monkeypatch.setattr(progress.Progress, "at", lambda _, done, total: totals.append(total))
+    monkeypatch.setattr(progress.Progress, "add", lambda _, count, total=None: totals.append(total))
     assert run("fk", NAME, tmp_path / "q.npy").returncode == 0
     assert run("fk", NAME, "-", stdin="0,0,0,0,0,0\n").returncode == 0
     assert totals == [5, None]
-
-
-def test_a_long_call_is_shown_on_a_terminal_alone(monkeypatch):
-    shown = []
-    monkeypatch.setattr(progress, "_bar", lambda: shown.append(1) or mock.MagicMock())
-    for is_terminal in (True, False):
-        monkeypatch.setattr(sys.stderr, "isatty", lambda shown=is_terminal: shown)
-        with progress.waiting("plan of 2 poses"):
-            pass
-    assert shown == [1]
 
 
 def test_an_error_of_our_own_is_one_line(capsys, monkeypatch):

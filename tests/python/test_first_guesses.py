@@ -63,10 +63,6 @@ def test_several_robtargets_are_rows_with_their_names():
     )
     assert sorted(set(zip(table["pose"], table["name"], strict=True))) == [(0.0, "pA"), (1.0, "pB")]
     assert sum(table["confdata"] == "yes") == 2
-    plan = rows(run("plan", NAME, VALUE, OTHER, "--csv"))
-    np.testing.assert_allclose(plan["y_mm"], [320, -320])
-    path = rows(run("path", NAME, VALUE, OTHER, "--through", "lines", "--step", 100, "--csv"))
-    assert len(path["pose"]) > 5
 
 
 def test_a_module_gives_its_targets(tmp_path):
@@ -81,9 +77,8 @@ def test_a_module_gives_its_targets(tmp_path):
     (tmp_path / "a.mod").write_text(text)
     assert set(rows(run("ik", NAME, "a.mod", "--csv"))["name"]) == {"pA", "pB"}
     assert rows(run("fk", NAME, "a.mod", "--csv"))["name"].tolist() == ["jHome"]
-    assert rows(run("plan", NAME, "a.mod", "--csv"))["y_mm"].tolist() == [320, -320]
-    back = rows(run("plan", NAME, "a.mod:PB", "a.mod:pA", "--csv"))
-    assert back["y_mm"].tolist() == [-320, 320]
+    back = rows(run("ik", NAME, "a.mod:PB", "a.mod:pA", "--csv"))["name"]
+    assert list(dict.fromkeys(back)) == ["pB", "pA"]
     tools = f"MODULE T\nPERS tooldata tA:={TOOL};\nPERS tooldata tB:={TOOL};\nENDMODULE"
     (tmp_path / "tools.sys").write_text(tools)
     found = run("ik", NAME, "a.mod:pA", "--tool", "tools.sys:tB")
@@ -104,12 +99,6 @@ def test_a_jointtarget_is_joint_angles():
     assert rows(named)["name"].tolist() == ["j1"]
     seeds = [run("ik", NAME, *XYZ, "--seed", *own).stdout for own in ([JOINTS], plain)]
     assert seeds[0] == seeds[1]
-    start = rows(run("plan", NAME, VALUE, OTHER, "--csv"))
-    q = ",".join(str(start[f"q{joint}_deg"][0]) for joint in range(1, 7))
-    track = ["--track", 0, 1, 0, -500, 500]
-    text = f"[[{q}],[0,9E9,9E9,9E9,9E9,9E9]]"
-    there = rows(run("plan", NAME, VALUE, OTHER, *track, "--start", text, "--csv"))
-    assert abs(there["track_mm"][0]) < 1e-6
 
 
 def test_tools_and_work_objects_are_rapid():
@@ -124,10 +113,7 @@ def test_tools_and_work_objects_are_rapid():
         back = rows(run("fk", NAME, *joints_of(table)[0], "--wobj", *words, "--csv"))
         np.testing.assert_allclose([back["x_mm"][0], back["y_mm"][0]], [750, 270], atol=1e-6)
         own = f"[[750,270,640],[0.2588190,0,0.9659258,0],[0,1,-2,1],{NOT_THERE}]"
-        for verb in ("plan", "path"):
-            path = rows(run(verb, NAME, own, own, "--wobj", *words, "--csv"))
-            np.testing.assert_allclose(path["x_mm"], 750, atol=1e-9)
-            q = joints_of(path)[0]
+        for q in joints_of(rows(run("ik", NAME, own, "--wobj", *words, "--csv"))):
             np.testing.assert_allclose(ROBOT.fk(np.radians(q))[:2, 3], [0.85, 0.32], atol=1e-9)
 
 
@@ -158,7 +144,7 @@ def test_tools_and_work_objects_are_rapid():
         (["ik", NAME, "--workobject", 1], "did you mean --wobj?"),
         (["check", NAME, "a.mod", "--colour"], "did you mean --color?"),
         (["check", NAME, "a.mod", "--robto", NAME], "did you mean --robot?"),
-        (["plan", NAME, "--trough", "lines"], "did you mean --through?"),
+        (["ik", NAME, "--wihtin"], "did you mean --within?"),
         (["check", "a.mod", "-r", "2600"], '"IRB 2600-12/1.65"'),
         (["completion", "csh"], "invalid choice"),
     ],
@@ -185,14 +171,11 @@ def test_a_robot_is_given_once_for_all_calls(way, tmp_path):
         name, head = ("irbkin", "check") if way == "toml" else ("pyproject", "tool.irbkin.check")
         (tmp_path / f"{name}.toml").write_text(f'[{head}]\nrobot = "{NAME}"\n')
     (tmp_path / "q.csv").write_text("0,0,0,0,30,0\n")
-    grid = ["--x", 900, 900, "--y", 0, 0, "--z", 600, 600]
     for verb, *words in (
         ["fk", 0, 0, 0, 0, 30, 0],
         ["fk", "q.csv", "--csv"],
         ["ik", VALUE],
         ["ik", *XYZ],
-        ["plan", VALUE, OTHER, "--zone", "z20", "--through", "lines"],
-        ["map", *grid],
         ["urdf"],
     ):
         done = run(verb, *words, *option, **environment)
@@ -264,17 +247,19 @@ def test_a_program_that_is_not_played_names_the_routines_that_are(tmp_path):
         assert run(verb[0], NAME, "a.mod", "--routine", "Home", *verb[1:]).returncode == 0
 
 
-@pytest.mark.extra
-def test_an_arm_is_drawn(tmp_path):
-    for words in ([], ["arm"], ["--joints", JOINTS]):
-        assert run("plot", NAME, *words, "-o", tmp_path / "a.svg").returncode == 0
-        assert (tmp_path / "a.svg").read_bytes().startswith(b"<?xml")
+def test_an_arm_is_drawn_as_in_the_view(tmp_path):
+    for words in ([], ["--joints", JOINTS]):
+        for verb in ("plot", "view"):
+            assert run(verb, NAME, *words, "-o", tmp_path / f"{verb}.svg").returncode == 0
+        assert (tmp_path / "plot.svg").read_bytes() == (tmp_path / "view.svg").read_bytes()
+    for words in ([], ["-o", "a.png"]):
+        assert "it must be a FILE that ends in .svg" in refused("plot", NAME, *words)
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_completion_has_verbs_and_options(shell):
     text = run("completion", shell).stdout.decode()
-    assert all(word in text for word in ("catalog", "--wobj".lstrip("-"), "--through".lstrip("-")))
+    assert all(word in text for word in ("catalog", "--wobj".lstrip("-"), "--within".lstrip("-")))
 
 
 def on_terminal(width, *words):

@@ -15,21 +15,17 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 # A verb is the module `irbkin.cli.<verb>`, with _ for -: its docstring is the help, it has
-# `add_arguments` and `run`. A new one needs its file and its line here. (`map` is here the verb,
-# once it was called.)
+# `add_arguments` and `run`. A new one needs its file and its line here.
 VERBS = {
     "catalog": "list the arms, or show one",
     "fk": "pose of the tool of joint angles",
     "ik": "joint angles of a pose: all solutions, the nearest, or the one of a confdata",
     "check": "find what is wrong with the moves of RAPID modules, and correct confdata",
-    "path": "joints along a path of poses, on one branch",
-    "plan": "the best joints along a path of poses, over branches, turns and tool angles",
     "lsp": "serve findings, hovers and corrections to an editor, while one types",
     "rule": "explain a code of check",
     "diff": "find what differs between two backups: data, moves, targets",
     "rapid": "the moves of a RAPID routine as one motion: times, joints, findings",
-    "map": "what an arm reaches: a grid of positions, each with many orientations",
-    "plot": "draw an arm, solutions, paths and reach",
+    "plot": "write a picture of an arm",
     "view": "show an arm, a program or a scene in the browser",
     "egm-sim": "a model of an ABB controller that follows set points of EGM on this machine",
     "urdf": "write an arm as URDF",

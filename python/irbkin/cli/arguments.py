@@ -132,10 +132,10 @@ class Parser:
         add("--euler", nargs=3, type=number, metavar=turn, help="or ZYX angles [deg]")
         add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
 
-    def add_rows(self, what: str, kind: str, nargs: str = "*") -> None:
+    def add_rows(self, what: str, kind: str) -> None:
         """A file of rows, or RAPID."""
         words = f"{what}: a CSV or .npy file, - for stdin, or {kind} of RAPID"
-        self.add("file", metavar="FILE", nargs=nargs, help=words)
+        self.add("file", metavar="FILE", nargs="*", help=words)
 
     def add_formats(self, array: str, *others: str) -> None:
         """How rows are written: by the ending of the output, which may be one of `others`."""

@@ -14,19 +14,14 @@ NO_CONFDATA = np.iinfo(np.int32).min
 """The numbers of `configuration` in rows of angles that are too large for one."""
 
 
-def place_columns(poses: Floats, form: str = "8.2f") -> Columns:
-    """The positions of poses, shape (k, 4, 4)."""
-    values = _zeros(poses[:, :3, 3].T * 1e3)
-    return {Column(axis, form, "mm"): own for axis, own in zip("xyz", values, strict=True)}
-
-
 def pose_columns(poses: Floats) -> Columns:
-    """Position, quaternion and Euler angles of poses."""
+    """Position, quaternion and Euler angles of poses, shape (k, 4, 4)."""
+    xyz = zip("xyz", _zeros(poses[:, :3, 3].T * 1e3), strict=True)
     euler = _zeros(np.degrees(to_xyz_euler_zyx(poses)[1]))
     turns = zip(("rz", "ry", "rx"), np.where(euler < -180.0 + 1e-9, 180.0, euler).T, strict=True)
     wxyz = zip(("qw", "qx", "qy", "qz"), _zeros(to_xyz_wxyz(poses)[1]).T, strict=True)
     return {
-        **place_columns(poses, "9.2f"),
+        **{Column(name, "9.2f", "mm"): own for name, own in xyz},
         **{Column(name, "8.5f"): own for name, own in wxyz},
         **{Column(name, "8.2f", "deg"): own for name, own in turns},
     }

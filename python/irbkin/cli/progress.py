@@ -8,8 +8,6 @@ import time
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from contextlib import AbstractContextManager
-
     from rich.progress import Progress as Bar
 
 AFTER = 1.0
@@ -27,28 +25,17 @@ class Progress(contextlib.ExitStack):
 
     def add(self, count: int, total: int | None = None) -> None:
         """So many more are done, of a total if it is known."""
-        self.at(self.done + count, total or self.total)
-
-    def at(self, done: int, total: int | None) -> None:
-        """So many are done."""
-        self.done, self.total = done, total
+        self.done += count
+        self.total = total or self.total
         if self.bar is None and time.monotonic() - self.began >= AFTER:
             from rich.progress import MofNCompleteColumn, TimeRemainingColumn
 
             self.bar = _bar(MofNCompleteColumn(), "{task.fields[rate]}/s", TimeRemainingColumn())
-            self.enter_context(self.bar).add_task(self.what, total=total, rate="")
+            self.enter_context(self.bar).add_task(self.what, total=self.total, rate="")
         if self.bar:
-            rate = f"{done / (time.monotonic() - self.began):,.0f}"
-            self.bar.update(self.bar.task_ids[0], completed=done, total=total, rate=rate)
-
-
-def waiting(what: str) -> AbstractContextManager[object]:
-    """Show how long one call takes."""
-    if not sys.stderr.isatty():
-        return contextlib.nullcontext()
-    bar = _bar()
-    bar.add_task(what, total=None)
-    return bar
+            rate = f"{self.done / (time.monotonic() - self.began):,.0f}"
+            (task,) = self.bar.task_ids
+            self.bar.update(task, completed=self.done, total=self.total, rate=rate)
 
 
 def _bar(*columns: Any) -> Bar:

@@ -65,11 +65,6 @@ def read_joints(words: Sequence[str], dof: int) -> Iterator[Part]:
     yield from _parts(_one(words), Layout("joint vector", (columns,), (dof,)))
 
 
-def read_all(parts: Iterator[Part]) -> Floats:
-    """All rows at once."""
-    return np.concatenate([part.values for part in parts])
-
-
 def _declared(
     words: Sequence[str], axes: int, *kinds: str
 ) -> tuple[list[Any], dict[str, list[str]]]:
