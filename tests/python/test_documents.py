@@ -222,8 +222,13 @@ def test_files_that_are_named_exist():
 
 def test_make_targets_and_suites_that_are_named_exist():
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
+    script = (ROOT / "benches" / "evidence.sh").read_text()
+    suites = set(re.findall(r"^([a-z-]+)\(\) \{ ## ", script, re.MULTILINE))
+    assert len(targets) > 20
+    assert len(suites) > 15
     for page in PAGES:
         text = page.read_text()
-        suites = [f"evidence-{suite}" for suite in re.findall(r"SUITE=([a-z-]+)", text)]
-        for target in [*re.findall(r"`make ([a-z-]+)`", text), *suites]:
+        for target in re.findall(r"`make ([a-z-]+)`", text):
             assert target in targets, f"{page.name}: make {target}"
+        for suite in re.findall(r"SUITE=([a-z-]+)", text):
+            assert suite in suites, f"{page.name}: SUITE={suite}"
