@@ -138,7 +138,7 @@ impl Track {
             acceleration + jerk + 2.0 * rest.powi(3) * (1.0 + fading) * error,
             jerk + rest.powi(4) * error,
         ];
-        let is_finite = fit.iter().all(|value| value.is_finite());
+        let is_finite = fit.iter().copied().all(f64::is_finite);
         self.fit = if is_finite { fit } else { [point, 0.0, 0.0, 0.0] };
     }
 
