@@ -8,9 +8,10 @@ export CARGO_MAKEFLAGS :=
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-RUST_SOURCES := $(shell find src -name '*.rs') Cargo.toml
-# Profile of the extension in .venv: develop, or release, which also serves the wheel.
-PROFILE ?= develop
+RUST_SOURCES := $(shell find src crates -name '*.rs' -o -name Cargo.toml) Cargo.toml
+# Profile of the extension in .venv: dev, which the tests in Rust share, or release, which also
+# serves the wheel.
+PROFILE ?= dev
 BUILT := $(VENV)/.irbkin-$(PROFILE)
 RELEASED := $(VENV)/.irbkin-release
 PEERS := .venv-peers
@@ -22,7 +23,7 @@ STEP := @tests/step.sh
 # tests/lanes.rs shows that all sets agree, the baseline except for rounding: a tenth of the poses is
 # enough for the laws on it. `make test BASELINE=` asks them all.
 BASELINE ?= IRBKIN_DIVISOR=10
-SUITE := cargo test -p irbkin --lib --features serde
+SUITE := cargo test -p irbkin -p irbkin-abb -p irbkin-tests --lib --tests
 # A download that breaks off is no reason to fail.
 PIP_INSTALL := tests/retry.sh $(BIN)/pip install --quiet --disable-pip-version-check
 SKIPPED := target/skipped.txt
@@ -92,9 +93,9 @@ test: | toolchains ## Run the tests in Rust, and those in Python that need no ex
 	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.test rust-tests
 	$(STEP) "Rust tests" $(SUITE)
 	$(STEP) "Rust tests that force an instruction set" env IRBKIN_SKIPPED=$(abspath $(SKIPPED)) $(SUITE) -- --ignored
-	$(STEP) "Laws on the baseline" env IRBKIN_INSTRUCTION_SET=baseline $(BASELINE) $(SUITE) -- suite::laws suite::hard_sets
+	$(STEP) "Laws on the baseline" env IRBKIN_INSTRUCTION_SET=baseline $(BASELINE) $(SUITE) -- laws:: hard_sets::
 	$(STEP) "Rust documentation tests" env CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_PROFILE_DEV_DEBUG=false CARGO_INCREMENTAL=0 \
-		cargo test -p irbkin --doc --features serde
+		cargo test -p irbkin -p irbkin-abb -p irbkin-page --doc --features irbkin/serde
 	@if [ -e $(SKIPPED) ]; then sort $(SKIPPED); fi; echo "Skipped in Rust: $$(cat $(SKIPPED) 2>/dev/null | wc -l)"
 	$(STEP) "Python tests" $(BIN)/python -m pytest -n auto --dist worksteal -m "not extra and not recipes and not evidence"
 
@@ -104,11 +105,9 @@ test-oracles: $(BUILT) $(VENV)/.groups ## Install extras and reference packages;
 
 lints:
 	cargo fmt --all --check
-	$(STEP) "clippy" cargo clippy --quiet --all-targets --features serde,python -- -D warnings
-	$(STEP) "clippy without std" cargo clippy --quiet --lib $(NO_STD),rapid -- -D warnings
-	$(STEP) "clippy of crates/page" cargo clippy --quiet -p irbkin-page --all-targets -- -D warnings
-	$(STEP) "clippy of crates/capi" cargo clippy --quiet -p irbkin-capi --all-targets -- -D warnings
-	$(STEP) "clippy without rapid" cargo clippy --quiet --lib --no-default-features --features std,urdf -- -D warnings
+	$(STEP) "clippy" cargo clippy --quiet --workspace --all-targets -- -D warnings
+	$(STEP) "clippy without std" cargo clippy --quiet -p irbkin-abb --lib $(NO_STD) -- -D warnings
+	$(STEP) "clippy without urdf and serde" cargo clippy --quiet -p irbkin --lib --no-default-features --features std -- -D warnings
 
 rust-tests:
 	$(STEP) -q "Compile the Rust tests" $(SUITE) --no-run
@@ -126,19 +125,19 @@ test-ros: $(BUILT) ## Install ROS 1 and ROS 2, build the workspace, check both n
 
 # The compiler is of Debian's packages: where they cannot be had, exit code 77 and the reason.
 page: $(BUILT) ## Build the page, one HTML file with irbkin as WebAssembly: target/page/irbkin.html
-	@page/wasm.sh
-	$(BIN)/python page/pack.py
+	@crates/irbkin-page/page/wasm.sh
+	$(BIN)/python crates/irbkin-page/page/pack.py
 
-test-page: $(BUILT) ## Test the page: crates/page, its WebAssembly in Node, all of it in Chromium
-	$(STEP) "Tests of crates/page" cargo test --quiet -p irbkin-page
+test-page: $(BUILT) ## Test the page: crates/irbkin-page, its WebAssembly in Node, all of it in Chromium
+	$(STEP) "Tests of crates/irbkin-page" cargo test --quiet -p irbkin-page
 	@tests/page/test.sh $(abspath $(BIN)/python)
 
 # With the flags of the wheel: the library names no folders of this machine.
 capi: | toolchains ## Build the C library, install it with headers, pkg-config and CMake files: target/capi
-	@$(EXTENSION_FLAGS) crates/capi/install.sh
+	@$(EXTENSION_FLAGS) crates/irbkin-capi/install.sh
 
-test-capi: capi ## Test the C interface: crates/capi, C and C++ programs, in valgrind too
-	$(STEP) "Tests of crates/capi" cargo test --quiet -p irbkin-capi
+test-capi: capi ## Test the C interface: crates/irbkin-capi, C and C++ programs, in valgrind too
+	$(STEP) "Tests of crates/irbkin-capi" cargo test --quiet -p irbkin-capi
 	@tests/capi/test.sh
 
 bench-capi: capi ## Compare the time of a pose in C with that in Rust
@@ -147,7 +146,7 @@ bench-capi: capi ## Compare the time of a pose in C with that in Rust
 # Lints and the extension are of different profiles: they compile at the same time.
 check: | toolchains ## Check format, lints, types, stubs, docs, benches and examples
 	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.groups lints
-	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps --features serde
+	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps -p irbkin -p irbkin-abb --features irbkin/serde
 	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions --bench microsecond -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
 	$(STEP) "benches in Python run" env QUICK=1 MOVES=1000 TRAJECTORIES=200 LINES=10 TARGETS=1000 CALLS=1 KEYS=3 OTHERS=3 \
@@ -195,7 +194,7 @@ bench-peers: $(PEERS)/.irbkin-built ## Compare with other packages; WRITE=1 writ
 	$(PEERS)/bin/python -m benches.peers $(if $(QUICK),--quick) $(if $(WRITE),--write)
 
 # `evidence SUITE=hardsets` has its own numbers; that a seed is fixed is no law.
-LAWS := suite::laws suite::recall suite::certificates suite::cell suite::go --skip every_run_draws
+LAWS := laws:: recall:: certificates:: cell:: go:: --skip every_run_draws
 soak: | toolchains ## Laws with other random numbers for SECONDS (600), on from the last seed; SEED=
 	$(STEP) "Compile the Rust tests" $(SUITE) --quiet --release --no-run
 	tests/seeds.sh soak $(or $(SECONDS),600) env IRBKIN_POSES=10000 PROPTEST_CASES=2000 \
@@ -211,9 +210,9 @@ fuzz: $(BUILT) $(VENV)/.groups ## INPUTS (20,000) broken files of each kind for 
 mutants: | toolchains ## Change the solvers (FILES) in one place after another for SECONDS (1200): what no test sees
 	$(call TOOL,cargo-mutants,27.1.0)
 	@PATH=$(abspath target/tools/bin):$$PATH timeout --signal=INT $(or $(SECONDS),1200) \
-		cargo mutants --shuffle --no-default-features --features std --output target \
+		cargo mutants --shuffle --output target \
 		--file '$(or $(FILES),src/kinematics/structure/**)' \
-		--cargo-arg=--lib --cargo-arg=--features=serde -- \
+		--test-package irbkin,irbkin-tests --cargo-arg=--lib --cargo-arg=--tests -- \
 		--include-ignored laws:: hard_sets:: reach_and_paths:: certificates:: follow:: structure:: solve:: || \
 		case $$? in 2 | 3 | 124) ;; *) exit 1 ;; esac
 	@cd target/mutants.out; echo "Seen: $$(wc -l <caught.txt). Not seen:"; cat missed.txt
@@ -225,7 +224,7 @@ docs: $(BUILT) $(VENV)/.groups $(VENV)/.site ## Write generated tables and trans
 	IRBKIN_WRITE=1 $(SUITE) --quiet -- catalog_page::
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k "transcripts or notebook"
 	for script in eight_solutions hulls slots motion plans singularities peers free_motion stream; do $(BIN)/python docs/pictures/$$script.py; done
-	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps -p irbkin --features serde
+	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps -p irbkin -p irbkin-abb --features irbkin/serde
 	$(BIN)/python docs/site/build.py
 
 site: $(BUILT) $(VENV)/.site ## Build the site of README, docs, arms and docstrings: target/site/html
@@ -279,13 +278,13 @@ semver: | toolchains ## Compare the Rust interface with the last tag
 		{ echo "There is no tag v* yet: no interface to compare with"; exit 0; }; \
 	$(call TOOL,cargo-semver-checks,0.51.0); \
 	PATH=$$PWD/target/tools/bin:$$PATH cargo semver-checks --package irbkin --baseline-rev "$$tag" \
-		--only-explicit-features --features std,urdf,rapid,serde
+		--only-explicit-features --features std,urdf,serde
 
 msrv: | toolchains ## Compile with the oldest Rust, rust-version in Cargo.toml
 	@rustup toolchain list | grep -q '^$(MSRV)' || \
 		{ echo "Rust $(MSRV) is missing: rustup toolchain install $(MSRV) --profile minimal"; exit 1; }
-	$(STEP) "Compile with Rust $(MSRV)" rustup run $(MSRV) cargo check --quiet --locked --features serde,python
-	$(STEP) "Compile with Rust $(MSRV), without std" rustup run $(MSRV) cargo check --quiet --locked --lib $(NO_STD),rapid
+	$(STEP) "Compile with Rust $(MSRV)" rustup run $(MSRV) cargo check --quiet --locked --workspace
+	$(STEP) "Compile with Rust $(MSRV), without std" rustup run $(MSRV) cargo check --quiet --locked -p irbkin-abb --lib $(NO_STD)
 
 clean: ## Remove all build products
 	rm -rf $(VENV) $(PEERS) .venv-ros2 target dist

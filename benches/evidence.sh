@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 venv=.venv
-rust() { cargo test -p irbkin --lib --features serde --quiet --release -- "$@" --nocapture; }
+rust() { cargo test -p irbkin -p irbkin-tests --lib --tests --quiet --release -- "$@" --nocapture; }
 serial() { rust "$@" --test-threads=1; }
 tests() { "$venv/bin/python" -m pytest --quiet "$@"; }
 package() { make --no-print-directory package; }
@@ -64,11 +64,11 @@ plans() { ## 100,000 random lines planned, each step halved
 }
 
 stream() { ## CYCLES (10,000,000) cycles of guards: set points out of bounds, not free
-    IRBKIN_POSES=$((${CYCLES:-10000000} / 14)) rust suite::stream
+    IRBKIN_POSES=$((${CYCLES:-10000000} / 14)) rust stream::
 }
 
 configurations() { ## confdata at 100,000 poses of every ABB arm
-    IRBKIN_POSES=100000 serial suite::configuration
+    IRBKIN_POSES=100000 serial configuration::
 }
 
 egm() { ## MESSAGES (100,000) of EGM beside protobuf, ten times as many broken, hours of losses
@@ -82,10 +82,10 @@ ulp() { ## Arc tangent, sine and cosine against correctly rounded ones
 }
 
 no-std() { ## Laws and unit tests without the standard library
-    local without=(cargo test --no-default-features --features libm,rapid --lib --)
-    "${without[@]}" --include-ignored --skip suite::
-    "${without[@]}" suite::laws suite::coupled suite::configuration suite::allocation \
-        suite::rapid:: suite::rapid_calc
+    local without=(--no-default-features --features libm)
+    cargo test -p irbkin --lib "${without[@]}" -- --include-ignored
+    cargo test -p irbkin-tests "${without[@]}" -- laws:: coupled:: configuration:: allocation:: \
+        rapid:: rapid_calc::
 }
 
 times() { ## Times of single poses, batches, Python's calls, motions, plans, a RAPID module

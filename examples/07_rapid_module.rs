@@ -1,9 +1,9 @@
 //! A RAPID module: the joint angles of its moves, and the module written back with valid confdata.
 
-use irbkin::rapid::{
+use irbkin::{Error, Robot};
+use irbkin_abb::rapid::{
     self, Content, Fallback, NewValue, RobTarget, TableRow, ToolData, Value, WobjData,
 };
-use irbkin::{Error, Robot};
 
 const MODULE: &str = include_str!("pick_and_place.mod");
 

@@ -1,7 +1,7 @@
 //! The moves of a RAPID routine as one motion: times, findings, and the joints written back.
 
 use irbkin::Robot;
-use irbkin::rapid::{self, MotionOptions};
+use irbkin_abb::rapid::{self, MotionOptions};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;

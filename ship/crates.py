@@ -26,9 +26,9 @@ def cargo(*arguments: str) -> str:
 
 
 def linked() -> list[Crate]:
-    """The tree of the crates that are linked on any platform, irbkin first."""
+    """The tree of the crates that are linked on any platform, the extension first."""
     tree = cargo(
-        *("tree", "--package", "irbkin", "--features", "python"),
+        *("tree", "--package", "irbkin-python"),
         *("--target", "all", "--edges", "normal,no-proc-macro"),
         *("--prefix", "depth", "--format", "|{p}|{l}"),
     )

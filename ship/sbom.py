@@ -37,7 +37,7 @@ def bill() -> str:
         uses.setdefault(purl, set())
         if len(above) > 1:
             uses[above[-2]].add(purl)
-    (irbkin,) = (purl for purl in components if purl.startswith("pkg:cargo/irbkin@"))
+    (irbkin,) = (purl for purl in components if purl.startswith("pkg:cargo/irbkin-python@"))
     content = {
         "bomFormat": "CycloneDX",
         "specVersion": "1.5",

@@ -45,7 +45,7 @@ fi
 program=$(ship/cross.sh tests/step.sh "Compile the unit tests for Windows" cargo-zigbuild test --lib --no-run \
     --locked --target $target -Zbuild-std=std,panic_unwind,test --message-format json |
     sed -nE 's/.*"executable":"([^"]*)".*/\1/p')
-run_wine "$program" --quiet --test-threads 2 --include-ignored --skip suite::
+run_wine "$program" --quiet --test-threads 2 --include-ignored
 
 root=$PWD/target/windows-python
 site=$PWD/target/windows-site

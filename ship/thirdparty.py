@@ -37,7 +37,7 @@ def in_wheels() -> list[tuple[str, str, Path]]:
         (f"{package['name']} {package['version']}", package["license"], folder)
         for package in packages
         if (package["name"], package["version"]) in names
-        and (folder := Path(package["manifest_path"]).parent) != ROOT
+        and ROOT not in (folder := Path(package["manifest_path"]).parent, *folder.parents)
     ]
 
 

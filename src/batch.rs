@@ -8,9 +8,7 @@ mod forward;
 mod inverse;
 mod margins;
 mod pace;
-#[cfg(feature = "python")]
 mod paths;
-#[cfg(feature = "python")]
 mod poses;
 mod rows;
 #[cfg(feature = "std")]

@@ -72,12 +72,14 @@ impl<'a> Interrupt<'a> {
     }
 
     /// Whether a loop ends at its round of this number.
-    pub(crate) fn ends(self, round: usize) -> bool {
+    #[doc(hidden)]
+    pub fn ends(self, round: usize) -> bool {
         round.is_multiple_of(ROUNDS) && self.is_raised()
     }
 
     /// Refuse to go on with a loop that [`Self::ends`].
-    pub(crate) fn check(self, round: usize) -> Result<(), Interrupted> {
+    #[doc(hidden)]
+    pub fn check(self, round: usize) -> Result<(), Interrupted> {
         if self.ends(round) { Err(Interrupted) } else { Ok(()) }
     }
 }

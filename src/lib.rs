@@ -51,10 +51,7 @@
 //! | `std` | yes | threads in a batch, choice of the instruction set, close names |
 //! | `libm` | | square roots and angles without `std` (a solve never allocates, either way) |
 //! | `urdf` | yes | `Robot::from_urdf`, `Robot::to_urdf` |
-//! | `rapid` | yes | [`rapid`]: robtargets and moves of RAPID modules, read, solved and rewritten |
 //! | `serde` | | `Serialize` and `Deserialize`, see below |
-//! | `page` | | [`page`]: requests and answers as JSON text, for a page in a browser |
-//! | `python` | | the extension module of the Python package; of no use to a crate |
 //!
 //! `serde` is implemented for robots ([`Robot`] and [`AnyRobot`], with limits, velocities, base and
 //! tool; reading one runs every check of its constructors), for models ([`Definition`], [`OpwParameters`],
@@ -101,69 +98,82 @@ extern crate self as irbkin;
 #[cfg(test)]
 extern crate std;
 
-#[cfg(any(feature = "std", feature = "libm"))]
 pub mod batch;
-#[cfg(any(feature = "std", feature = "libm"))]
 pub mod body;
-#[cfg(any(feature = "std", feature = "libm"))]
 pub mod catalog;
-#[cfg(any(feature = "std", feature = "libm"))]
 pub mod cell;
-#[cfg(any(feature = "std", feature = "libm"))]
 mod error;
-#[cfg(any(feature = "std", feature = "libm"))]
 pub mod go;
 mod interrupt;
-#[cfg(any(feature = "std", feature = "libm"))]
 mod kinematics;
-#[cfg(any(feature = "std", feature = "libm"))]
 mod lanes;
-#[cfg(all(feature = "page", any(feature = "std", feature = "libm")))]
-pub mod page;
-#[cfg(any(feature = "std", feature = "libm"))]
 pub mod paths;
-#[cfg(any(feature = "std", feature = "libm"))]
 pub mod plan;
-#[cfg(feature = "python")]
-mod python;
-#[cfg(all(feature = "rapid", any(feature = "std", feature = "libm")))]
-pub mod rapid;
 pub mod report;
+#[cfg(test)]
+#[path = "../tests/common/rng.rs"]
+#[allow(dead_code, unreachable_pub)]
+mod rng;
 #[cfg(feature = "std")]
 mod spelling;
-#[cfg(any(feature = "std", feature = "libm"))]
 mod spline;
-#[cfg(any(feature = "std", feature = "libm"))]
 pub mod stream;
 #[cfg(test)]
-#[path = "../tests/main.rs"]
-mod suite;
-#[cfg(any(feature = "std", feature = "libm"))]
+#[path = "../tests/structures"]
+#[allow(dead_code, unreachable_pub)]
+mod structures {
+    pub mod place;
+    pub mod spherical_shoulder {
+        pub mod arm;
+    }
+}
 pub mod trajectory;
-#[cfg(all(feature = "urdf", any(feature = "std", feature = "libm")))]
+#[cfg(feature = "urdf")]
 mod urdf;
 
-#[cfg(any(feature = "std", feature = "libm"))]
 pub use catalog::catalog;
-#[cfg(any(feature = "std", feature = "libm"))]
 pub use error::Error;
 pub use interrupt::{Interrupt, Interrupted, Pace};
-#[cfg(any(feature = "std", feature = "libm"))]
 pub use kinematics::{
     AnyRobot, ByJoints, ConfigurationRequest, Corrections, Definition, DhRow, JacobianFrame,
     JointAxis, JointLimits, Joints, Margin, Mdh, NoConfiguration, OpwParameters, Pose,
     PoseDifference, Robot, Sdh, SingularDistances, Singularity, SingularityKind, Slot, Solution,
     Solutions, Status, thresholds,
 };
-#[cfg(any(feature = "std", feature = "libm"))]
 pub use lanes::InstructionSet;
 /// The linear algebra of poses and matrices, in the version that this crate uses.
 pub use nalgebra;
 #[doc(inline)]
 pub use report::{Configuration, Explanation, FreeJoint, Reach};
 
+/// What the crates above this one use of it besides its public names. No stable interface: their
+/// versions are equal.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::cell::{Motion, Placed};
+    pub use crate::error::{JointFault, ModelFault, MotionFault, PoseFault};
+    pub use crate::go::fault::GoFault;
+    pub use crate::kinematics::{
+        Cost, MOST_SLOTS, Progress, angle_between, check_joints, check_most_near, check_near,
+        check_seed, check_weights, constant_sin_cos, largest_step,
+    };
+    #[cfg(feature = "std")]
+    pub use crate::lanes::on_each_set;
+    pub use crate::paths::line::part;
+    pub use crate::paths::polyline::{Corner, Leg, PREDEFINED, Rounded};
+    pub use crate::paths::thresholds::{LEAST_WAY, MOST_SAMPLES, STEP_ROUNDING};
+    pub use crate::plan::fault::PlanFault;
+    pub use crate::plan::thresholds::MOST_TOOL_ANGLES;
+    pub use crate::report::{Convention, Names};
+    #[cfg(feature = "std")]
+    pub use crate::spelling::similar;
+    pub use crate::trajectory::thresholds::{LIMIT_ROUNDING, MOST_DURATION};
+    pub use crate::trajectory::{evenly, within_times};
+    #[cfg(feature = "urdf")]
+    pub use crate::urdf::{Carrier, UrdfArm, fault::UrdfFault, read_document};
+}
+
 /// One joint path along a path of poses: [`Robot::follow`].
-#[cfg(any(feature = "std", feature = "libm"))]
 pub mod follow {
     pub use crate::kinematics::{
         Break, BreakReason, FollowOptions, Followed, Follower, SingularityMode,
@@ -171,7 +181,6 @@ pub mod follow {
 }
 
 /// Poses from and to quaternions, Euler angles, matrices and rows.
-#[cfg(any(feature = "std", feature = "libm"))]
 pub mod pose {
     pub use crate::kinematics::{
         pose_from_euler_zyx as from_euler_zyx, pose_from_isometry as from_isometry,

@@ -3,7 +3,8 @@
 use alloc::vec::Vec;
 
 /// The names that are similar enough, the most similar first. Similarities are from 0 to 1.
-pub(crate) fn similar<'a>(
+#[doc(hidden)]
+pub fn similar<'a>(
     names: impl Iterator<Item = &'a str>,
     similarity: impl Fn(&str) -> f64,
     least: f64,

@@ -33,7 +33,6 @@ fn the_pose_is_that_of_the_robot_and_wrong_angles_are_refused() {
 }
 
 #[test]
-#[cfg(feature = "urdf")]
 fn a_urdf_says_how_many_joints() {
     for (text, tip, dof) in [
         (include_str!("data/irb2600.urdf"), None, 6),

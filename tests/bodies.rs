@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use crate::suite::cell::scene;
-use crate::suite::common::Rng;
+use crate::cell::scene;
+use crate::common::Rng;
 use irbkin::body::{Body, Capsule, LinkCapsule, Shape};
 use irbkin::catalog::find;
 use irbkin::cell::Cell;

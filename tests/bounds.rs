@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::suite::common::{Rng, reach_of};
+use crate::common::{Rng, reach_of};
 use irbkin::batch::{Batch, NO_CONFIGURATION};
 use irbkin::thresholds::{MOST_ANGLE, MOST_LENGTH};
 use irbkin::{

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-use crate::suite::common::{Rng, apart, reach_of};
+use crate::common::{Rng, apart, reach_of};
 use irbkin::{Error, JointLimits, Pose, Robot, catalog, catalog::CatalogGeometry, pose};
 use nalgebra::Vector3;
 

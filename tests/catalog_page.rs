@@ -39,6 +39,7 @@ fn geometry(arm: &CatalogArm) -> (&'static str, Vec<String>) {
         CatalogGeometry::StandingMdh { .. } => ("yumi", Vec::new()),
         CatalogGeometry::Mdh(_) if arm.maker == "ABB" => ("yumi", Vec::new()),
         CatalogGeometry::Mdh(_) => ("franka", Vec::new()),
+        other => panic!("{other:?} has no row"),
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::suite::common::{Rng, enough};
+use crate::common::{Rng, enough};
 
 use irbkin::body::{Body, Capsule, LinkCapsule, Shape};
 use irbkin::catalog::find;

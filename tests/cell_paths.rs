@@ -1,7 +1,7 @@
 //! Laws of motions in a cell: what is proven free is free at every instant, whatever is tried to
 //! refute it, and a contact is where it is said to be.
 
-use crate::suite::common::{Rng, enough};
+use crate::common::{Rng, enough};
 
 use irbkin::body::{Body, Shape};
 use irbkin::cell::{Cell, Contact, Near, RESOLUTION};

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use irbkin::{DhRow, JointLimits, Mdh, Pose, Robot};
 
-use crate::suite::common::{Rng, apart, enough, poses_or};
+use crate::common::{Rng, apart, enough, poses_or};
 
 /// How far the joint vector that made a pose may be from a solution [rad]: a regular one is off by
 /// rounding over its least singular value.

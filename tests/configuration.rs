@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::suite::common::{Rng, apart, asked_set};
+use crate::common::{Rng, apart, asked_set};
 use irbkin::{
     Configuration, ConfigurationRequest, Error, FreeJoint, JointLimits, OpwParameters, Robot,
     Solution, Status, catalog, catalog::CatalogGeometry, thresholds::CONFIGURATION_EDGE,

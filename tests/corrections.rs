@@ -3,7 +3,7 @@
 use irbkin::nalgebra::{Point3, Rotation3, Vector3};
 use irbkin::{Corrections, JacobianFrame, Mdh, Pose, Robot};
 
-use crate::suite::common::Rng;
+use crate::common::Rng;
 
 const ARMS: [&str; 4] = ["IRB 2600-12/1.65", "UR5", "IRB 2400-10/1.55", "CRB 15000-5/0.95"];
 

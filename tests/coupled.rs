@@ -3,10 +3,10 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::suite::common::coupled_arm::{
+use crate::common::coupled_arm::{
     limited, odd, opposed, opw, others, serial, unlimited, with_linkage,
 };
-use crate::suite::common::{Rng, apart, central_difference, difference_bound, reach_of};
+use crate::common::{Rng, apart, central_difference, difference_bound, reach_of};
 use irbkin::batch::Batch;
 use irbkin::{
     DhRow, Error, Explanation, FreeJoint, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose,

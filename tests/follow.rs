@@ -4,11 +4,9 @@
 //! `make evidence SUITE=hardsets` prints the table.
 #![allow(clippy::cast_precision_loss)]
 
-use crate::suite::common;
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::suite::common::{Rng, asked_set};
+use crate::common::{Rng, asked_set};
 
 use nalgebra::Vector3;
 
@@ -191,7 +189,7 @@ fn the_joints_turn_on_up_to_the_limits() {
 
 #[test]
 fn arms_of_other_makers_pass_the_wrist_without_a_jump() {
-    let kuka = common::kuka_kr6().unwrap();
+    let kuka = crate::structures::spherical_wrist::kuka_kr6().unwrap();
     check_smooth(
         "KUKA, J5 through 0",
         &kuka,

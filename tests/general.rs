@@ -7,7 +7,7 @@ use irbkin::batch::Batch;
 use irbkin::{DhRow, Explanation, Mdh, Pose, Robot, Sdh, Status, follow::FollowOptions, pose};
 use serde_json::Value;
 
-use crate::suite::common::{Rng, apart, company};
+use crate::common::{Rng, apart, company};
 
 const CASES: &str = include_str!("data/general_6r.json");
 

@@ -1,8 +1,8 @@
 //! Laws of free motions: free at every instant, from end to end, within the limits; what cannot be
 //! is refused as that.
 
-use crate::suite::common::scenes::{ARMS, in_shelf, on_table, problems, shelf, table};
-use crate::suite::common::{Rng, enough};
+use crate::common::scenes::{ARMS, in_shelf, on_table, problems, shelf, table};
+use crate::common::{Rng, enough};
 
 use irbkin::body::Shape;
 use irbkin::cell::Cell;

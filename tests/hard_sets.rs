@@ -5,12 +5,12 @@
 
 use irbkin::thresholds;
 
-use crate::suite::common::tally::Tally;
-use crate::suite::common::{Rng, asked_set, poses_or};
-use crate::suite::structures::place::{At, Made, Place};
-use crate::suite::structures::{Structure, Subject};
+use crate::common::tally::Tally;
+use crate::common::{Rng, asked_set, poses_or};
+use crate::structures::place::{At, Made, Place};
+use crate::structures::{Structure, Subject};
 
-crate::suite::structures::on_every_structure!(
+crate::structures::on_every_structure!(
     every_branch_is_found_at_and_near_singularities,
     beyond_reach_there_is_no_solution_and_the_shortfall_is_correct,
 );

@@ -1,7 +1,7 @@
 //! Laws of hulls: distances from them are those of their points, and what is inside of them touches
 //! what they touch.
 
-use crate::suite::common::Rng;
+use crate::common::Rng;
 use irbkin::body::{Body, Capsule, LinkCapsule, LinkHull, RoundedHull, Shape};
 use irbkin::cell::Cell;
 use irbkin::{Pose, Robot, catalog};

@@ -17,10 +17,10 @@ use std::array;
 use std::fs::OpenOptions;
 use std::io::{Write, stderr};
 
-use crate::lanes::on_each_set;
-use crate::suite::common::{Rng, apart};
-use crate::suite::structures::{Structure, Subject, on_every_structure, on_structures_of_ordinals};
+use crate::common::{Rng, apart};
+use crate::structures::{Structure, Subject, on_every_structure, on_structures_of_ordinals};
 use irbkin::batch::Batch;
+use irbkin::internal::on_each_set;
 use irbkin::{InstructionSet, JacobianFrame, Pose, Robot, Singularity, Status, pose};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 use subjects::{PoseRow, Row, joint_rows, rows, subjects};

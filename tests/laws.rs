@@ -7,7 +7,6 @@ mod of_robots;
 mod of_tables;
 mod profile;
 // nalgebra has matrices of any size with std alone.
-#[cfg(feature = "std")]
 mod singular_values;
 mod spherical_shoulder_alone;
 mod spherical_wrist_alone;
@@ -24,13 +23,11 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::TestRunner;
 
-use crate::suite::common::{
-    apart, central_difference, difference_bound, divisor, enough, poses, profile,
-};
-use crate::suite::structures::three_parallel::arm::turn;
-use crate::suite::structures::{Structure, Subject};
+use crate::common::{apart, central_difference, difference_bound, divisor, enough, poses, profile};
+use crate::structures::three_parallel::arm::turn;
+use crate::structures::{Structure, Subject};
 
-crate::suite::structures::on_every_structure!(
+crate::structures::on_every_structure!(
     all_branches_are_found,
     every_solution_closes,
     slots_are_those_of_the_joints,
@@ -48,7 +45,7 @@ crate::suite::structures::on_every_structure!(
     an_invalid_pose_is_refused,
 );
 
-crate::suite::structures::on_structures_of_ordinals!(
+crate::structures::on_structures_of_ordinals!(
     all_branches_are_found,
     every_solution_closes,
     jacobian_matches_central_differences,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::suite::common::Rng;
+use crate::common::Rng;
 use irbkin::batch::Batch;
 use irbkin::{Error, Robot, Status, pose};
 

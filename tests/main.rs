@@ -1,5 +1,4 @@
-//! The suite: the laws, on the public interface. `src/lib.rs` includes it, so that the crate is
-//! compiled once for them and for its unit tests.
+//! The laws, on the public interface.
 //!
 //! A new file of tests is a module here, see `CONTRIBUTING.md`. `lanes` forces instruction sets in
 //! the whole process: its tests are ignored, and run by themselves.
@@ -30,32 +29,18 @@ mod laws;
 mod locked;
 mod nearest;
 mod offset_wrist;
-#[cfg(feature = "rapid")]
-mod rapid;
-#[cfg(feature = "rapid")]
-mod rapid_calc;
-#[cfg(feature = "rapid")]
-mod rapid_fuzz;
-#[cfg(feature = "rapid")]
-mod rapid_motion;
 mod reach_and_paths;
 mod recall;
 mod redundancy;
 mod refined;
-#[cfg(feature = "serde")]
 mod serde;
 mod seven_paths;
-#[cfg(feature = "urdf")]
 mod snap;
 mod states;
 mod stream;
-mod stream_egm;
-pub(crate) mod structures;
-#[cfg(feature = "urdf")]
+mod structures;
 mod urdf;
-#[cfg(feature = "urdf")]
 mod urdf_time;
-#[cfg(feature = "urdf")]
 mod urdf_write;
 
-pub(crate) use common::rng;
+use common::rng;

@@ -1,4 +1,4 @@
-"""The public names of the crate, of the C library and of the Python package, as text files.
+"""The public names of the crates, of the C library and of the Python package, as text files.
 
 Usage: python tests/names.py [--write], after `cargo doc`. Fails if a name came or went that
 `tests/names` does not have; --write takes them as they are.
@@ -24,10 +24,13 @@ FUNCTION = re.compile(r"\b(irbkin_\w+)\(")
 
 
 def rust() -> list[str]:
-    """The items of the crate, by rustdoc's list of all of them."""
-    page = (ROOT / "target" / "doc" / "irbkin" / "all.html").read_text()
-    items = ITEM.findall(page)
-    return sorted(f"{path.replace('/', '::')}{name} {kind}" for path, kind, name in items)
+    """The items of the crates, by rustdoc's list of all of them."""
+    names = []
+    for crate in ("irbkin", "irbkin_abb"):
+        page = (ROOT / "target" / "doc" / crate / "all.html").read_text()
+        for path, kind, name in ITEM.findall(page):
+            names.append(f"{crate}::{path.replace('/', '::')}{name} {kind}")
+    return sorted(names)
 
 
 def c() -> list[str]:

@@ -6,7 +6,7 @@ mod sets;
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::suite::common::{Rng, asked_set, reach_of};
+use crate::common::{Rng, asked_set, reach_of};
 use irbkin::{
     JointLimits, Pose, Robot, Solution, Status, catalog, catalog::CatalogGeometry,
     follow::Follower, thresholds,

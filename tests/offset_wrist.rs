@@ -5,9 +5,9 @@ use std::num::NonZeroUsize;
 use irbkin::batch::Batch;
 use irbkin::{DhRow, JacobianFrame, Mdh, Pose, Robot, Status, pose};
 
-use crate::suite::common::rng::drawn;
-use crate::suite::common::{apart, company};
-use crate::suite::structures::offset_wrist::{JACO2, ODD};
+use crate::common::rng::drawn;
+use crate::common::{apart, company};
+use crate::structures::offset_wrist::{JACO2, ODD};
 
 /// Name; alpha [deg], a [m], d [m], theta [deg] of each row.
 type Table = (&'static str, [[f64; 4]; 6]);

@@ -3,11 +3,12 @@
 
 use std::fmt::Write;
 
-use irbkin::rapid::{
+use irbkin::Configuration;
+use irbkin_abb::Error;
+use irbkin_abb::rapid::{
     Content, JointTarget, LoadData, Module, RapidPose, RobTarget, ToolData, Value, WobjData,
     decode, parse,
 };
-use irbkin::{Configuration, Error};
 use proptest::prelude::*;
 use proptest::test_runner::Config as ProptestConfig;
 

@@ -6,8 +6,8 @@
 
 use std::time::{Duration, Instant};
 
-use crate::suite::common::Rng;
-use irbkin::rapid::{
+use crate::common::Rng;
+use irbkin_abb::rapid::{
     Content, Module, MotionOptions, Move, NewValue, Value, decode, parse, read, rewrite,
 };
 
@@ -307,7 +307,7 @@ fn check_in_spite(text: &str, module: &Module) {
 /// Its moves are a motion with findings, or an error says why not.
 fn check_motion(module: &Module) {
     let robot = irbkin::Robot::<6>::named("IRB 2600-12/1.65").unwrap();
-    match irbkin::rapid::motion(&robot, &[module], None, &MotionOptions::default()) {
+    match irbkin_abb::rapid::motion(&robot, &[module], None, &MotionOptions::default()) {
         Ok(motion) => {
             assert!(motion.t.iter().all(|time| time.is_finite()) && motion.t.is_sorted());
             assert!(motion.q.as_flattened().iter().all(|angle| angle.is_finite()));

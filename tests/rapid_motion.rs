@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use crate::suite::common::Rng;
+use crate::common::Rng;
 use irbkin::nalgebra::Vector3;
-use irbkin::rapid::{
+use irbkin::{Pose, PoseDifference, Robot, pose};
+use irbkin_abb::rapid::{
     Finding, JointTarget, Module, MotionOptions, NOT_THERE, RobTarget, RoutineMotion, ToolData,
     WobjData, calc_rob_t, motion, parse,
 };
-use irbkin::{Pose, PoseDifference, Robot, pose};
 
 const TOOL: &str = "[TRUE,[[30,-20,180],[0.8,0,0.6,0]],[1,[0,0,1],[1,0,0,0],0,0,0]]";
 const WOBJ: &str = "[FALSE,TRUE,\"\",[[700,-200,300],[0.8,0,0,0.6]],[[10,20,30],[1,0,0,0]]]";
@@ -32,7 +32,7 @@ fn moved(moves: &str, options: &MotionOptions) -> RoutineMotion {
 }
 
 fn tool() -> ToolData {
-    let Some(irbkin::rapid::Content::Single(irbkin::rapid::Value::ToolData(tool))) =
+    let Some(irbkin_abb::rapid::Content::Single(irbkin_abb::rapid::Value::ToolData(tool))) =
         module("").find("t").map(|datum| datum.content.clone())
     else {
         panic!()
@@ -41,7 +41,7 @@ fn tool() -> ToolData {
 }
 
 fn wobj() -> WobjData {
-    let Some(irbkin::rapid::Content::Single(irbkin::rapid::Value::WobjData(wobj))) =
+    let Some(irbkin_abb::rapid::Content::Single(irbkin_abb::rapid::Value::WobjData(wobj))) =
         module("").find("w").map(|datum| datum.content.clone())
     else {
         panic!()

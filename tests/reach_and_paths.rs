@@ -6,9 +6,9 @@
 #![allow(clippy::cast_precision_loss)]
 
 mod arm;
-use crate::suite::common;
+use crate::common;
 
-use crate::suite::common::{Rng, asked_set};
+use crate::common::{Rng, asked_set};
 use arm::{Arm, Near, arms, equal_links, irb_2600, lateral, log_uniform, sign, universal, wrapped};
 use irbkin::{Pose, Robot, Status, follow::FollowOptions, thresholds};
 use nalgebra::Vector3;

@@ -8,12 +8,12 @@ use std::f64::consts::PI;
 
 use irbkin::{JointLimits, Pose, Robot, SingularityKind, Status, pose};
 
-use crate::suite::common::tally::Tally;
-use crate::suite::common::{Rng, apart, poses_or};
-use crate::suite::structures::{self, Structure, Subject};
+use crate::common::tally::Tally;
+use crate::common::{Rng, apart, poses_or};
+use crate::structures::{self, Structure, Subject};
 
-crate::suite::structures::on_every_structure!(every_generating_joint_vector_is_found);
-crate::suite::structures::on_structures_of_ordinals!(every_generating_joint_vector_is_found);
+crate::structures::on_every_structure!(every_generating_joint_vector_is_found);
+crate::structures::on_structures_of_ordinals!(every_generating_joint_vector_is_found);
 
 /// Poses per batch: a million at once would take half a gigabyte. Not a multiple of any lane count.
 const PART: usize = 1003;

@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write as _;
 
-use crate::suite::common::{self, Rng};
+use crate::common::{self, Rng};
 use irbkin::{DhRow, JointLimits, Mdh, Pose, Robot, thresholds};
 use nalgebra::Isometry3;
 

@@ -6,7 +6,7 @@ use irbkin::{
     Corrections, JointLimits, Mdh, Robot, SingularityKind, Solution, Status, follow::Follower,
 };
 
-use crate::suite::common::{Rng, apart, poses_or};
+use crate::common::{Rng, apart, poses_or};
 
 const ARMS: [&str; 2] = ["IRB 2600-12/1.65", "UR5"];
 

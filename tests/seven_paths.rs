@@ -1,7 +1,7 @@
 //! Laws of `follow` and `plan` of arms of seven joints: their joint vectors meet the poses inside the
 //! limits, `follow` does not jump, and a plan costs no more than what `follow` finds.
 
-use crate::suite::common::{Rng, iiwa};
+use crate::common::{Rng, iiwa};
 
 use irbkin::follow::{BreakReason, Followed};
 use irbkin::plan::{PlanError, PlanOptions, PlanOrder};

@@ -1,12 +1,12 @@
 //! Right angles written with few digits are made exact on request, which is proposed exactly where
 //! it helps.
 
-use crate::suite::common;
+use crate::common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Debug;
 
-use crate::suite::common::{Rng, reach_of};
+use crate::common::{Rng, reach_of};
 use irbkin::batch::Batch;
 use irbkin::{DhRow, Error, JointLimits, Joints, Mdh, Pose, Robot, Sdh, Solutions, pose};
 

@@ -6,7 +6,7 @@ use irbkin::Error;
 use irbkin::trajectory::state::{between, brake, to_rest};
 use irbkin::trajectory::{AxisLimits, AxisMotion, AxisState, Profile, Trajectory};
 
-use crate::suite::common::{Rng, enough};
+use crate::common::{Rng, enough};
 
 /// Position, velocity and acceleration at the start, the target, limits of velocity, acceleration
 /// and jerk of each joint; and the duration [s] of the shortest of ruckig 0.19.4's motions, asked

@@ -8,7 +8,7 @@
     reason = "counts of cycles"
 )]
 
-use crate::suite::common::{Rng, poses_or};
+use crate::common::{Rng, poses_or};
 
 use irbkin::body::Shape;
 use irbkin::cell::Cell;
@@ -192,7 +192,7 @@ fn options<const N: usize>(on_violation: OnViolation) -> GuardOptions<N> {
 }
 
 fn reach<const N: usize>(robot: &Robot<N>) -> f64 {
-    crate::suite::common::reach_of(robot)
+    crate::common::reach_of(robot)
 }
 
 /// A joint vector inside the limits that touches nothing.

@@ -1,7 +1,7 @@
 //! Messages of EGM: what is written is read, and no bytes do harm.
 
-use irbkin::Error;
-use irbkin::stream::egm::{
+use irbkin_abb::Error;
+use irbkin_abb::egm::{
     EgmData, EgmHeader, EgmPose, EgmPosition, EgmRobot, EgmSensor, EgmSpeed, EgmState, EgmTimestamp,
 };
 use proptest::collection::vec;

@@ -1,12 +1,13 @@
 //! Robots from URDF: what is read, and the messages for what is refused.
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
 
-use crate::suite::common;
+use crate::common;
 
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use crate::suite::common::{Rng, kuka_kr6};
+use crate::common::Rng;
+use crate::structures::spherical_wrist::kuka_kr6;
 use irbkin::{Error, PoseDifference, Robot};
 
 const IRB2600: &str = include_str!("data/irb2600.urdf");
@@ -613,7 +614,7 @@ fn an_arm_without_a_closed_form_is_reported_and_solved() {
     assert!(robot.missing_form().is_some());
     let q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
     let solutions = robot.ik(&robot.fk(&q)).unwrap();
-    assert!(solutions.iter().any(|found| crate::suite::common::apart(&found.q, &q) < 1e-9));
+    assert!(solutions.iter().any(|found| crate::common::apart(&found.q, &q) < 1e-9));
 }
 
 /// A chain of fixed joints with an arm's six joints at its end, or links side by side.

@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::suite::common::coupled_arm::{limited, odd, opposed, with_linkage};
-use crate::suite::common::{Rng, apart, kuka_kr6, random_pose, reach_of};
+use crate::common::coupled_arm::{limited, odd, opposed, with_linkage};
+use crate::common::{Rng, apart, random_pose, reach_of};
+use crate::structures::spherical_wrist::kuka_kr6;
 use irbkin::{AnyRobot, Error, JointLimits, Joints, PoseDifference, Robot, catalog, thresholds};
 
 const CASES: usize = 100;

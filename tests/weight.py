@@ -36,7 +36,7 @@ def part(name: str) -> str:
     """The crate of a file, or the Python package."""
     top, below, *_ = name.split("/")
     if top == "crates":
-        return f"irbkin-{below}"
+        return below
     return "irbkin" if top == "src" else top
 
 

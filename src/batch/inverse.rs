@@ -59,7 +59,7 @@ impl Batch<'_> {
         q: &mut [f64],
         status: &mut [u8],
     ) -> Result<(), Error> {
-        check_structure(robot)?;
+        robot.check_structure()?;
         let (poses, slots) = (rows::<16>("poses", poses)?, robot.slot_count());
         let angles = &*robot.angles_of_rows(angles, poses.len())?;
         check_length("q", q.len(), slots * N * poses.len())?;
@@ -104,7 +104,7 @@ impl Batch<'_> {
         weights: &[f64; N],
         q: &mut [f64],
     ) -> Result<(), Error> {
-        check_structure(robot)?;
+        robot.check_structure()?;
         self.seeded(poses, seeds, weights, q, |poses, seeds, q| {
             robot.nearest_rows(poses, seeds, weights, q);
         })
@@ -250,9 +250,4 @@ impl<const N: usize> Robot<N> {
         }
         Ok(Cow::Borrowed(angles))
     }
-}
-
-/// Whether the structure of an arm is known.
-pub(super) fn check_structure<const N: usize>(robot: &Robot<N>) -> Result<(), Error> {
-    robot.known_inverse().map(|_| ())
 }

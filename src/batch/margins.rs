@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::inverse::{check_structure, part_of};
+use super::inverse::part_of;
 use super::pace::Batch;
 use super::rows::{check_length, is_finite, rows};
 use crate::cell::{Cell, Placed};
@@ -72,7 +72,7 @@ impl Batch<'_> {
         cell: Option<&Cell>,
         answers: Margins<'_>,
     ) -> Result<(), Error> {
-        check_structure(robot)?;
+        robot.check_structure()?;
         cell.map(|_| Placed::of(robot)).transpose()?;
         let poses = rows::<16>("poses", poses)?;
         let Margins { margin, singularities, solutions: count } = answers;
@@ -140,7 +140,7 @@ mod tests {
 
     use super::*;
     use crate::kinematics::pose_to_rows;
-    use crate::suite::rng::Rng;
+    use crate::rng::Rng;
 
     fn margins(robot: &Robot<6>, poses: &[f64], threads: usize) -> (Vec<f64>, Vec<f64>, Vec<u8>) {
         let count = poses.len() / 16;

@@ -49,10 +49,10 @@ impl Batch<'static> {
     }
 }
 
-#[cfg(feature = "python")]
 impl<'a> Batch<'a> {
     /// A batch that ends early when it is interrupted.
-    pub(crate) fn until(threads: Option<NonZeroUsize>, interrupt: Interrupt<'a>) -> Self {
+    #[doc(hidden)]
+    pub fn until(threads: Option<NonZeroUsize>, interrupt: Interrupt<'a>) -> Self {
         Self { interrupt, ..Batch::new(threads) }
     }
 }

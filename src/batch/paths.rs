@@ -9,7 +9,8 @@ use crate::kinematics::{Followed, Pose};
 
 impl Batch<'_> {
     /// `follow` of paths of `length` poses each, one behind the other, from a seed each.
-    pub(crate) fn follow<const N: usize>(
+    #[doc(hidden)]
+    pub fn follow<const N: usize>(
         &mut self,
         poses: &[Pose],
         length: usize,

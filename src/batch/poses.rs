@@ -13,7 +13,8 @@ const PART: usize = 1024;
 impl Batch<'_> {
     /// Makes poses of translations and of orientations of `R` numbers each; returns the first row
     /// that is invalid, and why.
-    pub(crate) fn make_poses<const R: usize>(
+    #[doc(hidden)]
+    pub fn make_poses<const R: usize>(
         &mut self,
         xyz: &[f64],
         orientations: &[f64],
@@ -41,7 +42,8 @@ impl Batch<'_> {
 
     /// Takes poses apart into translations and orientations of `R` numbers each; NaN for an
     /// invalid row.
-    pub(crate) fn take_apart<const R: usize>(
+    #[doc(hidden)]
+    pub fn take_apart<const R: usize>(
         &mut self,
         poses: &[f64],
         xyz: &mut [f64],

@@ -213,7 +213,7 @@ mod tests {
 
     use super::*;
     use crate::kinematics::Pose;
-    use crate::suite::rng::Rng;
+    use crate::rng::Rng;
 
     /// A pose in general position.
     fn pose() -> Pose {

@@ -1,7 +1,6 @@
 //! The catalog: arms by name.
 
 mod abb;
-#[cfg(feature = "python")]
 mod alike;
 mod confdata;
 mod designation;
@@ -79,7 +78,8 @@ pub enum AngleUnit {
 }
 
 impl AngleUnit {
-    pub(crate) fn to_radians(self, angle: f64) -> f64 {
+    #[doc(hidden)]
+    pub fn to_radians(self, angle: f64) -> f64 {
         match self {
             Self::Degrees => angle.to_radians(),
             Self::Radians => angle,

@@ -20,8 +20,7 @@ mod standing;
 pub(crate) use boxes::Boxes;
 pub use obstacles::Cell;
 pub(crate) use pairs::Other;
-#[cfg(feature = "python")]
-pub(crate) use path::Motion;
+pub use path::Motion;
 pub use path::{Contact, RESOLUTION};
-pub(crate) use placed::Placed;
+pub use placed::Placed;
 pub use postures::{Near, Nearest};

@@ -31,7 +31,8 @@ const SAMPLES: u32 = 16;
 const MOST_SAMPLES: u32 = 1000;
 
 /// A motion in pieces.
-pub(crate) trait Motion<const N: usize> {
+#[doc(hidden)]
+pub trait Motion<const N: usize> {
     /// Check that its joint angles are finite, and as many as the arm has.
     fn check(&self) -> Result<(), Error>;
 
@@ -158,7 +159,8 @@ impl Cell {
     }
 
     /// [`Self::check_path`] of any motion, until it is interrupted.
-    pub(crate) fn check_motion<const N: usize, M: Motion<N> + ?Sized>(
+    #[doc(hidden)]
+    pub fn check_motion<const N: usize, M: Motion<N> + ?Sized>(
         &self,
         robot: &Robot<N>,
         motion: &M,
@@ -172,7 +174,8 @@ impl Cell {
 
     /// Where a motion first touches something; its joint angles must be finite. What is not proven
     /// when it is interrupted counts as touching.
-    pub(crate) fn contact<const N: usize, M: Motion<N> + ?Sized>(
+    #[doc(hidden)]
+    pub fn contact<const N: usize, M: Motion<N> + ?Sized>(
         &self,
         placed: &mut Placed<'_, N>,
         motion: &M,

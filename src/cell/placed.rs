@@ -26,7 +26,8 @@ thread_local! {
 }
 
 /// An arm with the outline of its body.
-pub(crate) struct Placed<'a, const N: usize> {
+#[doc(hidden)]
+pub struct Placed<'a, const N: usize> {
     robot: &'a Robot<N>,
     pub(super) outline: &'a Outline,
     /// Taken when this is dropped.
@@ -37,7 +38,8 @@ pub(crate) struct Placed<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Placed<'a, N> {
-    pub(crate) fn of(robot: &'a Robot<N>) -> Result<Self, Error> {
+    #[doc(hidden)]
+    pub fn of(robot: &'a Robot<N>) -> Result<Self, Error> {
         let outline = robot.outline().ok_or_else(|| robot.no_body())?;
         #[cfg(feature = "std")]
         let kept = KEPT.try_with(core::cell::Cell::take).ok().flatten();
@@ -52,7 +54,8 @@ impl<'a, const N: usize> Placed<'a, N> {
     }
 
     /// For work that ends when it is interrupted.
-    pub(crate) fn until(mut self, interrupt: Interrupt<'a>) -> Self {
+    #[doc(hidden)]
+    pub fn until(mut self, interrupt: Interrupt<'a>) -> Self {
         self.interrupt = interrupt;
         self
     }

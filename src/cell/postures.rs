@@ -70,7 +70,8 @@ impl Cell {
     }
 
     /// Whether each joint vector is free.
-    pub(crate) fn free_postures<const N: usize>(
+    #[doc(hidden)]
+    pub fn free_postures<const N: usize>(
         &self,
         placed: &mut Placed<'_, N>,
         q: &[[f64; N]],
@@ -172,7 +173,8 @@ impl Cell {
     }
 
     /// The two that are deepest in each other or in the margin, and how deep [m].
-    pub(crate) fn collision<const N: usize>(
+    #[doc(hidden)]
+    pub fn collision<const N: usize>(
         &self,
         placed: &Placed<'_, N>,
         q: &[f64; N],

@@ -4,7 +4,8 @@ use core::array;
 
 /// Joint angles `middle + u turns + e` with |u| <= 1 and |e| <= `beside` [rad].
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Range<const N: usize> {
+#[doc(hidden)]
+pub struct Range<const N: usize> {
     pub(super) middle: [f64; N],
     pub(super) turns: [f64; N],
     pub(super) beside: [f64; N],

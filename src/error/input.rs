@@ -5,6 +5,7 @@ use core::fmt;
 use thiserror::Error;
 
 /// Why a pose is refused. Lengths in meters, angles in radians, indices from 0.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PoseFault {
@@ -52,6 +53,7 @@ pub enum PoseFault {
 }
 
 /// Why joint angles [rad], or an argument beside them, are refused. Joints count from 1.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum JointFault {

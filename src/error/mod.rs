@@ -12,19 +12,17 @@ mod motion;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use self::input::{JointFault, PoseFault};
-pub(crate) use self::model::ModelFault;
-pub(crate) use self::motion::MotionFault;
+pub use self::input::JointFault;
+pub use self::input::PoseFault;
+pub use self::model::ModelFault;
+pub use self::motion::MotionFault;
 use crate::body::fault::BodyFault;
 use crate::catalog::fault::UnknownRobot;
 use crate::go::fault::GoFault;
 use crate::interrupt::Interrupted;
 use crate::kinematics::NoConfiguration;
 use crate::plan::fault::PlanFault;
-#[cfg(feature = "rapid")]
-use crate::rapid::text::fault::{FrameFault, RapidFault};
 use crate::report::Explanation;
-use crate::stream::egm::fault::EgmFault;
 #[cfg(feature = "urdf")]
 use crate::urdf::fault::UrdfFault;
 
@@ -53,17 +51,6 @@ pub enum Error {
     /// The catalog has no arm of that name.
     #[error(transparent)]
     UnknownRobot(#[from] UnknownRobot),
-    /// The bytes are no EGM message.
-    #[error(transparent)]
-    InvalidMessage(#[from] EgmFault),
-    /// The RAPID text is broken.
-    #[cfg(feature = "rapid")]
-    #[error(transparent)]
-    Rapid(#[from] RapidFault),
-    /// A tool and a work object do not go together, or are not poses.
-    #[cfg(feature = "rapid")]
-    #[error(transparent)]
-    Frame(#[from] FrameFault),
     /// No solution is inside the limits.
     #[error("{0}")]
     Unreachable(Explanation),

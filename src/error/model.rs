@@ -14,6 +14,7 @@ use crate::urdf::fault::UrdfFault;
 
 /// Why the model of an arm is refused, or a question to it. Lengths in meters, angles in radians;
 /// joints, axes and rows count from 1, an `index` of 0 is a parameter by itself.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ModelFault {

@@ -8,6 +8,7 @@ use super::input::JointFault;
 
 /// Why an argument of a trajectory or a path is refused. Lengths in meters, angles in radians,
 /// times in seconds; rows, poses and elements count from 0, joints from 1.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MotionFault {

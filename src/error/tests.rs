@@ -6,8 +6,6 @@ use std::{vec, vec::Vec};
 
 use super::*;
 use crate::catalog::LeftOut;
-#[cfg(feature = "rapid")]
-use crate::rapid::text::fault::{Missing, RapidFaultKind};
 use crate::report::{Approach, Configuration, FreeJoint, Names, Reach};
 
 fn unreachable(explanation: Explanation) -> Error {
@@ -208,43 +206,6 @@ fn messages_of_motions_and_plans() {
         (
             PlanFault::AxisSteps { field: "tool cone", found: 2, bounds: [3, 41] }.into(),
             "tool cone: steps must be 3 to 41, got 2, and odd",
-        ),
-    ]);
-}
-
-#[cfg(feature = "rapid")]
-#[test]
-fn messages_of_rapid() {
-    use RapidFaultKind as Kind;
-    let (thing, routine) = ("robtarget p10".to_string(), Some("main".into()));
-    let fault = |kind| RapidFault::nowhere(kind).into();
-    let count = |part: &str, found| {
-        let (thing, part) = (thing.clone(), part.into());
-        fault(Kind::ComponentCount { thing, part, found, wanted: 4, missing: "" })
-    };
-    let indices = |found, wanted| fault(Kind::IndexCount { text: "p{1}".into(), found, wanted });
-    check(&[
-        (
-            RapidFault { line: 1, column: 12, kind: Kind::SecondModule }.into(),
-            "line 1, column 12: a second module begins, a text must hold one",
-        ),
-        (count("", 1), "robtarget p10 has 1 component, it must have 4"),
-        (count("robconf", 3), "robtarget p10: robconf has 3 components, it must have 4"),
-        (indices(1, 0), "p{1} has 1 index, but it is not an array"),
-        (indices(2, 1), "p{1} has 2 indices, it must have 1"),
-        (
-            fault(Kind::SameName { name: "p10".into(), routine: None }),
-            "p10 is declared twice in the module",
-        ),
-        (fault(Kind::SameName { name: "p10".into(), routine }), "p10 is declared twice in main"),
-        (
-            fault(Kind::NoSuchValue { missing: Missing::Datum { index: 7, count: 3 } }),
-            "there is no datum 7, the module has 3",
-        ),
-        (
-            FrameFault::Held { both: false }.into(),
-            "the robot holds neither the tool nor the work object: robhold must be TRUE for one of \
-             them",
         ),
     ]);
 }

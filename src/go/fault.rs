@@ -7,6 +7,7 @@ use thiserror::Error;
 use crate::report::{Explanation, excess};
 
 /// Why there is no free motion. `field` is "start" or "goal"; joints count from 1.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum GoFault {
@@ -46,8 +47,8 @@ pub enum GoFault {
 
 impl GoFault {
     /// Whether no motion can be.
-    #[cfg(feature = "python")]
-    pub(crate) fn is_proven(&self) -> bool {
+    #[doc(hidden)]
+    pub fn is_proven(&self) -> bool {
         match self {
             Self::Outside { .. } | Self::Linkage { .. } => true,
             Self::Unreachable { reason, .. } => {

@@ -9,14 +9,15 @@ mod solve;
 mod structure;
 pub mod thresholds;
 
-#[cfg(feature = "python")]
-pub(crate) use answer::check::{check_joints, check_most_near, check_near};
-pub(crate) use answer::check::{check_seed, check_weights};
+pub use answer::check::check_joints;
+pub use answer::check::check_most_near;
+pub use answer::check::check_near;
+pub use answer::check::check_seed;
+pub use answer::check::check_weights;
 pub use answer::request::ConfigurationRequest;
-#[cfg(feature = "python")]
-pub(crate) use answer::select::Cost;
+pub use answer::select::Cost;
 pub use answer::singularity::{SingularDistances, Singularity};
-pub(crate) use answer::slot::MOST_SLOTS;
+pub use answer::slot::MOST_SLOTS;
 pub use answer::slot::Slot;
 pub use answer::solutions::{Solution, Solutions};
 pub use answer::status::{SingularityKind, Status};
@@ -31,15 +32,13 @@ pub use chain::joint_axes::JointAxis;
 pub(crate) use chain::joint_axes::unit;
 pub use chain::limits::JointLimits;
 pub(crate) use chain::limits::at_limit;
-#[cfg(feature = "python")]
-pub(crate) use path::follow::Progress;
+pub use path::follow::Progress;
 pub use path::follow::{Break, BreakReason, Followed, Follower};
 pub use path::singularity_mode::{FollowOptions, SingularityMode};
-pub(crate) use path::step::{largest, largest_step, steps};
-#[cfg(feature = "rapid")]
-pub(crate) use pose::angles::angle_between;
-#[cfg(feature = "rapid")]
-pub(crate) use pose::angles::constant_sin_cos;
+pub use path::step::largest_step;
+pub(crate) use path::step::{largest, steps};
+pub use pose::angles::angle_between;
+pub use pose::angles::constant_sin_cos;
 #[cfg(feature = "urdf")]
 pub(crate) use pose::angles::snapped;
 pub(crate) use pose::angles::{nearest_turn, rotation_vector};

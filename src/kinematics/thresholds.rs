@@ -162,7 +162,8 @@ pub(crate) const MOST_TOOL: f64 = 10.0;
 
 /// Farthest that the flange of an arm may be from its base [m]: the longest manipulators reach 70
 /// m, and an arm in millimeters hundreds.
-pub(crate) const MOST_REACH: f64 = 100.0;
+#[doc(hidden)]
+pub const MOST_REACH: f64 = 100.0;
 
 /// Sizes of joint limits that are in degrees, where more than half of the joints have one [rad]:
 /// from eight turns on, which an arm may have at its wrist but not everywhere. Above, a limit
@@ -171,7 +172,8 @@ pub(crate) const DEGREE_LIMITS: core::ops::RangeInclusive<f64> = 50.0..=1000.0;
 
 /// How far outside its limits a joint of a joint vector may be, and how large most joints of a
 /// motion may be [rad]: four turns. A seed may be two turns away; degrees are farther off.
-pub(crate) const FARTHEST_OUTSIDE: f64 = 4.0 * core::f64::consts::TAU;
+#[doc(hidden)]
+pub const FARTHEST_OUTSIDE: f64 = 4.0 * core::f64::consts::TAU;
 
 /// Greatest angle of a model and greatest joint limit [rad], apart from no limit: beyond, full
 /// turns lose the angle's digits.

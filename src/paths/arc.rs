@@ -60,7 +60,8 @@ pub fn arc(
 }
 
 /// An arc through three poses; parts of it are from 0 to 1.
-pub(crate) struct Arc {
+#[doc(hidden)]
+pub struct Arc {
     circle: Circle,
     turns: Turns,
 }

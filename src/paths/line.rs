@@ -49,7 +49,8 @@ pub fn line(
 }
 
 /// A line whose orientation turns evenly about one axis (eq. 17, 18); parts of it are from 0 to 1.
-pub(crate) struct Line {
+#[doc(hidden)]
+pub struct Line {
     start: Vector3<f64>,
     way: Vector3<f64>,
     length: f64,
@@ -96,7 +97,8 @@ impl Line {
 
 /// A part of the way, exact at both ends.
 #[expect(clippy::cast_precision_loss, reason = "at most 1e7 steps")]
-pub(crate) fn part(step: usize, steps: usize) -> f64 {
+#[doc(hidden)]
+pub fn part(step: usize, steps: usize) -> f64 {
     step as f64 / steps as f64
 }
 

@@ -12,8 +12,10 @@
 //! ```
 
 mod arc;
-pub(crate) mod line;
-pub(crate) mod polyline;
+#[doc(hidden)]
+pub mod line;
+#[doc(hidden)]
+pub mod polyline;
 mod spacing;
 mod spline;
 pub(crate) mod thresholds;

@@ -5,7 +5,6 @@ use alloc::vec::Vec;
 use nalgebra::{Rotation3, Translation3, Vector3};
 
 use super::arc::Arc;
-#[cfg(feature = "rapid")]
 use super::arc::ArcOrientation;
 use super::line::{Line, Turn, part};
 use super::spacing::Spacing;
@@ -95,7 +94,8 @@ pub struct Zone {
 
 /// ABB's predefined zones: name, tool [mm], orientation [mm], orientation [deg].
 /// Source: the zonedata table of the RAPID reference manual.
-pub(crate) const PREDEFINED: [(&str, f64, f64, f64); 15] = [
+#[doc(hidden)]
+pub const PREDEFINED: [(&str, f64, f64, f64); 15] = [
     ("fine", 0.0, 0.0, 0.0),
     ("z0", 0.3, 0.3, 0.03),
     ("z1", 1.0, 1.0, 0.1),
@@ -132,7 +132,8 @@ impl Zone {
     }
 
     /// A zone in the units of zonedata: position and orientation [mm], angle [deg].
-    pub(crate) fn of_zonedata([position, orientation]: [f64; 2], angle: f64) -> Self {
+    #[doc(hidden)]
+    pub fn of_zonedata([position, orientation]: [f64; 2], angle: f64) -> Self {
         Self {
             position: position * 1e-3,
             orientation: orientation * 1e-3,
@@ -154,27 +155,29 @@ impl Zone {
 }
 
 /// A line or an arc of the tool; parts of it are from 0 to 1.
-#[cfg_attr(not(feature = "rapid"), expect(dead_code, reason = "arcs are parts of RAPID motion"))]
 #[expect(clippy::large_enum_variant, reason = "most are lines, one or two at a time")]
-pub(crate) enum Leg {
+#[doc(hidden)]
+pub enum Leg {
     Line(Line),
     Arc(Arc),
 }
 
 impl Leg {
     /// A line between two poses; `index` is the pose that an error names.
-    pub(crate) fn line([start, end]: [&Pose; 2], index: usize) -> Result<Self, Error> {
+    #[doc(hidden)]
+    pub fn line([start, end]: [&Pose; 2], index: usize) -> Result<Self, Error> {
         Ok(Self::Line(Line::new([start, end], None, index)?))
     }
 
     /// An arc through three poses.
-    #[cfg(feature = "rapid")]
-    pub(crate) fn arc(poses: [&Pose; 3], orientation: ArcOrientation) -> Result<Self, Error> {
+    #[doc(hidden)]
+    pub fn arc(poses: [&Pose; 3], orientation: ArcOrientation) -> Result<Self, Error> {
         Ok(Self::Arc(Arc::through(poses, orientation)?))
     }
 
     /// Its length [m].
-    pub(crate) fn length(&self) -> f64 {
+    #[doc(hidden)]
+    pub fn length(&self) -> f64 {
         match self {
             Self::Line(line) => line.length(),
             Self::Arc(arc) => arc.length(),
@@ -182,7 +185,8 @@ impl Leg {
     }
 
     /// An angle that the tool does not turn by more than [rad].
-    pub(crate) fn angle(&self) -> f64 {
+    #[doc(hidden)]
+    pub fn angle(&self) -> f64 {
         match self {
             Self::Line(line) => line.angle(),
             Self::Arc(arc) => arc.angle(),
@@ -217,13 +221,15 @@ impl Leg {
 
 /// The zones of a corner between its neighbors [m].
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Corner {
+#[doc(hidden)]
+pub struct Corner {
     position: f64,
     orientation: f64,
 }
 
 impl Corner {
-    pub(crate) fn new(zone: &Zone, before: &Leg, after: &Leg) -> Self {
+    #[doc(hidden)]
+    pub fn new(zone: &Zone, before: &Leg, after: &Leg) -> Self {
         let half = 0.5 * before.length().min(after.length());
         let position = zone.position.min(half);
         if position == 0.0 {
@@ -236,18 +242,20 @@ impl Corner {
     }
 
     /// Whether the pose at the corner is met.
-    pub(crate) fn is_met(&self) -> bool {
+    #[doc(hidden)]
+    pub fn is_met(&self) -> bool {
         self.position == 0.0 && self.orientation == 0.0
     }
 }
 
 /// A leg with its neighbors behind rounded corners, if it has them.
-pub(crate) struct Rounded<'a> {
-    pub(crate) before: Option<(&'a Leg, Corner)>,
-    pub(crate) leg: &'a Leg,
-    pub(crate) after: Option<(&'a Leg, Corner)>,
+#[doc(hidden)]
+pub struct Rounded<'a> {
+    pub before: Option<(&'a Leg, Corner)>,
+    pub leg: &'a Leg,
+    pub after: Option<(&'a Leg, Corner)>,
     /// The pose at the end of the leg, for errors.
-    pub(crate) index: usize,
+    pub index: usize,
 }
 
 /// A place inside a zone: the legs that meet there, its size, and how far through it, 0 to 1.
@@ -260,7 +268,8 @@ struct Inside<'a> {
 
 impl Rounded<'_> {
     /// The pose at a part of the leg, 0 to 1; at both ends halfway through the corners.
-    pub(crate) fn at(&self, part: f64) -> Result<Pose, Error> {
+    #[doc(hidden)]
+    pub fn at(&self, part: f64) -> Result<Pose, Error> {
         let position = match self.inside(part, |corner| corner.position) {
             Some(inside) => inside.position(),
             None => self.leg.position(part),

@@ -73,7 +73,8 @@ impl Spacing {
     }
 
     /// The number of steps of a path of one part, by its length [m] and angle [rad].
-    pub(crate) fn steps_of_one(self, part: [f64; 2]) -> Result<usize, Error> {
+    #[doc(hidden)]
+    pub fn steps_of_one(self, part: [f64; 2]) -> Result<usize, Error> {
         match self.0 {
             Kind::Count(poses) => Ok(poses - 1),
             Kind::Step { length, angle } => counted(part, length, angle),

@@ -9,7 +9,7 @@ use super::spline::{Span, spans};
 use super::tests::{apart, random, skew};
 use super::*;
 use crate::kinematics::{Pose, PoseDifference};
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 fn poses(rng: &mut Rng, count: usize) -> Vec<Pose> {
     (0..count).map(|_| random(rng)).collect()

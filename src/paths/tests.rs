@@ -6,7 +6,7 @@ use nalgebra::{Rotation3, Translation3, Vector3};
 
 use super::*;
 use crate::kinematics::{Pose, PoseDifference, pose_from_euler_zyx};
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 pub(super) fn random(rng: &mut Rng) -> Pose {
     let xyz = [(); 3].map(|()| rng.between(-1.0, 1.0));
@@ -216,7 +216,6 @@ fn zones_are_those_of_abb() {
 
 /// A line, then an arc, with a zone: the path goes on in its direction where the zone begins
 /// and where it ends, and is inside the zone halfway.
-#[cfg(feature = "rapid")]
 #[test]
 fn a_corner_between_a_line_and_an_arc_has_no_kink() {
     use super::polyline::{Corner, Leg, Rounded};

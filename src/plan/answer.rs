@@ -130,7 +130,6 @@ pub struct NoPlan<const N: usize = 6> {
 
 /// Why there is no plan.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum PlanError<const N: usize = 6> {
     /// The path or the options are invalid.
     Invalid(Error),

@@ -7,6 +7,7 @@ use crate::report::excess;
 
 /// Why an argument of a plan is refused. Lengths in meters, angles in radians, times in seconds;
 /// poses and axes count from 0, joints from 1; `bounds` are the least and the largest value.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanFault {

@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::kinematics::{Pose, PoseDifference, Robot, largest, pose_from_euler_zyx, steps};
 use crate::paths::{Spacing, line};
 use crate::plan::fault::PlanFault;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 fn arm() -> Robot<6> {
     Robot::named("IRB 2600-12/1.65").unwrap()

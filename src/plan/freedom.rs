@@ -14,7 +14,7 @@ use crate::plan::thresholds::{MOST_FREE_AXES, REFINED_TOOL_STEP, REFINED_TRACK};
 
 /// The motion of a free axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Motion {
+pub(crate) enum Motion {
     /// An external axis.
     Carrier(Carried),
     /// The tool is tilted about its first or second other axis.

@@ -6,7 +6,7 @@ use super::tests::random_path;
 use super::{PlanError, PlanOptions, ToolRotation};
 use crate::kinematics::{Pose, PoseDifference, Robot, largest, nearest_turn, steps};
 use crate::paths::{Spacing, line};
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// Where joint angles at the first pose of a path lead to, each interval in so many parts and no
 /// step larger than `most`: no gap between two folds is stepped over.

@@ -62,7 +62,8 @@ impl Robot<6> {
     }
 
     /// [`Self::plan`], for a caller that may be asked.
-    pub(crate) fn planned(
+    #[doc(hidden)]
+    pub fn planned(
         &self,
         path: &[Pose],
         options: &PlanOptions,

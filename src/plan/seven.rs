@@ -47,7 +47,8 @@ impl Robot<7> {
     }
 
     /// [`Self::plan`], for a caller that may be asked.
-    pub(crate) fn planned(
+    #[doc(hidden)]
+    pub fn planned(
         &self,
         path: &[Pose],
         options: &PlanOptions<7>,

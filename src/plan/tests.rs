@@ -19,7 +19,7 @@ use super::{ExternalAxis, PlanError, PlanOptions, PlanOrder, ToolAxis, ToolRotat
 use crate::interrupt::Interrupt;
 use crate::kinematics::{JointLimits, Pose, Robot, largest, pose_from_euler_zyx, steps};
 use crate::paths::Turn;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 fn below(rng: &mut Rng, count: usize) -> usize {
     usize::try_from(rng.bits() % u64::try_from(count).unwrap()).unwrap()

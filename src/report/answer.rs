@@ -7,7 +7,6 @@ use thiserror::Error;
 /// Whether the wrist center reaches the pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
 pub enum Reach {
     /// It does.
     Reached,
@@ -199,14 +198,6 @@ impl fmt::Display for Millimeters {
 /// [`ConfigurationRule`] says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "python",
-    pyo3::pyclass(module = "irbkin", frozen, get_all, sequence, from_py_object)
-)]
-#[cfg_attr(
-    all(feature = "python", feature = "serde"),
-    expect(clippy::unsafe_derive_deserialize, reason = "the unsafe methods are pyo3's")
-)]
 pub struct Configuration {
     /// Quarter turn of axis 1.
     pub cf1: i32,

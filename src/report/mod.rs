@@ -7,9 +7,11 @@ mod unknown_structure;
 
 pub use answer::{Approach, Configuration, ConfigurationRule, Explanation, Reach};
 pub use free_joint::FreeJoint;
-pub(crate) use names::{Listed, Names, excess};
+pub use names::Names;
+pub(crate) use names::{Listed, excess};
+pub use unknown_structure::Convention;
 pub use unknown_structure::UnknownStructure;
 pub(crate) use unknown_structure::{
-    Columns, Convention, Freedom, MOST_CONDITIONS, OFFSET_WRIST, ORDERS, Pattern, Reading,
-    Relation, SNAPS, Snap,
+    Columns, Freedom, MOST_CONDITIONS, OFFSET_WRIST, ORDERS, Pattern, Reading, Relation, SNAPS,
+    Snap,
 };

@@ -116,7 +116,8 @@ pub(crate) struct Snap(pub(crate) f64);
 
 /// A Denavit-Hartenberg convention.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Convention {
+#[doc(hidden)]
+pub enum Convention {
     Modified,
     Standard,
 }
@@ -201,8 +202,8 @@ impl UnknownStructure {
     }
 
     /// The structure that a `snap` gives the arm, in words.
-    #[cfg(feature = "python")]
-    pub(crate) fn helpful_snap(&self) -> Option<alloc::string::String> {
+    #[doc(hidden)]
+    pub fn helpful_snap(&self) -> Option<alloc::string::String> {
         let Hint::Snap { snap, structure, moves } = self.hint else { return None };
         let moves = alloc::format!("moves the tool by up to {moves:.1e} m");
         Some(alloc::format!("snap={:e} gives {structure}, {moves}", SNAPS[usize::from(snap)]))

@@ -178,8 +178,8 @@ impl<const N: usize> Guard<N> {
     }
 
     /// The next set point, where the reference is no pose: the guard brakes.
-    #[cfg(feature = "python")]
-    pub(crate) fn step_not_rigid(&mut self) -> Step<N> {
+    #[doc(hidden)]
+    pub fn step_not_rigid(&mut self) -> Step<N> {
         self.refuse(Reason::NotRigid)
     }
 

@@ -34,7 +34,6 @@ pub struct GuideBlocks;
 mod ahead;
 mod bounds;
 mod brake;
-pub mod egm;
 mod guard;
 mod limit;
 mod options;

@@ -54,7 +54,7 @@ pub(super) fn check_axes(limits: &[AxisLimits], dof: usize) -> Result<(), Error>
 }
 
 /// Check the angles of a joint vector.
-pub(super) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> {
+pub(crate) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> {
     if q.is_empty() {
         return Err(MotionFault::NoJoints { field }.into());
     }

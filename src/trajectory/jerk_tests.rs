@@ -2,7 +2,7 @@ use std::vec::Vec;
 
 use super::polynomial::derivatives;
 use super::*;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 struct Case {
     dof: usize,

@@ -39,9 +39,9 @@ pub use extremes::Peaks;
 pub use joint::{Synchronization, joint, joint_within};
 pub use phase::AxisState;
 pub use piecewise::Trajectory;
+pub use retime::evenly;
+pub use retime::within_times;
 pub use retime::{Retiming, retime, retime_tool};
-#[cfg(feature = "rapid")]
-pub(crate) use retime::{evenly, within_times};
 pub(crate) use rounded::{distance, paced, rounded};
 pub use tool_speed::{ToolSpeedLimits, at_tool_speed, tool_lengths, tool_speed_limits};
 pub use waypoints::{SplineKind, spline, through};

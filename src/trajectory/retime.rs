@@ -18,7 +18,6 @@ use crate::spline::{Ends, cubic};
 use crate::trajectory::thresholds::PATH_DIRECTION;
 
 /// Pieces of the grid between two rests of a program, at least.
-#[cfg(feature = "rapid")]
 const PROGRAMMED_PIECES: usize = 48;
 
 /// Largest step of a joint from row to row with which the tool keeps a speed [rad]: between the
@@ -80,11 +79,8 @@ impl<'a> Retiming<'a> {
     }
 
     /// As [`Self::along`], until it is interrupted.
-    pub(crate) fn along_until(
-        &self,
-        q: &[f64],
-        interrupt: Interrupt<'_>,
-    ) -> Result<Trajectory, Error> {
+    #[doc(hidden)]
+    pub fn along_until(&self, q: &[f64], interrupt: Interrupt<'_>) -> Result<Trajectory, Error> {
         let Self { max_velocity, max_acceleration, .. } = *self;
         let dof = check_path_limits(max_velocity, max_acceleration)?;
         self.check_jerk(dof)?;
@@ -235,8 +231,8 @@ fn check_steps(q: &[f64], dof: usize) -> Result<(), Error> {
 
 /// Joints that go evenly from row to row [rad]. The times of the rows [s] begin at zero and do not
 /// decrease; rows at one time are equal.
-#[cfg(feature = "rapid")]
-pub(crate) fn evenly<const N: usize>(times: &[f64], rows: &[[f64; N]]) -> Trajectory {
+#[doc(hidden)]
+pub fn evenly<const N: usize>(times: &[f64], rows: &[[f64; N]]) -> Trajectory {
     let mut terms = Vec::with_capacity(rows.len() * N);
     for (ends, rows) in times.windows(2).zip(rows.windows(2)) {
         let duration = ends[1] - ends[0];
@@ -258,8 +254,8 @@ pub(crate) fn evenly<const N: usize>(times: &[f64], rows: &[[f64; N]]) -> Trajec
 /// The fastest trajectory along rows of joints [rad] from rest to rest, with the time of each row
 /// [s]. The path is a cubic spline as in `retime`, the limits hold in the same way (eq. 13 to 16),
 /// and from each row to the next it takes `least` [s] or more (eq. 35).
-#[cfg(feature = "rapid")]
-pub(crate) fn within_times<const N: usize>(
+#[doc(hidden)]
+pub fn within_times<const N: usize>(
     rows: &[[f64; N]],
     least: &[f64],
     max_velocity: &[f64; N],

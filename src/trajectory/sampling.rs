@@ -97,7 +97,7 @@ mod tests {
 
     use super::*;
     use crate::lanes::on_each_set;
-    use crate::suite::rng::Rng;
+    use crate::rng::Rng;
     use crate::trajectory::Trajectory;
     use crate::trajectory::polynomial::derivatives;
 

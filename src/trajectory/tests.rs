@@ -1,7 +1,7 @@
 use std::vec::Vec;
 
 use super::*;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 const ROUNDING: f64 = 1e-12;
 

@@ -5,7 +5,8 @@
 pub(crate) const LEAST_DURATION: f64 = 1e-9;
 
 /// Greatest duration of a motion [s]: 30 years.
-pub(crate) const MOST_DURATION: f64 = 1e9;
+#[doc(hidden)]
+pub const MOST_DURATION: f64 = 1e9;
 
 /// How far joints may be apart where one trajectory continues another [rad].
 pub(crate) const JOINED_POSITION: f64 = 1e-9;
@@ -15,4 +16,5 @@ pub(crate) const JOINED_POSITION: f64 = 1e-9;
 pub(crate) const PATH_DIRECTION: f64 = 1e-6;
 
 /// How far rounding may exceed a limit of a motion, as a part of the limit [1].
-pub(crate) const LIMIT_ROUNDING: f64 = 1e-9;
+#[doc(hidden)]
+pub const LIMIT_ROUNDING: f64 = 1e-9;

@@ -2,7 +2,7 @@ use std::string::ToString;
 use std::vec::Vec;
 
 use super::*;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 const DOF: usize = 3;
 

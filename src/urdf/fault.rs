@@ -12,6 +12,7 @@ use thiserror::Error;
 use crate::report::{Listed, Names};
 
 /// Why a URDF is refused. Lines and columns count from 1.
+#[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum UrdfFault {

@@ -27,7 +27,7 @@ pub(super) struct Joint<'a> {
 }
 
 /// The numbers of a joint, as in the text.
-pub(super) struct Placed {
+pub(crate) struct Placed {
     /// The child's origin in the parent [m].
     xyz: [f64; 3],
     /// Roll, pitch and yaw of the child in the parent [rad].
@@ -39,7 +39,7 @@ pub(super) struct Placed {
 }
 
 /// A revolute joint: its axis in the child's frame, limits [rad] and velocity [rad/s].
-pub(super) struct Motion {
+pub(crate) struct Motion {
     direction: Vector3<f64>,
     pub(super) limits: [f64; 2],
     pub(super) velocity: Option<f64>,

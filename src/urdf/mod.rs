@@ -22,17 +22,14 @@ use nalgebra::Vector3;
 
 use self::chain::chain_between;
 use self::collision::{Solid, body_of, solids};
-#[cfg(feature = "python")]
 use self::collision::{carriers, places, remark, shaped};
 use self::joint::{Joint, Motion, Placed};
-#[cfg(feature = "python")]
-pub(crate) use self::sweep::Carrier;
+pub use self::sweep::Carrier;
 use self::tree::Tree;
-pub(crate) use self::tree::read_document;
+pub use self::tree::read_document;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
 use crate::kinematics::{AnyRobot, JointAxis, JointLimits, Joints, Mdh, Pose, Robot, check_snap};
-#[cfg(feature = "python")]
 use crate::on;
 use crate::report::{OFFSET_WRIST, SNAPS};
 use crate::urdf::fault::UrdfFault;
@@ -113,11 +110,11 @@ impl AnyRobot {
 }
 
 /// A link that moves with the chain: its name, the link of the body, its way in the frame of that.
-#[cfg(feature = "python")]
 type Moving = (String, usize, Carrier);
 
 /// The arm of a URDF, with any number of joints.
-pub(crate) struct UrdfArm {
+#[doc(hidden)]
+pub struct UrdfArm {
     name: String,
     /// Base and tip.
     ends: [String; 2],
@@ -129,7 +126,8 @@ pub(crate) struct UrdfArm {
 
 impl UrdfArm {
     /// Read the chain between two links; its number of joints must be in `wanted`.
-    pub(crate) fn read(
+    #[doc(hidden)]
+    pub fn read(
         text: &str,
         base: Option<&str>,
         tip: Option<&str>,
@@ -150,8 +148,8 @@ impl UrdfArm {
     }
 
     /// Every link with shapes that moves with the chain, and a remark on those beside the chain.
-    #[cfg(feature = "python")]
-    pub(crate) fn links(
+    #[doc(hidden)]
+    pub fn links(
         text: &str,
         base: Option<&str>,
         tip: Option<&str>,
@@ -183,7 +181,8 @@ impl UrdfArm {
     }
 
     /// As [`Self::robot`], of six or seven joints.
-    pub(crate) fn any_robot(&self, snap: f64) -> Result<AnyRobot, Error> {
+    #[doc(hidden)]
+    pub fn any_robot(&self, snap: f64) -> Result<AnyRobot, Error> {
         match self.motions().count() {
             7 => self.solved::<7>(snap).map(AnyRobot::from),
             _ => self.solved::<6>(snap).map(AnyRobot::from),

@@ -41,18 +41,20 @@ const MOST_JOINTS: usize = 16;
 
 /// The way of a link that moves with the chain: from the chain outwards, the joints beside it.
 #[derive(Clone)]
-pub(crate) struct Carrier {
+#[doc(hidden)]
+pub struct Carrier {
     /// Number of joints of the chain between the base and the link.
     pub(super) after: usize,
     /// Each with its frame at zero in the frame of the one before.
-    pub(crate) beside: Vec<(Pose, Sweep)>,
+    pub beside: Vec<(Pose, Sweep)>,
     /// The link in the frame of the last of them, or of the link of the chain.
-    pub(crate) pose: Pose,
+    pub pose: Pose,
 }
 
 /// A joint beside the chain: its axis in its frame, and its limits [rad or m].
 #[derive(Clone)]
-pub(crate) struct Sweep {
+#[doc(hidden)]
+pub struct Sweep {
     direction: Vector3<f64>,
     is_slide: bool,
     range: [f64; 2],
@@ -61,7 +63,8 @@ pub(crate) struct Sweep {
 impl Carrier {
     /// Capsules that contain the given ones of the link wherever the joints are, in the link of the
     /// chain, and by how much they are thicker [m].
-    pub(crate) fn swept(&self, capsules: &[Capsule]) -> (Vec<Capsule>, f64) {
+    #[doc(hidden)]
+    pub fn swept(&self, capsules: &[Capsule]) -> (Vec<Capsule>, f64) {
         #[expect(clippy::cast_precision_loss, reason = "a few joints")]
         let most = MOST_PIECES.powf(1.0 / self.beside.len().max(1) as f64).floor();
         let (mut found, mut growth) = (Vec::new(), 0.0_f64);

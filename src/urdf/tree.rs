@@ -36,7 +36,8 @@ const MOST_MENDS: usize = 16;
 
 /// What is read from a text as XML, with the number of lines before it: an XML declaration is valid
 /// only at the very beginning. Entities are not read.
-pub(crate) fn read_document<T, E: From<UrdfFault>>(
+#[doc(hidden)]
+pub fn read_document<T, E: From<UrdfFault>>(
     text: &str,
     read: impl FnOnce(&Document<'_>, usize) -> Result<T, E>,
 ) -> Result<T, E> {

@@ -13,7 +13,7 @@ fail() {
 }
 
 code=0
-tests/step.sh "irbkin.h is of the source" crates/capi/header.sh || code=$?
+tests/step.sh "irbkin.h is of the source" crates/irbkin-capi/header.sh || code=$?
 case $code in
     0) ;;
     77) echo "SKIPPED: irbkin.h was not compared with the source (the reason is above)" ;;
@@ -62,7 +62,7 @@ for source in laws.c wrapper.cpp; do
     compile "$name-sanitized" "$root/tests/capi/$source" $sanitized $static
     echo "With -fsanitize=address,undefined: $("./$name-sanitized" "$urdf")"
 done
-for source in "$root"/crates/capi/examples/one_pose.{c,cpp}; do
+for source in "$root"/crates/irbkin-capi/examples/one_pose.{c,cpp}; do
     name=example-${source##*.}
     compile "$name" "$source" $shared
     "./$name"

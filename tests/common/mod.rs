@@ -8,13 +8,11 @@ pub mod tally;
 
 use std::f64::consts::{PI, TAU};
 
-use irbkin::{Definition, DhRow, Error, InstructionSet, JointLimits, Mdh, Pose, Robot, pose};
+use irbkin::{Definition, DhRow, InstructionSet, JointLimits, Mdh, Pose, Robot, pose};
 use proptest::prelude::*;
 use proptest::test_runner::{Config as ProptestConfig, FileFailurePersistence, RngSeed};
 
 pub use rng::Rng;
-
-use crate::suite::structures::spherical_wrist::KUKA_KR6;
 
 /// The table of a KUKA LBR iiwa 7 R800: alpha [deg], a, d [m], theta.
 pub const IIWA_ROWS: [[f64; 4]; 7] = [
@@ -141,12 +139,6 @@ pub fn reach_of<const N: usize>(robot: &Robot<N>) -> f64 {
             mdh.rows.iter().map(|row| row.a.hypot(row.d)).sum()
         }
     }
-}
-
-/// KUKA KR 6 R700 sixx, its joints in half a turn either way.
-pub fn kuka_kr6() -> Result<Robot<6>, Error> {
-    let robot = Robot::from_opw(KUKA_KR6)?;
-    Ok(robot.with_limits(JointLimits::new([[-PI, PI]; 6])?))
 }
 
 /// Poses within so far along each axis [m], in any orientation.

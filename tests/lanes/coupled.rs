@@ -7,9 +7,9 @@ use std::num::NonZeroUsize;
 use irbkin::batch::Batch;
 use irbkin::{JointLimits, Robot, Status, pose};
 
-use crate::lanes::on_each_set;
-use crate::suite::common::coupled_arm::{limited, odd, opposed, others, with_linkage};
-use crate::suite::common::{Rng, apart};
+use crate::common::coupled_arm::{limited, odd, opposed, others, with_linkage};
+use crate::common::{Rng, apart};
+use irbkin::internal::on_each_set;
 
 #[test]
 #[ignore = "run by itself: cargo test --lib -- --ignored"]

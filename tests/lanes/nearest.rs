@@ -8,11 +8,11 @@ use irbkin::{JointLimits, Robot, pose};
 
 use super::same_bits;
 use super::subjects::{PoseRow, rows, subjects};
-use crate::lanes::on_each_set;
-use crate::suite::common::Rng;
-use crate::suite::common::coupled_arm::{limited, odd, opposed, with_linkage};
-use crate::suite::structures::Structure;
-use crate::suite::structures::on_every_structure;
+use crate::common::Rng;
+use crate::common::coupled_arm::{limited, odd, opposed, with_linkage};
+use crate::structures::Structure;
+use crate::structures::on_every_structure;
+use irbkin::internal::on_each_set;
 
 alone!(on_every_structure: the_nearest_of_rows_is_the_nearest_alone,);
 

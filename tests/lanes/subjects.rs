@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 
 use irbkin::{JointLimits, pose};
 
-use crate::suite::common::{Rng, random_pose};
-use crate::suite::structures::place::{At, Place};
-use crate::suite::structures::{Structure, Subject};
+use crate::common::{Rng, random_pose};
+use crate::structures::place::{At, Place};
+use crate::structures::{Structure, Subject};
 
 pub type PoseRow = [f64; 16];
 

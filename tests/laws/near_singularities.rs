@@ -5,16 +5,16 @@ use std::array;
 use irbkin::thresholds::{NEAR_ANGLE, NEAR_LENGTH};
 use irbkin::{SingularDistances, SingularityKind};
 
-use crate::suite::common::Rng;
-use crate::suite::structures::place::{At, Place};
-use crate::suite::structures::{Structure, Subject};
+use crate::common::Rng;
+use crate::structures::place::{At, Place};
+use crate::structures::{Structure, Subject};
 
-crate::suite::structures::on_every_structure!(
+crate::structures::on_every_structure!(
     near_names_a_singularity_that_kinds_has_left,
     near_has_kinds_and_no_more_than_its_distances,
 );
 
-crate::suite::structures::on_structures_of_ordinals!(
+crate::structures::on_structures_of_ordinals!(
     near_names_a_zero_of_the_determinant,
     near_has_kinds_and_no_more_than_its_distances,
 );

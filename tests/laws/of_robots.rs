@@ -4,7 +4,7 @@
 use irbkin::batch::Batch;
 use irbkin::{DhRow, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, Robot};
 
-use crate::suite::common::apart;
+use crate::common::apart;
 
 #[test]
 fn solutions_are_wrapped_inside_the_limits() {

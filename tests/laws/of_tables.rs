@@ -10,9 +10,9 @@ use irbkin::{DhRow, Mdh, Pose, Robot, Sdh, Solution};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 
 use super::with_x_flipped;
-use crate::suite::common::{Rng, apart, enough};
-use crate::suite::structures::by_table::with_zeros_at;
-use crate::suite::structures::{Subject, general, offset_wrist, spherical_wrist, three_parallel};
+use crate::common::{Rng, apart, enough};
+use crate::structures::by_table::with_zeros_at;
+use crate::structures::{Subject, general, offset_wrist, spherical_wrist, three_parallel};
 
 /// Poses of each arm.
 const POSES: usize = 150;

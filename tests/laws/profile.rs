@@ -6,7 +6,7 @@ use std::path::Path;
 use proptest::prelude::*;
 use proptest::test_runner::{FileFailurePersistence, RngSeed, TestRunner};
 
-use crate::suite::common::{divisor, profile};
+use crate::common::{divisor, profile};
 
 fn drawn(profile: &ProptestConfig) -> Vec<u64> {
     let cases = RefCell::new(Vec::new());

@@ -4,8 +4,8 @@ use irbkin::{DhRow, JacobianFrame, Joints, Mdh, Pose, Robot};
 use nalgebra::DMatrix;
 use std::array;
 
-use crate::suite::common::Rng;
-use crate::suite::common::coupled_arm::unlimited;
+use crate::common::Rng;
+use crate::common::coupled_arm::unlimited;
 
 /// Joint vectors of each kind.
 const POSES: usize = 300;

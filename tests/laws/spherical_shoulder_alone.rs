@@ -8,10 +8,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use irbkin::{PoseDifference, Robot};
 
-use crate::suite::common::enough;
-use crate::suite::rng::Rng;
-use crate::suite::structures::spherical_shoulder::{ShoulderArm, named};
-use crate::suite::structures::{Arm as _, SEVEN, Subject};
+use crate::common::enough;
+use crate::rng::Rng;
+use crate::structures::spherical_shoulder::{ShoulderArm, named};
+use crate::structures::{Arm as _, SEVEN, Subject};
 
 #[test]
 fn the_arm_of_the_tests_is_that_of_the_catalog() {

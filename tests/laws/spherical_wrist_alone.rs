@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use irbkin::{OpwParameters, Robot, pose};
 
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 #[test]
 fn shortfall_is_the_distance_missing_to_reach() {
@@ -62,7 +62,7 @@ fn a_short_forearm_and_far_offsets_cost_no_digit() {
             for solution in &solutions {
                 let residual = robot.residual(&solution.q, &pose);
                 assert!(
-                    residual.position <= 3e-15 * (1.0 + crate::suite::common::reach_of(&robot)),
+                    residual.position <= 3e-15 * (1.0 + crate::common::reach_of(&robot)),
                     "{residual:?}"
                 );
                 assert!(residual.rotation <= 1e-14, "{residual:?}");

@@ -8,10 +8,10 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 
-use crate::suite::common::{apart, divisor, enough, poses, profile, wrapped};
-use crate::suite::rng::Rng;
-use crate::suite::structures::three_parallel::{ParallelArm, arms, equal_links};
-use crate::suite::structures::{SIX, Subject};
+use crate::common::{apart, divisor, enough, poses, profile, wrapped};
+use crate::rng::Rng;
+use crate::structures::three_parallel::{ParallelArm, arms, equal_links};
+use crate::structures::{SIX, Subject};
 
 fn angles() -> impl Strategy<Value = [f64; 6]> {
     prop::array::uniform6(-PI..PI)

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use irbkin::{Definition, OpwParameters, Pose, Robot};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 
-use crate::suite::common::Rng;
-use crate::suite::structures::three_parallel::ParallelArm;
+use crate::common::Rng;
+use crate::structures::three_parallel::ParallelArm;
 
 /// How far from a singularity [rad, m].
 pub const DISTANCES: [f64; 14] =

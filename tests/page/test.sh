@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 code=0
-page/wasm.sh || code=$?
+crates/irbkin-page/page/wasm.sh || code=$?
 if [ "$code" = 77 ]; then
     echo "SKIPPED: the page's WebAssembly was not built (the reason is above)"
     exit
@@ -17,7 +17,7 @@ if ! command -v node >/dev/null; then
 fi
 node tests/page/wasm.mjs target/page/irbkin.wasm target/page/expected.json
 
-"$1" page/pack.py
+"$1" crates/irbkin-page/page/pack.py
 if ! command -v chromium >/dev/null && ! tests/retry.sh apt-get install -y -qq --no-install-recommends chromium; then
     echo "SKIPPED: the page was not opened: there is no chromium"
     exit

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use irbkin::{JointLimits, OpwParameters, Pose, Robot, pose, thresholds};
 
-use crate::suite::common::Rng;
+use crate::common::Rng;
 
 /// An arm and the lengths that place it [m]; its theta is zero when the arm is upright.
 pub struct Arm {

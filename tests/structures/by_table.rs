@@ -6,7 +6,7 @@ use proptest::sample::Index;
 
 use super::place::{At, Made, Place, Verdict};
 use super::{Arm, SIX, Structure, Subject};
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// An arm by its table. The robot is prepared once.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use irbkin::{DhRow, Mdh, Pose, Robot, Sdh};
 
 use super::by_table::{structure as of_tables, subject, table};
 use super::{Structure, Subject};
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// Tables that others solved completely.
 const CASES: &str = include_str!("../data/general_6r.json");

@@ -22,7 +22,7 @@ use irbkin::batch::Batch;
 use irbkin::{Error, JacobianFrame, Pose, Robot, Solution, Solutions};
 use proptest::strategy::BoxedStrategy;
 
-use crate::suite::common::Rng;
+use crate::common::Rng;
 use place::{At, Made, Place, Posture, Verdict};
 
 /// Makes a test of each law for each structure: `laws::spherical_wrist::every_solution_closes`.
@@ -30,17 +30,17 @@ use place::{At, Made, Place, Posture, Verdict};
 /// A law is a generic function of a [`Structure`].
 macro_rules! on_every_structure {
     ($($(#[$attribute:meta])? $law:ident),* $(,)?) => {
-        $crate::suite::structures::on_a_structure!(spherical_wrist, 6: $($(#[$attribute])? $law),*);
-        $crate::suite::structures::on_a_structure!(three_parallel, 6: $($(#[$attribute])? $law),*);
-        $crate::suite::structures::on_a_structure!(spherical_shoulder, 7: $($(#[$attribute])? $law),*);
+        $crate::structures::on_a_structure!(spherical_wrist, 6: $($(#[$attribute])? $law),*);
+        $crate::structures::on_a_structure!(three_parallel, 6: $($(#[$attribute])? $law),*);
+        $crate::structures::on_a_structure!(spherical_shoulder, 7: $($(#[$attribute])? $law),*);
     };
 }
 
 /// Makes a test of each law for each structure whose slots are ordinals.
 macro_rules! on_structures_of_ordinals {
     ($($(#[$attribute:meta])? $law:ident),* $(,)?) => {
-        $crate::suite::structures::on_a_structure!(offset_wrist, 6: $($(#[$attribute])? $law),*);
-        $crate::suite::structures::on_a_structure!(general, 6: $($(#[$attribute])? $law),*);
+        $crate::structures::on_a_structure!(offset_wrist, 6: $($(#[$attribute])? $law),*);
+        $crate::structures::on_a_structure!(general, 6: $($(#[$attribute])? $law),*);
     };
 }
 
@@ -52,7 +52,7 @@ macro_rules! on_a_structure {
                 #[test]
                 $(#[$attribute])?
                 fn $law() {
-                    super::$law::<$joints>(&$crate::suite::structures::$structure::structure());
+                    super::$law::<$joints>(&$crate::structures::$structure::structure());
                 }
             )*
         }

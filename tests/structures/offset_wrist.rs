@@ -4,7 +4,7 @@ use irbkin::Mdh;
 
 use super::Structure;
 use super::by_table::{named, structure as of_tables, subject, table};
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// Not a real arm: every parameter has an effect.
 pub const ODD: [[f64; 4]; 6] = [

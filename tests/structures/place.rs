@@ -1,13 +1,10 @@
 //! Where a hard set places an arm, and the verdict on the answer there.
 
-use std::boxed::Box;
-use std::string::String;
-use std::vec::Vec;
 use std::{format, vec};
 
 use irbkin::{Pose, Robot};
 
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// A singularity.
 #[derive(Clone, Copy, Debug, PartialEq)]

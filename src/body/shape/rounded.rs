@@ -181,7 +181,8 @@ impl RoundedHull {
     }
 
     /// A capsule inside of it, if one is known.
-    pub(crate) fn core(&self) -> Option<&Capsule> {
+    #[doc(hidden)]
+    pub fn core(&self) -> Option<&Capsule> {
         self.0.core.as_ref()
     }
 

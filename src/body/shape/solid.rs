@@ -147,7 +147,8 @@ impl Shape {
     }
 
     /// [`Self::convex`], until it is interrupted.
-    pub(crate) fn convex_until(
+    #[doc(hidden)]
+    pub fn convex_until(
         points: &[[f64; 3]],
         pose: &Pose,
         interrupt: Interrupt<'_>,
@@ -169,7 +170,8 @@ impl Shape {
     }
 
     /// [`Self::mesh`], until it is interrupted.
-    pub(crate) fn mesh_until(
+    #[doc(hidden)]
+    pub fn mesh_until(
         triangles: &[[[f64; 3]; 3]],
         is_solid: bool,
         pose: &Pose,
@@ -190,7 +192,8 @@ impl Shape {
     }
 
     /// [`Self::points`], until it is interrupted.
-    pub(crate) fn points_until(
+    #[doc(hidden)]
+    pub fn points_until(
         points: &[[f64; 3]],
         radius: f64,
         pose: &Pose,

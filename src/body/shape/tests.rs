@@ -14,7 +14,7 @@ use super::solid::Shape;
 use super::triangle::{Triangle, segment_and};
 use crate::interrupt::Interrupt;
 use crate::kinematics::Pose;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// How far above the true one a distance may be [m].
 const ABOVE: f64 = 1e-9;

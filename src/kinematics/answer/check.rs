@@ -1,18 +1,16 @@
 //! Checks of the joint vectors, weights and joint angles that a caller passes.
 
-#[cfg(feature = "python")]
 use crate::error::MotionFault;
 use crate::error::{Error, JointFault};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::thresholds::{FARTHEST_OUTSIDE, MOST_ANGLE};
 
 /// Rows of a batch, evenly spaced, that are looked at for degrees.
-#[cfg(feature = "python")]
 const SAMPLED_ROWS: usize = 64;
 
 /// Check that every angle of a joint vector is finite.
-#[cfg(feature = "python")]
-pub(crate) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> {
+#[doc(hidden)]
+pub fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> {
     match q.iter().position(|angle| !angle.is_finite()) {
         Some(i) => Err(JointFault::NotFinite { field, joint: i + 1, value: q[i] }.into()),
         None => Ok(()),
@@ -20,7 +18,8 @@ pub(crate) fn check_joints(field: &'static str, q: &[f64]) -> Result<(), Error> 
 }
 
 /// Check a joint vector that a search starts from: finite, each angle at most [`MOST_ANGLE`].
-pub(crate) fn check_seed(field: &'static str, q: &[f64]) -> Result<(), Error> {
+#[doc(hidden)]
+pub fn check_seed(field: &'static str, q: &[f64]) -> Result<(), Error> {
     q.iter().enumerate().try_for_each(|(i, angle)| check_angle(field, i + 1, *angle))
 }
 
@@ -36,7 +35,8 @@ pub(crate) fn check_seed_near<const N: usize>(
 
 /// Check that a joint vector is not far outside its limits, as one in degrees is. A joint without a
 /// weight may be anywhere.
-pub(crate) fn check_near<const N: usize>(
+#[doc(hidden)]
+pub fn check_near<const N: usize>(
     field: &'static str,
     q: &[f64; N],
     limits: &JointLimits<N>,
@@ -55,8 +55,8 @@ pub(crate) fn check_near<const N: usize>(
 
 /// Check that most rows of a batch are near the limits, as [`check_near`] does: one row that is not
 /// may be what the caller wants to see, most are in degrees.
-#[cfg(feature = "python")]
-pub(crate) fn check_most_near<const N: usize>(
+#[doc(hidden)]
+pub fn check_most_near<const N: usize>(
     field: &'static str,
     rows: &[[f64; N]],
     limits: &JointLimits<N>,
@@ -97,7 +97,8 @@ pub(crate) fn check_arm_angle(value: f64) -> Result<(), Error> {
 }
 
 /// Check that weights are finite and not negative.
-pub(crate) fn check_weights(weights: &[f64]) -> Result<(), Error> {
+#[doc(hidden)]
+pub fn check_weights(weights: &[f64]) -> Result<(), Error> {
     match weights.iter().position(|weight| !(weight.is_finite() && *weight >= 0.0)) {
         Some(i) => Err(JointFault::Weight { joint: i + 1, value: weights[i] }.into()),
         None => Ok(()),

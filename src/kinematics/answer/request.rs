@@ -54,7 +54,8 @@ impl<const N: usize> ConfigurationRequest<N> {
     }
 
     /// Check the seed and the arm angle.
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn check(&self) -> Result<(), Error> {
         if let Some(angle) = self.arm_angle {
             check_arm_angle(angle)?;
         }

@@ -65,7 +65,8 @@ impl<const N: usize> Solutions<N> {
     }
 
     /// Number of items of [`Self::turns`] as a float, which cannot overflow.
-    pub(crate) fn turn_total(&self) -> f64 {
+    #[doc(hidden)]
+    pub fn turn_total(&self) -> f64 {
         let of_solution = |solution: &Solution<N>| {
             let turns = (0..N).map(|joint| {
                 let turns = self.limits.countable_turns(joint, solution.q[joint]);
@@ -116,12 +117,8 @@ impl<const N: usize> Solutions<N> {
     }
 
     /// The cost is a sum over the joints, so the nearest turn is chosen for each joint separately.
-    pub(crate) fn cheapest(
-        &self,
-        seed: &[f64; N],
-        weights: &[f64; N],
-        cost: Cost,
-    ) -> Option<Solution<N>> {
+    #[doc(hidden)]
+    pub fn cheapest(&self, seed: &[f64; N], weights: &[f64; N], cost: Cost) -> Option<Solution<N>> {
         let mut best: Option<(f64, Solution<N>)> = None;
         for solution in self {
             if let Some(q) = self.limits.wrapped_near(&solution.q, seed) {
@@ -144,7 +141,8 @@ impl<const N: usize> Solutions<N> {
 
 /// The cost of moving a joint.
 #[derive(Clone, Copy)]
-pub(crate) enum Cost {
+#[doc(hidden)]
+pub enum Cost {
     /// The squared difference.
     Distance,
     /// The absolute difference.
@@ -153,12 +151,8 @@ pub(crate) enum Cost {
 
 impl Cost {
     /// The cost of moving from `seed` to `q`.
-    pub(crate) fn total<const N: usize>(
-        self,
-        q: &[f64; N],
-        seed: &[f64; N],
-        weights: &[f64; N],
-    ) -> f64 {
+    #[doc(hidden)]
+    pub fn total<const N: usize>(self, q: &[f64; N], seed: &[f64; N], weights: &[f64; N]) -> f64 {
         let cost = |difference: f64| match self {
             Self::Distance => difference * difference,
             Self::Travel => difference.abs(),

@@ -6,7 +6,8 @@ use core::ops::Deref;
 use super::status::Status;
 
 /// Largest number of slots of any structure: a general chain of six joints has up to 16 solutions.
-pub(crate) const MOST_SLOTS: usize = 16;
+#[doc(hidden)]
+pub const MOST_SLOTS: usize = 16;
 
 /// Index of a solution's slot, from 0: always the same for a branch of the arm.
 ///

@@ -74,7 +74,8 @@ pub struct Solutions<const N: usize> {
     pub(crate) reach: Reach,
     pub(crate) is_certified: bool,
     pub(crate) pose: Pose,
-    pub(crate) limits: JointLimits<N>,
+    #[doc(hidden)]
+    pub limits: JointLimits<N>,
     /// The reason why the last selection is empty.
     pub(crate) emptied: Option<Explanation>,
 }
@@ -144,8 +145,8 @@ impl<const N: usize> Solutions<N> {
     }
 
     /// Whether every solution is in its own slot.
-    #[cfg(feature = "python")]
-    pub(crate) fn is_consistent(&self) -> bool {
+    #[doc(hidden)]
+    pub fn is_consistent(&self) -> bool {
         let is_own = |(slot, place): (usize, &Place<N>)| {
             place.found().is_none_or(|solution| solution.slot.index() == slot)
         };

@@ -60,7 +60,8 @@ impl SingularityKind {
         [(Self::WRIST, "wrist"), (Self::ELBOW, "elbow"), (Self::SHOULDER, "shoulder")];
 
     /// The words for all of them.
-    pub(crate) fn words(self) -> impl Iterator<Item = &'static str> {
+    #[doc(hidden)]
+    pub fn words(self) -> impl Iterator<Item = &'static str> {
         Self::NAMED.into_iter().filter(move |(kind, _)| self.contains(*kind)).map(|(_, word)| word)
     }
 

@@ -105,7 +105,8 @@ impl<const N: usize> JointLimits<N> {
     }
 
     /// These limits, each wider by `beyond` [rad].
-    pub(crate) fn widened(mut self, beyond: f64) -> Self {
+    #[doc(hidden)]
+    pub fn widened(mut self, beyond: f64) -> Self {
         self.lower = self.lower.map(|lower| lower - beyond);
         self.upper = self.upper.map(|upper| upper + beyond);
         self
@@ -125,7 +126,8 @@ impl<const N: usize> JointLimits<N> {
     }
 
     /// How far an angle of joint `joint` (from 0) is outside its limits [rad]; zero inside.
-    pub(crate) fn excess(&self, joint: usize, angle: f64) -> f64 {
+    #[doc(hidden)]
+    pub fn excess(&self, joint: usize, angle: f64) -> f64 {
         (self.lower[joint] - angle).max(angle - self.upper[joint]).max(0.0)
     }
 

@@ -109,7 +109,7 @@ mod tests {
     use crate::kinematics::chain::corrections::{Corrections, about_y, about_z};
     use crate::kinematics::chain::dh::{Mdh, screw_x};
     use crate::kinematics::pose::{Pose, translation_z};
-    use crate::suite::rng::Rng;
+    use crate::rng::Rng;
 
     fn product(rows: &[TiltedRow; 6], q: &[f64; 6]) -> Pose {
         rows.iter().zip(q).fold(Pose::identity(), |frame, (TiltedRow { row, beta }, q)| {

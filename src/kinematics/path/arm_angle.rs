@@ -23,7 +23,8 @@ impl<const N: usize> Robot<N> {
     /// # Errors
     ///
     /// As [`Robot::ik_nearest`]; a pose that cannot be reached is a break, not an error.
-    pub(crate) fn follow_at(
+    #[doc(hidden)]
+    pub fn follow_at(
         &self,
         path: &[Pose],
         from: &[f64; N],

@@ -37,7 +37,6 @@ pub struct Break {
 
 /// The reason why the joints cannot follow the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum BreakReason {
     /// No solution inside the limits.
     Unreachable(Explanation),
@@ -98,10 +97,11 @@ pub struct Follower<'a, const N: usize = 6> {
 
 /// How far a path was followed.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Progress<const N: usize> {
+#[doc(hidden)]
+pub struct Progress<const N: usize> {
     /// The pose of the previous step.
     last: Option<Pose>,
-    pub(crate) q: [f64; N],
+    pub q: [f64; N],
     /// The previous step of the joints: where the path is heading.
     velocity: [f64; N],
 }
@@ -124,14 +124,14 @@ impl<'a, const N: usize> Follower<'a, N> {
     }
 
     /// A follower of the robot that goes on from where another one was.
-    #[cfg(feature = "python")]
-    pub(crate) fn resumed(robot: &'a Robot<N>, weights: &[f64; N], at: Progress<N>) -> Self {
+    #[doc(hidden)]
+    pub fn resumed(robot: &'a Robot<N>, weights: &[f64; N], at: Progress<N>) -> Self {
         Self { robot, weights: *weights, at }
     }
 
     /// How far the path was followed.
-    #[cfg(feature = "python")]
-    pub(crate) fn progress(&self) -> Progress<N> {
+    #[doc(hidden)]
+    pub fn progress(&self) -> Progress<N> {
         self.at
     }
 

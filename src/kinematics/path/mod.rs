@@ -1,6 +1,5 @@
 //! Joint paths along paths of poses.
 
-#[cfg(feature = "rapid")]
 mod arm_angle;
 pub(crate) mod follow;
 pub(crate) mod singularity_mode;

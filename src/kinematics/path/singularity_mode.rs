@@ -68,7 +68,8 @@ impl Robot<6> {
     }
 
     /// [`Robot::follow`] until it is interrupted. The rest of the path is not met.
-    pub(crate) fn follow_until(
+    #[doc(hidden)]
+    pub fn follow_until(
         &self,
         path: &[Pose],
         seed: &[f64; 6],
@@ -98,7 +99,8 @@ impl Robot<7> {
     }
 
     /// [`Robot::<7>::follow`] until it is interrupted.
-    pub(crate) fn follow_until(
+    #[doc(hidden)]
+    pub fn follow_until(
         &self,
         path: &[Pose],
         seed: &[f64; 7],
@@ -302,8 +304,8 @@ impl<const N: usize> Modes<'_, N> {
 impl<const N: usize> Robot<N> {
     /// Joints along a path whose wrist axes go evenly to those of `to` [rad] while the tool keeps its
     /// positions, not its orientations: as `SingArea \Wrist` does where the wrist turns over.
-    #[cfg(feature = "rapid")]
-    pub(crate) fn with_even_wrist(
+    #[doc(hidden)]
+    pub fn with_even_wrist(
         &self,
         path: &[Pose],
         [from, to]: [&[f64; N]; 2],

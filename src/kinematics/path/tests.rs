@@ -9,7 +9,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
 use crate::lanes::on_each_set;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// Paths of each robot and kind, and poses of each path.
 const PATHS: usize = 40;

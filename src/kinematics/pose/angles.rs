@@ -45,7 +45,8 @@ pub(crate) fn distance_from_half_turns(angle: f64) -> f64 {
 /// Sine and cosine of a model constant: exact (0, 1, -1) for a quarter turn, so that right angles
 /// of an arm stay right angles.
 #[must_use]
-pub(crate) fn constant_sin_cos(angle: f64) -> (f64, f64) {
+#[doc(hidden)]
+pub fn constant_sin_cos(angle: f64) -> (f64, f64) {
     let quarters = (angle / FRAC_PI_2).round();
     if (angle - quarters * FRAC_PI_2).abs() > QUARTER_TURN_ROUNDING {
         return angle.sin_cos();
@@ -76,15 +77,15 @@ pub(crate) fn rotation_vector(rotation: &Rotation3<f64>) -> Vector3<f64> {
 }
 
 /// The angle between two vectors [rad], 0 to pi, exact to rounding at both ends.
-#[cfg(feature = "rapid")]
-pub(crate) fn angle_between(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+#[doc(hidden)]
+pub fn angle_between(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     a.cross(b).norm().atan2(a.dot(b))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::suite::rng::Rng;
+    use crate::rng::Rng;
 
     #[test]
     fn wrap_keeps_plus_pi_and_turns_minus_pi() {

@@ -20,8 +20,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// How its tip was chosen among several in its file.
-    #[cfg(feature = "python")]
-    pub(crate) fn tip_remark(&self) -> Option<&str> {
+    #[doc(hidden)]
+    pub fn tip_remark(&self) -> Option<&str> {
         self.labels.as_ref().map(|labels| &labels.1[..]).filter(|remark| !remark.is_empty())
     }
 

@@ -87,7 +87,6 @@ pub(crate) trait Configured<const N: usize> {
     }
 
     /// The joints of a pose and an arm angle that are a small step from others.
-    #[cfg(feature = "rapid")]
     fn step_to(&self, _from: &[f64; N], _pose: &Pose, _arm_angle: f64) -> Option<[f64; N]> {
         None
     }

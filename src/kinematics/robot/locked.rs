@@ -70,8 +70,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// Lower and upper limit of each joint [rad]; of a locked one its angle.
-    #[cfg(feature = "python")]
-    pub(crate) fn free_ranges(&self) -> [[f64; 2]; N] {
+    #[doc(hidden)]
+    pub fn free_ranges(&self) -> [[f64; 2]; N] {
         let mut ranges = self.limits.to_array();
         if let Some((joint, angle)) = self.locked_joint() {
             ranges[joint - 1] = [angle; 2];
@@ -103,8 +103,8 @@ impl<const N: usize> Robot<N> {
 
     /// The other six joints as a robot whose base the first joint turns, or whose tool the last one
     /// does: nothing is prepared.
-    #[cfg(feature = "python")]
-    pub(crate) fn six_turned(&self) -> Result<Option<Robot<6>>, Error> {
+    #[doc(hidden)]
+    pub fn six_turned(&self) -> Result<Option<Robot<6>>, Error> {
         let Some(Lock { joint, angle, six, .. }) = &self.lock else { return Ok(None) };
         let (six, turned) = (Robot::clone(six), joint.turned(joint.at(), *angle));
         match joint.joint() {
@@ -115,12 +115,14 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The angles of the other six joints.
-    pub(crate) fn others(&self, q: &[f64; N]) -> [f64; 6] {
+    #[doc(hidden)]
+    pub fn others(&self, q: &[f64; N]) -> [f64; 6] {
         others(q, self.locked_index())
     }
 
     /// The joint vector for one of the other six joints, with the locked joint at its angle.
-    pub(crate) fn with_others(&self, six: &[f64; 6]) -> [f64; N] {
+    #[doc(hidden)]
+    pub fn with_others(&self, six: &[f64; 6]) -> [f64; N] {
         self.lock.as_ref().map_or([f64::NAN; N], |lock| lock.joint.joints(six, lock.angle))
     }
 

@@ -142,7 +142,7 @@ mod tests {
 
     use super::*;
     use crate::kinematics::Status;
-    use crate::suite::rng::Rng;
+    use crate::rng::Rng;
 
     #[test]
     fn the_margin_is_one_in_the_middle_and_zero_at_a_limit_or_a_singularity() {

@@ -318,8 +318,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The rows of [`Self::jacobian`].
-    #[cfg(feature = "python")]
-    pub(crate) fn jacobian_rows(&self, q: &[f64; N], frame: JacobianFrame) -> [[f64; N]; 6] {
+    #[doc(hidden)]
+    pub fn jacobian_rows(&self, q: &[f64; N], frame: JacobianFrame) -> [[f64; N]; 6] {
         self.chain.jacobian_rows(q, frame)
     }
 
@@ -369,10 +369,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// [`Self::singularity`] without the singular values.
-    pub(crate) fn near_singularities(
-        &self,
-        q: &[f64; N],
-    ) -> (Option<SingularDistances>, SingularityKind) {
+    #[doc(hidden)]
+    pub fn near_singularities(&self, q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind) {
         self.inverse().map_or((None, SingularityKind::empty()), |inverse| inverse.singular(q))
     }
 

@@ -68,7 +68,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// Check the angle of the joint that a caller locks, of seven [rad].
-    pub(crate) fn check_locked(&self, angle: f64) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn check_locked(&self, angle: f64) -> Result<(), Error> {
         match self.lock() {
             None if N > 6 => check_angle("q7", N, angle),
             None => Ok(()),
@@ -118,12 +119,14 @@ impl<const N: usize> Robot<N> {
 
     /// An answer without solutions, to be solved in place.
     #[inline]
-    pub(crate) fn unsolved(&self, pose: Pose) -> Solutions<N> {
+    #[doc(hidden)]
+    pub fn unsolved(&self, pose: Pose) -> Solutions<N> {
         Solutions::none(self.slot_count(), pose, *self.limits())
     }
 
     /// [`Robot::ik_checked`] for the pose of an unsolved answer, in place.
-    pub(crate) fn ik_into(&self, solutions: &mut Solutions<N>, locked: f64) -> Result<(), Error> {
+    #[doc(hidden)]
+    pub fn ik_into(&self, solutions: &mut Solutions<N>, locked: f64) -> Result<(), Error> {
         if self.solve_in_lanes(solutions, locked) {
             return Ok(());
         }
@@ -197,8 +200,14 @@ impl<const N: usize> Robot<N> {
         Ok(())
     }
 
+    /// Check that the structure is known.
+    #[doc(hidden)]
+    pub fn check_structure(&self) -> Result<(), Error> {
+        self.known_inverse().map(|_| ())
+    }
+
     /// The inverse, or the reason why the structure is unknown.
-    pub(crate) fn known_inverse(&self) -> Result<&dyn Inverse<N>, Error> {
+    pub(in crate::kinematics) fn known_inverse(&self) -> Result<&dyn Inverse<N>, Error> {
         self.inverse().ok_or_else(|| {
             let reason = self.missing_form().unwrap_or(UnknownStructure::joint_count(N));
             ModelFault::UnknownStructure(reason).into()

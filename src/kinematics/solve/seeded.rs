@@ -15,7 +15,6 @@ use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::kinematics::structure::lanes::Choice;
 use crate::kinematics::structure::locked::others;
 use crate::kinematics::thresholds::SOLUTION_OFF;
-#[cfg(feature = "python")]
 use crate::report::Explanation;
 
 impl<const N: usize> Robot<N> {
@@ -40,7 +39,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// [`Self::ik_nearest`] with arguments that are checked.
-    pub(crate) fn nearest_checked(
+    #[doc(hidden)]
+    pub fn nearest_checked(
         &self,
         pose: Pose,
         seed: &[f64; N],
@@ -223,8 +223,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The outcome of a search in a sentence, for a pose that is checked.
-    #[cfg(feature = "python")]
-    pub(crate) fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
+    #[doc(hidden)]
+    pub fn explain(&self, pose: &Pose) -> Result<Explanation, Error> {
         if let Some(lock) = self.lock() {
             let explanation = self.ik_checked(*pose, lock.angle)?.explain();
             let seen = lock.joint.seen(pose, lock.angle);
@@ -244,12 +244,8 @@ impl<const N: usize> Robot<N> {
 
     /// The outcome of a solve in a sentence, with the nearest approach; of seven joints with joint
     /// 7 at `q7` [rad], unless a joint is locked.
-    #[cfg(feature = "python")]
-    pub(crate) fn explained_answer(
-        &self,
-        solutions: &Solutions<N>,
-        q7: Option<f64>,
-    ) -> Explanation {
+    #[doc(hidden)]
+    pub fn explained_answer(&self, solutions: &Solutions<N>, q7: Option<f64>) -> Explanation {
         let explanation = solutions.explain();
         let Explanation::NoRoots { .. } = explanation else { return explanation };
         let locked;

@@ -9,7 +9,7 @@ use std::{println, vec::Vec};
 
 use super::*;
 use crate::lanes::{Column, Kernel, LANES, on_each_set, run};
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// Largest permitted distance from the correctly rounded value [ulp].
 const BOUND: u64 = 2;

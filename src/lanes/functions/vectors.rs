@@ -70,7 +70,7 @@ mod tests {
     use super::super::tests::One;
     use super::*;
     use crate::lanes::{Column, VectorKernel, on_each_set, run, run_on};
-    use crate::suite::rng::Rng;
+    use crate::rng::Rng;
 
     /// The arc tangents of y and x, and the sines and cosines of y.
     struct All<'a>(&'a [Column; 2]);

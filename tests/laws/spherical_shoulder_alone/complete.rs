@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use irbkin::Pose;
 use nalgebra::Vector3;
 
-use crate::suite::common::poses_or;
-use crate::suite::rng::Rng;
-use crate::suite::structures::spherical_shoulder::{ShoulderArm, hand_of};
-use crate::suite::structures::{SEVEN, Subject};
+use crate::common::poses_or;
+use crate::rng::Rng;
+use crate::structures::spherical_shoulder::{ShoulderArm, hand_of};
+use crate::structures::{SEVEN, Subject};
 
 /// Length of the upper arm that each angle of joint 6 would need, with the elbow on one or the
 /// other side of axis 5, minus its length [m].

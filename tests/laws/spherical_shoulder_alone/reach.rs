@@ -5,10 +5,10 @@ use std::f64::consts::FRAC_PI_2;
 use irbkin::{Pose, Reach, thresholds};
 use nalgebra::{Rotation3, Unit, Vector3};
 
-use crate::suite::common::poses_or;
-use crate::suite::rng::Rng;
-use crate::suite::structures::spherical_shoulder::{self, ShoulderArm, hand_of};
-use crate::suite::structures::{SEVEN, Subject};
+use crate::common::poses_or;
+use crate::rng::Rng;
+use crate::structures::spherical_shoulder::{self, ShoulderArm, hand_of};
+use crate::structures::{SEVEN, Subject};
 
 const BEYOND: [f64; 5] = [1e-15, 1e-12, 9e-10, 1e-6, 1e-3];
 

@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 
 use irbkin::{Mdh, PoseDifference, Robot, Sdh};
 
-use crate::suite::common::{enough, poses_or, random_pose};
-use crate::suite::rng::Rng;
-use crate::suite::structures::spherical_shoulder::{self, ShoulderArm};
-use crate::suite::structures::three_parallel::arm::{quarters_about_x, turn};
-use crate::suite::structures::{SEVEN, Subject};
+use crate::common::{enough, poses_or, random_pose};
+use crate::rng::Rng;
+use crate::structures::spherical_shoulder::{self, ShoulderArm};
+use crate::structures::three_parallel::arm::{quarters_about_x, turn};
+use crate::structures::{SEVEN, Subject};
 
 /// The same arm by another table. Frames are flipped about x (joint signs), rotated about z by half
 /// a turn (the sides of x), and joints have other zeros. `signs` and `shifts` receive the change of
@@ -57,10 +57,8 @@ fn assert_same_arm(
         let error = PoseDifference::between(&original.robot.fk(&q_original), &pose);
         assert!(error.position < 1e-14 && error.rotation < 1e-14, "{error:?}\n{table:?}");
         let solutions = rewritten.ik(&pose, &q);
-        let off = solutions
-            .iter()
-            .map(|s| crate::suite::common::apart(&s.q, &q))
-            .fold(f64::INFINITY, f64::min);
+        let off =
+            solutions.iter().map(|s| crate::common::apart(&s.q, &q)).fold(f64::INFINITY, f64::min);
         let bound = (8e-15 / rewritten.least_singular_value(&q)).max(1e-9);
         assert!(off < bound, "{q:?}\n{table:?}\n{solutions:?}");
         for solution in &solutions {
@@ -128,7 +126,7 @@ fn slots_do_not_depend_on_the_frames_of_a_table() {
         for ours in ours.iter().filter(|solution| arm.is_regular(&solution.q)) {
             let same = |solution: &&irbkin::Solution<7>| {
                 let back = std::array::from_fn(|i| signs[i] * solution.q[i]);
-                crate::suite::common::apart(&back, &ours.q) < 1e-9
+                crate::common::apart(&back, &ours.q) < 1e-9
             };
             let theirs = theirs.iter().find(same).unwrap();
             assert_eq!(theirs.slot.index() & 3, ours.slot.index() & 3, "{table:?}");

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use irbkin::{DhRow, Mdh, Pose, thresholds};
 use nalgebra::{Rotation3, Translation3, Vector3};
 
-use crate::suite::rng::Rng;
-use crate::suite::structures::place::{At, Place};
+use crate::rng::Rng;
+use crate::structures::place::{At, Place};
 
 /// Lengths [m], signs and offsets: theta = sign * q - offset is zero when the arm is upright, axes
 /// 2, 4 and 6 to the side, offsets of axis 4 to the front.

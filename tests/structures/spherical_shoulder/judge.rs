@@ -3,9 +3,9 @@
 use irbkin::{Robot, SingularityKind, Solution, Solutions, Status, thresholds};
 
 use super::ShoulderArm;
-use crate::suite::common::apart;
-use crate::suite::rng::Rng;
-use crate::suite::structures::place::{Made, Verdict};
+use crate::common::apart;
+use crate::rng::Rng;
+use crate::structures::place::{Made, Verdict};
 
 const SLOTS: usize = 8;
 

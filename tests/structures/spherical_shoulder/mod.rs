@@ -11,8 +11,8 @@ use proptest::prelude::*;
 
 use super::place::{At, Made, Place, Verdict};
 use super::{Arm, SEVEN, Structure, Subject};
-use crate::suite::common::wrapped;
-use crate::suite::rng::Rng;
+use crate::common::wrapped;
+use crate::rng::Rng;
 pub use arm::ShoulderArm;
 
 pub fn structure() -> Structure<7> {
@@ -44,7 +44,7 @@ fn arms() -> impl Strategy<Value = ShoulderArm> {
     let elbow = (prop_oneof![Just(0.0), 0.01..0.15], 0.2..0.6, -0.15..0.15, 0.2..0.6);
     let hand = (-0.1..0.1, -PI..PI, -0.2..0.2, -0.2..0.2);
     let signs = prop::array::uniform7(prop_oneof![Just(1.0), Just(-1.0)]);
-    let poses = || crate::suite::common::poses(0.8);
+    let poses = || crate::common::poses(0.8);
     (0.0..0.5, elbow, hand, signs, prop::array::uniform7(-PI..PI), poses(), poses()).prop_map(
         |(c1, (a3, c3, a4, c5), (d6, alpha7, a7, d7), signs, offsets, base, flange)| ShoulderArm {
             c1,

@@ -3,9 +3,9 @@
 use irbkin::{FreeJoint, OpwParameters, Robot, SingularityKind, Solution, Solutions, thresholds};
 
 use super::WristArm;
-use crate::suite::common::wrapped;
-use crate::suite::structures::Arm as _;
-use crate::suite::structures::place::{Made, Place, Verdict};
+use crate::common::wrapped;
+use crate::structures::Arm as _;
+use crate::structures::place::{Made, Place, Verdict};
 
 /// The elbow angle of a stretched arm below which it is straight to rounding: sqrt(2 rounding of
 /// the position / lever), 9e-8 for an IRB 2600.

@@ -4,14 +4,14 @@ mod judge;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use irbkin::{Definition, OpwParameters, Robot, Solution, Solutions};
+use irbkin::{Definition, Error, JointLimits, OpwParameters, Robot, Solution, Solutions};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use super::place::{At, Made, Place, Posture, Verdict};
 use super::{Arm, SIX, Structure, Subject};
-use crate::suite::common::wrapped;
-use crate::suite::rng::Rng;
+use crate::common::wrapped;
+use crate::rng::Rng;
 
 /// An arm by the parameters of its derivation.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +40,12 @@ pub const ODD: OpwParameters = OpwParameters {
     offsets: [0.3, -0.2, -FRAC_PI_2, 0.1, -0.4, 0.5],
     signs: [1, -1, 1, 1, -1, -1],
 };
+
+/// KUKA KR 6 R700 sixx, its joints in half a turn either way.
+pub fn kuka_kr6() -> Result<Robot<6>, Error> {
+    let robot = Robot::from_opw(KUKA_KR6)?;
+    Ok(robot.with_limits(JointLimits::new([[-PI, PI]; 6])?))
+}
 
 /// KUKA KR 6 R700 sixx (parameters of the cases from rs-opw-kinematics).
 pub const KUKA_KR6: OpwParameters = OpwParameters {

@@ -6,9 +6,9 @@ use irbkin::{FreeJoint, Robot, SingularityKind, Solution, Solutions, Status, thr
 
 use super::arm::ParallelArm;
 use super::place::{Bounds, FOUND, UNDETERMINED, phi};
-use crate::suite::common::wrapped;
-use crate::suite::rng::Rng;
-use crate::suite::structures::place::{At, Made, Verdict};
+use crate::common::wrapped;
+use crate::rng::Rng;
+use crate::structures::place::{At, Made, Verdict};
 
 /// A pose that was made, with its uncertainty from rounding.
 pub struct Judge<'a> {

@@ -12,8 +12,8 @@ use proptest::prelude::*;
 
 use super::place::{At, Made, Place, Posture, Verdict};
 use super::{Arm, SIX, Structure, Subject};
-use crate::suite::common::wrapped;
-use crate::suite::rng::Rng;
+use crate::common::wrapped;
+use crate::rng::Rng;
 pub use arm::ParallelArm;
 use judge::Judge;
 use place::clear_of_axis_1;
@@ -81,7 +81,7 @@ pub fn arms() -> impl Strategy<Value = ParallelArm> {
         0.01..0.3,
     );
     let signs = prop::array::uniform6(prop_oneof![Just(1.0), Just(-1.0)]);
-    let poses = || crate::suite::common::poses(2.0);
+    let poses = || crate::common::poses(2.0);
     (lengths, signs, prop::array::uniform6(-PI..PI), poses(), poses()).prop_map(
         |((a1, (b, b2, b3), c1, c2, c3, d5, d6), signs, offsets, base, flange)| ParallelArm {
             a1,

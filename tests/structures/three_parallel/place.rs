@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 use irbkin::thresholds;
 
 use super::arm::ParallelArm;
-use crate::suite::common::wrapped;
-use crate::suite::rng::Rng;
-use crate::suite::structures::place::{At, Place};
+use crate::common::wrapped;
+use crate::rng::Rng;
+use crate::structures::place::{At, Place};
 
 /// The elbow angle of a stretched arm below which it is straight to rounding: sqrt(2 rounding of
 /// the position / lever), 9e-8 for a UR10e.

@@ -18,7 +18,6 @@ use rule::Quarters;
 use crate::error::Error;
 use crate::kinematics::answer::check::check_arm_angle;
 use crate::kinematics::answer::request::ConfigurationRequest;
-#[cfg(feature = "rapid")]
 use crate::kinematics::answer::select::Cost;
 use crate::kinematics::answer::select::Turns;
 use crate::kinematics::answer::solutions::Solution;
@@ -26,7 +25,6 @@ use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::solve::configuration::fault::NoConfiguration;
 use crate::report::ConfigurationRule;
-#[cfg(feature = "rapid")]
 use crate::report::Explanation;
 
 impl<const N: usize> Robot<N> {
@@ -76,7 +74,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// [`Robot::ik_configured`] of a request that is checked.
-    pub(crate) fn configured_checked(
+    #[doc(hidden)]
+    pub fn configured_checked(
         &self,
         pose: Pose,
         request: &ConfigurationRequest<N>,
@@ -91,7 +90,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// [`Robot::ik_configured_all`] of a request that is checked.
-    pub(crate) fn configured_all_checked(
+    #[doc(hidden)]
+    pub fn configured_all_checked(
         &self,
         pose: Pose,
         request: &ConfigurationRequest<N>,
@@ -134,8 +134,8 @@ impl<const N: usize> Robot<N> {
 
     /// All joint vectors inside the limits, 2 pi equivalents too, of a pose and an arm angle [rad],
     /// if the arm has one.
-    #[cfg(feature = "rapid")]
-    pub(crate) fn ik_inside_at(
+    #[doc(hidden)]
+    pub fn ik_inside_at(
         &self,
         pose: &Pose,
         arm_angle: Option<f64>,
@@ -155,8 +155,8 @@ impl<const N: usize> Robot<N> {
     /// # Errors
     ///
     /// As [`Robot::ik_nearest`].
-    #[cfg(feature = "rapid")]
-    pub(crate) fn ik_nearest_at(
+    #[doc(hidden)]
+    pub fn ik_nearest_at(
         &self,
         pose: &Pose,
         seed: &[f64; N],

@@ -115,8 +115,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The joints of ABB's axes 1, 4 and 6, from 0, and where their quarter 0 begins [rad].
-    #[cfg(feature = "rapid")]
-    pub(crate) fn counted_joints(&self) -> Result<([usize; 3], f64), Error> {
+    #[doc(hidden)]
+    pub fn counted_joints(&self) -> Result<([usize; 3], f64), Error> {
         let Quarters { joints, begin } = Quarters::of(&self.configuration_rule()?);
         Ok((joints, begin * FRAC_PI_2))
     }

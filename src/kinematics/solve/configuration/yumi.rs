@@ -16,7 +16,6 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::robot::joints::{Configured, Redundancy as _};
 use crate::kinematics::solve::configuration::fault::NoConfiguration;
-#[cfg(feature = "rapid")]
 use crate::kinematics::solve::self_motion_curve::Joints;
 use crate::kinematics::solve::self_motion_curve::SelfMotion;
 use crate::kinematics::thresholds::{CONFIGURATION_EDGE, TAUGHT_BEYOND_LIMITS};
@@ -28,7 +27,6 @@ use crate::report::{Configuration, ConfigurationRule, Explanation};
 const BETWEEN: usize = 3;
 
 /// Largest step of a joint that counts as one on the way [rad].
-#[cfg(feature = "rapid")]
 const LARGEST_STEP: f64 = 0.2;
 
 /// A turn of a joint [rad]. Its ends are no angle at which axes of the arm are parallel.
@@ -47,7 +45,6 @@ impl Configured<7> for Robot<7> {
         Ok(self.at_arm_angle_anywhere(pose, arm_angle)?.into_iter().flatten().collect())
     }
 
-    #[cfg(feature = "rapid")]
     fn step_to(&self, from: &[f64; 7], pose: &Pose, wanted: f64) -> Option<[f64; 7]> {
         let angle = ArmAngle::of(self, self.arm_angle_reference().ok()?, pose)?;
         let curve = SelfMotion { robot: self, pose, rounding: self.rounding() };

@@ -16,7 +16,7 @@ use crate::kinematics::thresholds::{
 };
 use crate::kinematics::{DhRow, JacobianFrame, JointLimits, Mdh, PoseDifference};
 use crate::lanes::on_each_set;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 use arm::Arm;
 
 /// Poses in each set.

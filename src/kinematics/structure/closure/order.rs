@@ -83,7 +83,7 @@ mod tests {
     use std::vec::Vec;
 
     use super::*;
-    use crate::suite::rng::Rng;
+    use crate::rng::Rng;
 
     /// Solutions by their places, and whether no two are tied in every joint.
     fn ordered(all: &[[f64; 6]]) -> (Vec<[f64; 6]>, bool) {

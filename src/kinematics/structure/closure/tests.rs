@@ -6,7 +6,7 @@ use core::f64::consts::FRAC_PI_2;
 use super::*;
 use crate::kinematics::chain::dh::DhRow;
 use crate::lanes::LANES;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// A planar elbow under a wrist with three axes that meet: folds where theta_3 = 0, self-motions
 /// where theta_5 = 0.

@@ -15,7 +15,7 @@ use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::structure::by_roots::certifies;
 use crate::kinematics::structure::closure::{Accepted, Configuration};
 use crate::kinematics::structure::end_frames::Frame;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 use crate::{JointLimits, Robot, Solution};
 
 fn table(rows: [[f64; 4]; 6]) -> Mdh<6> {

@@ -225,7 +225,7 @@ impl JointRow {
 mod tests {
     use super::*;
     use crate::lanes::{VectorKernel, run_vectors};
-    use crate::suite::rng::Rng;
+    use crate::rng::Rng;
 
     /// A row of angles of the table.
     struct Wrap<'a>(&'a JointRow, Column);

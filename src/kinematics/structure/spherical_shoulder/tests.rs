@@ -15,9 +15,9 @@ use crate::kinematics::structure::free_choice::{FreeChoice, SeedPolicy};
 use crate::kinematics::structure::known::solver_of;
 use crate::kinematics::structure::self_motions::SelfMotions as _;
 use crate::kinematics::structure::solver::Solver;
-use crate::suite::rng::Rng;
-use crate::suite::structures::place::{At, Place};
-use crate::suite::structures::spherical_shoulder::arm::ShoulderArm;
+use crate::rng::Rng;
+use crate::structures::place::{At, Place};
+use crate::structures::spherical_shoulder::arm::ShoulderArm;
 
 const SLOTS: usize = 8;
 

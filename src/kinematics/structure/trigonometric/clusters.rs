@@ -21,7 +21,7 @@ pub(super) enum Clusters<'a> {
 
 /// How far the search in a polynomial is that is abandoned if it has a cluster.
 #[derive(Clone, Copy)]
-pub(super) struct Progress {
+pub(crate) struct Progress {
     pub(super) is_abandoned: bool,
     /// Parts that were to be divided.
     parts: usize,

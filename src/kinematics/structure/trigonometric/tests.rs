@@ -12,7 +12,7 @@ use super::roots::Roots;
 use super::tables::{ARCS, POWERS, QUARTERS};
 use super::*;
 use crate::lanes::{Column, InstructionSet, LANES, Vector, VectorKernel, run_on, run_vectors};
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// The polynomial with these real roots and pairs of complex ones, of size 1, sampled: each factor
 /// is `sin((x - root) / 2)`, two of which are of degree 1.

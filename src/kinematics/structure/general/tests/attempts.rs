@@ -5,7 +5,7 @@ use std::vec::Vec;
 use super::{General, STRUCTURED, arms, near_folds, poses_or};
 use crate::kinematics::structure::by_roots::certifies;
 use crate::kinematics::structure::closure::{Accepted, Configuration};
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// How many attempts were certain, and how many of these lack the angles that made the pose.
 fn lacking(arm: &General, all: &[[f64; 6]]) -> [usize; 2] {

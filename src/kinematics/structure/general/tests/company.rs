@@ -9,7 +9,7 @@ use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
 use crate::lanes::on_each_set;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// Random and structured joint angles of the table, of each kind far from one another.
 fn mixed(rng: &mut Rng, count: usize) -> Vec<[f64; 6]> {

@@ -8,7 +8,7 @@ use crate::kinematics::chain::dh::Mdh;
 use crate::kinematics::structure::Structure as _;
 use crate::kinematics::structure::closure::{Accepted, Configuration};
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 /// An iiwa with joint 2 locked at an angle [deg].
 fn iiwa_without_joint_2(angle: f64) -> Mdh<6> {

@@ -7,7 +7,7 @@ use crate::kinematics::answer::solutions::Solution;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 #[test]
 fn where_five_solutions_merge_one_is_found_at_that_place() {

@@ -11,7 +11,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
 use crate::kinematics::robot::Robot;
 use crate::report::{Explanation, FreeJoint};
-use crate::suite::rng::Rng;
+use crate::rng::Rng;
 
 #[test]
 fn a_self_motion_is_represented_with_its_first_joint_at_zero() {

@@ -1,0 +1,108 @@
+//! The flange pose for a tool pose in a work object: the frames of tooldata and wobjdata.
+
+use super::units::Units;
+use crate::Error;
+use crate::rapid::data::records::{RapidPose, ToolData, WobjData};
+use crate::rapid::text::fault::FrameFault;
+use irbkin::Error as ArmError;
+use irbkin::pose::{from_wxyz as pose_from_wxyz, to_wxyz as pose_to_wxyz};
+use irbkin::{Pose, Robot};
+
+/// A tool and a work object, one of which the robot carries while the other is fixed in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::rapid) enum Frames {
+    /// The robot carries the tool.
+    Carried { t_flange_tool: Pose, t_world_wobj: Pose },
+    /// The tool is stationary: the robot carries the work object.
+    Stationary { t_world_tool: Pose, t_flange_wobj: Pose },
+}
+
+impl Frames {
+    /// The frames of a tool, by default the robot's own, and a work object, by default the world.
+    pub(in crate::rapid) fn new<const N: usize>(
+        robot: &Robot<N>,
+        tool: Option<&ToolData>,
+        wobj: Option<&WobjData>,
+    ) -> Result<Self, Error> {
+        Self::at(robot, tool, wobj, (&Units::default(), &[0.0; 6]))
+    }
+
+    /// The frames where the external axes of units have values [deg or mm].
+    pub(in crate::rapid) fn at<const N: usize>(
+        robot: &Robot<N>,
+        tool: Option<&ToolData>,
+        wobj: Option<&WobjData>,
+        (units, extax): (&Units, &[f64; 6]),
+    ) -> Result<Self, Error> {
+        let tool_carried = tool.is_none_or(|tool| tool.robhold);
+        let wobj_carried = wobj.is_some_and(|wobj| wobj.robhold);
+        if tool_carried == wobj_carried {
+            return Err(FrameFault::Held { both: tool_carried }.into());
+        }
+        let t_tool = match tool {
+            Some(tool) => pose_in(&tool.tframe, "tframe")?,
+            None => *robot.tool(),
+        };
+        let t_wobj = match wobj {
+            Some(wobj) => {
+                let own = pose_in(&wobj.uframe, "uframe")? * pose_in(&wobj.oframe, "oframe")?;
+                if wobj.ufprog { own } else { units.moved(&wobj.ufmec, extax)? * own }
+            }
+            None => Pose::identity(),
+        };
+        // The robot is left where it is, the world is displaced.
+        let t_carrier_world = units.carried(extax)?.inverse();
+        Ok(if tool_carried {
+            Self::Carried { t_flange_tool: t_tool, t_world_wobj: t_carrier_world * t_wobj }
+        } else {
+            Self::Stationary { t_world_tool: t_carrier_world * t_tool, t_flange_wobj: t_wobj }
+        })
+    }
+
+    /// The carried tool or work object in the flange frame.
+    pub(in crate::rapid) fn carried(&self) -> Pose {
+        match self {
+            Self::Carried { t_flange_tool, .. } => *t_flange_tool,
+            Self::Stationary { t_flange_wobj, .. } => *t_flange_wobj,
+        }
+    }
+
+    /// The flange in the world frame, for the tool in the work object.
+    pub(in crate::rapid) fn flange(&self, t_wobj_tool: &Pose) -> Pose {
+        match self {
+            Self::Carried { t_flange_tool, t_world_wobj } => {
+                t_world_wobj * t_wobj_tool * t_flange_tool.inverse()
+            }
+            Self::Stationary { t_world_tool, t_flange_wobj } => {
+                t_world_tool * (t_flange_wobj * t_wobj_tool).inverse()
+            }
+        }
+    }
+
+    /// The tool in the work object, for the flange in the world frame.
+    pub(in crate::rapid) fn tool(&self, t_world_flange: &Pose) -> Pose {
+        match self {
+            Self::Carried { t_flange_tool, t_world_wobj } => {
+                t_world_wobj.inverse() * t_world_flange * t_flange_tool
+            }
+            Self::Stationary { t_world_tool, t_flange_wobj } => {
+                (t_world_flange * t_flange_wobj).inverse() * t_world_tool
+            }
+        }
+    }
+}
+
+/// Convert a pose in millimeters to one in meters.
+pub(in crate::rapid) fn pose_in(pose: &RapidPose, field: &'static str) -> Result<Pose, Error> {
+    pose_from_wxyz(pose.trans_mm.map(|mm| mm / 1e3), pose.rot).map_err(|error| match error {
+        ArmError::InvalidPose(fault) => FrameFault::Pose { field, fault }.into(),
+        other => other.into(),
+    })
+}
+
+/// Convert a pose in meters to one in millimeters.
+#[doc(hidden)]
+pub fn rapid_pose(pose: &Pose) -> RapidPose {
+    let (xyz, rot) = pose_to_wxyz(pose);
+    RapidPose { trans_mm: xyz.map(|m| m * 1e3), rot }
+}

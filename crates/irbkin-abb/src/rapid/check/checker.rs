@@ -1,0 +1,348 @@
+//! All moves of a program, checked.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::carried::{Carried, carried_by, carriers};
+use super::confdata::{in_wrist_singularity, on_edges, with_nearest};
+use super::corners::Zones;
+use super::findings::{Seen, add_once, sorted};
+use super::fixes::{Demand, Finder};
+use super::undeclared::undeclared;
+use crate::Error;
+use crate::rapid::calc::target::with_flange;
+use crate::rapid::calc::units::Units;
+use crate::rapid::data::finding::{Code, Finding};
+use crate::rapid::data::module::Module;
+use crate::rapid::data::moves::Move;
+use crate::rapid::motion::drive::MotionOptions;
+use crate::rapid::motion::goal::{Goal, Place};
+use crate::rapid::motion::joints::{Conf, nearest_written};
+use crate::rapid::motion::routine::{Followed, check as check_options, velocities};
+use crate::rapid::program::walk::runs;
+use crate::rapid::program::walker::Run;
+use crate::rapid::program::whole::Program;
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
+use irbkin::cell::Cell;
+use irbkin::internal::Placed;
+use irbkin::{Configuration, Interrupt, Robot};
+
+/// Options of [`check`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CheckOptions<'a, const N: usize = 6> {
+    /// How moves are followed. The start and the accelerations do not count.
+    pub motion: MotionOptions<N>,
+    /// The cell in which each move is proven to touch nothing, each joint moving evenly between two
+    /// samples; without it collisions are not looked for.
+    pub cell: Option<&'a Cell>,
+    /// What moves carry in the cell.
+    pub carried: Option<&'a Carried>,
+    /// The units that the external axes of targets belong to.
+    pub units: Option<&'a Units>,
+    /// Whether a PERS that the program assigns has the value that its text has, the last one that
+    /// it had when the program was saved; each such move has a finding.
+    pub takes_last: bool,
+    /// Whether every module of the program is here; if that is not known, calls by calculated names
+    /// lead to others. A routine that nothing declares is an error in a whole program.
+    pub is_whole: Option<bool>,
+    /// Modules, by their indices, that are modules of the system although their attributes do not
+    /// say so: what they call may be the system's.
+    pub of_system: &'a [usize],
+    /// Ends the check early, with [`Error::Interrupted`].
+    pub interrupt: Interrupt<'a>,
+}
+
+/// A move of the program: an instruction, and the chain of calls to it where it moves to what they
+/// pass on; its place is the first of these calls then.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckedMove<const N: usize = 6> {
+    /// The module among those that are checked, from 0.
+    pub module: usize,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1, in characters.
+    pub column: usize,
+    /// The routine that contains it.
+    pub routine: Option<String>,
+    /// The target as it is written.
+    pub target: String,
+    /// The joints at its target [rad]; `None` if it has none, or is not checked.
+    pub q: Option<[f64; N]>,
+    /// The confdata of its target; `None` for joint angles, or if the target is not known.
+    pub confdata: Option<Configuration>,
+    /// Why it is not checked; `None` if its target, tool and work object are known in each pass.
+    pub unchecked: Option<Code>,
+}
+
+/// The result of a check.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Checked<const N: usize = 6> {
+    /// The findings, in the order of the modules and of their texts.
+    pub findings: Vec<Finding>,
+    /// The moves, in the same order; passes of a loop are one move.
+    pub moves: Vec<CheckedMove<N>>,
+}
+
+/// Check every move of a program: modules that know each other, with the texts that they were read
+/// from.
+///
+/// Routines are followed from `main` through calls, with their arguments; those that nothing calls,
+/// by themselves. Branches are checked from where the robot is before them, loops in each pass if
+/// their bounds are known and else in the first. Without velocities, neither of the robot nor in
+/// the options, no joint is too fast.
+///
+/// # Errors
+///
+/// [`Error::InvalidModel`] for an arm without configurations; [`Error::InvalidMotion`] for limits
+/// or steps that are not positive, or for too many samples; [`Error::Rapid`] if a text is not its
+/// module's; [`Error::InvalidBody`] for a robot without a body in a cell.
+pub fn check<const N: usize>(
+    robot: &Robot<N>,
+    modules: &[(&Module, &str)],
+    options: &CheckOptions<'_, N>,
+) -> Result<Checked<N>, Error> {
+    robot.configuration_rule()?;
+    check_options(&options.motion)?;
+    for (module, source) in modules {
+        if source.len() != module.text_length {
+            let (found, wanted) = (source.len(), module.text_length);
+            return Err(RapidFault::nowhere(RapidFaultKind::OtherText { found, wanted }).into());
+        }
+    }
+    let max_velocity = velocities(robot, &options.motion)?.unwrap_or([f64::INFINITY; N]);
+    let flange = with_flange(robot)?;
+    let (modules, sources): (Vec<&Module>, Vec<&str>) = modules.iter().copied().unzip();
+    let program = Program::new(&modules);
+    let units = Units::default();
+    let (runs, notes) = runs(&program, options.takes_last, options.interrupt)?;
+    let carried = options.carried.unwrap_or(const { &Carried::new() });
+    let arms = options.cell.map(|_| carriers(robot, &runs, carried)).transpose()?;
+    let arms = arms.unwrap_or_default();
+    let mut placed = Vec::with_capacity(arms.len());
+    for (names, arm) in &arms {
+        placed.push((names, Placed::of(arm)?.until(options.interrupt)));
+    }
+    let mut checker = Checker {
+        robots: [robot, &flange],
+        options: options.motion,
+        units: options.units.unwrap_or(&units),
+        max_velocity,
+        cell: options.cell,
+        arms: placed,
+        carried,
+        interrupt: options.interrupt,
+        finder: Finder::new(&program, &sources),
+        ends: Vec::new(),
+        found: Vec::new(),
+        seen: Seen::new(),
+        demands: Vec::new(),
+        moves: Vec::new(),
+    };
+    for run in &runs {
+        checker.add(run)?;
+    }
+    checker.found.extend(notes);
+    let CheckOptions { is_whole, of_system, interrupt, .. } = *options;
+    checker.found.extend(undeclared(&modules, &sources, is_whole, of_system, interrupt)?);
+    let Checker { found, demands, moves, .. } = checker;
+    Ok(Checked { findings: sorted(found, &demands), moves: each_once(moves) })
+}
+
+/// The identity of a move: its place, then the chain of calls, the module and the index
+/// of the instruction.
+type Key = ([usize; 3], [usize; 3]);
+
+/// Moves in the order of the text, each once: not checked if it is not in one of its passes.
+fn each_once<const N: usize>(mut moves: Vec<(Key, CheckedMove<N>)>) -> Vec<CheckedMove<N>> {
+    moves.sort_by_key(|(key, it)| (*key, it.unchecked.is_none(), it.unchecked));
+    moves.dedup_by_key(|(key, _)| *key);
+    moves.into_iter().map(|(_, it)| it).collect()
+}
+
+/// A move that is not followed, as one that is not checked.
+fn unfollowed_move<const N: usize>(finding: &Finding) -> (Key, CheckedMove<N>) {
+    let own = CheckedMove {
+        module: finding.module,
+        line: finding.line,
+        column: finding.column,
+        routine: finding.routine.clone(),
+        target: finding.subject.clone(),
+        q: None,
+        confdata: None,
+        unchecked: Some(finding.code),
+    };
+    (([own.module, own.line, own.column], [0, own.module, usize::MAX]), own)
+}
+
+struct Checker<'a, 'm, const N: usize> {
+    /// The robot, and the same with the flange as its tool.
+    robots: [&'a Robot<N>; 2],
+    options: MotionOptions<N>,
+    units: &'a Units,
+    max_velocity: [f64; N],
+    cell: Option<&'a Cell>,
+    arms: Vec<(&'a Vec<String>, Placed<'a, N>)>,
+    carried: &'a Carried,
+    interrupt: Interrupt<'a>,
+    finder: Finder<'a, 'm>,
+    /// The joints at the targets of the moves of each run.
+    ends: Vec<Vec<Option<[f64; N]>>>,
+    found: Vec<Finding>,
+    seen: Seen,
+    demands: Vec<Demand>,
+    moves: Vec<(Key, CheckedMove<N>)>,
+}
+
+impl<const N: usize> Checker<'_, '_, N> {
+    fn add(&mut self, run: &Run<'_>) -> Result<(), Error> {
+        let start =
+            run.from.and_then(|(run, moves)| *self.ends.get(run)?.get(moves.checked_sub(1)?)?);
+        let options = MotionOptions { start, max_acceleration: None, ..self.options };
+        let mut followed =
+            Followed::new(self.robots, &run.steps, &options, Some(self.units), self.interrupt)?;
+        followed.check_speeds(&self.max_velocity);
+        let Followed { goals, made, findings, unfollowed, .. } = &followed;
+        self.moves.extend(unfollowed.iter().map(unfollowed_move));
+        for finding in unfollowed {
+            add_once(&mut self.found, &mut self.seen, finding.clone());
+        }
+        // Where the confdata of a move is wrong.
+        let mut wrong: Vec<Option<usize>> = goals.iter().map(|_| None).collect();
+        // Why a move is not checked.
+        let mut unchecked: Vec<Option<Code>> = goals.iter().map(|_| None).collect();
+        for finding in findings {
+            let (index, mut finding) = (finding.move_index, finding.clone());
+            let (Some(goal), Some(made)) = (goals.get(index), made.get(index)) else { continue };
+            if goal.place.is_none() {
+                unchecked[index].get_or_insert(finding.code);
+            }
+            let is_wrong = matches!(
+                finding.code,
+                Code::WrongConfdata | Code::OtherConfiguration | Code::NearConfdata
+            );
+            if let Some(q) = made.q.filter(|_| is_wrong) {
+                wrong[index] = Some(self.found.len());
+                finding = with_nearest(self.robots[1], finding, goal, &q);
+            }
+            let finding = self.worded(finding, goal, is_wrong).in_module(goal.stepped.module);
+            if is_wrong {
+                self.found.push(finding);
+            } else {
+                add_once(&mut self.found, &mut self.seen, finding);
+            }
+        }
+        for (index, goal) in
+            goals.iter().enumerate().filter(|(index, _)| made[*index].as_programmed)
+        {
+            self.interrupt.check(0)?;
+            let finding = self.collision(goal.step, followed.along(index));
+            let placed = finding.map(|it| it.at(goal.step, index).in_module(goal.stepped.module));
+            self.found.extend(placed);
+        }
+        let zones = Zones { flange: self.robots[1], goals, made };
+        for (index, goal) in goals.iter().enumerate() {
+            self.interrupt.check(index)?;
+            let (module, line, column) = (goal.stepped.module, goal.step.line, goal.step.column);
+            let (home, instruction) = goal.stepped.instruction;
+            let own = CheckedMove {
+                module,
+                line,
+                column,
+                routine: goal.step.routine.clone(),
+                target: goal.step.target.text.clone(),
+                q: made[index].q,
+                confdata: match goal.place {
+                    Some(Place::Tool(_, wanted)) => Some(wanted.configuration),
+                    _ => None,
+                },
+                unchecked: unchecked[index],
+            };
+            let by = [goal.stepped.chain, home, instruction];
+            self.moves.push((([module, line, column], by), own));
+            let mut found = |finding: Finding| {
+                let finding = finding.at(goal.step, index).in_module(goal.stepped.module);
+                add_once(&mut self.found, &mut self.seen, finding);
+            };
+            zones.checked(index).for_each(&mut found);
+            if goal.stepped.takes_last {
+                let words = "a PERS that the program assigns has its last value here";
+                found(Finding::new(Code::LastValue, words));
+            }
+            let (Some(Place::Tool(_, wanted)), Some(q)) = (goal.place, made[index].q) else {
+                continue;
+            };
+            if goal.conf() == Conf::Off {
+                continue;
+            }
+            if !goal.is_cartesian() {
+                in_wrist_singularity(self.robots[1], &q).into_iter().for_each(&mut found);
+            }
+            on_edges(self.robots[1], &q)?.for_each(found);
+            let to = self.robots[1].configuration(&q)?;
+            if wrong[index].is_some() && !self.is_nearest_written(goal, to) {
+                continue;
+            }
+            let written = self.finder.of(goal.stepped.module, goal.step);
+            self.demands.push(Demand {
+                written,
+                from: wanted.configuration,
+                to,
+                finding: wrong[index],
+            });
+        }
+        self.ends.push(made.iter().map(|made| made.q).collect());
+        Ok(())
+    }
+
+    /// A finding on a goal with what the program has to do with it.
+    fn worded(&self, mut finding: Finding, goal: &Goal<'_, N>, is_wrong: bool) -> Finding {
+        if is_wrong && !finding.cause.is_empty() {
+            finding.cause = self.cause_at(goal, &finding);
+        }
+        if let Some(name) = &finding.unknown {
+            let words = format!("{name} is not declared");
+            finding.message = Finding::new(finding.code, words).at(goal.step, 0).message;
+        }
+        if let Some(line) = goal.stepped.displaced_on {
+            finding.message = format!("{} (displaced on line {line})", finding.message);
+        }
+        finding
+    }
+
+    /// The cause of a finding on confdata: in a routine, or in the run that is added.
+    fn cause_at(&self, goal: &Goal<'_, N>, finding: &Finding) -> String {
+        let (module, routine, cause) =
+            (goal.stepped.module, goal.step.routine.as_deref(), &finding.cause);
+        match finding.code {
+            Code::NearConfdata => format!("{module} {} {cause}", routine.unwrap_or_default()),
+            _ => format!("{} {cause}", self.ends.len()),
+        }
+    }
+
+    /// Whether a configuration belongs to the joints nearest to the written one of a goal: any other
+    /// is another wrist, or whole turns away, and does not correct it.
+    fn is_nearest_written(&self, goal: &Goal<'_, N>, to: Configuration) -> bool {
+        let Some(Place::Tool(pose, wanted)) = goal.place else { return false };
+        let nearest = nearest_written(self.robots[1], &goal.frames.flange(&pose), &wanted);
+        nearest.is_some_and(|(q, _)| self.robots[1].configuration(&q) == Ok(to))
+    }
+
+    /// A move that touches something in the cell.
+    fn collision(&mut self, step: &Move, along: &[[f64; N]]) -> Option<Finding> {
+        let cell = self.cell?;
+        let names = carried_by(step, self.carried);
+        let (_, placed) = self.arms.iter_mut().find(|(own, _)| **own == names)?;
+        let contact = cell.contact(placed, along)?;
+        #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 samples")]
+        let part = contact.at / along.len().saturating_sub(1).max(1) as f64;
+        let words = format!(
+            "link {} touches {} after {:.0} % of the way, {:.1} mm deep",
+            contact.nearest.link,
+            contact.nearest.near,
+            1e2 * part,
+            1e3 * contact.depth.max(0.0),
+        );
+        Some(Finding::new(Code::Collision, words))
+    }
+}

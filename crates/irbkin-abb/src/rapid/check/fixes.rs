@@ -1,0 +1,217 @@
+//! Corrections of confdata: where it is written, and what corrects it. Corrections that contradict
+//! one another are left out.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::string::ToString;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use crate::rapid::data::finding::{Edit, Finding};
+use crate::rapid::data::module::Content;
+use crate::rapid::data::moves::Move;
+use crate::rapid::expression::functions::Displacement;
+use crate::rapid::expression::reader::ExpressionReader;
+use crate::rapid::expression::tree::{Expression, Form};
+use crate::rapid::program::whole::Program;
+use crate::rapid::text::tokens::Tokens;
+use irbkin::Configuration;
+
+/// The confdata that a move needs at its target.
+pub(super) struct Demand {
+    /// Where it is written; `None` if it is calculated.
+    pub(super) written: Option<Written>,
+    pub(super) from: Configuration,
+    pub(super) to: Configuration,
+    /// The finding that it corrects; `None` if the confdata is right as it is.
+    pub(super) finding: Option<usize>,
+}
+
+/// A correction of one confdata.
+struct Correction<'d> {
+    written: &'d Written,
+    from: Configuration,
+    to: Configuration,
+    findings: Vec<usize>,
+}
+
+/// Give findings their corrections: none where another move needs the confdata as it is, or
+/// needs another one.
+pub(super) fn correct(demands: &[Demand], found: &mut [Finding]) {
+    let mut corrections: BTreeMap<(usize, usize), Correction<'_>> = BTreeMap::new();
+    let mut contradicted = BTreeSet::new();
+    for demand in demands {
+        let (Some(finding), Some(written)) = (demand.finding, &demand.written) else { continue };
+        let (begin, from, to) = (written.begin(), demand.from, demand.to);
+        let made = || Correction { written, from, to, findings: Vec::new() };
+        let correction = corrections.entry(begin).or_insert_with(made);
+        if correction.to != to {
+            contradicted.insert(begin);
+        }
+        correction.findings.push(finding);
+    }
+    if corrections.is_empty() {
+        return;
+    }
+    let right = demands.iter().filter(|demand| demand.finding.is_none());
+    contradicted.extend(right.filter_map(|demand| demand.written.as_ref()).map(Written::begin));
+    for (begin, correction) in corrections {
+        if contradicted.contains(&begin) {
+            continue;
+        }
+        let edits = correction.written.edits(correction.from, correction.to);
+        for index in correction.findings {
+            if let Some(finding) = found.get_mut(index) {
+                finding.edits.clone_from(&edits);
+            }
+        }
+    }
+}
+
+/// How many names are followed from a target to its numbers.
+const MOST_NAMES: usize = 8;
+
+/// The confdata of a target in a text.
+pub(super) struct Written {
+    module: usize,
+    span: Range<usize>,
+    /// Its numbers, if it is written as such.
+    numbers: Option<[Range<usize>; 4]>,
+}
+
+impl Written {
+    /// Where it begins: no two begin at the same byte.
+    fn begin(&self) -> (usize, usize) {
+        (self.module, self.span.start)
+    }
+
+    /// The edits from one configuration to another: only numbers that differ.
+    fn edits(&self, from: Configuration, to: Configuration) -> Vec<Edit> {
+        let Some(numbers) = &self.numbers else {
+            let Configuration { cf1, cf4, cf6, cfx } = to;
+            let text = alloc::format!("[{cf1},{cf4},{cf6},{cfx}]");
+            return Vec::from([Edit { module: self.module, span: self.span.clone(), text }]);
+        };
+        let pairs =
+            numbers.iter().zip(<[i32; 4]>::from(from).into_iter().zip(<[i32; 4]>::from(to)));
+        let differing = pairs.filter(|(_, (from, to))| from != to);
+        let edit = |(span, (_, to)): (&Range<usize>, (i32, i32))| Edit {
+            module: self.module,
+            span: span.clone(),
+            text: to.to_string(),
+        };
+        differing.map(edit).collect()
+    }
+}
+
+/// A finder of confdata in the texts of a program.
+pub(super) struct Finder<'a, 'm> {
+    program: &'a Program<'m>,
+    sources: &'a [&'a str],
+}
+
+/// A place from which names are looked up: a module and a routine of it.
+type At<'a> = (usize, Option<&'a str>);
+
+impl<'a, 'm> Finder<'a, 'm> {
+    pub(super) fn new(program: &'a Program<'m>, sources: &'a [&'a str]) -> Self {
+        Self { program, sources }
+    }
+
+    /// The confdata of the target of a move in a module; `None` if it is calculated.
+    pub(super) fn of(&self, module: usize, step: &Move) -> Option<Written> {
+        self.within(step.target.span.clone(), (module, step.routine.as_deref()), MOST_NAMES)
+    }
+
+    /// The confdata of a value that is written in some bytes.
+    fn within(&self, span: Range<usize>, at: At<'_>, names: usize) -> Option<Written> {
+        let text = self.sources.get(at.0)?.get(span.clone())?;
+        let mut tokens = Tokens::new(text).ok()?;
+        let value = ExpressionReader::new(&mut tokens).argument().ok()?;
+        self.of_value(&value, span.start, at, names)
+    }
+
+    /// The confdata of an expression, whose bytes count from `begin`.
+    fn of_value(
+        &self,
+        value: &Expression<'_>,
+        begin: usize,
+        at: At<'_>,
+        names: usize,
+    ) -> Option<Written> {
+        let place = |part: &Expression<'_>| part.start + begin..part.end + begin;
+        match &value.form {
+            Form::Aggregate(parts) => {
+                let [_, _, confdata, _] = parts.as_slice() else { return None };
+                let numbers = match &confdata.form {
+                    Form::Aggregate(numbers) => match numbers.as_slice() {
+                        [a, b, c, d] if numbers.iter().all(is_number) => {
+                            Some([place(a), place(b), place(c), place(d)])
+                        }
+                        _ => None,
+                    },
+                    _ => None,
+                };
+                Some(Written { module: at.0, span: place(confdata), numbers })
+            }
+            Form::Name(name) => self.of_name(name, &[], at, names),
+            Form::Reference(reference) if reference.components.is_empty() => {
+                self.of_name(reference.name, &reference.indices, at, names)
+            }
+            // A displaced target keeps its confdata.
+            Form::Call(call) if Displacement::named(call.name).is_some() => {
+                self.of_value(call.required.first()?, begin, at, names)
+            }
+            _ => None,
+        }
+    }
+
+    fn of_name(
+        &self,
+        name: &str,
+        indices: &[Expression<'_>],
+        (module, routine): At<'_>,
+        names: usize,
+    ) -> Option<Written> {
+        let names = names.checked_sub(1)?;
+        let lower = name.to_lowercase();
+        let routine = routine.map(str::to_lowercase).unwrap_or_default();
+        let local = self.program.local(module, &routine, &lower);
+        let (module, datum) = if let Some(datum) = local {
+            (module, datum)
+        } else {
+            let (id, datum) = self.program.datum(module, &lower)?;
+            // The assignment has the confdata, not the declaration.
+            if self.program.assigns_confdata(id) {
+                return None;
+            }
+            (id.module, datum)
+        };
+        let span = match &datum.content {
+            Content::Single(_) if indices.is_empty() => datum.value_span.clone(),
+            Content::Array { sizes, .. } if sizes.len() == indices.len() => {
+                datum.element_spans.get(element(indices, sizes)?)?.clone()
+            }
+            _ => return None,
+        };
+        self.within(span, (module, datum.routine.as_deref()), names)
+    }
+}
+
+fn is_number(part: &Expression<'_>) -> bool {
+    matches!(part.form, Form::Number(_))
+}
+
+/// The place of an element in its array, whose indices are written as numbers.
+fn element(indices: &[Expression<'_>], sizes: &[usize]) -> Option<usize> {
+    let mut place = 0;
+    for (index, size) in indices.iter().zip(sizes) {
+        let Form::Number(value) = index.form else { return None };
+        let index = (1..=*size).find(|index| {
+            #[expect(clippy::cast_precision_loss, reason = "an index")]
+            let index = *index as f64;
+            index.total_cmp(&value).is_eq()
+        })?;
+        place = place * size + index - 1;
+    }
+    Some(place)
+}

@@ -1,0 +1,186 @@
+//! Names as an expression looks them up, and RAPID's own data: tool0, wobj0, load0,
+//! speeds and zones.
+
+use alloc::borrow::Cow;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use crate::rapid::data::module::Content;
+use crate::rapid::data::records::{LoadData, SpeedData, ToolData, WobjData, ZoneData};
+use crate::rapid::data::unread::{AssignedBy, Unresolved};
+use crate::rapid::data::value::{DataType, Value};
+use irbkin::internal::PREDEFINED as ZONES;
+
+/// A scope of names.
+pub(crate) trait Names {
+    /// Find what a name refers to at a place.
+    fn find(&self, at: At, name: &str) -> Found<'_>;
+
+    /// Why some of these atoms of a datum may be different where the program moves.
+    fn cause_of(&self, at: At, name: &str, _atoms: Range<usize>) -> Option<Cause<'_>> {
+        match self.find(at, name) {
+            Found::Datum { cause, .. } => cause,
+            _ => None,
+        }
+    }
+}
+
+/// Where a name is used.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct At {
+    /// Index of the routine, from 1; 0 for the module.
+    pub(crate) routine: usize,
+    /// The innermost loop around it.
+    pub(crate) inside_loop: Option<usize>,
+}
+
+/// The result of looking up a name.
+pub(crate) enum Found<'r> {
+    Datum {
+        content: &'r Content,
+        can_change: bool,
+        /// Why its value, or a part of it, may be different where the program moves.
+        cause: Option<Cause<'r>>,
+    },
+    /// Of RAPID's own data.
+    Predefined(Value),
+    /// Nothing declares it.
+    NotHere,
+    /// It has no value, for this reason.
+    Unknown(Unresolved),
+}
+
+/// The reason why a datum has no known value where the program moves.
+#[derive(Clone, Copy)]
+pub(crate) struct Cause<'a> {
+    /// The assigned datum: itself or one that its declaration refers to.
+    pub(crate) name: &'a str,
+    pub(crate) by: By<'a>,
+}
+
+/// The place of the assignment.
+#[derive(Clone, Copy)]
+pub(crate) enum By<'a> {
+    Line(usize),
+    /// Another module, and the line there, if that is known.
+    Module(Option<&'a str>, Option<usize>),
+}
+
+impl Cause<'_> {
+    /// The cause as the reason why the name that is referred to has no value.
+    pub(crate) fn of(&self, referred: &str) -> Unresolved {
+        let by = match self.by {
+            By::Line(line) => AssignedBy::Line(line),
+            By::Module(module, line) => AssignedBy::Module(module.map(String::from), line),
+        };
+        if lower(self.name) == lower(referred) {
+            Unresolved::Assigned { by }
+        } else {
+            Unresolved::AssignedThrough { name: self.name.to_string(), by }
+        }
+    }
+}
+
+/// A name in lower case, as names are looked up.
+pub(crate) fn lower(name: &str) -> Cow<'_, str> {
+    if name.bytes().all(|byte| byte.is_ascii() && !byte.is_ascii_uppercase()) {
+        Cow::Borrowed(name)
+    } else {
+        Cow::Owned(name.to_lowercase())
+    }
+}
+
+/// An empty scope, for expressions without names.
+pub(crate) struct NoNames;
+
+impl Names for NoNames {
+    fn find(&self, _: At, _: &str) -> Found<'_> {
+        Found::NotHere
+    }
+}
+
+/// The speeds of the tool center point by their names: v5 [mm/s] to v7000.
+/// Source: the speeddata table of the RAPID reference manual.
+const SPEEDS: [u16; 25] = [
+    5, 10, 20, 30, 40, 50, 60, 80, 100, 150, 200, 300, 400, 500, 600, 800, 1000, 1500, 2000, 2500,
+    3000, 4000, 5000, 6000, 7000,
+];
+
+/// The speed of `vmax` [mm/s]: more than any robot reaches. A controller has its robot's.
+const VMAX: f64 = 10_000.0;
+
+/// External axes have the numbers of the reorientation. The first one is `fine`.
+fn zone(index: usize) -> ZoneData {
+    let (_, tcp, ori, degrees) = ZONES[index];
+    ZoneData {
+        finep: index == 0,
+        pzone_tcp_mm: tcp,
+        pzone_ori_mm: ori,
+        pzone_eax_mm: ori,
+        zone_ori_deg: degrees,
+        zone_leax_mm: ori,
+        zone_reax_deg: degrees,
+    }
+}
+
+/// The names of RAPID's own data of a type.
+pub(crate) fn predefined_names(data_type: DataType) -> Vec<String> {
+    match data_type {
+        DataType::ToolData => Vec::from(["tool0".to_string()]),
+        DataType::WobjData => Vec::from(["wobj0".to_string()]),
+        DataType::LoadData => Vec::from(["load0".to_string()]),
+        DataType::SpeedData => {
+            let max = core::iter::once("vmax".to_string());
+            SPEEDS.iter().map(|speed| format!("v{speed}")).chain(max).collect()
+        }
+        DataType::ZoneData => ZONES.iter().map(|(name, ..)| (*name).to_string()).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The datum of RAPID's own with a name in lower case.
+pub(crate) fn predefined(lower: &str) -> Option<Value> {
+    match lower.as_bytes().first()? {
+        b'p' if lower == "pi" => Some(Value::Num(core::f64::consts::PI)),
+        b't' if lower == "tool0" => Some(Value::ToolData(ToolData::TOOL0)),
+        b'w' if lower == "wobj0" => Some(Value::WobjData(WobjData::WOBJ0)),
+        b'l' if lower == "load0" => Some(Value::LoadData(LoadData::LOAD0)),
+        b'v' => {
+            let speed = lower[1..].parse().ok().filter(|speed| SPEEDS.contains(speed));
+            let is_number = lower[1..].starts_with(|digit| matches!(digit, '1'..='9'));
+            let speed = speed.filter(|_| is_number).map(f64::from);
+            let speed = speed.or((lower == "vmax").then_some(VMAX))?;
+            Some(Value::SpeedData(SpeedData::of(speed)))
+        }
+        b'f' | b'z' => {
+            let place = ZONES.iter().position(|(name, ..)| *name == lower)?;
+            Some(Value::ZoneData(zone(place)))
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn speeds_and_zones_have_the_numbers_of_their_names() {
+        for speed in SPEEDS {
+            let Some(Value::SpeedData(data)) = predefined(&format!("v{speed}")) else { panic!() };
+            assert_eq!((data.v_tcp_mm_s, data.v_ori_deg_s), (f64::from(speed), 500.0));
+        }
+        for (name, millimeters, ..) in &ZONES[2..] {
+            assert_eq!(name[1..].parse(), Ok(*millimeters));
+            let Some(Value::ZoneData(zone)) = predefined(name) else { panic!() };
+            assert_eq!((zone.finep, zone.pzone_tcp_mm), (false, *millimeters));
+        }
+        let Some(Value::ZoneData(fine)) = predefined("fine") else { panic!() };
+        assert!(fine.finep);
+        for name in ["", "v", "v7", "z", "z2", "fin", "tool", "wobj", "l", "V100", "\u{e9}"] {
+            assert!(predefined(name).is_none(), "{name}");
+        }
+    }
+}

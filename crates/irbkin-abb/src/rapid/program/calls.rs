@@ -1,0 +1,302 @@
+//! Calls of routines: arguments put in for parameters, and what is assigned to them given back.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::format;
+use alloc::rc::Rc;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::mem;
+use core::ops::Range;
+
+use super::arguments::{Parameter, arguments, assignment, called, referred};
+use super::effects::MOST_CALLED;
+use super::frame::{Frame, Site};
+use super::state::{Local, Locals, MOST_KNOWN};
+use super::walker::Walk;
+use super::whole::Program;
+use crate::rapid::data::lookup::written_argument;
+use crate::rapid::data::module::{Content, Storage};
+use crate::rapid::data::unread::{NotRead, Reason, Skipped, Unresolved};
+use crate::rapid::expression::tree::Expression;
+
+/// Most calls within calls.
+const DEEPEST_CALLS: usize = 32;
+
+/// The statements that a call takes as long as, beside its routine [1].
+const CALL: usize = 4;
+
+impl Program<'_> {
+    /// The data and the parameters of a routine at its beginning: parameters are unknown unless
+    /// they are `given`, in their order.
+    pub(super) fn locals_of(
+        &self,
+        module: usize,
+        routine: &str,
+        given: Option<Vec<(String, Local)>>,
+    ) -> Rc<Locals> {
+        let data = self.locals(module, routine).map(|datum| {
+            let content = match (&datum.content, datum.storage) {
+                (Content::Uninitialized { .. }, _) => Err(Unresolved::NoValue),
+                (_, Storage::Pers) => Err(Unresolved::ValueNotKnown),
+                (content, _) => Ok(content.clone()),
+            };
+            (datum.name.to_lowercase(), Local { data_type: Some(datum.data_type), content })
+        });
+        let unknown = |parameter: &Parameter| {
+            let content = Err(Unresolved::Parameter { routine: routine.to_string() });
+            (parameter.name.clone(), Local { data_type: parameter.data_type, content })
+        };
+        let parameters =
+            given.unwrap_or_else(|| self.parameters(module, routine).iter().map(unknown).collect());
+        let mut locals: Locals = data.chain(parameters).collect();
+        if locals.len() > MOST_KNOWN {
+            let unknown = |local: &mut Local| local.content = Err(Unresolved::ValueNotKnown);
+            locals.values_mut().for_each(unknown);
+        }
+        Rc::new(locals)
+    }
+}
+
+impl<'m> Walk<'_, 'm> {
+    /// Follow a statement that may be a call.
+    pub(super) fn call(&mut self, skipped: &'m Skipped) {
+        let Some(name) = called(&skipped.text) else {
+            // It may assign any datum.
+            self.state.forget_globals(None);
+            let words = "the name of the routine is calculated".to_string();
+            return self.not_followed(skipped, words);
+        };
+        let program = self.program;
+        let Some(home) = program.procedure(self.frame.module, &name) else { return };
+        let parameters = program.parameters(home, &name);
+        let Some(acts) = program.effects.of_routine(home, &name) else { return };
+        if !acts.matters() {
+            return;
+        }
+        let is_circular = self.above.iter().any(|it| (it.0, &it.1) == (home, &name))
+            || (self.frame.module, &self.frame.routine) == (home, &name);
+        let why = if is_circular {
+            Some(format!("{name} calls itself"))
+        } else if self.above.len() >= DEEPEST_CALLS {
+            Some(format!("more than {DEEPEST_CALLS} calls within calls"))
+        } else if self.is_spent() {
+            Some("the program has too many calls within calls to follow each".to_string())
+        } else {
+            None
+        };
+        let bound = match (why, arguments(&skipped.text)) {
+            (None, Ok(arguments)) => {
+                self.bound(skipped, parameters, arguments.required, arguments.optional)
+            }
+            (why, _) => {
+                let assigned = program.effects.assigned_by(Vec::from([(home, name)]), MOST_CALLED);
+                self.state.forget_globals(assigned.as_ref());
+                if acts.moves {
+                    let words = why.unwrap_or_else(|| "its arguments are not read".to_string());
+                    self.not_followed(skipped, words);
+                }
+                return;
+            }
+        };
+        self.enter(skipped, (home, name), bound, parameters);
+    }
+
+    /// Follow a routine with its arguments.
+    fn enter(
+        &mut self,
+        skipped: &Skipped,
+        (home, name): (usize, String),
+        bound: Bound,
+        parameters: &[Parameter],
+    ) {
+        let Bound { given, absent, present, texts, names } = bound;
+        let own_site = || Site {
+            module: self.frame.module,
+            line: skipped.line,
+            column: skipped.column,
+            routine: skipped.routine.clone(),
+            called: match &skipped.what {
+                NotRead::Instruction { name } => name.clone(),
+                _ => name.clone(),
+            },
+        };
+        let site = self.frame.site.clone().or_else(|| Some(own_site()));
+        let next = self.chains.len() + 1;
+        let call = (self.frame.chain, self.frame.module, skipped.start);
+        let chain = *self.chains.entry(call).or_insert(next);
+        let before: Locals = given.iter().cloned().collect();
+        let locals = self.program.locals_of(home, &name, Some(given));
+        self.spend(CALL + locals.values().map(Local::size).sum::<usize>());
+        let frame = Frame {
+            module: home,
+            routine: name,
+            site: site.filter(|_| !parameters.is_empty()),
+            chain,
+            exits: Vec::new(),
+            absent,
+            present,
+            texts,
+        };
+        let own_frame = mem::replace(&mut self.frame, frame);
+        self.above.push((own_frame.module, own_frame.routine.clone()));
+        let own_locals = mem::replace(&mut self.state.locals, locals);
+        self.routine();
+        self.above.pop();
+        self.frame = own_frame;
+        let after = mem::replace(&mut self.state.locals, own_locals);
+        for (parameter, name) in names {
+            if after.get(&parameter) != before.get(&parameter)
+                && let Some(local) = after.get(&parameter)
+            {
+                self.put(&name, local.content.clone().ok());
+            }
+        }
+    }
+
+    /// Give a datum or a local another content, or none that is known.
+    pub(super) fn put(&mut self, lower: &str, content: Option<Content>) {
+        if self.state.locals.contains_key(lower) {
+            if self.state.locals.len() <= MOST_KNOWN
+                && let Some(local) = Rc::make_mut(&mut self.state.locals).get_mut(lower)
+            {
+                local.content = content.ok_or(Unresolved::ValueNotKnown);
+            }
+            return;
+        }
+        if let Some((datum, _)) = self.program.datum(self.frame.module, lower) {
+            let is_certain = !self.program.effects.is_interrupted(datum);
+            self.state.set_global(datum, content.filter(|_| is_certain));
+        }
+    }
+
+    /// An assignment.
+    pub(super) fn assign(&mut self, skipped: &Skipped) {
+        let Ok((target, value)) = assignment(&skipped.text) else { return };
+        let Some((name, _)) = referred(&target) else { return };
+        let content = self.scope().assigned(&skipped.text, &target, &value);
+        self.put(&name, content);
+    }
+
+    /// The datum that an instruction writes to is not known any more.
+    pub(super) fn written(&mut self, skipped: &Skipped, name: &str) {
+        let Some(place) = written_argument(name) else { return };
+        if let Ok(arguments) = arguments(&skipped.text)
+            && let Some(argument) = place.checked_sub(1).and_then(|at| arguments.required.get(at))
+            && let Some((name, _)) = referred(argument)
+        {
+            self.put(&name, None);
+        }
+    }
+
+    /// The parameters of a routine with the arguments of a call.
+    fn bound<'a>(
+        &self,
+        skipped: &'a Skipped,
+        parameters: &[Parameter],
+        required: Vec<Expression<'a>>,
+        mut optional: Vec<(&'a str, Option<Expression<'a>>)>,
+    ) -> Bound {
+        let mut bound = Bound::default();
+        let mut required = required.into_iter();
+        for parameter in parameters {
+            let argument = if parameter.is_optional {
+                let is_own = |(name, _): &(&str, _)| name.eq_ignore_ascii_case(&parameter.name);
+                let place = optional.iter().position(is_own);
+                place.map(|place| optional.swap_remove(place).1)
+            } else {
+                required.next().map(Some)
+            };
+            if let Some(value) = argument {
+                self.bind(skipped, parameter, value, &mut bound);
+            } else {
+                bound.absent.insert(parameter.name.clone());
+                bound.give(parameter, Err(Unresolved::NoValue));
+            }
+        }
+        bound
+    }
+
+    /// Put an argument in for a parameter.
+    fn bind(
+        &self,
+        skipped: &Skipped,
+        parameter: &Parameter,
+        value: Option<Expression<'_>>,
+        bound: &mut Bound,
+    ) {
+        let name = parameter.name.clone();
+        let text = value.as_ref().and_then(|it| skipped.text.get(it.start..it.end));
+        let text = text.unwrap_or_default();
+        // \Name?parameter passes on an argument, if there is one.
+        let passed = text.strip_prefix('?').map(|passed| passed.trim().to_lowercase());
+        match &passed {
+            Some(passed) if self.frame.absent.contains(passed) => bound.absent.insert(name),
+            Some(passed) if !self.frame.present.contains(passed) => false,
+            _ => bound.present.insert(name),
+        };
+        let (Some(value), Some(data_type)) = (value, parameter.data_type) else {
+            return bound.give(parameter, Err(Unresolved::ValueNotKnown));
+        };
+        if let Some(passed) = passed {
+            let local = self.state.locals.get(&passed);
+            let content = local.map_or(Err(Unresolved::ValueNotKnown), |it| it.content.clone());
+            bound.texts.extend(
+                self.frame.texts.get(&passed).map(|it| (parameter.name.clone(), it.clone())),
+            );
+            return bound.give(parameter, content);
+        }
+        let name = referred(&value).filter(|(_, components)| components.is_empty());
+        let array = name.as_ref().and_then(|(name, _)| self.whole(name, &value));
+        let content = match array {
+            Some(content) => Ok(content),
+            None => match self.scope().value(&skipped.text, &value, data_type) {
+                Ok(value) => Ok(Content::Single(value)),
+                Err(Reason::Reference { why, .. }) => Err(why),
+                Err(_) => Err(Unresolved::ValueNotKnown),
+            },
+        };
+        let own = (
+            text.to_string(),
+            self.frame.module,
+            skipped.start + value.start..skipped.start + value.end,
+        );
+        let above = name.as_ref().and_then(|(name, _)| self.frame.texts.get(name).cloned());
+        bound.texts.insert(parameter.name.clone(), above.unwrap_or(own));
+        if let (true, Some((name, _))) = (parameter.is_reference, name) {
+            bound.names.push((parameter.name.clone(), name));
+        }
+        bound.give(parameter, content);
+    }
+
+    /// The whole array that a name refers to.
+    fn whole(&self, name: &str, value: &Expression<'_>) -> Option<Content> {
+        use crate::rapid::expression::names::At;
+        use crate::rapid::expression::names::{Found, Names as _};
+        use crate::rapid::expression::tree::Form;
+        let Form::Name(_) = value.form else { return None };
+        match self.scope().find(At::default(), name) {
+            Found::Datum { content: content @ Content::Array { .. }, cause: None, .. } => {
+                Some(content.clone())
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Arguments put in for parameters.
+#[derive(Default)]
+struct Bound {
+    given: Vec<(String, Local)>,
+    absent: BTreeSet<String>,
+    present: BTreeSet<String>,
+    texts: BTreeMap<String, (String, usize, Range<usize>)>,
+    /// Parameters by reference, with the names of their arguments.
+    names: Vec<(String, String)>,
+}
+
+impl Bound {
+    fn give(&mut self, parameter: &Parameter, content: Result<Content, Unresolved>) {
+        let local = Local { data_type: parameter.data_type, content };
+        self.given.push((parameter.name.clone(), local));
+    }
+}

@@ -1,0 +1,262 @@
+//! Moves with the values that they have at a place, and what displaces their targets there.
+
+use alloc::borrow::Cow;
+
+use super::arguments::{Arguments, arguments};
+use super::frame::Frame;
+use super::state::{Displacement, Offsets, State};
+use super::values::Scope;
+use crate::Error;
+use crate::rapid::calc::frames::{pose_in, rapid_pose};
+use crate::rapid::calc::target::target_pose;
+use crate::rapid::calc::units::MOST_DEGREES;
+use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
+use crate::rapid::data::records::{RapidPose, RobTarget};
+use crate::rapid::data::types::Record;
+use crate::rapid::data::unread::{AssignedBy, Reason, Skipped, Unresolved};
+use crate::rapid::data::value::{DataType, Value};
+use irbkin::Pose;
+
+impl Scope<'_, '_> {
+    /// Fill a move with the values that it has here. Whether its target depends on what the call of
+    /// its routine passes on.
+    pub(super) fn fill(&self, own: &mut Cow<'_, Move>, frame: &Frame) -> bool {
+        let is_known = own.target.value.is_ok()
+            && own.via.as_ref().is_none_or(|via| via.value.is_ok())
+            && own.tool.value.is_ok()
+            && own.wobj.as_ref().is_none_or(|wobj| wobj.value.is_ok())
+            && own.speed_data.is_ok()
+            && own.zone_data.is_ok()
+            && own.time.as_ref().is_none_or(Result::is_ok);
+        if is_known && !self.program.effects.has_references() {
+            return false;
+        }
+        let step = own.to_mut();
+        let mut is_passed_on = is_parameter(&step.target.value);
+        if let Some(via) = &mut step.via {
+            is_passed_on |= is_parameter(&via.value);
+            self.argument(via, frame);
+        }
+        if step.kind == MoveKind::MoveAbsJ {
+            self.target(&mut step.target, frame, Target::JointTarget);
+        } else {
+            self.target(&mut step.target, frame, Target::RobTarget);
+        }
+        self.argument(&mut step.tool, frame);
+        let absent = step.wobj.as_ref().and_then(|wobj| wobj.text.strip_prefix('?'));
+        if absent.is_some_and(|name| frame.absent.contains(&name.trim().to_lowercase())) {
+            step.wobj = None;
+        }
+        if let Some(wobj) = &mut step.wobj {
+            self.argument(wobj, frame);
+        }
+        self.pace(step, frame);
+        is_passed_on
+    }
+
+    /// A target of another type than others.
+    fn target<T: Record>(
+        &self,
+        target: &mut Argument<Target>,
+        frame: &Frame,
+        made: fn(T) -> Target,
+    ) {
+        if target.value.is_ok() && !self.is_stale(&target.text) {
+            return;
+        }
+        let reason = target.value.as_ref().err().cloned().unwrap_or(Reason::Unfinished);
+        let (text, span) = (target.text.clone(), target.span.clone());
+        let mut own: Argument<T> = Argument { text, span, value: Err(reason) };
+        self.argument(&mut own, frame);
+        target.value = own.value.map(made);
+    }
+
+    /// An argument that its declarations do not determine, where it is determined here.
+    fn argument<T: Record>(&self, argument: &mut Argument<T>, frame: &Frame) {
+        if argument.value.is_ok() && !self.is_stale(&argument.text) {
+            return;
+        }
+        let text = argument.text.strip_prefix('?').unwrap_or(&argument.text);
+        match self.record(text) {
+            Ok(value) => {
+                argument.value = Ok(value);
+                if let Some((given, ..)) = frame.texts.get(&text.trim().to_lowercase()) {
+                    argument.text.clone_from(given);
+                }
+            }
+            // The reader knows better why, except of parameters and of lines that it does not name.
+            Err(reason) => {
+                let is_assigned =
+                    matches!(reason, Reason::Reference { why: Unresolved::Assigned { .. }, .. });
+                let is_named = matches!(
+                    &argument.value,
+                    Err(Reason::Reference {
+                        why: Unresolved::Assigned { by: AssignedBy::Line(_) },
+                        ..
+                    })
+                );
+                let is_better = is_parameter(&argument.value) || is_assigned && !is_named;
+                if argument.value.is_ok() || is_better {
+                    argument.value = Err(frame.named(reason));
+                }
+            }
+        }
+    }
+
+    /// Speed, zone and duration.
+    fn pace(&self, step: &mut Move, frame: &Frame) {
+        let has = |step: &Move, name: &str| {
+            step.options.iter().any(|option| option.name.eq_ignore_ascii_case(name))
+        };
+        if step.speed_data.is_err() && !has(step, "V") {
+            let known = self.record(&step.speed);
+            step.speed_data = known.map_err(|reason| frame.named(reason));
+        }
+        if step.zone_data.is_err() && !has(step, "Z") {
+            let known = self.record(&step.zone);
+            step.zone_data = known.map_err(|reason| frame.named(reason));
+        }
+        if !matches!(step.time, Some(Err(_))) {
+            return;
+        }
+        let option = step.options.iter().find(|option| option.name.eq_ignore_ascii_case("T"));
+        let Some(text) = option.and_then(|option| option.text.as_deref()) else { return };
+        let passed = text.strip_prefix('?').map(|name| name.trim().to_lowercase());
+        if passed.is_some_and(|name| frame.absent.contains(&name)) {
+            step.time = None;
+        } else {
+            let number: Result<f64, Reason> = self.number_of(text.trim_start_matches('?'));
+            step.time = Some(number);
+        }
+    }
+
+    /// The displacement of targets, or of external axes, by an instruction.
+    pub(super) fn displacement(
+        &self,
+        skipped: &Skipped,
+        name: &str,
+    ) -> Result<Displacement, Offsets> {
+        let is = |own: &str| name.eq_ignore_ascii_case(own);
+        if is("PDispOff") {
+            return Ok(Displacement::Nothing);
+        }
+        if is("EOffsOff") {
+            return Err(Ok([0.0; 6]));
+        }
+        let arguments = arguments(&skipped.text).ok();
+        if is("EOffsSet") || is("EOffsOn") {
+            let offsets = arguments.filter(|_| is("EOffsSet")).and_then(|arguments| {
+                match self.value(&skipped.text, arguments.required.first()?, DataType::ExtJoint) {
+                    Ok(Value::ExtJoint(offsets)) => Some(offsets),
+                    _ => None,
+                }
+            });
+            return Err(offsets.ok_or(skipped.line));
+        }
+        let pose = arguments.and_then(|arguments| {
+            if !is("PDispSet") {
+                return self.between(skipped, &arguments);
+            }
+            match self.value(&skipped.text, arguments.required.first()?, DataType::Pose) {
+                Ok(Value::Pose(pose)) => Some(pose),
+                _ => None,
+            }
+        });
+        let line = skipped.line;
+        Ok(pose.map_or(Displacement::Unknown(line), |pose| Displacement::Known(pose, line)))
+    }
+
+    /// The displacement of PDispOn from a programmed position to the one that is executed, which is
+    /// where the robot is unless `\ExeP` gives it.
+    fn between(&self, skipped: &Skipped, arguments: &Arguments<'_>) -> Option<RapidPose> {
+        let has =
+            |name: &str| arguments.optional.iter().find(|(own, _)| own.eq_ignore_ascii_case(name));
+        let pose =
+            |expression| match self.value(&skipped.text, expression, DataType::RobTarget).ok()? {
+                Value::RobTarget(target) => target_pose(&target).ok(),
+                _ => None,
+            };
+        let executed: Pose = pose(has("ExeP")?.1.as_ref()?)?;
+        let programmed: Pose = pose(arguments.required.first()?)?;
+        if has("Rot").is_some() {
+            return Some(rapid_pose(&(executed * programmed.inverse())));
+        }
+        let shift = executed.translation.vector - programmed.translation.vector;
+        let trans_mm = [shift.x, shift.y, shift.z].map(|m| m * 1e3);
+        Some(RapidPose { trans_mm, rot: [1.0, 0.0, 0.0, 0.0] })
+    }
+}
+
+impl State {
+    /// Displace the targets of a move.
+    pub(super) fn displace(&self, own: &mut Cow<'_, Move>) {
+        let is_joints = own.kind == MoveKind::MoveAbsJ;
+        let displaced = match self.displacement {
+            Displacement::Unknown(line) if !is_joints => Some(line),
+            _ => None,
+        };
+        if own.displaced != displaced {
+            own.to_mut().displaced = displaced;
+        }
+        if let (Displacement::Known(pose, _), false) = (self.displacement, is_joints) {
+            let step = own.to_mut();
+            let targets = [
+                match &mut step.target.value {
+                    Ok(Target::RobTarget(target)) => Some(target),
+                    _ => None,
+                },
+                step.via.as_mut().and_then(|via| via.value.as_mut().ok()),
+            ];
+            for target in targets.into_iter().flatten() {
+                if let Ok(displaced) = displaced_by(&pose, target) {
+                    *target = displaced;
+                }
+            }
+        }
+        if own.options.iter().any(|option| option.name.eq_ignore_ascii_case("NoEOffs")) {
+            return;
+        }
+        let has_external = |axis: &f64| axis.abs() < MOST_DEGREES;
+        match self.offsets {
+            Ok(offsets) if offsets.iter().all(|offset| offset.abs() <= 0.0) => {}
+            Ok(offsets) => {
+                if let Some(axes) = external_axes(own.to_mut()) {
+                    for (axis, offset) in axes.iter_mut().zip(offsets) {
+                        if has_external(axis) && has_external(&offset) {
+                            *axis += offset;
+                        }
+                    }
+                }
+            }
+            Err(line) => {
+                let step = own.to_mut();
+                if external_axes(step).is_some_and(|axes| axes.iter().any(has_external)) {
+                    step.displaced = Some(line);
+                }
+            }
+        }
+    }
+}
+
+/// The external axes of a move's target.
+fn external_axes(step: &mut Move) -> Option<&mut [f64; 6]> {
+    match step.target.value.as_mut().ok()? {
+        Target::RobTarget(target) => Some(&mut target.extax),
+        Target::JointTarget(target) => Some(&mut target.extax),
+    }
+}
+
+/// A target that a pose displaces.
+fn displaced_by(pose: &RapidPose, target: &RobTarget) -> Result<RobTarget, Error> {
+    let RapidPose { trans_mm, rot } =
+        rapid_pose(&(pose_in(pose, "displacement")? * target_pose(target)?));
+    Ok(RobTarget { trans_mm, rot, ..*target })
+}
+
+/// Whether a value is unknown because it is a parameter, or refers to one.
+fn is_parameter<T>(value: &Result<T, Reason>) -> bool {
+    matches!(
+        value,
+        Err(Reason::Reference { why: Unresolved::Parameter { .. }, .. } | Reason::OptionalArgument)
+    )
+}

@@ -1,0 +1,294 @@
+//! Go through the routines of a program as they call each other: moves in runs, within which each
+//! certainly follows the one before it.
+
+use alloc::borrow::Cow;
+use alloc::boxed::Box;
+use alloc::collections::BTreeSet;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use super::effects::written_by;
+use super::frame::Frame;
+use super::loops::{asked_for, never_holds};
+use super::state::{Displacement, Here, State};
+use super::tree::{Block, Node};
+use super::walker::{Filled, Run, Step, Stepped, Uncertain, Walk, word_of};
+use super::whole::Program;
+use crate::rapid::data::finding::{Code, Finding};
+use crate::rapid::data::instructions::Effect;
+use crate::rapid::data::moves::{Move, MoveKind};
+use crate::rapid::data::settings::Setting;
+use crate::rapid::data::unread::{NotRead, Skipped};
+use irbkin::{Interrupt, Interrupted};
+
+/// The runs of a program: of its main routine, then of every routine that was not called; and what
+/// is never executed.
+///
+/// With `takes_last`, a PERS that the program assigns has the value that the text has.
+pub(in crate::rapid) fn runs<'m>(
+    program: &Program<'m>,
+    takes_last: bool,
+    interrupt: Interrupt<'_>,
+) -> Result<(Vec<Run<'m>>, Vec<Finding>), Interrupted> {
+    let mut walk = Walk::new(program, takes_last, interrupt);
+    let mains = (0..program.modules.len()).map(|module| (module, "main".to_string()));
+    let all = program.routines().into_iter();
+    for (module, routine) in mains.chain(all) {
+        let name = (module, routine);
+        if program.body(module, &name.1).is_some() && !walk.followed.contains(&name) {
+            walk.root(name);
+        }
+    }
+    walk.note_left();
+    if walk.is_ended { Err(Interrupted) } else { Ok((walk.runs, walk.notes)) }
+}
+
+/// The steps of a routine of the first module, in the order of execution, up to what ends it; and
+/// the first branch, loop or jump that decides on them.
+pub(in crate::rapid) fn steps<'m>(
+    program: &Program<'m>,
+    routine: &str,
+) -> (Vec<Step<'m>>, Option<Uncertain>) {
+    let mut walk = Walk::new(program, false, Interrupt::none());
+    walk.is_one = true;
+    walk.root((0, routine.to_lowercase()));
+    let steps = walk.runs.into_iter().flat_map(|run| run.steps);
+    (steps.collect(), walk.uncertain)
+}
+
+impl<'m> Walk<'_, 'm> {
+    /// Follow a routine that nothing is known to call.
+    fn root(&mut self, (module, routine): (usize, String)) {
+        self.state = State::new();
+        self.state.locals = self.program.locals_of(module, &routine, None);
+        self.frame = Frame::of(module, routine);
+        self.routine();
+        if self.frame.routine == "main" {
+            self.halt("the end of main");
+        }
+    }
+
+    /// Follow the routine of the frame, from its beginning to its end.
+    pub(super) fn routine(&mut self) {
+        let (module, program) = (self.frame.module, self.program);
+        let Some(body) = program.body(module, &self.frame.routine) else { return };
+        let is_first = self.followed.insert((module, self.frame.routine.clone()));
+        let entry = self.state.clone();
+        self.block(&body.main);
+        let mut ends = core::mem::take(&mut self.frame.exits);
+        ends.push(self.state.clone());
+        self.join(entry, ends, 0);
+        if !is_first || self.is_one {
+            return;
+        }
+        let end = self.state.clone();
+        for handler in &body.handlers {
+            self.state = State::new();
+            self.state.settings = end.settings;
+            self.state.locals = program.locals_of(module, &self.frame.routine, None);
+            self.block(handler);
+        }
+        self.frame.exits.clear();
+        self.state = end;
+    }
+
+    pub(super) fn block(&mut self, block: &Block<'m>) {
+        let mut is_dead = false;
+        for node in block {
+            self.spend(1);
+            if self.ends() {
+                return;
+            }
+            if self.state.here == Here::Left && !is_dead {
+                is_dead = self.note_dead(node);
+            }
+            match node {
+                Node::Move(index, step) => self.step(*index, step),
+                Node::Setting(setting) => self.set(setting),
+                Node::Other(skipped) => self.statement(skipped),
+                Node::Branches { head, parts, is_complete } => {
+                    if self.is_one && parts.iter().any(|part| self.acts(part)) {
+                        self.decides(head.line, word_of(head));
+                    }
+                    let entry = self.state.clone();
+                    let holds = self.holds(&head.text);
+                    let is_passed = !is_complete && holds != Some(true);
+                    let mut ends = Vec::from_iter(is_passed.then(|| entry.clone()));
+                    let mut parts = parts.iter();
+                    if holds == Some(false)
+                        && let Some(other) = parts.next()
+                    {
+                        self.left_out(other);
+                    } else if never_holds(&head.text)
+                        && let Some(never) = parts.next()
+                    {
+                        self.never_run(head, never);
+                    }
+                    for (index, part) in parts.enumerate() {
+                        if holds == Some(true) && index > 0 {
+                            self.left_out(part);
+                            continue;
+                        }
+                        self.state = entry.clone();
+                        self.block(part);
+                        ends.push(self.state.clone());
+                    }
+                    self.join(entry, ends, head.line);
+                }
+                Node::Loop { head, body } if never_holds(&head.text) => self.never_run(head, body),
+                Node::Loop { head, body } => self.repeat(head, body),
+            }
+        }
+    }
+
+    /// Whether a condition holds in the call that is followed, if it asks for an argument alone.
+    fn holds(&self, head: &str) -> Option<bool> {
+        let (name, is_wanted) = asked_for(head)?;
+        let is_there = self.frame.present.contains(&name);
+        (is_there || self.frame.absent.contains(&name)).then_some(is_there == is_wanted)
+    }
+
+    /// A block that the call that is followed does not execute.
+    fn left_out(&mut self, block: &Block<'m>) {
+        for node in block {
+            match node {
+                Node::Move(index, step) => {
+                    self.left.insert((self.frame.module, *index), *step);
+                }
+                Node::Branches { parts, .. } => parts.iter().for_each(|part| self.left_out(part)),
+                Node::Loop { body, .. } => self.left_out(body),
+                _ => {}
+            }
+        }
+    }
+
+    /// Report the moves that no call executes.
+    fn note_left(&mut self) {
+        let made = self.runs.iter().flat_map(|run| &run.steps).filter_map(|step| match step {
+            Step::Move(own) => Some(own.instruction),
+            Step::NotFollowed { .. } => None,
+        });
+        let made: BTreeSet<(usize, usize)> = made.collect();
+        for (place, step) in self.left.iter().filter(|(place, _)| !made.contains(place)) {
+            let words = "is never executed: no call has the arguments that it asks for";
+            let finding = Finding::new(Code::NeverRun, words).at(step, 0);
+            self.notes.push(finding.in_module(place.0));
+        }
+    }
+
+    /// A block that is never executed.
+    fn never_run(&mut self, head: &Skipped, block: &Block<'m>) {
+        if block.iter().any(|node| matches!(node, Node::Move(..) | Node::Loop { .. })) {
+            let finding = Finding::new(Code::NeverRun, "what follows is never executed");
+            self.notes.push(finding.in_module(self.frame.module).at_skipped(head, 0));
+        }
+    }
+
+    /// Report a move behind a statement that leaves the routine; true if it is one.
+    fn note_dead(&mut self, node: &Node<'m>) -> bool {
+        let Node::Move(_, step) = node else { return false };
+        let finding = Finding::new(Code::NeverRun, "is never executed: the routine is left before");
+        self.notes.push(finding.at(step, 0).in_module(self.frame.module));
+        true
+    }
+
+    fn set(&mut self, setting: &Setting) {
+        let mut words = setting.text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        let name = words.next().unwrap_or_default();
+        self.state.settings.set(name, words.find(|word| !word.is_empty()));
+    }
+
+    /// A move, with the values that it has here.
+    fn step(&mut self, index: usize, written: &'m Move) {
+        // The robot stays.
+        if written.kind == MoveKind::MoveExtJ {
+            return;
+        }
+        let scope = self.scope();
+        let mut own = Cow::Borrowed(written);
+        let is_passed_on = scope.fill(&mut own, &self.frame);
+        let takes_last = scope.has_taken.get();
+        if own.settings != self.state.settings {
+            own.to_mut().settings = self.state.settings;
+        }
+        self.state.displace(&mut own);
+        let (mut module, mut chain) = (self.frame.module, 0);
+        if is_passed_on && let Some(site) = self.frame.site.clone() {
+            (module, chain) = (site.module, self.frame.chain);
+            self.frame.place(&site, own.to_mut());
+        }
+        let instruction = (self.frame.module, index);
+        let displaced_on = match self.state.displacement {
+            Displacement::Known(_, line) if own.kind != MoveKind::MoveAbsJ => Some(line),
+            _ => None,
+        };
+        let halt = None;
+        let step = match own {
+            Cow::Borrowed(step) => Filled::Same(step),
+            Cow::Owned(step) => Filled::Other(Box::new(step)),
+        };
+        self.spend_move(&step);
+        let stepped = Stepped { module, instruction, step, chain, takes_last, halt, displaced_on };
+        self.push(Step::Move(Box::new(stepped)));
+        if let Some(name) = written_by(written) {
+            self.put(&name, None);
+        }
+    }
+
+    fn is_procedure(&self, name: &str) -> bool {
+        self.program.procedure(self.frame.module, &name.to_lowercase()).is_some()
+    }
+
+    /// Something that is no move and no branch.
+    fn statement(&mut self, skipped: &'m Skipped) {
+        match &skipped.what {
+            NotRead::Motion { name } if self.is_procedure(name) => self.call(skipped),
+            NotRead::Motion { .. } | NotRead::Unfinished { .. } | NotRead::Invalid { .. } => {
+                self.not_followed(skipped, skipped.what.to_string());
+            }
+            NotRead::Label { .. } => {
+                let body = self.program.body(self.frame.module, &self.frame.routine);
+                if let Some(body) = body {
+                    self.forget(&body.main);
+                }
+                self.state.here = Here::Unknown;
+            }
+            NotRead::Assignment { .. } => self.assign(skipped),
+            NotRead::Instruction { name } => self.instruction(skipped, name),
+            _ => {}
+        }
+    }
+
+    fn instruction(&mut self, skipped: &'m Skipped, name: &str) {
+        let is_of = |effect: Effect| effect.is_of(name);
+        if name.eq_ignore_ascii_case("RETURN") {
+            self.frame.exits.push(self.state.clone());
+            self.state.here = Here::Left;
+        } else if is_of(Effect::Leaves) || is_of(Effect::Jumps) {
+            if is_of(Effect::Jumps) {
+                self.decides(skipped.line, "GOTO");
+            }
+            self.state.here = Here::Left;
+        } else if is_of(Effect::Displaces)
+            || is_of(Effect::EndsDisplacement)
+            || is_of(Effect::Offsets)
+        {
+            let scope = self.scope();
+            let displacement = scope.displacement(skipped, name);
+            match displacement {
+                Ok(displacement) => self.state.displacement = displacement,
+                Err(offsets) => self.state.offsets = offsets,
+            }
+        } else if is_of(Effect::Sets) {
+            self.not_followed(skipped, skipped.what.to_string());
+        } else if self.is_one && is_of(Effect::Stops) {
+            self.state.here = Here::Left;
+        } else if is_of(Effect::Waits) || is_of(Effect::Stops) {
+            self.halt(&format!("{name} on line {}", skipped.line));
+        } else {
+            self.written(skipped, name);
+            self.call(skipped);
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! The state of going through a program, and the steps that it finds.
+
+use alloc::boxed::Box;
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::cell::Cell;
+use core::ops::Deref;
+
+use nalgebra::Vector3;
+
+use super::frame::Frame;
+use super::state::{Here, State};
+use super::tree::{Block, Node, size};
+use super::values::Scope;
+use super::whole::Program;
+use crate::rapid::data::finding::Finding;
+use crate::rapid::data::instructions::Effect;
+use crate::rapid::data::moves::{Move, MoveKind, Target};
+use crate::rapid::data::unread::{NotRead, Skipped};
+use irbkin::Interrupt;
+
+/// Statements, moves, and the way of the tool [mm] that are followed for each hundred bytes of the
+/// program, and beyond these so many more statements, moves and a hundred times the way: a routine
+/// is followed again for each of its callers. What takes as long as a statement counts as one.
+/// Witness: a production cell of 257,241 bytes needs 737, 39 and 4,542.
+const STEPS: usize = 800;
+const MOVES: usize = 40;
+const WAY: usize = 5_000;
+const SPARE: usize = 10_000;
+
+/// A step of a program.
+pub(in crate::rapid) enum Step<'m> {
+    /// A move.
+    Move(Box<Stepped<'m>>),
+    /// Something that may move the robot and is not followed, with the reason.
+    NotFollowed { module: usize, skipped: &'m Skipped, words: String },
+}
+
+/// A move with the values that it has here.
+pub(in crate::rapid) struct Stepped<'m> {
+    /// The module of its place, which is the call of the routine that it belongs to where it moves
+    /// to what that call passes on.
+    pub(in crate::rapid) module: usize,
+    /// The module and the index of the instruction.
+    pub(in crate::rapid) instruction: (usize, usize),
+    pub(in crate::rapid) step: Filled<'m>,
+    /// The chain of calls to it where its place is a call, whose moves it tells apart; else 0.
+    pub(in crate::rapid) chain: usize,
+    /// Whether a value is the last one that a PERS had.
+    pub(in crate::rapid) takes_last: bool,
+    /// The statement behind it at which the program may wait, in words.
+    pub(in crate::rapid) halt: Option<String>,
+    /// The line of what displaces its target by a known pose.
+    pub(in crate::rapid) displaced_on: Option<usize>,
+}
+
+/// A move of a module, or one with other values.
+pub(in crate::rapid) enum Filled<'m> {
+    Same(&'m Move),
+    Other(Box<Move>),
+}
+
+impl Deref for Filled<'_> {
+    type Target = Move;
+
+    fn deref(&self) -> &Move {
+        match self {
+            Self::Same(step) => step,
+            Self::Other(step) => step,
+        }
+    }
+}
+
+/// Steps that follow one another.
+#[derive(Default)]
+pub(in crate::rapid) struct Run<'m> {
+    /// Where the robot is before it: after so many moves of an earlier run.
+    pub(in crate::rapid) from: Option<(usize, usize)>,
+    pub(in crate::rapid) steps: Vec<Step<'m>>,
+}
+
+/// A branch, a loop or a jump that decides on moves: its line and its word.
+pub(in crate::rapid) type Uncertain = (usize, String);
+
+pub(super) struct Walk<'p, 'm> {
+    pub(super) program: &'p Program<'m>,
+    /// Whether a single routine is followed, whose steps must be certain.
+    pub(super) is_one: bool,
+    /// The first place that decides on steps.
+    pub(super) uncertain: Option<Uncertain>,
+    pub(super) takes_last: bool,
+    pub(super) runs: Vec<Run<'m>>,
+    pub(super) notes: Vec<Finding>,
+    /// Moves, by module and index, that some call does not execute.
+    pub(super) left: BTreeMap<(usize, usize), &'m Move>,
+    pub(super) state: State,
+    pub(super) frame: Frame,
+    /// The routines that were followed, by module and name in lower case.
+    pub(super) followed: BTreeSet<(usize, String)>,
+    /// Chains of calls: the number of each by that of the chain before its last call, with the
+    /// module and the first byte of that call.
+    pub(super) chains: BTreeMap<(usize, usize, usize), usize>,
+    /// The routines that are being followed and called the one of the frame.
+    pub(super) above: Vec<(usize, String)>,
+    /// Statements, moves among them, and their way that may still be followed in calls and loops.
+    pub(super) steps_left: usize,
+    pub(super) moves_left: usize,
+    way_left: usize,
+    /// The target of the last move [mm], if it is known.
+    last_place: Option<[f64; 3]>,
+    interrupt: Interrupt<'p>,
+    /// Whether the caller has ended the walk, which asks at some of its statements.
+    pub(super) is_ended: bool,
+    statements: usize,
+}
+
+impl<'p, 'm> Walk<'p, 'm> {
+    pub(super) fn new(
+        program: &'p Program<'m>,
+        takes_last: bool,
+        interrupt: Interrupt<'p>,
+    ) -> Self {
+        let bytes: usize = program.modules.iter().map(|it| it.text_length).sum();
+        Self {
+            program,
+            is_one: false,
+            uncertain: None,
+            takes_last,
+            runs: Vec::new(),
+            notes: Vec::new(),
+            left: BTreeMap::new(),
+            state: State::new(),
+            frame: Frame::default(),
+            followed: BTreeSet::new(),
+            chains: BTreeMap::new(),
+            above: Vec::new(),
+            steps_left: STEPS * bytes / 100 + SPARE,
+            moves_left: MOVES * bytes / 100 + SPARE,
+            way_left: WAY * bytes / 100 + 100 * SPARE,
+            last_place: None,
+            interrupt,
+            is_ended: false,
+            statements: 0,
+        }
+    }
+
+    /// Take a move, with the samples on its way, from what is left.
+    pub(super) fn spend_move(&mut self, step: &Move) {
+        self.moves_left = self.moves_left.saturating_sub(1);
+        let place = match &step.target.value {
+            Ok(Target::RobTarget(target)) => Some(target.trans_mm),
+            _ => None,
+        };
+        let from = core::mem::replace(&mut self.last_place, place);
+        if let (Some(from), Some(to)) = (from, place)
+            && matches!(step.kind, MoveKind::MoveL | MoveKind::MoveC)
+        {
+            let way = (Vector3::from(to) - Vector3::from(from)).norm();
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
+            let way = way as usize;
+            self.way_left = self.way_left.saturating_sub(way);
+        }
+    }
+
+    /// Take what takes as long as so many statements from what is left.
+    pub(super) fn spend(&mut self, statements: usize) {
+        let gone_through = self.program.effects.gone_through.take();
+        self.steps_left = self.steps_left.saturating_sub(statements + gone_through);
+    }
+
+    /// Whether nothing is left for calls and loops.
+    pub(super) fn is_spent(&self) -> bool {
+        self.steps_left == 0 || self.moves_left == 0 || self.way_left == 0
+    }
+
+    /// Whether the caller ends the walk; asked at each statement.
+    pub(super) fn ends(&mut self) -> bool {
+        self.statements += 1;
+        self.is_ended |= self.interrupt.ends(self.statements);
+        self.is_ended
+    }
+
+    /// The knowledge behind parts that begin with `entry` and end with `ends`.
+    pub(super) fn join(&mut self, entry: State, ends: Vec<State>, line: usize) {
+        self.spend(ends.iter().map(|end| end.copied(&entry)).sum());
+        self.state = State::joined(entry, ends, line);
+    }
+
+    /// Record a place that decides on steps.
+    pub(super) fn decides(&mut self, line: usize, word: &str) {
+        self.uncertain.get_or_insert_with(|| (line, word.to_string()));
+    }
+
+    /// Forget the data that a block assigns.
+    pub(super) fn forget(&mut self, block: &Block<'m>) {
+        self.spend(size(block));
+        if self.steps_left == 0 {
+            self.state.forget_globals(None);
+            return self.state.forget_locals(|_, _| true);
+        }
+        let place = (self.frame.module, self.frame.routine.as_str());
+        let (globals, locals) = self.program.effects.of_block(self.program, place, block);
+        self.state.forget_globals(globals.as_ref());
+        self.state.forget_locals(|name, _| locals.contains(name));
+    }
+
+    /// The names and values that are known here.
+    pub(super) fn scope(&self) -> Scope<'_, 'm> {
+        Scope {
+            program: self.program,
+            module: self.frame.module,
+            state: &self.state,
+            takes_last: self.takes_last,
+            has_taken: Cell::new(false),
+        }
+    }
+
+    pub(super) fn push(&mut self, step: Step<'m>) {
+        if self.is_one && self.state.here == Here::Left {
+            return;
+        }
+        let last = self.runs.len().wrapping_sub(1);
+        if let (Here::After(run, count), Some(own)) = (self.state.here, self.runs.last_mut())
+            && run == last
+            && own.steps.len() == count
+        {
+            own.steps.push(step);
+            self.state.here = Here::After(run, count + 1);
+            return;
+        }
+        let from = match self.state.here {
+            Here::After(run, count) => Some((run, self.moves(run, count))),
+            Here::Unknown | Here::Left => None,
+        };
+        self.state.here = Here::After(self.runs.len(), 1);
+        self.runs.push(Run { from, steps: Vec::from([step]) });
+    }
+
+    /// The number of moves among the first steps of a run.
+    fn moves(&self, run: usize, count: usize) -> usize {
+        let steps = self.runs.get(run).map_or(&[][..], |run| &run.steps[..count]);
+        steps.iter().filter(|step| matches!(step, Step::Move(_))).count()
+    }
+
+    /// The program may wait here.
+    pub(super) fn halt(&mut self, what: &str) {
+        let Here::After(run, count) = self.state.here else { return };
+        let steps = self.runs.get_mut(run).map(|run| &mut run.steps);
+        if let Some(Step::Move(last)) = steps.and_then(|steps| steps.get_mut(count - 1)) {
+            last.halt.get_or_insert_with(|| what.to_string());
+        }
+    }
+
+    /// Something that may move the robot and is not followed.
+    pub(super) fn not_followed(&mut self, skipped: &'m Skipped, words: String) {
+        let module = self.frame.module;
+        self.push(Step::NotFollowed { module, skipped, words });
+    }
+
+    /// Whether a block moves the robot, sets how it moves, or leaves the routine.
+    pub(super) fn acts(&self, block: &Block<'m>) -> bool {
+        block.iter().any(|node| match node {
+            Node::Move(_, step) => step.kind != MoveKind::MoveExtJ,
+            Node::Setting(_) => true,
+            Node::Branches { parts, .. } => parts.iter().any(|part| self.acts(part)),
+            Node::Loop { body, .. } => self.acts(body),
+            Node::Other(skipped) => match &skipped.what {
+                NotRead::Motion { .. } | NotRead::Unfinished { .. } | NotRead::Invalid { .. } => {
+                    true
+                }
+                NotRead::Instruction { name } => {
+                    let lower = name.to_lowercase();
+                    let home = self.program.procedure(self.frame.module, &lower);
+                    let of = home.and_then(|it| self.program.effects.of_routine(it, &lower));
+                    Effect::Leaves.is_of(name) || of.is_some_and(|of| of.moves)
+                }
+                _ => false,
+            },
+        })
+    }
+}
+
+/// The first word of a branch or a loop, in capitals.
+pub(super) fn word_of(head: &Skipped) -> &str {
+    match &head.what {
+        NotRead::Flow { word } => word,
+        _ => "",
+    }
+}

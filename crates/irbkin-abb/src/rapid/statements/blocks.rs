@@ -1,0 +1,205 @@
+//! Control flow: blocks are recognized, conditions are not evaluated.
+
+use alloc::vec::Vec;
+
+use super::declarations::read_name;
+use crate::rapid::data::fit::Fit;
+use crate::rapid::expression::whole::{DEEPEST_NESTING, WholeReader};
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
+use crate::rapid::text::tokens::{Token, TokenKind, Tokens};
+use crate::rapid::text::words::is_reserved;
+
+/// Words that begin a block, with those that end it.
+const BLOCKS: [(&str, &str); 4] =
+    [("IF", "ENDIF"), ("FOR", "ENDFOR"), ("WHILE", "ENDWHILE"), ("TEST", "ENDTEST")];
+
+/// Words that divide a block or a routine.
+const PARTS: [&str; 7] = ["ELSEIF", "ELSE", "CASE", "DEFAULT", "ERROR", "UNDO", "BACKWARD"];
+
+/// Reserved words with which an instruction begins.
+const INSTRUCTIONS: [&str; 11] = [
+    "IF", "FOR", "WHILE", "TEST", "RETURN", "EXIT", "GOTO", "RAISE", "RETRY", "TRYNEXT", "CONNECT",
+];
+
+/// Whether a word in capitals begins, divides or ends a block.
+pub(crate) fn is_flow(word: &str) -> bool {
+    BLOCKS.iter().any(|(begin, end)| *begin == word || *end == word) || PARTS.contains(&word)
+}
+
+/// The open blocks of a routine, and the loops of a module.
+pub(crate) struct Blocks<'a> {
+    /// Index into BLOCKS and, of a FOR, into the loops.
+    open: Vec<(usize, Option<usize>)>,
+    /// The variable of each loop, with the loop around it.
+    loops: Vec<(&'a str, Option<usize>)>,
+}
+
+impl<'a> Blocks<'a> {
+    pub(crate) fn new() -> Self {
+        Self { open: Vec::new(), loops: Vec::new() }
+    }
+
+    /// The words that began the innermost block and that end it.
+    pub(crate) fn innermost(&self) -> Option<(&'static str, &'static str)> {
+        self.open.last().map(|(block, _)| BLOCKS[*block])
+    }
+
+    /// The innermost loop that has a variable.
+    pub(crate) fn innermost_loop(&self) -> Option<usize> {
+        self.open.iter().rev().find_map(|(_, inside)| *inside)
+    }
+
+    /// Whether a name is the variable of a loop or of one around it.
+    pub(crate) fn is_variable(&self, mut inside: Option<usize>, name: &str) -> bool {
+        while let Some((variable, around)) = inside.and_then(|index| self.loops.get(index)) {
+            if variable.to_lowercase() == name {
+                return true;
+            }
+            inside = *around;
+        }
+        false
+    }
+
+    /// Read the line that begins with a word in capitals, which is already read.
+    pub(crate) fn read(
+        &mut self,
+        tokens: &mut Tokens<'a>,
+        word: &str,
+        token: Token,
+    ) -> Result<(), RapidFault> {
+        match word {
+            _ if BLOCKS.iter().any(|(_, end)| *end == word) => {
+                self.open.pop();
+                Ok(())
+            }
+            "IF" => {
+                condition(tokens)?;
+                // Without THEN it is one instruction, which follows.
+                if tokens.take_word("THEN")? {
+                    self.begin(tokens, 0, None, token)
+                } else {
+                    check_instruction(tokens)
+                }
+            }
+            "ELSEIF" => {
+                condition(tokens)?;
+                demand_word(tokens, "THEN")
+            }
+            "FOR" => {
+                let variable = read_name(tokens, "the variable of the loop")?;
+                demand_word(tokens, "FROM")?;
+                condition(tokens)?;
+                demand_word(tokens, "TO")?;
+                condition(tokens)?;
+                if tokens.take_word("STEP")? {
+                    condition(tokens)?;
+                }
+                demand_word(tokens, "DO")?;
+                self.loops.push((variable, self.innermost_loop()));
+                self.begin(tokens, 1, Some(self.loops.len() - 1), token)
+            }
+            "WHILE" => {
+                condition(tokens)?;
+                demand_word(tokens, "DO")?;
+                self.begin(tokens, 2, None, token)
+            }
+            "TEST" => {
+                condition(tokens)?;
+                if ["CASE", "DEFAULT", "ENDTEST"].iter().any(|word| tokens.at_word(word)) {
+                    self.begin(tokens, 3, None, token)
+                } else {
+                    Err(tokens.lacking("CASE"))
+                }
+            }
+            "CASE" | "DEFAULT" => {
+                if word == "CASE" {
+                    condition(tokens)?;
+                    while tokens.take_if(b',')? {
+                        condition(tokens)?;
+                    }
+                }
+                tokens.demand(b':', "a colon")
+            }
+            // A handler may name the errors that it handles.
+            "ERROR" if tokens.peek().is(b'(') => {
+                tokens.take()?;
+                WholeReader::of_condition(tokens).arguments(&mut Fit::of(None), None)?;
+                tokens.demand(b')', "a comma or )")
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn begin(
+        &mut self,
+        tokens: &Tokens<'_>,
+        block: usize,
+        inside: Option<usize>,
+        token: Token,
+    ) -> Result<(), RapidFault> {
+        if self.open.len() == DEEPEST_NESTING {
+            return Err(
+                tokens.fault(token.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING })
+            );
+        }
+        self.open.push((block, inside));
+        Ok(())
+    }
+
+    /// The number of open blocks.
+    pub(super) fn depth(&self) -> usize {
+        self.open.len()
+    }
+
+    /// Open the block that a word begins, in any case; false if none is opened.
+    pub(super) fn open(&mut self, word: &str) -> bool {
+        let block = BLOCKS.iter().position(|(begin, _)| begin.eq_ignore_ascii_case(word));
+        let block = block.filter(|_| self.open.len() < DEEPEST_NESTING);
+        self.open.extend(block.map(|block| (block, None)));
+        block.is_some()
+    }
+
+    /// Close the innermost block; its end.
+    pub(super) fn close_innermost(&mut self) -> Option<&'static str> {
+        self.open.pop().map(|(block, _)| BLOCKS[block].1)
+    }
+
+    /// Of a word that ends a block: the number of blocks around the one that it ends, if there is
+    /// one, and the word that is expected, if that is another one. `None` for other words.
+    pub(super) fn ended_by(&self, word: &str) -> Option<(Option<usize>, Option<&'static str>)> {
+        let block = BLOCKS.iter().position(|(_, end)| *end == word)?;
+        let outer = self.open.iter().rposition(|(open, _)| *open == block);
+        let wanted = match self.open.last() {
+            Some((open, _)) if *open == block => None,
+            Some((open, _)) => Some(BLOCKS[*open].1),
+            None => Some("a declaration or an instruction (no such block is open)"),
+        };
+        Some((outer, wanted))
+    }
+}
+
+/// Read what is between the words of a branch or a loop.
+fn condition(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
+    WholeReader::of_condition(tokens).expression()
+}
+
+pub(super) fn demand_word(tokens: &mut Tokens<'_>, word: &'static str) -> Result<(), RapidFault> {
+    if tokens.take_word(word)? { Ok(()) } else { Err(tokens.lacking(word)) }
+}
+
+/// Check that an instruction follows, not a declaration or an end.
+fn check_instruction(tokens: &mut Tokens<'_>) -> Result<(), RapidFault> {
+    let token = tokens.peek();
+    let word = tokens.text_of(token);
+    let may = match token.kind {
+        TokenKind::Name if word.eq_ignore_ascii_case("TASK") => false,
+        TokenKind::Name => {
+            !is_reserved(word)
+                || INSTRUCTIONS.iter().any(|instruction| instruction.eq_ignore_ascii_case(word))
+        }
+        TokenKind::Symbol(symbol) => symbol == b'%',
+        TokenKind::Placeholder => true,
+        _ => false,
+    };
+    if may { Ok(()) } else { Err(tokens.lacking("THEN or an instruction")) }
+}

@@ -1,0 +1,316 @@
+//! Methods of `irbkin.Robot` that take poses.
+
+use std::f64::consts::TAU;
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+
+use numpy::PyArray1;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyFloat, PyTuple};
+
+use super::arguments::{read_threads, thread_count};
+use super::arm::{Arm, on};
+use super::cell::PyCell;
+use super::errors::{exception, of_seed};
+use super::found::Found;
+use super::outputs::{Output, Pair, answer_row, pair};
+use super::records::{IkBatch, IkMargin, PoseCheck};
+use super::redundancy::{
+    locked, needed_q7, no_q7, no_q7_beside_given, one_angle, read_pair, read_poses_with_q7,
+};
+use super::robot::PyRobot;
+use super::signals::detached;
+use super::solutions::PySolutions;
+use super::targets::{Seeded, read_ik_pose, read_seeded, read_single_pose, read_weights};
+use irbkin::Robot;
+use irbkin::batch::Margins;
+use irbkin::internal::{check_most_near, check_near};
+
+#[pymethods]
+#[expect(non_snake_case, reason = "T is the name that users pass")]
+impl PyRobot {
+    /// Every joint vector that brings the tool to a pose.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///     q7: Angle of joint 7 [rad], of an arm of seven joints.
+    ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}: joints count
+    ///         from 1. `robot.ik(T, given={3: 0.2})` is `robot.locked({3: 0.2}).ik(T)`.
+    ///
+    /// Returns:
+    ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
+    ///     when out of reach.
+    ///
+    /// Raises:
+    ///     InvalidPoseError: T has a wrong shape, is not finite or not a rigid transform.
+    ///     InvalidJointsError: q7 is not finite, or the joint does not exist.
+    ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
+    ///     TypeError, ValueError: q7 is missing, or the arm has six joints and it is not; given
+    ///         does not map one joint, or stands beside q7.
+    #[pyo3(signature = (T, q7=None, *, given=None))]
+    fn ik<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        q7: Option<&Bound<'py, PyAny>>,
+        given: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PySolutions>> {
+        if let Some(given) = given {
+            no_q7_beside_given(q7)?;
+            return match read_pair(self.arm(), given)? {
+                // An arm of seven joints has joint 7 locked for each pose.
+                (7, q7) => self.ik(T, Some(&q7), None),
+                (joint, angle) => Self::from(locked(self, joint, &angle)?).ik(T, None, None),
+            };
+        }
+        let py = T.py();
+        match self.arm() {
+            Arm::Six(robot) => {
+                no_q7(q7.is_some())?;
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
+                robot.ik_into(&mut found.solutions, f64::NAN).map_err(exception)?;
+                Bound::new(py, PySolutions::from(found))
+            }
+            Arm::Seven(robot) => {
+                let angle = match (robot.locked_joint(), q7) {
+                    (Some((_, angle)), None) => angle,
+                    (Some(_), Some(_)) => return Self::from(self.unlocked()).ik(T, q7, None),
+                    (None, q7) => one_angle(needed_q7(robot, q7)?, "q7")?,
+                };
+                let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
+                robot.check_locked(angle).map_err(exception)?;
+                robot.ik_into(&mut found.solutions, angle).map_err(exception)?;
+                let q7 = q7.is_some().then_some(angle);
+                Bound::new(py, PySolutions::from(Found { q7, ..found }))
+            }
+        }
+    }
+
+    /// Every joint vector of many poses.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...):
+    ///         T and q7 are broadcast.
+    ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}. The angles of
+    ///         the first and the last joint may be an array that goes with (...).
+    ///     out: Where to write: an IkBatch or tuple of arrays (..., slots, n) float64 and (...,
+    ///         slots) uint8, or the first of them alone.
+    ///     threads: Number of threads; 0 for one a core.
+    ///
+    /// Returns:
+    ///     IkBatch(q, status): joint angles [rad], shape (..., slots, n), NaN where a slot is
+    ///     empty, and `irbkin.Status` of each slot, shape (..., slots), uint8. Slots are 8 or 16,
+    ///     as the structure has them. A row whose pose or q7 is invalid has status INVALID; it
+    ///     does not affect the others.
+    ///
+    /// Raises:
+    ///     InvalidPoseError: T has a wrong shape.
+    ///     InvalidJointsError: q7 has a wrong shape.
+    ///     InvalidModelError: The first six joints do not move the tool in six independent ways.
+    ///     TypeError: q7 is missing, or the arm has six joints and it is not.
+    #[pyo3(signature = (T, q7=None, *, given=None, out=None, threads=1))]
+    fn ik_batch<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        q7: Option<&Bound<'py, PyAny>>,
+        given: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
+    ) -> PyResult<IkBatch> {
+        let threads = thread_count(threads)?;
+        let Some(given) = given else { return solved(self.arm(), T, ("q7", q7), out, threads) };
+        no_q7_beside_given(q7)?;
+        match read_pair(self.arm(), given)? {
+            (7, angles) => solved(&self.unlocked(), T, ("q7", Some(&angles)), out, threads),
+            (1, angles) => {
+                let arm = locked(self, 1, &PyFloat::new(T.py(), 0.0))?;
+                solved(&arm, T, ("given", Some(&angles)), out, threads)
+            }
+            (joint, angles) => {
+                let arm = locked(self, joint, &angles)?;
+                solved(&arm, T, ("given", None), out, threads)
+            }
+        }
+    }
+
+    /// How much room the solutions of poses leave to limits and singularities: `ik_batch` and
+    /// `margin` in one call, which keeps the best of each pose.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     q7: Angle of joint 7 [rad], shape (...), of an arm of seven joints.
+    ///     threads: Number of threads; 0 for one a core.
+    ///     cell: Only solutions that do not collide in an `irbkin.Cell`.
+    ///
+    /// Returns:
+    ///     IkMargin: the largest margin of the solutions inside the limits, their largest distance
+    ///     from singularities, and their number, arrays of shape (...).
+    ///
+    /// Raises:
+    ///     InvalidPoseError: A wrong shape. An invalid pose has no solution.
+    ///     InvalidModelError: The first six joints do not move the tool in six independent ways;
+    ///         with `cell`, the robot has no body.
+    ///     TypeError: `q7` of an arm of six joints, or none of one of seven.
+    #[pyo3(signature = (T, q7=None, *, threads=1, cell=None))]
+    fn ik_margin<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        q7: Option<&Bound<'py, PyAny>>,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
+        cell: Option<&Bound<'py, PyCell>>,
+    ) -> PyResult<IkMargin> {
+        let cell = cell.map(|cell| &*cell.get().0);
+        let (py, arm, threads) = (T.py(), self.arm(), thread_count(threads)?);
+        let (poses, angles) = read_poses_with_q7(arm, T, "q7", q7)?;
+        let mut margin = Output::new(py, None, &poses.lead, &[])?;
+        let mut singularities = Output::new(py, None, &poses.lead, &[])?;
+        let mut solutions = Output::new(py, None, &poses.lead, &[])?;
+        let (data, answers) = (
+            poses.data()?,
+            Margins {
+                margin: margin.slice()?,
+                singularities: singularities.slice()?,
+                solutions: solutions.slice()?,
+            },
+        );
+        detached(
+            py,
+            threads,
+            |batch| on!(arm, robot => batch.ik_margin(robot, data, &angles, cell, answers)),
+        )?;
+        let [margin, singularities] = [margin, singularities].map(Output::array);
+        Ok(IkMargin { margin, singularities, solutions: solutions.array() })
+    }
+
+    /// The solution inside the limits that is nearest to `seed`, turns considered; without a seed
+    /// nearest to the middle of the limits.
+    ///
+    /// Args:
+    ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
+    ///     seed: Joint vectors [rad], shape (..., n). T and seed are broadcast: one seed for many
+    ///         poses, one pose for many seeds. Of joints that the pose leaves free, the nearest
+    ///         angles are taken. When not given, the middle of the limits; 0 for a joint without
+    ///         a limit, or that turns by more than 720 deg.
+    ///     weights: Cost of moving each joint, shape (n,); ones when not given.
+    ///     out: Array to write to, shape (..., n), float64, C-contiguous; it is returned.
+    ///     threads: Number of threads; 0 for one a core.
+    ///     cell: Only solutions that do not collide in an `irbkin.Cell`; with seven joints, of
+    ///         those that the search passes.
+    ///
+    /// Returns:
+    ///     Joint vectors [rad], shape (..., n). In a batch, a row without a solution, or whose pose
+    ///     or seed is invalid, is NaN.
+    ///
+    /// Raises:
+    ///     UnreachableError: A single pose has no solution inside the limits, or all collide; the
+    ///         message says what is missing, or what collides.
+    ///     InvalidPoseError, InvalidJointsError, InvalidModelError: As `ik`; a seed or weight that
+    ///         is not finite; a seed, or most of many, more than four turns outside the limits; a
+    ///         single pose or seed for a whole batch that is invalid.
+    #[pyo3(signature = (T, seed=None, weights=None, *, out=None, threads=1, cell=None))]
+    fn ik_nearest<'py>(
+        &self,
+        T: &Bound<'py, PyAny>,
+        seed: Option<&Bound<'py, PyAny>>,
+        weights: Option<&Bound<'py, PyAny>>,
+        out: Option<&Bound<'py, PyAny>>,
+        #[pyo3(from_py_with = read_threads)] threads: isize,
+        cell: Option<&Bound<'py, PyCell>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (py, threads) = (T.py(), thread_count(threads)?);
+        let cell = cell.map(|cell| &cell.get().0);
+        let middle = |py| on!(self.arm(), robot => PyArray1::from_slice(py, &middle(robot)));
+        let seed = seed.map_or_else(|| middle(py).into_any(), Bound::clone);
+        on!(self.arm(), robot => match read_seeded(T, &seed)? {
+            Seeded::One(pose, seed) => {
+                let weights = read_weights(weights)?;
+                check_near("seed", &seed, robot.limits(), &weights).map_err(exception)?;
+                let nearest = match cell {
+                    None => robot.nearest_checked(pose, &seed, &weights),
+                    Some(cell) => cell.ik_nearest(robot, &pose, &seed, &weights),
+                };
+                answer_row(T, out, &nearest.map_err(|error| of_seed(error, &seed))?.q)
+            }
+            Seeded::Many(poses, seeds) => {
+                let (weights, shape) = (read_weights(weights)?, poses.shape_with(&[self.arm().dof()]));
+                check_most_near("seed", seeds.chunks()?, robot.limits(), &weights).map_err(exception)?;
+                let inputs = [poses.addresses(), seeds.addresses()];
+                let mut answer = Output::new(py, out, &shape, &inputs)?;
+                let (poses, seeds, q) = (poses.data()?, seeds.data()?, answer.slice()?);
+                detached(py, threads, |batch| match cell {
+                    None => batch.ik_nearest(robot, poses, seeds, &weights, q),
+                    Some(cell) => batch.ik_nearest_free(cell, robot, poses, seeds, &weights, q),
+                })?;
+                Ok(answer.bound())
+            }
+        })
+    }
+
+    /// Whether a pose can be reached, inside the limits or not, and why not; with seven joints,
+    /// with any angle of joint 7 inside its limits.
+    ///
+    /// Args:
+    ///     T: Pose of the tool, shape (4, 4), translation [m].
+    ///
+    /// Returns:
+    ///     PoseCheck(reachable, within_limits, reason).
+    ///
+    /// Raises:
+    ///     InvalidPoseError, InvalidModelError: As `ik`.
+    fn check_pose(&self, T: &Bound<'_, PyAny>) -> PyResult<PoseCheck> {
+        let pose = read_single_pose(T, "check_pose")?;
+        let explanation = on!(self.arm(), robot => robot.explain(&pose)).map_err(exception)?;
+        Ok(PoseCheck::from(&explanation))
+    }
+}
+
+/// The seed that is taken without one [rad].
+fn middle<const N: usize>(robot: &Robot<N>) -> [f64; N] {
+    robot.free_ranges().map(|[lower, upper]| {
+        // Of a joint that turns more often than that, the zero is where a user expects it.
+        if upper - lower <= 2.0 * TAU { 0.5 * (lower + upper) } else { 0.0 }
+    })
+}
+
+/// `irbkin.IkBatch` of poses, shape (..., 4, 4), and of the angles of a joint of seven for each,
+/// with the name of the argument.
+fn solved<'py>(
+    arm: &Arm,
+    poses: &Bound<'py, PyAny>,
+    (field, angles): (&'static str, Option<&Bound<'py, PyAny>>),
+    out: Option<&Bound<'py, PyAny>>,
+    threads: Option<NonZeroUsize>,
+) -> PyResult<IkBatch> {
+    let py = poses.py();
+    let (poses, angles) = read_poses_with_q7(arm, poses, field, angles)?;
+    let (q_out, status_out) = outputs(out)?;
+    let slots = on!(arm, robot => robot.slot_count());
+    let q_shape = poses.shape_with(&[slots, arm.dof()]);
+    let mut q = Output::new(py, q_out.as_ref(), &q_shape, &[poses.addresses()])?;
+    let inputs = [poses.addresses(), q.addresses()];
+    let mut status = Output::new(py, status_out.as_ref(), &poses.shape_with(&[slots]), &inputs)?;
+    let (data, to_q, to_status) = (poses.data()?, q.slice()?, status.slice()?);
+    detached(
+        py,
+        threads,
+        |batch| on!(arm, robot => batch.ik_with(robot, data, &angles, to_q, to_status)),
+    )?;
+    Ok(IkBatch { q: q.array(), status: status.array() })
+}
+
+/// The arrays of an `IkBatch` or of a tuple, or the first of them alone.
+fn outputs<'py>(out: Option<&Bound<'py, PyAny>>) -> PyResult<Pair<'py>> {
+    let Some(out) = out else { return Ok((None, None)) };
+    if let Ok(record) = out.cast::<IkBatch>() {
+        let IkBatch { q, status } = record.get();
+        return Ok((Some(q.bind(out.py()).clone()), Some(status.bind(out.py()).clone())));
+    }
+    match out.cast::<PyTuple>() {
+        Ok(arrays) => pair(out)?.ok_or_else(|| {
+            let message = format!("out must be (q, status), got a tuple of {}", arrays.len());
+            PyTypeError::new_err(message)
+        }),
+        Err(_) => Ok((Some(out.clone()), None)),
+    }
+}

@@ -1,0 +1,282 @@
+//! `irbkin.rapid.check`: the moves of a module, checked.
+
+use std::collections::BTreeMap;
+
+use pyo3::prelude::*;
+use pyo3::pybacked::PyBackedStr;
+use pyo3::types::PyTuple;
+
+use super::checked::{Checked, CheckedMove, Finding};
+use super::module::{RapidModule, close_names};
+use crate::arm::on;
+use crate::bodies::Shapes;
+use crate::cell::PyCell;
+use crate::errors::{Fault, exception};
+use crate::robot::PyRobot;
+use crate::signals::detached_until;
+use crate::targets::read_pose;
+use crate::trajectories::read_limits;
+use irbkin::Robot;
+use irbkin_abb::rapid;
+use irbkin_abb::rapid::{
+    Carried, CheckOptions, Code, Module, MotionOptions, Unit, UnitAxis, Units,
+};
+
+/// Check every move of a module, of all routines.
+///
+/// Routines are followed from `main` through calls, with their arguments; those that nothing calls,
+/// by themselves. A branch is checked from where the robot is before it, a loop in each pass if its
+/// bounds are known and else in the first. Behind a branch that moves, behind a label and in a
+/// handler, the next move is checked as a target only.
+///
+/// Args:
+///     robot: The arm. Work objects are given in the world, in which the robot's base is.
+///     module: Module; calls of routines of its context are followed, too.
+///     codes: The codes that are wanted, such as "C201"; without it all but U807: unused names.
+///     max_velocity: Limits [rad/s], a number or one an axis; without it the robot's own. Without
+///         either no joint is found to be too fast.
+///     step: Largest distance of the tool between two samples of a MoveL or MoveC [m].
+///     turn: Largest turn of the tool between two samples [rad]; 5 deg without it.
+///     cell: An `irbkin.Cell` in which each move is proven to touch nothing; without it collisions
+///         are not looked for.
+///
+/// Returns:
+///     A tuple of `Finding`, in the order of the text.
+///
+/// Raises:
+///     RapidError: A code that does not exist.
+///     InvalidMotionError: A limit or a step that is not positive and finite, or more than ten
+///         million samples.
+///     InvalidModelError: The arm has no confdata: no spherical wrist, and it is not a GoFa
+///         or YuMi of the catalog.
+#[pyfunction]
+#[pyo3(signature = (robot, module, *, codes=None, max_velocity=None, step=0.005, turn=None, cell=None))]
+pub(crate) fn check<'py>(
+    robot: &Bound<'py, PyRobot>,
+    module: &Bound<'py, RapidModule>,
+    codes: Option<&Bound<'py, PyAny>>,
+    max_velocity: Option<&Bound<'py, PyAny>>,
+    step: f64,
+    turn: Option<f64>,
+    cell: Option<&Bound<'py, PyCell>>,
+) -> PyResult<Bound<'py, PyTuple>> {
+    let py = robot.py();
+    let context = module.get().context.iter().map(|other| other.bind(py).clone());
+    let modules: Vec<_> = core::iter::once(module.clone()).chain(context).collect();
+    let options = (max_velocity, step, turn);
+    let codes = codes.map(read_codes).transpose()?;
+    let (mut findings, _) = checked(robot, &modules, options, cell, &Extent::default())?;
+    add_unused(&mut findings, &modules, codes.as_deref());
+    let own = findings.into_iter().filter(|finding| finding.module == 0);
+    records(py, own, &modules, codes.as_deref())
+}
+
+/// Check every move of a program: modules that know each other.
+///
+/// Args:
+///     robot: The arm. Work objects are given in the world, in which the robot's base is.
+///     modules: Module of the task; each is parsed with the others as its context.
+///     codes: As of `check`.
+///     max_velocity: As of `check`.
+///     step: As of `check`.
+///     turn: As of `check`.
+///     cell: As of `check`.
+///     units: The mechanical units of the controller: tuples of a name, whether it carries the
+///         robot, whether its axes are determined, and its axes: tuples of the external axis from
+///         0, the frame of shape (4, 4) [m], and whether it turns about its z axis or else moves
+///         along its x axis. An external axis of no unit, which is not at zero, is not checked.
+///     last_values: Whether a PERS that the program assigns has the value of its declaration.
+///     carried: Shapes in the flange frame, by the name of the tool or work object they move with.
+///     whole: Whether every module of the task is given: a call of what none declares is an error
+///         then, and a note if some are missing. None if it is not known.
+///     of_system: Indices of modules of the system that do not say so by their attributes: a call
+///         of what none declares is a note there.
+///
+/// Returns:
+///     `Checked`.
+///
+/// Raises:
+///     RapidError: A code that does not exist.
+///     InvalidMotionError: As of `check`.
+///     InvalidModelError: As of `check`.
+#[pyfunction]
+#[pyo3(signature = (robot, modules, *, codes=None, max_velocity=None, step=0.005, turn=None,
+    cell=None, units=None, last_values=false, whole=None, of_system=None,
+    carried=None))]
+#[expect(clippy::too_many_arguments, reason = "keywords of one call")]
+#[expect(clippy::needless_pass_by_value, reason = "a sequence is extracted by value")]
+pub(crate) fn check_program<'py>(
+    robot: &Bound<'py, PyRobot>,
+    modules: Vec<Bound<'py, RapidModule>>,
+    codes: Option<&Bound<'py, PyAny>>,
+    max_velocity: Option<&Bound<'py, PyAny>>,
+    step: f64,
+    turn: Option<f64>,
+    cell: Option<&Bound<'py, PyCell>>,
+    units: Option<Vec<GivenUnit<'py>>>,
+    last_values: bool,
+    whole: Option<bool>,
+    of_system: Option<Vec<usize>>,
+    carried: Option<BTreeMap<String, Shapes<'py>>>,
+) -> PyResult<Checked> {
+    let py = robot.py();
+    let units = units.unwrap_or_default().into_iter().map(read_unit);
+    let units = Units(units.collect::<PyResult<Vec<_>>>()?);
+    let options = (max_velocity, step, turn);
+    let carried = carried.into_iter().flatten();
+    let carried = carried.map(|(name, shapes)| (name.to_lowercase(), shapes.read())).collect();
+    let of_system = of_system.unwrap_or_default();
+    let extent = Extent { units, takes_last: last_values, is_whole: whole, of_system, carried };
+    let codes = codes.map(read_codes).transpose()?;
+    let (mut findings, moves) = checked(robot, &modules, options, cell, &extent)?;
+    add_unused(&mut findings, &modules, codes.as_deref());
+    Ok(Checked {
+        findings: records(py, findings.into_iter(), &modules, codes.as_deref())?.unbind(),
+        moves: PyTuple::new(py, moves)?.unbind(),
+    })
+}
+
+/// A unit as Python gives it.
+type GivenUnit<'py> = (String, bool, bool, Vec<(usize, Bound<'py, PyAny>, bool)>);
+
+fn read_unit((name, is_carrier, is_determined, axes): GivenUnit<'_>) -> PyResult<Unit> {
+    let axis = |(external, frame, is_rotation): (usize, Bound<'_, PyAny>, bool)| {
+        if external >= 6 {
+            return Err(Fault::Rapid.error(format_args!(
+                "units: {name} has the external axis {external}, there are 0 to 5"
+            )));
+        }
+        Ok(UnitAxis { external, frame: read_pose(&frame)?, is_rotation })
+    };
+    let axes = axes.into_iter().map(axis).collect::<PyResult<Vec<_>>>()?;
+    Ok(Unit { name: name.clone(), axes, is_carrier, is_determined })
+}
+
+/// The surroundings that a check takes into account.
+#[derive(Default)]
+struct Extent {
+    units: Units,
+    takes_last: bool,
+    is_whole: Option<bool>,
+    of_system: Vec<usize>,
+    carried: Carried,
+}
+
+/// Findings and moves of a check.
+fn checked(
+    robot: &Bound<'_, PyRobot>,
+    modules: &[Bound<'_, RapidModule>],
+    options: (Option<&Bound<'_, PyAny>>, f64, Option<f64>),
+    cell: Option<&Bound<'_, PyCell>>,
+    extent: &Extent,
+) -> PyResult<(Vec<rapid::Finding>, Vec<CheckedMove>)> {
+    let (py, arm) = (robot.py(), robot.get().arm());
+    on!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
+    on!(arm, arm => checked_arm(py, arm, modules, options, cell, extent))
+}
+
+fn checked_arm<const N: usize>(
+    py: Python<'_>,
+    arm: &Robot<N>,
+    modules: &[Bound<'_, RapidModule>],
+    (max_velocity, step, turn): (Option<&Bound<'_, PyAny>>, f64, Option<f64>),
+    cell: Option<&Bound<'_, PyCell>>,
+    extent: &Extent,
+) -> PyResult<(Vec<rapid::Finding>, Vec<CheckedMove>)> {
+    let max_velocity = read_limits(max_velocity, "max_velocity")?;
+    let turn = turn.unwrap_or(MotionOptions::<N>::default().turn);
+    let options = CheckOptions {
+        motion: MotionOptions { max_velocity, step, turn, ..MotionOptions::default() },
+        cell: cell.map(|cell| &*cell.get().0),
+        units: Some(&extent.units),
+        takes_last: extent.takes_last,
+        is_whole: extent.is_whole,
+        of_system: &extent.of_system,
+        carried: Some(&extent.carried),
+        ..CheckOptions::default()
+    };
+    let own: Vec<&RapidModule> = modules.iter().map(Bound::get).collect();
+    let texts: Vec<_> = own.iter().map(|it| (&it.module, it.source.as_str())).collect();
+    let rapid::Checked { findings, moves } = detached_until(py, |interrupt| {
+        rapid::check(arm, &texts, &CheckOptions { interrupt, ..options })
+    })?
+    .map_err(exception)?;
+    let moves = moves.into_iter().map(|step| CheckedMove::of(py, step));
+    Ok((findings, moves.collect()))
+}
+
+/// Add what nothing in the program names, if that is asked for.
+fn add_unused(
+    findings: &mut Vec<rapid::Finding>,
+    modules: &[Bound<'_, RapidModule>],
+    codes: Option<&[Code]>,
+) {
+    if codes.is_none_or(|codes| !codes.contains(&Code::Unused)) {
+        return;
+    }
+    let own = modules.iter().map(Bound::get);
+    let texts: Vec<_> = own.map(|it| (&it.module, it.source.as_str())).collect();
+    findings.extend(rapid::unused(&texts));
+    findings.sort_by_key(|it| (it.module, it.line, it.column));
+}
+
+/// Findings of the wanted codes.
+fn records<'py>(
+    py: Python<'py>,
+    found: impl Iterator<Item = rapid::Finding>,
+    modules: &[Bound<'py, RapidModule>],
+    codes: Option<&[Code]>,
+) -> PyResult<Bound<'py, PyTuple>> {
+    let modules: Vec<&Module> = modules.iter().map(|it| &it.get().module).collect();
+    let is_wanted = |code: Code| codes.is_none_or(|codes| codes.contains(&code));
+    let wanted = found.filter(|finding| is_wanted(finding.code));
+    let mut left = MOST_COMPARED;
+    let records = wanted.map(|finding| record(py, finding, &modules, &mut left));
+    PyTuple::new(py, records.collect::<PyResult<Vec<_>>>()?)
+}
+
+/// Pairs of letters of unknown and of known names that are compared [1]: 0.1 s. Of many unknown
+/// names the last have no suggestion.
+const MOST_COMPARED: usize = 40_000_000;
+
+/// Codes by their ids.
+fn read_codes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Code>> {
+    let mut codes = Vec::new();
+    for id in given.try_iter()? {
+        let id: PyBackedStr = id?.extract()?;
+        let found = Code::ALL.into_iter().find(|code| code.id() == &*id);
+        codes.push(found.ok_or_else(|| {
+            let ids = Code::ALL.map(Code::id).join(", ");
+            Fault::Rapid.error(format_args!("codes: {id:?} is no code; there are {ids}"))
+        })?);
+    }
+    Ok(codes)
+}
+
+/// A finding; its message names what an unknown name could mean.
+fn record(
+    py: Python<'_>,
+    mut finding: rapid::Finding,
+    modules: &[&Module],
+    left: &mut usize,
+) -> PyResult<Finding> {
+    py.check_signals()?;
+    if let Some(unknown) = finding.unknown.as_ref().filter(|_| *left > 0) {
+        let names = rapid::candidates(&finding, modules);
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let letters: usize = names.iter().map(|name| name.len()).sum();
+        *left = left.saturating_sub(letters.saturating_mul(unknown.len()));
+        let close = close_names(unknown, &names);
+        if !close.is_empty() {
+            finding.message = format!("{}; did you mean {}?", finding.message, close.join(", "));
+        }
+    }
+    Finding::of(py, &finding)
+}
+
+/// Every code of a check: code, name, severity, whether it is shown without a selection.
+#[pyfunction]
+pub(crate) fn check_codes() -> Vec<(&'static str, &'static str, &'static str, bool)> {
+    let row = |code: Code| (code.id(), code.name(), code.severity().id(), code.is_default());
+    Code::ALL.map(row).to_vec()
+}

@@ -1,8 +1,0 @@
-//! The text: lines and columns, tokens, literals, reserved words, and skipping over brackets.
-
-pub(crate) mod fault;
-pub(crate) mod literals;
-pub(crate) mod place;
-pub(crate) mod skipping;
-pub(crate) mod tokens;
-pub(crate) mod words;
