@@ -2313,7 +2313,7 @@ class WobjData(_RapidRecord):
     @staticmethod
     def of(T: npt.ArrayLike) -> WobjData:
         """Return the work object of a homogeneous matrix, its user frame in the world, shape (4,
-        4), translation [m], as `calibration.work_object` finds it.
+        4), translation [m].
         """
 
 @final

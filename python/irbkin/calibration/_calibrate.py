@@ -94,14 +94,14 @@ def calibrate(
     check_scipy("irbkin.calibrate")
     check_robot(robot)
     report = reporter(progress)
-    wanted = check_fit(robot, fit, position_std, rotation_std, loss)
+    wanted = _check_fit(robot, fit, position_std, rotation_std, loss)
     if folds < 0 or folds == 1:
         raise ValueError(f"folds is {folds}, it must be 0 for none, or 2 at least")
     has_table = bool(wanted & {"table", *_parameters.of_table(robot.dof)})
     measurements = _measurements.read(robot, q, measured)
     problem = _fit.Problem(robot, measurements, position_std, rotation_std, loss)
     tiers = _parameters.tiers(robot, wanted)
-    moved = everywhere(problem, np.zeros(len(_parameters.names(robot.dof))))
+    moved = _everywhere(problem, np.zeros(len(_parameters.names(robot.dof))))
     needed = len(_identify.chosen(moved, tiers, _identify.INDEPENDENT))
     _measurements.check_poses(measurements, "table" in wanted, needed)
 
@@ -123,7 +123,7 @@ def calibrate(
     return _calibration(problem, tiers, kept, start, corrections, held_out)
 
 
-def check_fit(
+def _check_fit(
     robot: Robot, fit: Collection[str], position_std: float, rotation_std: float, loss: str
 ) -> frozenset[str]:
     """The parts to fit, which the robot has."""
@@ -138,7 +138,7 @@ def check_fit(
     return wanted
 
 
-def everywhere(problem: _fit.Problem, corrections: Floats) -> Floats:
+def _everywhere(problem: _fit.Problem, corrections: Floats) -> Floats:
     """Weighted Jacobian at joint vectors all over the joint space."""
     limits = np.clip(problem.robot.limits, -np.pi, np.pi)
     q = np.random.default_rng(0).uniform(
@@ -234,12 +234,12 @@ def _calibration(
     errors = _fit.standard_errors(problem, kept, corrections)
     found = robot.with_corrections(corrections)
     after, distance, angle = _residuals(found, measurements)
-    jacobian, moved = problem.jacobian(corrections), everywhere(problem, corrections)
+    jacobian, moved = problem.jacobian(corrections), _everywhere(problem, corrections)
     return Calibration(
         robot=found,
         nominal=robot,
-        parameters=fitted(names, nominal, corrections, dict(zip(kept, errors, strict=True))),
-        left_out=left_out(jacobian, moved, tiers, kept, names),
+        parameters=_fitted(names, nominal, corrections, dict(zip(kept, errors, strict=True))),
+        left_out=_left_out(jacobian, moved, tiers, kept, names),
         residuals=CalibrationResiduals(
             _residuals(robot, measurements)[0],
             _residuals(robot.with_corrections(start), measurements)[0],
@@ -254,7 +254,7 @@ def _calibration(
     )
 
 
-def fitted(
+def _fitted(
     names: Sequence[str], nominal: Floats, corrections: Floats, errors: Mapping[int, float]
 ) -> tuple[CalibratedParameter, ...]:
     """The parameters that have standard errors."""
@@ -270,7 +270,7 @@ def fitted(
     )
 
 
-def left_out(
+def _left_out(
     jacobian: Floats,
     moved: Floats,
     tiers: Sequence[Sequence[int]],

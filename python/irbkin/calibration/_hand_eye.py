@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from irbkin._arguments import check_scipy
+from irbkin.calibration._calibrate import FAR_ANGLE, FAR_LENGTH, FAR_PART
 from irbkin.calibration._loss import check_weights, outlying
 from irbkin.calibration._measurements import read_poses
 from irbkin.calibration._start import nearest_rotation, turns
-from irbkin.calibration._touch import check_meters, check_near
 from irbkin.errors import CalibrationError
 
 if TYPE_CHECKING:
@@ -18,12 +18,13 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from irbkin._arguments import check_scipy
-from irbkin._arrays import Floats
+    from irbkin._arrays import Floats
 
 # Least singular value of the relative rotations, for each pose [1]: about the angle in rad by which
 # the hand turns about its second axis.
 LEAST_TURN = 0.05
+# Farthest that a position can be in meters [m].
+FARTHEST = 100.0
 # Fits with a robust loss, each with the scatter of the one before.
 ROUNDS = 3
 
@@ -142,8 +143,8 @@ def robot_world(
 def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floats]:
     check_scipy("hand-eye calibration")
     first, second = read_poses(a, "a"), read_poses(b, "b")
-    check_meters(first[:, :3, 3], "a")
-    check_meters(second[:, :3, 3], "b")
+    _check_meters(first[:, :3, 3], "a")
+    _check_meters(second[:, :3, 3], "b")
     if len(first) != len(second):
         raise CalibrationError(f"a has {len(first)} poses and b {len(second)}: give pairs")
     if len(first) < least:
@@ -168,6 +169,26 @@ def _check_turns(rotations: Floats, name: str) -> None:
         )
 
 
+def _check_meters(positions: Floats, name: str) -> None:
+    """Refuse positions that are farther than an arm reaches."""
+    largest = float(np.abs(positions).max())
+    if largest > FARTHEST:
+        raise CalibrationError(
+            f"{name} has a coordinate of {largest:g} m, its size must be at most {FARTHEST:g} m "
+            "(did you pass millimeters?)"
+        )
+
+
+def _check_near(distance: float, angle: float, positions: Floats) -> None:
+    """Refuse pairs of which half are farther off than any measurement."""
+    bound = max(FAR_PART * float(np.linalg.norm(np.ptp(positions, axis=0))), FAR_LENGTH)
+    if distance > bound or angle > FAR_ANGLE:
+        raise CalibrationError(
+            f"a and b do not fit: half are {distance:.2g} m and {angle:.2g} rad off, at most "
+            f"{bound:.2g} m and {FAR_ANGLE} rad is taken (is one inverted, swapped or mirrored?)"
+        )
+
+
 def _differences(left: Floats, right: Floats) -> tuple[Floats, Floats]:
     """Vectors [m] and rotation vectors [rad] from the right poses to the left ones."""
     turned = left[:, :3, :3] @ np.swapaxes(right[:, :3, :3], 1, 2)
@@ -176,7 +197,7 @@ def _differences(left: Floats, right: Floats) -> tuple[Floats, Floats]:
 
 def _hand_eye(x: Floats, y: Floats | None, left: Floats, right: Floats) -> HandEye:
     shift, turn = (np.linalg.norm(it, axis=1) for it in _differences(left, right))
-    check_near(float(np.median(shift)), float(np.median(turn)), right[:, :3, 3], "a and b")
+    _check_near(float(np.median(shift)), float(np.median(turn)), right[:, :3, 3])
     return HandEye(x, y, shift, turn, right[:, :3, 3], left[:, :3, 3])
 
 

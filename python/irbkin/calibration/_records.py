@@ -109,9 +109,7 @@ class Calibration(NamedTuple):
     q: Floats
     """Joint angles at each measurement [rad], shape (m, n)."""
     measured: Floats
-    """Measured positions [m], shape (m, 3); of a contact the nearest point of its fitted sphere or
-    plane.
-    """
+    """Measured positions [m], shape (m, 3)."""
 
     @property
     def fitted(self) -> Floats:

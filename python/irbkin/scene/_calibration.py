@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from irbkin._arrays import evenly
-from irbkin.calibration import Calibration, HandEye, ToolCenterPoint, WorkObject
+from irbkin.calibration import Calibration, HandEye
 from irbkin.scene._arms import arm_of, rows
 from irbkin.scene._data import Arm, Cloud, Frame, Mark, Path, Posture, Scene
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from irbkin import Robot
     from irbkin._arrays import Floats
 
-Calibrated = Calibration | ToolCenterPoint | WorkObject | HandEye
+Calibrated = Calibration | HandEye
 MOST_POSTURES, MOST_VECTORS = 8, 500
 """Postures and vectors of a scene: more are thinned."""
 SCALES = (10000, 5000, 2000, 1000, 500, 200, 100, 50, 20, 10, 5, 2, 1)
@@ -31,7 +31,7 @@ def of_calibration(thing: Calibrated, robot: Robot | None, q: npt.ArrayLike | No
 
     Args:
         thing: The calibration.
-        robot: The arm of anything but a `Calibration`, which knows its own.
+        robot: The arm of a `HandEye`; a `Calibration` has its own.
         q: Joint angles at which it was measured [rad], shape (n,) or (m, n); the arm is drawn if
             they are known.
 
@@ -45,8 +45,6 @@ def of_calibration(thing: Calibrated, robot: Robot | None, q: npt.ArrayLike | No
         raise TypeError("robot and q are missing: X of A X = X B has its place on the hand")
     if isinstance(thing, Calibration):
         robot, q = thing.robot, thing.q
-    elif isinstance(thing, ToolCenterPoint) and robot is not None:
-        robot = robot.with_tool(thing.tool)
     arms: tuple[Arm, ...] = ()
     at = None
     if robot is not None and q is not None:
@@ -72,10 +70,6 @@ def _frames(thing: Calibrated, at: Floats | None) -> list[Frame]:
     found: list[tuple[str, Floats | None]] = []
     if isinstance(thing, Calibration):
         found = [("base", thing.robot.base), ("tool", at)]
-    elif isinstance(thing, ToolCenterPoint):
-        found = [("tool", at)]
-    elif isinstance(thing, WorkObject):
-        found = [("work object", thing.frame)]
     else:
         found = [("X", None if at is None else at @ thing.x), ("Y", thing.y)]
     return [Frame(name, rows(pose)) for name, pose in found if pose is not None]

@@ -10,7 +10,7 @@ import numpy as np
 from irbkin._arrays import evenly
 from irbkin._core import Cell, Robot, RoutineMotion, Solutions, Trajectory
 from irbkin._grids import ReachMap
-from irbkin.calibration import Calibration, HandEye, ToolCenterPoint, WorkObject
+from irbkin.calibration import Calibration, HandEye
 from irbkin.records import FollowResult, Plan
 from irbkin.scene._arms import arm_of, motion_of, rest, rows
 from irbkin.scene._calibration import Calibrated, of_calibration
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 MOST_POINTS = 500
 """Points of a path, and positions of a map in thousands: more are thinned."""
-AT_JOINTS = Robot, Cell, ReachMap, ToolCenterPoint, WorkObject, HandEye
+AT_JOINTS = Robot, Cell, ReachMap, HandEye
 """What is drawn with an arm at joint angles that are given."""
 OWN_JOINTS = Solutions, Trajectory, Plan, FollowResult, RoutineMotion, Calibration
 """What has joint angles."""
@@ -40,8 +40,8 @@ def of(
         thing: A Robot; Solutions (the first is drawn, the others are ghosts), a Trajectory, Plan or
             FollowResult, a `rapid.RoutineMotion` with its findings, a Cell, a `ReachMap`, what the
             functions of `irbkin.calibration` return; or a sequence of these.
-        robot: The arm of anything but a Robot and a Calibration; of a cell, a map, a tool center
-            point and a work object it may be left out.
+        robot: The arm of anything but a Robot and a Calibration; of a cell and a map it may be
+            left out.
         q: Joint angles of a Robot, of `robot` in a cell or a map, or at which `robot` was measured
             [rad], shape (n,) or (k, n): several are drawn.
         title: Words above the scene; the robot's name when not given.

@@ -14,6 +14,7 @@ A = ROBOT.fk(RNG.uniform(*ROBOT.limits.clip(-2, 2).T, (20, 6)))
 B = np.linalg.inv(Y) @ A @ X
 # The camera in the hand sees a fixed target.
 SEEN = np.linalg.inv(B)
+MILLIMETERS = np.array([[1, 1, 1, 1e3]] * 3 + [[1, 1, 1, 1]])
 MIRROR = np.diag([-1.0, 1, 1, 1])
 MOVES = np.linalg.inv(A[1:]) @ A[:-1], SEEN[1:] @ np.linalg.inv(SEEN[:-1])
 
@@ -55,6 +56,7 @@ def test_a_robust_loss_bears_an_outlier(loss):
         (lambda: robot_world(A[[0] * 4], B[[0] * 4]), CalibrationError, "about a second axis"),
         (lambda: robot_world(A[0], B[0]), InvalidPoseError, "shape"),
         (lambda: robot_world(2 * A, B), InvalidPoseError, "row"),
+        (lambda: robot_world(MILLIMETERS * A, B), CalibrationError, "did you pass millimeters"),
         (lambda: hand_eye(*MOVES, loss="none"), ValueError, "loss must be one of"),
         (lambda: hand_eye(*MOVES, position_std=0), ValueError, "position_std is 0"),
         # Inverted, in another order, mirrored.

@@ -12,7 +12,6 @@ Q = RNG.uniform(*ROBOT.limits.clip(-3, 3).T, size=(40, 6))
 MEASURED = ROBOT.with_corrections(RNG.normal(0, 3e-4, 42)).fk(Q)
 MEASURED[:, :3, 3] += RNG.normal(0, 5e-5, (40, 3))
 FOUND = irbkin.calibrate(ROBOT, Q, MEASURED, folds=0)
-BARE = irbkin.Robot("UR5e")
 
 
 def check_residuals(own, found, error):
@@ -50,53 +49,6 @@ def test_a_calibration_is_drawn_at_its_postures_with_its_residuals():
     np.testing.assert_allclose(tool.pose, FOUND.robot.fk(Q[0]), rtol=0, atol=1e-12)
     assert own.title == ROBOT.name
     assert scene.Scene.from_json(own.to_json()) == own
-
-
-def test_contacts_are_drawn_from_the_nearest_points_of_their_bodies():
-    center, radius = np.array([0.9, 0.1, 0.6]), 0.15
-    joints = []
-    while len(joints) < 40:
-        ray, tilt = RNG.normal(size=3), RNG.uniform(-0.6, 0.6, 3)
-        point = center + (radius + RNG.normal(0, 1e-4)) * ray / np.linalg.norm(ray)
-        turned = irbkin.pose(point, euler_zyx=np.add(tilt, [0, np.pi, 0]))
-        joints += list(ROBOT.ik(turned).within_limits().q[:1])
-    contact = calibration.SphereContact(joints, distance=radius, center=center)
-    found = calibration.calibrate_contact(ROBOT, [contact], fit=("tool",))
-    check_residuals(scene.of(found), found, found.position_error)
-    away = np.linalg.norm(found.measured - center, axis=1)
-    np.testing.assert_allclose(away, radius, rtol=0, atol=1e-12)
-
-
-def test_a_tool_center_point_is_drawn_around_the_touched_point():
-    angles = [[0, 3.1, 0], [1, 2.7, 0.3], [2, 3.4, -0.4], [-1, 3.0, 0.5], [0.4, 2.6, -0.3]]
-    flange = irbkin.pose(np.zeros((5, 3)), euler_zyx=angles)
-    flange[:, :3, 3] = [0.5, 0.1, 0.2] - flange[:, :3, :3] @ [0, 0, 0.15]
-    flange[:, :3, 3] += RNG.normal(0, 1e-3, (5, 3))
-    found = calibration.tool_center_point(flange)
-    own = scene.of(found)
-    check_residuals(own, found, found.error)
-    assert own.arms == own.frames == ()
-    q = [BARE.ik(it)[0].q for it in flange]
-    (arm,) = scene.of(found, BARE, q=q).arms
-    assert arm == scene.arm_of(BARE.with_tool(found.tool), arm.postures)
-    assert len(arm.postures) == 5
-    (frame,) = scene.of(found, BARE, q=q).frames
-    np.testing.assert_allclose(np.array(frame.pose)[:3, 3], found.fitted[0], rtol=0, atol=1e-12)
-
-
-def test_a_work_object_is_drawn_as_its_frame():
-    nominal = RNG.uniform(0, 0.5, (6, 3))
-    truth = irbkin.pose([0.7, 0.1, 0.3], euler_zyx=[0.4, 0.1, -0.2])
-    points = nominal @ truth[:3, :3].T + truth[:3, 3] + RNG.normal(0, 1e-3, (6, 3))
-    found = calibration.work_object(points, nominal)
-    own = scene.of(found)
-    check_residuals(own, found, found.error)
-    assert [it.name for it in own.frames] == ["work object"]
-    np.testing.assert_array_equal(own.frames[0].pose, found.frame)
-    # Three points are met: nothing is drawn larger than it may be.
-    exact = scene.of(calibration.work_object(points[:3]))
-    assert exact.clouds[0].values == (0.0, 0.0, 0.0)
-    assert len(exact.paths) == 3
 
 
 def test_a_camera_is_drawn_on_the_hand_and_what_it_sees_in_the_base():

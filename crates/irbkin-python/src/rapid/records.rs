@@ -58,7 +58,7 @@ impl RapidPose {
 #[pymethods]
 impl WobjData {
     /// Return the work object of a homogeneous matrix, its user frame in the world, shape (4, 4),
-    /// translation [m], as `calibration.work_object` finds it.
+    /// translation [m].
     #[staticmethod]
     #[pyo3(signature = (T))]
     #[expect(non_snake_case, reason = "the name of a matrix")]
