@@ -223,7 +223,7 @@ evidence: | toolchains ## Run a suite of long tests or counts: SUITE=...
 docs: $(BUILT) $(VENV)/.groups $(VENV)/.site ## Write generated tables and transcripts, draw the pictures, build cargo doc and the site
 	IRBKIN_WRITE=1 $(SUITE) --quiet -- catalog_page::
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k "transcripts or notebook"
-	for script in eight_solutions hulls slots motion plans singularities peers free_motion stream; do $(BIN)/python docs/pictures/$$script.py; done
+	for script in eight_solutions motion plans singularities peers free_motion stream; do $(BIN)/python docs/pictures/$$script.py; done
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps -p irbkin -p irbkin-abb --features irbkin/serde
 	$(BIN)/python docs/site/build.py
 

@@ -1,5 +1,4 @@
-"""Draw the pictures of docs/guide/plot.md: a quintic, a line through the wrist singularity, a slice
-of the reach, skeletons.
+"""Draw the pictures of docs/guide/plot.md: a quintic, a line through the wrist singularity.
 
 Run without arguments. It needs `irbkin[plot]`.
 """
@@ -53,23 +52,10 @@ def line() -> None:
     )
 
 
-def reach() -> None:
-    """Where the tool can point straight down."""
-    down = np.diag([1.0, -1.0, -1.0])
-    save(plot.reach(ROBOT, down), "motion_reach")
-
-
-def skeletons() -> None:
-    """The solutions of a seven-axis arm."""
-    panda = irbkin.Robot("Panda")
-    q = [0.3, 0.2, -0.2, -1.8, 0.4, 1.9, 0.3]
-    save(plot.solutions(panda, panda.fk(q), q7=q[6]), "motion_skeletons")
-
-
 def main() -> None:
     """Draw all pictures."""
     with mpl.rc_context(STYLE):
-        for picture in (quintic, within_limits, line, reach, skeletons):
+        for picture in (quintic, within_limits, line):
             picture()
 
 

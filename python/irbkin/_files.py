@@ -8,7 +8,7 @@ import errno
 import io
 import os
 import stat
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import IO, Any, BinaryIO
 
@@ -130,18 +130,6 @@ def continued(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
         if error.errno is None or error.filename not in (None, name):
             raise
         raise OSError(error.errno, f"cannot be written: {error.strerror}", name) from None
-
-
-def write_by_name(path: str | os.PathLike[str], write: Callable[[str], object]) -> None:
-    """Write a file as `replaced`, by a function that takes nothing but a name."""
-    import shutil
-    import tempfile
-
-    with replaced(path) as file, tempfile.TemporaryDirectory(prefix="irbkin-") as folder:
-        own = os.path.join(folder, os.path.basename(path))
-        write(own)
-        with open(own, "rb") as made:
-            shutil.copyfileobj(made, file)
 
 
 def write_columns(

@@ -80,7 +80,7 @@ class Placement(NamedTuple):
     plan: Plan | None
     """The plan of a path; None without `path` or without a plan."""
     grid: BaseGrid
-    """The values of the grid, for `irbkin.plot.placement`."""
+    """The values of the grid."""
     reason: str
     """The outcome in a sentence."""
 

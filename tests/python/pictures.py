@@ -1,17 +1,11 @@
 """What tests of pictures draw, and what they read out of figures."""
 
 import irbkin
-import irbkin.map
-import numpy as np
-from irbkin import paths, placement
+from irbkin import paths
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 SEAM = paths.line(*(irbkin.pose([0.9, y, 0.7], euler_zyx=[0, 2.8, 0]) for y in (-1, 1)), steps=21)
 PLAN = ROBOT.plan(SEAM, rotation=12)
-REGION = placement.Region(x=(-0.6, 0.4), y=(-0.6, 0.6), turn=(-1, 1))
-PLACED = placement.best_base(ROBOT, SEAM, REGION, steps=5, refine=False)
-AXES = (np.linspace(-1, 1.6, 6), np.linspace(-1, 1, 5), np.linspace(0, 1.8, 4))
-MAP = irbkin.map.reach(ROBOT, *AXES, irbkin.map.orientations(6))
 
 
 def curves(axes):

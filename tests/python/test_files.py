@@ -36,19 +36,11 @@ def by_command(*arguments):
     return write
 
 
-def movie(path):
-    from irbkin import plot
-
-    plot.motion(MOVE, ROBOT, fps=5).save(path)
-
-
 WRITERS = {
     "scene.json": lambda path: scene.of(ROBOT).save(path),
     "move.csv": MOVE.to_csv,
     "move.csv.gz": MOVE.to_csv,
     "map.npz": lambda path: maps.reach(ROBOT, *AXES, [np.eye(3)], output=path),
-    "movie.gif": movie,
-    "movie.html": movie,
     "solutions.csv": by_command("ik", NAME, *XYZ),
     "solutions.json": by_command("ik", NAME, *XYZ),
     "solutions.npy": by_command("ik", NAME, *XYZ),
@@ -60,10 +52,8 @@ WRITERS = {
     "arm.json": by_command("view", NAME),
     "report.txt": by_command("check", "--robot", NAME, PACKAGE.parents[1] / "examples"),
 }
-DRAWN = pytest.mark.extra
-NAMES = [pytest.param(it, marks=DRAWN) if it.startswith("movie") else it for it in WRITERS]
 # A map does not take the place of another one.
-OVER = [name for name in NAMES if name != "map.npz"]
+OVER = [name for name in WRITERS if name != "map.npz"]
 
 
 @pytest.fixture
@@ -73,7 +63,7 @@ def umask():
     os.umask(old)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", WRITERS)
 def test_nothing_is_written_through_a_link_out_of_the_folder(tmp_path, name):
     (here := tmp_path / "here").mkdir()
     (precious := tmp_path / "precious").write_text("precious")
@@ -124,7 +114,7 @@ def test_permissions_are_kept_whatever_the_umask_is(tmp_path, umask, name):
     assert [it.name for it in tmp_path.iterdir()] == [name]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", WRITERS)
 def test_on_a_full_disk_the_old_file_is_whole(tmp_path, name):
     file = tmp_path / name
     if name != "map.npz":
@@ -212,8 +202,6 @@ def test_what_libraries_write_goes_through_it():
     assert found == {
         # Files of `replaced`, or in memory.
         ("plot/_picture.py", "savefig", "file"),
-        # Names and files of `write_by_name`.
-        ("plot/_animation.py", "save", "own"),
         # A scene, which is a writer above.
         ("cli/plot.py", "save", "output"),
         ("cli/view.py", "save", "output"),

@@ -106,7 +106,7 @@ def test_what_folders_and_their_modules_use_is_seen():
 def test_what_python_modules_import_is_seen():
     """Names that packages hand on, imports in functions, and names of a package imported whole."""
     seen = USED[PYTHON]
-    assert "scene/_data" in seen["plot/_bodies"]
+    assert "scene/_data" in seen["scene/_strokes"]
     assert "lsp" in seen["cli/lsp"]
     assert "_core" in seen["cli/catalog"]
     assert "check/jobs" in seen["check/fixes"]

@@ -4,13 +4,15 @@ import json
 from dataclasses import replace
 
 import irbkin
+import irbkin.map
 import numpy as np
 import pytest
 from irbkin import rapid, scene, trajectory
 from irbkin.body import Body, Shape
 from irbkin.scene._arms import link_frames, outward, solids
+from irbkin.scene._look import UPWARD
 from irbkin.scene._plain import plain
-from pictures import MAP
+from irbkin.scene._strokes import pieces
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
@@ -21,6 +23,8 @@ CONST robtarget a:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E
 CONST robtarget far:=[[2900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
 PROC main() MoveJ a,v100,fine,tool0; MoveL far,v100,fine,tool0; ENDPROC
 ENDMODULE""")
+AXES = (np.linspace(-1, 1.6, 6), np.linspace(-1, 1, 5), np.linspace(0, 1.8, 4))
+MAP = irbkin.map.reach(ROBOT, *AXES, irbkin.map.orientations(6))
 SHAPES = {
     "box": Shape.box([1, 2, 3], irbkin.pose([1, 0, 0], wxyz=[0.6, 0.8, 0, 0])),
     "ball": Shape.sphere(0.2, [0, 1, 0]),
@@ -111,7 +115,6 @@ def test_a_hull_that_is_drawn_contains_its_points_and_is_within_its_radius(name)
 def test_links_with_hulls_are_drawn_as_them_and_the_others_as_capsules():
     arm = scene.arm_of(irbkin.Robot("UR5e"))
     assert solids(arm) == list(arm.hulls)
-    assert solids(arm, capsules=True) == list(arm.body)
     upper = replace(arm, hulls=tuple(it for it in arm.hulls if it.link == 2))
     assert {type(it).__name__ for it in solids(upper) if it.link == 2} == {"LinkHull"}
     assert [it for it in solids(upper) if it.link != 2] == [it for it in arm.body if it.link != 2]
@@ -122,6 +125,39 @@ def test_links_with_hulls_are_drawn_as_them_and_the_others_as_capsules():
     body = Body(ROBOT.body.links, ROBOT.body.capsules, [], hulls=bare)
     arm = scene.arm_of(ROBOT.with_body(body))
     assert solids(arm) == list(arm.body)
+
+
+@pytest.mark.parametrize("name", irbkin.catalog())
+def test_every_arm_of_the_catalog_is_drawn(name):
+    robot = irbkin.Robot(name)
+    q = np.clip(0.3 * np.arange(1, robot.dof + 1), *robot.limits.T)
+    drawn = pieces(scene.arm_of(robot), q)
+    having = {hull[0] for hull in robot.body.hulls}
+    others = [link for link in robot.body.links if link not in having]
+    # A capsule in three tones, of a hull those of its faces that are seen.
+    assert len(drawn) >= 3 * len(others) + 2 * len(robot.body.hulls)
+
+
+@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "IRB 140-6/0.81", "Panda"])
+def test_a_picture_of_a_body_is_where_its_capsules_or_hulls_are(name):
+    robot = irbkin.Robot(name)
+    q = np.clip(np.zeros(robot.dof), *robot.limits.T)
+    body, frames = robot.body, np.vstack([np.eye(4)[None], robot.link_frames(q)])
+
+    def height(link, points):
+        return max(points @ frames[link, :3, :3].T @ UPWARD + frames[link, :3, 3] @ UPWARD)
+
+    polygons = [polygon for some, _ in pieces(scene.arm_of(robot), q) for polygon in some]
+    top = np.vstack(polygons)[:, 1].max()
+    if body.hulls:
+        highest = max(height(link, points) for link, points, _, _ in body.hulls)
+        # The points are to 0.1 mm, and moved out by the radius at most.
+        assert -1e-4 <= top - highest <= max(hull[3] for hull in body.hulls) + 1e-4
+    else:
+        capsules = zip(body.links, body.capsules, strict=True)
+        tops = [height(link, row[:6].reshape(2, 3)) + row[6] for link, row in capsules]
+        # The outline has corners on the circle.
+        assert -1e-12 <= max(tops) - top < 5e-3
 
 
 def test_the_first_solution_is_drawn_and_the_others_are_ghosts():

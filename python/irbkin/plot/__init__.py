@@ -1,9 +1,10 @@
-"""Pictures of arms and motions, with matplotlib: `pip install 'irbkin[plot]'`.
+"""Curves of motions, with matplotlib: `pip install 'irbkin[plot]'`. Arms are drawn by
+`irbkin.scene`.
 
 Each function returns a `matplotlib.figure.Figure` that a notebook shows as its last line, and
 `.show()` in a window; none touches pyplot before. Angles are in degrees, as engineers read them,
 lengths in meters. `figure=` takes a figure to draw into, of `pyplot.figure()` for instance, or a
-subfigure. `motion` returns a movie.
+subfigure.
 
 >>> import irbkin.plot
 >>> move = irbkin.trajectory.joint([0, 0], [1, -2], duration=2.0)
@@ -21,26 +22,9 @@ except ImportError as _missing:
         "irbkin.plot needs matplotlib: pip install 'irbkin[plot]'", name="matplotlib"
     ) from _missing
 
-from irbkin.plot._animation import motion
-from irbkin.plot._bodies import arm
 from irbkin.plot._joint_motion import trajectory
-from irbkin.plot._placement import placement
 from irbkin.plot._plan import plan
-from irbkin.plot._reach import reach
-from irbkin.plot._reach_map import reach_map
 from irbkin.plot._singularity import singularity
-from irbkin.plot._skeletons import solutions
 from irbkin.plot._tool_path import path
 
-__all__ = [
-    "arm",
-    "motion",
-    "path",
-    "placement",
-    "plan",
-    "reach",
-    "reach_map",
-    "singularity",
-    "solutions",
-    "trajectory",
-]
+__all__ = ["path", "plan", "singularity", "trajectory"]

@@ -158,17 +158,16 @@ def link_frames(arm: Arm, q: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return np.array(frames)
 
 
-def solids(arm: Arm, capsules: bool = False) -> list[LinkShape | LinkHull]:
-    """Return what an arm is drawn of: the hulls of links that have some, else or if asked for their
-    capsules.
-    """
-    hulls = () if capsules else arm.hulls
-    having = {it.link for it in hulls}
+def solids(arm: Arm) -> list[LinkShape | LinkHull]:
+    """Return what an arm is drawn of: the hulls of links that have some, else their capsules."""
+    having = {it.link for it in arm.hulls}
     bare = [
-        LinkShape(it.link, it.points[0], it.points[-1], it.radius) for it in hulls if not it.faces
+        LinkShape(it.link, it.points[0], it.points[-1], it.radius)
+        for it in arm.hulls
+        if not it.faces
     ]
     others = [it for it in arm.body if it.link not in having]
-    return [*(it for it in hulls if it.faces), *bare, *others]
+    return [*(it for it in arm.hulls if it.faces), *bare, *others]
 
 
 def outward(hull: LinkHull) -> npt.NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Arms as flat pieces on paper, each of one color: what pictures of any kind fill."""
+"""Arms as flat pieces on paper, each of one color."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from irbkin._arrays import Floats
     from irbkin.scene._data import Arm, LinkHull
 
-    Layers = tuple[tuple[float, float], ...]
     Filled = Iterator[tuple[float, list[Floats], float]]
     """How near, polygons of the paper, and how much lighter than the color of the link."""
 
@@ -29,36 +28,28 @@ CAP = 11
 """Corners of a round end."""
 
 
-def pieces(
-    arm: Arm, q: npt.ArrayLike, *, capsules: bool = False, color: str = ""
-) -> list[tuple[list[Floats], str]]:
+def pieces(arm: Arm, q: npt.ArrayLike) -> list[tuple[list[Floats], str]]:
     """Return the body of an arm as polygons of the paper, far ones first.
 
     Args:
         arm: The arm.
         q: Joint angles [rad], shape (n,).
-        capsules: Whether links that have hulls are capsules too.
-        color: One color of all, of outlines; the color of each link in tones when not given.
 
     Returns:
         Polygons, shape (k, 2) [m], that are filled together, and their color, as "#0072b2".
     """
     frames = link_frames(arm, q)[:-1]
     found = []
-    for it in solids(arm, capsules):
+    for it in solids(arm):
         # Parts that the flange carries move with the last link.
         frame = frames[min(it.link, len(frames) - 1)]
-        layers = (
-            _stadiums(it, frame, LAYERS[:1] if color else LAYERS)
-            if isinstance(it, LinkShape)
-            else _faces(it, frame, 0 if color else TONES)
-        )
+        layers = _stadiums(it, frame) if isinstance(it, LinkShape) else _faces(it, frame)
         own = CARRIED if it.link > len(arm.joints) else link_color(it.link)
-        found += [(near, some, color or toned(own, tone)) for near, some, tone in layers]
+        found += [(near, some, toned(own, tone)) for near, some, tone in layers]
     return [(some, fill) for _, some, fill in sorted(found, key=lambda layer: layer[0])]
 
 
-def _stadiums(it: LinkShape, frame: Floats, layers: Layers) -> Filled:
+def _stadiums(it: LinkShape, frame: Floats) -> Filled:
     """The outline of a capsule, and smaller ones towards the light."""
     points = np.array([it.a, it.b]) @ frame[:3, :3].T + frame[:3, 3]
     ends = on_paper(points)
@@ -66,17 +57,17 @@ def _stadiums(it: LinkShape, frame: Floats, layers: Layers) -> Filled:
     turn = np.arctan2(along[1], along[0]) if np.hypot(*along) > 0.0 else 0.0
     angles = turn + np.linspace(-np.pi / 2, np.pi / 2, CAP)
     cap = it.radius * np.column_stack([np.cos(angles), np.sin(angles)])
-    for part, lighter in layers:
+    for part, lighter in LAYERS:
         middle = ends + (1.0 - part) * it.radius * np.array([-0.25, 0.35])
         outline = np.vstack([middle[1] + part * cap, middle[0] - part * cap])
         yield float(nearness(points).mean()), [outline], lighter
 
 
-def _faces(it: LinkHull, frame: Floats, count: int) -> Filled:
+def _faces(it: LinkHull, frame: Floats) -> Filled:
     """The faces of a hull that are seen, those of one tone together."""
     points, faces = outward(it) @ frame[:3, :3].T + frame[:3, 3], np.array(it.faces)
     normals, paper = face_normals(points, faces), on_paper(points)
-    tones = np.round(count * (0.6 * normals @ LIGHT - 0.3)) / max(count, 1)
+    tones = np.round(TONES * (0.6 * normals @ LIGHT - 0.3)) / TONES
     seen = nearness(normals) > 0.0
     for tone in np.unique(tones[seen]):
         outlines = _outlines(faces[seen & (tones == tone)].tolist())

@@ -1,7 +1,6 @@
 """What the pictures of `irbkin.plot` show: data, labels, limits; and what they refuse."""
 
 import os
-import re
 import subprocess
 import sys
 from importlib.util import find_spec
@@ -10,40 +9,32 @@ import irbkin
 import matplotlib as mpl
 import numpy as np
 import pytest
-from irbkin import plot, rapid, trajectory
-from irbkin.scene._look import UPWARD
+from irbkin import plot, trajectory
 from matplotlib.figure import Figure
-from pictures import MAP, PLACED, PLAN, SEAM, curves, shaded
-from PIL import Image
+from pictures import PLAN, curves, shaded
 
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
 T = irbkin.pose([0.85, 0.32, 0.64], wxyz=[0.2588190, 0, 0.9659258, 0])
 START, END = np.radians([[0, 0, 0, 0, 90, 0], [90, -10, 40, 10, 60, 60]])
 LIMITS = {"max_velocity": ROBOT.max_velocity, "max_acceleration": 8.0}
 MOVE = trajectory.joint(START, END, profile="trapezoid", **LIMITS)
-DOWN = np.diag([1.0, -1.0, -1.0])
 
 
 def every_picture():
     """A picture of each function."""
     q = MOVE.q
     return {
-        "arm": plot.arm(ROBOT, q[:3]),
         "trajectory": plot.trajectory(MOVE),
-        "solutions": plot.solutions(ROBOT, T),
         "path": plot.path(ROBOT.fk(q)),
         "singularity": plot.singularity(ROBOT, q),
-        "reach": plot.reach(ROBOT, DOWN, steps=20),
         "plan": plot.plan(ROBOT, PLAN),
-        "placement": plot.placement(PLACED, SEAM),
-        "reach_map": plot.reach_map(MAP),
     }
 
 
 def test_every_function_returns_a_figure_and_leaves_no_state(tmp_path):
     before = dict(mpl.rcParams)
     pictures = every_picture()
-    assert {*pictures, "motion"} == set(plot.__all__)
+    assert set(pictures) == set(plot.__all__)
     for name, figure in pictures.items():
         assert isinstance(figure, Figure), name
         figure.savefig(tmp_path / f"{name}.svg")
@@ -59,10 +50,8 @@ import numpy as np
 move = irbkin.trajectory.joint(np.zeros(6), np.ones(6))
 robot = irbkin.Robot("IRB 2600-12/1.65")
 irbkin.plot.trajectory(move)
-irbkin.plot.solutions(robot, robot.fk(move.q[0] + 0.3))
 irbkin.plot.path(robot.fk(move.q))
 irbkin.plot.singularity(robot, move.q)
-irbkin.plot.reach(robot, np.diag([1.0, -1.0, -1.0]), steps=10)
 assert "matplotlib.pyplot" not in sys.modules
 """
     subprocess.run([sys.executable, "-c", code], check=True)
@@ -83,90 +72,8 @@ def test_without_matplotlib_the_error_names_the_extra(monkeypatch):
     assert "trajectory" in namespace
 
 
-@pytest.mark.parametrize("name", irbkin.catalog())
-def test_every_arm_of_the_catalog_is_drawn(name):
-    robot = irbkin.Robot(name)
-    q = np.clip(0.3 * np.arange(1, robot.dof + 1), *robot.limits.T)
-    figure = plot.arm(robot, [0.5 * q, q])
-    assert figure.axes[0].get_title().startswith(name)
-    ghost, own = figure.axes[0].collections
-    having = {hull[0] for hull in robot.body.hulls}
-    others = [link for link in robot.body.links if link not in having]
-    # A capsule in three tones, of a hull those of its faces that are seen.
-    assert len(own.get_paths()) >= 3 * len(others) + 2 * len(robot.body.hulls)
-    assert len(ghost.get_paths()) <= len(own.get_paths())
-    _, own = plot.arm(robot, [0.5 * q, q], capsules=True).axes[0].collections
-    assert len(own.get_paths()) == 3 * len(robot.body.capsules)
-
-
-ONE_OF_EACH = {irbkin.Robot(name).structure: name for name in irbkin.catalog()}
-
-
-@pytest.mark.parametrize("name", [*ONE_OF_EACH.values(), "CRX-10iA", "xArm6", "IRB 14000 left"])
-def test_the_solutions_of_every_structure_are_drawn(name):
-    robot = irbkin.Robot(name)
-    q = np.clip(0.3 * np.arange(1, robot.dof + 1), *robot.limits.T)
-    q7 = None if robot.dof == 6 else q[6]
-    found = robot.ik(robot.fk(q)) if q7 is None else robot.ik(robot.fk(q), q7=q7)
-    drawn = plot.solutions(robot, robot.fk(q), q7=q7)
-    titles = [axes.get_title() for axes in drawn.axes]
-    assert titles == [f"slot {it.slot}" for it in found] != []
-    assert drawn.texts[-1].get_text() == robot.name
-
-
-def paper_height(figure):
-    """The greatest height of a body on the paper, and its outline."""
-    (own,) = figure.axes[0].collections
-    return np.vstack([path.vertices for path in own.get_paths()])[:, 1].max()
-
-
-@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "IRB 140-6/0.81", "Panda"])
-def test_a_body_is_where_its_capsules_and_hulls_are(name):
-    robot = irbkin.Robot(name)
-    q = np.clip(np.zeros(robot.dof), *robot.limits.T)
-    body, frames = robot.body, np.vstack([np.eye(4)[None], robot.link_frames(q)])
-
-    def height(link, points):
-        return max(points @ frames[link, :3, :3].T @ UPWARD + frames[link, :3, 3] @ UPWARD)
-
-    capsules = zip(body.links, body.capsules, strict=True)
-    tops = [height(link, row[:6].reshape(2, 3)) + row[6] for link, row in capsules]
-    top = paper_height(plot.arm(robot, q, frames=False, capsules=True))
-    # The outline has corners on the circle.
-    assert -1e-12 <= max(tops) - top < 5e-3
-    if body.hulls:
-        highest = max((height(link, it), radius) for link, it, _, radius in body.hulls)
-        above = paper_height(plot.arm(robot, q, frames=False)) - highest[0]
-        # The points are to 0.1 mm, and moved out by the radius at most.
-        assert -1e-4 <= above <= max(hull[3] for hull in body.hulls) + 1e-4
-
-
-def test_a_movie_has_its_pictures_and_shows_itself(tmp_path):
-    move = trajectory.joint(np.zeros(6), np.full(6, 0.2), duration=0.5)
-    movie = plot.motion(move, ROBOT, fps=8.0)
-    assert repr(movie) == "<Movie: 5 frames, 0.6 s>"
-    movie.save(tmp_path / "move.gif")
-    with Image.open(tmp_path / "move.gif") as image:
-        assert image.n_frames == 5
-    text = movie._repr_html_()
-    assert text.count("data:image/png;base64") >= 5
-    assert "http" not in re.sub(r"https?://www\.w3\.org\S*|https?://maxcdn\S*", "", text)
-    movie.save(tmp_path / "move.html")
-    assert (tmp_path / "move.html").stat().st_size > 10_000
-    away = "[9E9,9E9,9E9,9E9,9E9,9E9]"
-    moves = [f"MoveAbsJ [[{angle},0,0,0,30,0],{away}],v100,fine,tool0;" for angle in (0, 9)]
-    module = rapid.parse("\n".join(["PROC main()", *moves, "ENDPROC"]))
-    assert plot.motion(rapid.motion(ROBOT, module), ROBOT, speed=0.5).count > 1
-    with pytest.raises(ValueError, match=r"must end in \.gif or \.html"):
-        movie.save("move.mp4")
-    with pytest.raises(irbkin.InvalidMotionError, match="at most 2000 are drawn"):
-        plot.motion(move, ROBOT, fps=1e5)
-    with pytest.raises(irbkin.InvalidMotionError, match="speed is 0"):
-        plot.motion(move, ROBOT, speed=0)
-
-
 def test_a_picture_shows_itself_in_a_notebook_and_says_if_there_is_no_screen():
-    figure = plot.arm(ROBOT)
+    figure = plot.trajectory(MOVE)
     text = figure._repr_svg_()
     assert text.startswith("<svg")
     assert text.count("<path") > 40
@@ -175,7 +82,7 @@ def test_a_picture_shows_itself_in_a_notebook_and_says_if_there_is_no_screen():
     code = """
 import matplotlib, irbkin
 matplotlib.use("tkagg")
-figure = irbkin.plot.arm(irbkin.Robot("UR5e"))
+figure = irbkin.plot.singularity(irbkin.Robot("UR5e"), [[0.0] * 6] * 2)
 import matplotlib.pyplot as plt
 shown = []
 plt.show = lambda: shown.append(plt.gcf() is figure)
@@ -270,50 +177,6 @@ def test_what_is_no_trajectory_is_named():
         plot.trajectory(MOVE.q)
 
 
-def test_each_solution_is_a_skeleton_before_the_others():
-    figure = plot.solutions(ROBOT, T)
-    found = ROBOT.ik(T)
-    assert [axes.get_title() for axes in figure.axes] == [f"slot {s.slot}" for s in found]
-    for axes, solution in zip(figure.axes, found, strict=True):
-        gray = [line for line in axes.lines if line.get_color() == "#dcdcdc"]
-        assert len(gray) == len(found) - 1
-        degrees = " ".join(f"{angle:.0f}" for angle in solution.q_deg)
-        words = axes.get_xlabel().splitlines()
-        assert words[0] == f"{degrees} deg"
-        assert words[1].startswith("inside" if solution.is_within_limits else "outside limits: J")
-        assert axes.get_aspect() == 1.0
-    figure.draw_without_rendering()
-    scales = {tuple(np.round(axes.get_xlim(), 9)) for axes in figure.axes}
-    assert len(scales) == 1
-
-
-@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "IRB 6640-180/2.55", "UR5e", "Panda"])
-def test_a_skeleton_passes_the_frames_of_the_links(name):
-    base = irbkin.pose([0.3, -0.2, 0.5], euler_zyx=[0.4, 0.1, -0.2])
-    tool = irbkin.pose([0.1, 0.0, 0.2])
-    robot = irbkin.Robot(name).with_base(base).with_tool(tool)
-    q = np.array([0.3, -0.4, 0.2, -1.5, 0.7, 1.9, 0.3])[: robot.dof]
-    skeleton = plot._skeletons.Skeleton.of(robot, q)
-    points = skeleton.points()
-    for place in [base[:3, 3], *robot.link_frames(q)[:, :3, 3]]:
-        assert np.linalg.norm(points - place, axis=1).min() < 1e-12
-    np.testing.assert_allclose(points[0], base[:3, 3], atol=1e-12)
-    np.testing.assert_allclose(points[-1], robot.fk(q)[:3, 3], atol=1e-12)
-    for before, after in zip(skeleton.parts[:-1], skeleton.parts[1:], strict=True):
-        np.testing.assert_allclose(before[-1], after[0], atol=1e-12)
-
-
-def test_a_pose_out_of_reach_says_why():
-    far = T.copy()
-    far[0, 3] = 9.0
-    with pytest.raises(
-        irbkin.UnreachableError, match=r"T has no solution to draw: .* beyond reach"
-    ):
-        plot.solutions(ROBOT, far)
-    with pytest.raises(irbkin.InvalidPoseError):
-        plot.solutions(ROBOT, np.eye(3))
-
-
 def test_a_path_shows_its_points_and_frames():
     poses = irbkin.paths.line(T, irbkin.pose([0.85, -0.3, 0.5], wxyz=[0, 0, 1, 0]), steps=40)
     axes = plot.path(poses, frames=4).axes[0]
@@ -392,64 +255,18 @@ def test_joints_that_do_not_fit_are_named():
         plot.singularity(ROBOT, np.zeros((4, 6)), t=np.zeros(3))
 
 
-@pytest.mark.parametrize("name", ["IRB 2600-12/1.65", "Panda"])
-def test_a_cell_of_the_reach_is_the_number_of_solutions_at_its_middle(name):
-    robot = irbkin.Robot(name)
-    options = {} if robot.dof == 6 else {"q7": 0.3}
-    axes = plot.reach(robot, DOWN, azimuth=0.4, steps=30, **options).axes[0]
-    image = axes.images[0]
-    counts, (left, right, bottom, top) = np.asarray(image.get_array()), image.get_extent()
-    assert max(counts.shape) == 30
-    assert axes.get_xlabel() == "along 23 deg [m]"
-    assert axes.get_ylabel() == "z [m]"
-    rows, columns = counts.shape
-    for row, column in np.random.default_rng(1).integers(0, counts.shape, (100, 2)):
-        across = left + (right - left) * (column + 0.5) / columns
-        pose = np.eye(4)
-        pose[:3, :3] = DOWN
-        pose[:3, 3] = [across * np.cos(0.4), across * np.sin(0.4), 0]
-        pose[2, 3] = bottom + (top - bottom) * (row + 0.5) / rows
-        assert counts[row, column] == len(robot.ik(pose, **options).within_limits())
-    # Nothing that is reached is left out: the edge is empty.
-    assert (counts > 0).any()
-    for edge in (counts[0], counts[-1], counts[:, 0], counts[:, -1]):
-        assert not edge.any()
-
-
-def test_the_base_is_marked_where_it_is():
-    robot = ROBOT.with_base(irbkin.pose([0.3, 0.4, 0.5]))
-    axes = plot.reach(robot, DOWN, azimuth=np.pi / 2, steps=20).axes[0]
-    np.testing.assert_allclose(axes.lines[0].get_data(), [[0.4], [0.5]], atol=1e-15)
-
-
-def test_an_orientation_that_is_none_is_named():
-    with pytest.raises(irbkin.InvalidPoseError, match=r"orientation must have shape \(3, 3\)"):
-        plot.reach(ROBOT, [0, 0, 1])
-    with pytest.raises(irbkin.InvalidPoseError, match="orientation: "):
-        plot.reach(ROBOT, np.diag([1.0, 1.0, -1.0]))
-    with pytest.raises(irbkin.InvalidPoseError, match="azimuth is nan, it must be finite"):
-        plot.reach(ROBOT, DOWN, azimuth=np.nan)
-    with pytest.raises(ValueError, match="steps must be 2 to 2000, got 1"):
-        plot.reach(ROBOT, DOWN, steps=1)
-    stuck = ROBOT.with_limits([[0.0, 1e-9]] * 6)
-    with pytest.raises(irbkin.UnreachableError, match="no cell has a solution inside the limits"):
-        plot.reach(stuck, DOWN)
-
-
 def test_a_figure_that_is_given_is_drawn_into():
     figure = Figure(layout="constrained")
     left, right = figure.subfigures(1, 2)
     assert plot.trajectory(MOVE, figure=left) is figure
-    assert plot.solutions(ROBOT, T, figure=right) is figure
-    assert (len(left.axes), len(right.axes)) == (3, 8)
+    assert plot.singularity(ROBOT, MOVE.q, figure=right) is figure
+    assert (len(left.axes), len(right.axes)) == (3, 5)
 
 
 def test_a_name_is_no_robot():
     for call in (
         lambda name: plot.trajectory(MOVE, robot=name),
-        lambda name: plot.solutions(name, T),
         lambda name: plot.singularity(name, MOVE.q),
-        lambda name: plot.reach(name, DOWN),
     ):
         with pytest.raises(TypeError, match="robot must be a Robot, got str"):
             call("IRB 2600-12/1.65")
