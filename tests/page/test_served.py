@@ -8,6 +8,7 @@ import irbkin
 import numpy as np
 import pytest
 from irbkin import scene
+from irbkin.cli import main
 
 DATA = Path(__file__).parents[1] / "data"
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
@@ -126,6 +127,42 @@ def test_a_file_without_the_engine_draws_and_plays(opened, tmp_path, monkeypatch
     q = HOME.copy()
     q[0] = np.pi / 6
     np.testing.assert_allclose(robot, ROBOT.fk(q), atol=1e-9)
+
+
+OTHER = """MODULE Other
+  PROC other()
+    MoveJ p1,v1000,z20,tGun;
+    MoveL Offs(p1,0,0,100),v200,fine,tGun;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_report_of_check_shows_what_it_found_and_plays(opened, tmp_path, monkeypatch):
+    monkeypatch.setattr("irbkin.scene._page.engine", str)
+    files = [tmp_path / "weld.mod", tmp_path / "other.mod"]
+    own = MODULE.replace("  ENDPROC", "    other;\n    nothing 3;\n  ENDPROC")
+    for file, text in zip(files, (own, OTHER), strict=True):
+        file.write_text(text)
+    names = list(map(str, files))
+    target = tmp_path / "report.html"
+    assert main(["check", ROBOT.name, *names, "--select", "ALL", "-o", str(target)]) == 1
+    page = opened(f"file://{target}")
+    assert page.locator(".program p").inner_text().startswith("5 of 5 moves checked. Found ")
+    rows = page.locator(".moves tr.error").all_inner_texts()
+    assert len(rows) == 2
+    assert "weld.mod:8" in rows[0]
+    assert "R101" in rows[0]
+    assert "weld.mod:10" in rows[1]
+    margin = page.locator(".margin div")
+    assert margin.nth(7).get_attribute("class") == "error"
+    page.get_by_label("time", exact=True).evaluate(
+        "(it) => { it.value = it.max; it.dispatchEvent(new Event('input')); }"
+    )
+    assert page.get_by_label("module", exact=True).input_value() == "1"
+    assert page.evaluate("() => irbkin.program.source.line") == 4
+    made = irbkin.rapid.motion(ROBOT, irbkin.rapid.parse(OTHER, [irbkin.rapid.parse(MODULE)]))
+    np.testing.assert_allclose(page.evaluate("() => irbkin.state.q"), made.q[-1], atol=1e-9)
 
 
 def test_a_file_without_an_arm_and_the_engine_draws(opened, tmp_path, monkeypatch):

@@ -567,9 +567,6 @@ def test_the_verdict_has_the_nearest_limit_and_singularity_of_each_routine(tmp_p
     assert re.match(rf"main +3 +1 +\d+ .*J{joint} {rooms.min():.1f} deg, line \d+", words), words
     assert re.search(rf"{kind} {angles.min():.1f} deg, line \d+$", words), words
     assert lines[-1].startswith("Nothing in the program names: ")
-    page = tmp_path / "report.html"
-    check(file, "-o", page)
-    assert f"<td>J{joint} {rooms.min():.1f} deg" in page.read_text()
 
 
 CALLS = """MODULE M

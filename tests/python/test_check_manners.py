@@ -14,14 +14,12 @@ from backups import SMALL, written
 from hypothesis import given
 from hypothesis import strategies as st
 from irbkin import rapid
+from irbkin._core import check_program
 from irbkin.check.codes import codes, rules
 from irbkin.check.findings import Finding
-from irbkin.check.jobs import Job
 from irbkin.check.report import Report, SourceText, rendered
 from irbkin.check.report.github import render as github
-from irbkin.check.report.places import points_of, views
 from irbkin.check.settings import FORMATS, KEYS
-from irbkin.rapid.program import ModuleFile, program_of
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "guide" / "check.md").read_text()
@@ -196,48 +194,57 @@ def test_sarif_is_valid_and_has_rules_places_and_fixes(seam):
     assert uri == {"uri": "a%20b.mod"}
 
 
-def test_html_is_one_file_with_every_finding_escaped(seam):
+def shown_program(page):
+    """What a page has of a program."""
+    return json.loads(page.split("const PROGRAM = ")[1].split(";\n")[0])
+
+
+def test_html_is_the_page_with_the_program_and_every_finding(seam):
     page = output("--output-format", "html", "--select", "ALL", seam)
     found = listed(output("--json", "--select", "ALL", seam))
-    assert page.count("<article ") == len(found)
-    assert not re.search(r"(?:src|href)=|https?:|@import|url\(", page)
-    assert "prefers-color-scheme: dark" in page
-    assert page.count("<svg") >= 4
-    assert "255 % of the bound" in page
-    assert "<pre>CONST robtarget pCopy:=[[900,-200,500],[0,0,1,0],[-1,0,-1,0]" in page
-    for opened in ("article", "section", "svg", "pre", "div", "p", "details", "mark"):
-        starts = len(re.findall(rf"<{opened}[ >]", page))
-        assert starts == page.count(f"</{opened}>"), opened
-    words = '<script>alert("&")</script>'
-    odd = Finding(f"{words}.mod", 1, 1, "U801", "unknown-value", "note", words, routine=words)
-    texts = {f"{words}.mod": SourceText(words)}
-    whole = Report(words, [odd], texts, 0, {words: 1})
-    assert words not in rendered(whole, "html")
-    empty = rendered(Report(NAME, [], {}, 3), "html")
-    assert "All checks passed!" in empty
-    assert "<article" not in empty
+    program = shown_program(page)
+    keys = ("code", "name", "severity", "line", "column", "message")
+    shown = [[it[key] for key in keys] for it in program["findings"]]
+    assert shown == [[it[key] for key in keys] for it in found]
+    fixable = [bool(it["edits"]) for it in program["findings"]]
+    assert fixable == [it["fixable"] for it in found]
+    (module,) = program["modules"]
+    assert module["text"] == SEAM
+    checked = check_program(irbkin.Robot(NAME), [rapid.parse(SEAM)])
+    assert [it["line"] for it in program["moves"]] == [it.line for it in checked.moves]
+    assert [it["q"] is None for it in program["moves"]] == [it.q is None for it in checked.moves]
+    motion = program["motion"]["ok"]
+    made = rapid.motion(irbkin.Robot(NAME), rapid.parse(SEAM))
+    assert motion["duration"] == pytest.approx(made.duration)
+    assert [it["line"] for it in motion["moves"]] == [it.line for it in made.moves]
+    assert not re.search(r"https?://", page)
 
 
-def test_the_picture_of_targets_has_each_place_once_and_the_worst_severity(tmp_path):
-    record = "[[{}],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
-    places = ("900,-300,500", "2900,0,500", "9E9,0,0")
-    file = tmp_path / "places.mod"
-    text = 'PERS wobjdata w:=[FALSE,TRUE,"",[[100,0,0],[1,0,0,0]],[[0,50,0],[1,0,0,0]]];\n'
-    moves = [f"MoveJ {record.format(it)},v100,fine,tool0;\n" for it in places]
-    moves += [moves[0], moves[0].replace("tool0", "tool0\\WObj:=w")]
-    file.write_text(f"{text}PROC main()\n{''.join(moves)}ENDPROC\n")
-    robot = irbkin.Robot(NAME).with_base(irbkin.pose([0.1, 0, 0]))
-    program = program_of([ModuleFile("a", file.read_bytes())])
-    found = [Finding("a", 4, 1, "R101", "", it, "") for it in ("error", "note")]
-    own = report(found, "", programs=[(Job(robot, program, ""), rapid.Checked((), ()))])
-    points = points_of(own, robot)
-    wanted = [(800, -300, "fine"), (2800, 0, "error"), (800, -300, "fine"), (900, -250, "fine")]
-    assert [(round(x), round(y), style) for x, y, _, style in points] == wanted
-    assert views(own).count("<circle") == 3 + 1 + 3
-    assert "circle: reach of 1650 mm" in views(own)
-    assert views(report([], "")) == ""
-    page = output("--base", 100, 0, 0, "--output-format", "html", file)
-    assert page.count('<circle class="error"') >= 2
+def test_a_page_has_files_that_were_not_read_and_no_text_that_ends_its_script(tmp_path):
+    words = "</script><b>"
+    file = tmp_path / "odd.mod"
+    file.write_text(f"MODULE odd\n! {words}\nPROC one()\nMoveJ {words};\nENDPROC\nENDMODULE\n")
+    broken = tmp_path / "broken.sys"
+    broken.write_bytes(b"\x00\x01\x02")
+    done = run("--robot", NAME, "--output-format", "html", file, broken)
+    page = done.stdout.decode()
+    assert page.count("</script>") == 1
+    program = shown_program(page)
+    assert [it["name"] for it in program["modules"]] == [str(file), str(broken)]
+    assert {it["module"] for it in program["findings"]} == {0, 1}
+    assert "error" in program["motion"]
+
+
+def test_a_page_shows_the_obstacles_and_one_program_alone(seam, tmp_path):
+    cell = tmp_path / "cell.toml"
+    cell.write_text("[obstacles.post]\nsphere = 0.1\npose = {xyz = [3, 0, 0]}\n")
+    page = output("--cell", cell, "--output-format", "html", seam)
+    own = irbkin.scene.Scene.from_json(page.split("const SCENE = ")[1].split(";\n")[0])
+    assert [it.name for it in own.obstacles] == ["post"]
+    backup = ROOT / "examples" / "backup"
+    words = command.refused("check", "-o", tmp_path / "report.html", backup)
+    assert "a page shows one program, give the files of one of: T_ROB1" in words
+    assert not (tmp_path / "report.html").exists()
 
 
 def test_a_report_goes_to_a_file_in_the_format_of_its_ending(seam, tmp_path):

@@ -14,7 +14,7 @@ from irbkin.check.tools import tool_findings
 from irbkin.errors import InvalidModelError, IrbkinError
 
 if TYPE_CHECKING:
-    from irbkin import rapid
+    from irbkin import Cell, rapid
     from irbkin.check.jobs import Job
     from irbkin.check.settings import Settings
 
@@ -41,10 +41,11 @@ class Checker:
         step = options.get("step", 5.0)
         if not 0.0 < step < float("inf"):
             raise IrbkinError(f"--step must be positive and finite [mm], got {step}")
-        cell, self._shapes = read(options["cell"]) if "cell" in options else (None, {})
+        self.cell: Cell | None
+        self.cell, self._shapes = read(options["cell"]) if "cell" in options else (None, {})
         self._cell = os.path.basename(options.get("cell", ""))
         last_values = options.get("last_values", False)
-        self._options = {"step": step / 1e3, "cell": cell, "last_values": last_values}
+        self._options = {"step": step / 1e3, "cell": self.cell, "last_values": last_values}
         self.codes, self._is_strict, self._settings = codes, is_strict, settings
         self._corrects_notes = options.get("select") is not None
         self._wanted: dict[str, set[str]] = {}

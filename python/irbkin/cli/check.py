@@ -158,8 +158,10 @@ def _check(arguments: argparse.Namespace) -> int:
         if count := fixed.total():
             complain(f"--fix would remove {counted(count, 'finding')}")
         return FOUND if texts else FINE
-    is_judged = arguments.verdict or form == "html"
-    if is_judged:
+    if form == "html" and len(jobs) > 1:
+        titles = ", ".join(job.title for job in jobs)
+        raise CommandError(f"a page shows one program, give the files of one of: {titles}")
+    if arguments.verdict:
         checker.asked.add(UNUSED)
     with Progress("programs", len(jobs)) as progress:
         report = report_of(checker, _each(jobs, progress), left_open)
@@ -167,7 +169,9 @@ def _check(arguments: argparse.Namespace) -> int:
         if job.robot and job.robot.max_velocity is None and "V401" in checker.codes:
             name = job.robot.name
             complain(f"the speeds of the joints of {name} are unknown: V401 is not checked")
-    report = replace(report, fixed=fixed, is_judged=is_judged, is_counted=arguments.statistics)
+    report = replace(
+        report, fixed=fixed, is_judged=arguments.verdict, is_counted=arguments.statistics
+    )
     _write(report, form, arguments, texts)
     return FOUND if report.is_wrong else FINE
 

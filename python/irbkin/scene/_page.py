@@ -9,7 +9,7 @@ import json
 import re
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from irbkin.scene._data import Scene
@@ -23,23 +23,28 @@ SCRIPTS = (
 """The scripts, each behind those that it uses."""
 
 
-def page(scene: Scene | None = None, *, served: bool = False) -> str:
+def page(
+    scene: Scene | None = None, *, served: bool = False, program: dict[str, Any] | None = None
+) -> str:
     """Return the page as HTML.
 
     Args:
         scene: What it shows at first; an arm of the catalog when not given.
         served: Whether the process that serves it answers its requests.
+        program: The modules of a program, what is known of them as the engine answers `check`, and
+            the routine that is played with the answer to `motion`.
     """
     text = (FOLDER / "page.html").read_text(encoding="utf-8")
-    # A text cannot begin or end the script that it is in.
-    own = "null" if scene is None else scene.to_json().replace("<", "\\u003c")
+    own = "null" if scene is None else scene.to_json()
     title = "irbkin" if scene is None or not scene.title else f"irbkin: {scene.title}"
     parts = {
         "/*title*/": title.replace("&", "&amp;").replace("<", "&lt;"),
         "/*css*/": style(),
         "/*js*/": scripts(),
         "/*engine*/": "served" if served else engine(),
-        "/*scene*/": own,
+        # A text cannot begin or end the script that it is in.
+        "/*scene*/": own.replace("<", "\\u003c"),
+        "/*program*/": json.dumps(program).replace("<", "\\u003c"),
     }
     marks = "|".join(map(re.escape, parts))
     return re.sub(marks, lambda mark: parts[mark[0]], text)

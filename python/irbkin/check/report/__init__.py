@@ -17,6 +17,7 @@ from irbkin.check.codes import LEVELS, REASONS, UNREAD
 from irbkin.check.findings import Finding
 
 if TYPE_CHECKING:
+    from irbkin import Cell
     from irbkin.check.checker import Checker
     from irbkin.check.jobs import Job
     from irbkin.rapid import Checked
@@ -129,6 +130,8 @@ class Report:
     fixed: Counter[str] = field(default_factory=Counter)
     """Number of findings that corrections removed, by severity."""
     programs: Sequence[tuple[Job, Checked]] = ()
+    cell: Cell | None = None
+    """The obstacles."""
     is_judged: bool = False
     """Whether the summary of routines is shown, in formats that have one."""
     is_counted: bool = False
@@ -224,6 +227,7 @@ def report_of(checker: Checker, jobs: Iterable[Job], left_open: Iterable[Finding
         dict(reasons.most_common()),
         unread,
         programs=programs,
+        cell=checker.cell,
     )
 
 

@@ -27,8 +27,7 @@ class Engine {
   async answer(request) {
     let answer = await this.tried(request);
     if (answer.lost) answer = await this.tried(request);
-    if (answer.error !== undefined) throw new Error(answer.error);
-    return answer.ok;
+    return granted(answer);
   }
 
   // What answered may be gone with all that was set: another one is told again.
@@ -44,6 +43,11 @@ class Engine {
     for (const it of this.before) other.set(it).catch(() => {});
     return other;
   }
+}
+
+function granted({ ok, error }) {
+  if (error !== undefined) throw new Error(error);
+  return ok;
 }
 
 // Bytes in base 85, four of them in five letters, as Python's b85encode has them, with . for <.

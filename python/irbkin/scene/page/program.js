@@ -31,22 +31,24 @@ class Program {
     );
   }
 
-  // Modules of one task: each with a name and a text; a routine of them.
-  open(modules, routine) {
-    this.engine ??= this.app.engine.twin();
+  // Modules of one task: each with a name and a text; a routine of them. What is `known` of them is
+  // not asked.
+  open(modules, routine, known) {
+    this.engine ??= this.app.engine && this.app.engine.twin();
     this.modules = modules;
+    this.isRead = false;
     this.wanted = routine;
     this.title.textContent = "";
     this.files.replaceChildren(...modules.map((it, index) => el("option", { value: index }, it.name)));
     this.turnTo(0);
-    return this.read();
+    return this.read(false, known);
   }
 
   // Show the text of another module.
   turnTo(module) {
     this.module = module;
     this.files.value = module;
-    this.source.open(this.modules[module].text);
+    this.source.open(this.modules[module].text, !this.engine);
     this.mark();
   }
 
@@ -145,21 +147,21 @@ class Program {
   }
 
   // Check the program with the arm as it is; `stays` where the motion is.
-  async read(stays = false) {
+  async read(stays = false, known = null) {
     if (!this.modules) return;
     this.begin();
     this.stop();
     this.node.hidden = this.save.hidden = this.moves.hidden = this.source.node.hidden = false;
     this.files.hidden = this.modules.length < 2;
     this.words.textContent = "is checked";
-    const modules = this.modules.map(({ text }) => ({ text }));
-    let checked;
+    let checked = known;
     try {
-      checked = await this.asked({ do: "check", modules, collide: this.app.view.obstacles.length > 0 });
+      checked ??= await this.asked({ do: "check", modules: this.texts(), collide: this.app.view.obstacles.length > 0 });
       if (!checked) return;
+      this.isRead = !known;
     } catch (fault) {
       this.words.textContent = `It cannot be checked: ${fault.message}`;
-      this.found = this.faults = [];
+      this.found = [];
       this.list.replaceChildren();
       this.routines.hidden = this.player.hidden = this.fix.hidden = true;
       return;
@@ -170,22 +172,35 @@ class Program {
     this.counted = `${checked.moves.length - unchecked} of ${checked.moves.length} moves `
       + `checked, ${errors} ${errors === 1 ? "error" : "errors"}, ${shown.length - errors} other findings`
       + `${checked.faults.length ? `, ${checked.faults.length} statements not read` : ""}.`;
+    if (known) this.counted = known.words;
     if (checked.moves.length > MOST_ROWS) this.counted += ` The table has the first ${MOST_ROWS}.`;
-    Object.assign(this, { found: shown, faults: checked.faults, checked: checked.moves });
+    const faults = checked.faults.map((it) => ({ ...it, severity: "error", code: "", edits: [] }));
+    Object.assign(this, { found: [...shown, ...faults], checked: checked.moves });
     const able = this.corrections();
-    this.fix.hidden = !able.length;
+    this.fix.hidden = !able.length || !this.engine;
     this.fix.textContent = `fix ${able.length} ${able[0]?.severity === "note" ? "notes" : "findings"}`;
-    this.fill(checked, shown);
+    this.fill(checked.moves);
     this.mark();
     this.choices(checked);
-    await this.play(stays);
+    await this.play(stays, known);
+  }
+
+  texts() {
+    return this.modules.map(({ text }) => ({ text }));
+  }
+
+  // The motion of a procedure; the engine keeps the modules that it has read.
+  async motionOf(procedure) {
+    const modules = this.isRead ? null : this.texts();
+    const motion = await this.asked({ do: "motion", modules, module: procedure?.module, routine: procedure?.name });
+    this.isRead = true;
+    return motion;
   }
 
   // What was found on the lines of the module that is shown.
   mark() {
     const found = new Map();
-    const faults = (this.faults ?? []).map((it) => ({ ...it, severity: "error", code: "" }));
-    for (const it of [...(this.found ?? []), ...faults]) {
+    for (const it of this.found ?? []) {
       if (it.module === this.module) found.set(it.line, [...(found.get(it.line) ?? []), it]);
     }
     this.source.mark(found);
@@ -206,18 +221,18 @@ class Program {
     this.procedures = procedures;
     this.routines.replaceChildren(...procedures.map((it, index) => el("option", { value: index }, it.name)));
     this.routines.value = procedures.indexOf(own);
-    this.routines.hidden = procedures.length < 2;
+    this.routines.hidden = procedures.length < 2 || !this.engine;
   }
 
   // Follow the chosen routine; `stays` where the motion is.
-  async play(stays = false) {
+  async play(stays = false, known = null) {
     this.stop();
     this.shown = null;
     this.motion = null;
     const chosen = this.procedures[this.routines.value];
     let why = "";
     try {
-      const motion = await this.asked({ do: "motion", module: chosen?.module, routine: chosen?.name });
+      const motion = known ? granted(known.motion) : await this.motionOf(chosen);
       if (!motion) return;
       motion.places = motion.move_index.map((index) => motion.moves[index]);
       this.motion = motion;
@@ -230,13 +245,14 @@ class Program {
     if (this.motion && !stays) this.at(0);
   }
 
-  fill(checked, shown) {
+  // A row for each move with what was found on it, and for each finding on anything else.
+  fill(moves) {
     const rows = [];
     const place = ({ module, line, column }) => `${module}:${line}:${column}`;
     const found = new Map();
-    for (const it of shown) found.set(place(it), [...(found.get(place(it)) ?? []), it]);
-    const named = ({ module, line }) => (this.modules.length > 1 ? `${this.modules[module].name}:${line}` : String(line));
-    for (const move of checked.moves.slice(0, MOST_ROWS)) {
+    for (const it of this.found) found.set(place(it), [...(found.get(place(it)) ?? []), it]);
+    const named = ({ module, line }) => (this.modules.length > 1 ? `${this.modules[module].name.split("/").at(-1)}:${line}` : String(line));
+    for (const move of moves.slice(0, MOST_ROWS)) {
       const own = found.get(place(move)) ?? [];
       const worst = SEVERITIES.find((it) => own.some((one) => one.severity === it));
       rows.push(el("tr", {
@@ -249,14 +265,16 @@ class Program {
       el("td", {}, ...own.map((it) => el("div", {}, el("b", {}, it.code), ` ${it.message}`)),
         own.length || !move.unchecked ? "" : "not checked")));
     }
-    for (const fault of checked.faults) {
-      rows.push(el("tr", { className: "error" }, el("td", {}, named(fault)),
-        el("td", {}, ""), el("td", {}, ""), el("td", {}, fault.message)));
+    const moving = new Map(moves.map((it) => [place(it), it]));
+    for (const it of this.found.filter((one) => !moving.has(place(one))).slice(0, MOST_ROWS)) {
+      rows.push(el("tr", {
+        className: it.severity, "data-module": it.module, "data-line": it.line, onclick: () => this.show(it),
+      }, el("td", {}, named(it)), el("td", {}, ""), el("td", {}, ""),
+      el("td", {}, el("b", {}, it.code), ` ${it.message}`)));
     }
     this.list.replaceChildren(...rows);
-    const moves = new Map(checked.moves.map((it) => [place(it), it]));
-    this.marks = shown.slice(0, MOST_MARKS).flatMap((it) => {
-      const q = moves.get(place(it))?.q;
+    this.marks = this.found.slice(0, MOST_MARKS).flatMap((it) => {
+      const q = moving.get(place(it))?.q;
       const color = SEVERITY_COLORS[it.severity];
       return q && color ? [{ ...it, q, color }] : [];
     });

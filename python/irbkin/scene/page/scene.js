@@ -2,7 +2,8 @@
 
 const KNOWN = ["box", "sphere", "capsule", "cylinder", "half_space"];
 
-async function openScene(app, scene) {
+// What `irbkin check` found is in `program`.
+async function openScene(app, scene, program = null) {
   if (scene?.format !== "irbkin scene") throw new Error('not a scene: it has no "format": "irbkin scene"');
   if (scene.version !== 1) throw new Error(`the scene has version ${scene.version}, this page reads 1`);
   const { view } = app;
@@ -45,8 +46,10 @@ async function openScene(app, scene) {
   view.frames = (scene.frames ?? []).map((it) => Object.assign(fromRows(it.pose.flat()), { label: it.name }));
   view.marks = [...(scene.marks ?? []).map((it) => ({ at: it.point, text: it.text, color: SEVERITY_COLORS[it.severity] ?? NOTE_COLOR })), ...dots];
   const { motion } = first ?? {};
+  if (program) {
+    await app.program.open(program.modules, program.routine, program);
   // A program with its text is checked and can be changed.
-  if (motion?.source && app.source) {
+  } else if (motion?.source && app.source) {
     await app.program.open([{ name: scene.title || "program.mod", text: motion.source }], motion.routine);
   } else {
     for (const it of (scene.marks ?? []).slice(0, 50)) app.notes.add(`${it.place ?? ""} ${it.text}`.trim());
