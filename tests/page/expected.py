@@ -158,14 +158,6 @@ def of_singular(robot: irbkin.Robot, q: np.ndarray) -> Case:
     return {"request": {"do": "ik", "T": pose(T)}, "ok": {"solutions": each}}
 
 
-def of_follow(robot: irbkin.Robot, q: np.ndarray) -> Case:
-    T = robot.fk(q)
-    T[:3, 3] += [0.004, -0.003, 0.002]
-    followed = robot.follow(np.array([robot.fk(q), T]), q)
-    ok = {"solution": {"q": numbers(followed.q[1])}, "jump": None, "reason": None}
-    return {"request": {"do": "follow", "T": pose(T), "q": numbers(q)}, "ok": ok}
-
-
 def unreachable(robot: irbkin.Robot) -> Case:
     """A pose ten meters away has no solutions, and a reason."""
     T = np.eye(4)
@@ -256,7 +248,6 @@ def of_arm(robot: irbkin.Robot, request: Case) -> list[Case]:
         {"request": {"do": "cell", "obstacles": obstacles, "margin": 0.01}, "ok": names},
         of_fk(placed, q, cell),
         of_ik(placed, q, cell, True),
-        of_follow(placed, q),
     ]
     if robot.dof == 7:
         cases.append(of_ik(placed, q, cell, False))
@@ -278,7 +269,6 @@ def main() -> None:
     robot = irbkin.Robot("IRB 2600-12/1.65")
     cases.append(of_robot(robot, robot, {"name": robot.name}))
     cases += of_program(robot, EXAMPLE.read_text())
-    cases.append({"request": {"do": "urdf"}, "ok": robot.to_urdf()})
     Path(sys.argv[1]).write_text(json.dumps(cases))
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from irbkin import scene
 from irbkin.cli import main
+from irbkin.scene._page import engine
 
 DATA = Path(__file__).parents[1] / "data"
 ROBOT = irbkin.Robot("IRB 2600-12/1.65")
@@ -165,6 +166,22 @@ def test_a_report_of_check_shows_what_it_found_and_plays(opened, tmp_path, monke
     np.testing.assert_allclose(page.evaluate("() => irbkin.state.q"), made.q[-1], atol=1e-9)
 
 
+@pytest.mark.skipif(not engine(), reason="the engine of pages is not built")
+def test_a_report_with_the_engine_plays_any_routine_and_is_not_checked_again(opened, tmp_path):
+    other = "  PROC one()\n    MoveJ p1,v100,z1,tGun;\n  ENDPROC\n"
+    file, target = tmp_path / "weld.mod", tmp_path / "report.html"
+    file.write_text(MODULE.replace("  PROC main()", f"{other}  PROC main()"))
+    main(["check", ROBOT.name, str(file), "--ignore", "R", "-o", str(target)])
+    page = opened(f"file://{target}")
+    assert page.locator(".program p").inner_text().startswith("4 of 4 moves checked. Found ")
+    # A code that the check leaves out is not asked of the engine.
+    assert page.locator(".moves", has_text="C204").count() == 1
+    assert page.locator(".moves", has_text="R101").count() == 0
+    page.select_option("[aria-label=routine]", label="one")
+    page.wait_for_function("() => irbkin.program.motion?.moves.length === 1")
+    assert page.evaluate("() => irbkin.program.source.line") == 6
+
+
 def test_a_file_without_an_arm_and_the_engine_draws(opened, tmp_path, monkeypatch):
     monkeypatch.setattr("irbkin.scene._page.engine", str)
     box = irbkin.body.Shape.box([0.4, 0.3, 0.2], irbkin.pose([3, 4, 1]))
@@ -248,25 +265,19 @@ def checked(page):
     return page.locator(".program p").inner_text()
 
 
-def test_a_module_is_edited_corrected_and_saved(served, opened):
+def test_a_module_shows_what_is_found_and_the_lines_that_correct_it(served, opened):
     view = served(ROBOT)
     page = opened(view.url)
     page.get_by_label("paste a target, a tool, a pose, joints or a module").fill(MODULE)
-    before = checked(page)
-    assert "3 of 3 moves checked" in before
+    assert "3 of 3 moves checked" in checked(page)
     margin = page.locator(".margin div")
     assert margin.nth(7).get_attribute("class") == "error"
     assert "R101" in margin.nth(7).get_attribute("title")
     text = page.get_by_label("text of the module")
-    text.fill(MODULE.replace("[[2900,", "[[900,"))
-    page.wait_for_function("() => irbkin.program.words.textContent.includes(' 0 errors')")
-    page.locator(".program button", has_text="fix").click()
-    page.wait_for_function("() => irbkin.program.source.text.value.includes('[-1,0,-1,0]')")
-    wanted = irbkin.rapid.check(ROBOT, irbkin.rapid.parse(text.input_value()))
-    assert not [it for it in wanted if it.severity == "error"]
-    with page.expect_download() as saved:
-        page.get_by_role("button", name="save").click()
-    assert Path(saved.value.path()).read_text() == text.input_value()
+    assert not text.is_editable()
+    assert text.input_value() == MODULE
+    line = "CONST robtarget p1:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];"
+    assert page.locator(".moves code").all_inner_texts() == [f"fix: {line}"]
     margin.nth(6).click()
     page.wait_for_function("() => !irbkin.solving")
     z = page.evaluate("() => irbkin.state.T[14]")
@@ -275,12 +286,24 @@ def test_a_module_is_edited_corrected_and_saved(served, opened):
     assert not page.locator(".program").is_visible()
 
 
-def test_what_is_checked_is_the_newest_text_alone(served, opened):
+def test_the_lines_that_edits_change_are_shown_whole_but_long_ones(served, opened):
+    page = opened(served(ROBOT).url)
+    shown = """([text, edits]) => corrected(new TextEncoder().encode(text), edits)"""
+    text = "  ä:=[1,2];\nb:=3;\n" + "c" * 1000 + "d" * 1000
+    edits = [
+        {"begin": len(text[:at].encode()), "end": len(text[: at + 1].encode()), "text": it}
+        for at, it in ((text.index("2"), "20"), (text.index("1"), "10"), (text.index("d"), "D"))
+    ]
+    lines = page.evaluate(shown, [text, edits])
+    assert lines == ["ä:=[10,20];", "c" * 200 + "D" + "d" * 200]
+    assert page.evaluate(shown, ["1", [{"begin": 0, "end": 1, "text": "2"}]]) == ["2"]
+
+
+def test_what_is_checked_is_the_newest_program_alone(served, opened):
     view = served(ROBOT)
     page = opened(view.url)
     page.evaluate("(text) => irbkin.paste(text)", MODULE)
     checked(page)
-    assert page.locator(".program button", has_text="fix").is_visible()
     # Each check waits until it is let go: all but the first and the last are left out.
     page.evaluate("""() => {
         const { engine } = irbkin.program;
@@ -292,17 +315,16 @@ def test_what_is_checked_is_the_newest_text_alone(served, opened):
             return answer(request);
         };
     }""")
-    text = page.get_by_label("text of the module")
     for count in range(1, 4):
-        text.fill("! line\n" * count + MODULE)
+        page.evaluate("(text) => irbkin.paste(text)", "! line\n" * count + MODULE)
+        page.wait_for_timeout(100)
         # Places of what was found are of another text.
-        assert not page.locator(".program button", has_text="fix").is_visible()
-        page.wait_for_timeout(400)
+        assert page.locator(".margin .error").count() == 0
     page.evaluate("() => window.go()")
     checked(page)
     page.wait_for_function("() => window.asked.length === 2")
     assert page.evaluate("() => window.asked") == [len(MODULE) + 7, len(MODULE) + 21]
-    page.wait_for_function("() => !irbkin.program.fix.hidden")
+    page.locator(".margin .error").wait_for()
     assert page.locator(".margin div").nth(10).get_attribute("class") == "error"
 
 

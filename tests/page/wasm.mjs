@@ -92,7 +92,7 @@ for (const { request, ok } of cases) {
     if (request.do === "robot") robot = answer.ok?.name;
     const place = `${robot}, ${request.do}`;
     failed.push(...differences(ok, answer.ok ?? answer, place));
-    if (["ik", "fk", "follow"].includes(request.do)) {
+    if (["ik", "fk"].includes(request.do)) {
         const { collide, ...plain } = request;
         times.push(`${time(page, plain, 500).toFixed(1).padStart(8)} us  ${place}`);
     }

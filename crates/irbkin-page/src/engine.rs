@@ -12,7 +12,6 @@ use serde_json::Value;
 use super::catalog::Catalog;
 use super::cell::{self, Obstacles};
 use super::check::Checked;
-use super::follow::Step;
 use super::forward::Posture;
 use super::inverse::Found;
 use super::motion::Motion;
@@ -59,14 +58,12 @@ impl Page {
                 let robot = self.robot.insert(robot::read(request)?);
                 on!(robot, robot => ok(Arm::of(robot)))
             }
-            "urdf" => on!(self.robot()?, robot => ok(robot.to_urdf())),
             "cell" => {
                 self.cell = cell::read(request)?;
                 ok(Obstacles::of(&self.cell))
             }
             "fk" => on!(self.robot()?, robot => ok(Posture::read(robot, &self.cell, request)?)),
             "ik" => on!(self.robot()?, robot => ok(Found::read(robot, &self.cell, request)?)),
-            "follow" => on!(self.robot()?, robot => ok(Step::read(robot, &self.cell, request)?)),
             "ik_target" => on!(self.robot()?, robot => ok(Meant::read(robot, request)?)),
             "check" => {
                 self.read_program(request)?;
@@ -78,8 +75,7 @@ impl Page {
                 on!(self.robot()?, robot => ok(Motion::of(robot, self.program()?, request)?))
             }
             other => Err(Refusal(format!(
-                "do is {:?}, it must be catalog, robot, urdf, cell, fk, ik, follow, ik_target, \
-                 check or motion",
+                "do is {:?}, it must be catalog, robot, cell, fk, ik, ik_target, check or motion",
                 other.chars().take(40).collect::<String>()
             ))),
         }

@@ -18,11 +18,9 @@
 //! |---|---|---|
 //! | `catalog` | | [`catalog::Catalog`] |
 //! | `robot` | `name`, or `urdf` with `base` and `tip`; `tool`, `base_pose` | [`robot::Arm`] |
-//! | `urdf` | | the text of a URDF |
 //! | `cell` | `obstacles`, `margin` | [`cell::Obstacles`] |
 //! | `fk` | `q`, `collide` | [`forward::Posture`] |
 //! | `ik` | `T`, `seed`, `q7`, `collide` | [`inverse::Found`] |
-//! | `follow` | `T`, `q`, `collide` | [`follow::Step`] |
 //! | `ik_target` | `robtarget`, `wobj` | [`target::Meant`] |
 //! | `check` | `modules`, `collide` | [`check::Checked`] |
 //! | `motion` | `modules`, `module`, `routine` | [`motion::Motion`] |
@@ -35,7 +33,6 @@ pub mod catalog;
 pub mod cell;
 pub mod check;
 mod engine;
-pub mod follow;
 pub mod forward;
 pub mod inverse;
 #[cfg(any(target_family = "wasm", test))]

@@ -301,11 +301,6 @@ class App {
     }
   }
 
-  newProgram() {
-    const T = this.arm.frames(this.state.q).tool;
-    return this.program.open([{ name: "Here.mod", text: asModule({ ...this.state, T, robot: this.robot }) }]);
-  }
-
   // Modules among the files are read together: they are of one task.
   async drop(files) {
     const read = [];

@@ -12,17 +12,15 @@ class Program {
     });
     this.clock = el("span", { className: "clock" });
     this.button = el("button", { type: "button", onclick: () => this.toggle(), title: "space" }, "play");
-    this.source = new Source({ onchange: (text) => this.edit(text), online: (line) => this.goLine(line) });
+    this.source = new Source((line) => this.goLine(line));
     this.list = el("tbody");
     this.words = el("p", { className: "dim" });
     this.files = el("select", { ariaLabel: "module", onchange: () => this.turnTo(Number(this.files.value)) });
     this.routines = el("select", { ariaLabel: "routine", onchange: () => this.play() });
-    this.fix = el("button", { type: "button", onclick: () => this.correct(), title: "as irbkin check --fix" });
-    this.save = el("button", { type: "button", onclick: () => this.write() }, "save");
     this.node = el("section", { className: "program", hidden: true },
       el("div", { className: "row" },
         el("h2", {}, "Program ", this.title = el("span", { className: "dim" })),
-        this.files, this.routines, this.fix, this.save,
+        this.files, this.routines,
         el("button", { type: "button", onclick: () => this.close(), ariaLabel: "close the program" }, "close")),
       this.words,
       this.player = el("div", { className: "player" }, this.button, this.slider, this.clock),
@@ -37,8 +35,11 @@ class Program {
     this.engine ??= this.app.engine && this.app.engine.twin();
     this.modules = modules;
     this.isRead = false;
+    this.found = [];
+    this.bytes = modules.map(({ text }) => new TextEncoder().encode(text));
     this.wanted = routine;
     this.title.textContent = "";
+    this.list.replaceChildren();
     this.files.replaceChildren(...modules.map((it, index) => el("option", { value: index }, it.name)));
     this.turnTo(0);
     return this.read(false, known);
@@ -48,51 +49,8 @@ class Program {
   turnTo(module) {
     this.module = module;
     this.files.value = module;
-    this.source.open(this.modules[module].text, !this.engine);
+    this.source.open(this.modules[module].text);
     this.mark();
-  }
-
-  // Another text: it is checked after a pause.
-  edit(text) {
-    this.modules = this.modules.map((it, module) => (module === this.module ? { ...it, text } : it));
-    this.begin();
-    clearTimeout(this.later);
-    this.later = setTimeout(() => this.read(true), 300);
-  }
-
-  // Apply the corrections, unless they cause another error or warning.
-  async correct() {
-    const before = this.modules;
-    const wrong = this.wrong();
-    const edits = this.corrections().flatMap((it) => it.edits);
-    const own = (module) => edits.filter((it) => it.module === module);
-    this.modules = before.map((it, module) => ({ ...it, text: edited(it.text, own(module)) }));
-    await this.read(true);
-    if (this.wrong() > wrong) {
-      this.modules = before;
-      await this.read(true);
-      this.words.textContent += " The corrections would cause another finding: they are not made.";
-    }
-    this.turnTo(this.module);
-  }
-
-  // Findings that can be corrected: notes where nothing else can.
-  corrections() {
-    const able = this.found.filter((it) => it.edits.length);
-    const wrong = able.filter((it) => it.severity !== "note");
-    return wrong.length ? wrong : able;
-  }
-
-  wrong() {
-    return this.found.filter((it) => it.severity !== "note").length;
-  }
-
-  // Keep the text of the module that is shown as a file.
-  write() {
-    const { name, text } = this.modules[this.module];
-    const href = URL.createObjectURL(new Blob([text], { type: "text/plain" }));
-    el("a", { href, download: name }).click();
-    setTimeout(() => URL.revokeObjectURL(href), 1000);
   }
 
   // A motion of a scene is of its arm alone.
@@ -122,23 +80,17 @@ class Program {
     this.list.replaceChildren();
     const places = (motion.lines ?? []).map((line) => ({ module: 0, line }));
     this.motion = { t: motion.t, q: motion.q.flat(), places, duration: motion.t.at(-1), moves: [] };
-    for (const it of [this.files, this.routines, this.fix, this.save, this.moves]) it.hidden = true;
+    for (const it of [this.files, this.routines, this.moves]) it.hidden = true;
     this.source.node.hidden = !motion.source;
-    this.source.open(motion.source ?? "", true);
+    this.source.open(motion.source ?? "");
     this.source.mark(new Map());
     this.node.hidden = false;
     this.player.hidden = false;
     this.at(0);
   }
 
-  // What was asked and found before is of another text or arm.
-  begin() {
-    this.turn = {};
-    this.fix.hidden = true;
-  }
-
-  // Ask an engine of its own, beside the one that solves, when it is free; nothing where another text
-  // or arm has come.
+  // Ask an engine of its own, beside the one that solves, when it is free; nothing where another
+  // program or arm has come.
   async asked(request) {
     const { turn, engine } = this;
     await engine.last;
@@ -149,9 +101,10 @@ class Program {
   // Check the program with the arm as it is; `stays` where the motion is.
   async read(stays = false, known = null) {
     if (!this.modules) return;
-    this.begin();
+    // What was asked before is of another arm.
+    this.turn = {};
     this.stop();
-    this.node.hidden = this.save.hidden = this.moves.hidden = this.source.node.hidden = false;
+    this.node.hidden = this.moves.hidden = this.source.node.hidden = false;
     this.files.hidden = this.modules.length < 2;
     this.words.textContent = "is checked";
     let checked = known;
@@ -163,7 +116,7 @@ class Program {
       this.words.textContent = `It cannot be checked: ${fault.message}`;
       this.found = [];
       this.list.replaceChildren();
-      this.routines.hidden = this.player.hidden = this.fix.hidden = true;
+      this.routines.hidden = this.player.hidden = true;
       return;
     }
     const shown = checked.findings.filter((it) => it.shown);
@@ -176,9 +129,6 @@ class Program {
     if (checked.moves.length > MOST_ROWS) this.counted += ` The table has the first ${MOST_ROWS}.`;
     const faults = checked.faults.map((it) => ({ ...it, severity: "error", code: "", edits: [] }));
     Object.assign(this, { found: [...shown, ...faults], checked: checked.moves });
-    const able = this.corrections();
-    this.fix.hidden = !able.length || !this.engine;
-    this.fix.textContent = `fix ${able.length} ${able[0]?.severity === "note" ? "notes" : "findings"}`;
     this.fill(checked.moves);
     this.mark();
     this.choices(checked);
@@ -200,7 +150,7 @@ class Program {
   // What was found on the lines of the module that is shown.
   mark() {
     const found = new Map();
-    for (const it of this.found ?? []) {
+    for (const it of this.found) {
       if (it.module === this.module) found.set(it.line, [...(found.get(it.line) ?? []), it]);
     }
     this.source.mark(found);
@@ -262,7 +212,7 @@ class Program {
       el("td", {}, named(move)),
       el("td", {}, `${move.instruction ?? ""} ${move.target}`.trim()),
       el("td", {}, move.confdata ? move.confdata.join(" ") : ""),
-      el("td", {}, ...own.map((it) => el("div", {}, el("b", {}, it.code), ` ${it.message}`)),
+      el("td", {}, ...own.map((it) => this.said(it)),
         own.length || !move.unchecked ? "" : "not checked")));
     }
     const moving = new Map(moves.map((it) => [place(it), it]));
@@ -270,7 +220,7 @@ class Program {
       rows.push(el("tr", {
         className: it.severity, "data-module": it.module, "data-line": it.line, onclick: () => this.show(it),
       }, el("td", {}, named(it)), el("td", {}, ""), el("td", {}, ""),
-      el("td", {}, el("b", {}, it.code), ` ${it.message}`)));
+      el("td", {}, this.said(it))));
     }
     this.list.replaceChildren(...rows);
     this.marks = this.found.slice(0, MOST_MARKS).flatMap((it) => {
@@ -278,6 +228,13 @@ class Program {
       const color = SEVERITY_COLORS[it.severity];
       return q && color ? [{ ...it, q, color }] : [];
     });
+  }
+
+  // A finding, and the lines that correct it.
+  said({ code, message, edits }) {
+    const lines = this.bytes.flatMap((it, module) => corrected(it, edits.filter((one) => one.module === module)));
+    return el("div", {}, el("b", {}, code), ` ${message}`,
+      ...lines.map((line) => el("code", { className: "dim" }, `fix: ${line}`)));
   }
 
   // The way of the program's tool, and the findings at the ends of their moves.

@@ -48,7 +48,7 @@ async function openScene(app, scene, program = null) {
   const { motion } = first ?? {};
   if (program) {
     await app.program.open(program.modules, program.routine, program);
-  // A program with its text is checked and can be changed.
+  // A program with its text is checked.
   } else if (motion?.source && app.source) {
     await app.program.open([{ name: scene.title || "program.mod", text: motion.source }], motion.routine);
   } else {

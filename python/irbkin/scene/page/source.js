@@ -1,11 +1,10 @@
 // The text of a module, with numbers of lines and what was found on them in its margin.
 
 class Source {
-  constructor({ onchange, online }) {
+  constructor(online) {
     this.online = online;
     this.text = el("textarea", {
-      wrap: "off", spellcheck: false, ariaLabel: "text of the module", autocapitalize: "off",
-      oninput: () => { this.count(); onchange(this.text.value); },
+      wrap: "off", spellcheck: false, ariaLabel: "text of the module", readOnly: true,
       onscroll: () => this.draw(),
     });
     this.margin = el("div", { className: "margin" });
@@ -14,15 +13,10 @@ class Source {
     new ResizeObserver(() => this.draw()).observe(this.text);
   }
 
-  open(text, readOnly = false) {
+  open(text) {
     this.text.value = text;
-    this.text.readOnly = readOnly;
+    this.lines = text.split("\n").length;
     this.line = null;
-    this.count();
-  }
-
-  count() {
-    this.lines = this.text.value.split("\n").length;
     this.draw();
   }
 
@@ -69,16 +63,21 @@ class Source {
 
 const SEVERITIES = ["error", "warning", "note"];
 
-// A text after edits, whose places are bytes; of those at one place the first counts.
-function edited(text, edits) {
-  const bytes = new TextEncoder().encode(text);
+// Bytes of a line that are shown before and behind an edit.
+const AROUND = 200;
+
+// The lines that edits change in a text of bytes, as they would be.
+function corrected(bytes, edits) {
   const part = (from, to) => new TextDecoder().decode(bytes.subarray(from, to));
-  let copied = 0;
-  const parts = [...edits].sort((a, b) => a.begin - b.begin).flatMap((it) => {
-    if (it.begin < copied) return [];
-    const before = part(copied, it.begin);
-    copied = it.end;
-    return [before, it.text];
+  const lines = new Map();
+  for (const { begin, end, text } of [...edits].sort((a, b) => a.begin - b.begin)) {
+    const from = Math.max(0, begin - AROUND);
+    const start = from + bytes.subarray(from, begin).lastIndexOf(10) + 1;
+    const { words, at } = lines.get(start) ?? { words: "", at: start };
+    lines.set(start, { words: words + part(at, begin) + text, at: end });
+  }
+  return [...lines.values()].map(({ words, at }) => {
+    const rest = part(at, at + AROUND).split("\n")[0];
+    return (words + rest).trim();
   });
-  return [...parts, part(copied)].join("");
 }

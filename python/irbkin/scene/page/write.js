@@ -43,28 +43,6 @@ function asRapid(state) {
   return `CONST robtarget pHere:=${target};\n${joints}`;
 }
 
-// A module that moves to the present pose, to be written further.
-function asModule(state) {
-  const { tool, wobj, robot } = state;
-  const frame = (T) => {
-    const numbers = [scale(place(T), 1e3), toQuaternion(T)].map((it) => it.map((one) => trimmed(one, 6)));
-    return `[[${numbers[0]}],[${numbers[1]}]]`;
-  };
-  const tools = isIdentity(tool) ? [] : [
-    `PERS tooldata tHere:=[TRUE,${frame(tool)},[1,[0,0,1],[1,0,0,0],0,0,0]];`,
-  ];
-  const wobjs = isIdentity(wobj) ? [] : [
-    `PERS wobjdata wHere:=[FALSE,TRUE,"",${frame(wobj)},[[0,0,0],[1,0,0,0]]];`,
-  ];
-  const own = tools.length ? "tHere" : "tool0";
-  const [move, at] = robot.has_confdata ? ["MoveJ", "pHere"] : ["MoveAbsJ", "jHere"];
-  const lines = [...tools, ...wobjs, ...asRapid(state).trim().split("\n")];
-  return [
-    "MODULE Here", ...lines.map((it) => `  ${it}`), "  PROC main()",
-    `    ${move} ${at},v1000,fine,${own}${wobjs.length ? "\\WObj:=wHere" : ""};`, "  ENDPROC", "ENDMODULE", "",
-  ].join("\n");
-}
-
 function asCsv(state) {
   const joints = state.q.map((_, index) => `q${index + 1}_deg`);
   const head = ["slot", ...joints, "within_limits"].join(",");
