@@ -61,3 +61,31 @@ def used_by() -> dict[str, set[str]]:
 def path(module: str) -> str:
     """A module as the table of layers names it."""
     return module.removeprefix("irbkin.").replace(".", "/")
+
+
+def cycles(graph: dict[str, set[str]]) -> list[list[str]]:
+    """Files that use one another in a circle: the strongly connected components (Tarjan)."""
+    index: dict[str, int] = {}
+    low: dict[str, int] = {}
+    stack: list[str] = []
+    found = []
+
+    def visit(node: str) -> None:
+        index[node] = low[node] = len(index)
+        stack.append(node)
+        for other in graph[node]:
+            if other not in index:
+                visit(other)
+                low[node] = min(low[node], low[other])
+            elif other in stack:
+                low[node] = min(low[node], index[other])
+        if low[node] == index[node]:
+            circle = stack[stack.index(node) :]
+            del stack[stack.index(node) :]
+            if len(circle) > 1:
+                found.append(sorted(circle))
+
+    for node in sorted(graph):
+        if node not in index:
+            visit(node)
+    return sorted(found)

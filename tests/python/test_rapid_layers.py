@@ -5,7 +5,7 @@ circle.
 import re
 from pathlib import Path
 
-RAPID = Path(__file__).parents[2] / "src" / "rapid"
+RAPID = Path(__file__).parents[2] / "crates" / "irbkin-abb" / "src" / "rapid"
 
 
 def layers() -> list[str]:

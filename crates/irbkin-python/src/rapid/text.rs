@@ -9,7 +9,6 @@ use super::module::RapidModule;
 use super::values::{Elements, read_content, record};
 use crate::errors::{Fault, exception};
 use crate::signals::detached_until;
-use irbkin::Error;
 use irbkin_abb::rapid;
 use irbkin_abb::rapid::internal::{Faults, read_with};
 use irbkin_abb::rapid::{Content, Datum, Module, RapidFault, Storage, Value};
