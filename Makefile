@@ -45,7 +45,7 @@ MSRV := $(shell sed -nE 's/^rust-version = "(.*)"/\1/p' Cargo.toml)
 
 .PHONY: help run test test-oracles check bench bench-peers evidence soak fuzz mutants docs site test-recipes test-ros page \
 	test-page capi test-capi bench-capi speed wheel packages ship test-platforms reproducible thirdparty deny \
-	semver msrv stubs clean toolchains lints rust-tests package
+	semver msrv clean toolchains lints rust-tests package
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -230,13 +230,11 @@ docs: $(BUILT) $(VENV)/.groups $(VENV)/.site ## Write generated tables and trans
 site: $(BUILT) $(VENV)/.site ## Build the site of README, docs, arms and docstrings: target/site/html
 	$(BIN)/python docs/site/build.py
 
-stubs: $(BUILT) ## Write the docstrings of the type stubs from those of the extension
-	$(BIN)/python tests/python/stub_docs.py
-
 wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
-	rm -rf dist/venv dist/irbkin-*.whl
-	@$(SHIPPED) maturin build --release --quiet \
-		--compression-level 9 --out dist
+	rm -rf dist/venv dist/irbkin-*.whl target/wheel
+	@$(SHIPPED) maturin build --release --quiet --out target/wheel
+	@$(SHIPPED) ship/documented.sh target/wheel/irbkin-*.whl \
+		maturin build --release --quiet --compression-level 9 --out dist
 	$(BIN)/python tests/check_wheel.py dist/irbkin-*.whl
 	$(PYTHON) -m venv dist/venv
 	tests/retry.sh dist/venv/bin/pip install --quiet --disable-pip-version-check dist/irbkin-*.whl

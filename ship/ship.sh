@@ -7,9 +7,11 @@ mkdir -p target/ship
 cp README.md target/ship/README.md
 trap 'cp target/ship/README.md README.md' EXIT
 python ship/readme.py
-maturin sdist --out dist
+rm -rf target/ship/plain
+ship/wheel.sh target/ship/plain x86_64-unknown-linux-gnu
 code=0
-ship/each.sh "${@/#/ship/wheel.sh dist }" || code=$?
+ship/documented.sh target/ship/plain/*.whl \
+    ship/each.sh "maturin sdist --out dist" "${@/#/ship/wheel.sh dist }" || code=$?
 [ $code -eq 0 ] || [ $code -eq 77 ] || exit $code
 ship/check.sh
 python ship/table.py

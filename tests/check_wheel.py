@@ -1,4 +1,4 @@
-"""Check a wheel: its name, size and bill of materials, and that it has no paths of the machine.
+"""Check a wheel: its name, size, bill of materials and stub, and paths of the machine.
 
 Usage: python tests/check_wheel.py dist/irbkin-*.whl
 """
@@ -76,6 +76,8 @@ def faults(wheel: Path) -> list[str]:
     with zipfile.ZipFile(wheel) as files:
         if not any(SBOM.fullmatch(name) for name in files.namelist()):
             found.append(f"{wheel.name} has no bill of materials: nothing matches {SBOM.pattern}")
+        if b'"""Return' not in files.read("irbkin/_core.pyi"):
+            found.append(f"{wheel.name} has a stub without docstrings: ship/documented.sh")
         for name in files.namelist():
             content = files.read(name)
             for path in sorted(machine_paths()):

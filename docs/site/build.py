@@ -18,6 +18,9 @@ from irbkin.cli import main as command
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
+sys.path.append(str(ROOT / "tests" / "python"))
+from stub_docs import with_docs  # noqa: E402
+
 PAGE = ROOT / "target" / "page" / "irbkin.html"
 SITE = ROOT / "target" / "site"
 PAGES = SITE / "pages"
@@ -38,6 +41,7 @@ def main() -> None:
     """Write the pages and build them; a dead link is an error."""
     shutil.rmtree(SITE, ignore_errors=True)
     copy_sources()
+    copy_package()
     arms = [write_arm(name) for name in irbkin.catalog()]
     write("arms/README.md", "# Arms\n\n```text\n" + answer("catalog") + "```\n")
     modules = [write_module(name) for name in MODULES]
@@ -70,6 +74,14 @@ def copy_sources() -> None:
         write("arms/page.html", PAGE.read_bytes())
     else:
         print("The site shows no arms: target/page/irbkin.html is missing, `make page` builds it")
+
+
+def copy_package() -> None:
+    """Copy the package, with the docstrings of the extension in its stub."""
+    copied = SITE / "python"
+    shutil.copytree(ROOT / "python", copied, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+    stub = copied / "irbkin" / "_core.pyi"
+    stub.write_text(with_docs(stub.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 def write(name: str, text: str | bytes) -> None:

@@ -1,8 +1,7 @@
-"""Write the docstrings of `python/irbkin/_core.pyi` from those of the extension module.
+"""Write the docstrings of the extension module into `python/irbkin/_core.pyi`.
 
-The doc comments in `src/python` are what `help()` shows; this puts the same words into the stub,
-which editors and type checkers read. `make stubs` runs it, `test_stub_docs.py` holds the stub to
-it.
+The doc comments in `src/python` are what `help()` shows; this puts the same words into the stub of
+a wheel, which editors read (`ship/documented.sh`). In the sources the stub has types alone.
 """
 
 import ast
@@ -47,18 +46,17 @@ def public(body: list[ast.stmt]):
 
 
 def set_doc(lines: list[str], node: ast.FunctionDef | ast.ClassDef, doc: str) -> None:
-    """Put a docstring into a definition, in place of `...` or of the one that it has."""
+    """Put a docstring into a definition: of a function in place of `...`."""
     first = node.body[0]
-    is_function = isinstance(node, ast.FunctionDef)
-    is_doc = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
+    is_bare = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
     text = quoted(doc, " " * (node.col_offset + 4))
-    if is_doc:
-        head = lines[first.lineno - 1][: first.col_offset].rstrip()
-        end = first.end_lineno
+    if is_bare:
+        assert first.value.value is ..., f"{node.name} has a docstring"
         start = first.lineno - 1
-        lines[start:end] = ([head] if head else []) + text
+        head = lines[start][: first.col_offset].rstrip()
+        lines[start : start + 1] = ([head] if head else []) + text
     else:
-        assert not is_function, f"{node.name} has a body"
+        assert not isinstance(node, ast.FunctionDef), f"{node.name} has a body"
         decorators = getattr(first, "decorator_list", [])
         start = min([first.lineno, *(decorator.lineno for decorator in decorators)]) - 1
         lines[start:start] = [*text, ""]

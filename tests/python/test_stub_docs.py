@@ -1,25 +1,31 @@
-"""The stub says what `help()` says, and the docstrings are whole."""
+"""The stub of a wheel says what `help()` says, and the docstrings are whole."""
 
+import ast
 import inspect
 import re
 
 import irbkin
 import pytest
 from irbkin import rapid
-from stub_docs import STUB, with_docs
+from stub_docs import STUB, documented, with_docs
 
 
-def test_the_stub_has_the_docstrings_of_the_extension():
-    stub = STUB.read_text()
-    assert with_docs(stub) == stub, "the stub is not up to date: make stubs writes it"
+def test_the_stub_has_no_docstrings_and_that_of_a_wheel_has_all():
+    tree = ast.parse(STUB.read_text())
+    assert [node.name for node, _ in documented(tree) if ast.get_docstring(node)] == []
+    written = ast.parse(with_docs(STUB.read_text()))
+    things = list(documented(written))
+    assert len(things) > 400
+    for node, thing in things:
+        # The first paragraph is wrapped again.
+        assert ast.get_docstring(node).split() == inspect.getdoc(thing).split(), node.name
 
 
-def test_docstrings_are_put_in_and_replaced():
+def test_docstrings_are_put_in():
     bare = "def catalog_entry(name: str) -> CatalogEntry: ...\n"
-    documented = with_docs(bare)
-    assert documented.startswith('def catalog_entry(name: str) -> CatalogEntry:\n    """Return')
-    assert with_docs(documented) == documented
-    assert with_docs(documented.replace("Return", "Give")) == documented
+    assert with_docs(bare).startswith(
+        'def catalog_entry(name: str) -> CatalogEntry:\n    """Return'
+    )
     owner = "class Robot:\n    @property\n    def dof(self) -> int: ...\n"
     lines = with_docs(owner).splitlines()
     assert lines[1].startswith('    """')
@@ -39,7 +45,7 @@ def test_the_stub_has_every_structure():
     assert {irbkin.Robot(name).structure for name in irbkin.catalog()} < names
 
 
-def documented():
+def offered():
     for module in (irbkin, rapid):
         for name in module.__all__:
             thing = getattr(module, name)
@@ -55,7 +61,7 @@ def documented():
                         yield f"{name}.{member}", getattr(thing, member)
 
 
-@pytest.mark.parametrize(("name", "thing"), sorted(documented(), key=lambda found: found[0]))
+@pytest.mark.parametrize(("name", "thing"), sorted(offered(), key=lambda found: found[0]))
 def test_a_docstring_begins_with_a_sentence_and_fits_a_line(name, thing):
     doc = inspect.getdoc(thing)
     assert doc, name

@@ -4,7 +4,6 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-# The docstrings of the stubs are copies of those in src/python.
 FILES = [
     *ROOT.glob("src/**/*.rs"),
     *ROOT.glob("python/**/*.py"),
