@@ -20,7 +20,7 @@ fn body_of(robot: &AnyRobot) -> &Body {
 fn every_arm_of_the_catalog_has_a_body() {
     let (mut of_meshes, mut approximate) = (0, 0);
     for arm in catalog() {
-        let robot = AnyRobot::from_catalog(arm).unwrap();
+        let robot = AnyRobot::from_catalog(&arm).unwrap();
         let (dof, body) = (arm.dof(), body_of(&robot));
         for link in 0..=dof {
             assert!(body.capsules().iter().any(|own| own.link == link), "{} {link}", arm.name);
@@ -121,7 +121,7 @@ fn compared<const N: usize>(robot: &Robot<N>) -> [f64; 7] {
 fn approximate_bodies_are_near_the_meshes() {
     let mut rows: Vec<(&str, [f64; 7])> = Vec::new();
     for arm in catalog() {
-        let robot = AnyRobot::from_catalog(arm).unwrap();
+        let robot = AnyRobot::from_catalog(&arm).unwrap();
         // Arms of one mesh count once.
         let is_same = |(name, _): &(&str, _)| {
             body_of(&AnyRobot::named(name).unwrap()).capsules() == body_of(&robot).capsules()

@@ -192,7 +192,7 @@ fn independent_product_of_the_table() {
 fn the_zero_pose_is_the_sum_of_the_lengths_in_the_drawing() {
     for arm in catalog() {
         let CatalogGeometry::Abb { a1, a2, c1, c2, c3, c4, .. } = arm.geometry else { continue };
-        let pose: Pose = Robot::<6>::from_catalog(arm).unwrap().fk(&[0.0; 6]);
+        let pose: Pose = Robot::<6>::from_catalog(&arm).unwrap().fk(&[0.0; 6]);
         let wanted = Vector3::new(a1 + c3 + c4, 0.0, c1 + c2 - a2) / 1e3;
         assert!(
             (pose.translation.vector - wanted).amax() < 2e-15 * wanted.norm(),
@@ -361,7 +361,7 @@ fn limits_of_axis_6_are_angles_and_not_turns() {
 fn each_end_of_axes_2_and_3_is_reached_inside_the_linkage() {
     let mut limited = 0;
     for arm in catalog().filter(|arm| arm.is_coupled()) {
-        let robot: Robot<6> = Robot::from_catalog(arm).unwrap();
+        let robot: Robot<6> = Robot::from_catalog(&arm).unwrap();
         let (two, three) = (arm.limits[1], arm.limits[2]);
         assert!(-90.0 < three[0] && three[1] < 180.0, "{}", arm.name);
         let Some(linkage) = robot.limits().linkage() else { continue };
@@ -411,10 +411,10 @@ fn every_arm_has_sane_limits() {
             arm.payload.is_none_or(|kilograms| kilograms > 0.0)
                 && arm.reach.is_none_or(|meters| meters > 0.0)
         );
-        for rates in [arm.max_velocity, arm.max_acceleration].into_iter().flatten() {
+        for rates in [&arm.max_velocity, &arm.max_acceleration].into_iter().flatten() {
             assert!(rates.len() == arm.dof() && rates.iter().all(|rate| *rate > 0.0));
         }
-        for [lower, upper] in arm.limits {
+        for [lower, upper] in &arm.limits {
             assert!(lower < upper, "{}", arm.name);
             if matches!(arm.geometry, CatalogGeometry::Abb { .. }) {
                 assert!(*lower < 0.0 && *upper > 0.0, "{} cannot stand at zero", arm.name);
@@ -464,13 +464,13 @@ fn every_arm_closes_on_random_poses_and_finds_the_joints_that_made_them() {
     let mut rng = Rng::new(2026);
     for arm in catalog() {
         if arm.dof() == 7 {
-            let robot: Robot<7> = Robot::from_catalog(arm).unwrap();
+            let robot: Robot<7> = Robot::from_catalog(&arm).unwrap();
             closes(&robot, &mut rng, |pose, q| {
                 robot.ik(pose, q[6]).unwrap().iter().map(|solution| solution.q).collect()
             });
             continue;
         }
-        let mut robot: Robot<6> = Robot::from_catalog(arm).unwrap();
+        let mut robot: Robot<6> = Robot::from_catalog(&arm).unwrap();
         if matches!(arm.geometry, CatalogGeometry::ThreeParallel { .. }) {
             // 2 pi equivalents make no new poses.
             robot = robot.with_limits(JointLimits::new([[-PI, PI]; 6]).unwrap());

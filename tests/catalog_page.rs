@@ -32,13 +32,15 @@ fn geometry(arm: &CatalogArm) -> (&'static str, Vec<String>) {
             let lengths = [d1, 0.0, a2, 0.0, d4, d5, 0.0, d6];
             ("offset wrists", lengths.map(|length: f64| length.to_string()).to_vec())
         }
-        CatalogGeometry::Mdh([one, two, three, four, five, six]) => {
-            let lengths = [one[2], two[1], three[1], four[1], four[2], five[2], six[1], six[2]];
-            ("offset wrists", lengths.map(|length| length.to_string()).to_vec())
-        }
+        CatalogGeometry::Mdh(ref rows) => match rows[..] {
+            [one, two, three, four, five, six] => {
+                let lengths = [one[2], two[1], three[1], four[1], four[2], five[2], six[1], six[2]];
+                ("offset wrists", lengths.map(|length| length.to_string()).to_vec())
+            }
+            _ if arm.maker == "ABB" => ("yumi", Vec::new()),
+            _ => ("franka", Vec::new()),
+        },
         CatalogGeometry::StandingMdh { .. } => ("yumi", Vec::new()),
-        CatalogGeometry::Mdh(_) if arm.maker == "ABB" => ("yumi", Vec::new()),
-        CatalogGeometry::Mdh(_) => ("franka", Vec::new()),
         other => panic!("{other:?} has no row"),
     }
 }
@@ -88,12 +90,12 @@ fn table(name: &str, columns: &[&str]) -> String {
         + &format!("|{}\n", "---|".repeat(heads().count()));
     let mut rows: Vec<(Vec<&str>, Vec<String>, [Vec<_>; 2])> = Vec::new();
     for arm in catalog() {
-        let (place, lengths) = geometry(arm);
+        let (place, lengths) = geometry(&arm);
         if place != name {
             continue;
         }
-        let cells = [figures(name, arm), lengths].concat();
-        let [body, sources] = [body(arm), arm.sources.to_string()];
+        let cells = [figures(name, &arm), lengths].concat();
+        let [body, sources] = [body(&arm), arm.sources.to_string()];
         if let Some((names, _, own)) = rows.iter_mut().find(|(_, known, _)| *known == cells) {
             names.push(arm.name);
             own[0].push(body);

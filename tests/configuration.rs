@@ -45,7 +45,7 @@ fn has(robot: &Robot<6>, q: &[f64; 6], wanted: Configuration) -> bool {
 fn every_joint_vector_is_found_by_its_configuration() {
     let mut arms = 0;
     for arm in catalog().filter(|arm| matches!(arm.geometry, CatalogGeometry::Abb { .. })) {
-        let robot: Robot<6> = Robot::from_catalog(arm).unwrap();
+        let robot: Robot<6> = Robot::from_catalog(&arm).unwrap();
         let twin = robot.clone().uncoupled();
         let (mut rng, mut eights, mut behind) = (Rng::new(11), 0, 0);
         for _ in 0..poses() {

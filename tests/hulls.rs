@@ -145,7 +145,7 @@ fn two_hulls_are_as_far_apart_as_one_from_the_points_of_the_other() {
 fn the_core_of_a_hull_of_the_catalog_is_inside_of_it() {
     let mut count = 0;
     for arm in catalog() {
-        let robot = irbkin::AnyRobot::from_catalog(arm).unwrap();
+        let robot = irbkin::AnyRobot::from_catalog(&arm).unwrap();
         let body = match &robot {
             irbkin::AnyRobot::Six(robot) => robot.body().unwrap(),
             irbkin::AnyRobot::Seven(robot) => robot.body().unwrap(),

@@ -45,10 +45,10 @@ where
 #[test]
 fn robots_round_trip() {
     for arm in catalog() {
-        round_trips(&AnyRobot::from_catalog(arm).unwrap());
+        round_trips(&AnyRobot::from_catalog(&arm).unwrap());
         match arm.dof() {
-            6 => round_trips_with_settings(&Robot::<6>::from_catalog(arm).unwrap()),
-            _ => round_trips_with_settings(&Robot::<7>::from_catalog(arm).unwrap()),
+            6 => round_trips_with_settings(&Robot::<6>::from_catalog(&arm).unwrap()),
+            _ => round_trips_with_settings(&Robot::<7>::from_catalog(&arm).unwrap()),
         }
     }
     let coupled: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap().coupled().unwrap();

@@ -24,7 +24,7 @@ where
     #[doc(hidden)]
     pub fn limits_of_the_catalog(&self) -> Option<String> {
         let arms = catalog().filter(|arm| arm.dof() == N && self.may_be(arm));
-        let arms = arms.filter_map(|arm| Self::from_catalog(arm).ok());
+        let arms = arms.filter_map(|arm| Self::from_catalog(&arm).ok());
         let arms =
             arms.filter(|arm| self.has_the_axes_of(arm)).map(|arm| (self.limits_unlike(&arm), arm));
         let (others, arm) =

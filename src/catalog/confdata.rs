@@ -4,7 +4,6 @@
 //! no confdata.
 
 use super::CatalogArm;
-use super::abb::YUMI_RULES;
 use crate::report::ConfigurationRule;
 
 /// Type names of the GoFa family, with the part before the payload.
@@ -15,9 +14,16 @@ impl CatalogArm {
     /// docs/guide/abb.md.
     #[must_use]
     pub fn own_configuration_rule(&self) -> Option<ConfigurationRule> {
-        if self.maker == "ABB" && self.name.starts_with(GOFA) {
-            return Some(ConfigurationRule::OffsetWrist);
+        match self.name {
+            "IRB 14000-0.5/0.5 (left)" => Some(outward(-1.0)),
+            "IRB 14000-0.5/0.5 (right)" | "IRB 14050-0.5/0.5" => Some(outward(1.0)),
+            name if name.starts_with(GOFA) => Some(ConfigurationRule::OffsetWrist),
+            _ => None,
         }
-        YUMI_RULES.into_iter().find(|(name, _)| *name == self.name).map(|(_, rule)| rule)
     }
+}
+
+/// Where an arm of a YuMi counts its arm angle from, in the frame of the body: its outer side.
+const fn outward(y: f64) -> ConfigurationRule {
+    ConfigurationRule::ArmAngle { reference: [0.0, y, 0.0] }
 }

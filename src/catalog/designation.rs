@@ -5,7 +5,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::{CatalogArm, catalog};
+use super::rows::{Row, rows};
 use crate::catalog::fault::LeftOut;
 
 /// Words of a designation that do not change the kinematics: Foundry, the hose package of a LeanID.
@@ -190,14 +190,14 @@ fn runs_of(name: &str) -> Vec<Run> {
 }
 
 /// ABB's arms with their designations.
-fn designated() -> impl Iterator<Item = (&'static CatalogArm, Designation)> {
-    let of_abb = catalog().filter(|arm| arm.maker == "ABB");
-    of_abb.filter_map(|arm| Some((arm, Designation::of(arm.name)?)))
+fn designated() -> impl Iterator<Item = (Row, Designation)> {
+    let of_abb = rows().filter(|row| row.maker == "ABB");
+    of_abb.filter_map(|row| Some((row, Designation::of(row.name)?)))
 }
 
 /// The arm with this designation.
-pub(super) fn arm_of(wanted: &Designation) -> Option<&'static CatalogArm> {
-    designated().find(|(_, arm)| wanted.is_of(arm)).map(|(arm, _)| arm)
+pub(super) fn arm_of(wanted: &Designation) -> Option<Row> {
+    designated().find(|(_, arm)| wanted.is_of(arm)).map(|(row, _)| row)
 }
 
 /// Names of arms of this series: the ones with most of its figures, the same words first.
@@ -207,7 +207,7 @@ pub(super) fn close_to(wanted: &Designation) -> Vec<&'static str> {
     let mut close: Vec<_> =
         of_series().filter(|(_, arm)| Some(wanted.shared_figures(arm)) == most).collect();
     close.sort_by_key(|(_, arm)| wanted.words != arm.words);
-    close.into_iter().map(|(arm, _)| arm.name).collect()
+    close.into_iter().map(|(row, _)| row.name).collect()
 }
 
 /// The arm that is left out of the catalog with this name, as printed or as a controller

@@ -1,15 +1,14 @@
-//! The catalog: arms by name.
+//! The catalog: arms by name. Their figures are in `arms.txt`.
 
-mod abb;
 mod alike;
 mod confdata;
 mod designation;
 pub(crate) mod fault;
-mod franka;
 mod left_out;
 mod names;
-mod offset_wrists;
-mod universal_robots;
+mod rows;
+
+use alloc::vec::Vec;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 
@@ -24,7 +23,7 @@ pub use left_out::left_out;
 pub use names::find;
 
 /// One arm of the catalog, with the numbers as printed by its maker.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct CatalogArm {
     /// The maker's type name.
     pub name: &'static str,
@@ -41,32 +40,17 @@ pub struct CatalogArm {
     /// Unit of the limits, velocities and accelerations.
     pub angles: AngleUnit,
     /// (lower, upper) limit of each joint.
-    pub limits: &'static [[f64; 2]],
+    pub limits: Vec<[f64; 2]>,
     /// Largest velocity of each joint; `None` if no source states it.
-    pub max_velocity: Option<&'static [f64]>,
+    pub max_velocity: Option<Vec<f64>>,
     /// Largest acceleration of each joint; `None` if no source states it.
-    pub max_acceleration: Option<&'static [f64]>,
+    pub max_acceleration: Option<Vec<f64>>,
     /// Number of independent sources that agree on the lengths: the confidence in them.
     pub sources: u8,
     /// These sources, then, after semicolons, sources of other figures, where they disagree, and
     /// limits that depend on another axis, which are not modeled.
     pub provenance: &'static str,
 }
-
-/// An arm of which no source states anything: the rows say what they know.
-const NOTHING_KNOWN: CatalogArm = CatalogArm {
-    name: "",
-    maker: "",
-    payload: None,
-    reach: None,
-    geometry: CatalogGeometry::Mdh(&[]),
-    angles: AngleUnit::Degrees,
-    limits: &[],
-    max_velocity: None,
-    max_acceleration: None,
-    sources: 0,
-    provenance: "",
-};
 
 /// The unit of an arm's angles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,7 +94,7 @@ impl Linkage {
 }
 
 /// The geometry of a catalog arm.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum CatalogGeometry {
     /// Ortho-parallel with a spherical wrist, in ABB's joint convention [mm].
@@ -160,7 +144,7 @@ pub enum CatalogGeometry {
         d6: f64,
     },
     /// Modified Denavit-Hartenberg rows: alpha [deg], a [mm], d [mm], theta offset [deg].
-    Mdh(&'static [[f64; 4]]),
+    Mdh(Vec<[f64; 4]>),
     /// A table of an arm that stands turned on a body, to whose frame poses refer.
     StandingMdh {
         /// Position of the frame before the first row [mm].
@@ -168,7 +152,7 @@ pub enum CatalogGeometry {
         /// Its rotation: about x, then about its own y, then about its own z [rad].
         turns: [f64; 3],
         /// alpha [deg], a [mm], d [mm], theta offset [deg].
-        rows: &'static [[f64; 4]],
+        rows: Vec<[f64; 4]>,
     },
 }
 
@@ -189,11 +173,8 @@ fn standing(xyz: [f64; 3], turns: [f64; 3]) -> Pose {
 }
 
 /// Every arm of the catalog: ABB's by type number, then other makers' arms.
-pub fn catalog() -> impl Iterator<Item = &'static CatalogArm> {
-    abb::SERIES
-        .into_iter()
-        .chain([universal_robots::ARMS, franka::ARMS, offset_wrists::ARMS])
-        .flatten()
+pub fn catalog() -> impl Iterator<Item = CatalogArm> {
+    rows::rows().filter_map(rows::Row::arm)
 }
 
 impl CatalogArm {
@@ -220,7 +201,7 @@ impl CatalogArm {
     /// Other names that [`find`] takes for it, besides spellings that differ in what does not
     /// matter.
     pub fn aliases(&self) -> impl Iterator<Item = &'static str> {
-        names::ALIASES.iter().filter(|(_, name)| *name == self.name).map(|(alias, _)| *alias)
+        names::aliases(self.name)
     }
 }
 
@@ -231,7 +212,7 @@ impl AnyRobot {
     ///
     /// [`Error::UnknownRobot`], as [`Robot::named`].
     pub fn named(name: &str) -> Result<Self, Error> {
-        Self::from_catalog(find(name)?)
+        Self::from_catalog(&find(name)?)
     }
 
     /// The robot of a catalog arm.
@@ -258,7 +239,7 @@ where
     /// [`Error::UnknownRobot`] with up to six close names, or with the reason for which an arm is
     /// left out; [`Error::InvalidModel`] when the arm does not have `N` joints.
     pub fn named(name: &str) -> Result<Self, Error> {
-        Self::from_catalog(find(name)?)
+        Self::from_catalog(&find(name)?)
     }
 
     /// The robot of a catalog arm.
@@ -268,10 +249,10 @@ where
     /// [`Error::InvalidModel`] when the arm does not have `N` joints.
     pub fn from_catalog(arm: &CatalogArm) -> Result<Self, Error> {
         let wrong_count = || Error::from(ModelFault::JointCount { found: arm.dof(), wanted: N });
-        let limits: &[[f64; 2]; N] = arm.limits.try_into().map_err(|_| wrong_count())?;
-        let velocity = match arm.max_velocity {
+        let limits = <[[f64; 2]; N]>::try_from(&arm.limits[..]).map_err(|_| wrong_count())?;
+        let velocity = match &arm.max_velocity {
             Some(velocity) => Some(
-                <[f64; N]>::try_from(velocity)
+                <[f64; N]>::try_from(&velocity[..])
                     .map_err(|_| wrong_count())?
                     .map(|v| arm.angles.to_radians(v)),
             ),
@@ -316,11 +297,11 @@ where
                 );
                 Self::from_mdh(Mdh { base: Pose::identity(), rows, flange })?
             }
-            CatalogGeometry::Mdh(rows) => {
+            CatalogGeometry::Mdh(ref rows) => {
                 let rows = table(rows).ok_or_else(wrong_count)?;
                 Self::from_mdh(Mdh { base: Pose::identity(), rows, flange: Pose::identity() })?
             }
-            CatalogGeometry::StandingMdh { xyz, turns, rows } => {
+            CatalogGeometry::StandingMdh { xyz, turns, ref rows } => {
                 let rows = table(rows).ok_or_else(wrong_count)?;
                 let base = standing(xyz, turns);
                 Self::from_mdh(Mdh { base, rows, flange: Pose::identity() })?

@@ -7,7 +7,8 @@ use alloc::vec::Vec;
 use core::iter;
 
 use super::designation::{self, Designation, trim_decimals};
-use super::{CatalogArm, catalog, left_out};
+use super::rows::{Row, rows};
+use super::{CatalogArm, left_out};
 use crate::catalog::fault::UnknownRobot;
 use crate::error::Error;
 #[cfg(feature = "std")]
@@ -20,7 +21,7 @@ const MOST_CLOSE: usize = 6;
 const LONGEST: usize = 200;
 
 /// Other names of arms.
-pub(super) const ALIASES: &[(&str, &str)] = &[
+const ALIASES: &[(&str, &str)] = &[
     ("Franka Emika Panda", "Panda"),
     ("Franka Emika Robot", "Panda"),
     ("FER", "Panda"),
@@ -35,6 +36,11 @@ pub(super) const ALIASES: &[(&str, &str)] = &[
     ("GoFa 12", "CRB 15000-12/1.27"),
     ("UFACTORY xArm 6", "xArm6"),
 ];
+
+/// The other names of the arm with this name.
+pub(super) fn aliases(name: &'static str) -> impl Iterator<Item = &'static str> {
+    ALIASES.iter().filter(move |(_, of)| *of == name).map(|(alias, _)| *alias)
+}
 
 /// Finds an arm by its name or an alias, the maker's name before it or not; case, blanks, dashes,
 /// `_`, `/`, `,`, parentheses and the last zeros of a decimal (2.50, 2,5) do not matter.
@@ -51,27 +57,27 @@ pub(super) const ALIASES: &[(&str, &str)] = &[
 ///
 /// [`Error::UnknownRobot`] with the reason for which the arm is left out, or with up to six names
 /// that are close, the closest first.
-pub fn find(name: &str) -> Result<&'static CatalogArm, Error> {
+pub fn find(name: &str) -> Result<CatalogArm, Error> {
     if name.len() > LONGEST {
         let name = format!("{name:.20}..");
         return Err(UnknownRobot { name, close: Vec::new(), left_out: None }.into());
     }
     let alias = ALIASES.iter().find(|(alias, _)| *alias == name);
     let exact = alias.map_or(name, |(_, name)| name);
-    if let Some(arm) = catalog().find(|arm| arm.name == exact) {
+    if let Some(arm) = rows().find(|row| row.name == exact).and_then(Row::arm) {
         return Ok(arm);
     }
     let wanted = squeezed(name);
-    let is_meant = |arm: &&CatalogArm| {
-        let own = squeezed(arm.name);
-        let after_maker = wanted.strip_prefix(squeezed(arm.maker).as_str());
+    let is_meant = |row: &Row| {
+        let own = squeezed(row.name);
+        let after_maker = wanted.strip_prefix(squeezed(row.maker).as_str());
         own == wanted
             || after_maker.is_some_and(|rest| rest == own)
-            || arm.aliases().any(|alias| squeezed(alias) == wanted)
+            || aliases(row.name).any(|alias| squeezed(alias) == wanted)
     };
     let designation = Designation::of(name);
     let designated = || designation.as_ref().and_then(designation::arm_of);
-    catalog().find(is_meant).or_else(designated).ok_or_else(|| {
+    rows().find(is_meant).or_else(designated).and_then(Row::arm).ok_or_else(|| {
         let left_out = left_out::meant(name).or_else(|| designation::left_out(name));
         let close = match &designation {
             _ if left_out.is_some() => Vec::new(),
@@ -134,14 +140,13 @@ fn close_to(wanted: &str) -> Vec<&'static str> {
     if wanted.is_empty() {
         return Vec::new();
     }
-    let of_maker = catalog().filter(|arm| squeezed(arm.maker) == wanted);
-    let of_maker: Vec<_> = of_maker.map(|arm| arm.name).take(MOST_CLOSE).collect();
+    let of_maker = rows().filter(|row| squeezed(row.maker) == wanted);
+    let of_maker: Vec<_> = of_maker.map(|row| row.name).take(MOST_CLOSE).collect();
     if !of_maker.is_empty() {
         return of_maker;
     }
     let place = |name: &'static str| Some((squeezed(name).find(wanted)?, name));
-    let of_arm = |arm: &'static CatalogArm| names_of(arm).find_map(place);
-    let mut holding: Vec<_> = catalog().filter_map(of_arm).collect();
+    let mut holding: Vec<_> = rows().filter_map(|row| names_of(row).find_map(place)).collect();
     if holding.is_empty() {
         return spelled_like(wanted);
     }
@@ -150,8 +155,8 @@ fn close_to(wanted: &str) -> Vec<&'static str> {
 }
 
 /// The name of an arm and its aliases.
-fn names_of(arm: &'static CatalogArm) -> impl Iterator<Item = &'static str> {
-    iter::once(arm.name).chain(arm.aliases())
+fn names_of(row: Row) -> impl Iterator<Item = &'static str> {
+    iter::once(row.name).chain(aliases(row.name))
 }
 
 /// Names with a spelling similar to the wanted one, or with the same beginning.
@@ -167,7 +172,7 @@ fn spelled_like(wanted: &str) -> Vec<&'static str> {
             [name, start].map(|name| strsim::normalized_damerau_levenshtein(&name, wanted));
         whole.max(start)
     };
-    let mut close = similar(catalog().flat_map(names_of), similarity, LEAST_SIMILARITY);
+    let mut close = similar(rows().flat_map(names_of), similarity, LEAST_SIMILARITY);
     close.truncate(MOST_CLOSE);
     close
 }
@@ -180,6 +185,7 @@ fn spelled_like(_: &str) -> Vec<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::catalog::catalog;
 
     #[test]
     fn irrelevant_characters_are_removed_from_names() {

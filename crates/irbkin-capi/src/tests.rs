@@ -156,7 +156,7 @@ fn a_debug_build_refuses_freed_handles_and_those_of_another_type() {
 #[test]
 fn no_arm_has_more_joints_or_slots_than_the_header_says() {
     for arm in catalog() {
-        let robot = irbkin::AnyRobot::from_catalog(arm).unwrap();
+        let robot = irbkin::AnyRobot::from_catalog(&arm).unwrap();
         assert!(robot.dof() <= IRBKIN_MOST_JOINTS);
         assert!(on!(robot, robot => robot.slot_count()) <= IRBKIN_MOST_SLOTS, "{}", arm.name);
     }

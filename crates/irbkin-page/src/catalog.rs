@@ -30,12 +30,12 @@ pub struct Entry {
 
 impl Catalog {
     pub(crate) fn all() -> Self {
-        Self { arms: catalog().map(Entry::of).collect() }
+        Self { arms: catalog().map(|arm| Entry::of(&arm)).collect() }
     }
 }
 
 impl Entry {
-    fn of(arm: &'static CatalogArm) -> Self {
+    fn of(arm: &CatalogArm) -> Self {
         Self {
             name: arm.name,
             maker: arm.maker,

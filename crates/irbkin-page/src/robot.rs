@@ -96,7 +96,7 @@ pub struct Hull {
 /// The robot of a request.
 pub(crate) fn read(request: &Request<'_>) -> Result<AnyRobot, Refusal> {
     let robot = match (request.optional_text("name")?, request.optional_text("urdf")?) {
-        (Some(name), None) => AnyRobot::from_catalog(catalog::find(name)?)?,
+        (Some(name), None) => AnyRobot::from_catalog(&catalog::find(name)?)?,
         (None, Some(urdf)) => {
             let (base, tip) = (request.optional_text("base")?, request.optional_text("tip")?);
             AnyRobot::from_urdf(urdf, base, tip)?

@@ -367,7 +367,7 @@ fn hulls_are_those_of_the_body_with_faces_of_their_points() {
     let mut page = Page::default();
     for name in ["UR5e", "Panda", "IRB 140-6/0.81"] {
         let drawn = granted(&mut page, &json!({"do": "robot", "name": name}));
-        let robot = irbkin::AnyRobot::from_catalog(irbkin::catalog::find(name).unwrap()).unwrap();
+        let robot = irbkin::AnyRobot::from_catalog(&irbkin::catalog::find(name).unwrap()).unwrap();
         let body = irbkin::on!(robot, robot => robot.body().cloned());
         let wanted = body.as_ref().map_or(&[][..], |body| body.hulls());
         let hulls = drawn["body"]["hulls"].as_array().unwrap();

@@ -24,7 +24,8 @@ pub(super) fn named(name: &str) -> Result<Arm, Error> {
         return Ok(arm);
     }
     let entry = find(name)?;
-    let arm = known(entry.name).map_or_else(|| AnyRobot::from_catalog(entry).map(Arm::from), Ok)?;
+    let arm =
+        known(entry.name).map_or_else(|| AnyRobot::from_catalog(&entry).map(Arm::from), Ok)?;
     Ok(made().entry(entry.name).or_insert(arm).clone())
 }
 
