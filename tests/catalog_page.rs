@@ -41,7 +41,7 @@ fn geometry(arm: &CatalogArm) -> (&'static str, Vec<String>) {
             _ => ("franka", Vec::new()),
         },
         CatalogGeometry::StandingMdh { .. } => ("yumi", Vec::new()),
-        other => panic!("{other:?} has no row"),
+        _ => panic!("{} has no row", arm.name),
     }
 }
 
