@@ -57,7 +57,7 @@ pub fn enough(counts: bool) -> bool {
 }
 
 /// Seeds of cases that failed once; each run tries them first.
-const REGRESSIONS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/regressions.txt");
+const REGRESSIONS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/regressions.txt");
 
 /// The same cases everywhere, on the requested instruction set.
 ///
