@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use crate::common::{Rng, apart, reach_of};
-use irbkin::{Error, JointLimits, Pose, Robot, catalog, catalog::CatalogGeometry, pose};
+use irbkin::{
+    Error, JointLimits, Pose, Robot, catalog, catalog::CatalogArm, catalog::CatalogGeometry, pose,
+};
 use nalgebra::Vector3;
 
 /// The source of the figures that an arm is compared with. Only the first kind can detect a wrong
@@ -360,7 +362,7 @@ fn limits_of_axis_6_are_angles_and_not_turns() {
 #[test]
 fn each_end_of_axes_2_and_3_is_reached_inside_the_linkage() {
     let mut limited = 0;
-    for arm in catalog().filter(|arm| arm.is_coupled()) {
+    for arm in catalog().filter(CatalogArm::is_coupled) {
         let robot: Robot<6> = Robot::from_catalog(&arm).unwrap();
         let (two, three) = (arm.limits[1], arm.limits[2]);
         assert!(-90.0 < three[0] && three[1] < 180.0, "{}", arm.name);
