@@ -182,13 +182,12 @@ fn no_certified_answer_lacks_a_solution() {
         let random = counts[0];
         assert!(enough(random.certified * 100 >= random.poses * least), "{name}");
     }
-    // Without the curve that is left of a self-motion (eq. 104d), 5 % would be missed.
-    for ((name, ..), counts) in TABLES.iter().zip(&all) {
-        let at_wrist = SETS.iter().position(|(set, _)| *set == "q5 = 0").unwrap();
-        let Count { poses, missed, .. } = counts[at_wrist];
-        let is_of_wrist = *name == "spherical wrist, all off";
-        assert!(!is_of_wrist || enough(missed * 50 <= poses), "{name}: {missed} of {poses}");
-    }
+    // Without the curve that is left of a self-motion (eq. 104d), 2 % would be missed.
+    let wrist = TABLES.iter().position(|(name, ..)| *name == "spherical wrist, all off").unwrap();
+    let at_wrist = SETS.iter().zip(&all[wrist]).filter(|((set, _), _)| set.starts_with("q5"));
+    let (missed, at_wrist) = at_wrist
+        .fold((0, 0), |(missed, poses), (_, count)| (missed + count.missed, poses + count.poses));
+    assert!(enough(missed * 100 <= at_wrist), "{missed} of {at_wrist}");
     // Of every family but the one that needs two polynomials.
     let random = TABLES.iter().zip(&all).filter(|((_, least, _), _)| *least == 99);
     let (certified, random) = random.fold((0, 0), |(certified, poses), (_, counts)| {

@@ -100,6 +100,38 @@ fn what_no_attempt_has_understood_certifies_no_later_one() {
 }
 
 #[test]
+fn where_solutions_merge_in_several_directions_one_of_them_is_found() {
+    // Newton's method of whole steps closes at none of these (general.md, eq. 104b).
+    for (rows, q) in [
+        (
+            [
+                [0.0, 0.5, 0.25],
+                [0.0, 0.3, 0.0],
+                [90.0, 0.0, 0.4],
+                [90.0, 0.0, 0.4],
+                [90.0, 0.1, 0.0],
+                [90.0, 0.0, 0.1],
+            ],
+            [0.0, 90.0, 0.0, 90.0, 0.0, -90.0],
+        ),
+        (
+            [
+                [-90.0, 0.2, 0.3],
+                [0.0, 0.4, 0.0],
+                [0.0, 0.5, 0.25],
+                [-90.0, 0.2, 0.4],
+                [90.0, 0.0, 0.1],
+                [90.0, 0.3, 0.0],
+            ],
+            [90.0, 90.0, 0.0, 90.0, 90.0, -180.0],
+        ),
+    ] {
+        let (robot, q) = nice(rows, q);
+        assert!(!robot.ik(&robot.fk(&q)).unwrap().is_empty(), "{q:?}");
+    }
+}
+
+#[test]
 fn with_axes_5_and_6_parallel_no_certified_answer_lacks_a_fold() {
     // By the polynomial of an offset wrist none of these folds had a solution, for certain.
     for (q_2, q_5) in [(0.0, -90.0), (30.0, -90.0), (90.0, 0.0), (-47.0, 180.0), (180.0, 90.0)] {
