@@ -20,13 +20,10 @@ NO_STD := --no-default-features --features libm
 # Run a command under a name; if it takes long, print the name and the seconds. With -q what it
 # prints is kept until it fails, and crates are counted.
 STEP := @tests/step.sh
-# tests/lanes.rs shows that all sets agree, the baseline except for rounding: a tenth of the poses is
-# enough for the laws on it. `make test BASELINE=` asks them all.
-BASELINE ?= IRBKIN_DIVISOR=10
+LAW_CRATES := cargo test -p irbkin-abb -p irbkin-page -p irbkin-tests --lib --tests
 SUITE := cargo test -p irbkin -p irbkin-abb -p irbkin-tests --lib --tests
 # A download that breaks off is no reason to fail.
 PIP_INSTALL := tests/retry.sh $(BIN)/pip install --quiet --disable-pip-version-check
-SKIPPED := target/skipped.txt
 # Panic messages name source files: without the folders of this machine, and those of the toolchain
 # as in a toolchain without its sources. The compiler adds no path of this crate: its are relative.
 REMAPPED = --remap-path-prefix=$${CARGO_HOME:-$$HOME/.cargo}/registry/src/= \
@@ -43,9 +40,9 @@ TOOL = tests/step.sh "Compile $(1) (a minute or more)" \
 	cargo install --quiet --locked --debug --root target/tools $(1)@$(2)
 MSRV := $(shell sed -nE 's/^rust-version = "(.*)"/\1/p' Cargo.toml)
 
-.PHONY: help run test test-oracles check bench bench-peers evidence soak fuzz mutants docs site test-recipes test-ros page \
+.PHONY: help run test quick test-sets test-oracles check bench bench-peers evidence soak fuzz mutants docs site test-recipes test-ros page \
 	test-page capi test-capi bench-capi speed wheel packages ship test-platforms reproducible thirdparty deny \
-	semver msrv clean toolchains lints rust-tests package
+	semver msrv clean toolchains lints package
 
 help: ## List the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -87,17 +84,27 @@ run: $(BUILT) ## Solve a pose of an IRB 2600 and show all solutions
 # What suites of evidence need.
 package: $(BUILT) $(VENV)/.groups
 
-# The extension and the Rust tests are of different profiles: they compile at the same time.
-test: | toolchains ## Run the tests in Rust, and those in Python that need no extras
-	@mkdir -p target && rm -f $(SKIPPED)
-	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.test rust-tests
-	$(STEP) "Rust tests" $(SUITE)
-	$(STEP) "Rust tests that force an instruction set" env IRBKIN_SKIPPED=$(abspath $(SKIPPED)) $(SUITE) -- --ignored
-	$(STEP) "Laws on the baseline" env IRBKIN_INSTRUCTION_SET=baseline $(BASELINE) $(SUITE) -- laws:: hard_sets::
-	$(STEP) "Rust documentation tests" env CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_PROFILE_DEV_DEBUG=false CARGO_INCREMENTAL=0 \
-		cargo test -p irbkin -p irbkin-abb -p irbkin-page --doc --features irbkin/serde
-	@if [ -e $(SKIPPED) ]; then sort $(SKIPPED); fi; echo "Skipped in Rust: $$(cat $(SKIPPED) 2>/dev/null | wc -l)"
-	$(STEP) "Python tests" $(BIN)/python -m pytest -n auto --dist worksteal -m "not extra and not recipes and not evidence"
+test: | toolchains ## Run the laws in Rust, and the tests in Python that need no extras
+	@echo "Builds irbkin for development and runs its laws: about six minutes on two cores, two when it is built."
+	@$(MAKE) --no-print-directory $(BUILT) $(VENV)/.test
+	@tests/laws.sh $(BIN)/python
+
+quick: $(VENV)/.quick-rust $(VENV)/.quick-python ## Test what changed since the last time, a tenth of the poses
+
+$(VENV)/.quick-rust: $(BUILT) $(shell find tests -name '*.rs')
+	$(STEP) "Laws in Rust" env IRBKIN_DIVISOR=10 $(LAW_CRATES) --quiet -- laws:: rapid allocation
+	@touch $@
+
+$(VENV)/.quick-python: $(BUILT) $(VENV)/.test $(shell find python tests/python -name '*.py')
+	$(STEP) "Python tests" $(BIN)/python -m pytest -q -n auto --dist worksteal --failed-first \
+		-m "not extra and not recipes and not evidence"
+	@touch $@
+
+test-sets: | toolchains ## Run unit tests of kinematics, and the laws on each instruction set
+	$(STEP) -q "Compile the Rust tests" $(SUITE) --no-run
+	$(STEP) "Unit tests of kinematics" cargo test -p irbkin --lib
+	$(STEP) "Rust tests that force an instruction set" $(SUITE) -- --ignored
+	$(STEP) "Laws on the baseline" env IRBKIN_INSTRUCTION_SET=baseline $(SUITE) -- laws:: hard_sets::
 
 # Where everything can be installed, as in .ci/run, no test may be skipped.
 test-oracles: $(BUILT) $(VENV)/.groups ## Install extras and reference packages; run the tests that need them
@@ -108,9 +115,6 @@ lints:
 	$(STEP) "clippy" cargo clippy --quiet --workspace --all-targets -- -D warnings
 	$(STEP) "clippy without std" cargo clippy --quiet -p irbkin-abb --lib $(NO_STD) -- -D warnings
 	$(STEP) "clippy without urdf and serde" cargo clippy --quiet -p irbkin --lib --no-default-features --features std -- -D warnings
-
-rust-tests:
-	$(STEP) -q "Compile the Rust tests" $(SUITE) --no-run
 
 test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars, xarray, rerun; run the recipes
 	@if tests/step.sh "Install what recipes need" $(PIP_INSTALL) --group recipes; then \
@@ -146,6 +150,8 @@ bench-capi: capi ## Compare the time of a pose in C with that in Rust
 # Lints and the extension are of different profiles: they compile at the same time.
 check: | toolchains ## Check format, lints, types, stubs, docs, benches and examples
 	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.groups lints
+	$(STEP) "Rust documentation tests" env CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_PROFILE_DEV_DEBUG=false CARGO_INCREMENTAL=0 \
+		cargo test -p irbkin -p irbkin-abb -p irbkin-page --doc --features irbkin/serde
 	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps -p irbkin -p irbkin-abb --features irbkin/serde
 	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions --bench microsecond -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
