@@ -35,7 +35,7 @@ def rust() -> list[str]:
 
 def c() -> list[str]:
     """The functions of the header."""
-    header = (ROOT / "crates" / "capi" / "include" / "irbkin.h").read_text()
+    header = (ROOT / "crates" / "irbkin-capi" / "include" / "irbkin.h").read_text()
     return sorted(set(FUNCTION.findall(header)))
 
 
