@@ -1,7 +1,7 @@
 //! Other arms than ABB's: three parallel axes, seven axes, and tables and URDFs that are
 //! recognized.
 
-use irbkin::{DhRow, Error, Pose, Robot, Sdh, Solution};
+use irbkin::{Arm, DhRow, Error, Pose, Robot, Sdh, Solution};
 
 const URDF: &str = include_str!("../tests/data/ur5e.urdf");
 const SLOT: [[&str; 2]; 3] = [["left", "right"], ["q3 >= 0", "q3 < 0"], ["q5 >= 0", "q5 < 0"]];
@@ -64,7 +64,7 @@ fn seven_axes() -> Result<(), Error> {
 }
 
 fn recognized() -> Result<(), Error> {
-    let robot: Robot<6> = Robot::from_urdf(URDF, None, Some("tool0"))?;
+    let robot: Arm<6> = Arm::from_urdf(URDF, None, Some("tool0"))?;
     println!("ur5e.urdf: {}", robot.structure());
     // An IRB 2600 in standard form, with unusual frames and zero pose.
     let rows = [

@@ -1,6 +1,7 @@
 //! A RAPID module: the joint angles of its moves, and the module written back with valid confdata.
 
-use irbkin::{Error, Robot};
+use irbkin::Robot;
+use irbkin_abb::Error;
 use irbkin_abb::rapid::{
     self, Content, Fallback, NewValue, RobTarget, TableRow, ToolData, Value, WobjData,
 };

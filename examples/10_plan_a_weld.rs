@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use irbkin::plan::{Plan, PlanError, PlanOptions, ToolRotation};
-use irbkin::{Error, Pose, Robot, pose};
+use irbkin::{Arm, Error, Pose, pose};
 
 const POSES: u32 = 501;
 
@@ -31,7 +31,8 @@ fn show(name: &str, plan: &Plan) {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let tool = pose::from_euler_zyx([0.05, 0.0, 0.35], [0.0; 3])?;
-    let robot = Robot::<6>::named("IRB 2600-12/1.65")?.with_tool(&tool)?;
+    let robot = Arm::<6>::named("IRB 2600-12/1.65")?;
+    let robot = robot.map(|robot| robot.with_tool(&tool))?;
     let mut path = seam()?;
     let fixed = PlanOptions::default();
     if let Err(PlanError::NoPlan(gap)) = robot.plan(&path, &fixed) {

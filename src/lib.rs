@@ -50,11 +50,11 @@
 //! |---|---|---|
 //! | `std` | yes | threads in a batch, choice of the instruction set, close names |
 //! | `libm` | | square roots and angles without `std` (a solve never allocates, either way) |
-//! | `urdf` | yes | `Robot::from_urdf`, `Robot::to_urdf` |
+//! | `urdf` | yes | `Arm::from_urdf`, `Arm::to_urdf` |
 //! | `serde` | | `Serialize` and `Deserialize`, see below |
 //!
-//! `serde` is implemented for robots ([`Robot`] and [`AnyRobot`], with limits, velocities, base and
-//! tool; reading one runs every check of its constructors), for models ([`Definition`], [`OpwParameters`],
+//! `serde` is implemented for robots and arms ([`Robot`] and [`Arm`], with limits, velocities, base
+//! and tool; reading one runs every check of its constructors), for models ([`Definition`], [`OpwParameters`],
 //! [`Mdh`], [`Sdh`], [`DhRow`], [`JointAxis`], [`JointLimits`]), for answers ([`Solutions`],
 //! [`Solution`], [`Slot`], [`Status`], [`SingularityKind`], [`FreeJoint`], [`Configuration`], [`Singularity`],
 //! [`SingularDistances`], [`PoseDifference`]) and for options ([`follow::FollowOptions`],
@@ -98,6 +98,7 @@ extern crate self as irbkin;
 #[cfg(test)]
 extern crate std;
 
+mod arm;
 pub mod batch;
 pub mod body;
 pub mod catalog;
@@ -131,6 +132,7 @@ pub mod trajectory;
 #[cfg(feature = "urdf")]
 mod urdf;
 
+pub use arm::{AnyArm, Arm};
 pub use catalog::catalog;
 pub use error::Error;
 pub use interrupt::{Interrupt, Interrupted, Pace};

@@ -8,7 +8,7 @@ use irbkin::body::Shape;
 use irbkin::stream::{Guard, GuardOptions, OnViolation, Reason};
 use irbkin::trajectory::state::{brake, to_rest};
 use irbkin::trajectory::{AxisLimits, AxisMotion, AxisState};
-use irbkin::{Corrections, JacobianFrame, Robot, follow::Follower};
+use irbkin::{Arm, Corrections, JacobianFrame, Robot, follow::Follower};
 
 /// The system's allocator, counting the allocations of the test's own thread.
 struct Counting;
@@ -42,7 +42,7 @@ fn allocations_of(work: impl FnOnce()) -> usize {
 
 #[test]
 fn a_step_of_a_guard_allocates_nothing() {
-    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+    let robot: Arm<6> = Arm::named("IRB 2600-12/1.65").unwrap();
     let at = |x: f64, z: f64| irbkin::Pose::translation(x, 0.0, z);
     let obstacles = vec![
         ("box".to_string(), Shape::cuboid([0.2, 2.0, 2.0], &at(1.4, 1.0)).unwrap()),
@@ -83,9 +83,9 @@ fn the_counter_counts() {
 
 #[test]
 fn solve_allocates_nothing() {
-    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
-    let panda: Robot<7> = Robot::named("Panda").unwrap();
-    let ur3: Robot<6> = Robot::named("UR3").unwrap();
+    let robot: Arm<6> = Arm::named("IRB 2600-12/1.65").unwrap();
+    let panda: Arm<7> = Arm::named("Panda").unwrap();
+    let ur3: Arm<6> = Arm::named("UR3").unwrap();
     let coupled: Robot<6> = Robot::named("IRB 2400-10/1.55").unwrap();
     let coupled = coupled.with_linkage_limits(Some([-2.0, 1.0])).unwrap();
     let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
@@ -129,7 +129,7 @@ fn solve_allocates_nothing() {
                 .unwrap(),
         );
         // By configuration, also for a free joint and a coupled arm.
-        for (arm, q) in [(&robot, q), (&robot, [0.1, 0.2, 0.3, -2.0, 0.0, 1.0]), (&coupled, q)] {
+        for (arm, q) in [(&*robot, q), (&*robot, [0.1, 0.2, 0.3, -2.0, 0.0, 1.0]), (&coupled, q)] {
             let configuration = arm.configuration(&q).unwrap();
             std::hint::black_box(arm.ik_configured(&arm.fk(&q), configuration).unwrap());
         }

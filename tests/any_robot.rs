@@ -1,6 +1,6 @@
 //! `AnyRobot` is the robot of six or seven joints that the name or the file says.
 
-use irbkin::{AnyRobot, Error, Robot, catalog};
+use irbkin::{AnyArm, AnyRobot, Error, Robot, catalog};
 
 #[test]
 fn each_arm_of_the_catalog_has_its_own_number_of_joints() {
@@ -39,7 +39,7 @@ fn a_urdf_says_how_many_joints() {
         (include_str!("data/iiwa14.urdf"), None, 7),
         (include_str!("data/panda_hand.urdf"), Some("panda_link8"), 7),
     ] {
-        assert_eq!(AnyRobot::from_urdf(text, None, tip).unwrap().dof(), dof);
+        assert_eq!(AnyArm::from_urdf(text, None, tip).unwrap().dof(), dof);
     }
-    assert!(matches!(AnyRobot::from_urdf("<robot/>", None, None), Err(Error::InvalidModel(_))));
+    assert!(matches!(AnyArm::from_urdf("<robot/>", None, None), Err(Error::InvalidModel(_))));
 }

@@ -7,12 +7,12 @@ use crate::common::Rng;
 use irbkin::body::{Body, Capsule, LinkCapsule, Shape};
 use irbkin::catalog::find;
 use irbkin::cell::Cell;
-use irbkin::{AnyRobot, Pose, Robot, catalog};
+use irbkin::{AnyArm, Arm, Pose, Robot, catalog};
 
-fn body_of(robot: &AnyRobot) -> &Body {
+fn body_of(robot: &AnyArm) -> &Body {
     match robot {
-        AnyRobot::Six(robot) => robot.body().unwrap(),
-        AnyRobot::Seven(robot) => robot.body().unwrap(),
+        AnyArm::Six(robot) => robot.body().unwrap(),
+        AnyArm::Seven(robot) => robot.body().unwrap(),
     }
 }
 
@@ -20,7 +20,7 @@ fn body_of(robot: &AnyRobot) -> &Body {
 fn every_arm_of_the_catalog_has_a_body() {
     let (mut of_meshes, mut approximate) = (0, 0);
     for arm in catalog() {
-        let robot = AnyRobot::from_catalog(&arm).unwrap();
+        let robot = AnyArm::from_catalog(&arm).unwrap();
         let (dof, body) = (arm.dof(), body_of(&robot));
         for link in 0..=dof {
             assert!(body.capsules().iter().any(|own| own.link == link), "{} {link}", arm.name);
@@ -77,7 +77,7 @@ fn surface(body: &Body, rng: &mut Rng) -> Vec<(usize, Vector3<f64>)> {
 
 /// Counts of postures: in all, those in which the first body touches, the second body alone and
 /// the first body alone.
-fn counts<const N: usize>(robot: &Robot<N>, other: &Robot<N>, cell: &Cell) -> [usize; 3] {
+fn counts<const N: usize>(robot: &Arm<N>, other: &Arm<N>, cell: &Cell) -> [usize; 3] {
     let mut rng = Rng::new(71);
     let mut counts = [0; 3];
     for _ in 0..400 {
@@ -91,7 +91,7 @@ fn counts<const N: usize>(robot: &Robot<N>, other: &Robot<N>, cell: &Cell) -> [u
 }
 
 /// Without pairs of links.
-fn without_pairs<const N: usize>(robot: &Robot<N>, body: &Body) -> Robot<N> {
+fn without_pairs<const N: usize>(robot: &Arm<N>, body: &Body) -> Arm<N> {
     let body = Body::new(body.capsules().to_vec(), Vec::new()).unwrap();
     robot.clone().with_body(Some(body)).unwrap()
 }
@@ -99,7 +99,7 @@ fn without_pairs<const N: usize>(robot: &Robot<N>, body: &Body) -> Robot<N> {
 /// Postures [%] in which the mesh's body touches, missed and falsely reported by the approximate
 /// one: alone, then in a scene; and how far outside 95 % of the surface is at most [% of the
 /// reach].
-fn compared<const N: usize>(robot: &Robot<N>) -> [f64; 7] {
+fn compared<const N: usize>(robot: &Arm<N>) -> [f64; 7] {
     let (body, approximate) = (robot.body().unwrap(), robot.approximate_body().unwrap());
     let reach = find(robot.name()).unwrap().reach.unwrap();
     let other = robot.clone().with_body(Some(approximate.clone())).unwrap();
@@ -121,17 +121,17 @@ fn compared<const N: usize>(robot: &Robot<N>) -> [f64; 7] {
 fn approximate_bodies_are_near_the_meshes() {
     let mut rows: Vec<(&str, [f64; 7])> = Vec::new();
     for arm in catalog() {
-        let robot = AnyRobot::from_catalog(&arm).unwrap();
+        let robot = AnyArm::from_catalog(&arm).unwrap();
         // Arms of one mesh count once.
         let is_same = |(name, _): &(&str, _)| {
-            body_of(&AnyRobot::named(name).unwrap()).capsules() == body_of(&robot).capsules()
+            body_of(&AnyArm::named(name).unwrap()).capsules() == body_of(&robot).capsules()
         };
         if body_of(&robot).is_approximate() || rows.iter().any(is_same) {
             continue;
         }
         let row = match &robot {
-            AnyRobot::Six(robot) => compared(robot),
-            AnyRobot::Seven(robot) => compared(robot),
+            AnyArm::Six(robot) => compared(robot),
+            AnyArm::Seven(robot) => compared(robot),
         };
         rows.push((arm.name, row));
     }
@@ -155,7 +155,7 @@ fn approximate_bodies_are_near_the_meshes() {
 
 #[test]
 fn what_the_flange_carries_moves_with_it() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let frame = Pose::new(Vector3::new(0.0, 0.05, 0.1), Vector3::new(0.2, -0.4, 0.9));
     let shapes = [
         Shape::cuboid([0.1, 0.1, 0.1], &Pose::identity()).unwrap(),
@@ -163,7 +163,7 @@ fn what_the_flange_carries_moves_with_it() {
     ];
     // The tool center point does not move the shapes.
     let tool = Pose::translation(0.0, 0.0, 0.7);
-    let robot = robot.with_tool(&tool).unwrap();
+    let robot = robot.map(|robot| robot.with_tool(&tool)).unwrap();
     let with_torch = robot.clone().with_attached(&shapes, &frame, None).unwrap();
     let body = with_torch.body().unwrap();
     let torch = Vector3::from(Vector3::new(0.0, 0.0, 0.4));
@@ -192,7 +192,7 @@ fn what_the_flange_carries_moves_with_it() {
 
 #[test]
 fn a_tool_folded_back_touches_the_arm() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let rod = Shape::capsule([0.0; 3], [0.0, 0.0, 0.9], 0.02).unwrap();
     let robot = robot.with_attached(&[rod], &Pose::identity(), None).unwrap();
     let near = Cell::default().nearest(&robot, &[0.0, 0.0, 1.0, 0.0, 2.0, 0.0]).unwrap().unwrap();
@@ -201,8 +201,8 @@ fn a_tool_folded_back_touches_the_arm() {
 
 #[test]
 fn what_cannot_be_carried_is_named() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
-    let attached = |robot: &Robot<6>, shape: Result<Shape, irbkin::Error>, excess| {
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
+    let attached = |robot: &Arm<6>, shape: Result<Shape, irbkin::Error>, excess| {
         let shapes = [Shape::sphere(0.1, [0.0; 3]).unwrap(), shape.unwrap()];
         let attached = robot.clone().with_attached(&shapes, &Pose::identity(), excess);
         attached.unwrap_err().to_string()
@@ -221,7 +221,7 @@ fn what_cannot_be_carried_is_named() {
     let without = attached(&bare, Shape::sphere(0.1, [0.0; 3]), None);
     assert!(without.contains("approximate_body"), "{without}");
     // An arm of one's own has none until it is asked for.
-    let own = Robot::from_mdh(bare.mdh().clone()).unwrap();
+    let own = Arm::from(Robot::from_mdh(bare.mdh().clone()).unwrap());
     assert!(own.body().is_none() && own.approximate_body().unwrap().is_approximate());
     let capsule = Capsule::new([0.0; 3], [0.0; 3], 0.1).unwrap();
     let of_flange = Body::new(vec![LinkCapsule { link: 7, capsule }], Vec::new()).unwrap();
@@ -230,7 +230,7 @@ fn what_cannot_be_carried_is_named() {
 
 #[test]
 fn what_the_flange_carries_is_part_of_motions() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let rod = Shape::capsule([0.0, 0.0, 0.2], [0.0, 0.0, 0.4], 0.02).unwrap();
     let with_rod = robot.clone().with_attached(&[rod], &Pose::identity(), None).unwrap();
     let (start, end) = ([-0.4, 0.1, 0.2, 0.3, 0.4, 0.0], [0.4, 0.1, 0.2, 0.3, 0.4, 0.0]);
@@ -247,4 +247,29 @@ fn what_the_flange_carries_is_part_of_motions() {
     let body = Body::new(with_rod.body().unwrap().capsules().to_vec(), pairs).unwrap();
     let words = robot.with_body(Some(body)).unwrap_err().to_string();
     assert!(words.contains("links 6 and 7"), "{words}");
+}
+
+#[test]
+fn an_arm_keeps_its_body_as_its_robot_changes() {
+    let arm = Arm::<6>::named("UR5e").unwrap();
+    let beside = Pose::translation(0.0, 1.0, 0.0);
+    let moved = arm.clone().map(|robot| robot.with_base(&beside)).unwrap();
+    assert!(moved.body() == arm.body() && moved != arm);
+    assert_eq!(moved.robot(), &Robot::named("UR5e").unwrap().with_base(&beside).unwrap());
+    // With another flange, what is on it is elsewhere: on the arm with that table from the first.
+    let rod = Shape::capsule([0.0; 3], [0.0, 0.0, 0.6], 0.02).unwrap();
+    let with_rod = arm.clone().with_attached(&[rod], &Pose::identity(), None).unwrap();
+    let mut mdh = with_rod.mdh().clone();
+    mdh.flange *= Pose::rotation(nalgebra::Vector3::new(0.0, 1.5, 0.0));
+    let other = Robot::from_mdh(mdh).unwrap();
+    let made = Arm::from(other.clone()).with_body(with_rod.body().cloned()).unwrap();
+    let changed = with_rod.clone().map(|_| Ok(other)).unwrap();
+    let (mut rng, cell, mut differ) = (Rng::new(3), Cell::default(), 0);
+    for _ in 0..400 {
+        let q = rng.inside(arm.limits());
+        let found = cell.nearest(&changed, &q).unwrap();
+        assert_eq!(found, cell.nearest(&made, &q).unwrap());
+        differ += usize::from(found != cell.nearest(&with_rod, &q).unwrap());
+    }
+    assert!(differ > 50, "{differ}");
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use irbkin::{
-    AnyRobot, catalog,
+    AnyArm, catalog,
     catalog::{CatalogArm, CatalogGeometry, left_out},
 };
 
@@ -63,10 +63,10 @@ fn figures(table: &str, arm: &CatalogArm) -> Vec<String> {
 
 /// How far 95 % of the surface of the capsules of the worst link is outside its mesh at most [mm].
 fn body(arm: &CatalogArm) -> String {
-    let robot = AnyRobot::from_catalog(arm).unwrap();
+    let robot = AnyArm::from_catalog(arm).unwrap();
     let body = match &robot {
-        AnyRobot::Six(robot) => robot.body().unwrap(),
-        AnyRobot::Seven(robot) => robot.body().unwrap(),
+        AnyArm::Six(robot) => robot.body().unwrap(),
+        AnyArm::Seven(robot) => robot.body().unwrap(),
     };
     if body.is_approximate() {
         return "approximate".to_owned();

@@ -8,7 +8,7 @@ use crate::common::{Rng, enough};
 use irbkin::body::{Body, Capsule, LinkCapsule, Shape};
 use irbkin::catalog::find;
 use irbkin::cell::{Cell, Near};
-use irbkin::{AnyRobot, Pose, Robot};
+use irbkin::{AnyArm, Arm, Pose};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 
 /// Mesh against mesh: `tests/data/collisions.csv`.
@@ -44,15 +44,15 @@ pub(crate) fn scene(reach: f64) -> Cell {
 }
 
 /// Collision and least distance of joint angles in a cell.
-fn asked(cell: &Cell, robot: &AnyRobot, q: &[f64]) -> (bool, f64) {
-    fn of<const N: usize>(cell: &Cell, robot: &Robot<N>, q: &[f64]) -> (bool, f64) {
+fn asked(cell: &Cell, robot: &AnyArm, q: &[f64]) -> (bool, f64) {
+    fn of<const N: usize>(cell: &Cell, robot: &Arm<N>, q: &[f64]) -> (bool, f64) {
         let q = &q[..N].try_into().unwrap();
         let nearest = cell.nearest(robot, q).unwrap().unwrap();
         (cell.collides(robot, q).unwrap(), nearest.distance)
     }
     match robot {
-        AnyRobot::Six(robot) => of(cell, robot, q),
-        AnyRobot::Seven(robot) => of(cell, robot, q),
+        AnyArm::Six(robot) => of(cell, robot, q),
+        AnyArm::Seven(robot) => of(cell, robot, q),
     }
 }
 
@@ -78,7 +78,7 @@ fn no_collision_of_the_meshes_is_missed() {
     let mut counts: BTreeMap<&str, [usize; 4]> = BTreeMap::new();
     for line in COLLISIONS.lines().filter(|line| !line.starts_with('#')).skip(1) {
         let fields: Vec<&str> = line.split(',').collect();
-        let robot = AnyRobot::named(fields[0]).unwrap();
+        let robot = AnyArm::named(fields[0]).unwrap();
         let q: Vec<f64> = fields[1..8].iter().filter_map(|q| q.parse().ok()).collect();
         let number = |at: usize| fields[at].parse::<f64>().unwrap();
         let alone = asked(&Cell::default(), &robot, &q);
@@ -124,8 +124,8 @@ fn outside(shape: &Shape, point: &Vector3<f64>) -> f64 {
 }
 
 /// An arm whose only capsule is of link 1, in the frame of the world.
-fn probe(capsule: Capsule) -> Robot<6> {
-    let robot = Robot::<6>::named("UR5e").unwrap();
+fn probe(capsule: Capsule) -> Arm<6> {
+    let robot = Arm::<6>::named("UR5e").unwrap();
     let frame = robot.link_frames(&[0.0; 6]).0[0].inverse();
     let ends = capsule.ends().map(|end| {
         <[f64; 3]>::from(frame.rotation * Vector3::from(end) + frame.translation.vector)
@@ -168,7 +168,7 @@ fn a_distance_is_the_least_along_the_axis() {
 
 #[test]
 fn margins_move_the_answer_and_bad_shapes_are_named() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let q = [0.0; 6];
     let floor = |margin: f64| {
         let floor = Shape::half_space([0.0, 0.0, 1.0], [0.0, 0.0, -0.5]).unwrap();
@@ -198,12 +198,13 @@ fn margins_move_the_answer_and_bad_shapes_are_named() {
 
 #[test]
 fn standing_arms_and_pairs_that_may_touch_are_kept() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let beside = IsometryMatrix3::from_parts(
         Translation3::new(0.0, 1.2, 0.0),
         Rotation3::from_euler_angles(0.0, 0.0, -1.5),
     );
-    let left = Robot::<6>::named("UR5e").unwrap().with_base(&beside).unwrap();
+    let left = Arm::<6>::named("UR5e").unwrap();
+    let left = left.map(|robot| robot.with_base(&beside)).unwrap();
     let corners = [[0.0; 3], [0.3, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0, 0.0, 0.3]];
     let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]].map(|face| face.map(|at| corners[at]));
     let place = Pose::translation(0.6, -0.3, 0.4);

@@ -6,7 +6,7 @@ use crate::common::{Rng, enough};
 use irbkin::body::{Body, Shape};
 use irbkin::cell::{Cell, Contact, Near, RESOLUTION};
 use irbkin::trajectory::{SplineKind, spline};
-use irbkin::{AnyRobot, Pose, Robot};
+use irbkin::{AnyArm, Arm, Pose};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 
 /// Arms: open ones, one with coupled axes and rods beside it, one with seven joints.
@@ -15,24 +15,24 @@ const ARMS: [&str; 5] = ["IRB 1200-5/0.9", "UR5e", "IRB 2400-12/1.55", "IRB 6700
 /// Postures at which a motion that is called free is looked at.
 const INSTANTS: u32 = 400;
 
-fn on_arms(mut work: impl FnMut(&AnyRobot, &mut Rng)) {
+fn on_arms(mut work: impl FnMut(&AnyArm, &mut Rng)) {
     for (seed, name) in (71..).zip(ARMS) {
-        work(&AnyRobot::named(name).unwrap(), &mut Rng::new(seed));
+        work(&AnyArm::named(name).unwrap(), &mut Rng::new(seed));
     }
 }
 
-fn any_joints<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> [f64; N] {
+fn any_joints<const N: usize>(robot: &Arm<N>, rng: &mut Rng) -> [f64; N] {
     rng.inside(robot.limits())
 }
 
 /// How deep the arm is in anything, by the distances of its capsules; only an arm without pairs of
 /// links has a margin, for its nearest is an obstacle.
-fn depth<const N: usize>(cell: &Cell, robot: &Robot<N>, q: &[f64; N]) -> f64 {
+fn depth<const N: usize>(cell: &Cell, robot: &Arm<N>, q: &[f64; N]) -> f64 {
     cell.nearest(robot, q).unwrap().map_or(-1.0, |near| cell.margin() - near.distance)
 }
 
 /// Obstacles of all kinds, somewhere near.
-fn any_cell<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> Cell {
+fn any_cell<const N: usize>(robot: &Arm<N>, rng: &mut Rng) -> Cell {
     let pose = |rng: &mut Rng| {
         let mut triple = |most: f64| Vector3::from([0; 3].map(|_| rng.between(-most, most)));
         let place = triple(1.0) + Vector3::z() * 0.5;
@@ -61,7 +61,7 @@ fn any_cell<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> Cell {
     Cell::new(obstacles, margin).unwrap()
 }
 
-fn each<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> [usize; 2] {
+fn each<const N: usize>(robot: &Arm<N>, rng: &mut Rng) -> [usize; 2] {
     let mut count = [0; 2];
     for _ in 0..60 {
         let cell = any_cell(robot, rng);
@@ -78,15 +78,15 @@ fn each<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> [usize; 2] {
 fn a_posture_collides_where_its_distance_says_so() {
     on_arms(|robot, rng| {
         let [free, colliding] = match robot {
-            AnyRobot::Six(robot) => each(robot, rng),
-            AnyRobot::Seven(robot) => each(robot, rng),
+            AnyArm::Six(robot) => each(robot, rng),
+            AnyArm::Seven(robot) => each(robot, rng),
         };
         assert!(enough(free > 40 && colliding > 40), "{free} free, {colliding} not");
     });
 }
 
 /// Compare gradients with differences; how many were compared.
-fn gradients<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> usize {
+fn gradients<const N: usize>(robot: &Arm<N>, rng: &mut Rng) -> usize {
     const STEP: f64 = 1e-6;
     let mut compared = 0;
     for _ in 0..80 {
@@ -120,8 +120,8 @@ fn gradients<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> usize {
 fn a_gradient_is_the_slope_of_the_distance() {
     on_arms(|robot, rng| {
         let compared = match robot {
-            AnyRobot::Six(robot) => gradients(robot, rng),
-            AnyRobot::Seven(robot) => gradients(robot, rng),
+            AnyArm::Six(robot) => gradients(robot, rng),
+            AnyArm::Seven(robot) => gradients(robot, rng),
         };
         assert!(enough(compared > 20), "{compared} compared");
     });
@@ -130,7 +130,7 @@ fn a_gradient_is_the_slope_of_the_distance() {
 /// Compare an answer with postures along the motion.
 fn compare<const N: usize>(
     cell: &Cell,
-    robot: &Robot<N>,
+    robot: &Arm<N>,
     found: Option<&Contact<N>>,
     at: &dyn Fn(f64) -> [f64; N],
     end: f64,
@@ -156,7 +156,7 @@ fn compare<const N: usize>(
 }
 
 /// Joint paths and trajectories of an arm; how many are free and how many are not.
-fn paths<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> [usize; 2] {
+fn paths<const N: usize>(robot: &Arm<N>, rng: &mut Rng) -> [usize; 2] {
     let mut count = [0; 2];
     for _ in 0..40 {
         let cell = any_cell(robot, rng);
@@ -194,8 +194,8 @@ fn paths<const N: usize>(robot: &Robot<N>, rng: &mut Rng) -> [usize; 2] {
 fn a_motion_is_free_until_its_contact() {
     on_arms(|robot, rng| {
         let [free, touching] = match robot {
-            AnyRobot::Six(robot) => paths(robot, rng),
-            AnyRobot::Seven(robot) => paths(robot, rng),
+            AnyArm::Six(robot) => paths(robot, rng),
+            AnyArm::Seven(robot) => paths(robot, rng),
         };
         assert!(enough(free > 4 && touching > 10), "{free} free, {touching} not");
     });
@@ -218,7 +218,7 @@ fn any_point(body: &Body, rng: &mut Rng) -> (usize, Vector3<f64>, f64) {
 /// Put a small ball where a link passes at one instant, and see whether it is found. Half of the
 /// motions are of one joint, and their ball is just where the link arrives: no bound below the true
 /// motion passes that.
-fn refute<const N: usize>(robot: &Robot<N>, rng: &mut Rng) {
+fn refute<const N: usize>(robot: &Arm<N>, rng: &mut Rng) {
     let mut tried = 0;
     while tried < 80 {
         let [from, to] = [any_joints(robot, rng), any_joints(robot, rng)];
@@ -261,7 +261,7 @@ fn refute<const N: usize>(robot: &Robot<N>, rng: &mut Rng) {
     }
 }
 
-fn without_hulls<const N: usize>(robot: &Robot<N>) -> Robot<N> {
+fn without_hulls<const N: usize>(robot: &Arm<N>) -> Arm<N> {
     let body = robot.body().unwrap().clone().with_hulls(Vec::new()).unwrap();
     robot.clone().with_body(Some(body)).unwrap()
 }
@@ -269,11 +269,11 @@ fn without_hulls<const N: usize>(robot: &Robot<N>) -> Robot<N> {
 #[test]
 fn a_ball_that_a_link_passes_through_is_found() {
     on_arms(|robot, rng| match robot {
-        AnyRobot::Six(robot) => {
+        AnyArm::Six(robot) => {
             refute(robot, rng);
             refute(&without_hulls(robot), rng);
         }
-        AnyRobot::Seven(robot) => {
+        AnyArm::Seven(robot) => {
             refute(robot, rng);
             refute(&without_hulls(robot), rng);
         }

@@ -1,15 +1,15 @@
 //! Corrections of the parameters of an arm: poses, Jacobian, and the table they make.
 
 use irbkin::nalgebra::{Point3, Rotation3, Vector3};
-use irbkin::{Corrections, JacobianFrame, Mdh, Pose, Robot};
+use irbkin::{Arm, Corrections, JacobianFrame, Mdh, Pose, Robot};
 
 use crate::common::Rng;
 
 const ARMS: [&str; 4] = ["IRB 2600-12/1.65", "UR5", "IRB 2400-10/1.55", "CRB 15000-5/0.95"];
 
 /// Arms of every kind: a spherical wrist, three parallel axes, coupled axes, none of a catalog.
-fn robots() -> Vec<Robot<6>> {
-    let mut robots: Vec<_> = ARMS.iter().filter_map(|name| Robot::named(name).ok()).collect();
+fn robots() -> Vec<Arm<6>> {
+    let mut robots: Vec<_> = ARMS.iter().filter_map(|name| Arm::named(name).ok()).collect();
     assert!(robots.len() >= 3);
     let mut rng = Rng::new(11);
     let rows = std::array::from_fn(|_| {
@@ -21,11 +21,12 @@ fn robots() -> Vec<Robot<6>> {
         )
     });
     let (base, flange) = (place(&mut rng), place(&mut rng));
-    robots.push(Robot::serial_chain(Mdh { base, rows, flange }).unwrap());
+    robots.push(Robot::serial_chain(Mdh { base, rows, flange }).unwrap().into());
     robots
         .into_iter()
         .map(|robot| {
-            robot.with_base(&place(&mut rng)).unwrap().with_tool(&place(&mut rng)).unwrap()
+            let [base, tool] = [place(&mut rng), place(&mut rng)];
+            robot.map(|robot| robot.with_base(&base)?.with_tool(&tool)).unwrap()
         })
         .collect()
 }
@@ -152,7 +153,7 @@ fn a_corrected_robot_has_the_corrected_poses() {
 
 #[test]
 fn an_axis_is_tilted_against_a_parallel_one_at_every_size() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let mut rng = Rng::new(5);
     let mut parallel = 0;
     for exponent in -12..=0 {
@@ -184,7 +185,7 @@ fn an_axis_is_tilted_against_a_parallel_one_at_every_size() {
 
 #[test]
 fn corrections_that_are_none_are_refused() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let mut corrections = Corrections::NONE;
     corrections.rows[1][2] = f64::NAN;
     let refusal = robot.with_corrections(&corrections).unwrap_err().to_string();

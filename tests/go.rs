@@ -8,7 +8,7 @@ use irbkin::body::Shape;
 use irbkin::cell::Cell;
 use irbkin::go::{End, GoOptions};
 use irbkin::trajectory::Trajectory;
-use irbkin::{Error, Interrupt, Pose, Robot, pose};
+use irbkin::{Arm, Error, Interrupt, Pose, pose};
 
 /// Instants at which a motion is looked at.
 const INSTANTS: usize = 300;
@@ -17,7 +17,7 @@ const INSTANTS: usize = 300;
 const SAMPLES: usize = 3000;
 
 fn go<const N: usize>(
-    robot: &Robot<N>,
+    robot: &Arm<N>,
     [start, goal]: &[End<N>; 2],
     cell: &Cell,
     seed: u64,
@@ -28,14 +28,14 @@ fn go<const N: usize>(
     robot.go(start, goal, cell, &options, Interrupt::when(&is_enough))
 }
 
-fn meets<const N: usize>(robot: &Robot<N>, q: &[f64; N], end: &End<N>) -> bool {
+fn meets<const N: usize>(robot: &Arm<N>, q: &[f64; N], end: &End<N>) -> bool {
     match end {
         End::Joints(wanted) => q.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9),
         End::Pose(pose) => robot.residual(q, pose).largest() < 1e-8,
     }
 }
 
-fn check<const N: usize>(robot: &Robot<N>, ends: &[End<N>; 2], cell: &Cell, motion: &Trajectory) {
+fn check<const N: usize>(robot: &Arm<N>, ends: &[End<N>; 2], cell: &Cell, motion: &Trajectory) {
     assert_eq!(cell.check_trajectory(robot, motion).unwrap(), None);
     let times = motion.times(INSTANTS).unwrap();
     let [mut q, mut dq, mut ddq] = [(); 3].map(|()| vec![[0.0; N]; INSTANTS]);
@@ -58,7 +58,7 @@ fn check<const N: usize>(robot: &Robot<N>, ends: &[End<N>; 2], cell: &Cell, moti
 
 /// Solve problems of a scene; how many motions were found, and how many of these go straight.
 fn scene(
-    robot: &Robot<6>,
+    robot: &Arm<6>,
     cell: &Cell,
     pose: &dyn Fn(&mut Rng) -> Pose,
     [seed, count]: [usize; 2],
@@ -84,7 +84,7 @@ fn scene(
 #[test]
 fn motions_round_a_table_and_a_shelf_are_free_from_end_to_end() {
     for (name, size) in ARMS {
-        let robot: Robot<6> = Robot::named(name).unwrap();
+        let robot: Arm<6> = Arm::named(name).unwrap();
         let [found, straight] = scene(&robot, &table(size), &|rng| on_table(size, rng), [5, 60]);
         assert!(enough(found == 60 && straight < 57), "{name}: {found}, {straight}");
         let [found, straight] = scene(&robot, &shelf(size), &|rng| in_shelf(size, rng), [6, 60]);
@@ -94,13 +94,13 @@ fn motions_round_a_table_and_a_shelf_are_free_from_end_to_end() {
 
 #[test]
 fn seven_joints_go_round_a_post_and_a_locked_one_stays() {
-    let robot: Robot<7> = Robot::named("Panda").unwrap();
+    let robot: Arm<7> = Arm::named("Panda").unwrap();
     let place = pose::from_wxyz([0.5, 0.0, 0.4], [1.0, 0.0, 0.0, 0.0]).unwrap();
     let post = Shape::cuboid([0.1, 0.1, 0.9], &place).unwrap();
     let cell = Cell::new(vec![("post".to_owned(), post)], 0.01).unwrap();
     let angle = 0.2;
     let [start, goal] = [-0.8, 0.8].map(|q1| [q1, 0.4, angle, -1.9, 0.1, 2.3, 0.7]);
-    let locked = robot.locked(3, angle).unwrap();
+    let locked = robot.clone().map(|robot| robot.locked(3, angle)).unwrap();
     let mut motions = 0;
     for (robot, is_locked) in [(&robot, false), (&locked, true)] {
         for end in [End::Joints(goal), End::Pose(robot.fk(&goal))] {
@@ -121,7 +121,7 @@ fn seven_joints_go_round_a_post_and_a_locked_one_stays() {
 #[test]
 fn what_cannot_be_is_refused_as_that() {
     let (name, size) = ARMS[1];
-    let robot: Robot<6> = Robot::named(name).unwrap();
+    let robot: Arm<6> = Arm::named(name).unwrap();
     let cell = table(size);
     let free = [0.0, -0.3, 0.2, 0.0, 0.8, 0.0];
     let refused = |ends: [End<6>; 2]| {
@@ -176,7 +176,7 @@ fn body_of_tip() -> irbkin::body::Body {
 
 #[test]
 fn a_motion_to_where_the_arm_is_takes_no_time() {
-    let robot: Robot<6> = Robot::named(ARMS[0].0).unwrap();
+    let robot: Arm<6> = Arm::named(ARMS[0].0).unwrap();
     let q = [0.3, -1.2, 1.0, -1.2, -1.4, 0.2];
     let ends = [End::Joints(q), End::Joints(q)];
     let motion = go(&robot, &ends, &Cell::default(), 0).unwrap();

@@ -4,7 +4,7 @@
 use crate::common::Rng;
 use irbkin::body::{Body, Capsule, LinkCapsule, LinkHull, RoundedHull, Shape};
 use irbkin::cell::Cell;
-use irbkin::{Pose, Robot, catalog};
+use irbkin::{Arm, Pose, catalog};
 use nalgebra::{IsometryMatrix3, Point3, Rotation3, Translation3, Vector3};
 
 /// A pose anywhere near.
@@ -23,8 +23,8 @@ fn hull(rng: &mut Rng) -> RoundedHull {
 
 /// An arm whose link 1 alone has a body, which is at a pose in the world: a hull, and a ball around
 /// it.
-fn probe(hull: &RoundedHull, pose: &Pose) -> Robot<6> {
-    let robot = Robot::<6>::named("UR5e").unwrap();
+fn probe(hull: &RoundedHull, pose: &Pose) -> Arm<6> {
+    let robot = Arm::<6>::named("UR5e").unwrap();
     let moved = robot.link_frames(&[0.0; 6]).0[0].inverse() * pose;
     let points: Vec<[f64; 3]> =
         hull.points().map(|point| (moved * Point3::from(point)).coords.into()).collect();
@@ -59,7 +59,7 @@ fn alone(shape: &Shape) -> Cell {
 
 /// How far a point is outside of a shape, by the distance of a small ball.
 fn outside(shape: &Shape, point: &Vector3<f64>) -> f64 {
-    let robot = Robot::<6>::named("UR5e").unwrap();
+    let robot = Arm::<6>::named("UR5e").unwrap();
     let own = robot.link_frames(&[0.0; 6]).0[0].inverse() * Point3::from(*point);
     let capsule = Capsule::new(own.coords.into(), own.coords.into(), 1e-6).unwrap();
     let body = Body::new(vec![LinkCapsule { link: 1, capsule }], Vec::new()).unwrap();
@@ -113,7 +113,7 @@ fn a_distance_from_a_hull_is_the_least_from_its_points() {
 #[test]
 fn two_hulls_are_as_far_apart_as_one_from_the_points_of_the_other() {
     let mut rng = Rng::new(82);
-    let robot = Robot::<6>::named("UR5e").unwrap();
+    let robot = Arm::<6>::named("UR5e").unwrap();
     let mut apart = 0;
     for _ in 0..200 {
         let hulls = [hull(&mut rng), hull(&mut rng)];
@@ -145,10 +145,10 @@ fn two_hulls_are_as_far_apart_as_one_from_the_points_of_the_other() {
 fn the_core_of_a_hull_of_the_catalog_is_inside_of_it() {
     let mut count = 0;
     for arm in catalog() {
-        let robot = irbkin::AnyRobot::from_catalog(&arm).unwrap();
+        let robot = irbkin::AnyArm::from_catalog(&arm).unwrap();
         let body = match &robot {
-            irbkin::AnyRobot::Six(robot) => robot.body().unwrap(),
-            irbkin::AnyRobot::Seven(robot) => robot.body().unwrap(),
+            irbkin::AnyArm::Six(robot) => robot.body().unwrap(),
+            irbkin::AnyArm::Seven(robot) => robot.body().unwrap(),
         };
         assert_eq!(body.hulls().is_empty(), body.is_approximate(), "{}", arm.name);
         for own in body.hulls() {

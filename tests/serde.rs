@@ -3,8 +3,8 @@
 use std::fmt::Debug;
 
 use irbkin::{
-    AnyRobot, Configuration, Corrections, JointLimits, Joints, Mdh, OpwParameters, Robot, Sdh,
-    Solution, Status, catalog,
+    AnyArm, AnyRobot, Configuration, Corrections, JointLimits, Joints, Mdh, OpwParameters, Robot,
+    Sdh, Solution, Status, catalog,
     follow::{FollowOptions, SingularityMode},
     pose,
 };
@@ -46,6 +46,7 @@ where
 fn robots_round_trip() {
     for arm in catalog() {
         round_trips(&AnyRobot::from_catalog(&arm).unwrap());
+        round_trips(&AnyArm::from_catalog(&arm).unwrap());
         match arm.dof() {
             6 => round_trips_with_settings(&Robot::<6>::from_catalog(&arm).unwrap()),
             _ => round_trips_with_settings(&Robot::<7>::from_catalog(&arm).unwrap()),

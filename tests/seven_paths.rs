@@ -5,21 +5,21 @@ use crate::common::{Rng, iiwa};
 
 use irbkin::follow::{BreakReason, Followed};
 use irbkin::plan::{PlanError, PlanOptions, PlanOrder};
-use irbkin::{Pose, Robot};
+use irbkin::{Arm, Pose};
 use nalgebra::Vector3;
 
 const ONES: [f64; 7] = [1.0; 7];
 
-fn arms() -> [(&'static str, Robot<7>); 3] {
+fn arms() -> [(&'static str, Arm<7>); 3] {
     [
-        ("Panda", Robot::named("Panda").unwrap()),
-        ("FR3", Robot::named("FR3").unwrap()),
-        ("iiwa", iiwa()),
+        ("Panda", Arm::named("Panda").unwrap()),
+        ("FR3", Arm::named("FR3").unwrap()),
+        ("iiwa", iiwa().into()),
     ]
 }
 
 /// A straight joint path inside the limits, and its poses.
-fn path(robot: &Robot<7>, rng: &mut Rng, count: u32) -> (Vec<[f64; 7]>, Vec<Pose>) {
+fn path(robot: &Arm<7>, rng: &mut Rng, count: u32) -> (Vec<[f64; 7]>, Vec<Pose>) {
     let limits = robot.limits().to_array().map(|[low, high]| [low + 0.3, high - 0.3]);
     let from = limits.map(|[low, high]| rng.between(low, high));
     let to: [f64; 7] = core::array::from_fn(|joint| {
@@ -54,7 +54,7 @@ fn squares(q: &[[f64; 7]]) -> f64 {
 }
 
 /// All joint vectors, each of which meets its pose inside the limits.
-fn met(robot: &Robot<7>, q: &[Option<[f64; 7]>], poses: &[Pose]) -> Vec<[f64; 7]> {
+fn met(robot: &Arm<7>, q: &[Option<[f64; 7]>], poses: &[Pose]) -> Vec<[f64; 7]> {
     let q: Vec<[f64; 7]> = q.iter().map(|q| q.unwrap()).collect();
     for (q, pose) in q.iter().zip(poses) {
         assert!(robot.residual(q, pose).largest() < 1e-11, "{q:?}");
@@ -154,8 +154,8 @@ fn a_plan_costs_no_more_than_what_follow_finds() {
 fn a_plan_with_a_locked_joint_is_the_plan_of_the_other_six() {
     let (_, robot) = &arms()[2];
     let (made, _) = path(robot, &mut Rng::new(45), 2);
-    let locked = robot.locked(3, made[0][2]).unwrap();
-    let six = locked.six_joints().unwrap().unwrap();
+    let locked = robot.clone().map(|robot| robot.locked(3, made[0][2])).unwrap();
+    let six = Arm::from(locked.six_joints().unwrap().unwrap());
     let mut to = made[0];
     to[0] += 0.3;
     let poses: Vec<Pose> = (0..15_u32)

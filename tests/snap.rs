@@ -8,7 +8,7 @@ use std::fmt::Debug;
 
 use crate::common::{Rng, reach_of};
 use irbkin::batch::Batch;
-use irbkin::{DhRow, Error, JointLimits, Joints, Mdh, Pose, Robot, Sdh, Solutions, pose};
+use irbkin::{Arm, DhRow, Error, JointLimits, Joints, Mdh, Pose, Robot, Sdh, Solutions, pose};
 
 const XARM7: &str = include_str!("data/few_digits/xarm7.urdf");
 const PUMA560: &str = include_str!("data/few_digits/puma560.urdf");
@@ -45,12 +45,12 @@ fn moved<const N: usize>(robot: &Robot<N>, angles: usize, snap: f64) -> f64 {
 
 #[test]
 fn the_published_xarm7_is_accepted_with_the_proposed_snap() {
-    let text = Robot::<7>::from_urdf(XARM7, None, None).unwrap();
+    let text = Arm::<7>::from_urdf(XARM7, None, None).unwrap();
     let reason = text.missing_form().unwrap();
     assert_eq!(reason.snap(), Some(1e-5));
     assert!(reason.to_string().contains("they are 0.000210 deg off"), "{reason}");
     assert!(reason.to_string().ends_with("; snap=1e-5 would take it"), "{reason}");
-    let robot = Robot::<7>::from_urdf_snapped(XARM7, None, None, 1e-5).unwrap();
+    let robot = Arm::<7>::from_urdf_snapped(XARM7, None, None, 1e-5).unwrap();
     assert_eq!(robot.structure(), "spherical shoulder");
     // Six right angles are 3.7e-6 rad off.
     let off = farthest(&robot, &text);
@@ -70,15 +70,15 @@ fn the_published_xarm7_is_accepted_with_the_proposed_snap() {
 
 #[test]
 fn the_published_puma560_is_accepted_with_the_proposed_snap() {
-    let words = noted(Robot::from_urdf(PUMA560, None, None));
+    let words = noted(Arm::from_urdf(PUMA560, None, None).map(|arm| arm.robot().clone()));
     assert!(words.ends_with("; snap=1e-8 would take it"), "{words}");
     assert!(!words.contains("0.000000"), "{words}");
-    let text = Robot::<6>::serial_chain_from_urdf(PUMA560, None, None).unwrap();
+    let text = Arm::<6>::serial_chain_from_urdf(PUMA560, None, None).unwrap();
     for snap in [1e-8, 1e-5, 1e-3] {
-        let robot = Robot::<6>::from_urdf_snapped(PUMA560, None, None, snap).unwrap();
+        let robot = Arm::<6>::from_urdf_snapped(PUMA560, None, None, snap).unwrap();
         assert_eq!(robot.structure(), "spherical wrist");
         assert!(farthest(&robot, &text) <= moved(&robot, 6, 1e-8));
-        let robot = robot.with_limits(JointLimits::UNLIMITED);
+        let robot = robot.robot().clone().with_limits(JointLimits::UNLIMITED);
         let mut full = 0;
         for q in poses_of(&robot) {
             let pose = robot.fk(&q);
@@ -182,9 +182,9 @@ fn nearly_parallel_axes_are_accepted_with_the_proposed_snap() {
     let joint = r#"<origin xyz="0 0 0.7""#;
     assert!(text.contains(joint), "the joint that is tilted");
     let tilted = text.replace(joint, r#"<origin rpy="0.00000002 0 0" xyz="0 0 0.7""#);
-    let error = Robot::<6>::from_urdf(&tilted, None, None).unwrap_err();
+    let error = Arm::<6>::from_urdf(&tilted, None, None).unwrap_err();
     assert!(error.to_string().ends_with("; snap=1e-7 would take it"), "{error}");
-    assert!(Robot::<6>::from_urdf_snapped(&tilted, None, None, 1e-7).is_ok());
+    assert!(Arm::<6>::from_urdf_snapped(&tilted, None, None, 1e-7).is_ok());
 }
 
 /// Axes are snapped too, to a coordinate axis that is near, and to nothing else.
@@ -197,11 +197,11 @@ fn an_axis_near_a_coordinate_axis_is_snapped_to_it() {
             1,
         )
     };
-    let has_form = |built: Result<Robot<6>, Error>| built.unwrap().missing_form().is_none();
-    assert!(has_form(Robot::from_urdf(&tilted("0 0 1"), None, None)));
-    let snapped = |axis: &str| Robot::from_urdf_snapped(&tilted(axis), None, None, 1e-5);
+    let has_form = |built: Result<Arm<6>, Error>| built.unwrap().missing_form().is_none();
+    assert!(has_form(Arm::from_urdf(&tilted("0 0 1"), None, None)));
+    let snapped = |axis: &str| Arm::from_urdf_snapped(&tilted(axis), None, None, 1e-5);
     for axis in ["3.6732E-06 0 1", "0 -3.6732E-06 -1", "3e-6 -2e-6 0.5"] {
-        assert!(!has_form(Robot::from_urdf(&tilted(axis), None, None)), "{axis}");
+        assert!(!has_form(Arm::from_urdf(&tilted(axis), None, None)), "{axis}");
         assert!(has_form(snapped(axis)), "{axis}");
     }
     for axis in ["1.1e-5 0 1", "0.001 0 1", "0 0.3 1"] {
@@ -233,7 +233,7 @@ fn a_snap_has_bounds() {
         let words = format!("snap is {word} rad, it must be 0 to 1e-3 rad");
         assert_eq!(refusal(mdh.clone().snapped(snap)), words);
         assert_eq!(refusal(Sdh::from(mdh.clone()).snapped(snap)), words);
-        assert_eq!(refusal(Robot::<6>::from_urdf_snapped(PUMA560, None, None, snap)), words);
+        assert_eq!(refusal(Arm::<6>::from_urdf_snapped(PUMA560, None, None, snap)), words);
     }
     assert!(mdh.snapped(1e-3).is_ok());
 }
@@ -241,7 +241,7 @@ fn a_snap_has_bounds() {
 /// A batch of a snapped arm is solved as any other.
 #[test]
 fn a_snapped_arm_solves_batches() {
-    let robot = Robot::<6>::from_urdf_snapped(PUMA560, None, None, 1e-8).unwrap();
+    let robot = Arm::<6>::from_urdf_snapped(PUMA560, None, None, 1e-8).unwrap();
     let poses: Vec<f64> =
         poses_of(&robot).iter().flat_map(|q| pose::to_rows(&robot.fk(q))).collect();
     let rows = poses.len() / 16;

@@ -17,7 +17,7 @@ use irbkin::trajectory::state::to_rest;
 use irbkin::trajectory::{
     AxisLimits, AxisMotion, AxisState, Profile, Synchronization, Trajectory, joint_within,
 };
-use irbkin::{Pose, Robot};
+use irbkin::{Arm, Pose};
 
 const CYCLE: f64 = 0.004;
 
@@ -41,14 +41,14 @@ fn cell(reach: f64) -> Cell {
 
 /// An arm, its cell, a start and a guard.
 struct Case<const N: usize> {
-    robot: Robot<N>,
+    robot: Arm<N>,
     cell: Cell,
     guard: Guard<N>,
     last: Step<N>,
 }
 
 impl<const N: usize> Case<N> {
-    fn new(robot: Robot<N>, cell: Cell, start: [f64; N], options: &GuardOptions<N>) -> Self {
+    fn new(robot: Arm<N>, cell: Cell, start: [f64; N], options: &GuardOptions<N>) -> Self {
         let mut guard = Guard::new(&robot, &start, Some(&cell), options).unwrap();
         let last = guard.step(&start);
         assert!(last.accepted);
@@ -191,12 +191,12 @@ fn options<const N: usize>(on_violation: OnViolation) -> GuardOptions<N> {
     }
 }
 
-fn reach<const N: usize>(robot: &Robot<N>) -> f64 {
+fn reach<const N: usize>(robot: &Arm<N>) -> f64 {
     crate::common::reach_of(robot)
 }
 
 /// A joint vector inside the limits that touches nothing.
-fn free_start<const N: usize>(robot: &Robot<N>, cell: &Cell, rng: &mut Rng) -> [f64; N] {
+fn free_start<const N: usize>(robot: &Arm<N>, cell: &Cell, rng: &mut Rng) -> [f64; N] {
     loop {
         let q = rng.inside(robot.limits());
         let is_inside = robot.limits().contains(&q);
@@ -206,7 +206,7 @@ fn free_start<const N: usize>(robot: &Robot<N>, cell: &Cell, rng: &mut Rng) -> [
     }
 }
 
-fn bounds_hold<const N: usize>(robot: &Robot<N>, cycles: usize) {
+fn bounds_hold<const N: usize>(robot: &Arm<N>, cycles: usize) {
     let cell = cell(reach(robot));
     for on_violation in [OnViolation::Brake, OnViolation::Limit] {
         let mut rng = Rng::new(60);
@@ -241,8 +241,8 @@ fn bounds_hold<const N: usize>(robot: &Robot<N>, cycles: usize) {
     }
 }
 
-fn six(name: &str) -> Robot<6> {
-    Robot::named(name).unwrap()
+fn six(name: &str) -> Arm<6> {
+    Arm::named(name).unwrap()
 }
 
 /// Cycles of each arm and mode.
@@ -258,7 +258,8 @@ fn bounds_hold_for_spherical_wrists() {
 
 #[test]
 fn bounds_hold_for_a_linkage() {
-    let robot = six("IRB 2400-10/1.55").with_linkage_limits(Some([-1.2, 0.6])).unwrap();
+    let robot = six("IRB 2400-10/1.55");
+    let robot = robot.map(|robot| robot.with_linkage_limits(Some([-1.2, 0.6]))).unwrap();
     assert!(robot.is_coupled());
     bounds_hold(&robot, cycles());
 }
@@ -272,7 +273,7 @@ fn bounds_hold_for_others() {
 
 #[test]
 fn bounds_hold_for_seven_axes() {
-    bounds_hold(&Robot::<7>::named("Panda").unwrap(), cycles());
+    bounds_hold(&Arm::<7>::named("Panda").unwrap(), cycles());
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 use crate::common::Rng;
 use crate::structures::spherical_wrist::kuka_kr6;
-use irbkin::{Error, PoseDifference, Robot};
+use irbkin::{Arm, Error, PoseDifference, Robot};
 
 const IRB2600: &str = include_str!("data/irb2600.urdf");
 const ROUNDED: &str = include_str!("data/irb2600_rounded.urdf");
@@ -17,15 +17,15 @@ const UR5E: &str = include_str!("data/ur5e.urdf");
 const PANDA: &str = include_str!("data/panda_hand.urdf");
 const SEVEN: &str = include_str!("data/iiwa14.urdf");
 
-fn six(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Robot<6>, Error> {
-    Robot::serial_chain_from_urdf(text, base, tip)
+fn six(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Arm<6>, Error> {
+    Arm::serial_chain_from_urdf(text, base, tip)
 }
 
 fn words(text: &str) -> String {
     refused(six(text, None, None))
 }
 
-fn refused<const N: usize>(robot: Result<Robot<N>, Error>) -> String {
+fn refused<const N: usize>(robot: Result<Arm<N>, Error>) -> String {
     let error = robot.unwrap_err();
     assert!(matches!(error, Error::InvalidModel(_)), "{error}");
     error.to_string()
@@ -33,7 +33,7 @@ fn refused<const N: usize>(robot: Result<Robot<N>, Error>) -> String {
 
 /// The arm of the URDF is where `other` is, and has its solutions in its slots.
 fn agrees(text: &str, other: &Robot<6>, bound: f64) {
-    let robot = Robot::<6>::from_urdf(text, None, None).unwrap();
+    let robot = Arm::<6>::from_urdf(text, None, None).unwrap();
     let mut rng = Rng::new(1);
     for _ in 0..500 {
         let q = rng.inside(other.limits());
@@ -58,8 +58,8 @@ fn arms_of_known_structure_have_their_inverse_and_slots() {
     agrees(IRB2600, &Robot::named("IRB 2600-12/1.65").unwrap(), 1e-14);
     agrees(KUKA, &kuka_kr6().unwrap(), 1e-14);
     // Right angles with nine decimals are 2e-10 off; six of them, at most 2 m away.
-    let upright = Robot::<6>::from_urdf(IRB2600, None, Some("link_6")).unwrap();
-    let rounded = Robot::<6>::from_urdf(ROUNDED, None, None).unwrap();
+    let upright = Arm::<6>::from_urdf(IRB2600, None, Some("link_6")).unwrap();
+    let rounded = Arm::<6>::from_urdf(ROUNDED, None, None).unwrap();
     let mut rng = Rng::new(2);
     for _ in 0..500 {
         let q = rng.inside(upright.limits());
@@ -78,13 +78,13 @@ fn arms_of_known_structure_have_their_inverse_and_slots() {
 
 #[test]
 fn names_limits_and_velocities_arrive() {
-    let robot = Robot::<6>::from_urdf(IRB2600, None, None).unwrap();
+    let robot = Arm::<6>::from_urdf(IRB2600, None, None).unwrap();
     let catalog = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
     assert_eq!(robot.name(), "irb2600");
     assert_eq!(robot.limits(), catalog.limits());
     assert_eq!(robot.max_velocity(), catalog.max_velocity());
     assert_eq!(robot.mdh().base, irbkin::Pose::identity());
-    let seven = Robot::<7>::from_urdf(SEVEN, None, None).unwrap();
+    let seven = Arm::<7>::from_urdf(SEVEN, None, None).unwrap();
     assert_eq!(seven.limits().to_array()[6], [-175.0_f64.to_radians(), 175.0_f64.to_radians()]);
 }
 
@@ -183,7 +183,7 @@ fn the_joint_of_a_gripper_is_not_counted_silently() {
     // `versioned` has six joints; a joint more makes seven.
     let seven = |more: String| {
         let text = versioned("", "", &more);
-        irbkin::AnyRobot::from_urdf(&text, None, None).unwrap_err().to_string()
+        irbkin::AnyArm::from_urdf(&text, None, None).unwrap_err().to_string()
     };
     let asked = |joint: &str, ends: &str| {
         format!(
@@ -223,7 +223,7 @@ fn base_and_tip_choose_the_chain() {
     // The tool frame of the description is the last link's.
     assert!(off.largest() <= 1e-14, "{off:?}");
     assert!(
-        (Robot::<7>::from_urdf(PANDA, None, None).unwrap().mdh().rows[6].d - 0.2104).abs() <= 1e-15
+        (Arm::<7>::from_urdf(PANDA, None, None).unwrap().mdh().rows[6].d - 0.2104).abs() <= 1e-15
     );
 }
 
@@ -333,7 +333,7 @@ fn tool0_is_the_tip_among_frames_of_one_link() {
     assert_eq!(six(&frames, None, None), six(&frames, None, Some("tool0")));
     let jaw = "<link name='jaw'/><joint name='j7' type='revolute'><parent link='l6'/>\
                <child link='jaw'/><limit lower='0' upper='1'/></joint>";
-    let any = |more: &str| irbkin::AnyRobot::from_urdf(&versioned("", "", more), None, None);
+    let any = |more: &str| irbkin::AnyArm::from_urdf(&versioned("", "", more), None, None);
     for more in [jaw.to_owned() + &tool, fixed("l5", "camera") + &tool + &fixed("l6", "a")] {
         let asked = any(&more).unwrap_err().to_string();
         assert!(asked.contains("\"tool0\" (6)"), "{asked}");
@@ -352,7 +352,7 @@ fn joints_have_the_names_of_the_file() {
     let mut corrections = irbkin::Corrections::NONE;
     corrections.rows[1][0] = 1e-4;
     for other in [
-        robot.clone().with_tool(&tool).unwrap().with_name("own"),
+        robot.clone().map(|robot| Ok(robot.with_tool(&tool)?.with_name("own"))).unwrap(),
         robot.with_corrections(&corrections).unwrap(),
     ] {
         assert_eq!(names(&other), names(&robot));
@@ -610,7 +610,7 @@ fn absent_numbers_have_the_values_of_the_format() {
 #[test]
 fn an_arm_without_a_closed_form_is_reported_and_solved() {
     let bent = third("xyz=\"0 1 0\"", "xyz=\"0 1 0.1\"");
-    let robot = Robot::<6>::from_urdf(&bent, None, None).unwrap();
+    let robot = Arm::<6>::from_urdf(&bent, None, None).unwrap();
     assert!(robot.missing_form().is_some());
     let q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
     let solutions = robot.ik(&robot.fk(&q)).unwrap();
@@ -776,8 +776,8 @@ fn axes(count: usize, more: &str) -> String {
     format!("<robot name='a'><link name='l0'/>{joints}{more}</robot>")
 }
 
-fn any(text: &str) -> Result<irbkin::AnyRobot, String> {
-    irbkin::AnyRobot::from_urdf(text, None, None).map_err(|error| error.to_string())
+fn any(text: &str) -> Result<irbkin::AnyArm, String> {
+    irbkin::AnyArm::from_urdf(text, None, None).map_err(|error| error.to_string())
 }
 
 #[test]

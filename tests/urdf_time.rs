@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use irbkin::Robot;
+use irbkin::Arm;
 
 /// Pieces by their numbers, until they are `size` bytes.
 fn filled(size: usize, piece: &dyn Fn(usize) -> String) -> String {
@@ -157,7 +157,7 @@ fn chains(size: usize) -> Vec<Shape> {
 fn time(text: &str) -> f64 {
     let once = || {
         let start = Instant::now();
-        let read = Robot::<6>::from_urdf(std::hint::black_box(text), None, None);
+        let read = Arm::<6>::from_urdf(std::hint::black_box(text), None, None);
         assert!(!read.unwrap_err().to_string().is_empty());
         start.elapsed().as_secs_f64()
     };
@@ -178,7 +178,7 @@ fn sixteen_times_the_text_takes_sixteen_times_as_long() {
 }
 
 fn refusal(text: &str) -> String {
-    Robot::<6>::from_urdf(text, None, None).unwrap_err().to_string()
+    Arm::<6>::from_urdf(text, None, None).unwrap_err().to_string()
 }
 
 #[test]
@@ -238,7 +238,7 @@ fn links_beside_an_arm_take_as_long_as_their_text() {
     let taken = |text: String| {
         let start = Instant::now();
         assert!(
-            Robot::<6>::from_urdf(&text, None, Some("tool0")).is_ok_and(|it| it.body().is_none())
+            Arm::<6>::from_urdf(&text, None, Some("tool0")).is_ok_and(|it| it.body().is_none())
         );
         start.elapsed().as_secs_f64()
     };

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::common::coupled_arm::{limited, odd, opposed, with_linkage};
 use crate::common::{Rng, apart, random_pose, reach_of};
 use crate::structures::spherical_wrist::kuka_kr6;
-use irbkin::{AnyRobot, Error, JointLimits, Joints, PoseDifference, Robot, catalog, thresholds};
+use irbkin::{AnyArm, Arm, Error, JointLimits, Joints, PoseDifference, Robot, catalog, thresholds};
 
 const CASES: usize = 100;
 
@@ -17,12 +17,17 @@ fn rounding<const N: usize>(robot: &Robot<N>) -> f64 {
     4.0 * transforms * f64::EPSILON * (1.0 + reach_of(robot) + lengths.iter().sum::<f64>())
 }
 
-/// The robot of the text of `robot`, after a comparison of everything but its solutions.
-fn again<const N: usize>(robot: &Robot<N>) -> Robot<N>
+/// The text of a robot without a body.
+fn urdf<const N: usize>(robot: &Robot<N>) -> String {
+    Arm::from(robot.clone()).to_urdf()
+}
+
+/// The arm of the text of `robot`, after a comparison of everything but its solutions.
+fn again<const N: usize>(robot: &Robot<N>) -> Arm<N>
 where
     Robot<N>: Joints<N>,
 {
-    let read = Robot::<N>::from_urdf(&robot.to_urdf(), None, None).unwrap();
+    let read = Arm::<N>::from_urdf(&urdf(robot), None, None).unwrap();
     assert_eq!(read.name(), robot.name());
     assert_eq!(read.limits(), robot.limits());
     assert_eq!(read.max_velocity(), robot.max_velocity());
@@ -61,14 +66,14 @@ fn assert_same_solutions(robot: &Robot<6>, read: &Robot<6>) {
 #[test]
 fn every_arm_of_the_catalog_is_read_back_with_its_solutions() {
     for arm in catalog() {
-        let any = AnyRobot::named(arm.name).unwrap();
+        let any = AnyArm::named(arm.name).unwrap();
         let text = any.to_urdf();
         match any {
-            AnyRobot::Six(robot) => {
+            AnyArm::Six(robot) => {
                 assert_eq!(text, robot.to_urdf());
                 assert_same_solutions(&robot, &again(&robot));
             }
-            AnyRobot::Seven(robot) => {
+            AnyArm::Seven(robot) => {
                 assert_eq!(text, robot.to_urdf());
                 again(&robot);
             }
@@ -94,7 +99,7 @@ fn a_seven_axis_arm_is_read_back_with_its_solutions() {
 /// Some programs round an axis along none of x, y and z, or turn about one of the three.
 #[test]
 fn every_axis_is_along_x_y_or_z() {
-    let arms = catalog().map(|arm| AnyRobot::named(arm.name).unwrap().to_urdf());
+    let arms = catalog().map(|arm| AnyArm::named(arm.name).unwrap().to_urdf());
     let mut mdh = kuka_kr6().unwrap().mdh().clone();
     // Axes 2 and 3 stay parallel.
     for joint in [0, 1, 3, 4, 5] {
@@ -115,10 +120,10 @@ fn every_axis_is_along_x_y_or_z() {
 #[test]
 fn an_unknown_velocity_is_written_as_one_that_does_not_bind() {
     let robot: Robot<6> = Robot::named("UR5e").unwrap();
-    let unknown = robot.clone().with_max_velocity(None).unwrap().to_urdf();
+    let unknown = urdf(&robot.clone().with_max_velocity(None).unwrap());
     assert_eq!(unknown.matches("velocity=\"100000\"").count(), 6);
     assert!(!unknown.contains("velocity=\"0\"") && !unknown.contains("velocity=\"inf\""));
-    assert!(!robot.to_urdf().contains("velocity=\"100000\""));
+    assert!(!urdf(&robot).contains("velocity=\"100000\""));
 }
 
 #[test]
@@ -129,8 +134,8 @@ fn base_and_tool_are_links_of_their_own() {
         let robot = robot.with_tool(&random_pose(&mut rng, 0.5)).unwrap();
         again(&robot.clone().with_name("placed"));
         // Each end can be left out.
-        let text = robot.to_urdf();
-        let between = |base, tip| Robot::<6>::from_urdf(&text, Some(base), Some(tip)).unwrap();
+        let text = urdf(&robot);
+        let between = |base, tip| Arm::<6>::from_urdf(&text, Some(base), Some(tip)).unwrap();
         let q = rng.inside(robot.limits());
         let inner = between("base_link", "tool0").fk(&q);
         let off = PoseDifference::between(&(robot.base() * inner * robot.tool()), &robot.fk(&q));
@@ -150,19 +155,19 @@ fn a_linkage_is_a_joint_that_mimics_joint_2_and_keeps_its_limits() {
         assert_eq!(read.limits().linkage(), robot.limits().linkage());
         assert_same_solutions(&robot, &read);
     }
-    let text = limited().to_urdf();
+    let text = urdf(&limited());
     assert!(text.contains("<mimic joint=\"joint_2\" multiplier=\"-1\" offset=\"0\"/>"));
-    assert!(!limited().uncoupled().to_urdf().contains("mimic"));
+    assert!(!urdf(&limited().uncoupled()).contains("mimic"));
     again(&limited().uncoupled().with_name("uncoupled"));
     // Signs, offsets, a lateral offset; joints without limits.
     let odd = odd().with_name("odd");
     again(&odd);
-    assert!(odd.to_urdf().contains("<joint name=\"joint_2-linkage\" type=\"continuous\">"));
+    assert!(urdf(&odd).contains("<joint name=\"joint_2-linkage\" type=\"continuous\">"));
 }
 
 /// The text of a coupled arm with a part of its linkage's joint, and then a part of joint 3, replaced.
-fn linkage_replaced(linkage: &[[&str; 2]], third: &[[&str; 2]]) -> Result<Robot<6>, Error> {
-    let text = limited().with_name("coupled").to_urdf();
+fn linkage_replaced(linkage: &[[&str; 2]], third: &[[&str; 2]]) -> Result<Arm<6>, Error> {
+    let text = urdf(&limited().with_name("coupled"));
     let [first, second] = ["<joint name=\"joint_2-linkage\"", "<joint name=\"joint_3\""]
         .map(|start| text.find(start).unwrap());
     let replaced = |text: &str, parts: &[[&str; 2]]| {
@@ -173,7 +178,7 @@ fn linkage_replaced(linkage: &[[&str; 2]], third: &[[&str; 2]]) -> Result<Robot<
     };
     let (linkage, third) =
         (replaced(&text[first..second], linkage), replaced(&text[second..], third));
-    Robot::from_urdf(&format!("{}{linkage}{third}", &text[..first]), None, Some("tool0"))
+    Arm::from_urdf(&format!("{}{linkage}{third}", &text[..first]), None, Some("tool0"))
 }
 
 #[test]
@@ -216,10 +221,10 @@ fn a_joint_that_takes_joint_2_back_on_axis_3_is_a_linkage_however_it_is_written(
 
 #[test]
 fn a_mimic_is_a_linkage_beside_joint_3_on_its_axis_alone() {
-    let text = limited().to_urdf();
+    let text = urdf(&limited());
     let refused = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
-        let read = Robot::<6>::from_urdf(&text.replacen(from, to, 1), None, Some("tool0"));
+        let read = Arm::<6>::from_urdf(&text.replacen(from, to, 1), None, Some("tool0"));
         assert!(matches!(read, Err(Error::InvalidModel(_))));
         read.unwrap_err().to_string()
     };
@@ -249,7 +254,7 @@ fn a_mimic_is_a_linkage_beside_joint_3_on_its_axis_alone() {
         let moved = after.replacen("xyz=\"0 0 0\"", origin, 1);
         let moved = moved.replacen("<axis xyz=\"0 1 0\"/>", axis, 1);
         assert_ne!(moved, after);
-        let read = Robot::<6>::from_urdf(&format!("{before}{moved}"), None, None);
+        let read = Arm::<6>::from_urdf(&format!("{before}{moved}"), None, None);
         assert_eq!(read.unwrap_err().to_string(), wanted("joint_2", "-1"));
     };
     refuses("xyz=\"0 0 0.1\"", "<axis xyz=\"0 1 0\"/>");
@@ -260,7 +265,7 @@ fn a_mimic_is_a_linkage_beside_joint_3_on_its_axis_alone() {
         "<link name=\"finger\"/><joint name=\"f\" type=\"revolute\"><parent link=\"link_6\"/>\
          <child link=\"finger\"/><mimic joint=\"joint_6\" multiplier=\"-1\"/></joint></robot>",
     );
-    assert_eq!(Robot::<6>::from_urdf(&finger, None, None), Robot::from_urdf(&text, None, None));
+    assert_eq!(Arm::<6>::from_urdf(&finger, None, None), Arm::from_urdf(&text, None, None));
 }
 
 #[test]
@@ -270,17 +275,17 @@ fn a_joint_without_limits_is_continuous_and_one_side_gets_the_largest_angle() {
     limits[0] = [f64::NEG_INFINITY, f64::INFINITY];
     limits[5] = [-PI, f64::INFINITY];
     let robot = robot.with_limits(JointLimits::new(limits).unwrap());
-    let text = robot.to_urdf();
+    let text = urdf(&robot);
     assert!(text.contains("<joint name=\"joint_1\" type=\"continuous\">"));
-    let read = Robot::<6>::from_urdf(&text, None, None).unwrap().limits().to_array();
+    let read = Arm::<6>::from_urdf(&text, None, None).unwrap().limits().to_array();
     assert_eq!(read[..5], limits[..5]);
     assert_eq!(read[5], [-PI, thresholds::MOST_ANGLE]);
 }
 
 #[test]
 fn any_name_is_written_and_read_back() {
-    let named = |name: &str| kuka_kr6().unwrap().with_name(name.to_owned()).to_urdf();
-    let read = |text: &str| Robot::<6>::from_urdf(text, None, None).unwrap().name().to_owned();
+    let named = |name: &str| urdf(&kuka_kr6().unwrap().with_name(name.to_owned()));
+    let read = |text: &str| Arm::<6>::from_urdf(text, None, None).unwrap().name().to_owned();
     for name in ["a\"b<c>&d'", "--><!--", "IRB 2600-12/1.65", "\t\n\r x", "ロボット", "]]>"] {
         assert_eq!(read(&named(name)), name);
     }
@@ -291,9 +296,9 @@ fn any_name_is_written_and_read_back() {
 #[test]
 fn an_arm_of_unknown_structure_is_written_too() {
     let text = include_str!("data/tilted.urdf");
-    let robot = Robot::<6>::serial_chain_from_urdf(text, None, None).unwrap();
+    let robot = Arm::<6>::serial_chain_from_urdf(text, None, None).unwrap();
     assert!(robot.missing_form().is_some());
-    let read = Robot::<6>::serial_chain_from_urdf(&robot.to_urdf(), None, None).unwrap();
+    let read = Arm::<6>::serial_chain_from_urdf(&robot.to_urdf(), None, None).unwrap();
     let mut rng = Rng::new(5);
     for _ in 0..CASES {
         let q = [0; 6].map(|_| rng.between(-PI, PI));

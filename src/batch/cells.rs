@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use super::pace::Batch;
 use super::rows::{check_length, rows};
+use crate::arm::Arm;
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
 use crate::kinematics::{Robot, check_seed, pose_from_rows};
@@ -26,18 +27,18 @@ impl Batch<'_> {
     pub fn collides<const N: usize>(
         &mut self,
         cell: &Cell,
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         q: &[f64],
         collides: &mut [bool],
     ) -> Result<(), Error> {
         let q = rows::<N>("q", q)?;
         check_length("collides", collides.len(), q.len())?;
         q.iter().try_for_each(|q| check_seed("q", q))?;
-        Placed::of(robot)?;
+        Placed::of(arm)?;
         let parts = q.chunks(JOINT_VECTORS).zip(collides.chunks_mut(JOINT_VECTORS));
         self.run(q.len(), parts, |(q, collides), _| {
-            let Ok(mut placed) = Placed::of(robot) else { return };
-            for rows in by_posture(robot, q).chunks(LANES) {
+            let Ok(mut placed) = Placed::of(arm) else { return };
+            for rows in by_posture(arm, q).chunks(LANES) {
                 let mut own = [[0.0; N]; LANES];
                 for (own, row) in own.iter_mut().zip(rows) {
                     *own = q[*row];
@@ -60,17 +61,17 @@ impl Batch<'_> {
     pub fn ik_nearest_free<const N: usize>(
         &mut self,
         cell: &Cell,
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         poses: &[f64],
         seeds: &[f64],
         weights: &[f64; N],
         q: &mut [f64],
     ) -> Result<(), Error> {
-        Placed::of(robot)?;
+        Placed::of(arm)?;
         self.seeded(poses, seeds, weights, q, |poses, seeds, q| {
             for ((pose, seed), q) in poses.iter().zip(seeds).zip(q) {
                 let nearest = pose_from_rows(pose)
-                    .and_then(|pose| cell.ik_nearest(robot, &pose, seed, weights));
+                    .and_then(|pose| cell.ik_nearest(arm, &pose, seed, weights));
                 *q = nearest.map_or([f64::NAN; N], |nearest| nearest.q);
             }
         })

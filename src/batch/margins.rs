@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use super::inverse::part_of;
 use super::pace::Batch;
 use super::rows::{check_length, is_finite, rows};
+use crate::arm::Arm;
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
 use crate::kinematics::{Margin, Robot, Rows, Status};
@@ -66,35 +67,35 @@ impl Batch<'_> {
     /// As [`Self::ik_with`]; with a cell [`Error::InvalidBody`] if the robot has no body.
     pub fn ik_margin<const N: usize>(
         &mut self,
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         poses: &[f64],
         angles: &[f64],
         cell: Option<&Cell>,
         answers: Margins<'_>,
     ) -> Result<(), Error> {
-        robot.check_structure()?;
-        cell.map(|_| Placed::of(robot)).transpose()?;
+        arm.check_structure()?;
+        cell.map(|_| Placed::of(arm)).transpose()?;
         let poses = rows::<16>("poses", poses)?;
         let Margins { margin, singularities, solutions: count } = answers;
-        let angles = &*robot.angles_of_rows(angles, poses.len())?;
+        let angles = &*arm.angles_of_rows(angles, poses.len())?;
         check_length("margin", margin.len(), poses.len())?;
         check_length("singularities", singularities.len(), poses.len())?;
         check_length("solutions", count.len(), poses.len())?;
         let asked = poses.chunks(PART).enumerate();
         let numbers = margin.chunks_mut(PART).zip(singularities.chunks_mut(PART));
         let parts = asked.zip(numbers.zip(count.chunks_mut(PART)));
-        let slots = robot.slot_count();
+        let slots = arm.slot_count();
         self.run(poses.len(), parts, |((part, poses), ((margin, room), count)), _| {
             let mut q = vec![f64::NAN; poses.len() * slots * N];
             let mut status = vec![0; poses.len() * slots];
             let locked = part_of(angles, PART * part);
-            robot.ik_rows(Rows { poses, locked, q: &mut q, status: &mut status });
-            if let Some((cell, mut placed)) = cell.zip(Placed::of(robot).ok()) {
+            arm.ik_rows(Rows { poses, locked, q: &mut q, status: &mut status });
+            if let Some((cell, mut placed)) = cell.zip(Placed::of(arm).ok()) {
                 leave_out(cell, &mut placed, q.as_chunks().0, &mut status);
             }
             let solved = q.as_chunks::<N>().0.chunks(slots).zip(status.chunks(slots));
             for (row, (q, status)) in solved.enumerate() {
-                (margin[row], room[row], count[row]) = most_room(robot, q, status);
+                (margin[row], room[row], count[row]) = most_room(arm, q, status);
             }
         });
         Ok(())
@@ -142,7 +143,7 @@ mod tests {
     use crate::kinematics::pose_to_rows;
     use crate::rng::Rng;
 
-    fn margins(robot: &Robot<6>, poses: &[f64], threads: usize) -> (Vec<f64>, Vec<f64>, Vec<u8>) {
+    fn margins(arm: &Arm<6>, poses: &[f64], threads: usize) -> (Vec<f64>, Vec<f64>, Vec<u8>) {
         let count = poses.len() / 16;
         let (mut margin, mut singularities) = (vec![9.0; count], vec![9.0; count]);
         let mut solutions = vec![9; count];
@@ -152,14 +153,14 @@ mod tests {
             solutions: &mut solutions,
         };
         let mut batch = Batch::new(NonZeroUsize::new(threads));
-        batch.ik_margin(robot, poses, &[], None, answers).unwrap();
+        batch.ik_margin(arm, poses, &[], None, answers).unwrap();
         (margin, singularities, solutions)
     }
 
     #[test]
     fn the_best_of_each_pose_is_that_of_its_solutions_in_any_batch() {
         for name in ["IRB 2600-12/1.65", "IRB 2400-16/1.55", "UR5e"] {
-            let robot: Robot<6> = Robot::named(name).unwrap();
+            let robot: Arm<6> = Arm::named(name).unwrap();
             let mut rng = Rng::new(5);
             let mut poses: Vec<f64> = Vec::new();
             for _ in 0..700 {
@@ -226,7 +227,7 @@ mod tests {
 
     #[test]
     fn an_output_of_another_length_is_named() {
-        let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+        let robot: Arm<6> = Arm::named("IRB 2600-12/1.65").unwrap();
         let (mut margin, mut singularities, mut solutions) = ([0.0; 2], [0.0; 1], [0; 2]);
         let answers = Margins {
             margin: &mut margin,

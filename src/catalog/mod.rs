@@ -12,7 +12,6 @@ use alloc::vec::Vec;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 
-use crate::body::body_of;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::{
     AnyRobot, DhRow, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh,
@@ -312,8 +311,6 @@ where
         let robot = robot.with_name(arm.name).with_limits(limits).with_max_velocity(velocity)?;
         let linkage = arm.linkage().limits();
         let robot = if linkage.is_some() { robot.with_linkage_limits(linkage)? } else { robot };
-        let robot = robot.with_rule(arm.own_configuration_rule());
-        let body = body_of(arm.name).map_or_else(|| robot.approximate_body(), Ok)?;
-        robot.with_body(Some(body))
+        Ok(robot.with_rule(arm.own_configuration_rule()))
     }
 }

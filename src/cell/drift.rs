@@ -82,7 +82,8 @@ mod tests {
     use super::super::placed::Placed;
     use super::super::range::Range;
     use super::*;
-    use crate::kinematics::{Pose, Robot};
+    use crate::arm::Arm;
+    use crate::kinematics::Pose;
 
     /// A number from -1 to 1.
     fn random(state: &mut u64) -> f64 {
@@ -95,7 +96,7 @@ mod tests {
         let (mut state, mut proven, mut near, mut by_lines) = (1, 0, 0, 0);
         // The second one has a linkage.
         for (name, size) in [("UR5", 1.0), ("IRB 2400-12/1.55", 1.6), ("IRB 2600-12/1.65", 1.8)] {
-            let robot = Robot::<6>::named(name).unwrap();
+            let arm = Arm::<6>::named(name).unwrap();
             let at = |z: f64| Pose::translation(0.5 * size, 0.0, z * size);
             let cell = Cell::new(
                 vec![
@@ -106,7 +107,7 @@ mod tests {
                 0.01,
             )
             .unwrap();
-            let mut placed = Placed::of(&robot).unwrap();
+            let mut placed = Placed::of(&arm).unwrap();
             for case in 0..6000 {
                 let scale = [0.02, 0.1, 0.4][case % 3];
                 let range = Range::<6> {

@@ -13,9 +13,10 @@ use super::obstacles::Cell;
 use super::placed::Placed;
 use super::postures::Nearest;
 use super::range::Range;
+use crate::arm::Arm;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::kinematics::{Robot, check_seed};
+use crate::kinematics::check_seed;
 use crate::lanes::LANES;
 use crate::trajectory::Trajectory;
 
@@ -138,10 +139,10 @@ impl Cell {
     /// As [`Self::collides`].
     pub fn check_path<const N: usize>(
         &self,
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         q: &[[f64; N]],
     ) -> Result<Option<Contact<N>>, Error> {
-        self.check_motion(robot, q, Interrupt::none())
+        self.check_motion(arm, q, Interrupt::none())
     }
 
     /// [`Self::check_path`] along a trajectory.
@@ -152,22 +153,22 @@ impl Cell {
     /// joints.
     pub fn check_trajectory<const N: usize>(
         &self,
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         trajectory: &Trajectory,
     ) -> Result<Option<Contact<N>>, Error> {
-        self.check_motion(robot, trajectory, Interrupt::none())
+        self.check_motion(arm, trajectory, Interrupt::none())
     }
 
     /// [`Self::check_path`] of any motion, until it is interrupted.
     #[doc(hidden)]
     pub fn check_motion<const N: usize, M: Motion<N> + ?Sized>(
         &self,
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         motion: &M,
         interrupt: Interrupt<'_>,
     ) -> Result<Option<Contact<N>>, Error> {
         motion.check()?;
-        let contact = self.contact(&mut Placed::of(robot)?.until(interrupt), motion);
+        let contact = self.contact(&mut Placed::of(arm)?.until(interrupt), motion);
         interrupt.check(0)?;
         Ok(contact)
     }

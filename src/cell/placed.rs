@@ -13,10 +13,11 @@ use super::obstacles::Cell;
 use super::one::is_obstructed;
 use nalgebra::Vector3;
 
+use crate::arm::Arm;
 use crate::body::{Capsule, Centered, Group, Outline};
 use crate::error::Error;
 use crate::interrupt::Interrupt;
-use crate::kinematics::{Pose, Robot};
+use crate::kinematics::Pose;
 use crate::lanes::LANES;
 
 #[cfg(feature = "std")]
@@ -28,7 +29,7 @@ thread_local! {
 /// An arm with the outline of its body.
 #[doc(hidden)]
 pub struct Placed<'a, const N: usize> {
-    robot: &'a Robot<N>,
+    arm: &'a Arm<N>,
     pub(super) outline: &'a Outline,
     /// Taken when this is dropped.
     block: Option<Box<Block<N>>>,
@@ -39,18 +40,18 @@ pub struct Placed<'a, const N: usize> {
 
 impl<'a, const N: usize> Placed<'a, N> {
     #[doc(hidden)]
-    pub fn of(robot: &'a Robot<N>) -> Result<Self, Error> {
-        let outline = robot.outline().ok_or_else(|| robot.no_body())?;
+    pub fn of(arm: &'a Arm<N>) -> Result<Self, Error> {
+        let outline = arm.outline()?;
         #[cfg(feature = "std")]
         let kept = KEPT.try_with(core::cell::Cell::take).ok().flatten();
         #[cfg(not(feature = "std"))]
         let kept = None::<Box<dyn core::any::Any>>;
         let kept = kept.and_then(|kept| kept.downcast().ok());
-        let mut block = kept.unwrap_or_else(|| Box::new(Block::new(robot)));
-        block.fit(robot, outline);
-        let table = robot.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum::<f64>();
+        let mut block = kept.unwrap_or_else(|| Box::new(Block::new(arm)));
+        block.fit(arm, outline);
+        let table = arm.mdh().rows.iter().map(|row| row.a.abs() + row.d.abs()).sum::<f64>();
         let (block, reach) = (Some(block), table + outline.reach);
-        Ok(Self { robot, outline, block, reach, interrupt: Interrupt::none() })
+        Ok(Self { arm, outline, block, reach, interrupt: Interrupt::none() })
     }
 
     /// For work that ends when it is interrupted.
@@ -64,7 +65,7 @@ impl<'a, const N: usize> Placed<'a, N> {
     pub(super) fn touching(&mut self, cell: &Cell, q: &[[f64; N]], looked: Looked<'_, N>) -> u64 {
         debug_assert!(q.len() <= LANES);
         let block = self.block.as_mut();
-        block.map_or(ALL, |block| block.touching(self.robot, self.outline, cell, q, looked))
+        block.map_or(ALL, |block| block.touching(self.arm, self.outline, cell, q, looked))
     }
 
     /// Whether one joint vector touches something.
@@ -81,12 +82,12 @@ impl<'a, const N: usize> Placed<'a, N> {
 
     /// How far any axis of a capsule or point of a hull moves at most while the joints turn by spans [rad] [m].
     pub(super) fn most_motion(&self, spans: [f64; N]) -> f64 {
-        self.robot.table_spans(spans).iter().sum::<f64>() * self.reach
+        self.arm.table_spans(spans).iter().sum::<f64>() * self.reach
     }
 
     /// The arm at a joint vector.
     pub(super) fn at(&self, q: &[f64; N]) -> Standing<'_, N> {
-        let frames = self.robot.link_frames(q).0;
+        let frames = self.arm.link_frames(q).0;
         let Outline { capsules: all, groups, .. } = self.outline;
         let (capsules, balls) = (Vec::with_capacity(all.len()), Vec::with_capacity(groups.len()));
         let mut standing = Standing { placed: self, frames, capsules, balls };
@@ -127,7 +128,7 @@ impl<const N: usize> Standing<'_, N> {
     pub(super) fn pose(&self, group: &Group) -> Pose {
         match group.link.checked_sub(1) {
             Some(joint) => self.frames[joint],
-            None => *self.placed.robot.base(),
+            None => *self.placed.arm.base(),
         }
     }
 

@@ -10,9 +10,10 @@ use super::block::Looked;
 use super::obstacles::Cell;
 use super::pairs::{Other, Pair};
 use super::placed::Placed;
+use crate::arm::Arm;
 use crate::body::Separation;
 use crate::error::Error;
-use crate::kinematics::{Pose, Robot, Solution, check_seed};
+use crate::kinematics::{Pose, Solution, check_seed};
 use crate::lanes::LANES;
 
 /// Something that a link is near to.
@@ -53,11 +54,11 @@ impl Cell {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidBody`] if the robot has no body; [`Error::InvalidJoints`] for joints that are
+    /// [`Error::InvalidBody`] if the arm has no body; [`Error::InvalidJoints`] for joints that are
     /// not finite.
-    pub fn collides<const N: usize>(&self, robot: &Robot<N>, q: &[f64; N]) -> Result<bool, Error> {
+    pub fn collides<const N: usize>(&self, arm: &Arm<N>, q: &[f64; N]) -> Result<bool, Error> {
         check_seed("q", q)?;
-        Ok(self.collides_at(&mut Placed::of(robot)?, q))
+        Ok(self.collides_at(&mut Placed::of(arm)?, q))
     }
 
     /// [`Self::collides`] of joints that are checked.
@@ -117,11 +118,11 @@ impl Cell {
     /// As [`Self::collides`].
     pub fn nearest<const N: usize>(
         &self,
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         q: &[f64; N],
     ) -> Result<Option<Nearest>, Error> {
         check_seed("q", q)?;
-        let placed = Placed::of(robot)?;
+        let placed = Placed::of(arm)?;
         let least = self.least(&placed, q, |_, apart| apart.distance);
         Ok(least.map(|(pair, apart)| self.named(pair, &apart)))
     }
@@ -148,18 +149,18 @@ impl Cell {
     /// the limits collides.
     pub fn ik_nearest<const N: usize>(
         &self,
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         pose: &Pose,
         seed: &[f64; N],
         weights: &[f64; N],
     ) -> Result<Solution<N>, Error> {
-        let placed = RefCell::new(Placed::of(robot)?);
-        let nearest = robot.ik_nearest(pose, seed, weights)?;
+        let placed = RefCell::new(Placed::of(arm)?);
+        let nearest = arm.ik_nearest(pose, seed, weights)?;
         let is_free = |q: &[f64; N]| !self.collides_at(&mut placed.borrow_mut(), q);
         if is_free(&nearest.q) {
             return Ok(nearest);
         }
-        match robot.nearest_accepted(pose, seed, weights, &is_free) {
+        match arm.nearest_accepted(pose, seed, weights, &is_free) {
             Err(Error::Unreachable(reason)) => {
                 Err(match self.collision(&placed.borrow(), &nearest.q) {
                     Some((Nearest { link, near, .. }, depth)) => {

@@ -5,9 +5,10 @@ use alloc::vec::Vec;
 
 use super::obstacles::Cell;
 use super::placed::Placed;
+use crate::arm::Arm;
 use crate::body::Shape;
 use crate::error::Error;
-use crate::kinematics::{Robot, check_seed};
+use crate::kinematics::check_seed;
 
 impl Cell {
     /// The cell with another arm in it, which stands still at joints `q` [rad]. Each of its links is
@@ -15,16 +16,16 @@ impl Cell {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidBody`] if the robot has no body, or an obstacle has the name of one of its
+    /// [`Error::InvalidBody`] if the arm has no body, or an obstacle has the name of one of its
     /// links; [`Error::InvalidJoints`] for joints that are not finite.
     pub fn with_robot<const N: usize>(
         self,
         name: &str,
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         q: &[f64; N],
     ) -> Result<Self, Error> {
         check_seed("q", q)?;
-        let placed = Placed::of(robot)?;
+        let placed = Placed::of(arm)?;
         let at = placed.at(q);
         let mut links = Vec::new();
         for link in 0..=N + 1 {

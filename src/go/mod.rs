@@ -13,11 +13,12 @@ use alloc::vec::Vec;
 
 pub(crate) use ends::inside;
 
+use crate::arm::Arm;
 use crate::cell::{Cell, Placed};
 use crate::error::Error;
 use crate::go::fault::GoFault;
 use crate::interrupt::Interrupt;
-use crate::kinematics::{Pose, Robot};
+use crate::kinematics::Pose;
 use crate::trajectory::Trajectory;
 
 /// An end of a free motion.
@@ -40,7 +41,7 @@ pub struct GoOptions<const N: usize> {
     pub max_acceleration: Option<[f64; N]>,
 }
 
-impl<const N: usize> Robot<N> {
+impl<const N: usize> Arm<N> {
     /// A motion from one end to another, from rest to rest, that is proven free at every instant
     /// ([`Cell::check_trajectory`]). Each joint moves evenly to the nearest goal if that is free;
     /// else a path is sought, shortened and rounded.
@@ -49,25 +50,25 @@ impl<const N: usize> Robot<N> {
     /// on the seed alone.
     ///
     /// ```
-    /// use irbkin::{Interrupt, Robot};
+    /// use irbkin::{Arm, Interrupt};
     /// use irbkin::body::Shape;
     /// use irbkin::cell::Cell;
     /// use irbkin::go::{End, GoOptions};
     ///
-    /// let robot: Robot<6> = Robot::named("UR5e")?;
+    /// let arm: Arm<6> = Arm::named("UR5e")?;
     /// let post = Shape::sphere(0.2, [-0.6, 0.0, 0.4])?;
     /// let cell = Cell::new(vec![("post".into(), post)], 0.01)?;
     /// let [start, goal] = [[-1.0, -1.0, 1.2, -1.6, -1.5, 0.0], [1.0, -1.0, 1.2, -1.6, -1.5, 0.0]];
     /// let samples = core::cell::Cell::new(0);
     /// let is_enough = || samples.replace(samples.get() + 1) >= 10_000;
-    /// let motion = robot.go(
+    /// let motion = arm.go(
     ///     &End::Joints(start),
     ///     &End::Joints(goal),
     ///     &cell,
     ///     &GoOptions::default(),
     ///     Interrupt::when(&is_enough),
     /// )?;
-    /// assert!(cell.check_trajectory(&robot, &motion)?.is_none());
+    /// assert!(cell.check_trajectory(&arm, &motion)?.is_none());
     /// # Ok::<(), irbkin::Error>(())
     /// ```
     ///
@@ -76,7 +77,7 @@ impl<const N: usize> Robot<N> {
     /// [`Error::NoMotion`] if an end collides, is not reached or is outside the limits, or if no
     /// motion was found, which its words keep apart; [`Error::InvalidPose`] and
     /// [`Error::InvalidJoints`] for ends that are not finite; [`Error::InvalidMotion`] for limits
-    /// that are not positive; [`Error::InvalidBody`] if the robot has no body.
+    /// that are not positive; [`Error::InvalidBody`] if the arm has no body.
     pub fn go(
         &self,
         start: &End<N>,

@@ -25,6 +25,7 @@ pub(crate) use chain::axes::Axes;
 pub use chain::corrections::Corrections;
 #[cfg(feature = "urdf")]
 pub(crate) use chain::dh::check_snap;
+pub(crate) use chain::dh::screw_x;
 pub use chain::dh::{DhRow, Mdh, Sdh};
 pub use chain::jacobian::JacobianFrame;
 pub use chain::joint_axes::JointAxis;
@@ -51,6 +52,7 @@ pub use pose::{
     pose_from_rows, pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx, pose_to_rows, pose_to_wxyz,
 };
 pub use robot::any::{AnyRobot, ByJoints};
+pub(crate) use robot::postures::POSTURES;
 pub use robot::{Definition, Joints, Margin, Robot};
 pub use solve::configuration::fault::NoConfiguration;
 pub(crate) use structure::inverse::Rows;

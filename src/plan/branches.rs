@@ -8,7 +8,7 @@ use core::ops::Range;
 
 use super::certificate::{ARRIVED, Step};
 use super::graph::{Grid, Layer, Node};
-use super::nodes::Arm;
+use super::nodes::PlannedArm;
 use crate::error::Error;
 use crate::kinematics::thresholds::EXAMINED_STEP;
 use crate::kinematics::{MOST_SLOTS, Solution, Solutions, largest, nearest_turn};
@@ -22,7 +22,7 @@ const RIVAL: f64 = 4.0;
 /// The joint angles of each slot at one pose.
 type Slots = [Option<[f64; 6]>; MOST_SLOTS];
 
-impl Arm<'_> {
+impl PlannedArm<'_> {
     /// Find the edges into layers that lead from one branch to another: where a branch ends or
     /// jumps, and another one continues it.
     pub(super) fn find_crossings(&self, grid: &Grid, layers: &mut [Layer], range: Range<usize>) {

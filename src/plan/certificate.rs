@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use nalgebra::Translation3;
 
 use super::graph::{Grid, Layer, Node, Values};
-use super::nodes::Arm;
+use super::nodes::PlannedArm;
 use crate::kinematics::thresholds::EXAMINED_STEP;
 use crate::kinematics::{Pose, Slot, Solution, Status, largest, nearest_turn, pose_to_rows, steps};
 use crate::plan::thresholds::CONTINUOUS_STEP;
@@ -76,7 +76,7 @@ impl<'a> Step<'a> {
     }
 
     /// The pose of the tool at a part of the step, 0 to 1: straight, at an even rate of rotation.
-    fn pose(&self, arm: &Arm<'_>, part: f64) -> Pose {
+    fn pose(&self, arm: &PlannedArm<'_>, part: f64) -> Pose {
         let [from, to] = &self.values;
         arm.freedom.tool(&self.path_pose(part), &arm.freedom.between(from, to, part))
     }
@@ -99,7 +99,13 @@ impl<'a> Step<'a> {
 
     /// Whether the branch has, half way, joint angles between both nodes (eq. 8). Where it
     /// has not, the step has to be followed.
-    fn is_halved_by(&self, arm: &Arm<'_>, grid: &Grid, q: &[[f64; 6]], status: &[u8]) -> bool {
+    fn is_halved_by(
+        &self,
+        arm: &PlannedArm<'_>,
+        grid: &Grid,
+        q: &[[f64; 6]],
+        status: &[u8],
+    ) -> bool {
         let [from, to] = &self.q;
         let slot = self.nodes[0].slot;
         if slot != self.nodes[1].slot || status[slot] & Status::WITHIN_LIMITS.bits() == 0 {
@@ -131,7 +137,7 @@ impl<'a> Step<'a> {
     /// which every pose is singular, they are those nearest to the joint angles that are given.
     pub(super) fn limit(
         &self,
-        arm: &Arm<'_>,
+        arm: &PlannedArm<'_>,
         q: [f64; 6],
         [from, to]: [f64; 2],
     ) -> Option<Solution<6>> {
@@ -157,7 +163,7 @@ impl<'a> Step<'a> {
 
     /// Follow the branch from the first node to the second, in steps that are halved until they are
     /// small; a jump does not shrink.
-    pub(super) fn followed(&self, arm: &Arm<'_>) -> Between {
+    pub(super) fn followed(&self, arm: &PlannedArm<'_>) -> Between {
         let bound = (self.size() / 4.0).clamp(CONTINUOUS_STEP, EXAMINED_STEP);
         match self.end(arm, bound, arm.has_names()) {
             None if arm.work.is_done() => Between::Unknown,
@@ -170,7 +176,7 @@ impl<'a> Step<'a> {
     /// Where the branch of the first node leads, in steps up to a bound; `None` if it jumps. If the
     /// folds of branches are asked for, no step is taken over one, and none to another branch but
     /// through the singularity that they share.
-    pub(super) fn end(&self, arm: &Arm<'_>, bound: f64, at_folds: bool) -> Option<[f64; 6]> {
+    pub(super) fn end(&self, arm: &PlannedArm<'_>, bound: f64, at_folds: bool) -> Option<[f64; 6]> {
         let (mut q, mut slot) = (self.q[0], Slot::new(self.nodes[0].slot));
         let mut clear = if at_folds {
             arm.distance_of_branches(&self.pose(arm, 0.0), &q)
@@ -226,7 +232,7 @@ fn are_within(distance: f64, q: &[f64; 6], other: &[f64; 6]) -> bool {
     (0..6).all(|joint| (nearest_turn(other[joint], q[joint]) - q[joint]).abs() <= distance)
 }
 
-impl Arm<'_> {
+impl PlannedArm<'_> {
     /// How far the other branches are from a joint vector at a pose, the nearest one [rad].
     fn distance_of_branches(&self, pose: &Pose, q: &[f64; 6]) -> f64 {
         let Ok(solutions) = self.robot.ik(pose) else { return f64::INFINITY };

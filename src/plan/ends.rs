@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::graph::{Own, Values, Waypoint};
-use super::nodes::Arm;
+use super::nodes::PlannedArm;
 use super::options::PlanOptions;
 use crate::error::Error;
 use crate::kinematics::{Pose, PoseDifference, at_limit, check_seed, nearest_turn};
@@ -23,7 +23,7 @@ pub(super) struct Given {
 impl Given {
     /// The joint angles that are given for the ends of a path.
     pub(super) fn both(
-        arm: &Arm<'_>,
+        arm: &PlannedArm<'_>,
         points: &[Waypoint],
         options: &PlanOptions,
     ) -> Result<[Option<Self>; 2], Error> {
@@ -38,7 +38,7 @@ impl Given {
 
     /// Check joint angles, and the values of the external axes, against the pose of an end.
     fn new(
-        arm: &Arm<'_>,
+        arm: &PlannedArm<'_>,
         field: &'static str,
         (q, external): (&[f64; 6], &[f64]),
         pose: &Pose,
@@ -74,7 +74,11 @@ impl Given {
 }
 
 /// The cell nearest to values of the free axes; a tool angle becomes the one next to its cell.
-fn nearest_cell(arm: &Arm<'_>, field: &'static str, values: &mut Values) -> Result<usize, Error> {
+fn nearest_cell(
+    arm: &PlannedArm<'_>,
+    field: &'static str,
+    values: &mut Values,
+) -> Result<usize, Error> {
     let mut numbers = [0; MOST_FREE_AXES];
     for (index, axis) in arm.freedom.axes.iter().enumerate() {
         let [lower, upper] = axis.range;

@@ -9,10 +9,11 @@ use super::answer::{Plan, PlanError};
 use super::certificate::HALF;
 use super::options::PlanOptions;
 use super::tested::Tests;
+use crate::arm::Arm;
 use crate::error::Error;
 use crate::interrupt::Interrupt;
 use crate::kinematics::thresholds::{EXAMINED_STEP, LIMIT_TOLERANCE};
-use crate::kinematics::{Follower, MOST_SLOTS, Pose, Robot, Slot, largest, steps};
+use crate::kinematics::{Follower, MOST_SLOTS, Pose, Slot, largest, steps};
 use crate::plan::thresholds::{CONTINUOUS_STEP, PLAN_END_OFF};
 
 /// Angles of joint 7 at the first pose from whose solutions a path is followed.
@@ -21,7 +22,7 @@ const ANGLES: usize = 8;
 /// How often a step is halved: a jump does not shrink.
 const HALVINGS: u32 = 10;
 
-impl Robot<7> {
+impl Arm<7> {
     /// The plan along the first path of `follow` that meets the options, from `start` or from
     /// solutions of the first pose. `None` if no path does, and where more is free than the
     /// redundancy.

@@ -9,14 +9,15 @@ use super::ToolRotation;
 use super::robot::freedoms;
 use super::tests::random_path;
 use super::{ExternalAxis, Plan, PlanError, PlanOptions, ToolCone};
+use crate::arm::Arm;
 use crate::error::Error;
-use crate::kinematics::{Pose, PoseDifference, Robot, largest, pose_from_euler_zyx, steps};
+use crate::kinematics::{Pose, PoseDifference, largest, pose_from_euler_zyx, steps};
 use crate::paths::{Spacing, line};
 use crate::plan::fault::PlanFault;
 use crate::rng::Rng;
 
-fn arm() -> Robot<6> {
-    Robot::named("IRB 2600-12/1.65").unwrap()
+fn arm() -> Arm<6> {
+    Arm::named("IRB 2600-12/1.65").unwrap()
 }
 
 /// A straight seam along y that the arm does not reach the ends of.
@@ -27,7 +28,7 @@ fn long_seam(count: usize) -> Vec<Pose> {
 
 /// Every pose of a plan is met by the base and the object where its external axes are, with the
 /// tool where its angle and its tolerances say, all inside their ranges.
-fn assert_meets(robot: &Robot<6>, path: &[Pose], options: &PlanOptions, plan: &Plan) {
+fn assert_meets(robot: &Arm<6>, path: &[Pose], options: &PlanOptions, plan: &Plan) {
     let z = Vector3::z_axis();
     for (index, pose) in path.iter().enumerate() {
         let mut seen = *pose;
@@ -59,7 +60,7 @@ fn assert_meets(robot: &Robot<6>, path: &[Pose], options: &PlanOptions, plan: &P
         assert!(tilt.norm() <= options.cone.map_or(0.0, |cone| cone.angle()) + 1e-9);
         let spin = Rotation3::from_axis_angle(&z, plan.tool_angle[index]);
         let tool = seen * (Rotation3::new(tilt) * spin);
-        let met = robot.clone().with_base(&base).unwrap().fk(&plan.q[index].unwrap());
+        let met = robot.robot().clone().with_base(&base).unwrap().fk(&plan.q[index].unwrap());
         assert!(PoseDifference::between(&met, &tool).largest() < 1e-9, "pose {index}");
     }
 }

@@ -1,12 +1,12 @@
 //! A plan that is interrupted ends at once, wherever that happens.
 
 use super::{PlanError, PlanOptions, PlanOrder, ToolRotation};
+use crate::arm::Arm;
 use crate::interrupt::Interrupt;
-use crate::kinematics::Robot;
 
 #[test]
 fn a_plan_ends_wherever_it_is_interrupted() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let path = std::vec![robot.fk(&[0.3, -0.2, 0.4, 0.5, 0.6, 0.7]); 200];
     for order in [PlanOrder::Bottleneck, PlanOrder::Sum] {
         let rotation = ToolRotation::full(12).ok();

@@ -32,7 +32,7 @@ struct Dependent {
 
 /// A robot, with everything that makes nodes of poses.
 #[derive(Clone, Copy)]
-pub(super) struct Arm<'a> {
+pub(super) struct PlannedArm<'a> {
     pub(super) robot: &'a Robot<6>,
     pub(super) joints: &'a PlannedJoints,
     pub(super) freedom: &'a Freedom,
@@ -43,7 +43,7 @@ pub(super) struct Arm<'a> {
     pub(super) first_slot: Option<usize>,
 }
 
-impl Arm<'_> {
+impl PlannedArm<'_> {
     /// The whole grid of a layer.
     pub(super) fn grid(&self) -> Grid {
         self.freedom.grid(self.robot.slot_count())

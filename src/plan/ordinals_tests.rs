@@ -4,14 +4,15 @@ use std::vec::Vec;
 
 use super::tests::random_path;
 use super::{PlanError, PlanOptions, ToolRotation};
-use crate::kinematics::{Pose, PoseDifference, Robot, largest, nearest_turn, steps};
+use crate::arm::Arm;
+use crate::kinematics::{Pose, PoseDifference, largest, nearest_turn, steps};
 use crate::paths::{Spacing, line};
 use crate::rng::Rng;
 
 /// Where joint angles at the first pose of a path lead to, each interval in so many parts and no
 /// step larger than `most`: no gap between two folds is stepped over.
 fn followed(
-    robot: &Robot<6>,
+    robot: &Arm<6>,
     path: &[Pose],
     start: [f64; 6],
     parts: usize,
@@ -31,7 +32,7 @@ fn followed(
 }
 
 /// Whether any solution of the first pose can be followed to the end.
-fn is_followed(robot: &Robot<6>, path: &[Pose], parts: usize, most: f64) -> bool {
+fn is_followed(robot: &Arm<6>, path: &[Pose], parts: usize, most: f64) -> bool {
     let solutions = robot.ik(&path[0]).unwrap();
     solutions.turns().any(|start| followed(robot, path, start.q, parts, most).is_some())
 }
@@ -40,7 +41,7 @@ fn is_followed(robot: &Robot<6>, path: &[Pose], parts: usize, most: f64) -> bool
 fn a_path_that_can_be_followed_has_a_plan_that_goes_on_without_jumps() {
     let mut rng = Rng::new(17);
     for name in ["CRB 15000-5/0.95", "CRX-10iA/L"] {
-        let robot: Robot<6> = Robot::named(name).unwrap();
+        let robot: Arm<6> = Arm::named(name).unwrap();
         let mut count = 0;
         for case in 0..24 {
             let path = random_path(&robot, &mut rng, 25, 0.04);
@@ -82,7 +83,7 @@ fn a_path_that_can_be_followed_has_a_plan_that_goes_on_without_jumps() {
 
 #[test]
 fn a_free_rotation_lowers_the_bottleneck_of_ordinals_too() {
-    let robot: Robot<6> = Robot::named("CRB 15000-5/0.95").unwrap();
+    let robot: Arm<6> = Arm::named("CRB 15000-5/0.95").unwrap();
     let mut rng = Rng::new(3);
     let mut planned = 0;
     for _ in 0..8 {

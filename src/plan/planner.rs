@@ -9,7 +9,7 @@ use super::ends::Given;
 use super::graph::{Grid, Layer, Node, Waypoint};
 use super::joints::TurnStates;
 use super::ladder::{Ends, Ladder};
-use super::nodes::Arm;
+use super::nodes::PlannedArm;
 use super::options::{Caller, PlanOptions, PlanOrder, Test};
 use crate::error::Error;
 use crate::kinematics::thresholds::LIMIT_TOLERANCE;
@@ -23,7 +23,7 @@ const HALVINGS_OF_AXES: u32 = 6;
 
 /// The state of a plan that is being made.
 pub(super) struct Planner<'a> {
-    pub(super) arm: Arm<'a>,
+    pub(super) arm: PlannedArm<'a>,
     pub(super) grid: Grid,
     pub(super) layers: Vec<Layer>,
     pub(super) ends: Ends,
@@ -41,7 +41,7 @@ pub(super) struct Planner<'a> {
 impl<'a> Planner<'a> {
     /// The layers of a path whose poses were checked, solved.
     pub(super) fn new(
-        arm: Arm<'a>,
+        arm: PlannedArm<'a>,
         path: &[Waypoint],
         options: &PlanOptions,
         given: &[Option<Given>; 2],

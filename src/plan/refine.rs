@@ -9,7 +9,7 @@ use super::best::JointPath;
 use super::ends::Given;
 use super::freedom::Freedom;
 use super::graph::{Grid, Layer, Node, Own, Values, Waypoint, turns};
-use super::nodes::Arm;
+use super::nodes::PlannedArm;
 use super::options::{Caller, PlanOptions, PlanOrder};
 use super::planner::Planner;
 use crate::error::Error;
@@ -44,7 +44,7 @@ const FINER_STRIDE: usize = 4;
 /// A fine path leaves no time to go from one value of a coarse grid to the next: between poses that
 /// are farther apart it is slower, and the values of the poses between are a ramp.
 pub(super) fn coarse_to_fine<'a>(
-    arm: Arm<'a>,
+    arm: PlannedArm<'a>,
     points: &[Waypoint],
     options: &PlanOptions,
     caller: &mut Caller<'_>,

@@ -1,4 +1,4 @@
-//! `Robot::plan`.
+//! `Arm::plan` of six joints.
 
 use alloc::boxed::Box;
 use alloc::vec;
@@ -10,20 +10,21 @@ use super::ends::Given;
 use super::freedom::Freedom;
 use super::graph::Waypoint;
 use super::joints::{NodeCost, PlannedJoints};
-use super::nodes::Arm;
+use super::nodes::PlannedArm;
 use super::options::{Accept, Caller, PlanOptions, Test};
 use super::planner::Planner;
 use super::refine::coarse_to_fine;
 use super::tested::Tests;
 use super::timed::fastest;
 use super::work::Work;
+use crate::arm::Arm;
 use crate::error::{Error, ModelFault};
 use crate::interrupt::Interrupt;
 use crate::kinematics::{Pose, PoseDifference, Robot, checked_pose};
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::{COARSEST_TOOL_STEP, PLAN_END_OFF};
 
-impl Robot<6> {
+impl Arm<6> {
     /// The best joint path along a path of poses.
     ///
     /// Of all continuous joint paths, on any branch, with any turns and tool angles, return the one
@@ -72,69 +73,69 @@ impl Robot<6> {
     ) -> Result<Plan, PlanError> {
         let mut tests = Tests::new(self, options, accept)?;
         let tests = tests.is_any().then_some(&mut tests as &mut dyn Test);
-        self.planned_for(path, options, &mut Caller { tests, interrupt })
+        planned(self, path, options, &mut Caller { tests, interrupt })
     }
+}
 
-    /// [`Self::planned`], for a caller that is asked for free axes, too.
-    pub(super) fn planned_for(
-        &self,
-        path: &[Pose],
-        options: &PlanOptions,
-        caller: &mut Caller<'_>,
-    ) -> Result<Plan, PlanError> {
-        options.check(path.len())?;
-        if let Some(reason) = self.unknown_structure() {
-            return Err(Error::from(ModelFault::UnknownStructure(reason)).into());
-        }
-        let path = checked_path(path, options)?;
-        let joints = PlannedJoints::of(self, options.weights);
-        let joints = match options.start.or(options.end) {
-            Some(q) if q.iter().all(|angle| angle.is_finite()) => joints.around(&q),
-            _ => joints,
-        };
-        let [fine, coarse] = freedoms(options);
-        let fixed = coarse.clone().with_fixed_tool();
-        let node_cost = NodeCost::new(self, options.limit_cost, options.singularity_cost);
-        let interrupt = caller.interrupt;
-        let work = Work::default();
-        let (robot, joints, work) = (self, &joints, &work);
-        let (freedom, first_slot) = (&fine, None);
-        let arm = Arm { robot, joints, freedom, node_cost, interrupt, work, first_slot };
-        let points = waypoints(&path, options);
-        if let Some(limits) = &options.max_acceleration
-            && let Some((planner, path)) =
-                fastest(arm, [&coarse, &fixed], &points, (options, limits), caller)?
-        {
-            return Ok(planner.plan_of(&[path])?);
-        }
-        let refined = coarse_to_fine(Arm { freedom: &coarse, ..arm }, &points, options, caller)?;
-        if let Some((planner, path)) = refined {
-            return Ok(planner.plan_of(&[path])?);
-        }
-        let ends = Given::both(&arm, &points, options)?;
-        let mut planner = Planner::new(arm, &points, options, &ends)?;
-        let mut parts = Vec::new();
-        let mut from = 0;
-        while from < planner.layers.len() {
-            match planner.proven_path(from, caller)? {
-                Some(part) => {
-                    from = part.reached() + 1;
-                    parts.push(part);
-                }
-                None => from += 1,
-            }
-        }
-        let is_whole = matches!(&parts[..], [part] if part.nodes.len() == planner.layers.len());
-        if is_whole {
-            let part = planner.refined(parts.swap_remove(0), caller)?;
-            let part = planner.smoothed(part, caller)?;
-            return Ok(planner.plan_of(&[part])?);
-        }
-        let plan = planner.plan_of(&parts)?;
-        let end_index = reached_from_the_end(arm, &path, options, caller)?;
-        let (pose_index, ends) = planner.gap(&parts, caller)?;
-        Err(PlanError::NoPlan(Box::new(NoPlan { pose_index, end_index, ends, plan })))
+/// The plan of six joints, for a caller that is asked for free axes, too.
+pub(super) fn planned(
+    robot: &Robot<6>,
+    path: &[Pose],
+    options: &PlanOptions,
+    caller: &mut Caller<'_>,
+) -> Result<Plan, PlanError> {
+    options.check(path.len())?;
+    if let Some(reason) = robot.unknown_structure() {
+        return Err(Error::from(ModelFault::UnknownStructure(reason)).into());
     }
+    let path = checked_path(path, options)?;
+    let joints = PlannedJoints::of(robot, options.weights);
+    let joints = match options.start.or(options.end) {
+        Some(q) if q.iter().all(|angle| angle.is_finite()) => joints.around(&q),
+        _ => joints,
+    };
+    let [fine, coarse] = freedoms(options);
+    let fixed = coarse.clone().with_fixed_tool();
+    let node_cost = NodeCost::new(robot, options.limit_cost, options.singularity_cost);
+    let interrupt = caller.interrupt;
+    let work = Work::default();
+    let (joints, work) = (&joints, &work);
+    let (freedom, first_slot) = (&fine, None);
+    let arm = PlannedArm { robot, joints, freedom, node_cost, interrupt, work, first_slot };
+    let points = waypoints(&path, options);
+    if let Some(limits) = &options.max_acceleration
+        && let Some((planner, path)) =
+            fastest(arm, [&coarse, &fixed], &points, (options, limits), caller)?
+    {
+        return Ok(planner.plan_of(&[path])?);
+    }
+    let refined = coarse_to_fine(PlannedArm { freedom: &coarse, ..arm }, &points, options, caller)?;
+    if let Some((planner, path)) = refined {
+        return Ok(planner.plan_of(&[path])?);
+    }
+    let ends = Given::both(&arm, &points, options)?;
+    let mut planner = Planner::new(arm, &points, options, &ends)?;
+    let mut parts = Vec::new();
+    let mut from = 0;
+    while from < planner.layers.len() {
+        match planner.proven_path(from, caller)? {
+            Some(part) => {
+                from = part.reached() + 1;
+                parts.push(part);
+            }
+            None => from += 1,
+        }
+    }
+    let is_whole = matches!(&parts[..], [part] if part.nodes.len() == planner.layers.len());
+    if is_whole {
+        let part = planner.refined(parts.swap_remove(0), caller)?;
+        let part = planner.smoothed(part, caller)?;
+        return Ok(planner.plan_of(&[part])?);
+    }
+    let plan = planner.plan_of(&parts)?;
+    let end_index = reached_from_the_end(arm, &path, options, caller)?;
+    let (pose_index, ends) = planner.gap(&parts, caller)?;
+    Err(PlanError::NoPlan(Box::new(NoPlan { pose_index, end_index, ends, plan })))
 }
 
 /// The first pose that is not reached, and why each branch ends.
@@ -145,7 +146,7 @@ const FEW: usize = 16;
 
 /// The last pose from which no branch reaches the end: where the path ends, gone backward.
 fn reached_from_the_end(
-    arm: Arm<'_>,
+    arm: PlannedArm<'_>,
     path: &[Pose],
     options: &PlanOptions,
     caller: &mut Caller<'_>,

@@ -9,7 +9,7 @@ use nalgebra::ComplexField as _;
 
 use super::banded::Banded;
 use super::graph::{Layer, Values};
-use super::nodes::Arm;
+use super::nodes::PlannedArm;
 use super::options::PlanOrder;
 use crate::plan::thresholds::MOST_EXTERNAL;
 
@@ -51,7 +51,7 @@ struct Term {
 
 /// The cost of a curve (eq. 9).
 pub(super) struct Roughness<'a> {
-    pub(super) arm: Arm<'a>,
+    pub(super) arm: PlannedArm<'a>,
     pub(super) layers: &'a [Layer],
     pub(super) is_closed: bool,
     /// Time from layer to layer, parts of the whole time.
@@ -70,7 +70,7 @@ impl<'a> Roughness<'a> {
     /// Of curves through all layers at an even pace, for a bottleneck, the part of it that
     /// velocities aim at, and the time in which joints reach their velocity limits [s].
     pub(super) fn new(
-        arm: Arm<'a>,
+        arm: PlannedArm<'a>,
         layers: &'a [Layer],
         order: PlanOrder,
         bottleneck: f64,

@@ -1,4 +1,4 @@
-//! `Robot::plan` of seven joints: six of them are planned, and the last one is an external axis that
+//! `Arm::plan` of seven joints: six of them are planned, and the last one is an external axis that
 //! turns the tool, or the first one is one that turns the arm (docs/guide/plan.md, eq. 1); or one
 //! is locked.
 
@@ -10,7 +10,9 @@ use super::answer::{NoPlan, Plan, PlanError, StrandEnd, StrandReason};
 use super::axes::{Carried, ExternalAxis};
 use super::graph::Values;
 use super::options::{Accept, Caller, PlanOptions, Test};
+use super::robot::planned;
 use super::tested::Tests;
+use crate::arm::Arm;
 use crate::error::{Error, JointFault, ModelFault};
 use crate::interrupt::Interrupt;
 use crate::kinematics::{Pose, Robot, Slot, at_limit, check_weights};
@@ -18,25 +20,25 @@ use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::MOST_EXTERNAL;
 use crate::trajectory::Retiming;
 
-impl Robot<7> {
-    /// The best joint path along a path of poses, as [`Robot::<6>::plan`]: the better of the plan
+impl Arm<7> {
+    /// The best joint path along a path of poses, as [`Arm::<6>::plan`]: the better of the plan
     /// with joint 7 as one more external axis, and of the one with joint 1; or a joint of
     /// [`Robot::locked`] stays at its angle. Where neither leads through, since the other six joints
-    /// are singular on the way, the plan is a path of [`Robot::<7>::follow`]. `limit_cost` and
+    /// are singular on the way, the plan is a path of [`Robot::follow`]. `limit_cost` and
     /// `singularity_cost` are costs of these six.
     ///
     /// # Errors
     ///
-    /// As [`Robot::<6>::plan`].
+    /// As [`Arm::<6>::plan`].
     pub fn plan(&self, path: &[Pose], options: &PlanOptions<7>) -> Result<Plan<7>, PlanError<7>> {
         self.planned(path, options, None, Interrupt::none())
     }
 
-    /// [`Self::plan`] through joint vectors that `accept` accepts, as [`Robot::<6>::plan_accepted`].
+    /// [`Self::plan`] through joint vectors that `accept` accepts, as [`Arm::<6>::plan_accepted`].
     ///
     /// # Errors
     ///
-    /// As [`Robot::<6>::plan_accepted`].
+    /// As [`Arm::<6>::plan_accepted`].
     pub fn plan_accepted(
         &self,
         path: &[Pose],
@@ -150,7 +152,7 @@ impl Seven<'_> {
         let is_any = tests.is_any();
         let mut tests = TestsOfSix { seven: self, tests };
         let tests = is_any.then_some(&mut tests as &mut dyn Test);
-        let planned = six.planned_for(path, &options, &mut Caller { tests, interrupt });
+        let planned = planned(&six, path, &options, &mut Caller { tests, interrupt });
         planned.map(|plan| self.plan(plan)).map_err(|error| match error {
             PlanError::Invalid(error) => PlanError::Invalid(error),
             PlanError::Stopped => PlanError::Stopped,

@@ -10,7 +10,7 @@ use super::freedom::Freedom;
 use super::graph::{Grid, Layer, Values, Waypoint};
 use super::joints::TurnStates;
 use super::ladder::{Ends, Ladder};
-use super::nodes::{Arm, PART, SINGULAR};
+use super::nodes::{PART, PlannedArm, SINGULAR};
 use super::options::{Caller, PlanOrder};
 use super::planner::Planner;
 use super::refine::Middle;
@@ -69,7 +69,7 @@ impl Planner<'_> {
     /// The bottleneck with nothing free, or less; infinite if there is no joint path.
     fn fixed_bottleneck(&self) -> Result<f64, PlanError> {
         let freedom = Freedom::new(&[], None, None);
-        let arm = Arm { freedom: &freedom, ..self.arm };
+        let arm = PlannedArm { freedom: &freedom, ..self.arm };
         let (grid, count) = (arm.grid(), self.layers.len());
         let fixed = |layer: &Layer| {
             let mut fixed = Layer::new(layer.pose, layer.time, layer.index, &grid);

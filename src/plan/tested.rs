@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 use super::answer::StrandReason;
 use super::graph::Values;
 use super::options::{Accept, PlanOptions, Test};
+use crate::arm::Arm;
 use crate::cell::{Cell, Contact, Nearest, Placed};
 use crate::error::Error;
-use crate::kinematics::Robot;
 use crate::plan::fault::PlanFault;
 
 /// The tests of a plan, if it has any.
@@ -19,13 +19,13 @@ pub(super) struct Tests<'a, 'b, const N: usize> {
 
 impl<'a, 'b, const N: usize> Tests<'a, 'b, N> {
     pub(super) fn new(
-        robot: &'a Robot<N>,
+        arm: &'a Arm<N>,
         options: &'a PlanOptions<N>,
         accept: Option<&'a mut Accept<'b, N>>,
     ) -> Result<Self, Error> {
         let cell = match &options.cell {
             Some(_) if !options.external.is_empty() => return Err(PlanFault::CellMoves.into()),
-            Some(cell) => Some((&**cell, Placed::of(robot)?)),
+            Some(cell) => Some((&**cell, Placed::of(arm)?)),
             None => None,
         };
         Ok(Self { accept, cell })

@@ -11,11 +11,12 @@ use super::freedom::Freedom;
 use super::graph::{Grid, Layer, Node, Values};
 use super::joints::{NodeCost, PlannedJoints, TurnStates};
 use super::ladder::{Ends, Ladder};
-use super::nodes::Arm;
+use super::nodes::PlannedArm;
 use super::planner::Planner;
 use super::robot::{freedoms, waypoints};
 use super::work::Work;
 use super::{ExternalAxis, PlanError, PlanOptions, PlanOrder, ToolAxis, ToolRotation};
+use crate::arm::Arm;
 use crate::interrupt::Interrupt;
 use crate::kinematics::{JointLimits, Pose, Robot, largest, pose_from_euler_zyx, steps};
 use crate::paths::Turn;
@@ -71,8 +72,8 @@ fn random_layers(rng: &mut Rng, joints: &PlannedJoints, freedom: &Freedom) -> (G
 }
 
 /// An arm whose joints 4 and 6 have several turns.
-fn wide(rng: &mut Rng) -> Robot<6> {
-    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+fn wide(rng: &mut Rng) -> Arm<6> {
+    let robot: Arm<6> = Arm::named("IRB 2600-12/1.65").unwrap();
     let turns = rng.between(3.2, 7.0);
     let limits = JointLimits::new([
         [-2.0, 2.0],
@@ -82,7 +83,7 @@ fn wide(rng: &mut Rng) -> Robot<6> {
         [-2.0, 2.0],
         [-4.0, 7.5],
     ]);
-    robot.with_limits(limits.unwrap())
+    robot.map(|robot| Ok(robot.with_limits(limits.unwrap()))).unwrap()
 }
 
 fn close(a: f64, b: f64) -> bool {
@@ -248,16 +249,16 @@ fn arm<'a>(
     joints: &'a PlannedJoints,
     freedom: &'a Freedom,
     work: &'a Work,
-) -> Arm<'a> {
+) -> PlannedArm<'a> {
     let (node_cost, interrupt, first_slot) = (None, Interrupt::none(), None);
-    Arm { robot, joints, freedom, node_cost, interrupt, work, first_slot }
+    PlannedArm { robot, joints, freedom, node_cost, interrupt, work, first_slot }
 }
 
 #[test]
 fn no_wider_window_and_no_more_turns_find_a_better_path() {
     let (mut rng, mut whole) = (Rng::new(11), 0);
     for case in 0..60 {
-        let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+        let robot: Arm<6> = Arm::named("IRB 2600-12/1.65").unwrap();
         let path = random_path(&robot, &mut rng, 4, 0.15);
         let rotation = Some(ToolRotation::full(24).unwrap());
         let joints = PlannedJoints::of(&robot, [1.0; 6]);
@@ -271,7 +272,7 @@ fn no_wider_window_and_no_more_turns_find_a_better_path() {
         let [freedom, _] = freedoms(&options);
         let node_cost = NodeCost::new(&robot, limit_cost, singularity_cost);
         let work = Work::default();
-        let arm = Arm { node_cost, ..arm(&robot, &joints, &freedom, &work) };
+        let arm = PlannedArm { node_cost, ..arm(&robot, &joints, &freedom, &work) };
         let planner = Planner::new(arm, &waypoints(&path, &options), &options, &[None; 2]).unwrap();
         let ladder = planner.ladder();
         // All pairs, layer by layer.
@@ -305,7 +306,7 @@ fn no_wider_window_and_no_more_turns_find_a_better_path() {
 
 /// The steps of a joint path that are not continuous.
 fn discontinuities(
-    arm: &Arm<'_>,
+    arm: &PlannedArm<'_>,
     planner: &Planner<'_>,
     best: &JointPath,
 ) -> Vec<(usize, Between)> {
@@ -317,7 +318,7 @@ fn discontinuities(
 #[test]
 fn a_step_through_a_flip_is_no_continuous_one() {
     // At q5 = 0 the tool is met with q4 = 0 and with q4 = 180 deg: a flip between them is a jump.
-    let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
+    let robot: Arm<6> = Arm::named("IRB 2600-12/1.65").unwrap();
     let joints = PlannedJoints::of(&robot, [1.0; 6]);
     let options = PlanOptions::default();
     let [freedom, _] = freedoms(&options);
@@ -346,7 +347,7 @@ fn a_step_through_a_flip_is_no_continuous_one() {
 fn plans_meet_their_poses_and_their_options() {
     let mut rng = Rng::new(3);
     for name in ["IRB 2600-12/1.65", "UR5e", "IRB 2400-10/1.55", "IRB 6640-130/3.2"] {
-        let robot: Robot<6> = Robot::named(name).unwrap();
+        let robot: Arm<6> = Arm::named(name).unwrap();
         for case in 0..40 {
             let path = random_path(&robot, &mut rng, 12, 0.03);
             let rotation = match case % 3 {

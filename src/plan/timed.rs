@@ -8,7 +8,7 @@ use super::best::JointPath;
 use super::ends::Given;
 use super::freedom::Freedom;
 use super::graph::Waypoint;
-use super::nodes::Arm;
+use super::nodes::PlannedArm;
 use super::options::{Caller, PlanOptions, PlanOrder};
 use super::planner::Planner;
 use super::refine::{coarse_to_fine, is_long};
@@ -17,7 +17,7 @@ use crate::trajectory::{Retiming, Trajectory};
 /// Of the best joint paths in either order, from each branch of the first pose and with a fixed
 /// tool, the one with the shortest timed motion; `None` if no path leads through all poses.
 pub(super) fn fastest<'a>(
-    arm: Arm<'a>,
+    arm: PlannedArm<'a>,
     [coarse, fixed]: [&'a Freedom; 2],
     points: &[Waypoint],
     (options, max_acceleration): (&PlanOptions, &[f64]),
@@ -35,7 +35,7 @@ pub(super) fn fastest<'a>(
     // First any branch: where no path leads through all poses, none is looked for on each.
     let slots = (0..arm.robot.slot_count()).map(Some);
     for first_slot in core::iter::once(None).chain(slots) {
-        let arm = Arm { first_slot, ..arm };
+        let arm = PlannedArm { first_slot, ..arm };
         for order in [PlanOrder::Bottleneck, PlanOrder::Sum] {
             let options = PlanOptions { order, ..options.clone() };
             let found = whole(arm, coarse, points, &options, caller)?;
@@ -51,7 +51,7 @@ pub(super) fn fastest<'a>(
     }
     // External axes of a fixed tool are a plan of their own.
     if arm.freedom.external == 0 && !arm.freedom.axes.is_empty() {
-        let arm = Arm { freedom: fixed, ..arm };
+        let arm = PlannedArm { freedom: fixed, ..arm };
         let ends = Given::both(&arm, points, options)?;
         for order in [PlanOrder::Bottleneck, PlanOrder::Sum] {
             let options = PlanOptions { order, ..options.clone() };
@@ -66,13 +66,13 @@ pub(super) fn fastest<'a>(
 
 /// The best joint path through all poses; of a long path with free axes, only from coarse to fine.
 fn whole<'a>(
-    arm: Arm<'a>,
+    arm: PlannedArm<'a>,
     coarse: &'a Freedom,
     points: &[Waypoint],
     options: &PlanOptions,
     caller: &mut Caller<'_>,
 ) -> Result<Option<(Planner<'a>, JointPath)>, PlanError> {
-    let long = coarse_to_fine(Arm { freedom: coarse, ..arm }, points, options, caller)?;
+    let long = coarse_to_fine(PlannedArm { freedom: coarse, ..arm }, points, options, caller)?;
     if long.is_some() || (is_long(points) && !coarse.axes.is_empty()) {
         return Ok(long);
     }

@@ -10,11 +10,12 @@ use super::options::{GuardOptions, OnViolation, State, Step};
 use super::reason::{NOT_FREE, Reason};
 use super::tool::ToolSpeed;
 use super::track::Track;
+use crate::arm::Arm;
 use crate::cell::{Boxes, Cell, Nearest, Other};
 use crate::error::Error;
 use crate::go::fault::GoFault;
 use crate::go::inside;
-use crate::kinematics::{Follower, Pose, Robot, largest, largest_step, steps};
+use crate::kinematics::{Follower, Pose, largest, largest_step, steps};
 
 /// How far control points may be outside limits [rad]: half of what counts as inside, for the
 /// rounding of the steps of a braking motion is less than the other half.
@@ -35,7 +36,7 @@ const REFUSED: usize = 2;
 /// too; both are proven free in the cell.
 #[derive(Clone)]
 pub struct Guard<const N: usize> {
-    robot: Robot<N>,
+    arm: Arm<N>,
     cycle: f64,
     bounds: [Bounds; N],
     limits: [[f64; 2]; N],
@@ -66,37 +67,37 @@ impl<const N: usize> Guard<N> {
     /// [`Error::InvalidMotion`] for a cycle or a limit that is not positive, or a cycle of more
     /// than 0.5 s; [`Error::InvalidModel`] if neither the options nor the robot have limits of
     /// velocity; [`Error::NoMotion`] if the start is outside the limits or collides;
-    /// [`Error::InvalidJoints`] for a start that is not finite; [`Error::InvalidBody`] if the robot
+    /// [`Error::InvalidJoints`] for a start that is not finite; [`Error::InvalidBody`] if the arm
     /// has no body, or a margin is negative.
     pub fn new(
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         start: &[f64; N],
         cell: Option<&Cell>,
         options: &GuardOptions<N>,
     ) -> Result<Self, Error> {
-        let [velocity, acceleration, jerk] = options.checked(robot)?;
-        let start = inside(robot, "start", start)?;
-        let boxes = cell.map(|cell| Boxes::new(robot, cell, options.margin)).transpose()?;
+        let [velocity, acceleration, jerk] = options.checked(arm)?;
+        let start = inside(arm, "start", start)?;
+        let boxes = cell.map(|cell| Boxes::new(arm, cell, options.margin)).transpose()?;
         if let Some((Nearest { link, near, .. }, depth)) =
-            boxes.as_ref().map(|boxes| boxes.collision(robot, &start)).transpose()?.flatten()
+            boxes.as_ref().map(|boxes| boxes.collision(arm, &start)).transpose()?.flatten()
         {
             let (field, other) = ("start", near.to_string());
             let (solutions, is_proven) = (None, true);
             let fault = GoFault::Collides { field, solutions, link, other, depth, is_proven };
             return Err(fault.into());
         }
-        let mut limits = robot.limits().to_array();
-        if let Some((joint, angle)) = robot.locked_joint() {
+        let mut limits = arm.limits().to_array();
+        if let Some((joint, angle)) = arm.locked_joint() {
             limits[joint - 1] = [angle; 2];
         }
         Ok(Self {
-            robot: robot.clone(),
+            arm: arm.clone(),
             cycle: options.cycle,
             bounds: core::array::from_fn(|joint| {
                 Bounds::new(options.cycle, velocity[joint], acceleration[joint], jerk[joint])
             }),
             limits,
-            tool_speed: options.max_tool_speed.map(|limit| ToolSpeed::new(robot, limit)),
+            tool_speed: options.max_tool_speed.map(|limit| ToolSpeed::new(arm, limit)),
             boxes,
             on_violation: options.on_violation,
             points: [start; 3],
@@ -111,8 +112,8 @@ impl<const N: usize> Guard<N> {
 
     /// The arm.
     #[must_use]
-    pub fn robot(&self) -> &Robot<N> {
-        &self.robot
+    pub fn arm(&self) -> &Arm<N> {
+        &self.arm
     }
 
     /// Time from one set point to the next [s].
@@ -205,7 +206,7 @@ impl<const N: usize> Guard<N> {
                 return Err(Reason::Outside { joint, value, limits });
             }
         }
-        match self.robot.limits().linkage_excess(reference) {
+        match self.arm.limits().linkage_excess(reference) {
             0.0 => Ok(()),
             excess => Err(Reason::Linkage { excess }),
         }
@@ -219,28 +220,28 @@ impl<const N: usize> Guard<N> {
             Error::InvalidPose(_) => Reason::NotRigid,
             _ => Reason::NoInverse,
         };
-        let follower = Follower::new(&self.robot, here, &weights).map_err(reason)?;
+        let follower = Follower::new(&self.arm, here, &weights).map_err(reason)?;
         let Some(found) = follower.continued(pose).map_err(reason)? else {
-            return Err(match self.robot.redundancy() {
+            return Err(match self.arm.redundancy() {
                 Some(_) => Reason::NotContinued,
                 None => self
-                    .robot
+                    .arm
                     .ik_with(pose, None)
                     .map_or_else(reason, |solutions| Reason::Unreachable(solutions.explain())),
             });
         };
-        let slots = (self.robot.slot_of(here), self.robot.slot_of(&found.q));
+        let slots = (self.arm.slot_of(here), self.arm.slot_of(&found.q));
         let (Some(from), Some(to)) = slots else { return Ok(found.q) };
         if from == to {
             return Ok(found.q);
         }
         let lost = Reason::Branch { from, to };
-        if self.robot.redundancy().is_some() {
+        if self.arm.redundancy().is_some() {
             return Err(lost);
         }
-        let solutions = self.robot.ik_with(pose, None).map_err(reason)?;
+        let solutions = self.arm.ik_with(pose, None).map_err(reason)?;
         let own = solutions.slot(from.index()).ok_or(lost)?;
-        self.robot.limits().wrapped_near(&own.q, here).ok_or(lost)
+        self.arm.limits().wrapped_near(&own.q, here).ok_or(lost)
     }
 
     fn end(&self, joint: usize) -> End {
@@ -383,18 +384,17 @@ impl<const N: usize> Guard<N> {
         }
         let [first, second, third] = self.points;
         let ahead = Ahead { points: [first, second, third, *next], brakes };
-        if let Some(excess) = ahead.linkage_excess(self.robot.limits()) {
+        if let Some(excess) = ahead.linkage_excess(self.arm.limits()) {
             return Err(Reason::Linkage { excess });
         }
         if let Some(speed) = &self.tool_speed {
-            let checked = speed.check(&self.robot, &ahead, &self.bounds, self.cycle);
+            let checked = speed.check(&self.arm, &ahead, &self.bounds, self.cycle);
             checked.map_err(|(value, limit)| Reason::ToolSpeed { value, limit })?;
         }
         let Some(boxes) = &mut self.boxes else { return Ok(()) };
         let stop_first = self.was_blocked;
-        let proven = ahead.prove(&self.robot, boxes, looks, stop_first).map_err(|(q, spans)| {
-            let (link, other) =
-                boxes.blocked(&self.robot, &q, &spans).unwrap_or((0, Other::Link(0)));
+        let proven = ahead.prove(&self.arm, boxes, looks, stop_first).map_err(|(q, spans)| {
+            let (link, other) = boxes.blocked(&self.arm, &q, &spans).unwrap_or((0, Other::Link(0)));
             match other {
                 Other::Link(other) => Reason::Blocked { link, other: Some(other), obstacle: None },
                 Other::Obstacle(place) => {

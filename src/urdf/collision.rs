@@ -15,8 +15,9 @@ use roxmltree::Node;
 use super::joint::{Joint, Placed, is_own};
 use super::sweep::{Carrier, Sweep};
 use super::tree::Tree;
+use crate::arm::Arm;
 use crate::body::{Body, Capsule, LinkCapsule, Shape};
-use crate::kinematics::{Pose, Robot, constant_pose, pose_from_wxyz, pose_to_euler_zyx};
+use crate::kinematics::{Pose, constant_pose, pose_from_wxyz, pose_to_euler_zyx};
 use crate::urdf::fault::UrdfFault;
 
 /// Shapes of an arm, at most: to compare all of them takes quadratic time.
@@ -252,7 +253,7 @@ fn covered(shapes: &[Shape]) -> Vec<(Vec<Capsule>, f64)> {
 
 /// The body of the shapes for a robot that the chain makes, in the frames of its table.
 pub(super) fn body_of<const N: usize>(
-    robot: &Robot<N>,
+    arm: &Arm<N>,
     solids: &[Solid],
     joints: &[Placed],
     snap: f64,
@@ -261,7 +262,7 @@ pub(super) fn body_of<const N: usize>(
     if solids.is_empty() {
         return None;
     }
-    let places = places(robot, joints, snap);
+    let places = places(arm, joints, snap);
     let (mut capsules, mut excess) = (Vec::new(), vec![0.0_f64; N + 2]);
     for solid in solids {
         let (link, pose) = places[solid.after].as_ref()?;
@@ -273,17 +274,17 @@ pub(super) fn body_of<const N: usize>(
         excess.truncate(N + 1);
     }
     let source = alloc::format!("collision shapes of a URDF{remark}");
-    Some(robot.body_of_shapes(capsules, excess, source))
+    Some(arm.body_of_shapes(capsules, excess, source))
 }
 
 /// Of the base and of each link behind a joint of the chain: the link of the body, and the pose in
 /// its frame. `None` between joint 3 and a linkage, where a link moves with neither neighbor.
 pub(super) fn places<const N: usize>(
-    robot: &Robot<N>,
+    arm: &Arm<N>,
     joints: &[Placed],
     snap: f64,
 ) -> Vec<Option<(usize, Pose)>> {
-    let (frames, _) = robot.link_frames(&[0.0; N]);
+    let (frames, _) = arm.link_frames(&[0.0; N]);
     let is_carried = joints.last().is_some_and(|joint| joint.motion.is_none());
     let (mut pose, mut turning, mut coupled) = (Pose::identity(), 0, false);
     let mut places = vec![Some((0, pose))];
@@ -295,8 +296,8 @@ pub(super) fn places<const N: usize>(
         }
         turning += usize::from(joint.motion.is_some());
         let link = turning + usize::from(is_carried && index + 1 == joints.len());
-        let is_between = robot.is_coupled() && coupled != (turning > 2);
-        let t_frame_link = robot.frame_of_link(link, &frames).inverse() * pose;
+        let is_between = arm.is_coupled() && coupled != (turning > 2);
+        let t_frame_link = arm.frame_of_link(link, &frames).inverse() * pose;
         places.push((!is_between).then_some((link, t_frame_link)));
     }
     places

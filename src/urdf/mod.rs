@@ -27,18 +27,18 @@ use self::joint::{Joint, Motion, Placed};
 pub use self::sweep::Carrier;
 use self::tree::Tree;
 pub use self::tree::read_document;
+use crate::arm::{AnyArm, Arm};
 use crate::error::{Error, ModelFault};
 use crate::kinematics::thresholds::FORM_TOLERANCE;
-use crate::kinematics::{AnyRobot, JointAxis, JointLimits, Joints, Mdh, Pose, Robot, check_snap};
-use crate::on;
+use crate::kinematics::{JointAxis, JointLimits, Joints, Mdh, Pose, Robot, check_snap};
 use crate::report::{OFFSET_WRIST, SNAPS};
 use crate::urdf::fault::UrdfFault;
 
-impl<const N: usize> Robot<N>
+impl<const N: usize> Arm<N>
 where
-    Self: Joints<N>,
+    Robot<N>: Joints<N>,
 {
-    /// A robot from the text of a URDF, with the solver of its kinematic structure.
+    /// An arm from the text of a URDF, with the solver of its kinematic structure.
     ///
     /// `base` is the link in whose frame poses are given; by default the link without a parent.
     /// `tip` is the link whose poses are given; by default the only one at the end of a chain of
@@ -64,17 +64,17 @@ where
     /// [`Error::InvalidModel`] when the text is not a URDF, `base` or `tip` are not links of a
     /// chain of `N` revolute joints or are ambiguous, a joint may be a gripper's and `tip` is not
     /// given, or six joints are not independent.
-    /// [`Robot::serial_chain_from_urdf`] accepts such an arm, without its inverse.
+    /// [`Arm::serial_chain_from_urdf`] accepts such an arm, without its inverse.
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
         UrdfArm::read(text, base, tip, &[N])?.solved(0.0)
     }
 
-    /// As [`Robot::from_urdf`], with each angle of an origin, and each axis, that is within `snap`
+    /// As [`Arm::from_urdf`], with each angle of an origin, and each axis, that is within `snap`
     /// of a multiple of 90 deg [rad] made exact, so that 1.5708 becomes a right angle.
     ///
     /// # Errors
     ///
-    /// As [`Robot::from_urdf`], and when `snap` is not 0 to 1e-3 rad.
+    /// As [`Arm::from_urdf`], and when `snap` is not 0 to 1e-3 rad.
     pub fn from_urdf_snapped(
         text: &str,
         base: Option<&str>,
@@ -84,28 +84,28 @@ where
         UrdfArm::read(text, base, tip, &[N])?.solved(snap)
     }
 
-    /// As [`Robot::from_urdf`], of joints that are not independent too: then without the inverse.
+    /// As [`Arm::from_urdf`], of joints that are not independent too: then without the inverse.
     ///
     /// # Errors
     ///
-    /// As [`Robot::from_urdf`], except that such an arm is accepted.
+    /// As [`Arm::from_urdf`], except that such an arm is accepted.
     pub fn serial_chain_from_urdf(
         text: &str,
         base: Option<&str>,
         tip: Option<&str>,
     ) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[N])?.robot(0.0)
+        UrdfArm::read(text, base, tip, &[N])?.arm(0.0)
     }
 }
 
-impl AnyRobot {
-    /// The arm of six or seven joints between two links of a URDF; see [`Robot::from_urdf`].
+impl AnyArm {
+    /// The arm of six or seven joints between two links of a URDF; see [`Arm::from_urdf`].
     ///
     /// # Errors
     ///
-    /// As [`Robot::from_urdf`].
+    /// As [`Arm::from_urdf`].
     pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
-        UrdfArm::read(text, base, tip, &[6, 7])?.any_robot(0.0)
+        UrdfArm::read(text, base, tip, &[6, 7])?.any_arm(0.0)
     }
 }
 
@@ -155,7 +155,10 @@ impl UrdfArm {
         tip: Option<&str>,
     ) -> Result<(Vec<Moving>, String), Error> {
         let arm = Self::read(text, base, tip, &[6, 7])?;
-        let places = on!(arm.any_robot(0.0)?, robot => places(&robot, &arm.joints, 0.0));
+        let places = match arm.any_arm(0.0)? {
+            AnyArm::Six(own) => places(&own, &arm.joints, 0.0),
+            AnyArm::Seven(own) => places(&own, &arm.joints, 0.0),
+        };
         read_document(text, |document, skipped| {
             let tree = Tree::new(document, skipped)?;
             let (base, chain, _) = chain_between(&tree, base, tip, &[6, 7])?;
@@ -180,21 +183,21 @@ impl UrdfArm {
         self.joints.iter().filter_map(|joint| joint.motion.as_ref())
     }
 
-    /// As [`Self::robot`], of six or seven joints.
+    /// As [`Self::arm`], of six or seven joints.
     #[doc(hidden)]
-    pub fn any_robot(&self, snap: f64) -> Result<AnyRobot, Error> {
+    pub fn any_arm(&self, snap: f64) -> Result<AnyArm, Error> {
         match self.motions().count() {
-            7 => self.solved::<7>(snap).map(AnyRobot::from),
-            _ => self.solved::<6>(snap).map(AnyRobot::from),
+            7 => self.solved::<7>(snap).map(AnyArm::Seven),
+            _ => self.solved::<6>(snap).map(AnyArm::Six),
         }
     }
 
-    /// As [`Self::robot`], with its inverse; a refusal names the chain.
-    fn solved<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
+    /// As [`Self::arm`], with its inverse; a refusal names the chain.
+    fn solved<const N: usize>(&self, snap: f64) -> Result<Arm<N>, Error>
     where
         Robot<N>: Joints<N>,
     {
-        self.robot(snap).and_then(Robot::with_inverse).map_err(|error| match error {
+        self.arm(snap).and_then(|arm| arm.map(Robot::with_inverse)).map_err(|error| match error {
             Error::InvalidModel(ModelFault::Urdf(_) | ModelFault::Snap { .. }) => error,
             Error::InvalidModel(fault) => {
                 let [base, tip] = self.ends.clone();
@@ -204,10 +207,10 @@ impl UrdfArm {
         })
     }
 
-    /// The robot, which must have `N` joints. Angles within `snap` of a multiple of 90 deg [rad]
+    /// The arm, which must have `N` joints. Angles within `snap` of a multiple of 90 deg [rad]
     /// are made exact. If the arm has no closed form, or no table, and would have one with a larger
     /// snap, that is proposed.
-    pub(crate) fn robot<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
+    fn arm<const N: usize>(&self, snap: f64) -> Result<Arm<N>, Error>
     where
         Robot<N>: Joints<N>,
     {
@@ -242,13 +245,13 @@ impl UrdfArm {
             }
             other => other?,
         };
-        let robot = self.limited(robot)?;
+        let arm = Arm::from(self.limited(robot)?);
         match &self.solids {
             Ok((solids, remark)) => {
-                let body = body_of(&robot, solids, &self.joints, snap, remark);
-                robot.with_body(body)
+                let body = body_of(&arm, solids, &self.joints, snap, remark);
+                arm.with_body(body)
             }
-            Err(fault) => Ok(robot.without_body(fault.to_string())),
+            Err(fault) => Ok(arm.without_body(fault.to_string())),
         }
     }
 

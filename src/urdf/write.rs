@@ -17,10 +17,10 @@ use alloc::vec::Vec;
 use nalgebra::Translation3;
 
 use super::text::{Hinge, Text};
+use crate::arm::{AnyArm, Arm};
 use crate::body::{Capsule, LinkCapsule};
 use crate::error::Error;
-use crate::kinematics::{AnyRobot, DhRow, Pose, Robot, constant_pose};
-use crate::on;
+use crate::kinematics::{DhRow, Pose, constant_pose};
 
 /// The first lines of a file without shapes.
 const KINEMATICS: &str =
@@ -44,7 +44,7 @@ const LINKAGE: &[&str] = &[
     "     link_3. A program that ignores mimic needs -joint_2 for it. -->",
 ];
 
-impl<const N: usize> Robot<N> {
+impl<const N: usize> Arm<N> {
     /// The text of a URDF of the robot, which [`Self::from_urdf`] reads back.
     ///
     /// Links are `base_link`, `base` (the same), `link_1` to `link_N`, `flange` and `tool0`; joints
@@ -52,16 +52,16 @@ impl<const N: usize> Robot<N> {
     /// crate, with z out of it; `flange` has x out of it. With a base, `base_link` is placed in
     /// `world`; with a tool, `tool` is placed in `tool0`. If axes 2 and 3 are coupled, a
     /// passive joint between them mimics joint 2, and joint 3 is the controller's;
-    /// [`Self::uncoupled`] has no such joint. A joint with a limit on one side only gets
+    /// [`Robot::uncoupled`] has no such joint. A joint with a limit on one side only gets
     /// [`MOST_ANGLE`](crate::thresholds::MOST_ANGLE) on the other.
     ///
     /// ```
-    /// use irbkin::Robot;
+    /// use irbkin::Arm;
     ///
-    /// let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
-    /// let again = Robot::<6>::from_urdf(&robot.to_urdf(), None, None)?;
+    /// let arm: Arm<6> = Arm::named("IRB 2600-12/1.65")?;
+    /// let again = Arm::<6>::from_urdf(&arm.to_urdf(), None, None)?;
     /// let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
-    /// assert!(again.residual(&q, &robot.fk(&q)).largest() < 1e-14);
+    /// assert!(again.residual(&q, &arm.fk(&q)).largest() < 1e-14);
     /// # Ok::<(), irbkin::Error>(())
     /// ```
     #[must_use]
@@ -79,12 +79,12 @@ impl<const N: usize> Robot<N> {
     ///
     /// [`Body::parts`]: crate::body::Body::parts
     pub fn to_urdf_with_body(&self) -> Result<String, Error> {
-        Ok(self.urdf_with(self.body().ok_or_else(|| self.no_body())?.capsules()))
+        Ok(self.urdf_with(self.needed_body()?.capsules()))
     }
 
     fn urdf_with(&self, capsules: &[LinkCapsule]) -> String {
         let mdh = self.mdh();
-        let arm = Arm {
+        let written = Written {
             capsules,
             name: self.name(),
             base: self.base(),
@@ -97,12 +97,12 @@ impl<const N: usize> Robot<N> {
             coupling: self.coupling(),
             linkage: self.limits().linkage(),
         };
-        arm.urdf()
+        written.urdf()
     }
 }
 
 /// The written part of a robot, whatever its number of joints.
-struct Arm<'a> {
+struct Written<'a> {
     name: &'a str,
     capsules: &'a [LinkCapsule],
     base: &'a Pose,
@@ -118,7 +118,7 @@ struct Arm<'a> {
     linkage: Option<[f64; 2]>,
 }
 
-impl Arm<'_> {
+impl Written<'_> {
     fn urdf(&self) -> String {
         let mut text = Text::new(self.name);
         text.lines(&[if self.capsules.is_empty() { KINEMATICS } else { SHAPES }]);
@@ -196,19 +196,25 @@ impl Arm<'_> {
     }
 }
 
-impl AnyRobot {
-    /// The text of a URDF of the robot; see [`Robot::to_urdf`].
+impl AnyArm {
+    /// The text of a URDF of the robot; see [`Arm::to_urdf`].
     #[must_use]
     pub fn to_urdf(&self) -> String {
-        on!(self, robot => robot.to_urdf())
+        match self {
+            Self::Six(arm) => arm.to_urdf(),
+            Self::Seven(arm) => arm.to_urdf(),
+        }
     }
 
-    /// The text of a URDF with the body of the robot; see [`Robot::to_urdf_with_body`].
+    /// The text of a URDF with the body of the robot; see [`Arm::to_urdf_with_body`].
     ///
     /// # Errors
     ///
-    /// As [`Robot::to_urdf_with_body`].
+    /// As [`Arm::to_urdf_with_body`].
     pub fn to_urdf_with_body(&self) -> Result<String, Error> {
-        on!(self, robot => robot.to_urdf_with_body())
+        match self {
+            Self::Six(arm) => arm.to_urdf_with_body(),
+            Self::Seven(arm) => arm.to_urdf_with_body(),
+        }
     }
 }

@@ -3,7 +3,7 @@
 use irbkin::body::Shape;
 use irbkin::cell::Cell;
 use irbkin::go::End;
-use irbkin::{Pose, Robot, pose};
+use irbkin::{Arm, Pose, pose};
 
 use super::rng::Rng;
 
@@ -66,7 +66,7 @@ pub fn in_shelf(size: f64, rng: &mut Rng) -> Pose {
 /// Problems in a scene whose ends are free: a third from joints to a pose, the others from pose to
 /// pose, of which a half name the joints.
 pub fn problems(
-    robot: &Robot<6>,
+    robot: &Arm<6>,
     cell: &Cell,
     rng: &mut Rng,
     pose: &dyn Fn(&mut Rng) -> Pose,

@@ -10,7 +10,8 @@ use irbkin::cell::Cell;
 use irbkin::follow::{Break, Follower};
 use irbkin::plan::{PlanError, PlanOptions, ToolAxis, ToolRotation};
 use irbkin::{
-    Configuration, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh, Status, pose,
+    Arm, Configuration, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh, Status,
+    pose,
 };
 
 const URDF: &str = include_str!("../../../tests/data/ur5e.urdf");
@@ -83,7 +84,7 @@ fn print_arm<const N: usize>(robot: &Robot<N>, q: &[f64; N]) {
 }
 
 /// Poses on a line, and what `follow` and `plan` answer.
-fn print_path(name: &str, robot: &Robot<6>, path: &[Pose], seed: &[f64; 6], cell: &Cell) {
+fn print_path(name: &str, robot: &Arm<6>, path: &[Pose], seed: &[f64; 6], cell: &Cell) {
     let rows: Vec<f64> = path.iter().flat_map(pose::to_rows).collect();
     print(&format!("{name}_POSES"), &rows);
     let mut follower = Follower::new(robot, seed, &[1.0; 6]).unwrap();
@@ -122,9 +123,9 @@ fn print_path(name: &str, robot: &Robot<6>, path: &[Pose], seed: &[f64; 6], cell
 }
 
 fn main() {
-    let irb = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
-    let panda = Robot::<7>::named("Panda").unwrap();
-    let urdf = Robot::<6>::from_urdf(URDF, None, Some("tool0")).unwrap();
+    let irb = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
+    let panda = Arm::<7>::named("Panda").unwrap();
+    let urdf = Arm::<6>::from_urdf(URDF, None, Some("tool0")).unwrap();
     let mdh = Mdh { base: Pose::identity(), flange: Pose::identity(), ..irb.mdh().clone() };
     let sdh =
         Sdh { base: Pose::identity(), flange: Pose::identity(), rows: Sdh::from(mdh.clone()).rows };
@@ -139,7 +140,7 @@ fn main() {
         [-2.0, 2.0],
         [-7.0, 7.0],
     ];
-    let changed = irb.clone().with_tool(&tool).unwrap().with_base(&base).unwrap();
+    let changed = irb.robot().clone().with_tool(&tool).unwrap().with_base(&base).unwrap();
     let changed = changed.with_limits(JointLimits::new(limits).unwrap());
 
     println!("// Printed by crates/irbkin-capi/examples/expected.rs.");

@@ -9,14 +9,17 @@ use core::sync::atomic::{AtomicU64, Ordering};
 use std::ffi::CString;
 use std::sync::Arc;
 
-use irbkin::AnyRobot;
 use irbkin::cell::Cell;
+use irbkin::{Arm, ByJoints, on};
 
 use crate::arguments::{array_mut, given, reference};
 use crate::fault::Fault;
 
+/// An arm of six or of seven joints.
+pub(crate) type Arms = ByJoints<Arm<6>, Arm<7>>;
+
 /// A robot arm. It does not change: any threads may use it at the same time.
-pub struct IrbkinRobot(Marked<(AnyRobot, CString)>);
+pub struct IrbkinRobot(Marked<(Arms, CString)>);
 
 /// Obstacles around an arm. They do not change: any threads may use them at the same time.
 pub struct IrbkinCell(Marked<Arc<Cell>>);
@@ -52,12 +55,12 @@ const _: () = {
 };
 
 impl IrbkinRobot {
-    pub(crate) fn new(robot: AnyRobot) -> Self {
-        let name = CString::new(robot.name()).unwrap_or_default();
+    pub(crate) fn new(robot: Arms) -> Self {
+        let name = CString::new(on!(&robot, robot => robot.name())).unwrap_or_default();
         Self(Marked { mark: AtomicU64::new(Self::LIVING), value: (robot, name) })
     }
 
-    pub(crate) fn robot(&self) -> &AnyRobot {
+    pub(crate) fn robot(&self) -> &Arms {
         &self.0.value.0
     }
 

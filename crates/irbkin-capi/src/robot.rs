@@ -3,12 +3,12 @@
 use core::ffi::c_char;
 
 use irbkin::{
-    AnyRobot, DhRow, Error, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, on,
+    AnyArm, Arm, DhRow, Error, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, on,
 };
 
 use crate::arguments::{check_length, given, pose, reference, slice, slice_mut, text};
 use crate::fault::{Fault, IrbkinCode, guarded, report};
-use crate::handle::{IrbkinRobot, free, give, handle};
+use crate::handle::{Arms, IrbkinRobot, free, give, handle};
 
 /// Parameters of an ortho-parallel arm with a spherical wrist.
 #[repr(C)]
@@ -41,7 +41,7 @@ pub struct IrbkinOpwParameters {
 /// `made` is NULL or writable.
 unsafe fn made(
     made: *mut *mut IrbkinRobot,
-    make: impl FnOnce() -> Result<AnyRobot, Fault>,
+    make: impl FnOnce() -> Result<Arms, Fault>,
 ) -> IrbkinCode {
     // SAFETY: as of the caller.
     guarded(|| unsafe { give("made", made, || make().map(IrbkinRobot::new)) })
@@ -55,7 +55,7 @@ unsafe fn made(
 unsafe fn changed(
     robot: *const IrbkinRobot,
     made: *mut *mut IrbkinRobot,
-    change: impl FnOnce(AnyRobot) -> Result<AnyRobot, Fault>,
+    change: impl FnOnce(Arms) -> Result<Arms, Fault>,
 ) -> IrbkinCode {
     // SAFETY: as of the caller.
     unsafe { self::made(made, || change(handle("robot", robot)?.robot().clone())) }
@@ -70,7 +70,7 @@ pub unsafe extern "C" fn irbkin_robot_named(
     made: *mut *mut IrbkinRobot,
 ) -> IrbkinCode {
     // SAFETY: the pointers are as the header says.
-    unsafe { self::made(made, || Ok(AnyRobot::named(text("name", name)?)?)) }
+    unsafe { self::made(made, || Ok(AnyArm::named(text("name", name)?)?.into())) }
 }
 
 /// Make the arm of six or seven revolute joints between two links of a URDF.
@@ -89,7 +89,7 @@ pub unsafe extern "C" fn irbkin_robot_from_urdf(
         let link = |argument, link| given(link, || unsafe { text(argument, link) });
         let (base, tip) = (link("base", base)?, link("tip", tip)?);
         // SAFETY: as above.
-        Ok(AnyRobot::from_urdf(unsafe { text("urdf", urdf) }?, base, tip)?)
+        Ok(AnyArm::from_urdf(unsafe { text("urdf", urdf) }?, base, tip)?.into())
     };
     // SAFETY: as above.
     unsafe { self::made(made, make) }
@@ -125,15 +125,11 @@ pub unsafe extern "C" fn irbkin_robot_from_sdh(
 /// # Safety
 ///
 /// As of [`slice`].
-unsafe fn of_table(
-    rows: *const f64,
-    rows_len: usize,
-    is_standard: bool,
-) -> Result<AnyRobot, Fault> {
-    fn robot<const N: usize>(rows: &[[f64; 4]], is_standard: bool) -> Result<AnyRobot, Error>
+unsafe fn of_table(rows: *const f64, rows_len: usize, is_standard: bool) -> Result<Arms, Fault> {
+    fn robot<const N: usize>(rows: &[[f64; 4]], is_standard: bool) -> Result<Arms, Error>
     where
         Robot<N>: Joints<N>,
-        AnyRobot: From<Robot<N>>,
+        Arms: From<Robot<N>>,
     {
         let mut rows = rows.iter().map(|&[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
         let rows = core::array::from_fn(|_| rows.next().unwrap_or_default());
@@ -179,10 +175,10 @@ pub unsafe extern "C" fn irbkin_robot_with_tool(
     tool: *const f64,
     made: *mut *mut IrbkinRobot,
 ) -> IrbkinCode {
-    let change = |robot: AnyRobot| {
+    let change = |robot: Arms| {
         // SAFETY: the pointers are as the header says.
         let tool = unsafe { pose("tool", tool) }?;
-        on!(robot, robot => Ok(robot.with_tool(&tool).map_err(Fault::of("tool"))?.into()))
+        on!(robot, robot => Ok(robot.map(|robot| robot.with_tool(&tool)).map_err(Fault::of("tool"))?.into()))
     };
     // SAFETY: as above.
     unsafe { changed(robot, made, change) }
@@ -196,10 +192,10 @@ pub unsafe extern "C" fn irbkin_robot_with_base(
     base: *const f64,
     made: *mut *mut IrbkinRobot,
 ) -> IrbkinCode {
-    let change = |robot: AnyRobot| {
+    let change = |robot: Arms| {
         // SAFETY: the pointers are as the header says.
         let base = unsafe { pose("base", base) }?;
-        on!(robot, robot => Ok(robot.with_base(&base).map_err(Fault::of("base"))?.into()))
+        on!(robot, robot => Ok(robot.map(|robot| robot.with_base(&base)).map_err(Fault::of("base"))?.into()))
     };
     // SAFETY: as above.
     unsafe { changed(robot, made, change) }
@@ -214,16 +210,17 @@ pub unsafe extern "C" fn irbkin_robot_with_limits(
     limits_len: usize,
     made: *mut *mut IrbkinRobot,
 ) -> IrbkinCode {
-    fn limited<const N: usize>(robot: Robot<N>, limits: &[f64]) -> Result<AnyRobot, Fault>
+    fn limited<const N: usize>(arm: Arm<N>, limits: &[f64]) -> Result<Arms, Fault>
     where
-        AnyRobot: From<Robot<N>>,
+        Arms: From<Arm<N>>,
     {
         check_length("limits", limits.len(), 2 * N)?;
         let mut pairs = limits.as_chunks::<2>().0.iter();
         let pairs = core::array::from_fn(|_| pairs.next().copied().unwrap_or_default());
-        Ok(robot.with_limits(JointLimits::new(pairs)?).into())
+        let limits = JointLimits::new(pairs)?;
+        Ok(arm.map(|robot| Ok(robot.with_limits(limits)))?.into())
     }
-    let change = |robot: AnyRobot| {
+    let change = |robot: Arms| {
         // SAFETY: the pointers are as the header says.
         let limits = unsafe { slice("limits", limits, limits_len) }?;
         on!(robot, robot => limited(robot, limits))
@@ -239,7 +236,7 @@ pub unsafe extern "C" fn irbkin_robot_with_approximate_body(
     robot: *const IrbkinRobot,
     made: *mut *mut IrbkinRobot,
 ) -> IrbkinCode {
-    let change = |robot: AnyRobot| {
+    let change = |robot: Arms| {
         on!(robot, robot => {
             let body = robot.approximate_body()?;
             Ok(robot.with_body(Some(body))?.into())

@@ -4,7 +4,7 @@ use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use irbkin::Robot;
+use irbkin::Arm;
 use irbkin::cell::Cell;
 use irbkin_abb::rapid;
 use irbkin_abb::rapid::{CheckOptions, RoutineKind};
@@ -60,7 +60,7 @@ pub struct Move {
 
 impl Checked {
     pub(crate) fn of<const N: usize>(
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         program: &Program,
         cell: &Cell,
         request: &Request<'_>,
@@ -70,7 +70,7 @@ impl Checked {
         let modules = &program.modules;
         let sources: Vec<_> =
             modules.iter().zip(program.texts.iter().map(String::as_str)).collect();
-        let checked = rapid::check(robot, &sources, &options)?;
+        let checked = rapid::check(arm, &sources, &options)?;
         let mut procedures = Vec::new();
         let mut instructions = BTreeMap::new();
         for (module, own) in modules.iter().enumerate() {

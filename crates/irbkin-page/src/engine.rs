@@ -5,7 +5,7 @@ use alloc::format;
 use alloc::string::String;
 
 use irbkin::cell::Cell;
-use irbkin::{AnyRobot, on};
+use irbkin::on;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -17,13 +17,13 @@ use super::inverse::Found;
 use super::motion::Motion;
 use super::program::Program;
 use super::request::{Refusal, Request};
-use super::robot::{self, Arm};
+use super::robot::{self, Arm, Arms};
 use super::target::Meant;
 
 /// A robot, a cell and a program, and the answers about them.
 #[derive(Debug, Default)]
 pub struct Page {
-    robot: Option<AnyRobot>,
+    robot: Option<Arms>,
     cell: Cell,
     program: Option<Program>,
 }
@@ -81,7 +81,7 @@ impl Page {
         }
     }
 
-    fn robot(&self) -> Result<&AnyRobot, Refusal> {
+    fn robot(&self) -> Result<&Arms, Refusal> {
         let none = || Refusal("there is no robot: send {\"do\": \"robot\"} first".to_owned());
         self.robot.as_ref().ok_or_else(none)
     }

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use irbkin::Robot;
+use irbkin::Arm;
 use irbkin::cell::Cell;
 use serde::Serialize;
 
@@ -45,7 +45,7 @@ pub struct Distances {
 
 impl Posture {
     pub(crate) fn read<const N: usize>(
-        robot: &Robot<N>,
+        robot: &Arm<N>,
         cell: &Cell,
         request: &Request<'_>,
     ) -> Result<Self, Refusal> {

@@ -6,7 +6,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use irbkin::cell::Cell;
-use irbkin::{Error, Explanation, Pose, Robot, Solutions};
+use irbkin::{Arm, Error, Explanation, Pose, Robot, Solutions};
 use serde::Serialize;
 
 use super::posture::{Margin, arm_angle, collides, confdata, words};
@@ -75,7 +75,7 @@ pub struct Solution {
 
 impl Found {
     pub(crate) fn read<const N: usize>(
-        robot: &Robot<N>,
+        robot: &Arm<N>,
         cell: &Cell,
         request: &Request<'_>,
     ) -> Result<Self, Refusal> {
@@ -91,7 +91,7 @@ impl Found {
     }
 
     fn without_way<const N: usize>(
-        robot: &Robot<N>,
+        robot: &Arm<N>,
         cell: Option<&Cell>,
         pose: &Pose,
         seed: Option<[f64; N]>,
@@ -117,7 +117,7 @@ impl Found {
 
     /// The solution of seven joints that is nearest to a seed, and the solutions at its joint 7.
     fn along_redundancy<const N: usize>(
-        robot: &Robot<N>,
+        robot: &Arm<N>,
         cell: Option<&Cell>,
         pose: &Pose,
         seed: &[f64; N],
@@ -141,7 +141,7 @@ impl Found {
     }
 
     fn of<const N: usize>(
-        robot: &Robot<N>,
+        robot: &Arm<N>,
         cell: Option<&Cell>,
         solutions: &Solutions<N>,
         nearest: Option<&irbkin::Solution<N>>,
@@ -208,7 +208,7 @@ fn inside<const N: usize>(
 
 impl Solution {
     pub(crate) fn of<const N: usize>(
-        robot: &Robot<N>,
+        robot: &Arm<N>,
         cell: Option<&Cell>,
         solution: &irbkin::Solution<N>,
     ) -> Result<Self, Refusal> {

@@ -4,7 +4,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
 use irbkin::cell::Cell;
-use irbkin::{Robot, SingularityKind};
+use irbkin::{Arm, Robot, SingularityKind};
 use serde::Serialize;
 
 use super::request::Refusal;
@@ -54,12 +54,12 @@ impl Margin {
 
 impl Contact {
     pub(crate) fn of<const N: usize>(
-        robot: &Robot<N>,
+        arm: &Arm<N>,
         cell: &Cell,
         q: &[f64; N],
     ) -> Result<Self, Refusal> {
-        let collides = cell.collides(robot, q)?;
-        let nearest = cell.nearest(robot, q)?;
+        let collides = cell.collides(arm, q)?;
+        let nearest = cell.nearest(arm, q)?;
         let distance = nearest.as_ref().map(|nearest| nearest.distance);
         Ok(Self {
             collides,
@@ -74,11 +74,11 @@ impl Contact {
 
 /// Whether the arm collides at joint angles, if that is asked.
 pub(crate) fn collides<const N: usize>(
-    robot: &Robot<N>,
+    arm: &Arm<N>,
     cell: Option<&Cell>,
     q: &[f64; N],
 ) -> Result<Option<bool>, Refusal> {
-    Ok(cell.map(|cell| cell.collides(robot, q)).transpose()?)
+    Ok(cell.map(|cell| cell.collides(arm, q)).transpose()?)
 }
 
 /// ABB's confdata of joint angles, if the arm has them.

@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use irbkin::body::{Body, LinkCapsule};
 use irbkin::report::ConfigurationRule;
-use irbkin::{AnyRobot, Error, Robot, catalog, on};
+use irbkin::{AnyArm, ByJoints, Error, catalog, on};
 use serde::Serialize;
 
 use super::request::{Refusal, Request, twelve};
@@ -93,41 +93,47 @@ pub struct Hull {
     pub radius: f64,
 }
 
+/// The arm of six or of seven joints.
+pub(crate) type Arms = ByJoints<irbkin::Arm<6>, irbkin::Arm<7>>;
+
 /// The robot of a request.
-pub(crate) fn read(request: &Request<'_>) -> Result<AnyRobot, Refusal> {
-    let robot = match (request.optional_text("name")?, request.optional_text("urdf")?) {
-        (Some(name), None) => AnyRobot::from_catalog(&catalog::find(name)?)?,
+pub(crate) fn read(request: &Request<'_>) -> Result<Arms, Refusal> {
+    let arm = match (request.optional_text("name")?, request.optional_text("urdf")?) {
+        (Some(name), None) => AnyArm::from_catalog(&catalog::find(name)?)?,
         (None, Some(urdf)) => {
             let (base, tip) = (request.optional_text("base")?, request.optional_text("tip")?);
-            AnyRobot::from_urdf(urdf, base, tip)?
+            AnyArm::from_urdf(urdf, base, tip)?
         }
         (None, None) => return Err("name is missing, and so is urdf".to_owned().into()),
         (Some(_), Some(_)) => {
             return Err("there is a name and a urdf, it must be one of them".to_owned().into());
         }
     };
-    Ok(on!(robot, robot => placed(robot, request)?.into()))
+    Ok(on!(Arms::from(arm), arm => placed(arm, request)?.into()))
 }
 
 /// The robot with the tool and the base of a request, and with a body if it has none.
-fn placed<const N: usize>(mut robot: Robot<N>, request: &Request<'_>) -> Result<Robot<N>, Refusal> {
-    if robot.body().is_none()
-        && let Ok(body) = robot.approximate_body()
+fn placed<const N: usize>(
+    mut arm: irbkin::Arm<N>,
+    request: &Request<'_>,
+) -> Result<irbkin::Arm<N>, Refusal> {
+    if arm.body().is_none()
+        && let Ok(body) = arm.approximate_body()
     {
-        robot = robot.with_body(Some(body))?;
+        arm = arm.with_body(Some(body))?;
     }
     let named = |field: &'static str| move |error: Error| Refusal(format!("{field}: {error}"));
     if let Some(tool) = request.optional_pose("tool")? {
-        robot = robot.with_tool(&tool).map_err(named("tool"))?;
+        arm = arm.map(|robot| robot.with_tool(&tool)).map_err(named("tool"))?;
     }
     if let Some(base) = request.optional_pose("base_pose")? {
-        robot = robot.with_base(&base).map_err(named("base_pose"))?;
+        arm = arm.map(|robot| robot.with_base(&base)).map_err(named("base_pose"))?;
     }
-    Ok(robot)
+    Ok(arm)
 }
 
 impl Arm {
-    pub(crate) fn of<const N: usize>(robot: &Robot<N>) -> Self {
+    pub(crate) fn of<const N: usize>(robot: &irbkin::Arm<N>) -> Self {
         let rule = robot.configuration_rule().ok();
         let mut before = *robot.base();
         let (frames, _) = robot.link_frames(&[0.0; N]);

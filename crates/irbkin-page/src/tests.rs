@@ -1,7 +1,8 @@
 //! Laws of the answers: they agree with the crate, and nothing panics.
 
 use crate::Page;
-use irbkin::{Robot, pose};
+use crate::robot::Arms;
+use irbkin::{Arm, pose};
 use serde_json::{Value, json};
 
 const YUMI: &str = "IRB 14000-0.5/0.5 (left)";
@@ -297,7 +298,7 @@ fn modules_are_read_together_and_the_tool_is_on_the_way() {
 #[test]
 fn a_urdf_is_read() {
     let mut page = Page::default();
-    let robot: Robot<6> = Robot::named("UR5e").unwrap();
+    let robot: Arm<6> = Arm::named("UR5e").unwrap();
     let text = robot.to_urdf();
     let arm = granted(&mut page, &json!({"do": "robot", "urdf": text}));
     assert_eq!(arm["structure"], "three parallel axes");
@@ -367,8 +368,8 @@ fn hulls_are_those_of_the_body_with_faces_of_their_points() {
     let mut page = Page::default();
     for name in ["UR5e", "Panda", "IRB 140-6/0.81"] {
         let drawn = granted(&mut page, &json!({"do": "robot", "name": name}));
-        let robot = irbkin::AnyRobot::from_catalog(&irbkin::catalog::find(name).unwrap()).unwrap();
-        let body = irbkin::on!(robot, robot => robot.body().cloned());
+        let robot = irbkin::AnyArm::named(name).unwrap();
+        let body = irbkin::on!(Arms::from(robot), robot => robot.body().cloned());
         let wanted = body.as_ref().map_or(&[][..], |body| body.hulls());
         let hulls = drawn["body"]["hulls"].as_array().unwrap();
         assert_eq!(hulls.len(), wanted.len());

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use super::arguments::{read_threads, thread_count};
-use super::arm::{Arm, joints, on};
+use super::arm::{AnyArm, joints, on};
 use super::arrays::{Rows, copied_pair, vector};
 use super::errors::{Fault, exception};
 use super::outputs::{Output, array};
@@ -23,7 +23,7 @@ use super::targets::checked_joints;
 use super::trajectory::PyTrajectory;
 use irbkin::cell::{Cell, Contact, Nearest};
 use irbkin::internal::{Motion, check_most_near};
-use irbkin::{Error, Robot};
+use irbkin::{Arm, Error};
 
 /// Most obstacles with which a single joint vector is looked at with the interpreter's lock.
 const FEW: usize = 100;
@@ -168,8 +168,8 @@ impl PyCell {
         let rows = joints(robot.arm(), q)?;
         let mut answer = Output::<bool>::new(py, out, &rows.lead, &[rows.addresses()])?;
         match robot.arm() {
-            Arm::Six(_) => checked_joints::<6>("q", &rows).map(drop)?,
-            Arm::Seven(_) => checked_joints::<7>("q", &rows).map(drop)?,
+            AnyArm::Six(_) => checked_joints::<6>("q", &rows).map(drop)?,
+            AnyArm::Seven(_) => checked_joints::<7>("q", &rows).map(drop)?,
         }
         let (q, to) = (rows.data()?, answer.slice()?);
         on!(robot.arm(), robot => {
@@ -263,7 +263,7 @@ impl PyCell {
     /// Whether an arm collides at a plain joint vector, with the interpreter's lock.
     fn at_plain<const N: usize>(
         &self,
-        robot: &Robot<N>,
+        robot: &Arm<N>,
         q: &Bound<'_, PyAny>,
     ) -> PyResult<Option<bool>> {
         let q = plain_joints(q, robot.limits())?;
@@ -274,7 +274,7 @@ impl PyCell {
     fn contact<const N: usize, M: Motion<N> + Sync + ?Sized>(
         &self,
         py: Python<'_>,
-        robot: &Robot<N>,
+        robot: &Arm<N>,
         motion: &M,
     ) -> PyResult<Option<CellContact>> {
         let found =
@@ -286,7 +286,7 @@ impl PyCell {
     fn nearest<const N: usize>(
         &self,
         py: Python<'_>,
-        robot: &Robot<N>,
+        robot: &Arm<N>,
         rows: &Rows<'_>,
     ) -> PyResult<(Vec<Option<Nearest>>, Vec<f64>)> {
         let rows = checked_joints("q", rows)?;

@@ -8,7 +8,7 @@ use pyo3::intern;
 use pyo3::prelude::*;
 
 use super::arguments::{read_threads, thread_count};
-use super::arm::{Arm, joints, on, seven_joints};
+use super::arm::{AnyArm, joints, on, seven_joints};
 use super::arrays::{Rows, together};
 use super::errors::{Fault, exception};
 use super::outputs::{Output, answer_row, matrix};
@@ -161,14 +161,14 @@ impl PyRobot {
 }
 
 /// Whether a configuration, with the arm angle of a YuMi, names one solution of a pose.
-fn names_one(arm: &Arm) -> bool {
+fn names_one(arm: &AnyArm) -> bool {
     let rule = on!(arm, robot => robot.configuration_rule());
     rule.is_ok_and(|rule| rule == ConfigurationRule::SphericalWrist)
 }
 
 /// Whether the solution nearest to the seed replaces one that does not exist.
 pub(super) fn or_nearest(
-    arm: &Arm,
+    arm: &AnyArm,
     fallback: Option<&str>,
     seed: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<bool> {

@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 
-use super::arm::{Arm, named, on};
+use super::arm::{AnyArm, changed, named, on};
 use super::arrays::Rows;
 use super::errors::{Fault, exception};
 use super::queries::mapped;
@@ -29,7 +29,7 @@ impl PyRobot {
     ///         is not a table, or it leaves coupled axes 2 and 3 more than 0.05 rad off parallel.
     fn with_corrections(&self, corrections: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(on!(self.arm(), robot => {
-            Arm::from(robot.with_corrections(&read(robot, Some(corrections))?).map_err(exception)?)
+            AnyArm::from(robot.with_corrections(&read(robot, Some(corrections))?).map_err(exception)?)
         })
         .into())
     }
@@ -56,18 +56,18 @@ impl PyRobot {
             Err(_) => named(nominal.extract()?).map_err(exception)?,
         };
         let refined = match (self.arm(), &nominal) {
-            (Arm::Six(robot), Arm::Six(nominal)) => {
-                robot.with_nominal(nominal).map_err(exception)?.into()
+            (AnyArm::Six(arm), AnyArm::Six(nominal)) => {
+                changed(arm, |robot| robot.with_nominal(nominal))?
             }
-            (Arm::Seven(robot), Arm::Seven(nominal)) => {
-                robot.with_nominal(nominal).map_err(exception)?.into()
+            (AnyArm::Seven(arm), AnyArm::Seven(nominal)) => {
+                changed(arm, |robot| robot.with_nominal(nominal))?
             }
             (robot, nominal) => {
                 let fault = ModelFault::JointCount { found: nominal.dof(), wanted: robot.dof() };
                 return Err(exception(Error::from(fault)));
             }
         };
-        Ok(Arm::into(refined))
+        Ok(refined.into())
     }
 
     /// Jacobian of the tool in the parameters of the robot: how each of them moves it.

@@ -7,13 +7,13 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arm::{Arm, ByJoints, on};
+use super::arm::{AnyArm, ByJoints, on};
 use super::records::{self, break_reason};
 use super::robot::PyRobot;
 use super::targets::{read_seed, read_single_pose, read_weights};
 use irbkin::follow::{Break, BreakReason, Follower};
 use irbkin::internal::Progress;
-use irbkin::{Error, Pose, Robot};
+use irbkin::{Arm, Error, Pose};
 
 /// A path that is followed pose by pose, as `Robot.follow` does a whole one: each step is the
 /// solution inside the limits that continues the previous joints, turns considered.
@@ -33,7 +33,7 @@ pub(super) struct PyFollower(ByJoints<Steps<6>, Steps<7>>);
 
 /// A follower that owns its robot.
 struct Steps<const N: usize> {
-    robot: Arc<Robot<N>>,
+    robot: Arc<Arm<N>>,
     weights: [f64; N],
     at: Progress<N>,
     /// Number of steps taken.
@@ -44,7 +44,7 @@ struct Steps<const N: usize> {
 
 impl<const N: usize> Steps<N> {
     fn new(
-        robot: &Arc<Robot<N>>,
+        robot: &Arc<Arm<N>>,
         seed: &Bound<'_, PyAny>,
         weights: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
@@ -79,8 +79,8 @@ impl PyFollower {
         weights: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         Ok(Self(match robot.get().arm() {
-            Arm::Six(robot) => ByJoints::Six(Steps::new(robot, seed, weights)?),
-            Arm::Seven(robot) => ByJoints::Seven(Steps::new(robot, seed, weights)?),
+            AnyArm::Six(robot) => ByJoints::Six(Steps::new(robot, seed, weights)?),
+            AnyArm::Seven(robot) => ByJoints::Seven(Steps::new(robot, seed, weights)?),
         }))
     }
 

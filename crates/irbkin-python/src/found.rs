@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use super::solution::Member;
 use irbkin::cell::{Cell, Nearest};
 use irbkin::internal::{Cost, MOST_SLOTS, Placed};
-use irbkin::{Error, Explanation, Joints, Robot, Solution, Solutions};
+use irbkin::{Arm, Error, Explanation, Joints, Robot, Solution, Solutions};
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or
 /// none.
@@ -19,7 +19,7 @@ const MOST_TURNS: f64 = 1e6;
 #[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(bound(serialize = "", deserialize = "Robot<N>: Joints<N>"))]
 pub(super) struct Found<const N: usize> {
-    pub(super) robot: Arc<Robot<N>>,
+    pub(super) robot: Arc<Arm<N>>,
     pub(super) solutions: Solutions<N>,
     /// The list of turns, where the solutions were turned.
     pub(super) turned: Option<Vec<Solution<N>>>,
@@ -30,7 +30,7 @@ pub(super) struct Found<const N: usize> {
 }
 
 impl<const N: usize> Found<N> {
-    pub(super) fn new(robot: Arc<Robot<N>>, solutions: Solutions<N>) -> Self {
+    pub(super) fn new(robot: Arc<Arm<N>>, solutions: Solutions<N>) -> Self {
         Self { robot, solutions, turned: None, q7: None, colliding: None }
     }
 

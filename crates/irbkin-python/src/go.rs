@@ -5,7 +5,7 @@ use std::time::Instant;
 use pyo3::prelude::*;
 
 use super::arguments::read_seed;
-use super::arm::Arm;
+use super::arm::AnyArm;
 use super::arrays::{matrix4, vector};
 use super::cell::PyCell;
 use super::errors::{Fault, exception, raised, with_attributes};
@@ -19,7 +19,7 @@ use irbkin::go::{End, GoOptions};
 use irbkin::internal::{GoFault, MotionFault};
 use irbkin::pose::from_rows as pose_from_rows;
 use irbkin::trajectory::Trajectory;
-use irbkin::{Error, Interrupt, Robot};
+use irbkin::{Arm, Error, Interrupt};
 
 #[pymethods]
 impl PyRobot {
@@ -77,8 +77,8 @@ impl PyRobot {
         let alone = Cell::default();
         let cell = cell.map_or(&alone, |cell| &cell.get().0);
         let motion = match self.arm() {
-            Arm::Six(robot) => asked.motion(robot, cell),
-            Arm::Seven(robot) => asked.motion(robot, cell),
+            AnyArm::Six(robot) => asked.motion(robot, cell),
+            AnyArm::Seven(robot) => asked.motion(robot, cell),
         };
         Ok(PyTrajectory::even(start.py(), motion?, steps)?.with_names(self.file_joint_names()))
     }
@@ -94,7 +94,7 @@ struct Asked<'a, 'py> {
 }
 
 impl Asked<'_, '_> {
-    fn motion<const N: usize>(&self, robot: &Robot<N>, cell: &Cell) -> PyResult<Trajectory> {
+    fn motion<const N: usize>(&self, robot: &Arm<N>, cell: &Cell) -> PyResult<Trajectory> {
         let [start, goal] = self.ends;
         let (start, goal) = (read_end::<N>(start, "start")?, read_end::<N>(goal, "goal")?);
         let options = GoOptions {

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyTuple};
 
 use super::arguments::{VIOLATIONS, one_of};
-use super::arm::{Arm, ByJoints, on};
+use super::arm::{AnyArm, ByJoints, on};
 use super::arrays::{matrix4, vector};
 use super::cell::PyCell;
 use super::errors::{Fault, exception};
@@ -21,7 +21,7 @@ use super::trajectories::{read_each, read_limits};
 use irbkin::cell::Cell;
 use irbkin::pose::from_rows as pose_from_rows;
 use irbkin::stream::{Guard, GuardOptions, OnViolation};
-use irbkin::{Error, Pose, Robot};
+use irbkin::{Arm, Error, Pose};
 
 record! {
     "irbkin.stream";
@@ -106,8 +106,8 @@ impl PyGuard {
         let asked = Asked { cycle, start, limits, margin, max_tool_speed, on_violation, hold };
         let cell = read_cell(cell)?;
         let guard = match robot.get().arm() {
-            Arm::Six(robot) => ByJoints::Six(Mutex::new(asked.guard(robot, cell.as_ref())?)),
-            Arm::Seven(robot) => ByJoints::Seven(Mutex::new(asked.guard(robot, cell.as_ref())?)),
+            AnyArm::Six(robot) => ByJoints::Six(Mutex::new(asked.guard(robot, cell.as_ref())?)),
+            AnyArm::Seven(robot) => ByJoints::Seven(Mutex::new(asked.guard(robot, cell.as_ref())?)),
         };
         Ok(Self { guard, robot: robot.clone().unbind() })
     }
@@ -166,7 +166,7 @@ impl PyGuard {
         on!(&self.guard, guard => {
             let guard = locked(guard);
             let proven = if guard.proves_free() { "" } else { ", proves nothing free" };
-            let (name, cycle) = (guard.robot().name(), guard.cycle());
+            let (name, cycle) = (guard.arm().name(), guard.cycle());
             let comma = if name.is_empty() { "" } else { ", " };
             format!("<Guard: {name}{comma}cycle {cycle} s, {}{proven}>", guard.state().name())
         })
@@ -186,7 +186,7 @@ struct Asked<'a, 'py> {
 }
 
 impl Asked<'_, '_> {
-    fn guard<const N: usize>(&self, robot: &Robot<N>, cell: Option<&Cell>) -> PyResult<Guard<N>> {
+    fn guard<const N: usize>(&self, robot: &Arm<N>, cell: Option<&Cell>) -> PyResult<Guard<N>> {
         let [velocity, acceleration, jerk] = self.limits;
         let mut max_acceleration = [f64::INFINITY; N];
         let given = read_each(acceleration, "max_acceleration", N, f64::INFINITY)?;

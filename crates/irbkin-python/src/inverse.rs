@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyTuple};
 
 use super::arguments::{read_threads, thread_count};
-use super::arm::{Arm, on};
+use super::arm::{AnyArm, on};
 use super::cell::PyCell;
 use super::errors::{exception, of_seed};
 use super::found::Found;
@@ -65,16 +65,16 @@ impl PyRobot {
         }
         let py = T.py();
         match self.arm() {
-            Arm::Six(robot) => {
+            AnyArm::Six(robot) => {
                 no_q7(q7.is_some())?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 robot.ik_into(&mut found.solutions, f64::NAN).map_err(exception)?;
                 Bound::new(py, PySolutions::from(found))
             }
-            Arm::Seven(robot) => {
+            AnyArm::Seven(robot) => {
                 let angle = match (robot.locked_joint(), q7) {
                     (Some((_, angle)), None) => angle,
-                    (Some(_), Some(_)) => return Self::from(self.unlocked()).ik(T, q7, None),
+                    (Some(_), Some(_)) => return Self::from(self.unlocked()?).ik(T, q7, None),
                     (None, q7) => one_angle(needed_q7(robot, q7)?, "q7")?,
                 };
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
@@ -122,7 +122,7 @@ impl PyRobot {
         let Some(given) = given else { return solved(self.arm(), T, ("q7", q7), out, threads) };
         no_q7_beside_given(q7)?;
         match read_pair(self.arm(), given)? {
-            (7, angles) => solved(&self.unlocked(), T, ("q7", Some(&angles)), out, threads),
+            (7, angles) => solved(&self.unlocked()?, T, ("q7", Some(&angles)), out, threads),
             (1, angles) => {
                 let arm = locked(self, 1, &PyFloat::new(T.py(), 0.0))?;
                 solved(&arm, T, ("given", Some(&angles)), out, threads)
@@ -276,7 +276,7 @@ fn middle<const N: usize>(robot: &Robot<N>) -> [f64; N] {
 /// `irbkin.IkBatch` of poses, shape (..., 4, 4), and of the angles of a joint of seven for each,
 /// with the name of the argument.
 fn solved<'py>(
-    arm: &Arm,
+    arm: &AnyArm,
     poses: &Bound<'py, PyAny>,
     (field, angles): (&'static str, Option<&Bound<'py, PyAny>>),
     out: Option<&Bound<'py, PyAny>>,

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyString};
 use roxmltree::Document;
 
-use super::arm::{Arm, on};
+use super::arm::{AnyArm, changed, on};
 use super::arrays::{Rows, vector};
 use super::errors::{Fault, exception};
 use super::outputs::matrix;
@@ -13,7 +13,7 @@ use super::robot::PyRobot;
 use super::shapes::{read_capsules, row_of};
 use super::targets::pose_array;
 use irbkin::internal::{Carrier, Convention, ModelFault, UrdfArm, UrdfFault, read_document};
-use irbkin::{DhRow, Error, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh};
+use irbkin::{Arm, DhRow, Error, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh};
 
 #[pymethods]
 impl PyRobot {
@@ -120,7 +120,11 @@ impl PyRobot {
             }
         }
         let opw = OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets, signs };
-        named_and_limited(&Robot::from_opw(opw).map_err(exception)?.into(), limits, name)
+        named_and_limited(
+            &AnyArm::from(Arm::from(Robot::from_opw(opw).map_err(exception)?)),
+            limits,
+            name,
+        )
     }
 
     /// Robot from a URDF: the revolute and continuous joints between two links, with their limits
@@ -160,7 +164,7 @@ impl PyRobot {
         let bytes = bytes_of(text_or_path)?;
         let arm =
             text_or_path.py().detach(|| arm_of(&bytes, base, tip, snap)).map_err(exception)?;
-        Ok(if name.is_empty() { arm } else { named(&arm, name) }.into())
+        Ok(if name.is_empty() { arm } else { named(&arm, name)? }.into())
     }
 
     /// Robot from a file of ABB's RobotStudio: its table, base frame, flange and limits.
@@ -248,7 +252,7 @@ fn robot_of_table<const N: usize>(
     numbers: &[[f64; 4]],
     convention: Convention,
     snap: f64,
-) -> Result<Robot<N>, Error>
+) -> Result<Arm<N>, Error>
 where
     Robot<N>: Joints<N>,
 {
@@ -257,43 +261,41 @@ where
         numbers.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;
     let rows = numbers.map(|[alpha, a, d, theta]| DhRow::new(alpha, a, d, theta));
     let (base, flange) = (Pose::identity(), Pose::identity());
-    match convention {
+    let robot = match convention {
         Convention::Modified => Robot::from_mdh(Mdh { base, rows, flange }.snapped(snap)?),
         Convention::Standard => Robot::from_sdh(Sdh { base, rows, flange }.snapped(snap)?),
-    }
+    };
+    robot.map(Arm::from)
 }
 
 /// The arm under a name, with limits where they were given.
 fn named_and_limited(
-    arm: &Arm,
+    arm: &AnyArm,
     limits: Option<&Bound<'_, PyAny>>,
     name: &str,
 ) -> PyResult<PyRobot> {
-    let arm = named(arm, name);
+    let arm = named(arm, name)?;
     Ok(match limits {
         Some(limits) => with_limits(&arm, limits)?.into(),
         None => arm.into(),
     })
 }
 
-fn named(arm: &Arm, name: &str) -> Arm {
-    on!(arm, robot => Robot::clone(robot).with_name(name.to_owned()).into())
+fn named(arm: &AnyArm, name: &str) -> PyResult<AnyArm> {
+    on!(arm, arm => changed(arm, |robot| Ok(robot.with_name(name.to_owned()))))
 }
 
 /// The arm with limits of shape (n, 2).
-fn with_limits(arm: &Arm, limits: &Bound<'_, PyAny>) -> PyResult<Arm> {
+fn with_limits(arm: &AnyArm, limits: &Bound<'_, PyAny>) -> PyResult<AnyArm> {
     let shape = [arm.dof(), 2];
     let rows = Rows::exact(limits, &shape, "limits", Fault::Model)?;
-    Ok(on!(arm, robot => limited(robot, rows.chunks()?).map_err(exception)?))
+    on!(arm, arm => { let limits = rows.chunks()?; changed(arm, |robot| limited(robot, limits)) })
 }
 
-fn limited<const N: usize>(robot: &Robot<N>, limits: &[[f64; 2]]) -> Result<Arm, Error>
-where
-    Arm: From<Robot<N>>,
-{
+fn limited<const N: usize>(robot: Robot<N>, limits: &[[f64; 2]]) -> Result<Robot<N>, Error> {
     let found = limits.len();
     let limits = limits.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;
-    Ok(Robot::clone(robot).with_limits(JointLimits::new(limits)?).into())
+    Ok(robot.with_limits(JointLimits::new(limits)?))
 }
 
 /// Name, link of the body, and pose in its frame.
@@ -356,8 +358,8 @@ fn text_of(bytes: &[u8]) -> Result<&str, Error> {
     Ok(text)
 }
 
-fn arm_of(bytes: &[u8], base: Option<&str>, tip: Option<&str>, snap: f64) -> Result<Arm, Error> {
-    UrdfArm::read(text_of(bytes)?, base, tip, &[6, 7])?.any_robot(snap).map(Arm::from)
+fn arm_of(bytes: &[u8], base: Option<&str>, tip: Option<&str>, snap: f64) -> Result<AnyArm, Error> {
+    UrdfArm::read(text_of(bytes)?, base, tip, &[6, 7])?.any_arm(snap).map(AnyArm::from)
 }
 
 /// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a

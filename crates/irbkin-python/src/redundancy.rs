@@ -6,12 +6,12 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyMapping};
 
-use super::arm::{Arm, on};
+use super::arm::{AnyArm, changed, on};
 use super::arrays::{Rows, together};
 use super::errors::{Fault, exception};
 use super::outputs::describe;
 use super::robot::PyRobot;
-use irbkin::Robot;
+use irbkin::{Arm, Robot};
 
 #[pymethods]
 impl PyRobot {
@@ -40,23 +40,23 @@ impl PyRobot {
     fn six_joints(&self) -> PyResult<Option<Self>> {
         Ok(on!(self.arm(), robot => robot.six_joints())
             .map_err(exception)?
-            .map(|six| Arm::from(six).into()))
+            .map(|six| AnyArm::from(Arm::from(six)).into()))
     }
 }
 
 impl PyRobot {
     /// The arm without a locked joint.
-    pub(super) fn unlocked(&self) -> Arm {
-        on!(self.arm(), robot => Arm::from(Robot::clone(robot).unlocked()))
+    pub(super) fn unlocked(&self) -> PyResult<AnyArm> {
+        on!(self.arm(), arm => changed(arm, |robot| Ok(robot.unlocked())))
     }
 }
 
 /// The joint, from 1, and the angle or angles of `{3: 0.2}`.
 pub(super) fn read_pair<'py>(
-    arm: &Arm,
+    arm: &AnyArm,
     given: &Bound<'py, PyAny>,
 ) -> PyResult<(usize, Bound<'py, PyAny>)> {
-    if matches!(arm, Arm::Six(_)) {
+    if matches!(arm, AnyArm::Six(_)) {
         return Err(PyTypeError::new_err(
             "given is for arms of seven joints: the pose alone determines the six of this one",
         ));
@@ -89,33 +89,35 @@ pub(super) fn read_pair<'py>(
 
 /// The arm with a joint, from 1, locked at an angle. The first one of a joint is kept: another
 /// angle is prepared from it in a fraction of the time.
-pub(super) fn locked(robot: &PyRobot, joint: usize, angle: &Bound<'_, PyAny>) -> PyResult<Arm> {
-    let Arm::Seven(arm) = robot.arm() else {
+pub(super) fn locked(robot: &PyRobot, joint: usize, angle: &Bound<'_, PyAny>) -> PyResult<AnyArm> {
+    let AnyArm::Seven(arm) = robot.arm() else {
         return Err(PyTypeError::new_err("given is for arms of seven joints"));
     };
     let prepared = &robot.locked[joint - 1];
     let like = prepared.get().unwrap_or(arm);
-    let locked = Arc::new(like.locked(joint, one_angle(angle, "given")?).map_err(exception)?);
+    let angle = one_angle(angle, "given")?;
+    let locked = Arm::clone(like).map(|robot| robot.locked(joint, angle)).map_err(exception)?;
+    let locked = Arc::new(locked);
     // Another thread may have been faster, with another angle.
     let _ = prepared.set(Arc::clone(&locked));
-    Ok(Arm::Seven(locked))
+    Ok(AnyArm::Seven(locked))
 }
 
 /// Poses, shape (..., 4, 4), and the angles of a joint for each, of the argument `field`, broadcast:
 /// none for six joints, and where a joint of seven is locked.
 pub(super) fn read_poses_with_q7<'py>(
-    arm: &Arm,
+    arm: &AnyArm,
     poses: &Bound<'py, PyAny>,
     field: &'static str,
     angles: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Rows<'py>, Vec<f64>)> {
     on!(arm, robot => robot.check_structure()).map_err(exception)?;
     match arm {
-        Arm::Six(_) => no_q7(angles.is_some())?,
-        Arm::Seven(robot) if robot.locked_joint().is_none() => {
+        AnyArm::Six(_) => no_q7(angles.is_some())?,
+        AnyArm::Seven(robot) if robot.locked_joint().is_none() => {
             needed_q7(robot, angles)?;
         }
-        Arm::Seven(_) => {}
+        AnyArm::Seven(_) => {}
     }
     let mut poses = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
     let Some(angles) = angles else { return Ok((poses, Vec::new())) };

@@ -8,7 +8,7 @@ use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arm::{Arm, named, on};
+use super::arm::{AnyArm, changed, named, on};
 use super::arrays::vector;
 use super::errors::{Fault, exception};
 use super::outputs::read_only;
@@ -16,8 +16,8 @@ use super::rapid::class::ToolData;
 use super::rapid::records::carried_tool;
 use super::state::{Reduced, hash_of, reduced};
 use super::targets::{pose_array, read_frame};
-use irbkin::Robot;
 use irbkin::pose::to_rows as pose_to_rows;
+use irbkin::{Arm, Robot};
 
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
 ///
@@ -37,13 +37,13 @@ use irbkin::pose::to_rows as pose_to_rows;
 ///     InvalidPoseError, RapidError: As `with_tool` and `with_base`.
 #[pyclass(name = "Robot", module = "irbkin", eq, frozen, weakref)]
 pub(super) struct PyRobot {
-    arm: Arm,
+    arm: AnyArm,
     /// By joint: the arm with it locked, as it was prepared first.
-    pub(super) locked: [OnceLock<Arc<Robot<7>>>; 7],
+    pub(super) locked: [OnceLock<Arc<Arm<7>>>; 7],
 }
 
 impl PyRobot {
-    pub(super) fn arm(&self) -> &Arm {
+    pub(super) fn arm(&self) -> &AnyArm {
         &self.arm
     }
 }
@@ -54,8 +54,8 @@ impl PartialEq for PyRobot {
     }
 }
 
-impl From<Arm> for PyRobot {
-    fn from(arm: Arm) -> Self {
+impl From<AnyArm> for PyRobot {
+    fn from(arm: AnyArm) -> Self {
         Self { arm, locked: Default::default() }
     }
 }
@@ -208,7 +208,7 @@ impl PyRobot {
             Ok(ToolData(tool)) => carried_tool(&tool)?,
             Err(_) => read_frame(T, "with_tool")?,
         };
-        Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_tool(&tool).map_err(exception)?)).into())
+        on!(&self.arm, arm => Ok(changed(arm, |robot| robot.with_tool(&tool))?.into()))
     }
 
     /// Return the robot with another base, in place of the one that it had; poses are then given in
@@ -222,7 +222,7 @@ impl PyRobot {
     ///     InvalidPoseError: T is not a rigid transform or has a wrong shape.
     fn with_base(&self, T: &Bound<'_, PyAny>) -> PyResult<Self> {
         let base = read_frame(T, "with_base")?;
-        Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_base(&base).map_err(exception)?)).into())
+        on!(&self.arm, arm => Ok(changed(arm, |robot| robot.with_base(&base))?.into()))
     }
 
     /// Whether axes 2 and 3 are coupled, by a parallelogram linkage or by the controller: q3 is then
@@ -252,8 +252,7 @@ impl PyRobot {
     ///         are not coupled.
     fn with_linkage_limits(&self, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
         let limits = limits.map(|limits| vector(limits, "limits", Fault::Model)).transpose()?;
-        Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).with_linkage_limits(limits).map_err(exception)?))
-            .into())
+        on!(&self.arm, arm => Ok(changed(arm, |robot| robot.with_linkage_limits(limits))?.into()))
     }
 
     /// Return the twin without the coupling of axes 2 and 3: its q3 is this robot's q3 - q2 or, if
@@ -262,8 +261,8 @@ impl PyRobot {
     /// The limits of its joint 3 are `linkage_limits` or, where these are not known, the range of
     /// its q3 inside the limits of both axes. Its velocity is the sum of both. `coupled()` of the
     /// twin therefore has wider limits and a higher velocity than this robot.
-    fn uncoupled(&self) -> Self {
-        on!(&self.arm, robot => Arm::from(Robot::clone(robot).uncoupled())).into()
+    fn uncoupled(&self) -> PyResult<Self> {
+        on!(&self.arm, arm => Ok(changed(arm, |robot| Ok(robot.uncoupled()))?.into()))
     }
 
     /// Return the twin whose axes 2 and 3 are coupled: it measures q3 from the base, as controllers
@@ -278,8 +277,7 @@ impl PyRobot {
     ///     InvalidModelError: Axes 2 and 3 are not parallel, the arm has seven joints, or it is a
     ///         GoFa, whose controller measures joint 3 from the upper arm.
     fn coupled(&self) -> PyResult<Self> {
-        Ok(on!(&self.arm, robot => Arm::from(Robot::clone(robot).coupled().map_err(exception)?))
-            .into())
+        on!(&self.arm, arm => Ok(changed(arm, Robot::coupled)?.into()))
     }
 
     #[expect(clippy::unused_self, reason = "the arguments of Python's slot")]
@@ -309,8 +307,8 @@ impl PyRobot {
     fn __repr__(&self) -> String {
         on!(&self.arm, robot => {
             if let Some((joint, angle)) = robot.locked_joint() {
-                let arm = Self::from(Arm::from(Robot::clone(robot).unlocked()));
-                return format!("{}.locked({{{joint}: {angle:?}}})", arm.__repr__());
+                let arm = AnyArm::from(Arm::from(robot.robot().clone().unlocked()));
+                return format!("{}.locked({{{joint}: {angle:?}}})", Self::from(arm).__repr__());
             }
             let name = robot.name();
             if named(name).is_ok_and(|named| named == self.arm) {

@@ -11,13 +11,13 @@ use super::arm::{ByJoints, on};
 use super::errors::{Fault, exception};
 use super::records::{self, Configuration, FreeJoint};
 use super::state::{Reduced, hash_of, reduced};
-use irbkin::{Joints, Pose, Robot, Solution, Status};
+use irbkin::{Arm, Joints, Pose, Robot, Solution, Status};
 
 /// A solution, with the robot and the pose that it is of.
 #[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(bound(serialize = "", deserialize = "Robot<N>: Joints<N>"))]
 pub(super) struct Member<const N: usize> {
-    pub(super) robot: Arc<Robot<N>>,
+    pub(super) robot: Arc<Arm<N>>,
     pub(super) pose: Pose,
     pub(super) solution: Solution<N>,
 }

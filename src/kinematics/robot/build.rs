@@ -2,8 +2,8 @@
 
 use alloc::borrow::Cow;
 
-use super::body::POSTURES;
 use super::joints::{Count, Joints};
+use super::postures::POSTURES;
 use super::reading::other_reading;
 use super::{Definition, Robot};
 use crate::error::{Error, ModelFault, PoseFault};
@@ -160,7 +160,7 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The largest distance of the flange from an axis, in two poses [m].
-    pub(super) fn size(&self) -> f64 {
+    pub(crate) fn size(&self) -> f64 {
         let bare = self.chain.clone().with_tool(Pose::identity());
         distances_of_axes(&bare).map(|(_, distance)| distance).fold(0.0, f64::max)
     }
@@ -224,8 +224,6 @@ impl<const N: usize> Robot<N> {
             max_velocity: None,
             rule: None,
             lock: None,
-            body: None,
-            no_body: None,
             labels: None,
         }
     }

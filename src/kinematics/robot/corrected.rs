@@ -7,7 +7,7 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::known::recognize;
 
 impl<const N: usize> Robot<N> {
-    /// Return the robot with corrected base, table and tool; limits, velocities, name, body and a
+    /// Return the robot with corrected base, table and tool; limits, velocities, name and a
     /// coupling of axes 2 and 3 are kept. Column `theta` of row 3 corrects the serial joint 3.
     ///
     /// Corrections of base and tool alone leave the structure as it is. Corrections of the table
@@ -30,18 +30,15 @@ impl<const N: usize> Robot<N> {
         if !is_zero(&corrections.tool) {
             tool *= correction(corrections.tool);
         }
-        let robot = if is_zero(corrections.rows.as_flattened()) {
-            self.clone()
-        } else {
+        let robot = if corrections.are_of_rows() {
             let corrected = Self::recognized(corrections.table(self.mdh()), self.count, recognize)?;
             Self { labels: self.labels.clone(), ..corrected }
                 .with_coupling_of(self)?
                 .with_name(self.name.clone())
                 .with_max_velocity(self.max_velocity)?
                 .with_lock(self.locked_joint())?
-                .with_body(self.body().map(|body| {
-                    body.clone().in_frames(|link| corrections.link(self.mdh(), link))
-                }))?
+        } else {
+            self.clone()
         };
         robot.with_base(&base)?.with_tool(&tool)
     }

@@ -1,7 +1,6 @@
 //! A robot: a chain, its limits and, where its structure is known, its inverse.
 
 pub(super) mod any;
-mod body;
 mod build;
 mod corrected;
 mod display;
@@ -10,6 +9,7 @@ mod linkage;
 mod locked;
 mod margin;
 mod nominal;
+pub(super) mod postures;
 mod reading;
 #[cfg(feature = "serde")]
 mod stored;
@@ -24,7 +24,6 @@ use alloc::sync::Arc;
 use joints::{Configured, Count, Redundancy};
 use nalgebra::SMatrix;
 
-use crate::body::{Body, Outline};
 use crate::error::{Error, ModelFault};
 use crate::kinematics::answer::singularity::{SingularDistances, Singularity};
 use crate::kinematics::answer::slot::Slot;
@@ -64,9 +63,6 @@ pub struct Robot<const N: usize> {
     /// How its controller counts configurations, if in a way of its own.
     rule: Option<ConfigurationRule>,
     lock: Option<Lock<N>>,
-    body: Option<Arc<(Body, Outline)>>,
-    /// Why the shapes of its links make no body, if they do not; no part of its value.
-    no_body: Option<Arc<str>>,
     /// No part of its value.
     labels: Option<Arc<display::Labels>>,
 }
@@ -120,7 +116,6 @@ impl<const N: usize> PartialEq for Robot<N> {
             && self.max_velocity == other.max_velocity
             && self.rule == other.rule
             && self.locked_joint() == other.locked_joint()
-            && self.body() == other.body()
     }
 }
 

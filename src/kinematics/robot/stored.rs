@@ -8,7 +8,6 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Definition, Joints, Robot, display};
-use crate::body::Body;
 use crate::error::{Error, ModelFault};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::pose::Pose;
@@ -31,9 +30,6 @@ struct Stored<const N: usize> {
     /// The joint that is locked, from 1, and its angle [rad].
     #[serde(default)]
     locked: Option<(usize, f64)>,
-    /// The shapes of its links.
-    #[serde(default)]
-    body: Option<Body>,
     /// The names of its joints in its file, and a remark on its tip.
     #[serde(default)]
     labels: Option<display::Labels>,
@@ -52,7 +48,6 @@ impl<const N: usize> Serialize for Robot<N> {
             max_velocity: self.max_velocity().map(|all| all.iter().map(finite).collect()),
             rule: self.own_rule(),
             locked: self.locked_joint(),
-            body: self.body().cloned(),
             labels: self.labels.as_deref().cloned(),
         }
         .serialize(serializer)
@@ -94,7 +89,6 @@ where
             .with_max_velocity(max_velocity)?
             .with_base(&self.base)?
             .with_tool(&self.tool)?
-            .with_body(self.body)?
             .with_lock(self.locked)
     }
 }

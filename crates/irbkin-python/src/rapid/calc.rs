@@ -8,7 +8,7 @@ use super::class::{JointTarget, RobTarget, ToolData, WobjData};
 use super::module::RapidModule;
 use super::program::TargetTable;
 use super::values::{read, read_joint_target};
-use crate::arm::{Arm, on};
+use crate::arm::{AnyArm, on};
 use crate::configured::or_nearest;
 use crate::errors::{exception, with_attributes};
 use crate::outputs::{array, column};
@@ -174,7 +174,7 @@ struct Cell {
 
 impl Cell {
     fn read(
-        arm: &Arm,
+        arm: &AnyArm,
         tool: Option<&Bound<'_, PyAny>>,
         wobj: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
@@ -187,7 +187,7 @@ impl Cell {
 
 /// The fallback with a seed [rad].
 fn read_fallback<const N: usize>(
-    arm: &Arm,
+    arm: &AnyArm,
     fallback: Option<&str>,
     seed: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<rapid::Fallback<N>> {

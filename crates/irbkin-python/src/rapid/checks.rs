@@ -16,7 +16,7 @@ use crate::robot::PyRobot;
 use crate::signals::detached_until;
 use crate::targets::read_pose;
 use crate::trajectories::read_limits;
-use irbkin::Robot;
+use irbkin::Arm;
 use irbkin_abb::rapid;
 use irbkin_abb::rapid::{
     Carried, CheckOptions, Code, Module, MotionOptions, Unit, UnitAxis, Units,
@@ -177,7 +177,7 @@ fn checked(
 
 fn checked_arm<const N: usize>(
     py: Python<'_>,
-    arm: &Robot<N>,
+    arm: &Arm<N>,
     modules: &[Bound<'_, RapidModule>],
     (max_velocity, step, turn): (Option<&Bound<'_, PyAny>>, f64, Option<f64>),
     cell: Option<&Bound<'_, PyCell>>,

@@ -8,7 +8,7 @@ use crate::Error;
 use crate::rapid::data::moves::Move;
 use crate::rapid::program::walker::{Run, Step};
 use irbkin::body::Shape;
-use irbkin::{Pose, Robot};
+use irbkin::{Arm, Pose};
 
 /// Shapes in the flange frame, which it carries in moves with the tool or the work object of a name,
 /// in lower case.
@@ -28,18 +28,18 @@ pub(super) fn carried_by(step: &Move, carried: &Carried) -> Vec<String> {
 
 /// The arms that the moves of a program are made with, beside the names of what they carry.
 pub(super) fn carriers<const N: usize>(
-    robot: &Robot<N>,
+    arm: &Arm<N>,
     runs: &[Run<'_>],
     carried: &Carried,
-) -> Result<Vec<(Vec<String>, Robot<N>)>, Error> {
-    let mut arms = Vec::from([(Vec::new(), robot.clone())]);
+) -> Result<Vec<(Vec<String>, Arm<N>)>, Error> {
+    let mut arms = Vec::from([(Vec::new(), arm.clone())]);
     for step in runs.iter().flat_map(|run| &run.steps) {
         let Step::Move(stepped) = step else { continue };
         let names = carried_by(&stepped.step, carried);
         if arms.iter().all(|(own, _)| *own != names) {
             let shapes: Vec<Shape> =
                 names.iter().flat_map(|name| &carried[name]).cloned().collect();
-            arms.push((names, robot.clone().with_attached(&shapes, &Pose::identity(), None)?));
+            arms.push((names, arm.clone().with_attached(&shapes, &Pose::identity(), None)?));
         }
     }
     Ok(arms)

@@ -26,7 +26,7 @@ use crate::rapid::program::whole::Program;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use irbkin::cell::Cell;
 use irbkin::internal::Placed;
-use irbkin::{Configuration, Interrupt, Robot};
+use irbkin::{Arm, Configuration, Interrupt, Robot};
 
 /// Options of [`check`].
 #[derive(Clone, Copy, Debug, Default)]
@@ -96,13 +96,13 @@ pub struct Checked<const N: usize = 6> {
 ///
 /// [`Error::InvalidModel`] for an arm without configurations; [`Error::InvalidMotion`] for limits
 /// or steps that are not positive, or for too many samples; [`Error::Rapid`] if a text is not its
-/// module's; [`Error::InvalidBody`] for a robot without a body in a cell.
+/// module's; [`Error::InvalidBody`] for an arm without a body in a cell.
 pub fn check<const N: usize>(
-    robot: &Robot<N>,
+    arm: &Arm<N>,
     modules: &[(&Module, &str)],
     options: &CheckOptions<'_, N>,
 ) -> Result<Checked<N>, Error> {
-    robot.configuration_rule()?;
+    arm.configuration_rule()?;
     check_options(&options.motion)?;
     for (module, source) in modules {
         if source.len() != module.text_length {
@@ -110,21 +110,21 @@ pub fn check<const N: usize>(
             return Err(RapidFault::nowhere(RapidFaultKind::OtherText { found, wanted }).into());
         }
     }
-    let max_velocity = velocities(robot, &options.motion)?.unwrap_or([f64::INFINITY; N]);
-    let flange = with_flange(robot)?;
+    let max_velocity = velocities(arm, &options.motion)?.unwrap_or([f64::INFINITY; N]);
+    let flange = with_flange(arm)?;
     let (modules, sources): (Vec<&Module>, Vec<&str>) = modules.iter().copied().unzip();
     let program = Program::new(&modules);
     let units = Units::default();
     let (runs, notes) = runs(&program, options.takes_last, options.interrupt)?;
     let carried = options.carried.unwrap_or(const { &Carried::new() });
-    let arms = options.cell.map(|_| carriers(robot, &runs, carried)).transpose()?;
+    let arms = options.cell.map(|_| carriers(arm, &runs, carried)).transpose()?;
     let arms = arms.unwrap_or_default();
     let mut placed = Vec::with_capacity(arms.len());
     for (names, arm) in &arms {
         placed.push((names, Placed::of(arm)?.until(options.interrupt)));
     }
     let mut checker = Checker {
-        robots: [robot, &flange],
+        robots: [arm, &flange],
         options: options.motion,
         units: options.units.unwrap_or(&units),
         max_velocity,

@@ -7,7 +7,7 @@ use std::vec::Vec;
 
 use crate::Error;
 use crate::rapid::{CheckOptions, Checked, Code, Finding, MotionOptions, Severity, check, parse};
-use irbkin::Robot;
+use irbkin::Arm;
 
 const DATA: &str = "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
     CONST robtarget a:=[[900,-300,500],[0,0,1,0],[-1,0,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
@@ -22,7 +22,7 @@ fn text(moves: &str) -> String {
 
 /// The findings of a check, without the edges of quarters: these targets have axis 4 at zero.
 fn checked(text: &str) -> Vec<Finding> {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let module = parse(text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let mut found = check(&robot, &[(&module, text)], &CheckOptions::default()).unwrap().findings;
     found.retain(|it| it.code != Code::ConfdataEdge);
@@ -105,7 +105,7 @@ fn each_fault_has_its_code() {
 
 #[test]
 fn a_singular_target_is_ambiguous_and_a_singular_line_is_found() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let target = |degrees: [f64; 6]| {
         let joints = crate::rapid::JointTarget { robax_deg: degrees, extax: [9e9; 6] };
         crate::rapid::calc_rob_t(&robot, &joints, None, None).unwrap()
@@ -119,7 +119,7 @@ fn a_singular_target_is_ambiguous_and_a_singular_line_is_found() {
 
 #[test]
 fn the_wrist_turns_over_to_the_programmed_configuration_under_sing_area_wrist() {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let target = |degrees: [f64; 6]| {
         let joints = crate::rapid::JointTarget { robax_deg: degrees, extax: [9e9; 6] };
         crate::rapid::calc_rob_t(&robot, &joints, None, None).unwrap()
@@ -298,7 +298,7 @@ fn settings_hold_across_calls() {
 #[test]
 fn what_cannot_be_checked_is_an_error() {
     let (module, options) = (parse(&text(""), &[]).unwrap(), CheckOptions::default());
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     assert_eq!(check(&robot, &[(&module, &text(""))], &options).unwrap(), Checked::default());
     let other = check(&robot, &[(&module, "MODULE")], &options).unwrap_err();
     assert!(matches!(other, Error::Rapid(_)), "{other}");
@@ -306,7 +306,7 @@ fn what_cannot_be_checked_is_an_error() {
     let no_step = CheckOptions { motion, ..options };
     let no_step = check(&robot, &[(&module, &text(""))], &no_step).unwrap_err();
     assert!(matches!(no_step, Error::Arm(irbkin::Error::InvalidMotion(_))), "{no_step}");
-    let other_arm = Robot::named("UR5e").unwrap();
+    let other_arm = Arm::named("UR5e").unwrap();
     let other_arm = check(&other_arm, &[(&module, &text(""))], &options).unwrap_err();
     assert!(matches!(other_arm, Error::Arm(irbkin::Error::InvalidModel(_))), "{other_arm}");
 }
@@ -321,7 +321,7 @@ fn calls_that_double_at_each_level_are_bounded_and_each_finding_is_there_once() 
     let text = format!(
         "MODULE M\n{DATA}\nPROC main()\nr0;\nENDPROC\n{routines}PROC r25()\nENDPROC\nENDMODULE"
     );
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let module = parse(&text, &[]).unwrap();
     let options = CheckOptions::default();
     let Checked { findings, moves } = check(&robot, &[(&module, &text)], &options).unwrap();

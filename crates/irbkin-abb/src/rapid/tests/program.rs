@@ -8,7 +8,7 @@ use std::vec::Vec;
 use crate::rapid::{
     CheckOptions, Checked, Code, Finding, Module, Unit, UnitAxis, Units, check, read,
 };
-use irbkin::{Pose, Robot};
+use irbkin::{Arm, Pose};
 
 const FAR: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";
 
@@ -30,7 +30,7 @@ fn data() -> String {
 
 /// The findings in modules that know each other, but for edges of quarters.
 fn checked(texts: &[&str], options: &CheckOptions<'_>) -> Checked {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let alone: Vec<Module> = texts.iter().map(|text| read(text, &[])).collect();
     let all: Vec<&Module> = alone.iter().collect();
     let modules: Vec<Module> = texts.iter().map(|text| read(text, &all)).collect();

@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use super::*;
 use crate::rapid::{CheckOptions, Code, Finding, Severity, check, read as read_on};
-use irbkin::Robot;
+use irbkin::Arm;
 
 /// The lines, the columns and the words of the faults of a routine's statements, whose first line
 /// is 1.
@@ -198,7 +198,7 @@ ENDMODULE
 
 /// The lines of what is wrong with a text, and its findings on calls.
 fn wrong(text: &str) -> (Vec<usize>, Vec<Finding>) {
-    let robot = Robot::<6>::named("IRB 2600-12/1.65").unwrap();
+    let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
     let module = read_on(text, &[]);
     let found = check(&robot, &[(&module, text)], &CheckOptions::default()).unwrap().findings;
     let errors = found.iter().filter(|it| it.code.severity() == Severity::Error);

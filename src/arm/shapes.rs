@@ -1,4 +1,4 @@
-//! The body of a robot: given, or made of the lengths of its kinematic table.
+//! The shapes of an arm: given, or made of the lengths of its kinematic table.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -7,18 +7,14 @@ use nalgebra::{ComplexField as _, RealField as _};
 use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
-use core::array;
-use core::f64::consts::PI;
-
 use nalgebra::Vector3;
 
-use super::Robot;
+use super::{Arm, Shaped};
 use crate::body::fault::BodyFault;
 use crate::body::{Body, Capsule, LinkCapsule, Outline, Shape};
 use crate::error::Error;
-use crate::kinematics::chain::dh::{Mdh, screw_x};
-use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::thresholds::MOST_TOOL;
+use crate::kinematics::{Mdh, POSTURES, Pose, checked_pose, screw_x};
 
 /// Radius of an approximate body at the base and at the flange, over the sum of all lengths of the
 /// table [1]; linear in the number of the link between them. Of the 33 arms with a mesh, so far
@@ -30,11 +26,8 @@ const RADII: [f64; 2] = [0.155, 0.03];
 /// between them decides, of which the table has no shape.
 const LINKS_APART: usize = 3;
 
-/// Postures in which links of an approximate body that always touch are looked for.
-pub(super) const POSTURES: u32 = 64;
-
-impl<const N: usize> Robot<N> {
-    /// Return the robot with the shapes of its links, or without.
+impl<const N: usize> Arm<N> {
+    /// Return the arm with the shapes of its links, or without.
     ///
     /// # Errors
     ///
@@ -48,36 +41,51 @@ impl<const N: usize> Robot<N> {
         if let Some(pair) = body.iter().flat_map(Body::pairs).find(is_rigid) {
             return Err(BodyFault::Rigid { pair: *pair }.into());
         }
-        let outlined = |body: Body| {
-            let outline = Outline::of(&body, N, &self.mdh().flange);
-            Arc::new((body, outline))
-        };
-        let body = body.map(outlined);
+        let body = body.map(|body| Arc::new(Shaped::new(body, N, &self.mdh().flange)));
         Ok(Self { body, ..self })
     }
 
-    /// Return the robot without a body, and why it has none.
+    /// Return the arm without a body, and why it has none.
     #[cfg(feature = "urdf")]
     pub(crate) fn without_body(self, why: String) -> Self {
         Self { body: None, no_body: Some(why.into()), ..self }
     }
 
     /// The error of a question that needs a body.
-    pub(crate) fn no_body(&self) -> BodyFault {
+    fn no_body(&self) -> BodyFault {
         let why = self.no_body.as_deref().map(Into::into);
         why.map_or(BodyFault::NoBody, |why| BodyFault::NotRead { why })
     }
 
     /// The shapes of its links, in their frames ([`Robot::link_frames`]): of an arm of the catalog,
     /// capsules that contain a public mesh or, without one, [`Self::approximate_body`].
+    ///
+    /// [`Robot::link_frames`]: crate::Robot::link_frames
     #[must_use]
     pub fn body(&self) -> Option<&Body> {
-        self.body.as_ref().map(|own| &own.0)
+        self.body.as_ref().map(|own| &own.body)
+    }
+
+    /// Its body, which a question needs.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidBody`] if the arm has none.
+    pub(crate) fn needed_body(&self) -> Result<&Body, Error> {
+        Ok(&self.shaped()?.body)
     }
 
     /// The outline of its body.
-    pub(crate) fn outline(&self) -> Option<&Outline> {
-        self.body.as_ref().map(|own| &own.1)
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidBody`] if the arm has no body.
+    pub(crate) fn outline(&self) -> Result<&Outline, Error> {
+        Ok(&self.shaped()?.outline)
+    }
+
+    fn shaped(&self) -> Result<&Shaped, Error> {
+        Ok(self.body.as_deref().ok_or_else(|| self.no_body())?)
     }
 
     /// A body made of the lengths of the kinematic table: capsules along the common normals and the
@@ -111,7 +119,7 @@ impl<const N: usize> Robot<N> {
         Ok(Body::approximate(capsules, pairs))
     }
 
-    /// Return the robot with shapes that its flange carries, besides those it has: a tool, a work
+    /// Return the arm with shapes that its flange carries, besides those it has: a tool, a work
     /// piece. They are link `N + 1` of its body.
     ///
     /// `pose` moves the shapes into the flange frame, which is `tool0`: the tool center point does not
@@ -122,7 +130,7 @@ impl<const N: usize> Robot<N> {
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidBody`] if the robot has no body, a shape is a half space or reaches farther
+    /// [`Error::InvalidBody`] if the arm has no body, a shape is a half space or reaches farther
     /// from the flange than the arm, or the excess needs more than 100 capsules for a shape;
     /// [`Error::InvalidPose`] if the pose is not a rigid transform.
     pub fn with_attached(
@@ -132,7 +140,7 @@ impl<const N: usize> Robot<N> {
         excess: Option<f64>,
     ) -> Result<Self, Error> {
         let (pose, bound) = (checked_pose(pose)?, self.size());
-        let body = self.body().ok_or_else(|| self.no_body())?.clone();
+        let body = self.needed_body()?.clone();
         let (mut added, mut outside): (Vec<LinkCapsule>, f64) = (Vec::new(), 0.0);
         for (index, shape) in shapes.iter().enumerate() {
             let cover = shape.cover(excess)?;
@@ -209,17 +217,6 @@ impl<const N: usize> Robot<N> {
             Some(joint) if joint < N => frames[joint],
             Some(_) => frames[N - 1] * self.mdh().flange,
         }
-    }
-
-    /// A posture of a Weyl sequence that fills the limits, or a turn where a joint has none.
-    pub(super) fn posture(&self, number: u32) -> [f64; N] {
-        const PRIMES: [f64; 7] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0];
-        let limits = self.limits().to_array();
-        array::from_fn(|joint| {
-            let [lower, upper] = limits[joint].map(|limit| limit.clamp(-PI, PI));
-            let part = (0.5 + f64::from(number) * PRIMES[joint % PRIMES.len()].sqrt()).fract();
-            lower + (upper - lower) * part
-        })
     }
 }
 
