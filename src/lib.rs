@@ -152,7 +152,7 @@ pub use report::{Configuration, Explanation, FreeJoint, Reach};
 /// versions are equal.
 #[doc(hidden)]
 pub mod internal {
-    pub use crate::cell::{Motion, Placed};
+    pub use crate::cell::{Memory, Motion};
     pub use crate::error::{JointFault, ModelFault, MotionFault, PoseFault};
     pub use crate::go::fault::GoFault;
     pub use crate::kinematics::{

@@ -40,9 +40,9 @@ pub struct Arm<const N: usize> {
 
 /// A body with its outline on an arm.
 #[derive(Debug)]
-struct Shaped {
+pub(crate) struct Shaped {
     body: Body,
-    outline: Outline,
+    pub(crate) outline: Outline,
 }
 
 impl Shaped {

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 
 use super::{Arm, Shaped};
 use crate::body::fault::BodyFault;
-use crate::body::{Body, Capsule, LinkCapsule, Outline, Shape};
+use crate::body::{Body, Capsule, LinkCapsule, Shape};
 use crate::error::Error;
 use crate::kinematics::thresholds::MOST_TOOL;
 use crate::kinematics::{Mdh, POSTURES, Pose, checked_pose, screw_x};
@@ -75,17 +75,13 @@ impl<const N: usize> Arm<N> {
         Ok(&self.shaped()?.body)
     }
 
-    /// The outline of its body.
+    /// Its body with the outline, which a question needs.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidBody`] if the arm has no body.
-    pub(crate) fn outline(&self) -> Result<&Outline, Error> {
-        Ok(&self.shaped()?.outline)
-    }
-
-    fn shaped(&self) -> Result<&Shaped, Error> {
-        Ok(self.body.as_deref().ok_or_else(|| self.no_body())?)
+    /// [`Error::InvalidBody`] if the arm has none.
+    pub(crate) fn shaped(&self) -> Result<&Arc<Shaped>, Error> {
+        Ok(self.body.as_ref().ok_or_else(|| self.no_body())?)
     }
 
     /// A body made of the lengths of the kinematic table: capsules along the common normals and the

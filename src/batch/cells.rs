@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::pace::Batch;
 use super::rows::{check_length, rows};
 use crate::arm::Arm;
-use crate::cell::{Cell, Placed};
+use crate::cell::Cell;
 use crate::error::Error;
 use crate::kinematics::{Robot, check_seed, pose_from_rows};
 use crate::lanes::LANES;
@@ -34,16 +34,16 @@ impl Batch<'_> {
         let q = rows::<N>("q", q)?;
         check_length("collides", collides.len(), q.len())?;
         q.iter().try_for_each(|q| check_seed("q", q))?;
-        Placed::of(arm)?;
+        cell.checker(arm)?;
         let parts = q.chunks(JOINT_VECTORS).zip(collides.chunks_mut(JOINT_VECTORS));
         self.run(q.len(), parts, |(q, collides), _| {
-            let Ok(mut placed) = Placed::of(arm) else { return };
+            let Ok(mut checker) = cell.checker(arm) else { return };
             for rows in by_posture(arm, q).chunks(LANES) {
                 let mut own = [[0.0; N]; LANES];
                 for (own, row) in own.iter_mut().zip(rows) {
                     *own = q[*row];
                 }
-                let colliding = cell.colliding(&mut placed, &own[..rows.len()]);
+                let colliding = checker.colliding(&own[..rows.len()]);
                 for (lane, row) in rows.iter().enumerate() {
                     collides[*row] = colliding >> lane & 1 == 1;
                 }
@@ -67,11 +67,12 @@ impl Batch<'_> {
         weights: &[f64; N],
         q: &mut [f64],
     ) -> Result<(), Error> {
-        Placed::of(arm)?;
+        cell.checker(arm)?;
         self.seeded(poses, seeds, weights, q, |poses, seeds, q| {
+            let Ok(mut checker) = cell.checker(arm) else { return };
             for ((pose, seed), q) in poses.iter().zip(seeds).zip(q) {
-                let nearest = pose_from_rows(pose)
-                    .and_then(|pose| cell.ik_nearest(arm, &pose, seed, weights));
+                let nearest =
+                    pose_from_rows(pose).and_then(|pose| checker.ik_nearest(&pose, seed, weights));
                 *q = nearest.map_or([f64::NAN; N], |nearest| nearest.q);
             }
         })

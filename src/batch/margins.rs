@@ -7,7 +7,7 @@ use super::inverse::part_of;
 use super::pace::Batch;
 use super::rows::{check_length, is_finite, rows};
 use crate::arm::Arm;
-use crate::cell::{Cell, Placed};
+use crate::cell::{Cell, Checker};
 use crate::error::Error;
 use crate::kinematics::{Margin, Robot, Rows, Status};
 
@@ -74,7 +74,7 @@ impl Batch<'_> {
         answers: Margins<'_>,
     ) -> Result<(), Error> {
         arm.check_structure()?;
-        cell.map(|_| Placed::of(arm)).transpose()?;
+        cell.map(|cell| cell.checker(arm)).transpose()?;
         let poses = rows::<16>("poses", poses)?;
         let Margins { margin, singularities, solutions: count } = answers;
         let angles = &*arm.angles_of_rows(angles, poses.len())?;
@@ -90,8 +90,8 @@ impl Batch<'_> {
             let mut status = vec![0; poses.len() * slots];
             let locked = part_of(angles, PART * part);
             arm.ik_rows(Rows { poses, locked, q: &mut q, status: &mut status });
-            if let Some((cell, mut placed)) = cell.zip(Placed::of(arm).ok()) {
-                leave_out(cell, &mut placed, q.as_chunks().0, &mut status);
+            if let Some(Ok(mut checker)) = cell.map(|cell| cell.checker(arm)) {
+                leave_out(&mut checker, q.as_chunks().0, &mut status);
             }
             let solved = q.as_chunks::<N>().0.chunks(slots).zip(status.chunks(slots));
             for (row, (q, status)) in solved.enumerate() {
@@ -103,17 +103,12 @@ impl Batch<'_> {
 }
 
 /// Take solutions that collide for outside the limits.
-fn leave_out<const N: usize>(
-    cell: &Cell,
-    placed: &mut Placed<'_, N>,
-    q: &[[f64; N]],
-    status: &mut [u8],
-) {
+fn leave_out<const N: usize>(checker: &mut Checker<'_, N>, q: &[[f64; N]], status: &mut [u8]) {
     let within = Status::WITHIN_LIMITS;
     let is_within = |slot: &usize| Status::from_bits_truncate(status[*slot]).contains(within);
     let slots: Vec<usize> = (0..q.len()).filter(is_within).collect();
     let postures: Vec<[f64; N]> = slots.iter().map(|&slot| q[slot]).collect();
-    for (slot, is_free) in slots.into_iter().zip(cell.free_postures(placed, &postures)) {
+    for (slot, is_free) in slots.into_iter().zip(checker.free_postures(&postures)) {
         status[slot] &= if is_free { u8::MAX } else { !within.bits() };
     }
 }

@@ -78,8 +78,8 @@ mod tests {
     use core::f64::consts::PI;
 
     use super::super::block::Looked;
+    use super::super::checker::Checker;
     use super::super::obstacles::Cell;
-    use super::super::placed::Placed;
     use super::super::range::Range;
     use super::*;
     use crate::arm::Arm;
@@ -107,7 +107,7 @@ mod tests {
                 0.01,
             )
             .unwrap();
-            let mut placed = Placed::of(&arm).unwrap();
+            let mut checker = cell.checker(&arm).unwrap();
             for case in 0..6000 {
                 let scale = [0.02, 0.1, 0.4][case % 3];
                 let range = Range::<6> {
@@ -115,15 +115,15 @@ mod tests {
                     turns: array::from_fn(|_| scale * random(&mut state)),
                     beside: array::from_fn(|_| 0.02 * scale * random(&mut state).abs()),
                 };
-                let is_open = |placed: &mut Placed<'_, 6>, range: Range<6>| {
-                    placed.touching(&cell, &[range.middle], Looked::Swept(&[range])) != 0
+                let is_open = |checker: &mut Checker<'_, 6>, range: Range<6>| {
+                    checker.touching(&[range.middle], Looked::Swept(&[range])) != 0
                 };
-                if is_open(&mut placed, range) {
+                if is_open(&mut checker, range) {
                     continue;
                 }
                 proven += 1;
                 let wide = Range { turns: [0.0; 6], beside: range.spans(), ..range };
-                by_lines += usize::from(is_open(&mut placed, wide));
+                by_lines += usize::from(is_open(&mut checker, wide));
                 for sample in 0..24 {
                     let along = if sample < 2 { [-1.0, 1.0][sample] } else { random(&mut state) };
                     let q = array::from_fn(|joint| {
@@ -132,11 +132,11 @@ mod tests {
                             + along * range.turns[joint]
                             + beside.copysign(random(&mut state)) * range.beside[joint]
                     });
-                    assert!(!cell.collides_at(&mut placed, &q), "{name} {range:?} {q:?}");
+                    assert!(!checker.touches(&q), "{name} {range:?} {q:?}");
                 }
                 let farther =
                     array::from_fn(|joint| range.middle[joint] + 4.0 * range.turns[joint]);
-                near += usize::from(cell.collides_at(&mut placed, &farther));
+                near += usize::from(checker.touches(&farther));
             }
         }
         // Many are proven by the line alone, and contacts are not far.

@@ -3,6 +3,7 @@
 mod apart;
 mod block;
 mod boxes;
+mod checker;
 mod doubts;
 mod drift;
 mod edges;
@@ -12,15 +13,14 @@ mod obstacles;
 mod one;
 mod pairs;
 mod path;
-mod placed;
 mod postures;
 mod range;
 mod standing;
 
 pub(crate) use boxes::Boxes;
+pub use checker::{Checker, Memory};
 pub use obstacles::Cell;
 pub(crate) use pairs::Other;
 pub use path::Motion;
 pub use path::{Contact, RESOLUTION};
-pub use placed::Placed;
 pub use postures::{Near, Nearest};

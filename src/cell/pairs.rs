@@ -2,8 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::obstacles::Cell;
-use super::placed::{Placed, Standing};
+use super::checker::{Checker, Standing};
 use crate::body::Separation;
 
 /// By how much distances are below the true ones at most, and more [m].
@@ -25,20 +24,17 @@ pub(crate) enum Other {
     Obstacle(usize),
 }
 
-impl Cell {
+impl<const N: usize> Checker<'_, N> {
     /// All that is compared.
-    pub(super) fn pairs<const N: usize>(
-        &self,
-        placed: &Placed<'_, N>,
-    ) -> impl Iterator<Item = Pair> {
-        let outline = placed.outline;
+    pub(super) fn pairs(&self) -> impl Iterator<Item = Pair> {
+        let outline = self.outline;
         let of_links = outline.pairs.iter().map(|places| {
             let [link, other] = places.map(|group| outline.groups[group].number);
             Pair { link, other: Other::Link(other), places: *places }
         });
-        let around = (0..self.obstacles().len()).flat_map(move |at| {
+        let around = (0..self.cell.obstacles().len()).flat_map(move |at| {
             let groups = outline.groups.iter().enumerate();
-            let groups = groups.filter(move |(_, group)| self.compares(at, group.number));
+            let groups = groups.filter(move |(_, group)| self.cell.compares(at, group.number));
             groups.map(move |(place, group)| {
                 let (link, other) = (group.number, Other::Obstacle(at));
                 Pair { link, other, places: [place, at] }
@@ -48,12 +44,12 @@ impl Cell {
     }
 
     /// How far the capsules of a pair are apart.
-    fn coarse<const N: usize>(&self, pair: &Pair, at: &Standing<'_, N>) -> Separation {
+    fn coarse(&self, pair: &Pair, at: &Standing<'_, N>) -> Separation {
         let [own, other] = pair.places;
         let each = at.capsules_of(own).iter().flat_map(|one| {
             let (links, obstacle) = match pair.other {
                 Other::Link(_) => (at.capsules_of(other), None),
-                Other::Obstacle(at) => (&[][..], Some(&self.obstacles()[at].1)),
+                Other::Obstacle(at) => (&[][..], Some(&self.cell.obstacles()[at].1)),
             };
             let links = links.iter().map(|two| one.separation(two));
             links.chain(obstacle.map(|shape| shape.separation(one)))
@@ -65,13 +61,8 @@ impl Cell {
     /// How far a pair is apart, whose capsules are so far: as far as their hulls or the capsules, if
     /// either are farther. Where hulls touch without their radii, as far as the capsules are in each
     /// other.
-    fn fine<const N: usize>(
-        &self,
-        pair: &Pair,
-        at: &Standing<'_, N>,
-        coarse: Separation,
-    ) -> Separation {
-        let groups = &at.placed.outline.groups;
+    fn fine(&self, pair: &Pair, at: &Standing<'_, N>, coarse: Separation) -> Separation {
+        let groups = &self.outline.groups;
         let (own, pose) = (&groups[pair.places[0]], at.pose(&groups[pair.places[0]]));
         let apart = match pair.other {
             Other::Link(_) => {
@@ -82,18 +73,14 @@ impl Cell {
                 own.separation(&pose, (other, &at.pose(other)))
             }
             Other::Obstacle(_) if !own.has_hulls => return coarse,
-            Other::Obstacle(at) => own.separation_of(&pose, &self.obstacles()[at].1),
+            Other::Obstacle(at) => own.separation_of(&pose, &self.cell.obstacles()[at].1),
         };
         let touch = apart.points[0] == apart.points[1];
         if touch || apart.distance < coarse.distance { coarse } else { apart }
     }
 
     /// How far a pair is apart.
-    pub(super) fn separation<const N: usize>(
-        &self,
-        pair: &Pair,
-        at: &Standing<'_, N>,
-    ) -> Separation {
+    pub(super) fn separation(&self, pair: &Pair, at: &Standing<'_, N>) -> Separation {
         self.fine(pair, at, self.coarse(pair, at))
     }
 
@@ -101,16 +88,16 @@ impl Cell {
     pub(super) fn depth(&self, other: Other, apart: &Separation) -> f64 {
         match other {
             Other::Link(_) => -apart.distance,
-            Other::Obstacle(_) => self.margin() - apart.distance,
+            Other::Obstacle(_) => self.cell.margin() - apart.distance,
         }
     }
 
     /// Less than the distance of a pair [m], by the balls around the two; nothing if these touch.
-    fn bound<const N: usize>(&self, pair: &Pair, at: &Standing<'_, N>) -> f64 {
+    fn bound(&self, pair: &Pair, at: &Standing<'_, N>) -> f64 {
         let (center, radius) = at.balls[pair.places[0]];
         let apart = match pair.other {
             Other::Link(_) => Some(at.balls[pair.places[1]]),
-            Other::Obstacle(at) => self.obstacles()[at].1.ball(),
+            Other::Obstacle(at) => self.cell.obstacles()[at].1.ball(),
         };
         let apart = apart.map_or(0.0, |(other, more)| (other - center).norm() - radius - more);
         if apart > BELOW { apart - BELOW } else { f64::NEG_INFINITY }
@@ -118,14 +105,13 @@ impl Cell {
 
     /// The pair of which some measure of its distance is least, by bounds first. Of several that
     /// are, the one whose capsules are nearest.
-    pub(super) fn least<const N: usize>(
+    pub(super) fn least(
         &self,
-        placed: &Placed<'_, N>,
         q: &[f64; N],
         measure: impl Fn(Other, &Separation) -> f64,
     ) -> Option<(Pair, Separation)> {
-        let at = placed.at(q);
-        let bounded = self.pairs(placed).enumerate().map(|(place, pair)| {
+        let at = self.at(q);
+        let bounded = self.pairs().enumerate().map(|(place, pair)| {
             let apart = Separation { distance: self.bound(&pair, &at), ..Separation::NOTHING };
             (measure(pair.other, &apart), place, pair)
         });
@@ -152,11 +138,7 @@ impl Cell {
 
     /// The pair that is deepest in each other or in the margin; if nothing touches, the pair that is
     /// next to it.
-    pub(super) fn deepest<const N: usize>(
-        &self,
-        placed: &Placed<'_, N>,
-        q: &[f64; N],
-    ) -> Option<(Pair, Separation)> {
-        self.least(placed, q, |other, apart| -self.depth(other, apart))
+    pub(super) fn deepest(&self, q: &[f64; N]) -> Option<(Pair, Separation)> {
+        self.least(q, |other, apart| -self.depth(other, apart))
     }
 }

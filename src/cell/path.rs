@@ -9,13 +9,12 @@ use core::array;
 use core::mem::replace;
 
 use super::block::Looked;
+use super::checker::Checker;
 use super::obstacles::Cell;
-use super::placed::Placed;
 use super::postures::Nearest;
 use super::range::Range;
 use crate::arm::Arm;
 use crate::error::Error;
-use crate::interrupt::Interrupt;
 use crate::kinematics::check_seed;
 use crate::lanes::LANES;
 use crate::trajectory::Trajectory;
@@ -131,8 +130,7 @@ impl Part {
 }
 
 impl Cell {
-    /// Where a motion first collides or comes nearer than [`RESOLUTION`] to a collision; `None` if
-    /// it is proven that it does not, at no instant.
+    /// [`Checker::check_path`] of an arm.
     ///
     /// # Errors
     ///
@@ -142,48 +140,65 @@ impl Cell {
         arm: &Arm<N>,
         q: &[[f64; N]],
     ) -> Result<Option<Contact<N>>, Error> {
-        self.check_motion(arm, q, Interrupt::none())
+        self.checker(arm)?.check_path(q)
+    }
+
+    /// [`Checker::check_trajectory`] of an arm.
+    ///
+    /// # Errors
+    ///
+    /// As [`Checker::check_trajectory`]; [`Error::InvalidBody`] if the arm has no body.
+    pub fn check_trajectory<const N: usize>(
+        &self,
+        arm: &Arm<N>,
+        trajectory: &Trajectory,
+    ) -> Result<Option<Contact<N>>, Error> {
+        self.checker(arm)?.check_trajectory(trajectory)
+    }
+}
+
+impl<const N: usize> Checker<'_, N> {
+    /// Where a motion first collides or comes nearer than [`RESOLUTION`] to a collision; `None` if
+    /// it is proven that it does not, at no instant.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::collides`].
+    pub fn check_path(&mut self, q: &[[f64; N]]) -> Result<Option<Contact<N>>, Error> {
+        self.check_motion(q)
     }
 
     /// [`Self::check_path`] along a trajectory.
     ///
     /// # Errors
     ///
-    /// As [`Self::check_path`]; [`Error::WrongLength`] if the trajectory has another number of
-    /// joints.
-    pub fn check_trajectory<const N: usize>(
-        &self,
-        arm: &Arm<N>,
+    /// [`Error::WrongLength`] if the trajectory has another number of joints.
+    pub fn check_trajectory(
+        &mut self,
         trajectory: &Trajectory,
     ) -> Result<Option<Contact<N>>, Error> {
-        self.check_motion(arm, trajectory, Interrupt::none())
+        self.check_motion(trajectory)
     }
 
     /// [`Self::check_path`] of any motion, until it is interrupted.
     #[doc(hidden)]
-    pub fn check_motion<const N: usize, M: Motion<N> + ?Sized>(
-        &self,
-        arm: &Arm<N>,
+    pub fn check_motion<M: Motion<N> + ?Sized>(
+        &mut self,
         motion: &M,
-        interrupt: Interrupt<'_>,
     ) -> Result<Option<Contact<N>>, Error> {
         motion.check()?;
-        let contact = self.contact(&mut Placed::of(arm)?.until(interrupt), motion);
-        interrupt.check(0)?;
+        let contact = self.contact(motion);
+        self.interrupt.check(0)?;
         Ok(contact)
     }
 
     /// Where a motion first touches something; its joint angles must be finite. What is not proven
     /// when it is interrupted counts as touching.
     #[doc(hidden)]
-    pub fn contact<const N: usize, M: Motion<N> + ?Sized>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        motion: &M,
-    ) -> Option<Contact<N>> {
-        let Part { piece, part } = self.first_part(placed, motion, RESOLUTION)?;
+    pub fn contact<M: Motion<N> + ?Sized>(&mut self, motion: &M) -> Option<Contact<N>> {
+        let Part { piece, part } = self.first_part(motion, RESOLUTION)?;
         let q = motion.range(piece, part).middle;
-        let (first, apart) = self.deepest(placed, &q)?;
+        let (first, apart) = self.deepest(&q)?;
         let mut depth = self.depth(first.other, &apart);
         for sample in 1..=MOST_SAMPLES {
             // Evenly over this piece, then at the ends of the others.
@@ -191,11 +206,11 @@ impl Cell {
                 None => (piece, part[0] + (1.0 - part[0]) * f64::from(sample) / f64::from(SAMPLES)),
                 Some(more) => (piece + more as usize, 1.0),
             };
-            if later >= motion.pieces() || placed.interrupt.is_raised() {
+            if later >= motion.pieces() || self.interrupt.is_raised() {
                 break;
             }
-            let standing = placed.at(&motion.range(later, [at; 2]).middle);
-            let pairs = self.pairs(placed);
+            let standing = self.at(&motion.range(later, [at; 2]).middle);
+            let pairs = self.pairs();
             let of_two = pairs.filter(|pair| pair.link == first.link && pair.other == first.other);
             let depths =
                 of_two.map(|pair| self.depth(pair.other, &self.separation(&pair, &standing)));
@@ -210,15 +225,10 @@ impl Cell {
     }
 
     /// Whether a motion is proven free; what comes nearer than `resolution` [m] counts as a contact.
-    pub(crate) fn is_free<const N: usize, M: Motion<N> + ?Sized>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        motion: &M,
-        resolution: f64,
-    ) -> bool {
+    pub(crate) fn is_free<M: Motion<N> + ?Sized>(&mut self, motion: &M, resolution: f64) -> bool {
         let mut left = Vec::new();
         for piece in 0..motion.pieces() {
-            let most = placed.most_motion(motion.range(piece, [0.0, 1.0]).spans());
+            let most = self.most_motion(motion.range(piece, [0.0, 1.0]).spans());
             let mut from = 0.0;
             while from < 1.0 {
                 let to = if most > LONG { (from + LONG / most).min(1.0) } else { 1.0 };
@@ -228,11 +238,11 @@ impl Cell {
         }
         while !left.is_empty() {
             let next = left.split_off(left.len().saturating_sub(LANES));
-            let verdicts = self.verdicts(placed, motion, &next, resolution);
+            let verdicts = self.verdicts(motion, &next, resolution);
             for (own, verdict) in next.iter().zip(verdicts) {
                 match verdict {
                     Verdict::Free => {}
-                    Verdict::Open if !placed.interrupt.is_raised() => left.extend(own.halves()),
+                    Verdict::Open if !self.interrupt.is_raised() => left.extend(own.halves()),
                     _ => return false,
                 }
             }
@@ -242,29 +252,24 @@ impl Cell {
 
     /// The first part of a motion that is not free, as short as the resolution asks [m]; the start,
     /// if it collides.
-    fn first_part<const N: usize, M: Motion<N> + ?Sized>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        motion: &M,
-        resolution: f64,
-    ) -> Option<Part> {
+    fn first_part<M: Motion<N> + ?Sized>(&mut self, motion: &M, resolution: f64) -> Option<Part> {
         let (mut contact, mut is_start_asked) = (None, true);
         // The first part is the last one here.
         let mut left = whole(motion.pieces());
         while !left.is_empty() {
-            if placed.interrupt.is_raised() {
+            if self.interrupt.is_raised() {
                 return left.pop();
             }
             let next = left.split_off(left.len().saturating_sub(LANES));
-            let verdicts = self.verdicts(placed, motion, &next, resolution);
+            let verdicts = self.verdicts(motion, &next, resolution);
             // The start is in the first piece, and free where that is.
             if replace(&mut is_start_asked, false) && !verdicts[next.len() - 1].is_free() {
                 let start = Part { piece: 0, part: [0.0, 0.0] };
-                if self.collides_at(placed, &motion.range(start.piece, start.part).middle) {
+                if self.touches(&motion.range(start.piece, start.part).middle) {
                     return Some(start);
                 }
             }
-            let touching = self.touching_middles(placed, motion, &next, verdicts);
+            let touching = self.touching_middles(motion, &next, verdicts);
             for (lane, own) in next.iter().enumerate() {
                 match verdicts[lane] {
                     Verdict::Free => {}
@@ -287,9 +292,8 @@ impl Cell {
     }
 
     /// The open parts whose middles collide, as bits.
-    fn touching_middles<const N: usize, M: Motion<N> + ?Sized>(
-        &self,
-        placed: &mut Placed<'_, N>,
+    fn touching_middles<M: Motion<N> + ?Sized>(
+        &mut self,
         motion: &M,
         parts: &[Part],
         verdicts: [Verdict; LANES],
@@ -302,20 +306,16 @@ impl Cell {
             let middle = 0.5 * (own.part[0] + own.part[1]);
             *q = motion.range(own.piece, [middle; 2]).middle;
         }
-        self.colliding(placed, &q[..parts.len()])
+        self.colliding(&q[..parts.len()])
     }
 
     /// Whether the motion from each joint vector to the next one is free.
-    pub(crate) fn free_motions<const N: usize>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        q: &[[f64; N]],
-    ) -> Vec<bool> {
+    pub(crate) fn free_motions(&mut self, q: &[[f64; N]]) -> Vec<bool> {
         let mut free = vec![true; q.len().saturating_sub(1)];
         let mut left = whole(free.len());
         while !left.is_empty() {
             let next = left.split_off(left.len().saturating_sub(LANES));
-            for (own, verdict) in next.iter().zip(self.verdicts(placed, q, &next, RESOLUTION)) {
+            for (own, verdict) in next.iter().zip(self.verdicts(q, &next, RESOLUTION)) {
                 match verdict {
                     Verdict::Open if free[own.piece] => left.extend(own.halves()),
                     Verdict::Contact => free[own.piece] = false,
@@ -327,9 +327,8 @@ impl Cell {
     }
 
     /// Look at up to eight parts of a motion.
-    fn verdicts<const N: usize, M: Motion<N> + ?Sized>(
-        &self,
-        placed: &mut Placed<'_, N>,
+    fn verdicts<M: Motion<N> + ?Sized>(
+        &mut self,
         motion: &M,
         parts: &[Part],
         resolution: f64,
@@ -341,11 +340,11 @@ impl Cell {
         }
         let q = ranges.map(|range| range.middle);
         let some = Looked::Swept(&ranges[..parts.len()]);
-        let touching = placed.touching(self, &q[..parts.len()], some);
+        let touching = self.touching(&q[..parts.len()], some);
         array::from_fn(|lane| {
             if touching >> lane & 1 == 0 {
                 Verdict::Free
-            } else if placed.most_motion(ranges[lane].spans()) <= resolution {
+            } else if self.most_motion(ranges[lane].spans()) <= resolution {
                 Verdict::Contact
             } else {
                 Verdict::Open

@@ -7,9 +7,9 @@ use core::cell::RefCell;
 use core::fmt;
 
 use super::block::Looked;
+use super::checker::Checker;
 use super::obstacles::Cell;
 use super::pairs::{Other, Pair};
-use super::placed::Placed;
 use crate::arm::Arm;
 use crate::body::Separation;
 use crate::error::Error;
@@ -48,70 +48,18 @@ pub struct Nearest {
     pub points: [[f64; 3]; 2],
 }
 
+/// One question about one arm, with memory of its own: [`Cell::checker`] serves many.
 impl Cell {
-    /// Whether the arm touches itself, or comes nearer to an obstacle than the margin. Link 0, on
-    /// which the arm stands, is not compared with obstacles.
+    /// [`Checker::collides`] of an arm.
     ///
     /// # Errors
     ///
-    /// [`Error::InvalidBody`] if the arm has no body; [`Error::InvalidJoints`] for joints that are
-    /// not finite.
+    /// As [`Checker::collides`]; [`Error::InvalidBody`] if the arm has no body.
     pub fn collides<const N: usize>(&self, arm: &Arm<N>, q: &[f64; N]) -> Result<bool, Error> {
-        check_seed("q", q)?;
-        Ok(self.collides_at(&mut Placed::of(arm)?, q))
+        self.checker(arm)?.collides(q)
     }
 
-    /// [`Self::collides`] of joints that are checked.
-    pub(crate) fn collides_at<const N: usize>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        q: &[f64; N],
-    ) -> bool {
-        placed.touches(self, q)
-    }
-
-    /// Whether each joint vector is free.
-    #[doc(hidden)]
-    pub fn free_postures<const N: usize>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        q: &[[f64; N]],
-    ) -> Vec<bool> {
-        let mut free = Vec::with_capacity(q.len());
-        for q in q.chunks(LANES) {
-            let colliding = self.colliding(placed, q);
-            free.extend((0..q.len()).map(|lane| colliding >> lane & 1 == 0));
-        }
-        free
-    }
-
-    /// Whether joint vectors in between are free: the first `blocks` of eight, spread over the way,
-    /// its end in the first one.
-    #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52")]
-    pub(crate) fn are_free<const N: usize>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        blocks: usize,
-        at: impl Fn(f64) -> [f64; N],
-    ) -> bool {
-        (0..blocks).all(|block| {
-            let place = |lane| ((lane + 1) * blocks - block) as f64 / (blocks * LANES) as f64;
-            let q: [_; LANES] = array::from_fn(|lane| at(place(lane)));
-            placed.are_free(self, &q)
-        })
-    }
-
-    /// Which of up to eight joint vectors collide, as bits.
-    pub(crate) fn colliding<const N: usize>(
-        &self,
-        placed: &mut Placed<'_, N>,
-        q: &[[f64; N]],
-    ) -> u64 {
-        placed.touching(self, q, Looked::All)
-    }
-
-    /// The link and the other link or obstacle that are nearest; `None` if there is nothing to
-    /// compare. Obstacles are as far away as they are: the margin does not count.
+    /// [`Checker::nearest`] of an arm.
     ///
     /// # Errors
     ///
@@ -121,9 +69,73 @@ impl Cell {
         arm: &Arm<N>,
         q: &[f64; N],
     ) -> Result<Option<Nearest>, Error> {
+        self.checker(arm)?.nearest(q)
+    }
+
+    /// [`Checker::ik_nearest`] of an arm.
+    ///
+    /// # Errors
+    ///
+    /// As [`Checker::ik_nearest`]; [`Error::InvalidBody`] if the arm has no body.
+    pub fn ik_nearest<const N: usize>(
+        &self,
+        arm: &Arm<N>,
+        pose: &Pose,
+        seed: &[f64; N],
+        weights: &[f64; N],
+    ) -> Result<Solution<N>, Error> {
+        self.checker(arm)?.ik_nearest(pose, seed, weights)
+    }
+}
+
+impl<const N: usize> Checker<'_, N> {
+    /// Whether the arm touches itself, or comes nearer to an obstacle than the margin. Link 0, on
+    /// which the arm stands, is not compared with obstacles.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::InvalidJoints`] for joints that are not finite.
+    pub fn collides(&mut self, q: &[f64; N]) -> Result<bool, Error> {
         check_seed("q", q)?;
-        let placed = Placed::of(arm)?;
-        let least = self.least(&placed, q, |_, apart| apart.distance);
+        Ok(self.touches(q))
+    }
+
+    /// Whether each joint vector is free.
+    #[doc(hidden)]
+    pub fn free_postures(&mut self, q: &[[f64; N]]) -> Vec<bool> {
+        let mut free = Vec::with_capacity(q.len());
+        for q in q.chunks(LANES) {
+            let colliding = self.colliding(q);
+            free.extend((0..q.len()).map(|lane| colliding >> lane & 1 == 0));
+        }
+        free
+    }
+
+    /// Whether joint vectors in between are free: the first `blocks` of eight, spread over the way,
+    /// its end in the first one.
+    #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52")]
+    pub(crate) fn are_free(&mut self, blocks: usize, at: impl Fn(f64) -> [f64; N]) -> bool {
+        (0..blocks).all(|block| {
+            let place = |lane| ((lane + 1) * blocks - block) as f64 / (blocks * LANES) as f64;
+            let q: [_; LANES] = array::from_fn(|lane| at(place(lane)));
+            self.touching(&q, Looked::Any) == 0
+        })
+    }
+
+    /// Which of up to eight joint vectors collide, as bits.
+    pub(crate) fn colliding(&mut self, q: &[[f64; N]]) -> u64 {
+        self.touching(q, Looked::All)
+    }
+
+    /// The link and the other link or obstacle that are nearest; `None` if there is nothing to
+    /// compare. Obstacles are as far away as they are: the margin does not count.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::collides`].
+    pub fn nearest(&self, q: &[f64; N]) -> Result<Option<Nearest>, Error> {
+        check_seed("q", q)?;
+        let least = self.least(q, |_, apart| apart.distance);
         Ok(least.map(|(pair, apart)| self.named(pair, &apart)))
     }
 
@@ -133,7 +145,7 @@ impl Cell {
             link: pair.link,
             near: match pair.other {
                 Other::Link(link) => Near::Link(link),
-                Other::Obstacle(at) => Near::Obstacle(self.obstacles()[at].0.clone()),
+                Other::Obstacle(at) => Near::Obstacle(self.cell.obstacles()[at].0.clone()),
             },
             points: apart.points.map(Into::into),
         }
@@ -145,42 +157,36 @@ impl Cell {
     ///
     /// # Errors
     ///
-    /// As [`Robot::ik_nearest`] and [`Self::collides`]; [`Error::Collides`] if every solution inside
+    /// As [`Robot::ik_nearest`]; [`Error::Collides`] if every solution inside
     /// the limits collides.
-    pub fn ik_nearest<const N: usize>(
-        &self,
-        arm: &Arm<N>,
+    pub fn ik_nearest(
+        &mut self,
         pose: &Pose,
         seed: &[f64; N],
         weights: &[f64; N],
     ) -> Result<Solution<N>, Error> {
-        let placed = RefCell::new(Placed::of(arm)?);
+        let arm = self.arm;
         let nearest = arm.ik_nearest(pose, seed, weights)?;
-        let is_free = |q: &[f64; N]| !self.collides_at(&mut placed.borrow_mut(), q);
-        if is_free(&nearest.q) {
+        if !self.touches(&nearest.q) {
             return Ok(nearest);
         }
+        let checker = RefCell::new(&mut *self);
+        let is_free = |q: &[f64; N]| !checker.borrow_mut().touches(q);
         match arm.nearest_accepted(pose, seed, weights, &is_free) {
-            Err(Error::Unreachable(reason)) => {
-                Err(match self.collision(&placed.borrow(), &nearest.q) {
-                    Some((Nearest { link, near, .. }, depth)) => {
-                        Error::Collides { link, other: near.to_string(), depth }
-                    }
-                    None => Error::Unreachable(reason),
-                })
-            }
+            Err(Error::Unreachable(reason)) => Err(match self.collision(&nearest.q) {
+                Some((Nearest { link, near, .. }, depth)) => {
+                    Error::Collides { link, other: near.to_string(), depth }
+                }
+                None => Error::Unreachable(reason),
+            }),
             found => found,
         }
     }
 
     /// The two that are deepest in each other or in the margin, and how deep [m].
     #[doc(hidden)]
-    pub fn collision<const N: usize>(
-        &self,
-        placed: &Placed<'_, N>,
-        q: &[f64; N],
-    ) -> Option<(Nearest, f64)> {
-        let (pair, apart) = self.deepest(placed, q)?;
+    pub fn collision(&self, q: &[f64; N]) -> Option<(Nearest, f64)> {
+        let (pair, apart) = self.deepest(q)?;
         Some((self.named(pair, &apart), self.depth(pair.other, &apart)))
     }
 }

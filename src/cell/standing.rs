@@ -4,7 +4,6 @@ use alloc::format;
 use alloc::vec::Vec;
 
 use super::obstacles::Cell;
-use super::placed::Placed;
 use crate::arm::Arm;
 use crate::body::Shape;
 use crate::error::Error;
@@ -25,11 +24,11 @@ impl Cell {
         q: &[f64; N],
     ) -> Result<Self, Error> {
         check_seed("q", q)?;
-        let placed = Placed::of(arm)?;
-        let at = placed.at(q);
+        let checker = self.checker(arm)?;
+        let at = checker.at(q);
         let mut links = Vec::new();
         for link in 0..=N + 1 {
-            let groups = placed.outline.groups.iter().enumerate();
+            let groups = checker.outline.groups.iter().enumerate();
             let groups = groups.filter(|(_, group)| group.number == link);
             let own = groups.flat_map(|(place, _)| at.capsules_of(place));
             let shapes: Vec<_> = own.copied().map(Shape::Capsule).collect();

@@ -6,8 +6,7 @@ use alloc::vec::Vec;
 use core::f64::consts::{PI, TAU};
 
 use super::End;
-use crate::body::fault::BodyFault;
-use crate::cell::{Cell, Nearest, Placed};
+use crate::cell::{Checker, Nearest};
 use crate::error::Error;
 use crate::go::fault::GoFault;
 use crate::kinematics::{Pose, Robot, Solutions, at_limit, check_seed, checked_pose};
@@ -34,9 +33,8 @@ struct Candidates<'a, const N: usize> {
 /// has all its solutions at the turns of the joints nearest to the other end; at one end, other turns
 /// too.
 pub(super) fn free_ends<const N: usize>(
+    checker: &mut Checker<'_, N>,
     robot: &Robot<N>,
-    cell: &Cell,
-    placed: &mut Placed<'_, N>,
     [start, goal]: [&End<N>; 2],
 ) -> Result<[Vec<[f64; N]>; 2], Error> {
     let (near, has_turns) = match goal {
@@ -44,9 +42,9 @@ pub(super) fn free_ends<const N: usize>(
         _ => ([robot.limits().rest()], false),
     };
     let start =
-        Candidates { field: "start", near: &near, has_turns }.free(robot, cell, placed, start)?;
-    let goal = Candidates { field: "goal", near: &start, has_turns: true }
-        .free(robot, cell, placed, goal)?;
+        Candidates { field: "start", near: &near, has_turns }.free(checker, robot, start)?;
+    let goal =
+        Candidates { field: "goal", near: &start, has_turns: true }.free(checker, robot, goal)?;
     Ok([start, goal])
 }
 
@@ -54,39 +52,28 @@ impl<const N: usize> Candidates<'_, N> {
     /// The joint vectors of an end that do not collide.
     fn free(
         &self,
+        checker: &mut Checker<'_, N>,
         robot: &Robot<N>,
-        cell: &Cell,
-        placed: &mut Placed<'_, N>,
         end: &End<N>,
     ) -> Result<Vec<[f64; N]>, Error> {
-        let (solutions, is_all) = match end {
-            End::Joints(q) => (vec![inside(robot, self.field, q)?], true),
-            End::Pose(pose) => self.solutions(robot, &checked_pose(pose)?)?,
+        let pose = match end {
+            End::Joints(q) => {
+                let q = inside(robot, self.field, q)?;
+                check_free(checker, self.field, &q)?;
+                return Ok(vec![q]);
+            }
+            End::Pose(pose) => checked_pose(pose)?,
         };
-        let is_free = cell.free_postures(placed, &solutions);
+        let (solutions, is_all) = self.solutions(robot, &pose)?;
+        let is_free = checker.free_postures(&solutions);
         let free = solutions.iter().zip(is_free).filter(|(_, is_free)| *is_free);
         let free: Vec<_> = free.map(|(q, _)| *q).collect();
-        match end {
-            _ if free.is_empty() => {
-                let count = matches!(end, End::Pose(_)).then_some(solutions.len());
-                Err(self.refused(cell.collision(placed, &solutions[0]), count, is_all))
-            }
-            End::Joints(_) => Ok(free),
-            End::Pose(_) => Ok(self.turned(robot, &free)),
+        if free.is_empty()
+            && let Some(collision) = checker.collision(&solutions[0])
+        {
+            return Err(collides(self.field, collision, Some(solutions.len()), is_all).into());
         }
-    }
-
-    fn refused(
-        &self,
-        collision: Option<(Nearest, f64)>,
-        solutions: Option<usize>,
-        is_proven: bool,
-    ) -> Error {
-        let Some((Nearest { link, near, .. }, depth)) = collision else {
-            return BodyFault::NoBody.into();
-        };
-        let (field, other) = (self.field, near.to_string());
-        GoFault::Collides { field, solutions, link, other, depth, is_proven }.into()
+        Ok(self.turned(robot, &free))
     }
 
     /// The solutions of a pose inside the limits, the nearest first, and whether there are no others;
@@ -163,6 +150,29 @@ impl<const N: usize> Candidates<'_, N> {
     }
 }
 
+/// The fault of an end that collides; `solutions` and `is_proven` as of [`GoFault::Collides`].
+fn collides(
+    field: &'static str,
+    (Nearest { link, near, .. }, depth): (Nearest, f64),
+    solutions: Option<usize>,
+    is_proven: bool,
+) -> GoFault {
+    GoFault::Collides { field, solutions, link, other: near.to_string(), depth, is_proven }
+}
+
+/// Check that joint angles at an end do not collide.
+pub(crate) fn check_free<const N: usize>(
+    checker: &mut Checker<'_, N>,
+    field: &'static str,
+    q: &[f64; N],
+) -> Result<(), Error> {
+    let collision = if checker.touches(q) { checker.collision(q) } else { None };
+    match collision {
+        Some(collision) => Err(collides(field, collision, None, true).into()),
+        None => Ok(()),
+    }
+}
+
 /// Joint angles, checked: a locked joint is at its angle, the others are inside their limits, or at
 /// a limit that they exceed by at most
 /// [`START_TOLERANCE`](crate::kinematics::thresholds::START_TOLERANCE).
@@ -172,12 +182,8 @@ pub(crate) fn inside<const N: usize>(
     q: &[f64; N],
 ) -> Result<[f64; N], Error> {
     check_seed(field, q)?;
-    let mut limits = robot.limits().to_array();
-    if let Some((joint, angle)) = robot.locked_joint() {
-        limits[joint - 1] = [angle; 2];
-    }
     let mut inside = *q;
-    for (joint, (angle, bounds)) in inside.iter_mut().zip(limits).enumerate() {
+    for (joint, (angle, bounds)) in inside.iter_mut().zip(robot.free_ranges()).enumerate() {
         let value = *angle;
         *angle = at_limit(value, bounds).ok_or(GoFault::Outside {
             field,

@@ -9,12 +9,12 @@ mod shorten;
 mod timed;
 mod tree;
 
-use alloc::vec::Vec;
+pub(crate) use ends::{check_free, inside};
 
-pub(crate) use ends::inside;
+use search::{Evidence, Space};
 
 use crate::arm::Arm;
-use crate::cell::{Cell, Placed};
+use crate::cell::Cell;
 use crate::error::Error;
 use crate::go::fault::GoFault;
 use crate::interrupt::Interrupt;
@@ -87,25 +87,23 @@ impl<const N: usize> Arm<N> {
         interrupt: Interrupt<'_>,
     ) -> Result<Trajectory, Error> {
         let pace = timed::Pace::new(self, options)?;
-        let mut placed = Placed::of(self)?;
-        let ends = ends::free_ends(self, cell, &mut placed, [start, goal])?;
-        let mut space = search::Space { robot: self, cell, placed, proves: false };
+        let mut checker = cell.checker(self)?;
+        let ends = ends::free_ends(&mut checker, self, [start, goal])?;
+        let mut space = Space { robot: self, checker, evidence: Evidence::States, samples: 0 };
         if let Some(motion) = space.direct(&ends, &pace)? {
             return Ok(motion);
         }
-        // What is free at states of it mostly is in between.
-        let mut path = Vec::new();
-        for (seeks, proves) in [(true, false), (false, true), (true, true)] {
-            space.proves = proves;
-            if seeks {
-                let samples = samples::Samples::new(self, &ends, options.seed);
-                path = space.path(ends.clone(), samples, interrupt)?;
-            }
-            let shorter = space.shortened(&path, options.seed);
-            if let Some(motion) = space.timed(&shorter, &pace)? {
-                return Ok(motion);
-            }
+        // A path that is free at states of it mostly is in between.
+        let path = space.path(&ends, options.seed, interrupt)?;
+        if let Some(motion) = space.motion(&path, options.seed, &pace)? {
+            return Ok(motion);
         }
-        Err(GoFault::NotFound { samples: 0 }.into())
+        space.evidence = Evidence::Proof;
+        if let Some(motion) = space.motion(&path, options.seed, &pace)? {
+            return Ok(motion);
+        }
+        let path = space.path(&ends, options.seed, interrupt)?;
+        let motion = space.motion(&path, options.seed, &pace)?;
+        Ok(motion.ok_or(GoFault::NotFound { samples: space.samples })?)
     }
 }

@@ -60,10 +60,7 @@ pub(super) struct Samples<const N: usize> {
 
 impl<const N: usize> Samples<N> {
     pub(super) fn new(robot: &Robot<N>, ends: &[Vec<[f64; N]>; 2], seed: u64) -> Self {
-        let mut limits = robot.limits().to_array();
-        if let Some((joint, angle)) = robot.locked_joint() {
-            limits[joint - 1] = [angle; 2];
-        }
+        let limits = robot.free_ranges();
         let all = |joint: usize| ends.iter().flatten().map(move |q| q[joint]);
         let low = |joint: usize| all(joint).fold(f64::INFINITY, f64::min) - PI;
         let high = |joint: usize| all(joint).fold(f64::NEG_INFINITY, f64::max) + PI;

@@ -7,7 +7,7 @@ use core::mem::swap;
 
 use super::samples::Samples;
 use super::tree::Tree;
-use crate::cell::{Cell, Placed};
+use crate::cell::Checker;
 use crate::error::Error;
 use crate::go::fault::GoFault;
 use crate::interrupt::Interrupt;
@@ -32,10 +32,19 @@ const MOST_NODES: usize = 200_000;
 /// Where a free motion is sought.
 pub(super) struct Space<'a, const N: usize> {
     pub(super) robot: &'a Robot<N>,
-    pub(super) cell: &'a Cell,
-    pub(super) placed: Placed<'a, N>,
-    /// Whether each part of a path is proven, not only states of it looked at.
-    pub(super) proves: bool,
+    pub(super) checker: Checker<'a, N>,
+    pub(super) evidence: Evidence,
+    /// Samples that were taken so far.
+    pub(super) samples: usize,
+}
+
+/// By what an even motion counts as free.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Evidence {
+    /// States of it are free.
+    States,
+    /// So are these, and each part of it is proven to be.
+    Proof,
 }
 
 impl<const N: usize> Space<'_, N> {
@@ -45,30 +54,33 @@ impl<const N: usize> Space<'_, N> {
         let ends = [*from, *to];
         let at = |part| between(from, to, part);
         let blocks = blocks(distance(from, to));
-        if self.proves || blocks < FEWEST {
-            self.cell.are_free(&mut self.placed, blocks, at)
-                && (!self.proves || self.cell.is_free(&mut self.placed, &ends[..], RESOLUTION))
-        } else {
-            self.cell.is_free_or_looked_at(&mut self.placed, blocks, &ends)
+        let checker = &mut self.checker;
+        match self.evidence {
+            Evidence::States if blocks < FEWEST => checker.are_free(blocks, at),
+            Evidence::States => checker.is_free_or_looked_at(blocks, &ends),
+            Evidence::Proof => {
+                checker.are_free(blocks, at) && checker.is_free(&ends[..], RESOLUTION)
+            }
         }
     }
 
     /// Whether states of a motion are free, by its length [rad].
     pub(super) fn are_free(&mut self, length: f64, at: impl Fn(f64) -> [f64; N]) -> bool {
-        self.cell.are_free(&mut self.placed, blocks(length), at)
+        self.checker.are_free(blocks(length), at)
     }
 
     /// A path from a start to a goal: even motions that are free.
     pub(super) fn path(
         &mut self,
-        [starts, goals]: [Vec<[f64; N]>; 2],
-        mut from: Samples<N>,
+        ends: &[Vec<[f64; N]>; 2],
+        seed: u64,
         interrupt: Interrupt<'_>,
     ) -> Result<Vec<[f64; N]>, Error> {
-        let (mut own, mut other) = (Tree::new(starts), Tree::new(goals));
-        let (mut samples, mut is_swapped) = (0, false);
+        let mut from = Samples::new(self.robot, ends, seed);
+        let [mut own, mut other] = ends.clone().map(Tree::new);
+        let mut is_swapped = false;
         while !interrupt.is_raised() && own.len() + other.len() < MOST_NODES {
-            samples += 1;
+            self.samples += 1;
             let sample = from.next();
             if self.robot.limits().contains(&sample) {
                 let (node, _) = self.grown(&mut own, &sample, true);
@@ -91,7 +103,7 @@ impl<const N: usize> Space<'_, N> {
                 is_swapped = !is_swapped;
             }
         }
-        Err(GoFault::NotFound { samples }.into())
+        Err(GoFault::NotFound { samples: self.samples }.into())
     }
 
     /// Add nodes from the nearest one of a tree towards a joint vector, each a step from the last

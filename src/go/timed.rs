@@ -7,7 +7,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::GoOptions;
-use super::search::{RESOLUTION, Space, between};
+use super::search::{Evidence, RESOLUTION, Space, between};
 use crate::cell;
 use crate::error::Error;
 use crate::kinematics::Robot;
@@ -108,20 +108,32 @@ impl<const N: usize> Space<'_, N> {
         Ok(None)
     }
 
-    /// The motion along a path that is proven free.
-    pub(super) fn timed(
+    /// The motion along a path once it is shorter, if that is proven free.
+    pub(super) fn motion(
         &mut self,
         path: &[[f64; N]],
+        seed: u64,
         pace: &Pace<N>,
     ) -> Result<Option<Trajectory>, Error> {
-        let known = if path.len() == 2 { 2 } else { usize::from(self.proves) };
-        for proves in [Some(false), Some(true), None].into_iter().skip(known) {
-            let cuts = match proves {
-                Some(proves) => self.cuts(path, proves),
+        let shorter = self.shortened(path, seed);
+        self.timed(&shorter, pace)
+    }
+
+    /// The motion along a path that is proven free.
+    fn timed(&mut self, path: &[[f64; N]], pace: &Pace<N>) -> Result<Option<Trajectory>, Error> {
+        // Corners by what they count as free, at last none.
+        let corners: &[Option<Evidence>] = match self.evidence {
+            _ if path.len() == 2 => &[None],
+            Evidence::States => &[Some(Evidence::States), Some(Evidence::Proof), None],
+            Evidence::Proof => &[Some(Evidence::Proof), None],
+        };
+        for evidence in corners {
+            let cuts = match evidence {
+                Some(evidence) => self.cuts(path, *evidence),
                 None => vec![0.0; path.len() - 2],
             };
             let motion = pace.along(path, &cuts)?;
-            if self.cell.is_free(&mut self.placed, &motion, cell::RESOLUTION) {
+            if self.checker.is_free(&motion, cell::RESOLUTION) {
                 return Ok(Some(motion));
             }
         }
@@ -129,7 +141,7 @@ impl<const N: usize> Space<'_, N> {
     }
 
     /// How far before and behind each corner it is rounded, so that the path is free.
-    fn cuts(&mut self, path: &[[f64; N]], proves: bool) -> Vec<f64> {
+    fn cuts(&mut self, path: &[[f64; N]], evidence: Evidence) -> Vec<f64> {
         let sides: Vec<f64> = path.windows(2).map(|ends| distance(&ends[0], &ends[1])).collect();
         let mut cuts: Vec<f64> =
             sides.windows(2).map(|sides| LARGEST * sides[0].min(sides[1])).collect();
@@ -141,9 +153,9 @@ impl<const N: usize> Space<'_, N> {
                 let is_free =
                     self.are_free(2.0 * cut, |part| between(&from(1.0 - part), &to(part), part));
                 is_free
-                    && (!proves || {
+                    && (evidence == Evidence::States || {
                         let path = rounded(&[from(BEYOND), at, to(BEYOND)], &[*cut]);
-                        self.cell.is_free(&mut self.placed, &path, RESOLUTION)
+                        self.checker.is_free(&path, RESOLUTION)
                     })
             };
             let largest = *cut;

@@ -7,14 +7,14 @@ use super::answer::StrandReason;
 use super::graph::Values;
 use super::options::{Accept, PlanOptions, Test};
 use crate::arm::Arm;
-use crate::cell::{Cell, Contact, Nearest, Placed};
+use crate::cell::{Checker, Contact, Nearest};
 use crate::error::Error;
 use crate::plan::fault::PlanFault;
 
 /// The tests of a plan, if it has any.
 pub(super) struct Tests<'a, 'b, const N: usize> {
     accept: Option<&'a mut Accept<'b, N>>,
-    cell: Option<(&'a Cell, Placed<'a, N>)>,
+    checker: Option<Checker<'a, N>>,
 }
 
 impl<'a, 'b, const N: usize> Tests<'a, 'b, N> {
@@ -23,22 +23,22 @@ impl<'a, 'b, const N: usize> Tests<'a, 'b, N> {
         options: &'a PlanOptions<N>,
         accept: Option<&'a mut Accept<'b, N>>,
     ) -> Result<Self, Error> {
-        let cell = match &options.cell {
+        let checker = match &options.cell {
             Some(_) if !options.external.is_empty() => return Err(PlanFault::CellMoves.into()),
-            Some(cell) => Some((&**cell, Placed::of(arm)?)),
+            Some(cell) => Some(cell.checker(arm)?),
             None => None,
         };
-        Ok(Self { accept, cell })
+        Ok(Self { accept, checker })
     }
 
     pub(super) fn is_any(&self) -> bool {
-        self.accept.is_some() || self.cell.is_some()
+        self.accept.is_some() || self.checker.is_some()
     }
 
     /// Whether each joint vector passes; nothing to stop.
     pub(super) fn postures(&mut self, q: &[[f64; N]]) -> Option<Vec<bool>> {
-        let mut passed = match &mut self.cell {
-            Some((cell, placed)) => cell.free_postures(placed, q),
+        let mut passed = match &mut self.checker {
+            Some(checker) => checker.free_postures(q),
             None => vec![true; q.len()],
         };
         if let Some(accept) = &mut self.accept {
@@ -52,8 +52,8 @@ impl<'a, 'b, const N: usize> Tests<'a, 'b, N> {
 
     /// Whether the motion from each joint vector to the next one passes.
     pub(super) fn motions(&mut self, q: &[[f64; N]]) -> Vec<bool> {
-        match &mut self.cell {
-            Some((cell, placed)) => cell.free_motions(placed, q),
+        match &mut self.checker {
+            Some(checker) => checker.free_motions(q),
             None => vec![true; q.len().saturating_sub(1)],
         }
     }
@@ -62,8 +62,7 @@ impl<'a, 'b, const N: usize> Tests<'a, 'b, N> {
 impl<const N: usize> Tests<'_, '_, N> {
     /// The reason why a joint vector, or the motion between two, does not pass.
     pub(super) fn reason(&mut self, q: &[[f64; N]]) -> StrandReason {
-        let cell = self.cell.as_mut();
-        match cell.and_then(|(cell, placed)| cell.contact(placed, q)) {
+        match self.checker.as_mut().and_then(|checker| checker.contact(q)) {
             Some(Contact { nearest: Nearest { link, near, .. }, .. }) => {
                 StrandReason::Collides { link, near, is_between: q.len() > 1 }
             }

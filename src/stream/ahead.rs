@@ -5,7 +5,6 @@
 use nalgebra::ComplexField as _;
 
 use super::brake::Brake;
-use crate::arm::Arm;
 use crate::cell::{Boxes, RESOLUTION};
 use crate::kinematics::JointLimits;
 use crate::lanes::LANES;
@@ -132,18 +131,17 @@ impl<const N: usize> Ahead<N> {
     /// enough.
     pub(super) fn prove(
         &self,
-        arm: &Arm<N>,
         boxes: &mut Boxes<N>,
         looks: usize,
         stop_first: bool,
     ) -> Result<(), Middle<N>> {
         let rest = (self.brakes.map(|brake| brake.stop), [WIDER; N]);
-        if stop_first && boxes.open(arm, &[rest.0], &[rest.1]) != 0 {
+        if stop_first && boxes.open(&[rest.0], &[rest.1]) != 0 {
             return Err(rest);
         }
         let whole = self.range([0.0, self.cycles()]).1;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 8")]
-        let count = (boxes.most_motion(arm, whole) / LONG).ceil().clamp(1.0, 8.0) as usize;
+        let count = (boxes.most_motion(whole) / LONG).ceil().clamp(1.0, 8.0) as usize;
         let mut parts = [[0.0; 2]; PARTS];
         parts[..LANES].copy_from_slice(&self.parts(count));
         let mut left = count;
@@ -156,7 +154,7 @@ impl<const N: usize> Ahead<N> {
             for (lane, part) in looked[..count].iter().enumerate() {
                 (q[lane], spans[lane]) = self.range(*part);
             }
-            let open = boxes.open(arm, &q[..count], &spans[..count]);
+            let open = boxes.open(&q[..count], &spans[..count]);
             let lanes = || (0..count).filter(|lane| open >> lane & 1 == 1);
             let Some(first) = lanes().next() else {
                 if left == 0 {
@@ -164,11 +162,11 @@ impl<const N: usize> Ahead<N> {
                 }
                 continue;
             };
-            if look == 0 && !stop_first && boxes.open(arm, &[rest.0], &[rest.1]) != 0 {
+            if look == 0 && !stop_first && boxes.open(&[rest.0], &[rest.1]) != 0 {
                 return Err(rest);
             }
             let pieces = (LANES / lanes().count()).max(2);
-            let is_short = |lane: usize| boxes.most_motion(arm, spans[lane]) <= RESOLUTION;
+            let is_short = |lane: usize| boxes.most_motion(spans[lane]) <= RESOLUTION;
             let is_last = look + 1 == looks || left + pieces * lanes().count() > PARTS;
             if is_last || lanes().any(is_short) {
                 return Err((q[first], spans[first]));

@@ -11,10 +11,9 @@ use super::reason::{NOT_FREE, Reason};
 use super::tool::ToolSpeed;
 use super::track::Track;
 use crate::arm::Arm;
-use crate::cell::{Boxes, Cell, Nearest, Other};
+use crate::cell::{Boxes, Cell, Other};
 use crate::error::Error;
-use crate::go::fault::GoFault;
-use crate::go::inside;
+use crate::go::{check_free, inside};
 use crate::kinematics::{Follower, Pose, largest, largest_step, steps};
 
 /// How far control points may be outside limits [rad]: half of what counts as inside, for the
@@ -78,17 +77,8 @@ impl<const N: usize> Guard<N> {
         let [velocity, acceleration, jerk] = options.checked(arm)?;
         let start = inside(arm, "start", start)?;
         let boxes = cell.map(|cell| Boxes::new(arm, cell, options.margin)).transpose()?;
-        if let Some((Nearest { link, near, .. }, depth)) =
-            boxes.as_ref().map(|boxes| boxes.collision(arm, &start)).transpose()?.flatten()
-        {
-            let (field, other) = ("start", near.to_string());
-            let (solutions, is_proven) = (None, true);
-            let fault = GoFault::Collides { field, solutions, link, other, depth, is_proven };
-            return Err(fault.into());
-        }
-        let mut limits = arm.limits().to_array();
-        if let Some((joint, angle)) = arm.locked_joint() {
-            limits[joint - 1] = [angle; 2];
+        if let Some(boxes) = &boxes {
+            check_free(&mut boxes.checker()?, "start", &start)?;
         }
         Ok(Self {
             arm: arm.clone(),
@@ -96,7 +86,7 @@ impl<const N: usize> Guard<N> {
             bounds: core::array::from_fn(|joint| {
                 Bounds::new(options.cycle, velocity[joint], acceleration[joint], jerk[joint])
             }),
-            limits,
+            limits: arm.free_ranges(),
             tool_speed: options.max_tool_speed.map(|limit| ToolSpeed::new(arm, limit)),
             boxes,
             on_violation: options.on_violation,
@@ -393,8 +383,8 @@ impl<const N: usize> Guard<N> {
         }
         let Some(boxes) = &mut self.boxes else { return Ok(()) };
         let stop_first = self.was_blocked;
-        let proven = ahead.prove(&self.arm, boxes, looks, stop_first).map_err(|(q, spans)| {
-            let (link, other) = boxes.blocked(&self.arm, &q, &spans).unwrap_or((0, Other::Link(0)));
+        let proven = ahead.prove(boxes, looks, stop_first).map_err(|(q, spans)| {
+            let (link, other) = boxes.blocked(&q, &spans).unwrap_or((0, Other::Link(0)));
             match other {
                 Other::Link(other) => Reason::Blocked { link, other: Some(other), obstacle: None },
                 Other::Obstacle(place) => {

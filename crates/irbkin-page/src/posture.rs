@@ -58,8 +58,9 @@ impl Contact {
         cell: &Cell,
         q: &[f64; N],
     ) -> Result<Self, Refusal> {
-        let collides = cell.collides(arm, q)?;
-        let nearest = cell.nearest(arm, q)?;
+        let mut checker = cell.checker(arm)?;
+        let collides = checker.collides(q)?;
+        let nearest = checker.nearest(q)?;
         let distance = nearest.as_ref().map(|nearest| nearest.distance);
         Ok(Self {
             collides,

@@ -1,6 +1,6 @@
 //! Cells: whether an arm touches what is around it.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use numpy::PyArray;
 use numpy::ndarray::aview0;
@@ -21,8 +21,8 @@ use super::signals::{detached, detached_until};
 use super::state::{Reduced, reduced};
 use super::targets::checked_joints;
 use super::trajectory::PyTrajectory;
-use irbkin::cell::{Cell, Contact, Nearest};
-use irbkin::internal::{Motion, check_most_near};
+use irbkin::cell::{Cell, Checker, Contact, Nearest};
+use irbkin::internal::{Memory, Motion, check_most_near};
 use irbkin::{Arm, Error};
 
 /// Most obstacles with which a single joint vector is looked at with the interpreter's lock.
@@ -40,8 +40,23 @@ const FEW: usize = 100;
 ///     InvalidModelError: A margin that is negative or not finite, a name that no obstacle has, a
 ///         link other than 1 to 7.
 #[pyclass(name = "Cell", module = "irbkin", frozen, eq)]
-#[derive(Clone, PartialEq)]
-pub(super) struct PyCell(pub(super) Arc<Cell>);
+pub(super) struct PyCell {
+    pub(super) cell: Arc<Cell>,
+    /// What single joint vectors are looked at with, of six and of seven joints.
+    memory: (Mutex<Option<Memory<6>>>, Mutex<Option<Memory<7>>>),
+}
+
+impl From<Cell> for PyCell {
+    fn from(cell: Cell) -> Self {
+        Self { cell: Arc::new(cell), memory: Default::default() }
+    }
+}
+
+impl PartialEq for PyCell {
+    fn eq(&self, other: &Self) -> bool {
+        self.cell == other.cell
+    }
+}
 
 #[pymethods]
 impl PyCell {
@@ -66,7 +81,7 @@ impl PyCell {
             .map_err(exception)?
             .with_may_touch(&may_touch.unwrap_or_default())
             .map_err(exception)?;
-        Ok(Self(Arc::new(cell)))
+        Ok(cell.into())
     }
 
     /// Read a cell of TOML, of URDF or of MoveIt, as described in docs/guide/cell.md.
@@ -103,18 +118,18 @@ impl PyCell {
     ///     InvalidJointsError: A wrong shape, or joints that are not finite.
     ///     InvalidModelError: The robot has no body, or an obstacle has one of these names.
     fn with_robot(&self, name: &str, robot: &PyRobot, q: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let cell = Cell::clone(&self.0);
+        let cell = Cell::clone(&self.cell);
         let cell = on!(robot.arm(), robot => {
             cell.with_robot(name, robot, &vector(q, "q", Fault::Joints)?).map_err(exception)?
         });
-        Ok(Self(Arc::new(cell)))
+        Ok(cell.into())
     }
 
     /// The `Shape` of each obstacle, by its name.
     #[getter]
     fn obstacles<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let obstacles = PyDict::new(py);
-        for (name, shape) in self.0.obstacles() {
+        for (name, shape) in self.cell.obstacles() {
             obstacles.set_item(name, PyShape(shape.clone()))?;
         }
         Ok(obstacles)
@@ -123,13 +138,13 @@ impl PyCell {
     /// The pairs of an obstacle's name and a link that are not compared.
     #[getter]
     fn may_touch(&self) -> Vec<(&str, usize)> {
-        self.0.may_touch().collect()
+        self.cell.may_touch().collect()
     }
 
     /// How far the arm is to stay from the obstacles [m].
     #[getter]
     fn margin(&self) -> f64 {
-        self.0.margin()
+        self.cell.margin()
     }
 
     /// Whether an arm touches itself, or comes nearer to an obstacle than the margin.
@@ -159,8 +174,12 @@ impl PyCell {
         #[pyo3(from_py_with = read_threads)] threads: isize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (q.py(), thread_count(threads)?);
-        if out.is_none() && self.0.obstacles().len() <= FEW {
-            let one = on!(robot.arm(), robot => self.at_plain(robot, q)?);
+        if out.is_none() && self.cell.obstacles().len() <= FEW {
+            let (six, seven) = &self.memory;
+            let one = match robot.arm() {
+                AnyArm::Six(arm) => self.at_plain(arm, six, q)?,
+                AnyArm::Seven(arm) => self.at_plain(arm, seven, q)?,
+            };
             if let Some(collides) = one {
                 return Ok(PyArray::from_array(py, &aview0(&collides)).into_any());
             }
@@ -173,7 +192,7 @@ impl PyCell {
         }
         let (q, to) = (rows.data()?, answer.slice()?);
         on!(robot.arm(), robot => {
-            detached(py, threads, |batch| batch.collides(&self.0, robot, q, to))?;
+            detached(py, threads, |batch| batch.collides(&self.cell, robot, q, to))?;
         });
         Ok(answer.bound())
     }
@@ -250,12 +269,12 @@ impl PyCell {
     }
 
     fn __repr__(&self) -> String {
-        let names: Vec<_> = self.0.obstacles().iter().map(|(name, _)| name.as_str()).collect();
-        format!("<Cell: {} obstacles {names:?}, margin {} m>", names.len(), self.0.margin())
+        let names: Vec<_> = self.cell.obstacles().iter().map(|(name, _)| name.as_str()).collect();
+        format!("<Cell: {} obstacles {names:?}, margin {} m>", names.len(), self.cell.margin())
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        reduced(py, "Cell", &*self.0)
+        reduced(py, "Cell", &*self.cell)
     }
 }
 
@@ -263,11 +282,18 @@ impl PyCell {
     /// Whether an arm collides at a plain joint vector, with the interpreter's lock.
     fn at_plain<const N: usize>(
         &self,
-        robot: &Arm<N>,
+        arm: &Arm<N>,
+        memory: &Mutex<Option<Memory<N>>>,
         q: &Bound<'_, PyAny>,
     ) -> PyResult<Option<bool>> {
-        let q = plain_joints(q, robot.limits())?;
-        Ok(q.map(|q| self.0.collides(robot, &q)).transpose().map_err(exception)?)
+        let Some(q) = plain_joints(q, arm.limits())? else { return Ok(None) };
+        let memory = || memory.lock().unwrap_or_else(PoisonError::into_inner);
+        // Another thread meanwhile makes its own.
+        let kept = memory().take();
+        let mut checker = Checker::with_memory(&self.cell, arm, kept).map_err(exception)?;
+        let collides = checker.collides(&q).map_err(exception)?;
+        *memory() = Some(checker.into_memory());
+        Ok(Some(collides))
     }
 
     /// Where a motion first touches something.
@@ -278,7 +304,8 @@ impl PyCell {
         motion: &M,
     ) -> PyResult<Option<CellContact>> {
         let found =
-            detached_until(py, |it| self.0.check_motion(robot, motion, it))?.map_err(exception)?;
+            detached_until(py, |it| self.cell.checker(robot)?.until(it).check_motion(motion))?
+                .map_err(exception)?;
         found.map(|contact| contact_of(py, contact)).transpose()
     }
 
@@ -291,10 +318,11 @@ impl PyCell {
     ) -> PyResult<(Vec<Option<Nearest>>, Vec<f64>)> {
         let rows = checked_joints("q", rows)?;
         Ok(detached_until(py, |interrupt| {
+            let checker = self.cell.checker(robot)?;
             let (mut all, mut gradients) = (Vec::new(), Vec::new());
             for q in rows {
                 interrupt.check(0)?;
-                let nearest = self.0.nearest(robot, q)?;
+                let nearest = checker.nearest(q)?;
                 let gradient = nearest.as_ref().map_or([f64::NAN; N], |one| one.gradient(robot, q));
                 gradients.extend(gradient);
                 all.push(nearest);

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use super::solution::Member;
 use irbkin::cell::{Cell, Nearest};
-use irbkin::internal::{Cost, MOST_SLOTS, Placed};
+use irbkin::internal::{Cost, MOST_SLOTS};
 use irbkin::{Arm, Error, Explanation, Joints, Robot, Solution, Solutions};
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or
@@ -141,7 +141,7 @@ impl<const N: usize> Found<N> {
     pub(super) fn filter_free(&self, cell: &Arc<Cell>) -> PyResult<Self> {
         let entries = self.entries();
         let q: Vec<_> = entries.iter().map(|solution| solution.q).collect();
-        let free = cell.free_postures(&mut Placed::of(&self.robot).map_err(exception)?, &q);
+        let free = cell.checker(&self.robot).map_err(exception)?.free_postures(&q);
         let mut free = free.into_iter();
         let (kept, colliding): (Vec<_>, Vec<_>) =
             entries.into_iter().partition(|_| free.next().unwrap_or_default());
@@ -162,10 +162,9 @@ impl<const N: usize> Found<N> {
     pub(super) fn explained(&self) -> String {
         let mut text = format!("{}{}", self.explain(), self.solutions.reservation());
         let Some((cell, colliding)) = &self.colliding else { return text };
-        let Ok(placed) = Placed::of(&self.robot) else { return text };
+        let Ok(checker) = cell.checker(&self.robot) else { return text };
         for solution in colliding {
-            if let Some((Nearest { link, near, .. }, depth)) = cell.collision(&placed, &solution.q)
-            {
+            if let Some((Nearest { link, near, .. }, depth)) = checker.collision(&solution.q) {
                 let (slot, depth) = (solution.slot, 1e3 * depth);
                 let _ = write!(
                     text,

@@ -75,7 +75,7 @@ impl PyRobot {
         }
         let asked = Asked { ends: [start, goal], seconds, seed, max_velocity, max_acceleration };
         let alone = Cell::default();
-        let cell = cell.map_or(&alone, |cell| &cell.get().0);
+        let cell = cell.map_or(&alone, |cell| &cell.get().cell);
         let motion = match self.arm() {
             AnyArm::Six(robot) => asked.motion(robot, cell),
             AnyArm::Seven(robot) => asked.motion(robot, cell),

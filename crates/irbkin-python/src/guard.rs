@@ -217,7 +217,7 @@ fn read_cell(cell: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Cell>> {
             "cell must be an irbkin.Cell, None for the arm alone, or False to prove nothing",
         )
     })?;
-    Ok(Some(Cell::clone(&cell.get().0)))
+    Ok(Some(Cell::clone(&cell.get().cell)))
 }
 
 /// The guard, for one thread at a time. No code of Python runs while it is locked: a thread that

@@ -160,7 +160,7 @@ impl PyRobot {
         #[pyo3(from_py_with = read_threads)] threads: isize,
         cell: Option<&Bound<'py, PyCell>>,
     ) -> PyResult<IkMargin> {
-        let cell = cell.map(|cell| &*cell.get().0);
+        let cell = cell.map(|cell| &*cell.get().cell);
         let (py, arm, threads) = (T.py(), self.arm(), thread_count(threads)?);
         let (poses, angles) = read_poses_with_q7(arm, T, "q7", q7)?;
         let mut margin = Output::new(py, None, &poses.lead, &[])?;
@@ -219,7 +219,7 @@ impl PyRobot {
         cell: Option<&Bound<'py, PyCell>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (T.py(), thread_count(threads)?);
-        let cell = cell.map(|cell| &cell.get().0);
+        let cell = cell.map(|cell| &cell.get().cell);
         let middle = |py| on!(self.arm(), robot => PyArray1::from_slice(py, &middle(robot)));
         let seed = seed.map_or_else(|| middle(py).into_any(), Bound::clone);
         on!(self.arm(), robot => match read_seeded(T, &seed)? {

@@ -134,7 +134,7 @@ impl PyRobot {
             closed,
             weights,
             accept,
-            cell: cell.map(|cell| &cell.get().0),
+            cell: cell.map(|cell| &cell.get().cell),
             carrier,
             tolerance,
             redundancy,

@@ -164,7 +164,7 @@ impl PySolutions {
     fn filter(&self, accept: &Bound<'_, PyAny>) -> PyResult<Self> {
         on!(&self.found, found => {
             if let Ok(cell) = accept.cast::<PyCell>() {
-                return found.filter_free(&cell.get().0).map(Self::from);
+                return found.filter_free(&cell.get().cell).map(Self::from);
             }
             let accepts = |one| accept.call1((PySolution::from(one),))?.is_truthy();
             found.filter(accepts).map(Self::from)

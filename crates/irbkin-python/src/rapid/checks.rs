@@ -187,7 +187,7 @@ fn checked_arm<const N: usize>(
     let turn = turn.unwrap_or(MotionOptions::<N>::default().turn);
     let options = CheckOptions {
         motion: MotionOptions { max_velocity, step, turn, ..MotionOptions::default() },
-        cell: cell.map(|cell| &*cell.get().0),
+        cell: cell.map(|cell| &*cell.get().cell),
         units: Some(&extent.units),
         takes_last: extent.takes_last,
         is_whole: extent.is_whole,

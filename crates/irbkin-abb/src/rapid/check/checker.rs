@@ -24,8 +24,7 @@ use crate::rapid::program::walk::runs;
 use crate::rapid::program::walker::Run;
 use crate::rapid::program::whole::Program;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
-use irbkin::cell::Cell;
-use irbkin::internal::Placed;
+use irbkin::cell::{self, Cell};
 use irbkin::{Arm, Configuration, Interrupt, Robot};
 
 /// Options of [`check`].
@@ -119,17 +118,18 @@ pub fn check<const N: usize>(
     let carried = options.carried.unwrap_or(const { &Carried::new() });
     let arms = options.cell.map(|_| carriers(arm, &runs, carried)).transpose()?;
     let arms = arms.unwrap_or_default();
-    let mut placed = Vec::with_capacity(arms.len());
-    for (names, arm) in &arms {
-        placed.push((names, Placed::of(arm)?.until(options.interrupt)));
+    let mut carrying = Vec::new();
+    if let Some(cell) = options.cell {
+        for (names, arm) in &arms {
+            carrying.push((names, cell.checker(arm)?.until(options.interrupt)));
+        }
     }
     let mut checker = Checker {
         robots: [arm, &flange],
         options: options.motion,
         units: options.units.unwrap_or(&units),
         max_velocity,
-        cell: options.cell,
-        arms: placed,
+        carrying,
         carried,
         interrupt: options.interrupt,
         finder: Finder::new(&program, &sources),
@@ -181,8 +181,8 @@ struct Checker<'a, 'm, const N: usize> {
     options: MotionOptions<N>,
     units: &'a Units,
     max_velocity: [f64; N],
-    cell: Option<&'a Cell>,
-    arms: Vec<(&'a Vec<String>, Placed<'a, N>)>,
+    /// The arm with what it carries in the cell, by the names of that; none without a cell.
+    carrying: Vec<(&'a Vec<String>, cell::Checker<'a, N>)>,
     carried: &'a Carried,
     interrupt: Interrupt<'a>,
     finder: Finder<'a, 'm>,
@@ -330,10 +330,9 @@ impl<const N: usize> Checker<'_, '_, N> {
 
     /// A move that touches something in the cell.
     fn collision(&mut self, step: &Move, along: &[[f64; N]]) -> Option<Finding> {
-        let cell = self.cell?;
         let names = carried_by(step, self.carried);
-        let (_, placed) = self.arms.iter_mut().find(|(own, _)| **own == names)?;
-        let contact = cell.contact(placed, along)?;
+        let (_, checker) = self.carrying.iter_mut().find(|(own, _)| **own == names)?;
+        let contact = checker.contact(along)?;
         #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52 samples")]
         let part = contact.at / along.len().saturating_sub(1).max(1) as f64;
         let words = format!(
