@@ -20,7 +20,7 @@ mod standing;
 pub(crate) use boxes::Boxes;
 pub use checker::{Checker, Memory};
 pub use obstacles::Cell;
-pub(crate) use pairs::Other;
+pub use pairs::Other;
 pub use path::Motion;
 pub use path::{Contact, RESOLUTION};
 pub use postures::{Near, Nearest};

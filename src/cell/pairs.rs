@@ -17,10 +17,12 @@ pub(super) struct Pair {
     places: [usize; 2],
 }
 
-/// The other of a pair: a link, or an obstacle by its place.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Other {
+/// What a link is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Other {
+    /// A link of the arm, by its number.
     Link(usize),
+    /// An obstacle, by its place in the cell.
     Obstacle(usize),
 }
 

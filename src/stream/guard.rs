@@ -177,11 +177,11 @@ impl<const N: usize> Guard<N> {
     /// A reason in words, with the name of the obstacle.
     #[must_use]
     pub fn words(&self, reason: &Reason) -> String {
-        if let (Reason::Blocked { link, obstacle: Some(place), .. }, Some(boxes)) =
-            (reason, &self.boxes)
+        if let Reason::Blocked { pair: Some((link, Other::Obstacle(place))) } = reason
+            && let Some(boxes) = &self.boxes
             && let Some((name, _)) = boxes.cell().obstacles().get(*place)
         {
-            return format!("{NOT_FREE} link {link} and {name} come too near to each other");
+            return format!("{NOT_FREE}: link {link} and {name} come too near to each other");
         }
         reason.to_string()
     }
@@ -383,15 +383,9 @@ impl<const N: usize> Guard<N> {
         }
         let Some(boxes) = &mut self.boxes else { return Ok(()) };
         let stop_first = self.was_blocked;
-        let proven = ahead.prove(boxes, looks, stop_first).map_err(|(q, spans)| {
-            let (link, other) = boxes.blocked(&q, &spans).unwrap_or((0, Other::Link(0)));
-            match other {
-                Other::Link(other) => Reason::Blocked { link, other: Some(other), obstacle: None },
-                Other::Obstacle(place) => {
-                    Reason::Blocked { link, other: None, obstacle: Some(place) }
-                }
-            }
-        });
+        let proven = ahead
+            .prove(boxes, looks, stop_first)
+            .map_err(|(q, spans)| Reason::Blocked { pair: boxes.blocked(&q, &spans) });
         self.was_blocked = proven.is_err();
         proven
     }

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::cell::Other;
 use crate::kinematics::Slot;
 use crate::report::{Explanation, excess};
 
@@ -108,12 +109,8 @@ pub enum Reason {
     NoInverse,
     /// The way to the reference, or the braking motion after it, is not proven free.
     Blocked {
-        /// The link.
-        link: usize,
-        /// The other link; `None` of an obstacle.
-        other: Option<usize>,
-        /// The place of the obstacle in the cell.
-        obstacle: Option<usize>,
+        /// A link, and what it comes too near to, if one pair alone is not proven apart.
+        pair: Option<(usize, Other)>,
     },
 }
 
@@ -172,17 +169,17 @@ impl fmt::Display for Reason {
                 f.write_str("no solution of the pose inside the limits continues the joints")
             }
             Self::NoInverse => f.write_str("the arm has no inverse kinematics: give joint angles"),
-            Self::Blocked { link, other: Some(other), .. } => {
-                write!(f, "{NOT_FREE} link {link} and link {other} come too near to each other")
+            Self::Blocked { pair: None } => f.write_str(NOT_FREE),
+            Self::Blocked { pair: Some((link, Other::Link(other))) } => {
+                write!(f, "{NOT_FREE}: link {link} and link {other} come too near to each other")
             }
-            Self::Blocked { link, obstacle, .. } => {
-                write!(f, "{NOT_FREE} link {link} and obstacle ")?;
-                obstacle.map_or(Ok(()), |place| write!(f, "{place}"))?;
-                f.write_str(" come too near to each other")
-            }
+            Self::Blocked { pair: Some((link, Other::Obstacle(place))) } => write!(
+                f,
+                "{NOT_FREE}: link {link} and obstacle {place} come too near to each other"
+            ),
         }
     }
 }
 
 /// How words of what is not proven free begin.
-pub(super) const NOT_FREE: &str = "the way, or braking after it, is not proven free:";
+pub(super) const NOT_FREE: &str = "the way, or braking after it, is not proven free";
