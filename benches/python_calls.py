@@ -73,8 +73,8 @@ def seven_joints() -> list[Row]:
         Row("Panda: ik_nearest, far", lambda: panda.ik_nearest(above, far), product),
         # 35 us for the chain, 5 for the pose.
         Row(
-            "YuMi: ik(T, given={3: angle})",
-            lambda: yumi.ik(T_yumi, given={3: next(angles)}),
+            "YuMi: locked({3: angle}).ik(T)",
+            lambda: yumi.locked({3: next(angles)}).ik(T_yumi),
             product,
             "42 x",
         ),

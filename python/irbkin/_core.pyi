@@ -644,19 +644,12 @@ class Robot:
         *,
         threads: int = 1,
     ) -> Singularity: ...
-    def ik(
-        self,
-        T: npt.ArrayLike,
-        q7: float | None = None,
-        *,
-        given: Mapping[int, float] | None = None,
-    ) -> Solutions: ...
+    def ik(self, T: npt.ArrayLike, q7: float | None = None) -> Solutions: ...
     def ik_batch(
         self,
         T: npt.ArrayLike,
         q7: npt.ArrayLike | None = None,
         *,
-        given: Mapping[int, npt.ArrayLike] | None = None,
         out: IkBatch | tuple[_Floats, npt.NDArray[np.uint8]] | _Floats | None = None,
         threads: int = 1,
     ) -> IkBatch: ...

@@ -201,7 +201,7 @@ def test_what_has_no_solution_has_the_reason_of_the_library(name, x, choice, cal
 def _given(robot, T, given):
     """Why no solution with a joint [deg] given is inside the limits."""
     ((joint, angle),) = given.items()
-    solutions = robot.ik(T, given={joint: np.radians(angle)})
+    solutions = robot.locked({joint: np.radians(angle)}).ik(T)
     assert not len(solutions.within_limits())
     raise irbkin.UnreachableError(solutions.explain())
 

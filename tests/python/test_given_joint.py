@@ -1,4 +1,4 @@
-"""Seven-axis arms with the angle of any one joint given."""
+"""Seven-axis arms with any one joint locked at an angle."""
 
 import itertools
 import pickle
@@ -30,7 +30,6 @@ OBLIQUE = [
     [1.2, 0.03, -0.04, -0.2],
     [-0.7, 0.06, 0.15, 0.5],
 ]
-SHOULDER_7 = ("spherical shoulder", 7)
 LIMITS = np.array([[-2.9, 2.9]] * 7)
 
 
@@ -70,11 +69,11 @@ def test_the_joints_that_made_a_pose_are_found_whichever_is_given(robot, joint):
     """Or the answer says that it may be incomplete: of an iiwa, whose axes meet in threes."""
     if robot.name == "iiwa" and joint == 4:
         with pytest.raises(irbkin.InvalidModelError, match="are not independent"):
-            robot.ik(robot.fk(np.zeros(7)), given={4: 0.3})
+            robot.locked({4: 0.3})
         return
     found = 0
     for q in inside(robot, 12):
-        solutions = robot.ik(robot.fk(q), given={joint: q[joint - 1]})
+        solutions = robot.locked({joint: q[joint - 1]}).ik(robot.fk(q))
         assert (solutions.q[:, joint - 1] == q[joint - 1]).all()
         assert max((solution.residual for solution in solutions), default=0.0) < 1e-11
         if len(solutions) and apart(solutions.q, q).min() < 1e-6:
@@ -85,28 +84,27 @@ def test_the_joints_that_made_a_pose_are_found_whichever_is_given(robot, joint):
     assert found >= (10 if robot.name == "iiwa" else 12)
 
 
-@pytest.mark.parametrize("joint", [1, 7])
-def test_the_ends_take_an_angle_for_each_pose(robot, joint):
+def test_q7_has_an_angle_for_each_pose(robot):
     q = inside(robot, 20)
     T = robot.fk(q)
-    batch = robot.ik_batch(T, given={joint: q[:, joint - 1]})
-    assert batch.q.shape == (20, 8 if (robot.structure, joint) == SHOULDER_7 else 16, 7)
+    batch = robot.ik_batch(T, q[:, 6])
+    assert batch.q.shape == (20, 8 if robot.structure == "spherical shoulder" else 16, 7)
     found = np.nanmin(apart(batch.q, q[:, None]), axis=1)
     is_open = ((batch.status & irbkin.Status.UNCERTIFIED) != 0).all(axis=1)
     assert ((found < 1e-6) | is_open).all()
     assert (found < 1e-6).sum() >= (18 if robot.name == "iiwa" else 20)
-    broken = q[:, joint - 1].copy()
+    broken = q[:, 6].copy()
     broken[3] = np.nan
-    rows = robot.ik_batch(T, given={joint: broken})
+    rows = robot.ik_batch(T, broken)
     assert (rows.status[3] == int(irbkin.Status.INVALID)).all()
     assert np.isnan(rows.q[3]).all()
     assert (rows.status[4] == batch.status[4]).all()
 
 
-def test_q7_is_joint_7_given():
+def test_q7_is_joint_7_locked():
     panda = irbkin.Robot("Panda")
     T = panda.fk([0.1, -0.7, 0.2, -2.2, 0.1, 1.7, 0.6])
-    one, other = panda.ik(T, q7=0.6), panda.ik(T, given={7: 0.6})
+    one, other = panda.ik(T, q7=0.6), panda.locked({7: 0.6}).ik(T)
     assert len(one) == len(other) > 0
     for solution in one:
         assert apart(other.q, solution.q).min() < 1e-7
@@ -118,8 +116,7 @@ def test_a_locked_robot_answers_as_the_robot_does(robot):
     locked = robot.locked(given)
     assert locked.dof == 7
     assert locked != robot
-    np.testing.assert_array_equal(locked.ik(T[0]).q, robot.ik(T[0], given=given).q)
-    np.testing.assert_array_equal(locked.ik_batch(T[0]).q, robot.ik_batch(T[0], given=given).q)
+    np.testing.assert_array_equal(locked.ik_batch(T[0]).q, locked.ik(T[0]).q_by_slot)
     nearest = locked.ik_nearest(T[0], q[0])
     assert np.abs(nearest - q[0]).max() < 1e-6
     np.testing.assert_array_equal(locked.ik_nearest(T[:1], q[0])[0], nearest)
@@ -139,6 +136,9 @@ def test_a_robot_with_another_joint_locked_releases_it_for_q7(robot):
     T = robot.fk(q)
     locked = robot.locked({3: q[2]})
     np.testing.assert_array_equal(locked.ik(T, q[6]).q, robot.ik(T, q[6]).q)
+    for other in (locked, robot.locked({1: q[0]})):
+        rows = other.ik_batch([T], q[6]).q
+        np.testing.assert_array_equal(rows, robot.ik_batch([T], q[6]).q)
     assert locked.locked({2: q[1]}) == robot.locked({2: q[1]})
 
 
@@ -196,30 +196,25 @@ def test_a_given_angle_outside_its_limits_leaves_no_solution_inside():
 def test_what_is_no_joint_is_refused_with_its_words(given, error, words):
     panda = irbkin.Robot("Panda")
     with pytest.raises(error, match=words):
-        panda.ik(np.eye(4), given=given)
+        panda.locked(given)
 
 
 def test_six_joints_take_nothing():
-    with pytest.raises(TypeError, match="given is for arms of seven joints"):
-        irbkin.Robot("UR3").ik(np.eye(4), given={3: 0.2})
-    with pytest.raises(TypeError, match="pass one of them"):
-        irbkin.Robot("Panda").ik(np.eye(4), 0.3, given={3: 0.2})
     with pytest.raises(TypeError, match="given is for arms of seven joints"):
         irbkin.Robot("UR3").locked({3: 0.2})
     assert irbkin.Robot("UR3").six_joints is None
 
 
 @pytest.mark.parametrize("joint", [1, 7])
-def test_a_joint_at_an_end_fills_the_same_slots_alone_in_rows_and_prepared(robot, joint):
+def test_a_joint_at_an_end_fills_the_same_slots_alone_and_in_rows(robot, joint):
     for q in inside(robot, 20, seed=5):
-        T, given = robot.fk(q), {joint: q[joint - 1]}
-        alone = robot.ik(T, given=given).q_by_slot
-        for rows in (robot.ik_batch(T, given=given).q, robot.ik_batch([T], given=given).q[0]):
+        T, locked = robot.fk(q), robot.locked({joint: q[joint - 1]})
+        alone = locked.ik(T).q_by_slot
+        for rows in (locked.ik_batch(T).q, locked.ik_batch([T]).q[0]):
             np.testing.assert_array_equal(rows, alone)
-        prepared = robot.locked(given)
-        np.testing.assert_array_equal(prepared.ik_batch(T).q, prepared.ik(T).q_by_slot)
-        if joint == 1:
-            np.testing.assert_array_equal(prepared.ik(T).q_by_slot, alone)
+        if joint == 7:
+            q7 = q[6]
+            np.testing.assert_array_equal(robot.ik_batch(T, q7).q, robot.ik(T, q7).q_by_slot)
 
 
 @pytest.mark.parametrize("joint", range(1, 8))
@@ -255,7 +250,7 @@ def test_angles_at_which_the_six_joints_have_another_structure_or_none():
         yumi.locked({3: 0.7}).locked({3: np.nan})
 
 
-def test_slots_do_not_depend_on_how_the_first_joint_is_given():
+def test_slots_do_not_depend_on_whether_a_pose_is_a_row():
     robot = irbkin.Robot("IRB 14000-0.5/0.5 (left)")
     q = np.array(
         [
@@ -268,10 +263,10 @@ def test_slots_do_not_depend_on_how_the_first_joint_is_given():
             -np.pi / 2,
         ]
     )
-    T, given = robot.fk(q), {1: q[0]}
-    alone = robot.ik(T, given=given)
+    T, locked = robot.fk(q), robot.locked({1: q[0]})
+    alone = locked.ik(T)
     assert len(alone) == 8
-    np.testing.assert_array_equal(robot.ik_batch(T, given=given).q, alone.q_by_slot)
+    np.testing.assert_array_equal(locked.ik_batch(T).q, alone.q_by_slot)
 
 
 def test_an_angle_that_leaves_axes_nearly_parallel_is_refused_by_name():

@@ -111,7 +111,7 @@ def test_a_seven_axis_arm_without_a_closed_form_says_how_near_it_gets():
     ):
         with pytest.raises(UnreachableError, match=words):
             call()
-    solutions = robot.ik(T, given={3: 0.1})
+    solutions = robot.locked({3: 0.1}).ik(T)
     assert "nearest approach" in solutions.explain()
     assert pickle.loads(pickle.dumps(solutions)).explain() == solutions.explain()
 

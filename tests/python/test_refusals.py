@@ -140,7 +140,7 @@ JOINTS = [
     ("panda.ik(T, nan)", "q7: joint 7 is NaN"),
     ("panda.ik(T, 1e15)", "q7: joint 7 is 1e15 rad, its size must be at most 1e5 rad"),
     ("panda.ik_batch(many, np.zeros(3))", "q7 of shape (3,) cannot be broadcast with T"),
-    ("panda.ik(T, given={8: 0.2})", "given: there is no joint 8, it must be 1 to 7"),
+    ("panda.locked({8: 0.2})", "given: there is no joint 8, it must be 1 to 7"),
 ]  # fmt: skip
 MODELS = [
     ("Robot.from_mdh(np.zeros((6, 3)))", "rows must have shape (6, 4) or (7, 4), got (6, 3)"),
@@ -185,12 +185,11 @@ ARGUMENTS = [
      "the solution nearest to a seed take ik_nearest(T, seed))"),
     ("panda.ik(T, list(q))", TypeError, "q7 must be one real number, the angle of joint 7 [rad], "
      "got list (for the solution nearest to a seed take ik_nearest(T, seed))"),
-    ("panda.ik(T)", TypeError, "an arm of seven joints needs q7, the angle of joint 7 [rad], or "
-     "another joint as given={3: 0.2}; or take ik_nearest"),
-    ("panda.ik(T, 0.3, given={3: 0.2})", TypeError, "pass one of them"),
-    ("panda.ik(T, given={'q3': 0.2})", TypeError, "q3 is not the number of a joint, from 1"),
-    ("panda.ik(T, given={1: 0.1, 3: 0.2})", ValueError, "given has 2 joints"),
-    ("robot.ik(T, given={3: 0.2})", TypeError, "given is for arms of seven joints"),
+    ("panda.ik(T)", TypeError, "an arm of seven joints needs q7, the angle of joint 7 [rad]; take "
+     "locked({3: 0.2}) for another joint, or ik_nearest"),
+    ("panda.locked({'q3': 0.2})", TypeError, "q3 is not the number of a joint, from 1"),
+    ("panda.locked({1: 0.1, 3: 0.2})", ValueError, "given has 2 joints"),
+    ("robot.locked({3: 0.2})", TypeError, "given is for arms of seven joints"),
     ("robot.ik(target)", TypeError, "T must be real numbers, got a RobTarget: pass .matrix()"),
     ("robot.with_tool(tool._replace(robhold=False))", RapidError, "the tool is stationary (robhold "
      "FALSE), with_tool takes one that the robot holds"),

@@ -1,13 +1,12 @@
 //! Methods of `irbkin.Robot` that take poses.
 
 use std::f64::consts::TAU;
-use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use numpy::PyArray1;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyFloat, PyTuple};
+use pyo3::types::PyTuple;
 
 use super::arguments::{read_threads, thread_count};
 use super::arm::{AnyArm, on};
@@ -16,9 +15,7 @@ use super::errors::{exception, of_seed};
 use super::found::Found;
 use super::outputs::{Output, Pair, answer_row, pair};
 use super::records::{IkBatch, IkMargin, PoseCheck};
-use super::redundancy::{
-    locked, needed_q7, no_q7, no_q7_beside_given, one_angle, read_pair, read_poses_with_q7,
-};
+use super::redundancy::{needed_q7, no_q7, one_angle, read_poses_with_q7};
 use super::robot::PyRobot;
 use super::signals::detached;
 use super::solutions::PySolutions;
@@ -34,9 +31,8 @@ impl PyRobot {
     ///
     /// Args:
     ///     T: Pose of the tool, shape (4, 4), translation [m].
-    ///     q7: Angle of joint 7 [rad], of an arm of seven joints.
-    ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}: joints count
-    ///         from 1. `robot.ik(T, given={3: 0.2})` is `robot.locked({3: 0.2}).ik(T)`.
+    ///     q7: Angle of joint 7 [rad], of an arm of seven joints; `robot.locked({3: 0.2}).ik(T)`
+    ///         takes another joint.
     ///
     /// Returns:
     ///     Solutions, each in its slot, limits not regarded; empty with `reach` and `shortfall`
@@ -44,25 +40,15 @@ impl PyRobot {
     ///
     /// Raises:
     ///     InvalidPoseError: T has a wrong shape, is not finite or not a rigid transform.
-    ///     InvalidJointsError: q7 is not finite, or the joint does not exist.
-    ///     InvalidModelError: The other six joints do not move the tool in six independent ways.
-    ///     TypeError, ValueError: q7 is missing, or the arm has six joints and it is not; given
-    ///         does not map one joint, or stands beside q7.
-    #[pyo3(signature = (T, q7=None, *, given=None))]
+    ///     InvalidJointsError: q7 is not finite.
+    ///     InvalidModelError: The first six joints do not move the tool in six independent ways.
+    ///     TypeError: q7 is missing, or the arm has six joints and it is not.
+    #[pyo3(signature = (T, q7=None))]
     fn ik<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         q7: Option<&Bound<'py, PyAny>>,
-        given: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PySolutions>> {
-        if let Some(given) = given {
-            no_q7_beside_given(q7)?;
-            return match read_pair(self.arm(), given)? {
-                // An arm of seven joints has joint 7 locked for each pose.
-                (7, q7) => self.ik(T, Some(&q7), None),
-                (joint, angle) => Self::from(locked(self, joint, &angle)?).ik(T, None, None),
-            };
-        }
         let py = T.py();
         match self.arm() {
             AnyArm::Six(robot) => {
@@ -74,7 +60,7 @@ impl PyRobot {
             AnyArm::Seven(robot) => {
                 let angle = match (robot.locked_joint(), q7) {
                     (Some((_, angle)), None) => angle,
-                    (Some(_), Some(_)) => return Self::from(self.unlocked()?).ik(T, q7, None),
+                    (Some(_), Some(_)) => return Self::from(self.unlocked()?).ik(T, q7),
                     (None, q7) => one_angle(needed_q7(robot, q7)?, "q7")?,
                 };
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
@@ -92,8 +78,6 @@ impl PyRobot {
     ///     T: Poses of the tool, shape (..., 4, 4), translation [m].
     ///     q7: Angles of joint 7 [rad] of an arm of seven joints, of a shape that goes with (...):
     ///         T and q7 are broadcast.
-    ///     given: In place of q7, another joint of seven with its angle, as {3: 0.2}. The angles of
-    ///         the first and the last joint may be an array that goes with (...).
     ///     out: Where to write: an IkBatch or tuple of arrays (..., slots, n) float64 and (...,
     ///         slots) uint8, or the first of them alone.
     ///     threads: Number of threads; 0 for one a core.
@@ -109,29 +93,34 @@ impl PyRobot {
     ///     InvalidJointsError: q7 has a wrong shape.
     ///     InvalidModelError: The first six joints do not move the tool in six independent ways.
     ///     TypeError: q7 is missing, or the arm has six joints and it is not.
-    #[pyo3(signature = (T, q7=None, *, given=None, out=None, threads=1))]
+    #[pyo3(signature = (T, q7=None, *, out=None, threads=1))]
     fn ik_batch<'py>(
         &self,
         T: &Bound<'py, PyAny>,
         q7: Option<&Bound<'py, PyAny>>,
-        given: Option<&Bound<'py, PyAny>>,
         out: Option<&Bound<'py, PyAny>>,
         #[pyo3(from_py_with = read_threads)] threads: isize,
     ) -> PyResult<IkBatch> {
-        let threads = thread_count(threads)?;
-        let Some(given) = given else { return solved(self.arm(), T, ("q7", q7), out, threads) };
-        no_q7_beside_given(q7)?;
-        match read_pair(self.arm(), given)? {
-            (7, angles) => solved(&self.unlocked()?, T, ("q7", Some(&angles)), out, threads),
-            (1, angles) => {
-                let arm = locked(self, 1, &PyFloat::new(T.py(), 0.0))?;
-                solved(&arm, T, ("given", Some(&angles)), out, threads)
-            }
-            (joint, angles) => {
-                let arm = locked(self, joint, &angles)?;
-                solved(&arm, T, ("given", None), out, threads)
-            }
+        let is_locked = on!(self.arm(), robot => robot.locked_joint().is_some());
+        if q7.is_some() && is_locked {
+            return Self::from(self.unlocked()?).ik_batch(T, q7, out, threads);
         }
+        let (py, arm, threads) = (T.py(), self.arm(), thread_count(threads)?);
+        let (poses, angles) = read_poses_with_q7(arm, T, q7)?;
+        let (q_out, status_out) = outputs(out)?;
+        let slots = on!(arm, robot => robot.slot_count());
+        let q_shape = poses.shape_with(&[slots, arm.dof()]);
+        let mut q = Output::new(py, q_out.as_ref(), &q_shape, &[poses.addresses()])?;
+        let inputs = [poses.addresses(), q.addresses()];
+        let status_shape = poses.shape_with(&[slots]);
+        let mut status = Output::new(py, status_out.as_ref(), &status_shape, &inputs)?;
+        let (data, to_q, to_status) = (poses.data()?, q.slice()?, status.slice()?);
+        detached(
+            py,
+            threads,
+            |batch| on!(arm, robot => batch.ik_with(robot, data, &angles, to_q, to_status)),
+        )?;
+        Ok(IkBatch { q: q.array(), status: status.array() })
     }
 
     /// How much room the solutions of poses leave to limits and singularities: `ik_batch` and
@@ -162,7 +151,7 @@ impl PyRobot {
     ) -> PyResult<IkMargin> {
         let cell = cell.map(|cell| &*cell.get().cell);
         let (py, arm, threads) = (T.py(), self.arm(), thread_count(threads)?);
-        let (poses, angles) = read_poses_with_q7(arm, T, "q7", q7)?;
+        let (poses, angles) = read_poses_with_q7(arm, T, q7)?;
         let mut margin = Output::new(py, None, &poses.lead, &[])?;
         let mut singularities = Output::new(py, None, &poses.lead, &[])?;
         let mut solutions = Output::new(py, None, &poses.lead, &[])?;
@@ -271,32 +260,6 @@ fn middle<const N: usize>(robot: &Robot<N>) -> [f64; N] {
         // Of a joint that turns more often than that, the zero is where a user expects it.
         if upper - lower <= 2.0 * TAU { 0.5 * (lower + upper) } else { 0.0 }
     })
-}
-
-/// `irbkin.IkBatch` of poses, shape (..., 4, 4), and of the angles of a joint of seven for each,
-/// with the name of the argument.
-fn solved<'py>(
-    arm: &AnyArm,
-    poses: &Bound<'py, PyAny>,
-    (field, angles): (&'static str, Option<&Bound<'py, PyAny>>),
-    out: Option<&Bound<'py, PyAny>>,
-    threads: Option<NonZeroUsize>,
-) -> PyResult<IkBatch> {
-    let py = poses.py();
-    let (poses, angles) = read_poses_with_q7(arm, poses, field, angles)?;
-    let (q_out, status_out) = outputs(out)?;
-    let slots = on!(arm, robot => robot.slot_count());
-    let q_shape = poses.shape_with(&[slots, arm.dof()]);
-    let mut q = Output::new(py, q_out.as_ref(), &q_shape, &[poses.addresses()])?;
-    let inputs = [poses.addresses(), q.addresses()];
-    let mut status = Output::new(py, status_out.as_ref(), &poses.shape_with(&[slots]), &inputs)?;
-    let (data, to_q, to_status) = (poses.data()?, q.slice()?, status.slice()?);
-    detached(
-        py,
-        threads,
-        |batch| on!(arm, robot => batch.ik_with(robot, data, &angles, to_q, to_status)),
-    )?;
-    Ok(IkBatch { q: q.array(), status: status.array() })
 }
 
 /// The arrays of an `IkBatch` or of a tuple, or the first of them alone.

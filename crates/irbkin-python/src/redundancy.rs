@@ -1,4 +1,4 @@
-//! The joint of seven that a caller fixes: q7, `given`, and an arm with it locked.
+//! The joint of seven that a caller fixes: q7, and an arm with a locked one.
 
 use std::sync::Arc;
 
@@ -103,12 +103,10 @@ pub(super) fn locked(robot: &PyRobot, joint: usize, angle: &Bound<'_, PyAny>) ->
     Ok(AnyArm::Seven(locked))
 }
 
-/// Poses, shape (..., 4, 4), and the angles of a joint for each, of the argument `field`, broadcast:
-/// none for six joints, and where a joint of seven is locked.
+/// Poses, shape (..., 4, 4), and the angle of joint 7 for each, broadcast: none for six joints, and where a joint of seven is locked.
 pub(super) fn read_poses_with_q7<'py>(
     arm: &AnyArm,
     poses: &Bound<'py, PyAny>,
-    field: &'static str,
     angles: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Rows<'py>, Vec<f64>)> {
     on!(arm, robot => robot.check_structure()).map_err(exception)?;
@@ -121,7 +119,7 @@ pub(super) fn read_poses_with_q7<'py>(
     }
     let mut poses = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
     let Some(angles) = angles else { return Ok((poses, Vec::new())) };
-    let mut angles = Rows::read(angles, &[], field, Fault::Joints)?;
+    let mut angles = Rows::read(angles, &[], "q7", Fault::Joints)?;
     together(&mut [&mut poses, &mut angles])?;
     let angles = angles.data()?.to_vec();
     Ok((poses, angles))
@@ -156,16 +154,8 @@ pub(super) fn needed_q7<T>(robot: &Robot<7>, q7: Option<T>) -> PyResult<T> {
     robot.check_structure().map_err(exception)?;
     q7.ok_or_else(|| {
         PyTypeError::new_err(
-            "an arm of seven joints needs q7, the angle of joint 7 [rad], or another joint as \
-             given={3: 0.2}; or take ik_nearest",
+            "an arm of seven joints needs q7, the angle of joint 7 [rad]; take locked({3: 0.2}) for \
+             another joint, or ik_nearest",
         )
     })
-}
-
-/// Of q7 and given, one says all.
-pub(super) fn no_q7_beside_given(q7: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-    match q7 {
-        Some(_) => Err(PyTypeError::new_err("q7 and given: pass one of them")),
-        None => Ok(()),
-    }
 }
