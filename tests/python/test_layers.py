@@ -13,7 +13,8 @@ ARCHITECTURE = PACKAGE.parents[1] / "ARCHITECTURE.md"
 
 def layers() -> list[list[str]]:
     """The first column of the table: rows of module paths."""
-    section = ARCHITECTURE.read_text().split("\n## Layers of the Python package\n")[1].split("\n#")[0]
+    after = ARCHITECTURE.read_text().split("\n## Layers of the Python package\n")[1]
+    section = after.split("\n#")[0]
     rows = [line.split("|")[1] for line in section.splitlines() if line.startswith("| `")]
     return [re.findall(r"`([\w/]+?)/?`", row) for row in rows]
 
