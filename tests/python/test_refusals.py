@@ -344,8 +344,8 @@ def test_arguments_have_the_names_of_the_documentation():
     for call, names in {
         ROBOT.fk: "q out",
         ROBOT.jacobian: "q frame out",
-        ROBOT.ik: "T q7 given",
-        ROBOT.ik_batch: "T q7 given out threads",
+        ROBOT.ik: "T q7",
+        ROBOT.ik_batch: "T q7 out threads",
         ROBOT.ik_nearest: "T seed weights out threads cell",
         ROBOT.with_tool: "T",
         ROBOT.with_limits: "limits",
