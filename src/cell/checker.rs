@@ -79,6 +79,7 @@ impl<'a, const N: usize> Checker<'a, N> {
 
     /// Its memory, for another checker.
     #[doc(hidden)]
+    #[must_use]
     pub fn into_memory(self) -> Memory<N> {
         Memory(self.block)
     }

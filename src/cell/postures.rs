@@ -185,6 +185,7 @@ impl<const N: usize> Checker<'_, N> {
 
     /// The two that are deepest in each other or in the margin, and how deep [m].
     #[doc(hidden)]
+    #[must_use]
     pub fn collision(&self, q: &[f64; N]) -> Option<(Nearest, f64)> {
         let (pair, apart) = self.deepest(q)?;
         Some((self.named(pair, &apart), self.depth(pair.other, &apart)))

@@ -133,6 +133,7 @@ impl Zone {
 
     /// A zone in the units of zonedata: position and orientation [mm], angle [deg].
     #[doc(hidden)]
+    #[must_use]
     pub fn of_zonedata([position, orientation]: [f64; 2], angle: f64) -> Self {
         Self {
             position: position * 1e-3,
@@ -177,6 +178,7 @@ impl Leg {
 
     /// Its length [m].
     #[doc(hidden)]
+    #[must_use]
     pub fn length(&self) -> f64 {
         match self {
             Self::Line(line) => line.length(),
@@ -186,6 +188,7 @@ impl Leg {
 
     /// An angle that the tool does not turn by more than [rad].
     #[doc(hidden)]
+    #[must_use]
     pub fn angle(&self) -> f64 {
         match self {
             Self::Line(line) => line.angle(),
@@ -229,6 +232,7 @@ pub struct Corner {
 
 impl Corner {
     #[doc(hidden)]
+    #[must_use]
     pub fn new(zone: &Zone, before: &Leg, after: &Leg) -> Self {
         let half = 0.5 * before.length().min(after.length());
         let position = zone.position.min(half);
@@ -243,6 +247,7 @@ impl Corner {
 
     /// Whether the pose at the corner is met.
     #[doc(hidden)]
+    #[must_use]
     pub fn is_met(&self) -> bool {
         self.position == 0.0 && self.orientation == 0.0
     }

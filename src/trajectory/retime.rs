@@ -232,6 +232,7 @@ fn check_steps(q: &[f64], dof: usize) -> Result<(), Error> {
 /// Joints that go evenly from row to row [rad]. The times of the rows [s] begin at zero and do not
 /// decrease; rows at one time are equal.
 #[doc(hidden)]
+#[must_use]
 pub fn evenly<const N: usize>(times: &[f64], rows: &[[f64; N]]) -> Trajectory {
     let mut terms = Vec::with_capacity(rows.len() * N);
     for (ends, rows) in times.windows(2).zip(rows.windows(2)) {

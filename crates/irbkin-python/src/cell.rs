@@ -317,7 +317,7 @@ impl PyCell {
         rows: &Rows<'_>,
     ) -> PyResult<(Vec<Option<Nearest>>, Vec<f64>)> {
         let rows = checked_joints("q", rows)?;
-        Ok(detached_until(py, |interrupt| {
+        detached_until(py, |interrupt| {
             let checker = self.cell.checker(robot)?;
             let (mut all, mut gradients) = (Vec::new(), Vec::new());
             for q in rows {
@@ -329,7 +329,7 @@ impl PyCell {
             }
             Ok::<_, Error>((all, gradients))
         })?
-        .map_err(exception)?)
+        .map_err(exception)
     }
 }
 

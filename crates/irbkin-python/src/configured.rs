@@ -229,7 +229,7 @@ impl<'py, const N: usize> Asked<'py, N> {
             request.check().map(|()| request)
         };
         let configurations = read_configurations(&self.configurations)?;
-        Ok(configurations.first().map(request).transpose().map_err(exception)?)
+        configurations.first().map(request).transpose().map_err(exception)
     }
 
     /// Every solution of one pose, the nearest to the seed first, shape (k, n).

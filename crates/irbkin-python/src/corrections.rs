@@ -135,5 +135,5 @@ fn read<const N: usize>(
 ) -> PyResult<Corrections<N>> {
     let Some(given) = corrections else { return Ok(Corrections::NONE) };
     let rows = Rows::exact(given, &[count(robot)], "corrections", Fault::Model)?;
-    Ok(Corrections::from_slice(rows.data()?).map_err(exception)?)
+    Corrections::from_slice(rows.data()?).map_err(exception)
 }

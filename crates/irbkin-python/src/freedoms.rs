@@ -74,7 +74,7 @@ pub(super) fn read_rotation(rotation: &Bound<'_, PyAny>) -> PyResult<ToolRotatio
         let wanted = "rotation must be an irbkin.ToolRotation or a number of angles";
         ToolRotation::full(count(rotation).ok_or_else(|| other(wanted, rotation))?)
     };
-    Ok(made.map_err(exception)?)
+    made.map_err(exception)
 }
 
 /// The number of angles of joint 7.
@@ -116,7 +116,7 @@ pub(super) fn read_tolerance(tolerance: &Bound<'_, PyAny>) -> PyResult<ToolCone>
         return Err(other("tolerance must be an irbkin.ToolCone", tolerance));
     }
     let fields = Fields { tuple: tolerance, field: "ToolCone" };
-    Ok(ToolCone::new(fields.number("angle")?, fields.count("steps")?).map_err(exception)?)
+    ToolCone::new(fields.number("angle")?, fields.count("steps")?).map_err(exception)
 }
 
 /// A class of `irbkin.freedom`.

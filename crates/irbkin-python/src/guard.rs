@@ -201,8 +201,8 @@ impl Asked<'_, '_> {
             on_violation: self.on_violation,
             hold: self.hold,
         };
-        Ok(Guard::new(robot, &vector(self.start, "start", Fault::Joints)?, cell, &options)
-            .map_err(exception)?)
+        Guard::new(robot, &vector(self.start, "start", Fault::Joints)?, cell, &options)
+            .map_err(exception)
     }
 }
 

@@ -104,7 +104,7 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
             "the instruction set \"{name}\" is not supported by this CPU, which has {known:?}"
         ))
     })?;
-    Ok(set.force().map_err(exception)?)
+    set.force().map_err(exception)
 }
 
 /// Restore a pickled value. Loading runs the checks of the constructors.

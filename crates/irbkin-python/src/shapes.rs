@@ -175,7 +175,7 @@ pub(super) fn read_capsules(
         let [ax, ay, az, bx, by, bz, radius] = *row;
         Ok(LinkCapsule { link, capsule: Capsule::new([ax, ay, az], [bx, by, bz], radius)? })
     });
-    Ok(made.collect::<Result<_, Error>>().map_err(exception)?)
+    made.collect::<Result<_, Error>>().map_err(exception)
 }
 
 /// A hull: its link, points, faces and radius.

@@ -22,8 +22,7 @@ pub(super) fn detached<R: Send>(
     threads: Option<NonZeroUsize>,
     work: impl FnOnce(&mut Batch<'_>) -> Result<R, Error> + Send,
 ) -> PyResult<R> {
-    Ok(detached_until(py, |interrupt| work(&mut Batch::until(threads, interrupt)))?
-        .map_err(exception)?)
+    detached_until(py, |interrupt| work(&mut Batch::until(threads, interrupt)))?.map_err(exception)
 }
 
 /// Works without the interpreter's lock, until a signal's handler raises an exception.

@@ -21,7 +21,7 @@ const POSES_AT_A_TIME: usize = 1 << 18;
 
 /// The argument T as a checked pose.
 pub(super) fn read_pose(value: &Bound<'_, PyAny>) -> PyResult<Pose> {
-    Ok(pose_from_rows(&matrix4(value, "T", Fault::Pose)?).map_err(exception)?)
+    pose_from_rows(&matrix4(value, "T", Fault::Pose)?).map_err(exception)
 }
 
 /// The argument T of `ik`, without NumPy's bookkeeping where it is plain.
@@ -68,7 +68,7 @@ fn read_one_pose(value: &Bound<'_, PyAny>, many: &str) -> PyResult<Pose> {
 
 /// The pose where there is one alone, checked.
 pub(super) fn single_pose(poses: &Rows<'_>) -> PyResult<Option<Pose>> {
-    Ok(poses.single()?.map(pose_from_rows).transpose().map_err(exception)?)
+    poses.single()?.map(pose_from_rows).transpose().map_err(exception)
 }
 
 /// The poses of one path `T`, shape (m, 4, 4), checked.

@@ -152,7 +152,7 @@ impl PyTrajectory {
     ///         the limit; or a wrong shape.
     fn check_limits(&self, limits: &Bound<'_, PyAny>) -> PyResult<()> {
         let limits = read_angle_limits(Some(limits), self.motion.dof())?.unwrap_or_default();
-        Ok(self.motion.inside(&limits).map_err(exception)?)
+        self.motion.inside(&limits).map_err(exception)
     }
 
     /// Joint angles at any time: `sample(t).q`.

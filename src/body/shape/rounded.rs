@@ -182,6 +182,7 @@ impl RoundedHull {
 
     /// A capsule inside of it, if one is known.
     #[doc(hidden)]
+    #[must_use]
     pub fn core(&self) -> Option<&Capsule> {
         self.0.core.as_ref()
     }

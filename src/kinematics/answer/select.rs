@@ -66,6 +66,7 @@ impl<const N: usize> Solutions<N> {
 
     /// Number of items of [`Self::turns`] as a float, which cannot overflow.
     #[doc(hidden)]
+    #[must_use]
     pub fn turn_total(&self) -> f64 {
         let of_solution = |solution: &Solution<N>| {
             let turns = (0..N).map(|joint| {
@@ -118,6 +119,7 @@ impl<const N: usize> Solutions<N> {
 
     /// The cost is a sum over the joints, so the nearest turn is chosen for each joint separately.
     #[doc(hidden)]
+    #[must_use]
     pub fn cheapest(&self, seed: &[f64; N], weights: &[f64; N], cost: Cost) -> Option<Solution<N>> {
         let mut best: Option<(f64, Solution<N>)> = None;
         for solution in self {
@@ -152,6 +154,7 @@ pub enum Cost {
 impl Cost {
     /// The cost of moving from `seed` to `q`.
     #[doc(hidden)]
+    #[must_use]
     pub fn total<const N: usize>(self, q: &[f64; N], seed: &[f64; N], weights: &[f64; N]) -> f64 {
         let cost = |difference: f64| match self {
             Self::Distance => difference * difference,

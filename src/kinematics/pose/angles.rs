@@ -78,6 +78,7 @@ pub(crate) fn rotation_vector(rotation: &Rotation3<f64>) -> Vector3<f64> {
 
 /// The angle between two vectors [rad], 0 to pi, exact to rounding at both ends.
 #[doc(hidden)]
+#[must_use]
 pub fn angle_between(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     a.cross(b).norm().atan2(a.dot(b))
 }

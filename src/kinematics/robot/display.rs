@@ -21,6 +21,7 @@ impl<const N: usize> Robot<N> {
 
     /// How its tip was chosen among several in its file.
     #[doc(hidden)]
+    #[must_use]
     pub fn tip_remark(&self) -> Option<&str> {
         self.labels.as_ref().map(|labels| &labels.1[..]).filter(|remark| !remark.is_empty())
     }

@@ -314,6 +314,7 @@ impl<const N: usize> Robot<N> {
 
     /// The rows of [`Self::jacobian`].
     #[doc(hidden)]
+    #[must_use]
     pub fn jacobian_rows(&self, q: &[f64; N], frame: JacobianFrame) -> [[f64; N]; 6] {
         self.chain.jacobian_rows(q, frame)
     }
@@ -365,6 +366,7 @@ impl<const N: usize> Robot<N> {
 
     /// [`Self::singularity`] without the singular values.
     #[doc(hidden)]
+    #[must_use]
     pub fn near_singularities(&self, q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind) {
         self.inverse().map_or((None, SingularityKind::empty()), |inverse| inverse.singular(q))
     }

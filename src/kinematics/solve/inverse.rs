@@ -120,6 +120,7 @@ impl<const N: usize> Robot<N> {
     /// An answer without solutions, to be solved in place.
     #[inline]
     #[doc(hidden)]
+    #[must_use]
     pub fn unsolved(&self, pose: Pose) -> Solutions<N> {
         Solutions::none(self.slot_count(), pose, *self.limits())
     }

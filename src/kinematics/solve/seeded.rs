@@ -245,6 +245,7 @@ impl<const N: usize> Robot<N> {
     /// The outcome of a solve in a sentence, with the nearest approach; of seven joints with joint
     /// 7 at `q7` [rad], unless a joint is locked.
     #[doc(hidden)]
+    #[must_use]
     pub fn explained_answer(&self, solutions: &Solutions<N>, q7: Option<f64>) -> Explanation {
         let explanation = solutions.explain();
         let Explanation::NoRoots { .. } = explanation else { return explanation };

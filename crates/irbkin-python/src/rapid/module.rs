@@ -161,7 +161,7 @@ impl RapidModule {
                 NewValue { datum: index, element: (!single).then_some(number), value }
             }));
         }
-        Ok(rapid::rewrite(&self.source, &self.module, &new_values).map_err(exception)?)
+        rapid::rewrite(&self.source, &self.module, &new_values).map_err(exception)
     }
 
     /// Return the names of the module's own data, in the order of the text.

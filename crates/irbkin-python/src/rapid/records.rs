@@ -28,8 +28,7 @@ pub(crate) fn carried_tool(tool: &rapid::ToolData) -> PyResult<Pose> {
                        holds: rapid.calc_joint_t takes both";
         return Err(Fault::Rapid.error(message));
     }
-    Ok(pose_from_wxyz(tool.tframe.trans_mm.map(|mm| mm / 1e3), tool.tframe.rot)
-        .map_err(exception)?)
+    pose_from_wxyz(tool.tframe.trans_mm.map(|mm| mm / 1e3), tool.tframe.rot).map_err(exception)
 }
 
 #[pymethods]
