@@ -4,14 +4,14 @@
 //! ```
 //! use irbkin::paths::{Spacing, line};
 //! use irbkin::plan::{PlanOptions, ToolRotation};
-//! use irbkin::{Robot, pose};
+//! use irbkin::{Arm, pose};
 //!
-//! let robot: Robot<6> = Robot::named("IRB 2600-12/1.65")?;
+//! let arm: Arm<6> = Arm::named("IRB 2600-12/1.65")?;
 //! let start = pose::from_euler_zyx([0.9, -0.3, 0.7], [0.0, 2.8, 0.0])?;
 //! let end = pose::from_euler_zyx([0.9, 0.3, 0.7], [0.0, 2.8, 0.0])?;
 //! let seam = line(&start, &end, Spacing::count(101)?, None)?;
 //! let rotation = Some(ToolRotation::full(36)?);
-//! let plan = robot.plan(&seam, &PlanOptions { rotation, ..PlanOptions::default() })?;
+//! let plan = arm.plan(&seam, &PlanOptions { rotation, ..PlanOptions::default() })?;
 //! assert!(plan.certified && plan.breaks.is_empty());
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```

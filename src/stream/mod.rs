@@ -14,7 +14,7 @@
 //! let arm: Arm<6> = Arm::named("IRB 2600-12/1.65")?;
 //! let options = GuardOptions { max_jerk: Some([60.0; 6]), ..GuardOptions::new(0.004, [8.0; 6]) };
 //! let start = [0.0, 0.0, 0.0, 0.0, 0.5, 0.0];
-//! let mut guard = Guard::new(&robot, &start, Some(&Cell::default()), &options)?;
+//! let mut guard = Guard::new(&arm, &start, Some(&Cell::default()), &options)?;
 //!
 //! let mut reference = start;
 //! reference[0] += 1e-6;

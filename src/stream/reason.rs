@@ -109,7 +109,7 @@ pub enum Reason {
     NoInverse,
     /// The way to the reference, or the braking motion after it, is not proven free.
     Blocked {
-        /// A link, and what it comes too near to, if one pair alone is not proven apart.
+        /// A link, and what it comes too near to; `None` if no pair of them was found again.
         pair: Option<(usize, Other)>,
     },
 }
