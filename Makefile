@@ -20,7 +20,7 @@ NO_STD := --no-default-features --features libm
 # Run a command under a name; if it takes long, print the name and the seconds. With -q what it
 # prints is kept until it fails, and crates are counted.
 STEP := @tests/step.sh
-LAW_CRATES := cargo test -p irbkin-abb -p irbkin-page -p irbkin-tests --lib --tests
+LAW_CRATES := cargo test -p irbkin-abb -p irbkin-tests --lib --tests
 SUITE := cargo test -p irbkin -p irbkin-abb -p irbkin-tests --lib --tests
 # A download that breaks off is no reason to fail.
 PIP_INSTALL := tests/retry.sh $(BIN)/pip install --quiet --disable-pip-version-check

@@ -9,6 +9,7 @@ mod inverse;
 mod margins;
 mod pace;
 mod paths;
+#[cfg(feature = "std")]
 mod poses;
 mod rows;
 #[cfg(feature = "std")]

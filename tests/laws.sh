@@ -7,7 +7,7 @@ python=$1 logs=target/laws
 mkdir -p "$logs"
 export IRBKIN_SKIPPED=$PWD/$logs/skipped
 : >"$IRBKIN_SKIPPED"
-suite=(cargo test -p irbkin-abb -p irbkin-page -p irbkin-tests --lib --tests)
+suite=(cargo test -p irbkin-abb -p irbkin-tests --lib --tests)
 
 tests/step.sh "Python tests" "$python" -m pytest -q -n "${WORKERS:-2}" --dist worksteal \
     -m "not extra and not recipes and not evidence" >"$logs/python" &

@@ -3,6 +3,7 @@
 //! A new file of tests is a module here, see `CONTRIBUTING.md`. `lanes` forces instruction sets in
 //! the whole process: its tests are ignored, and run by themselves.
 #![allow(unreachable_pub)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::float_cmp)]
 
 mod allocation;
 mod any_robot;

@@ -1,5 +1,6 @@
 //! The catalog: arms by name. Their figures are in `arms.txt`.
 
+#[cfg(feature = "std")]
 mod alike;
 mod confdata;
 mod designation;

@@ -14,6 +14,7 @@ mod text;
 mod tree;
 mod write;
 
+use alloc::borrow::ToOwned as _;
 use alloc::boxed::Box;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use alloc::string::String;
+#[cfg(any(feature = "urdf", feature = "serde"))]
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
