@@ -9,9 +9,8 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 RUST_SOURCES := $(shell find src crates -name '*.rs' -o -name Cargo.toml) Cargo.toml
-# Profile of the extension in .venv: dev, which the tests in Rust share, or release, which also
-# serves the wheel.
-PROFILE ?= dev
+# Profile of the extension in .venv: develop, or release, which also serves the wheel.
+PROFILE ?= develop
 BUILT := $(VENV)/.irbkin-$(PROFILE)
 RELEASED := $(VENV)/.irbkin-release
 PEERS := .venv-peers
@@ -62,7 +61,7 @@ $(VENV)/.made: | toolchains
 
 $(VENV)/.irbkin-%: $(VENV)/.made $(RUST_SOURCES) pyproject.toml | toolchains
 	$(STEP) -q "Build irbkin into $(VENV) (three minutes on two cores)" \
-		env VIRTUAL_ENV=$(abspath $(VENV)) $(if $(filter release,$*),$(EXTENSION_FLAGS)) \
+		env VIRTUAL_ENV=$(abspath $(VENV)) $(EXTENSION_FLAGS) \
 		$(BIN)/maturin develop --profile $*
 	@rm -f $(VENV)/.irbkin-* && touch $@
 
