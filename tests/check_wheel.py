@@ -43,8 +43,8 @@ from pathlib import Path
 # Set points for control loops (guards of six and seven joints, EGM) and proofs along lines, for
 # each instruction set, are 220 kB.
 # 5.6 MB are wanted. RAPID, the page and the bindings are crates now, and what they instantiate of
-# the core is there up to three times, 1.7 MB: kernels of cells and motions for each number of joints
-# and instruction set. They are to be instantiated once, in the core.
+# the core is there up to three times, 1.7 MB: kernels of cells and motions, for each number of
+# joints and instruction set. They are to be instantiated once, in the core.
 MOST_BYTES = 6_900_000
 
 SBOM = re.compile(r"irbkin-[^/]+\.dist-info/sboms/irbkin\.cyclonedx\.json")
