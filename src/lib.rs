@@ -159,7 +159,6 @@ pub mod internal {
         Cost, MOST_SLOTS, Progress, angle_between, check_joints, check_most_near, check_near,
         check_seed, check_weights, constant_sin_cos, largest_step,
     };
-    #[cfg(feature = "std")]
     pub use crate::lanes::on_each_set;
     pub use crate::paths::line::part;
     pub use crate::paths::polyline::{Corner, Leg, PREDEFINED, Rounded};

@@ -13,7 +13,6 @@ mod number;
 mod vector;
 
 pub use dispatch::InstructionSet;
-#[cfg(feature = "std")]
 pub use dispatch::on_each_set;
 pub(crate) use dispatch::{Kernel, run};
 pub(crate) use functions::{
