@@ -85,9 +85,9 @@ run: $(BUILT) ## Solve a pose of an IRB 2600 and show all solutions
 package: $(BUILT) $(VENV)/.groups
 
 test: | toolchains ## Run the laws in Rust, and the tests in Python that need no extras
-	@echo "Builds irbkin for development and runs its laws: about six minutes on two cores, two when it is built."
+	@echo "Builds irbkin for development and runs its laws: about ten minutes on two cores."
 	@$(MAKE) --no-print-directory $(BUILT) $(VENV)/.test
-	@tests/laws.sh $(BIN)/python
+	@tests/laws.sh $(BIN)/python $(LAW_CRATES)
 
 quick: $(VENV)/.quick-rust $(VENV)/.quick-python ## Test what changed since the last time, a tenth of the poses
 
@@ -102,7 +102,7 @@ $(VENV)/.quick-python: $(BUILT) $(VENV)/.test $(shell find python tests/python -
 
 test-sets: | toolchains ## Run unit tests of kinematics, and the laws on each instruction set
 	$(STEP) -q "Compile the Rust tests" $(SUITE) --no-run
-	$(STEP) "Unit tests of kinematics" cargo test -p irbkin --lib
+	$(STEP) "Unit tests of kinematics" $(filter-out --tests,$(SUITE))
 	$(STEP) "Rust tests that force an instruction set" $(SUITE) -- --ignored
 	$(STEP) "Laws on the baseline" env IRBKIN_INSTRUCTION_SET=baseline $(SUITE) -- laws:: hard_sets::
 

@@ -85,13 +85,6 @@
 // If another crate of the build links std, its float methods shadow those imported for no_std.
 #![cfg_attr(not(feature = "std"), allow(unused_imports))]
 
-// Calculations are left out then, so that this is the error that is seen.
-#[cfg(not(any(feature = "std", feature = "libm")))]
-compile_error!(
-    "irbkin needs the feature `std` or, without the standard library, `libm`: build with \
-     --no-default-features --features libm"
-);
-
 extern crate alloc;
 #[cfg(test)]
 extern crate self as irbkin;
@@ -115,6 +108,10 @@ pub mod report;
 #[path = "../tests/common/rng.rs"]
 #[allow(dead_code, unreachable_pub)]
 mod rng;
+#[cfg(test)]
+#[path = "../tests/common/sets.rs"]
+#[allow(unreachable_pub)]
+mod sets;
 #[cfg(feature = "std")]
 mod spelling;
 mod spline;
@@ -159,7 +156,6 @@ pub mod internal {
         Cost, MOST_SLOTS, Progress, angle_between, check_joints, check_most_near, check_near,
         check_seed, check_weights, constant_sin_cos, largest_step,
     };
-    pub use crate::lanes::on_each_set;
     pub use crate::paths::line::part;
     pub use crate::paths::polyline::{Corner, Leg, PREDEFINED, Rounded};
     pub use crate::paths::thresholds::{LEAST_WAY, MOST_SAMPLES, STEP_ROUNDING};

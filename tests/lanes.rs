@@ -5,7 +5,7 @@
 /// Laws that force instruction sets in the whole process, so that no other test may run beside them.
 macro_rules! alone {
     ($on:ident: $($law:ident,)*) => {
-        $on!($(#[ignore = "run by itself: cargo test --lib -- --ignored"] $law,)*);
+        $on!($(#[ignore = "run by itself: cargo test -p irbkin-tests -- --ignored"] $law,)*);
     };
 }
 
@@ -17,10 +17,10 @@ use std::array;
 use std::fs::OpenOptions;
 use std::io::{Write, stderr};
 
+use crate::common::sets::on_each_set;
 use crate::common::{Rng, apart};
 use crate::structures::{Structure, Subject, on_every_structure, on_structures_of_ordinals};
 use irbkin::batch::Batch;
-use irbkin::internal::on_each_set;
 use irbkin::{InstructionSet, JacobianFrame, Pose, Robot, Singularity, Status, pose};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 use subjects::{PoseRow, Row, joint_rows, rows, subjects};

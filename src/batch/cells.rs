@@ -34,7 +34,7 @@ impl Batch<'_> {
         let q = rows::<N>("q", q)?;
         check_length("collides", collides.len(), q.len())?;
         q.iter().try_for_each(|q| check_seed("q", q))?;
-        cell.checker(arm)?;
+        arm.needed_body()?;
         let parts = q.chunks(JOINT_VECTORS).zip(collides.chunks_mut(JOINT_VECTORS));
         self.run(q.len(), parts, |(q, collides), _| {
             let Ok(mut checker) = cell.checker(arm) else { return };
@@ -67,7 +67,7 @@ impl Batch<'_> {
         weights: &[f64; N],
         q: &mut [f64],
     ) -> Result<(), Error> {
-        cell.checker(arm)?;
+        arm.needed_body()?;
         self.seeded(poses, seeds, weights, q, |poses, seeds, q| {
             let Ok(mut checker) = cell.checker(arm) else { return };
             for ((pose, seed), q) in poses.iter().zip(seeds).zip(q) {

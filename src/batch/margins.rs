@@ -74,7 +74,7 @@ impl Batch<'_> {
         answers: Margins<'_>,
     ) -> Result<(), Error> {
         arm.check_structure()?;
-        cell.map(|cell| cell.checker(arm)).transpose()?;
+        cell.map(|_| arm.needed_body()).transpose()?;
         let poses = rows::<16>("poses", poses)?;
         let Margins { margin, singularities, solutions: count } = answers;
         let angles = &*arm.angles_of_rows(angles, poses.len())?;

@@ -21,6 +21,5 @@ pub(crate) use boxes::Boxes;
 pub use checker::{Checker, Memory};
 pub use obstacles::Cell;
 pub use pairs::Other;
-pub use path::Motion;
-pub use path::{Contact, RESOLUTION};
+pub use path::{Contact, Motion, RESOLUTION};
 pub use postures::{Near, Nearest};

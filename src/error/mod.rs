@@ -12,8 +12,7 @@ mod motion;
 #[cfg(test)]
 mod tests;
 
-pub use self::input::JointFault;
-pub use self::input::PoseFault;
+pub use self::input::{JointFault, PoseFault};
 pub use self::model::ModelFault;
 pub use self::motion::MotionFault;
 use crate::body::fault::BodyFault;

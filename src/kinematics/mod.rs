@@ -9,16 +9,11 @@ mod solve;
 mod structure;
 pub mod thresholds;
 
-pub use answer::check::check_joints;
-pub use answer::check::check_most_near;
-pub use answer::check::check_near;
-pub use answer::check::check_seed;
-pub use answer::check::check_weights;
+pub use answer::check::{check_joints, check_most_near, check_near, check_seed, check_weights};
 pub use answer::request::ConfigurationRequest;
 pub use answer::select::Cost;
 pub use answer::singularity::{SingularDistances, Singularity};
-pub use answer::slot::MOST_SLOTS;
-pub use answer::slot::Slot;
+pub use answer::slot::{MOST_SLOTS, Slot};
 pub use answer::solutions::{Solution, Solutions};
 pub use answer::status::{SingularityKind, Status};
 pub(crate) use chain::axes::Axes;
@@ -33,15 +28,13 @@ pub use chain::joint_axes::JointAxis;
 pub(crate) use chain::joint_axes::unit;
 pub use chain::limits::JointLimits;
 pub(crate) use chain::limits::at_limit;
-pub use path::follow::Progress;
-pub use path::follow::{Break, BreakReason, Followed, Follower};
+pub use path::follow::{Break, BreakReason, Followed, Follower, Progress};
 pub use path::singularity_mode::{FollowOptions, SingularityMode};
 pub use path::step::largest_step;
 pub(crate) use path::step::{largest, steps};
-pub use pose::angles::angle_between;
-pub use pose::angles::constant_sin_cos;
 #[cfg(feature = "urdf")]
 pub(crate) use pose::angles::snapped;
+pub use pose::angles::{angle_between, constant_sin_cos};
 pub(crate) use pose::angles::{nearest_turn, rotation_vector};
 pub(crate) use pose::checked_pose;
 #[cfg(feature = "urdf")]
@@ -52,7 +45,7 @@ pub use pose::{
     pose_from_rows, pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx, pose_to_rows, pose_to_wxyz,
 };
 pub use robot::any::{AnyRobot, ByJoints};
-pub(crate) use robot::postures::POSTURES;
+pub(crate) use robot::build::POSTURES;
 pub use robot::{Definition, Joints, Margin, Robot};
 pub use solve::configuration::fault::NoConfiguration;
 pub(crate) use structure::inverse::Rows;

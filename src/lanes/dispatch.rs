@@ -146,26 +146,10 @@ fn with_avx2<K: Kernel>(kernel: K) -> K::Answer {
     kernel.run::<true>()
 }
 
-/// Run `work` on each set of this processor in turn, one caller at a time, then return to the
-/// widest.
-#[doc(hidden)]
-pub fn on_each_set(mut work: impl FnMut(InstructionSet)) {
-    #[cfg(feature = "std")]
-    static FORCED: std::sync::Mutex<()> = std::sync::Mutex::new(());
-    // A test that failed while it held the lock has reported its failure.
-    #[cfg(feature = "std")]
-    let _one_at_a_time = FORCED.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    for set in InstructionSet::available() {
-        if set.force().is_ok() {
-            work(set);
-        }
-    }
-    InstructionSet::detect();
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sets::on_each_set;
 
     #[test]
     #[ignore = "run by itself: cargo test --lib -- --ignored"]

@@ -13,7 +13,6 @@ mod number;
 mod vector;
 
 pub use dispatch::InstructionSet;
-pub use dispatch::on_each_set;
 pub(crate) use dispatch::{Kernel, run};
 pub(crate) use functions::{
     MOST_SIN_COS, atan2, atan2_of, mul_add, nearest_whole, sin_cos, sin_cos_of, whole_above,

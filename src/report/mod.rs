@@ -9,9 +9,8 @@ pub use answer::{Approach, Configuration, ConfigurationRule, Explanation, Reach}
 pub use free_joint::FreeJoint;
 pub use names::Names;
 pub(crate) use names::{Listed, excess};
-pub use unknown_structure::Convention;
-pub use unknown_structure::UnknownStructure;
 pub(crate) use unknown_structure::{
     Columns, Freedom, MOST_CONDITIONS, OFFSET_WRIST, ORDERS, Pattern, Reading, Relation, SNAPS,
     Snap,
 };
+pub use unknown_structure::{Convention, UnknownStructure};

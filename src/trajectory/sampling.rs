@@ -96,8 +96,8 @@ mod tests {
     use std::vec::Vec;
 
     use super::*;
-    use crate::lanes::on_each_set;
     use crate::rng::Rng;
+    use crate::sets::on_each_set;
     use crate::trajectory::Trajectory;
     use crate::trajectory::polynomial::derivatives;
 

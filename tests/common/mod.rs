@@ -4,6 +4,7 @@ pub mod company;
 pub mod coupled_arm;
 pub mod rng;
 pub mod scenes;
+pub mod sets;
 pub mod tally;
 
 use std::f64::consts::{PI, TAU};

@@ -8,8 +8,8 @@ use irbkin::batch::Batch;
 use irbkin::{JointLimits, Robot, Status, pose};
 
 use crate::common::coupled_arm::{limited, odd, opposed, others, with_linkage};
+use crate::common::sets::on_each_set;
 use crate::common::{Rng, apart};
-use irbkin::internal::on_each_set;
 
 #[test]
 #[ignore = "run by itself: cargo test --lib -- --ignored"]

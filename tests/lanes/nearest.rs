@@ -10,9 +10,9 @@ use super::same_bits;
 use super::subjects::{PoseRow, rows, subjects};
 use crate::common::Rng;
 use crate::common::coupled_arm::{limited, odd, opposed, with_linkage};
+use crate::common::sets::on_each_set;
 use crate::structures::Structure;
 use crate::structures::on_every_structure;
-use irbkin::internal::on_each_set;
 
 alone!(on_every_structure: the_nearest_of_rows_is_the_nearest_alone,);
 

@@ -1,7 +1,8 @@
 """Write the docstrings of the extension module into `python/irbkin/_core.pyi`.
 
-The doc comments in `src/python` are what `help()` shows; this puts the same words into the stub of
-a wheel, which editors read (`ship/documented.sh`). In the sources the stub has types alone.
+The doc comments in `crates/irbkin-python` are what `help()` shows; this puts the same words into
+the stub of a wheel, which editors read (`ship/documented.sh`). In the sources the stub has types
+alone.
 """
 
 import ast

@@ -13,11 +13,11 @@ use irbkin::{Arm, Error, JointLimits, Robot};
 pub(super) use irbkin::{ByJoints, on};
 
 /// A robot of six or seven joints.
-pub(super) type AnyArm = ByJoints<Arc<Arm<6>>, Arc<Arm<7>>>;
+pub(super) type SharedArm = ByJoints<Arc<Arm<6>>, Arc<Arm<7>>>;
 
 /// The arm of the catalog with a name: each is made once, for a robot is frozen.
-pub(super) fn named(name: &str) -> Result<AnyArm, Error> {
-    static MADE: Mutex<BTreeMap<&str, AnyArm>> = Mutex::new(BTreeMap::new());
+pub(super) fn named(name: &str) -> Result<SharedArm, Error> {
+    static MADE: Mutex<BTreeMap<&str, SharedArm>> = Mutex::new(BTreeMap::new());
     let made = || MADE.lock().unwrap_or_else(PoisonError::into_inner);
     let known = |name: &str| made().get(name).cloned();
     if let Some(arm) = known(name) {
@@ -25,7 +25,7 @@ pub(super) fn named(name: &str) -> Result<AnyArm, Error> {
     }
     let entry = find(name)?;
     let arm = known(entry.name)
-        .map_or_else(|| irbkin::AnyArm::from_catalog(&entry).map(AnyArm::from), Ok)?;
+        .map_or_else(|| irbkin::AnyArm::from_catalog(&entry).map(SharedArm::from), Ok)?;
     Ok(made().entry(entry.name).or_insert(arm).clone())
 }
 
@@ -33,24 +33,24 @@ pub(super) fn named(name: &str) -> Result<AnyArm, Error> {
 pub(super) fn changed<const N: usize>(
     arm: &Arm<N>,
     change: impl FnOnce(Robot<N>) -> Result<Robot<N>, Error>,
-) -> PyResult<AnyArm>
+) -> PyResult<SharedArm>
 where
-    AnyArm: From<Arm<N>>,
+    SharedArm: From<Arm<N>>,
 {
     Ok(arm.clone().map(change).map_err(exception)?.into())
 }
 
 /// The robot of a call for a YuMi.
-pub(super) fn seven_joints(arm: &AnyArm) -> PyResult<&Arc<Arm<7>>> {
+pub(super) fn seven_joints(arm: &SharedArm) -> PyResult<&Arc<Arm<7>>> {
     match arm {
-        AnyArm::Six(_) => Err(exception(Error::from(ModelFault::NoArmAngle))),
-        AnyArm::Seven(robot) => Ok(robot),
+        SharedArm::Six(_) => Err(exception(Error::from(ModelFault::NoArmAngle))),
+        SharedArm::Seven(robot) => Ok(robot),
     }
 }
 
 /// Joint vectors as an argument: a single one must be finite and near the limits, of many most must
 /// be near them.
-pub(super) fn joints<'py>(arm: &AnyArm, q: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
+pub(super) fn joints<'py>(arm: &SharedArm, q: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
     let rows = Rows::read(q, &[arm.dof()], "q", Fault::Joints)?;
     on!(arm, robot => check_rows(&rows, robot.limits())?);
     Ok(rows)

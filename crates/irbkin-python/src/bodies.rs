@@ -3,7 +3,7 @@
 use crate::errors::exception;
 use pyo3::prelude::*;
 
-use super::arm::{AnyArm, on};
+use super::arm::{SharedArm, on};
 use super::robot::PyRobot;
 use super::shapes::{PyBody, PyShape, read_pose};
 use irbkin::Arm;
@@ -26,7 +26,10 @@ impl PyRobot {
     #[pyo3(signature = (body))]
     fn with_body(&self, body: Option<&Bound<'_, PyBody>>) -> PyResult<Self> {
         let body = body.map(|body| body.get().0.clone());
-        Ok(on!(self.arm(), robot => AnyArm::from(Arm::clone(robot).with_body(body).map_err(exception)?)).into())
+        Ok(on!(self.arm(), robot => {
+            SharedArm::from(Arm::clone(robot).with_body(body).map_err(exception)?)
+        })
+        .into())
     }
 
     /// Return a body made of the lengths of the kinematic table: capsules along its lines, thicker
@@ -67,7 +70,8 @@ impl PyRobot {
         let pose = read_pose(pose)?;
         let shapes = shapes.read();
         Ok(on!(self.arm(), robot => {
-            AnyArm::from(Arm::clone(robot).with_attached(&shapes, &pose, excess).map_err(exception)?)
+            let carrying = Arm::clone(robot).with_attached(&shapes, &pose, excess);
+            SharedArm::from(carrying.map_err(exception)?)
         })
         .into())
     }

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use super::arguments::{read_threads, thread_count};
-use super::arm::{AnyArm, joints, on};
+use super::arm::{SharedArm, joints, on};
 use super::arrays::{Rows, copied_pair, vector};
 use super::errors::{Fault, exception};
 use super::outputs::{Output, array};
@@ -177,8 +177,8 @@ impl PyCell {
         if out.is_none() && self.cell.obstacles().len() <= FEW {
             let (six, seven) = &self.memory;
             let one = match robot.arm() {
-                AnyArm::Six(arm) => self.at_plain(arm, six, q)?,
-                AnyArm::Seven(arm) => self.at_plain(arm, seven, q)?,
+                SharedArm::Six(arm) => self.at_plain(arm, six, q)?,
+                SharedArm::Seven(arm) => self.at_plain(arm, seven, q)?,
             };
             if let Some(collides) = one {
                 return Ok(PyArray::from_array(py, &aview0(&collides)).into_any());
@@ -187,8 +187,8 @@ impl PyCell {
         let rows = joints(robot.arm(), q)?;
         let mut answer = Output::<bool>::new(py, out, &rows.lead, &[rows.addresses()])?;
         match robot.arm() {
-            AnyArm::Six(_) => checked_joints::<6>("q", &rows).map(drop)?,
-            AnyArm::Seven(_) => checked_joints::<7>("q", &rows).map(drop)?,
+            SharedArm::Six(_) => checked_joints::<6>("q", &rows).map(drop)?,
+            SharedArm::Seven(_) => checked_joints::<7>("q", &rows).map(drop)?,
         }
         let (q, to) = (rows.data()?, answer.slice()?);
         on!(robot.arm(), robot => {

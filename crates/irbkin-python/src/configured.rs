@@ -8,11 +8,11 @@ use pyo3::intern;
 use pyo3::prelude::*;
 
 use super::arguments::{read_threads, thread_count};
-use super::arm::{AnyArm, joints, on, seven_joints};
+use super::arm::{SharedArm, joints, on, seven_joints};
 use super::arrays::{Rows, together};
 use super::errors::{Fault, exception};
 use super::outputs::{Output, answer_row, matrix};
-use super::records::ConfigurationBatch;
+use super::records::{self, ConfigurationBatch};
 use super::robot::PyRobot;
 use super::signals::detached;
 use super::targets::{read_single_pose, single_pose, single_seed};
@@ -45,8 +45,7 @@ impl PyRobot {
         on!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
         let rows = joints(arm, q)?;
         if let Some(one) = on!(arm, robot => rows.single()?.map(|q| robot.configuration(q))) {
-            return super::records::Configuration::from(one.map_err(exception)?)
-                .into_bound_py_any(py);
+            return records::Configuration::from(one.map_err(exception)?).into_bound_py_any(py);
         }
         let mut numbers = Output::<i32>::new(py, None, &rows.shape_with(&[4]), &[])?;
         let (data, slice) = (rows.data()?, numbers.slice()?);
@@ -161,14 +160,14 @@ impl PyRobot {
 }
 
 /// Whether a configuration, with the arm angle of a YuMi, names one solution of a pose.
-fn names_one(arm: &AnyArm) -> bool {
+fn names_one(arm: &SharedArm) -> bool {
     let rule = on!(arm, robot => robot.configuration_rule());
     rule.is_ok_and(|rule| rule == ConfigurationRule::SphericalWrist)
 }
 
 /// Whether the solution nearest to the seed replaces one that does not exist.
 pub(super) fn or_nearest(
-    arm: &AnyArm,
+    arm: &SharedArm,
     fallback: Option<&str>,
     seed: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<bool> {
@@ -282,7 +281,7 @@ impl<'py, const N: usize> Asked<'py, N> {
 /// Configurations of shape (..., 4), or a record of four arrays.
 fn configuration_rows<'py>(value: &Bound<'py, PyAny>) -> PyResult<Rows<'py>> {
     let py = value.py();
-    let is_record = value.is_instance_of::<super::records::Configuration>()
+    let is_record = value.is_instance_of::<records::Configuration>()
         || value.is_instance_of::<ConfigurationBatch>();
     if !is_record {
         return Rows::read(value, &[4], "configuration", Fault::Joints);

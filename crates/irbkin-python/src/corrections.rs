@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 
-use super::arm::{AnyArm, changed, named, on};
+use super::arm::{SharedArm, changed, named, on};
 use super::arrays::Rows;
 use super::errors::{Fault, exception};
 use super::queries::mapped;
@@ -29,7 +29,8 @@ impl PyRobot {
     ///         is not a table, or it leaves coupled axes 2 and 3 more than 0.05 rad off parallel.
     fn with_corrections(&self, corrections: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(on!(self.arm(), robot => {
-            AnyArm::from(robot.with_corrections(&read(robot, Some(corrections))?).map_err(exception)?)
+            let corrected = robot.with_corrections(&read(robot, Some(corrections))?);
+            SharedArm::from(corrected.map_err(exception)?)
         })
         .into())
     }
@@ -56,10 +57,10 @@ impl PyRobot {
             Err(_) => named(nominal.extract()?).map_err(exception)?,
         };
         let refined = match (self.arm(), &nominal) {
-            (AnyArm::Six(arm), AnyArm::Six(nominal)) => {
+            (SharedArm::Six(arm), SharedArm::Six(nominal)) => {
                 changed(arm, |robot| robot.with_nominal(nominal))?
             }
-            (AnyArm::Seven(arm), AnyArm::Seven(nominal)) => {
+            (SharedArm::Seven(arm), SharedArm::Seven(nominal)) => {
                 changed(arm, |robot| robot.with_nominal(nominal))?
             }
             (robot, nominal) => {

@@ -5,13 +5,13 @@ use std::array;
 use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
-use super::arm::{AnyArm, on};
+use super::arm::{SharedArm, on};
 
 /// An array, or a figure of the singular values of one joint vector, which is found when it is read:
 /// that takes longer than the rest of a [`Singularity`].
 pub(crate) enum Figure {
     Known(Py<PyAny>),
-    Sought(AnyArm, [f64; 7], fn(&irbkin::Singularity) -> f64),
+    Sought(SharedArm, [f64; 7], fn(&irbkin::Singularity) -> f64),
 }
 
 impl FromPyObject<'_, '_> for Figure {

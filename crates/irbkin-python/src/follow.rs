@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::arguments::{SINGULARITY_MODES, one_of, read_threads, thread_count};
-use super::arm::AnyArm;
+use super::arm::SharedArm;
 use super::arrays::{Rows, together};
 use super::errors::{Fault, exception, index_in};
 use super::follower::break_record;
@@ -73,13 +73,13 @@ impl PyRobot {
         let options = |weights| FollowOptions { weights, singularity_mode: mode, zone };
         let paths = Paths { T, seed, out, threads: thread_count(threads)? };
         match self.arm() {
-            AnyArm::Six(robot) => {
+            SharedArm::Six(robot) => {
                 let options = options(read_weights(weights)?);
                 paths.follow(|path, seed, interrupt| {
                     robot.follow_until(path, seed, &options, interrupt)
                 })
             }
-            AnyArm::Seven(robot) => {
+            SharedArm::Seven(robot) => {
                 let weights = read_weights(weights)?;
                 let Some(six) = robot.six_turned().map_err(exception)? else {
                     check_through(mode, singularity_mode)?;

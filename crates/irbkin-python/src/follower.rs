@@ -7,7 +7,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arm::{AnyArm, ByJoints, on};
+use super::arm::{ByJoints, SharedArm, on};
 use super::records::{self, break_reason};
 use super::robot::PyRobot;
 use super::targets::{read_seed, read_single_pose, read_weights};
@@ -79,8 +79,8 @@ impl PyFollower {
         weights: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         Ok(Self(match robot.get().arm() {
-            AnyArm::Six(robot) => ByJoints::Six(Steps::new(robot, seed, weights)?),
-            AnyArm::Seven(robot) => ByJoints::Seven(Steps::new(robot, seed, weights)?),
+            SharedArm::Six(robot) => ByJoints::Six(Steps::new(robot, seed, weights)?),
+            SharedArm::Seven(robot) => ByJoints::Seven(Steps::new(robot, seed, weights)?),
         }))
     }
 
@@ -99,7 +99,9 @@ impl PyFollower {
     ///     InvalidPoseError, InvalidModelError: As `Robot.ik`; the step does not count.
     fn step<'py>(&mut self, T: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let pose = read_single_pose(T, "step")?;
-        on!(&mut self.0, steps => Ok(PyArray1::from_slice(T.py(), &steps.step(&pose).map_err(exception)?)))
+        on!(&mut self.0, steps => {
+            Ok(PyArray1::from_slice(T.py(), &steps.step(&pose).map_err(exception)?))
+        })
     }
 
     /// The joints of the last step that reached its pose [rad], shape (n,); before it, the seed.

@@ -5,7 +5,7 @@ use std::time::Instant;
 use pyo3::prelude::*;
 
 use super::arguments::read_seed;
-use super::arm::AnyArm;
+use super::arm::SharedArm;
 use super::arrays::{matrix4, vector};
 use super::cell::PyCell;
 use super::errors::{Fault, exception, raised, with_attributes};
@@ -77,8 +77,8 @@ impl PyRobot {
         let alone = Cell::default();
         let cell = cell.map_or(&alone, |cell| &cell.get().cell);
         let motion = match self.arm() {
-            AnyArm::Six(robot) => asked.motion(robot, cell),
-            AnyArm::Seven(robot) => asked.motion(robot, cell),
+            SharedArm::Six(robot) => asked.motion(robot, cell),
+            SharedArm::Seven(robot) => asked.motion(robot, cell),
         };
         Ok(PyTrajectory::even(start.py(), motion?, steps)?.with_names(self.file_joint_names()))
     }

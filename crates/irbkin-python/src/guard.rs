@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyTuple};
 
 use super::arguments::{VIOLATIONS, one_of};
-use super::arm::{AnyArm, ByJoints, on};
+use super::arm::{ByJoints, SharedArm, on};
 use super::arrays::{matrix4, vector};
 use super::cell::PyCell;
 use super::errors::{Fault, exception};
@@ -106,8 +106,10 @@ impl PyGuard {
         let asked = Asked { cycle, start, limits, margin, max_tool_speed, on_violation, hold };
         let cell = read_cell(cell)?;
         let guard = match robot.get().arm() {
-            AnyArm::Six(robot) => ByJoints::Six(Mutex::new(asked.guard(robot, cell.as_ref())?)),
-            AnyArm::Seven(robot) => ByJoints::Seven(Mutex::new(asked.guard(robot, cell.as_ref())?)),
+            SharedArm::Six(robot) => ByJoints::Six(Mutex::new(asked.guard(robot, cell.as_ref())?)),
+            SharedArm::Seven(robot) => {
+                ByJoints::Seven(Mutex::new(asked.guard(robot, cell.as_ref())?))
+            }
         };
         Ok(Self { guard, robot: robot.clone().unbind() })
     }

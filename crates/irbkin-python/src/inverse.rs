@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::arguments::{read_threads, thread_count};
-use super::arm::{AnyArm, on};
+use super::arm::{SharedArm, on};
 use super::cell::PyCell;
 use super::errors::{exception, of_seed};
 use super::found::Found;
@@ -51,13 +51,13 @@ impl PyRobot {
     ) -> PyResult<Bound<'py, PySolutions>> {
         let py = T.py();
         match self.arm() {
-            AnyArm::Six(robot) => {
+            SharedArm::Six(robot) => {
                 no_q7(q7.is_some())?;
                 let mut found = Found::new(Arc::clone(robot), robot.unsolved(read_ik_pose(T)?));
                 robot.ik_into(&mut found.solutions, f64::NAN).map_err(exception)?;
                 Bound::new(py, PySolutions::from(found))
             }
-            AnyArm::Seven(robot) => {
+            SharedArm::Seven(robot) => {
                 let angle = match (robot.locked_joint(), q7) {
                     (Some((_, angle)), None) => angle,
                     (Some(_), Some(_)) => return Self::from(self.unlocked()?).ik(T, q7),
@@ -223,7 +223,8 @@ impl PyRobot {
             }
             Seeded::Many(poses, seeds) => {
                 let (weights, shape) = (read_weights(weights)?, poses.shape_with(&[self.arm().dof()]));
-                check_most_near("seed", seeds.chunks()?, robot.limits(), &weights).map_err(exception)?;
+                check_most_near("seed", seeds.chunks()?, robot.limits(), &weights)
+                    .map_err(exception)?;
                 let inputs = [poses.addresses(), seeds.addresses()];
                 let mut answer = Output::new(py, out, &shape, &inputs)?;
                 let (poses, seeds, q) = (poses.data()?, seeds.data()?, answer.slice()?);

@@ -60,7 +60,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use self::arm::{AnyArm, on};
+use self::arm::{SharedArm, on};
 use self::cell::PyCell;
 use self::errors::Fault;
 use self::guard::Step;
@@ -111,7 +111,7 @@ fn use_instruction_set(name: &str) -> PyResult<()> {
 #[pyfunction(name = "_restore")]
 fn restore<'py>(py: Python<'py>, kind: &str, state: &[u8]) -> PyResult<Bound<'py, PyAny>> {
     match kind {
-        "Robot" => PyRobot::from(read::<AnyArm>(kind, state, |_| true)?).into_bound_py_any(py),
+        "Robot" => PyRobot::from(read::<SharedArm>(kind, state, |_| true)?).into_bound_py_any(py),
         "Solutions" => read(kind, state, is_whole)?.into_bound_py_any(py),
         "Solution" => {
             let is_whole =

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyString};
 use roxmltree::Document;
 
-use super::arm::{AnyArm, changed, on};
+use super::arm::{SharedArm, changed, on};
 use super::arrays::{Rows, vector};
 use super::errors::{Fault, exception};
 use super::outputs::matrix;
@@ -121,7 +121,7 @@ impl PyRobot {
         }
         let opw = OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets, signs };
         named_and_limited(
-            &AnyArm::from(Arm::from(Robot::from_opw(opw).map_err(exception)?)),
+            &SharedArm::from(Arm::from(Robot::from_opw(opw).map_err(exception)?)),
             limits,
             name,
         )
@@ -270,7 +270,7 @@ where
 
 /// The arm under a name, with limits where they were given.
 fn named_and_limited(
-    arm: &AnyArm,
+    arm: &SharedArm,
     limits: Option<&Bound<'_, PyAny>>,
     name: &str,
 ) -> PyResult<PyRobot> {
@@ -281,12 +281,12 @@ fn named_and_limited(
     })
 }
 
-fn named(arm: &AnyArm, name: &str) -> PyResult<AnyArm> {
+fn named(arm: &SharedArm, name: &str) -> PyResult<SharedArm> {
     on!(arm, arm => changed(arm, |robot| Ok(robot.with_name(name.to_owned()))))
 }
 
 /// The arm with limits of shape (n, 2).
-fn with_limits(arm: &AnyArm, limits: &Bound<'_, PyAny>) -> PyResult<AnyArm> {
+fn with_limits(arm: &SharedArm, limits: &Bound<'_, PyAny>) -> PyResult<SharedArm> {
     let shape = [arm.dof(), 2];
     let rows = Rows::exact(limits, &shape, "limits", Fault::Model)?;
     on!(arm, arm => { let limits = rows.chunks()?; changed(arm, |robot| limited(robot, limits)) })
@@ -358,8 +358,13 @@ fn text_of(bytes: &[u8]) -> Result<&str, Error> {
     Ok(text)
 }
 
-fn arm_of(bytes: &[u8], base: Option<&str>, tip: Option<&str>, snap: f64) -> Result<AnyArm, Error> {
-    UrdfArm::read(text_of(bytes)?, base, tip, &[6, 7])?.any_arm(snap).map(AnyArm::from)
+fn arm_of(
+    bytes: &[u8],
+    base: Option<&str>,
+    tip: Option<&str>,
+    snap: f64,
+) -> Result<SharedArm, Error> {
+    UrdfArm::read(text_of(bytes)?, base, tip, &[6, 7])?.any_arm(snap).map(SharedArm::from)
 }
 
 /// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a

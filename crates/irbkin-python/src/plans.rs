@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::arguments::{ORDERS, one_of};
-use super::arm::AnyArm;
+use super::arm::SharedArm;
 use super::arrays::numbers;
 use super::cell::PyCell;
 use super::errors::{Fault, exception, raised, shape_text, with_attributes};
@@ -146,14 +146,14 @@ impl PyRobot {
             progress,
         };
         match self.arm() {
-            AnyArm::Six(_) if redundancy.is_some() => Err(PyTypeError::new_err(
+            SharedArm::Six(_) if redundancy.is_some() => Err(PyTypeError::new_err(
                 "redundancy is for arms of seven joints: the pose alone determines the six of this \
                  one",
             )),
-            AnyArm::Six(robot) => asked.plan(robot, |path, options, accept, watch| {
+            SharedArm::Six(robot) => asked.plan(robot, |path, options, accept, watch| {
                 robot.planned(path, options, accept, watch)
             }),
-            AnyArm::Seven(robot) => asked.plan(robot, |path, options, accept, watch| {
+            SharedArm::Seven(robot) => asked.plan(robot, |path, options, accept, watch| {
                 robot.planned(path, options, accept, watch)
             }),
         }

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyFloat;
 
 use super::arguments::{FRAMES, one_of, read_threads, thread_count};
-use super::arm::{AnyArm, joints, on};
+use super::arm::{SharedArm, joints, on};
 use super::arrays::{Rows, copied_vector};
 use super::errors::{Fault, exception};
 use super::figure::Figure;
@@ -283,7 +283,7 @@ impl PyRobot {
 /// An answer of shape (..., `tail`) for joint vectors (..., n), computed without the interpreter's
 /// lock.
 pub(super) fn mapped<'py>(
-    arm: &AnyArm,
+    arm: &SharedArm,
     q: &Bound<'py, PyAny>,
     out: Option<&Bound<'py, PyAny>>,
     tail: &[usize],

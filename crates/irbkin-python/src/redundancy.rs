@@ -6,7 +6,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyMapping};
 
-use super::arm::{AnyArm, changed, on};
+use super::arm::{SharedArm, changed, on};
 use super::arrays::{Rows, together};
 use super::errors::{Fault, exception};
 use super::outputs::describe;
@@ -40,23 +40,23 @@ impl PyRobot {
     fn six_joints(&self) -> PyResult<Option<Self>> {
         Ok(on!(self.arm(), robot => robot.six_joints())
             .map_err(exception)?
-            .map(|six| AnyArm::from(Arm::from(six)).into()))
+            .map(|six| SharedArm::from(Arm::from(six)).into()))
     }
 }
 
 impl PyRobot {
     /// The arm without a locked joint.
-    pub(super) fn unlocked(&self) -> PyResult<AnyArm> {
+    pub(super) fn unlocked(&self) -> PyResult<SharedArm> {
         on!(self.arm(), arm => changed(arm, |robot| Ok(robot.unlocked())))
     }
 }
 
 /// The joint, from 1, and the angle or angles of `{3: 0.2}`.
 pub(super) fn read_pair<'py>(
-    arm: &AnyArm,
+    arm: &SharedArm,
     given: &Bound<'py, PyAny>,
 ) -> PyResult<(usize, Bound<'py, PyAny>)> {
-    if matches!(arm, AnyArm::Six(_)) {
+    if matches!(arm, SharedArm::Six(_)) {
         return Err(PyTypeError::new_err(
             "given is for arms of seven joints: the pose alone determines the six of this one",
         ));
@@ -89,8 +89,12 @@ pub(super) fn read_pair<'py>(
 
 /// The arm with a joint, from 1, locked at an angle. The first one of a joint is kept: another
 /// angle is prepared from it in a fraction of the time.
-pub(super) fn locked(robot: &PyRobot, joint: usize, angle: &Bound<'_, PyAny>) -> PyResult<AnyArm> {
-    let AnyArm::Seven(arm) = robot.arm() else {
+pub(super) fn locked(
+    robot: &PyRobot,
+    joint: usize,
+    angle: &Bound<'_, PyAny>,
+) -> PyResult<SharedArm> {
+    let SharedArm::Seven(arm) = robot.arm() else {
         return Err(PyTypeError::new_err("given is for arms of seven joints"));
     };
     let prepared = &robot.locked[joint - 1];
@@ -100,22 +104,22 @@ pub(super) fn locked(robot: &PyRobot, joint: usize, angle: &Bound<'_, PyAny>) ->
     let locked = Arc::new(locked);
     // Another thread may have been faster, with another angle.
     let _ = prepared.set(Arc::clone(&locked));
-    Ok(AnyArm::Seven(locked))
+    Ok(SharedArm::Seven(locked))
 }
 
 /// Poses, shape (..., 4, 4), and the angle of joint 7 for each, broadcast: none for six joints, and where a joint of seven is locked.
 pub(super) fn read_poses_with_q7<'py>(
-    arm: &AnyArm,
+    arm: &SharedArm,
     poses: &Bound<'py, PyAny>,
     angles: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(Rows<'py>, Vec<f64>)> {
     on!(arm, robot => robot.check_structure()).map_err(exception)?;
     match arm {
-        AnyArm::Six(_) => no_q7(angles.is_some())?,
-        AnyArm::Seven(robot) if robot.locked_joint().is_none() => {
+        SharedArm::Six(_) => no_q7(angles.is_some())?,
+        SharedArm::Seven(robot) if robot.locked_joint().is_none() => {
             needed_q7(robot, angles)?;
         }
-        AnyArm::Seven(_) => {}
+        SharedArm::Seven(_) => {}
     }
     let mut poses = Rows::read(poses, &[4, 4], "T", Fault::Pose)?;
     let Some(angles) = angles else { return Ok((poses, Vec::new())) };

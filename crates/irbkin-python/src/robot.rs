@@ -8,7 +8,7 @@ use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use super::arm::{AnyArm, changed, named, on};
+use super::arm::{SharedArm, changed, named, on};
 use super::arrays::vector;
 use super::errors::{Fault, exception};
 use super::outputs::read_only;
@@ -37,13 +37,13 @@ use irbkin::{Arm, Robot};
 ///     InvalidPoseError, RapidError: As `with_tool` and `with_base`.
 #[pyclass(name = "Robot", module = "irbkin", eq, frozen, weakref)]
 pub(super) struct PyRobot {
-    arm: AnyArm,
+    arm: SharedArm,
     /// By joint: the arm with it locked, as it was prepared first.
     pub(super) locked: [OnceLock<Arc<Arm<7>>>; 7],
 }
 
 impl PyRobot {
-    pub(super) fn arm(&self) -> &AnyArm {
+    pub(super) fn arm(&self) -> &SharedArm {
         &self.arm
     }
 }
@@ -54,8 +54,8 @@ impl PartialEq for PyRobot {
     }
 }
 
-impl From<AnyArm> for PyRobot {
-    fn from(arm: AnyArm) -> Self {
+impl From<SharedArm> for PyRobot {
+    fn from(arm: SharedArm) -> Self {
         Self { arm, locked: Default::default() }
     }
 }
@@ -307,7 +307,7 @@ impl PyRobot {
     fn __repr__(&self) -> String {
         on!(&self.arm, robot => {
             if let Some((joint, angle)) = robot.locked_joint() {
-                let arm = AnyArm::from(Arm::from(robot.robot().clone().unlocked()));
+                let arm = SharedArm::from(Arm::from(robot.robot().clone().unlocked()));
                 return format!("{}.locked({{{joint}: {angle:?}}})", Self::from(arm).__repr__());
             }
             let name = robot.name();

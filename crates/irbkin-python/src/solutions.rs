@@ -9,7 +9,7 @@ use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PySlice, PyTuple};
 
-use super::arm::{AnyArm, ByJoints, on};
+use super::arm::{ByJoints, SharedArm, on};
 use super::cell::PyCell;
 use super::found::Found;
 use super::outputs::matrix;
@@ -237,8 +237,8 @@ impl PySolutions {
     /// The robot that they are of.
     pub(super) fn robot(&self) -> PyRobot {
         match &self.found {
-            ByJoints::Six(found) => AnyArm::Six(Arc::clone(&found.robot)).into(),
-            ByJoints::Seven(found) => AnyArm::Seven(Arc::clone(&found.robot)).into(),
+            ByJoints::Six(found) => SharedArm::Six(Arc::clone(&found.robot)).into(),
+            ByJoints::Seven(found) => SharedArm::Seven(Arc::clone(&found.robot)).into(),
         }
     }
 

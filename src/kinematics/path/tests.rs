@@ -8,8 +8,8 @@ use super::singularity_mode::FollowOptions;
 use crate::kinematics::pose::Pose;
 use crate::kinematics::robot::Robot;
 use crate::kinematics::thresholds::WRIST_MERGE_SIN;
-use crate::lanes::on_each_set;
 use crate::rng::Rng;
+use crate::sets::on_each_set;
 
 /// Paths of each robot and kind, and poses of each path.
 const PATHS: usize = 40;

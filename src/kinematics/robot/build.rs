@@ -1,9 +1,13 @@
 //! Building a robot from parameters, from tables, and from another robot.
 
 use alloc::borrow::Cow;
+use core::array;
+use core::f64::consts::PI;
+
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
 
 use super::joints::{Count, Joints};
-use super::postures::POSTURES;
 use super::reading::other_reading;
 use super::{Definition, Robot};
 use crate::error::{Error, ModelFault, PoseFault};
@@ -16,6 +20,9 @@ use crate::kinematics::structure::known::{self, Known, Recognized};
 use crate::kinematics::structure::spherical_wrist::OpwParameters;
 use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_TOOL};
 use crate::report::{ConfigurationRule, Convention, SNAPS};
+
+/// Postures in which what always holds is looked for.
+pub(crate) const POSTURES: u32 = 64;
 
 impl Robot<6> {
     /// A robot from the parameters of an ortho-parallel arm with a spherical wrist.
@@ -174,6 +181,17 @@ impl<const N: usize> Robot<N> {
                 Some(missing.reading_as(other_reading(rows, convention, &self.count.known)));
         }
         self
+    }
+
+    /// A posture of a Weyl sequence that fills the limits, or a turn where a joint has none.
+    pub(crate) fn posture(&self, number: u32) -> [f64; N] {
+        const PRIMES: [f64; 7] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0];
+        let limits = self.limits().to_array();
+        array::from_fn(|joint| {
+            let [lower, upper] = limits[joint].map(|limit| limit.clamp(-PI, PI));
+            let part = (0.5 + f64::from(number) * PRIMES[joint % PRIMES.len()].sqrt()).fract();
+            lower + (upper - lower) * part
+        })
     }
 
     /// The least of the snaps that are proposed with which a table has a closed form, with what that

@@ -1,7 +1,7 @@
 //! A robot: a chain, its limits and, where its structure is known, its inverse.
 
 pub(super) mod any;
-mod build;
+pub(super) mod build;
 mod corrected;
 mod display;
 pub(super) mod joints;
@@ -9,7 +9,6 @@ mod linkage;
 mod locked;
 mod margin;
 mod nominal;
-pub(super) mod postures;
 mod reading;
 #[cfg(feature = "serde")]
 mod stored;

@@ -8,8 +8,9 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use std::{println, vec::Vec};
 
 use super::*;
-use crate::lanes::{Column, Kernel, LANES, on_each_set, run};
+use crate::lanes::{Column, Kernel, LANES, run};
 use crate::rng::Rng;
+use crate::sets::on_each_set;
 
 /// Largest permitted distance from the correctly rounded value [ulp].
 const BOUND: u64 = 2;

@@ -69,8 +69,9 @@ mod tests {
 
     use super::super::tests::One;
     use super::*;
-    use crate::lanes::{Column, VectorKernel, on_each_set, run, run_on};
+    use crate::lanes::{Column, VectorKernel, run, run_on};
     use crate::rng::Rng;
+    use crate::sets::on_each_set;
 
     /// The arc tangents of y and x, and the sines and cosines of y.
     struct All<'a>(&'a [Column; 2]);

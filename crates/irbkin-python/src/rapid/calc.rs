@@ -8,7 +8,7 @@ use super::class::{JointTarget, RobTarget, ToolData, WobjData};
 use super::module::RapidModule;
 use super::program::TargetTable;
 use super::values::{read, read_joint_target};
-use crate::arm::{AnyArm, on};
+use crate::arm::{SharedArm, on};
 use crate::configured::or_nearest;
 use crate::errors::{exception, with_attributes};
 use crate::outputs::{array, column};
@@ -162,7 +162,8 @@ pub(crate) fn calc_targets(
     let (tool, wobj) = (tool.as_ref(), wobj.as_ref());
     on!(arm, robot => {
         let fallback = read_fallback(arm, fallback, seed)?;
-        table(py, &py.detach(|| rapid::calc_targets(robot, module, tool, wobj, fallback)).map_err(exception)?)
+        let rows = py.detach(|| rapid::calc_targets(robot, module, tool, wobj, fallback));
+        table(py, &rows.map_err(exception)?)
     })
 }
 
@@ -174,7 +175,7 @@ struct Cell {
 
 impl Cell {
     fn read(
-        arm: &AnyArm,
+        arm: &SharedArm,
         tool: Option<&Bound<'_, PyAny>>,
         wobj: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
@@ -187,7 +188,7 @@ impl Cell {
 
 /// The fallback with a seed [rad].
 fn read_fallback<const N: usize>(
-    arm: &AnyArm,
+    arm: &SharedArm,
     fallback: Option<&str>,
     seed: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<rapid::Fallback<N>> {

@@ -8,7 +8,7 @@ use super::checked::Finding;
 use super::class::JointTarget;
 use super::module::{RapidModule, counted};
 use super::program::MotionMove;
-use crate::arm::{AnyArm, ByJoints, on};
+use crate::arm::{ByJoints, SharedArm, on};
 use crate::arrays::vector;
 use crate::errors::{Fault, exception};
 use crate::outputs::{column, matrix, read_only};
@@ -112,8 +112,8 @@ pub(crate) fn motion(
     on!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
     let given = Given { start, max_velocity, max_acceleration, step, turn };
     match arm {
-        AnyArm::Six(arm) => made(robot, arm, module, routine, &given, ByJoints::Six),
-        AnyArm::Seven(arm) => made(robot, arm, module, routine, &given, ByJoints::Seven),
+        SharedArm::Six(arm) => made(robot, arm, module, routine, &given, ByJoints::Six),
+        SharedArm::Seven(arm) => made(robot, arm, module, routine, &given, ByJoints::Seven),
     }
 }
 

@@ -15,8 +15,8 @@ use crate::kinematics::thresholds::{
     REACH_TOLERANCE, REGULAR_REACH, REGULAR_SHOULDER, REGULAR_WRIST_SIN, SHOULDER_MERGE,
 };
 use crate::kinematics::{DhRow, JacobianFrame, JointLimits, Mdh, PoseDifference};
-use crate::lanes::on_each_set;
 use crate::rng::Rng;
+use crate::sets::on_each_set;
 use arm::Arm;
 
 /// Poses in each set.

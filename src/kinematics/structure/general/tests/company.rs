@@ -8,8 +8,8 @@ use crate::kinematics::structure::by_roots::tests::{is_as_in_whole_search, same_
 use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::lanes::on_each_set;
 use crate::rng::Rng;
+use crate::sets::on_each_set;
 
 /// Random and structured joint angles of the table, of each kind far from one another.
 fn mixed(rng: &mut Rng, count: usize) -> Vec<[f64; 6]> {

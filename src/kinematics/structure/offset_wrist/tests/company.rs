@@ -8,7 +8,7 @@ use crate::kinematics::structure::by_roots::tests::{is_as_in_whole_search, same_
 use crate::kinematics::structure::closure::Accepted;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::free_choice::FreeChoice;
-use crate::lanes::on_each_set;
+use crate::sets::on_each_set;
 
 /// Joint vectors of all sets, of each set far from one another.
 fn mixed(arm: &OffsetWrist, count: usize) -> Vec<[f64; 6]> {
