@@ -26,7 +26,7 @@ SITE = ROOT / "target" / "site"
 PAGES = SITE / "pages"
 PROJECT = ("CHANGELOG.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "RELEASING.md", "SECURITY.md")
 COPIED = (
-    "README.md", *PROJECT, "docs", "examples", "crates/irbkin-capi/examples", "ros",
+    "README.md", *PROJECT, "docs", "examples", "crates/*.md", "crates/irbkin-capi/examples", "ros",
     "benches/instructions.md", "benches/peers/arms.py", "python/irbkin/check/rules.md",
 )  # fmt: skip
 """What pages are, and link to. Folders stay as they are in the sources, so links do, too."""
