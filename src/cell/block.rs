@@ -29,22 +29,32 @@ pub(super) enum Looked<'a, const N: usize> {
     Roughly(&'a [Range<N>]),
 }
 
+/// What the kernel looks at: [`Looked`] for any number of joints, so that it is compiled once.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Look {
+    All,
+    Any,
+    Swept,
+    Roughly,
+}
+
 /// Where everything of an arm is, in eight lanes.
 #[derive(Clone)]
-pub(crate) struct Block<const N: usize> {
-    frames: [Axes<LANES>; N],
+pub(crate) struct Block {
     base: Axes<LANES>,
+    /// The frame of each joint's link.
+    frames: Vec<Axes<LANES>>,
     /// How far the joints turn to either side [rad]; zero for joint vectors.
-    pub(super) spans: [Column; N],
+    pub(super) spans: Vec<Column>,
     /// How far they do along a line, and beside it.
-    pub(super) turns: [Column; N],
-    pub(super) beside: [Column; N],
+    pub(super) turns: Vec<Column>,
+    pub(super) beside: Vec<Column>,
     /// The middles and the halves of the axes of the capsules around the groups.
     pub(super) around: Vec<[[Column; 3]; 2]>,
-    /// How far the axes of a group move, by the link from which it is seen.
-    pub(super) moves: Vec<[Column; N]>,
+    /// How far the axes of a group move, by the link from which it is seen: [`Self::seen`].
+    pub(super) moves: Vec<Column>,
     /// How far they are then from where their velocities would lead.
-    pub(super) bends: Vec<[Column; N]>,
+    pub(super) bends: Vec<Column>,
     /// The middles and the halves of the capsules' axes, of the groups that are placed.
     axes: Vec<[[Column; 3]; 2]>,
     is_placed: Vec<bool>,
@@ -56,16 +66,15 @@ pub(crate) struct Block<const N: usize> {
     pub(super) last: usize,
 }
 
-impl<const N: usize> Block<N> {
-    pub(super) fn new(robot: &Robot<N>) -> Self {
-        let (base, zero) = (Axes::of(robot.base()), [0.0; LANES]);
-        let (frames, spans, turns, beside) = ([base; N], [zero; N], [zero; N], [zero; N]);
-        Self {
-            frames,
-            base,
-            spans,
-            turns,
-            beside,
+impl Block {
+    /// Memory for an arm.
+    pub(super) fn new<const N: usize>(robot: &Robot<N>, outline: &Outline) -> Self {
+        let mut block = Self {
+            base: Axes::of(robot.base()),
+            frames: Vec::new(),
+            spans: Vec::new(),
+            turns: Vec::new(),
+            beside: Vec::new(),
             around: Vec::new(),
             moves: Vec::new(),
             bends: Vec::new(),
@@ -74,26 +83,37 @@ impl<const N: usize> Block<N> {
             doubts: Vec::new(),
             ways: Vec::new(),
             last: 0,
-        }
+        };
+        block.fit(robot, outline);
+        block
     }
 
     /// Take the place of the memory for another arm, of which no answer is left.
-    pub(super) fn fit(&mut self, robot: &Robot<N>, outline: &Outline) {
+    pub(super) fn fit<const N: usize>(&mut self, robot: &Robot<N>, outline: &Outline) {
         let (groups, zero) = (outline.groups.len(), [0.0; LANES]);
         self.base = Axes::of(robot.base());
+        self.frames.resize(N, self.base);
+        for columns in [&mut self.spans, &mut self.turns, &mut self.beside] {
+            columns.resize(N, zero);
+        }
         self.around.resize(groups, [[zero; 3]; 2]);
-        self.moves.resize(groups, [zero; N]);
-        self.bends.resize(groups, [zero; N]);
+        self.moves.resize(groups * N, zero);
+        self.bends.resize(groups * N, zero);
         self.axes.resize(outline.capsules.len(), [[zero; 3]; 2]);
         self.is_placed.resize(groups, false);
         self.ways.clear();
         self.last = 0;
     }
 
+    /// The place of a group, seen from a link, among `moves` and `bends`.
+    pub(super) fn seen(&self, group: usize, from: usize) -> usize {
+        group * self.frames.len() + from
+    }
+
     /// Which of up to eight joint vectors touch themselves or come nearer to an obstacle than the
     /// margin [m], as bits, exact to rounding. Where joints turn, all that do not are certain not to
     /// (eq. 2).
-    pub(super) fn touching(
+    pub(super) fn touching<const N: usize>(
         &mut self,
         robot: &Robot<N>,
         outline: &Outline,
@@ -116,9 +136,26 @@ impl<const N: usize> Block<N> {
                 }
             }
         }
-        let asked = ALL >> (LANES - q.len());
-        let all = asked;
-        run_vectors(Touch { block: self, outline, cell, looked, has_lines, all, asked })
+        let look = match looked {
+            Looked::All => Look::All,
+            Looked::Any => Look::Any,
+            Looked::Swept(_) => Look::Swept,
+            Looked::Roughly(_) => Look::Roughly,
+        };
+        self.touching_in_frames(outline, cell, q.len(), look, has_lines)
+    }
+
+    /// [`Self::touching`] where the frames are.
+    fn touching_in_frames(
+        &mut self,
+        outline: &Outline,
+        cell: &Cell,
+        count: usize,
+        look: Look,
+        has_lines: bool,
+    ) -> u64 {
+        let all = ALL >> (LANES - count);
+        run_vectors(Touch { block: self, outline, cell, look, has_lines, all, asked: all })
     }
 
     pub(super) fn frame(&self, link: usize) -> &Axes<LANES> {
@@ -136,11 +173,11 @@ impl<const N: usize> Block<N> {
 }
 
 /// Whether lanes touch something.
-pub(super) struct Touch<'a, const N: usize> {
-    pub(super) block: &'a mut Block<N>,
+pub(super) struct Touch<'a> {
+    pub(super) block: &'a mut Block,
     pub(super) outline: &'a Outline,
     pub(super) cell: &'a Cell,
-    pub(super) looked: Looked<'a, N>,
+    pub(super) look: Look,
     /// Whether joints turn along lines.
     pub(super) has_lines: bool,
     /// The lanes, as bits.
@@ -149,7 +186,7 @@ pub(super) struct Touch<'a, const N: usize> {
     pub(super) asked: u64,
 }
 
-impl<const N: usize> VectorKernel for Touch<'_, N> {
+impl VectorKernel for Touch<'_> {
     type Answer = u64;
 
     #[inline(always)]
@@ -194,15 +231,15 @@ impl<const N: usize> VectorKernel for Touch<'_, N> {
     }
 }
 
-impl<const N: usize> Touch<'_, N> {
+impl Touch<'_> {
     /// Whether the joints turn.
     pub(super) fn is_swept(&self) -> bool {
-        matches!(self.looked, Looked::Swept(_) | Looked::Roughly(_))
+        matches!(self.look, Look::Swept | Look::Roughly)
     }
 
     /// Whether one lane that touches is enough.
     pub(super) fn is_enough(&self) -> bool {
-        matches!(self.looked, Looked::Any)
+        self.look == Look::Any
     }
 
     /// Whether nothing more is asked.
@@ -264,8 +301,9 @@ impl<const N: usize> Touch<'_, N> {
             let own = span * radius;
             bent = beside.times_plus(radius, span.times_plus(own.scaled_plus(0.5, moved), bent));
             moved += own;
-            moved.store_array(&mut self.block.moves[group][joint]);
-            bent.store_array(&mut self.block.bends[group][joint]);
+            let seen = self.block.seen(group, joint);
+            moved.store_array(&mut self.block.moves[seen]);
+            bent.store_array(&mut self.block.bends[seen]);
         }
     }
 
@@ -279,7 +317,7 @@ impl<const N: usize> Touch<'_, N> {
         if !self.has_lines || *link <= from {
             return drift;
         }
-        drift.bent = Vector::load_array_ref(simd, &self.block.bends[group][from]);
+        drift.bent = Vector::load_array_ref(simd, &self.block.bends[self.block.seen(group, from)]);
         for joint in from..*link {
             let frame = &self.block.frames[joint];
             let turn = Vector::load_array_ref(simd, &self.block.turns[joint]);
@@ -292,7 +330,7 @@ impl<const N: usize> Touch<'_, N> {
     #[inline(always)]
     pub(super) fn moved<S: Simd>(&self, simd: S, group: usize, from: usize) -> Vector<S> {
         if self.is_swept() {
-            Vector::load_array_ref(simd, &self.block.moves[group][from])
+            Vector::load_array_ref(simd, &self.block.moves[self.block.seen(group, from)])
         } else {
             Vector::splat(simd, 0.0)
         }

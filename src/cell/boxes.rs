@@ -17,7 +17,7 @@ pub(crate) struct Boxes<const N: usize> {
     arm: Arm<N>,
     shaped: Arc<Shaped>,
     cell: Cell,
-    block: Block<N>,
+    block: Block,
     /// How far anything is from an axis of a joint at most [m].
     reach: f64,
 }
@@ -27,8 +27,7 @@ impl<const N: usize> Boxes<N> {
     pub(crate) fn new(arm: &Arm<N>, cell: &Cell, margin: f64) -> Result<Self, Error> {
         let shaped = Arc::clone(arm.shaped()?);
         let outline = &shaped.outline;
-        let mut block = Block::new(arm);
-        block.fit(arm, outline);
+        let mut block = Block::new(arm, outline);
         let cell = cell.clone().widened(margin)?;
         block.reserve(outline.pairs.len() + outline.groups.len() * cell.obstacles().len());
         let reach = reach(arm, outline);

@@ -37,7 +37,7 @@ pub struct Checker<'a, const N: usize> {
     pub(super) cell: &'a Cell,
     pub(super) arm: &'a Arm<N>,
     pub(super) outline: &'a Outline,
-    block: Box<Block<N>>,
+    block: Box<Block>,
     /// How far any axis of a capsule or point of a hull is from an axis of a joint at most [m].
     reach: f64,
     pub(super) interrupt: Interrupt<'a>,
@@ -45,7 +45,7 @@ pub struct Checker<'a, const N: usize> {
 
 /// The memory of a [`Checker`] between two of them.
 #[doc(hidden)]
-pub struct Memory<const N: usize>(Box<Block<N>>);
+pub struct Memory(Box<Block>);
 
 impl Cell {
     /// An arm in the cell.
@@ -68,11 +68,16 @@ impl<'a, const N: usize> Checker<'a, N> {
     pub fn with_memory(
         cell: &'a Cell,
         arm: &'a Arm<N>,
-        memory: Option<Memory<N>>,
+        memory: Option<Memory>,
     ) -> Result<Self, Error> {
         let outline = &arm.shaped()?.outline;
-        let mut block = memory.map_or_else(|| Box::new(Block::new(arm)), |memory| memory.0);
-        block.fit(arm, outline);
+        let block = match memory {
+            Some(Memory(mut block)) => {
+                block.fit(arm, outline);
+                block
+            }
+            None => Box::new(Block::new(arm, outline)),
+        };
         let (reach, interrupt) = (reach(arm, outline), Interrupt::none());
         Ok(Self { cell, arm, outline, block, reach, interrupt })
     }
@@ -80,7 +85,7 @@ impl<'a, const N: usize> Checker<'a, N> {
     /// Its memory, for another checker.
     #[doc(hidden)]
     #[must_use]
-    pub fn into_memory(self) -> Memory<N> {
+    pub fn into_memory(self) -> Memory {
         Memory(self.block)
     }
 

@@ -21,7 +21,7 @@ const OF_TWO: usize = 11;
 /// Ways that are kept.
 const WAYS: usize = 128;
 
-impl<const N: usize> Block<N> {
+impl Block {
     /// Make room for doubts about all places, so that none is made later.
     pub(super) fn reserve(&mut self, places: usize) {
         self.doubts.reserve(places);
@@ -54,7 +54,7 @@ enum Facing<'a> {
     Shape(&'a Shape),
 }
 
-impl<const N: usize> Touch<'_, N> {
+impl Touch<'_> {
     /// Decide by hulls what is in doubt.
     #[inline(always)]
     pub(super) fn decide<S: Simd>(&mut self, simd: S) {
@@ -260,7 +260,7 @@ impl<const N: usize> Touch<'_, N> {
         }
         let spans = self.block.spans[from..own.link].iter();
         let farther = spans.map(|span| 1.0 + span[lane]).product::<f64>() - 1.0;
-        self.block.moves[group][from][lane] + own.beyond * farther
+        self.block.moves[self.block.seen(group, from)][lane] + own.beyond * farther
     }
 }
 

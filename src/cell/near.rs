@@ -4,10 +4,10 @@
 use fearless_simd::prelude::*;
 
 use super::apart::{against_parts, ball_beyond, load};
-use super::block::{Looked, ROUNDING, Touch, bits};
+use super::block::{Look, ROUNDING, Touch, bits};
 use crate::lanes::{Number as _, Vector};
 
-impl<const N: usize> Touch<'_, N> {
+impl Touch<'_> {
     /// Look at two groups of capsules of the arm.
     #[inline(always)]
     pub(super) fn apart_of_links<S: Simd>(&mut self, simd: S, at: usize) {
@@ -60,10 +60,7 @@ impl<const N: usize> Touch<'_, N> {
                 }
             }
         }
-        if doubtful == 0
-            || matches!(self.looked, Looked::Roughly(_))
-            || !(one.has_hulls || other.has_hulls)
-        {
+        if doubtful == 0 || self.look == Look::Roughly || !(one.has_hulls || other.has_hulls) {
             self.asked &= !doubtful;
             return;
         }
@@ -125,7 +122,7 @@ impl<const N: usize> Touch<'_, N> {
                 doubtful |= self.settle_obstacle(open, [index, obstacle], moved);
             }
         }
-        if doubtful == 0 || matches!(self.looked, Looked::Roughly(_)) || !own.has_hulls {
+        if doubtful == 0 || self.look == Look::Roughly || !own.has_hulls {
             self.asked &= !doubtful;
             return;
         }

@@ -12,24 +12,20 @@ use crate::body::{Asked, Centered, Group, Outline};
 use crate::lanes::{LANES, Vector, VectorKernel, run_vectors};
 
 /// Whether an arm touches an obstacle where the first lane of a block has it.
-pub(super) fn is_obstructed<const N: usize>(
-    block: &Block<N>,
-    outline: &Outline,
-    cell: &Cell,
-) -> bool {
+pub(super) fn is_obstructed(block: &Block, outline: &Outline, cell: &Cell) -> bool {
     let limit = cell.margin() + ROUNDING;
     !cell.obstacles().is_empty() && run_vectors(One { block, outline, cell, limit })
 }
 
-struct One<'a, const N: usize> {
-    block: &'a Block<N>,
+struct One<'a> {
+    block: &'a Block,
     outline: &'a Outline,
     cell: &'a Cell,
     /// How near an obstacle may be and count as touched [m].
     limit: f64,
 }
 
-impl<const N: usize> VectorKernel for One<'_, N> {
+impl VectorKernel for One<'_> {
     type Answer = bool;
 
     #[inline(always)]
@@ -56,7 +52,7 @@ impl<const N: usize> VectorKernel for One<'_, N> {
     }
 }
 
-impl<const N: usize> One<'_, N> {
+impl One<'_> {
     /// Whether any of the groups that are near an obstacle, as bits, touches it.
     fn touches(&self, groups: &[Group], obstacle: usize, near: u64) -> bool {
         let shape = &self.cell.obstacles()[obstacle].1;

@@ -42,13 +42,13 @@ const FEW: usize = 100;
 #[pyclass(name = "Cell", module = "irbkin", frozen, eq)]
 pub(super) struct PyCell {
     pub(super) cell: Arc<Cell>,
-    /// What single joint vectors are looked at with, of six and of seven joints.
-    memory: (Mutex<Option<Memory<6>>>, Mutex<Option<Memory<7>>>),
+    /// What single joint vectors are looked at with.
+    memory: Mutex<Option<Memory>>,
 }
 
 impl From<Cell> for PyCell {
     fn from(cell: Cell) -> Self {
-        Self { cell: Arc::new(cell), memory: Default::default() }
+        Self { cell: Arc::new(cell), memory: Mutex::default() }
     }
 }
 
@@ -175,11 +175,7 @@ impl PyCell {
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, threads) = (q.py(), thread_count(threads)?);
         if out.is_none() && self.cell.obstacles().len() <= FEW {
-            let (six, seven) = &self.memory;
-            let one = match robot.arm() {
-                SharedArm::Six(arm) => self.at_plain(arm, six, q)?,
-                SharedArm::Seven(arm) => self.at_plain(arm, seven, q)?,
-            };
+            let one = on!(robot.arm(), arm => self.at_plain(arm, q)?);
             if let Some(collides) = one {
                 return Ok(PyArray::from_array(py, &aview0(&collides)).into_any());
             }
@@ -283,11 +279,10 @@ impl PyCell {
     fn at_plain<const N: usize>(
         &self,
         arm: &Arm<N>,
-        memory: &Mutex<Option<Memory<N>>>,
         q: &Bound<'_, PyAny>,
     ) -> PyResult<Option<bool>> {
         let Some(q) = plain_joints(q, arm.limits())? else { return Ok(None) };
-        let memory = || memory.lock().unwrap_or_else(PoisonError::into_inner);
+        let memory = || self.memory.lock().unwrap_or_else(PoisonError::into_inner);
         // Another thread meanwhile makes its own.
         let kept = memory().take();
         let mut checker = Checker::with_memory(&self.cell, arm, kept).map_err(exception)?;

@@ -37,7 +37,7 @@ pub(crate) struct Poses<'a, const N: usize> {
 pub(crate) struct Frames<'a, const N: usize> {
     pub(crate) chain: &'a Chain<N>,
     pub(crate) q: &'a [[f64; N]],
-    pub(crate) out: &'a mut [Axes<LANES>; N],
+    pub(crate) out: &'a mut [Axes<LANES>],
 }
 
 /// The pose of one joint vector, of a chain with tilts or without.

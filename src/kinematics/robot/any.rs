@@ -11,25 +11,30 @@ use crate::kinematics::pose::Pose;
 use crate::kinematics::structure::known::{SEVEN_JOINTS, SIX_JOINTS, of_opw};
 use crate::kinematics::structure::refined::Refined;
 
+/// A static, not a constant: what it names is compiled here, not in each crate that uses it.
+static SIX: Count<Robot<6>, 6> = Count {
+    known: SIX_JOINTS,
+    of_opw: Some(of_opw),
+    refined: Some(|nominal, [nominal_chain, chain], limits| {
+        Arc::new(Refined::new(nominal, nominal_chain.clone(), chain, limits))
+    }),
+    configured: Some(|robot| robot),
+    ..Count::CHAIN
+};
+
 impl Joints<6> for Robot<6> {
-    const COUNT: &'static Count<Self, 6> = &Count {
-        known: SIX_JOINTS,
-        of_opw: Some(of_opw),
-        refined: Some(|nominal, [nominal_chain, chain], limits| {
-            Arc::new(Refined::new(nominal, nominal_chain.clone(), chain, limits))
-        }),
-        configured: Some(|robot| robot),
-        ..Count::CHAIN
-    };
+    const COUNT: &'static Count<Self, 6> = &SIX;
 }
 
+static SEVEN: Count<Robot<7>, 7> = Count {
+    known: SEVEN_JOINTS,
+    configured: Some(|robot| robot),
+    redundancy: Some(|robot| robot),
+    ..Count::CHAIN
+};
+
 impl Joints<7> for Robot<7> {
-    const COUNT: &'static Count<Self, 7> = &Count {
-        known: SEVEN_JOINTS,
-        configured: Some(|robot| robot),
-        redundancy: Some(|robot| robot),
-        ..Count::CHAIN
-    };
+    const COUNT: &'static Count<Self, 7> = &SEVEN;
 }
 
 macro_rules! chains {

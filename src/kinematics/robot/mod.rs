@@ -279,7 +279,7 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The frames of [`Self::link_frames`] for up to eight joint vectors, one in a lane.
-    pub(crate) fn frames(&self, q: &[[f64; N]], frames: &mut [Axes<LANES>; N]) {
+    pub(crate) fn frames(&self, q: &[[f64; N]], frames: &mut [Axes<LANES>]) {
         run(Frames { chain: &self.chain, q, out: frames });
     }
 
