@@ -19,8 +19,9 @@ NO_STD := --no-default-features --features libm
 # Run a command under a name; if it takes long, print the name and the seconds. With -q what it
 # prints is kept until it fails, and crates are counted.
 STEP := @tests/step.sh
+CRATES := -p irbkin -p irbkin-motion -p irbkin-abb
 LAW_CRATES := cargo test -p irbkin-abb -p irbkin-tests --lib --tests
-SUITE := cargo test -p irbkin -p irbkin-abb -p irbkin-tests --lib --tests
+SUITE := cargo test $(CRATES) -p irbkin-tests --lib --tests
 # A download that breaks off is no reason to fail.
 PIP_INSTALL := tests/retry.sh $(BIN)/pip install --quiet --disable-pip-version-check
 # Panic messages name source files: without the folders of this machine, and those of the toolchain
@@ -114,7 +115,7 @@ lints:
 	cargo fmt --all --check
 	$(STEP) "clippy" cargo clippy --quiet --workspace --all-targets -- -D warnings
 	$(STEP) "clippy without std" cargo clippy --quiet -p irbkin-abb --lib $(NO_STD) -- -D warnings
-	$(STEP) "clippy without urdf and serde" cargo clippy --quiet -p irbkin --lib --no-default-features --features std -- -D warnings
+	$(STEP) "clippy without urdf and serde" cargo clippy --quiet -p irbkin-motion --lib --no-default-features --features std -- -D warnings
 
 test-recipes: $(BUILT) $(VENV)/.groups ## Install JAX, Polars, xarray, rerun; run the recipes
 	@if tests/step.sh "Install what recipes need" $(PIP_INSTALL) --group recipes; then \
@@ -151,8 +152,8 @@ bench-capi: capi ## Compare the time of a pose in C with that in Rust
 check: | toolchains ## Check format, lints, types, stubs, docs, benches and examples
 	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.groups lints
 	$(STEP) "Rust documentation tests" env CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_PROFILE_DEV_DEBUG=false CARGO_INCREMENTAL=0 \
-		cargo test -p irbkin -p irbkin-abb -p irbkin-page --doc --features irbkin/serde
-	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps -p irbkin -p irbkin-abb --features irbkin/serde
+		cargo test $(CRATES) -p irbkin-page --doc --features irbkin/serde
+	$(STEP) "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps $(CRATES) --features irbkin/serde
 	$(STEP) "benches run" cargo test --bench one_pose --bench batch --bench instructions --bench microsecond -- --test
 	$(STEP) "examples in Rust run" bash -eu -c 'for example in examples/*.rs; do cargo run --quiet --example "$$(basename "$$example" .rs)" >/dev/null; done'
 	$(STEP) "benches in Python run" env QUICK=1 MOVES=1000 TRAJECTORIES=200 LINES=10 TARGETS=1000 CALLS=1 KEYS=3 OTHERS=3 \
@@ -230,7 +231,7 @@ docs: $(BUILT) $(VENV)/.groups $(VENV)/.site ## Write generated tables and trans
 	IRBKIN_WRITE=1 $(SUITE) --quiet -- catalog_page::
 	IRBKIN_WRITE=1 $(BIN)/python -m pytest --quiet tests/python/test_documents.py -k "transcripts or notebook"
 	for script in eight_solutions motion plans singularities peers free_motion stream; do $(BIN)/python docs/pictures/$$script.py; done
-	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps -p irbkin -p irbkin-abb --features irbkin/serde
+	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps $(CRATES) --features irbkin/serde
 	$(BIN)/python docs/site/build.py
 
 site: $(BUILT) $(VENV)/.site ## Build the site of README, docs, arms and docstrings: target/site/html

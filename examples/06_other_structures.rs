@@ -1,7 +1,8 @@
 //! Other arms than ABB's: three parallel axes, seven axes, and tables and URDFs that are
 //! recognized.
 
-use irbkin::{Arm, DhRow, Error, Pose, Robot, Sdh, Solution};
+use irbkin::{DhRow, Pose, Robot, Sdh, Solution};
+use irbkin_motion::{Arm, Error};
 
 const URDF: &str = include_str!("../tests/data/ur5e.urdf");
 const SLOT: [[&str; 2]; 3] = [["left", "right"], ["q3 >= 0", "q3 < 0"], ["q5 >= 0", "q5 < 0"]];

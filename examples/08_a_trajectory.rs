@@ -1,9 +1,10 @@
 //! A quintic between two joint vectors of an IRB 2600, by duration and by limits.
 
-use irbkin::trajectory::{
+use irbkin::Robot;
+use irbkin_motion::Error;
+use irbkin_motion::trajectory::{
     AxisLimits, AxisState, Peaks, Profile, Synchronization, Trajectory, joint, joint_within,
 };
-use irbkin::{Error, Robot};
 
 // Joint angles of the controller [deg]; as angles of a Denavit-Hartenberg table, J2 is less by 90
 // and J6 by 180.

@@ -2,8 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use irbkin::plan::{Plan, PlanError, PlanOptions, ToolRotation};
-use irbkin::{Arm, Error, Pose, pose};
+use irbkin::{Error, Pose, pose};
+use irbkin_motion::Arm;
+use irbkin_motion::plan::{Plan, PlanError, PlanOptions, ToolRotation};
 
 const POSES: u32 = 501;
 

@@ -3,7 +3,6 @@
 //! A row that is not finite gives a row of NaN, and where the answer has a status,
 //! [`Status::INVALID`](crate::Status::INVALID). A row's answer does not depend on its neighbors.
 
-mod cells;
 mod forward;
 mod inverse;
 mod margins;
@@ -11,7 +10,7 @@ mod pace;
 mod paths;
 #[cfg(feature = "std")]
 mod poses;
-mod rows;
+pub(crate) mod rows;
 #[cfg(feature = "std")]
 mod threads;
 

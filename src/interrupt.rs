@@ -55,7 +55,8 @@ impl<'a> Interrupt<'a> {
     }
 
     /// The rounds of a loop, which count as known of from now on, and as done when they begin.
-    pub(crate) fn over<R: Iterator>(self, rounds: R) -> impl Iterator<Item = R::Item> {
+    #[doc(hidden)]
+    pub fn over<R: Iterator>(self, rounds: R) -> impl Iterator<Item = R::Item> {
         let advance = move |done, known| {
             let Some(Pace(rounds)) = self.1 else { return };
             let [before, all] = rounds.get();

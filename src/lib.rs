@@ -50,7 +50,6 @@
 //! |---|---|---|
 //! | `std` | yes | threads in a batch, choice of the instruction set, close names |
 //! | `libm` | | square roots and angles without `std` (a solve never allocates, either way) |
-//! | `urdf` | yes | `Arm::from_urdf`, `Arm::to_urdf` |
 //! | `serde` | | `Serialize` and `Deserialize`, see below |
 //!
 //! `serde` is implemented for robots and arms ([`Robot`] and [`Arm`], with limits, velocities, base
@@ -91,18 +90,12 @@ extern crate self as irbkin;
 #[cfg(test)]
 extern crate std;
 
-mod arm;
 pub mod batch;
-pub mod body;
 pub mod catalog;
-pub mod cell;
 mod error;
-pub mod go;
 mod interrupt;
 mod kinematics;
 mod lanes;
-pub mod paths;
-pub mod plan;
 pub mod report;
 #[cfg(test)]
 #[path = "../tests/common/rng.rs"]
@@ -114,8 +107,6 @@ mod rng;
 mod sets;
 #[cfg(feature = "std")]
 mod spelling;
-mod spline;
-pub mod stream;
 #[cfg(test)]
 #[path = "../tests/structures"]
 #[allow(dead_code, unreachable_pub)]
@@ -125,11 +116,7 @@ mod structures {
         pub mod arm;
     }
 }
-pub mod trajectory;
-#[cfg(feature = "urdf")]
-mod urdf;
 
-pub use arm::{AnyArm, Arm};
 pub use catalog::catalog;
 pub use error::Error;
 pub use interrupt::{Interrupt, Interrupted, Pace};
@@ -149,25 +136,25 @@ pub use report::{Configuration, Explanation, FreeJoint, Reach};
 /// versions are equal.
 #[doc(hidden)]
 pub mod internal {
-    pub use crate::cell::{Memory, Motion};
-    pub use crate::error::{JointFault, ModelFault, MotionFault, PoseFault};
-    pub use crate::go::fault::GoFault;
+    pub use crate::batch::rows::{check_length, rows};
+    pub use crate::error::{JointFault, ModelFault, PoseFault};
     pub use crate::kinematics::{
-        Cost, MOST_SLOTS, Progress, angle_between, check_joints, check_most_near, check_near,
-        check_seed, check_weights, constant_sin_cos, largest_step,
+        Axes, Cost, MOST_SLOTS, POSTURES, Progress, Rows, angle_between, at_limit, check_joints,
+        check_near, check_seed, check_snap, check_weights, checked_pose, constant_pose,
+        constant_sin_cos, largest, largest_step, nearest_turn, rotation_vector, screw_x, snapped,
+        steps, thresholds, unit,
     };
-    pub use crate::paths::line::part;
-    pub use crate::paths::polyline::{Corner, Leg, PREDEFINED, Rounded};
-    pub use crate::paths::thresholds::{LEAST_WAY, MOST_SAMPLES, STEP_ROUNDING};
-    pub use crate::plan::fault::PlanFault;
-    pub use crate::plan::thresholds::MOST_TOOL_ANGLES;
-    pub use crate::report::{Convention, Names};
+    pub use crate::report::{Convention, Listed, Names, OFFSET_WRIST, SNAPS, excess};
     #[cfg(feature = "std")]
     pub use crate::spelling::similar;
-    pub use crate::trajectory::thresholds::{LIMIT_ROUNDING, MOST_DURATION};
-    pub use crate::trajectory::{evenly, within_times};
-    #[cfg(feature = "urdf")]
-    pub use crate::urdf::{Carrier, UrdfArm, fault::UrdfFault, read_document};
+
+    /// Arithmetic on several numbers at once.
+    pub mod lanes {
+        pub use crate::lanes::{
+            Column, Kernel, LANES, Number, Vector, VectorKernel, cross, dot, nearest_whole, run,
+            run_vectors, whole_below,
+        };
+    }
 }
 
 /// One joint path along a path of poses: [`Robot::follow`].

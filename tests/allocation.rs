@@ -4,11 +4,13 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use irbkin::body::Shape;
-use irbkin::stream::{Guard, GuardOptions, OnViolation, Reason};
-use irbkin::trajectory::state::{brake, to_rest};
-use irbkin::trajectory::{AxisLimits, AxisMotion, AxisState};
-use irbkin::{Arm, Corrections, JacobianFrame, Robot, follow::Follower};
+use irbkin::follow::Follower;
+use irbkin::{Corrections, JacobianFrame, Robot};
+use irbkin_motion::Arm;
+use irbkin_motion::body::Shape;
+use irbkin_motion::stream::{Guard, GuardOptions, OnViolation, Reason};
+use irbkin_motion::trajectory::state::{brake, to_rest};
+use irbkin_motion::trajectory::{AxisLimits, AxisMotion, AxisState};
 
 /// The system's allocator, counting the allocations of the test's own thread.
 struct Counting;
@@ -48,7 +50,7 @@ fn a_step_of_a_guard_allocates_nothing() {
         ("box".to_string(), Shape::cuboid([0.2, 2.0, 2.0], &at(1.4, 1.0)).unwrap()),
         ("post".to_string(), Shape::cylinder(0.1, 2.0, &at(-1.0, 1.0)).unwrap()),
     ];
-    let cell = irbkin::cell::Cell::new(obstacles, 0.005).unwrap();
+    let cell = irbkin_motion::cell::Cell::new(obstacles, 0.005).unwrap();
     let start = [0.0, 0.0, 0.0, 0.0, 0.5, 0.0];
     let options = GuardOptions {
         max_jerk: Some([60.0; 6]),
@@ -150,8 +152,8 @@ fn solve_allocates_nothing() {
 
 #[test]
 fn motions_of_axes_allocate_nothing_and_a_line_what_it_returns() {
-    use irbkin::paths::{ArcOrientation, Spacing, arc, line};
-    use irbkin::trajectory::{AxisLimits, AxisMotion, AxisState, Profile};
+    use irbkin_motion::paths::{ArcOrientation, Spacing, arc, line};
+    use irbkin_motion::trajectory::{AxisLimits, AxisMotion, AxisState, Profile};
 
     let limits = AxisLimits { velocity: 3.0, acceleration: 8.0, jerk: 60.0 };
     let profiles = [Profile::Quintic, Profile::Cubic, Profile::Trapezoid, Profile::SCurve];

@@ -1,6 +1,7 @@
 //! `AnyRobot` is the robot of six or seven joints that the name or the file says.
 
-use irbkin::{AnyArm, AnyRobot, Error, Robot, catalog};
+use irbkin::{AnyRobot, Robot, catalog};
+use irbkin_motion::{AnyArm, Error};
 
 #[test]
 fn each_arm_of_the_catalog_has_its_own_number_of_joints() {
@@ -16,7 +17,7 @@ fn each_arm_of_the_catalog_has_its_own_number_of_joints() {
         counts[any.dof() - 6] += 1;
     }
     assert!(counts[0] > 100 && counts[1] > 0, "{counts:?}");
-    assert!(matches!(AnyRobot::named("IRB 9999"), Err(Error::UnknownRobot(_))));
+    assert!(matches!(AnyRobot::named("IRB 9999"), Err(irbkin::Error::UnknownRobot(_))));
 }
 
 #[test]
@@ -41,5 +42,5 @@ fn a_urdf_says_how_many_joints() {
     ] {
         assert_eq!(AnyArm::from_urdf(text, None, tip).unwrap().dof(), dof);
     }
-    assert!(matches!(AnyArm::from_urdf("<robot/>", None, None), Err(Error::InvalidModel(_))));
+    assert!(matches!(AnyArm::from_urdf("<robot/>", None, None), Err(Error::InvalidUrdf(_))));
 }

@@ -4,10 +4,11 @@ use nalgebra::Vector3;
 
 use crate::cell::scene;
 use crate::common::Rng;
-use irbkin::body::{Body, Capsule, LinkCapsule, Shape};
 use irbkin::catalog::find;
-use irbkin::cell::Cell;
-use irbkin::{AnyArm, Arm, Pose, Robot, catalog};
+use irbkin::{Pose, Robot, catalog};
+use irbkin_motion::body::{Body, Capsule, LinkCapsule, Shape};
+use irbkin_motion::cell::Cell;
+use irbkin_motion::{AnyArm, Arm, Error};
 
 fn body_of(robot: &AnyArm) -> &Body {
     match robot {
@@ -202,7 +203,7 @@ fn a_tool_folded_back_touches_the_arm() {
 #[test]
 fn what_cannot_be_carried_is_named() {
     let robot = Arm::<6>::named("IRB 2600-12/1.65").unwrap();
-    let attached = |robot: &Arm<6>, shape: Result<Shape, irbkin::Error>, excess| {
+    let attached = |robot: &Arm<6>, shape: Result<Shape, Error>, excess| {
         let shapes = [Shape::sphere(0.1, [0.0; 3]).unwrap(), shape.unwrap()];
         let attached = robot.clone().with_attached(&shapes, &Pose::identity(), excess);
         attached.unwrap_err().to_string()

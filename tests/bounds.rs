@@ -5,12 +5,9 @@ use std::f64::consts::{PI, TAU};
 
 use crate::common::{Rng, reach_of};
 use irbkin::batch::{Batch, NO_CONFIGURATION};
+use irbkin::follow::{FollowOptions, Follower};
 use irbkin::thresholds::{MOST_ANGLE, MOST_LENGTH};
-use irbkin::{
-    Configuration, JacobianFrame, JointLimits, Pose, Robot, Status,
-    follow::{FollowOptions, Follower},
-    pose,
-};
+use irbkin::{Configuration, JacobianFrame, JointLimits, Pose, Robot, Status, pose};
 
 const SIXES: [&str; 4] = ["IRB 2600-12/1.65", "IRB 140-6/0.81", "IRB 2400-10/1.55", "UR5e"];
 const SEVENS: [&str; 2] = ["Panda", "FR3"];

@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use crate::common::{Rng, apart, reach_of};
-use irbkin::{
-    Error, JointLimits, Pose, Robot, catalog, catalog::CatalogArm, catalog::CatalogGeometry, pose,
-};
+use irbkin::catalog::{CatalogArm, CatalogGeometry};
+use irbkin::{Error, JointLimits, Pose, Robot, catalog, pose};
 use nalgebra::Vector3;
 
 /// The source of the figures that an arm is compared with. Only the first kind can detect a wrong

@@ -4,10 +4,9 @@
 use std::fs;
 use std::path::Path;
 
-use irbkin::{
-    AnyArm, catalog,
-    catalog::{CatalogArm, CatalogGeometry, left_out},
-};
+use irbkin::catalog;
+use irbkin::catalog::{CatalogArm, CatalogGeometry, left_out};
+use irbkin_motion::AnyArm;
 
 /// Name of a table in the page, the columns that describe its geometry.
 const TABLES: [(&str, &[&str]); 5] = [

@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 
 use crate::common::{Rng, enough};
 
-use irbkin::body::{Body, Capsule, LinkCapsule, Shape};
+use irbkin::Pose;
 use irbkin::catalog::find;
-use irbkin::cell::{Cell, Near};
-use irbkin::{AnyArm, Arm, Pose};
+use irbkin_motion::body::{Body, Capsule, LinkCapsule, Shape};
+use irbkin_motion::cell::{Cell, Near};
+use irbkin_motion::{AnyArm, Arm, Error};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 
 /// Mesh against mesh: `tests/data/collisions.csv`.
@@ -179,7 +180,7 @@ fn margins_move_the_answer_and_bad_shapes_are_named() {
     let mut margins = (0..60).map(|step| f64::from(step) * 0.02);
     let first = margins.find(|margin| floor(*margin).collides(&robot, &q).unwrap());
     assert!(first.is_some_and(|margin| margin >= free.distance));
-    let message = |error: irbkin::Error| error.to_string();
+    let message = |error: Error| error.to_string();
     assert!(message(Shape::sphere(0.0, [0.0; 3]).unwrap_err()).contains("radius is 0"));
     assert!(message(Shape::half_space([0.0; 3], [0.0; 3]).unwrap_err()).contains("normal"));
     assert!(

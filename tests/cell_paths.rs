@@ -3,10 +3,11 @@
 
 use crate::common::{Rng, enough};
 
-use irbkin::body::{Body, Shape};
-use irbkin::cell::{Cell, Contact, Near, RESOLUTION};
-use irbkin::trajectory::{SplineKind, spline};
-use irbkin::{AnyArm, Arm, Pose};
+use irbkin::Pose;
+use irbkin_motion::body::{Body, Shape};
+use irbkin_motion::cell::{Cell, Contact, Near, RESOLUTION};
+use irbkin_motion::trajectory::{SplineKind, spline};
+use irbkin_motion::{AnyArm, Arm};
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3, Vector3};
 
 /// Arms: open ones, one with coupled axes and rods beside it, one with seven joints.

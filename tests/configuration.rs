@@ -4,9 +4,11 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::common::{Rng, apart, asked_set};
+use irbkin::catalog::CatalogGeometry;
+use irbkin::thresholds::CONFIGURATION_EDGE;
 use irbkin::{
     Configuration, ConfigurationRequest, Error, FreeJoint, JointLimits, OpwParameters, Robot,
-    Solution, Status, catalog, catalog::CatalogGeometry, thresholds::CONFIGURATION_EDGE,
+    Solution, Status, catalog,
 };
 
 const SLOTS: usize = 8;

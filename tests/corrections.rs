@@ -1,7 +1,8 @@
 //! Corrections of the parameters of an arm: poses, Jacobian, and the table they make.
 
 use irbkin::nalgebra::{Point3, Rotation3, Vector3};
-use irbkin::{Arm, Corrections, JacobianFrame, Mdh, Pose, Robot};
+use irbkin::{Corrections, JacobianFrame, Mdh, Pose, Robot};
+use irbkin_motion::Arm;
 
 use crate::common::Rng;
 

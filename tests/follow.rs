@@ -10,11 +10,8 @@ use crate::common::{Rng, asked_set};
 
 use nalgebra::Vector3;
 
-use irbkin::{
-    JointLimits, OpwParameters, Pose, Robot, SingularityKind,
-    follow::{BreakReason, FollowOptions, Followed, SingularityMode},
-    thresholds,
-};
+use irbkin::follow::{BreakReason, FollowOptions, Followed, SingularityMode};
+use irbkin::{JointLimits, OpwParameters, Pose, Robot, SingularityKind, thresholds};
 
 const SAMPLES: usize = 201;
 

@@ -4,11 +4,12 @@
 use crate::common::scenes::{ARMS, in_shelf, on_table, problems, shelf, table};
 use crate::common::{Rng, enough};
 
-use irbkin::body::Shape;
-use irbkin::cell::Cell;
-use irbkin::go::{End, GoOptions};
-use irbkin::trajectory::Trajectory;
-use irbkin::{Arm, Error, Interrupt, Pose, pose};
+use irbkin::{Interrupt, Pose, pose};
+use irbkin_motion::body::Shape;
+use irbkin_motion::cell::Cell;
+use irbkin_motion::go::{End, GoOptions};
+use irbkin_motion::trajectory::Trajectory;
+use irbkin_motion::{Arm, Error};
 
 /// Instants at which a motion is looked at.
 const INSTANTS: usize = 300;
@@ -168,10 +169,14 @@ fn what_cannot_be_is_refused_as_that() {
 }
 
 /// A ball at the flange.
-fn body_of_tip() -> irbkin::body::Body {
+fn body_of_tip() -> irbkin_motion::body::Body {
     let point = [0.0, 0.0, 0.0];
-    let capsule = irbkin::body::Capsule::new(point, point, 0.05).unwrap();
-    irbkin::body::Body::new(vec![irbkin::body::LinkCapsule { link: 6, capsule }], vec![]).unwrap()
+    let capsule = irbkin_motion::body::Capsule::new(point, point, 0.05).unwrap();
+    irbkin_motion::body::Body::new(
+        vec![irbkin_motion::body::LinkCapsule { link: 6, capsule }],
+        vec![],
+    )
+    .unwrap()
 }
 
 #[test]

@@ -2,9 +2,10 @@
 //! what they touch.
 
 use crate::common::Rng;
-use irbkin::body::{Body, Capsule, LinkCapsule, LinkHull, RoundedHull, Shape};
-use irbkin::cell::Cell;
-use irbkin::{Arm, Pose, catalog};
+use irbkin::{Pose, catalog};
+use irbkin_motion::Arm;
+use irbkin_motion::body::{Body, Capsule, LinkCapsule, LinkHull, RoundedHull, Shape};
+use irbkin_motion::cell::Cell;
 use nalgebra::{IsometryMatrix3, Point3, Rotation3, Translation3, Vector3};
 
 /// A pose anywhere near.
@@ -145,10 +146,10 @@ fn two_hulls_are_as_far_apart_as_one_from_the_points_of_the_other() {
 fn the_core_of_a_hull_of_the_catalog_is_inside_of_it() {
     let mut count = 0;
     for arm in catalog() {
-        let robot = irbkin::AnyArm::from_catalog(&arm).unwrap();
+        let robot = irbkin_motion::AnyArm::from_catalog(&arm).unwrap();
         let body = match &robot {
-            irbkin::AnyArm::Six(robot) => robot.body().unwrap(),
-            irbkin::AnyArm::Seven(robot) => robot.body().unwrap(),
+            irbkin_motion::AnyArm::Six(robot) => robot.body().unwrap(),
+            irbkin_motion::AnyArm::Seven(robot) => robot.body().unwrap(),
         };
         assert_eq!(body.hulls().is_empty(), body.is_approximate(), "{}", arm.name);
         for own in body.hulls() {

@@ -26,7 +26,7 @@ FUNCTION = re.compile(r"\b(irbkin_\w+)\(")
 def rust() -> list[str]:
     """The items of the crates, by rustdoc's list of all of them."""
     names = []
-    for crate in ("irbkin", "irbkin_abb"):
+    for crate in ("irbkin", "irbkin_motion", "irbkin_abb"):
         page = (ROOT / "target" / "doc" / crate / "all.html").read_text()
         for path, kind, name in ITEM.findall(page):
             names.append(f"{crate}::{path.replace('/', '::')}{name} {kind}")

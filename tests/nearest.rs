@@ -7,10 +7,9 @@ mod sets;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::common::{Rng, asked_set, reach_of};
-use irbkin::{
-    JointLimits, Pose, Robot, Solution, Status, catalog, catalog::CatalogGeometry,
-    follow::Follower, thresholds,
-};
+use irbkin::catalog::CatalogGeometry;
+use irbkin::follow::Follower;
+use irbkin::{JointLimits, Pose, Robot, Solution, Status, catalog, thresholds};
 use sets::{Arm, DISTANCES, KINDS, Kind, random_frame};
 
 fn poses() -> usize {

@@ -1,7 +1,7 @@
 //! `CalcJointT`, `CalcRobT` and the tables of whole modules.
 
 use crate::common::{Rng, apart};
-use irbkin::{Configuration, Error as ArmError, Pose, Robot, pose};
+use irbkin::{Configuration, Error as RobotError, Pose, Robot, pose};
 use irbkin_abb::Error;
 use irbkin_abb::rapid::{
     Code, Fallback, JointTarget, LoadData, RapidPose, RobTarget, TableRow, ToolData, WobjData,
@@ -137,7 +137,7 @@ fn errors_have_the_names_of_rapid() {
     let refused = |target: &RobTarget| calc_joint_t(robot, target, None, None).unwrap_err();
     assert_eq!(error_name(&refused(&target([3000.0, 0.0, 0.0], 0))), Some("ERR_OUTSIDE_REACH"));
     let unmet = refused(&target([900.0, 200.0, 600.0], 7));
-    assert!(matches!(unmet, Error::Arm(ArmError::NoConfiguration(_))));
+    assert!(matches!(unmet, Error::Robot(RobotError::NoConfiguration(_))));
     assert_eq!(error_name(&unmet), Some("ERR_ROBLIMIT"));
     assert_eq!(error_name(&refused(&target([900.0, 200.0, 600.0], 8))), None);
     let seed = [0.2, 0.0, 0.0, 0.0, 0.5, 0.0];
@@ -279,7 +279,7 @@ fn declared_targets_have_a_row_each_by_their_names() {
     );
     assert!(matches!(
         calc_targets(&Robot::<6>::named("UR3").unwrap(), &module, None, None, Fallback::None),
-        Err(Error::Arm(ArmError::InvalidModel(_)))
+        Err(Error::Robot(RobotError::InvalidModel(_)))
     ));
 }
 

@@ -2,9 +2,8 @@
 //! in docs/guide/calibrate.md, which `--nocapture` prints.
 
 use irbkin::batch::Batch;
-use irbkin::{
-    Corrections, JointLimits, Mdh, Robot, SingularityKind, Solution, Status, follow::Follower,
-};
+use irbkin::follow::Follower;
+use irbkin::{Corrections, JointLimits, Mdh, Robot, SingularityKind, Solution, Status};
 
 use crate::common::{Rng, apart, poses_or};
 

@@ -2,12 +2,12 @@
 
 use std::fmt::Debug;
 
+use irbkin::follow::{FollowOptions, SingularityMode};
 use irbkin::{
-    AnyArm, AnyRobot, Configuration, Corrections, JointLimits, Joints, Mdh, OpwParameters, Robot,
-    Sdh, Solution, Status, catalog,
-    follow::{FollowOptions, SingularityMode},
-    pose,
+    AnyRobot, Configuration, Corrections, JointLimits, Joints, Mdh, OpwParameters, Robot, Sdh,
+    Solution, Status, catalog, pose,
 };
+use irbkin_motion::AnyArm;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 

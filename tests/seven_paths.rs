@@ -3,9 +3,10 @@
 
 use crate::common::{Rng, iiwa};
 
+use irbkin::Pose;
 use irbkin::follow::{BreakReason, Followed};
-use irbkin::plan::{PlanError, PlanOptions, PlanOrder};
-use irbkin::{Arm, Pose};
+use irbkin_motion::Arm;
+use irbkin_motion::plan::{PlanError, PlanOptions, PlanOrder};
 use nalgebra::Vector3;
 
 const ONES: [f64; 7] = [1.0; 7];

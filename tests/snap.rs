@@ -4,22 +4,23 @@
 use crate::common;
 
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::fmt::Debug;
+use std::fmt::{Debug, Display};
 
 use crate::common::{Rng, reach_of};
 use irbkin::batch::Batch;
-use irbkin::{Arm, DhRow, Error, JointLimits, Joints, Mdh, Pose, Robot, Sdh, Solutions, pose};
+use irbkin::{DhRow, JointLimits, Joints, Mdh, Pose, Robot, Sdh, Solutions, pose};
+use irbkin_motion::{Arm, Error};
 
 const XARM7: &str = include_str!("data/few_digits/xarm7.urdf");
 const PUMA560: &str = include_str!("data/few_digits/puma560.urdf");
 
 /// The error of an arm with either number of joints.
-fn refusal<T: Debug>(built: Result<T, Error>) -> String {
+fn refusal<T: Debug, E: Debug + Display>(built: Result<T, E>) -> String {
     built.unwrap_err().to_string()
 }
 
 /// What keeps an arm from a closed form.
-fn noted(built: Result<Robot<6>, Error>) -> String {
+fn noted<E: Debug>(built: Result<Robot<6>, E>) -> String {
     built.unwrap().missing_form().unwrap().to_string()
 }
 

@@ -2,9 +2,9 @@
 #![allow(clippy::unreadable_literal)]
 #![allow(clippy::approx_constant, reason = "random numbers")]
 
-use irbkin::Error;
-use irbkin::trajectory::state::{between, brake, to_rest};
-use irbkin::trajectory::{AxisLimits, AxisMotion, AxisState, Profile, Trajectory};
+use irbkin_motion::Error;
+use irbkin_motion::trajectory::state::{between, brake, to_rest};
+use irbkin_motion::trajectory::{AxisLimits, AxisMotion, AxisState, Profile, Trajectory};
 
 use crate::common::{Rng, enough};
 
@@ -393,7 +393,8 @@ fn what_cannot_be_is_named() {
     assert!(words(state, none).contains("max_acceleration[0] is 0"), "{}", words(state, none));
     let mut motions = [AxisMotion::still(0.0, 0.0)];
     let error = to_rest(&[state], &[1.0, 2.0], &[limits], &mut motions).unwrap_err();
-    assert_eq!(error, Error::WrongLength { field: "target", found: 2, wanted: 1 });
+    let wrong = irbkin::Error::WrongLength { field: "target", found: 2, wanted: 1 };
+    assert_eq!(error, wrong.into());
     assert!(to_rest(&[state], &[f64::NAN], &[limits], &mut motions).is_err());
     let far = AxisState { velocity: 1e300, ..state };
     assert!(to_rest(&[far], &[0.0], &[limits], &mut motions).is_err());
@@ -401,7 +402,8 @@ fn what_cannot_be_is_named() {
     let error = between(&[], &[], &[]).unwrap_err().to_string();
     assert!(error.contains("end has no joints"), "{error}");
     let error = between(&[state], &[state; 2], &[limits; 2]).unwrap_err();
-    assert_eq!(error, Error::WrongLength { field: "start", found: 1, wanted: 2 });
+    let wrong = irbkin::Error::WrongLength { field: "start", found: 1, wanted: 2 };
+    assert_eq!(error, wrong.into());
 }
 
 #[test]

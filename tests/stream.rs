@@ -10,14 +10,15 @@
 
 use crate::common::{Rng, poses_or};
 
-use irbkin::body::Shape;
-use irbkin::cell::Cell;
-use irbkin::stream::{Guard, GuardOptions, OnViolation, State, Step};
-use irbkin::trajectory::state::to_rest;
-use irbkin::trajectory::{
+use irbkin::Pose;
+use irbkin_motion::Arm;
+use irbkin_motion::body::Shape;
+use irbkin_motion::cell::Cell;
+use irbkin_motion::stream::{Guard, GuardOptions, OnViolation, State, Step};
+use irbkin_motion::trajectory::state::to_rest;
+use irbkin_motion::trajectory::{
     AxisLimits, AxisMotion, AxisState, Profile, Synchronization, Trajectory, joint_within,
 };
-use irbkin::{Arm, Pose};
 
 const CYCLE: f64 = 0.004;
 

@@ -8,7 +8,8 @@ use std::fmt::Write;
 
 use crate::common::Rng;
 use crate::structures::spherical_wrist::kuka_kr6;
-use irbkin::{Arm, Error, PoseDifference, Robot};
+use irbkin::{PoseDifference, Robot};
+use irbkin_motion::{Arm, Error};
 
 const IRB2600: &str = include_str!("data/irb2600.urdf");
 const ROUNDED: &str = include_str!("data/irb2600_rounded.urdf");
@@ -25,9 +26,14 @@ fn words(text: &str) -> String {
     refused(six(text, None, None))
 }
 
+/// Whether it is the URDF or its arm that is refused.
+fn is_of_model(error: &Error) -> bool {
+    matches!(error, Error::InvalidUrdf(_) | Error::Robot(irbkin::Error::InvalidModel(_)))
+}
+
 fn refused<const N: usize>(robot: Result<Arm<N>, Error>) -> String {
     let error = robot.unwrap_err();
-    assert!(matches!(error, Error::InvalidModel(_)), "{error}");
+    assert!(is_of_model(&error), "{error}");
     error.to_string()
 }
 
@@ -183,7 +189,7 @@ fn the_joint_of_a_gripper_is_not_counted_silently() {
     // `versioned` has six joints; a joint more makes seven.
     let seven = |more: String| {
         let text = versioned("", "", &more);
-        irbkin::AnyArm::from_urdf(&text, None, None).unwrap_err().to_string()
+        irbkin_motion::AnyArm::from_urdf(&text, None, None).unwrap_err().to_string()
     };
     let asked = |joint: &str, ends: &str| {
         format!(
@@ -333,7 +339,7 @@ fn tool0_is_the_tip_among_frames_of_one_link() {
     assert_eq!(six(&frames, None, None), six(&frames, None, Some("tool0")));
     let jaw = "<link name='jaw'/><joint name='j7' type='revolute'><parent link='l6'/>\
                <child link='jaw'/><limit lower='0' upper='1'/></joint>";
-    let any = |more: &str| irbkin::AnyArm::from_urdf(&versioned("", "", more), None, None);
+    let any = |more: &str| irbkin_motion::AnyArm::from_urdf(&versioned("", "", more), None, None);
     for more in [jaw.to_owned() + &tool, fixed("l5", "camera") + &tool + &fixed("l6", "a")] {
         let asked = any(&more).unwrap_err().to_string();
         assert!(asked.contains("\"tool0\" (6)"), "{asked}");
@@ -728,7 +734,7 @@ fn damaged_text_never_panics() {
             Ok(robot) => {
                 taken += usize::from(robot.fk(&[0.1; 6]).translation.vector.norm().is_finite());
             }
-            Err(error) => assert!(matches!(error, Error::InvalidModel(_)), "{error}"),
+            Err(error) => assert!(is_of_model(&error), "{error}"),
         }
     }
     // A name, a comment or a digit can be changed without harm.
@@ -776,8 +782,8 @@ fn axes(count: usize, more: &str) -> String {
     format!("<robot name='a'><link name='l0'/>{joints}{more}</robot>")
 }
 
-fn any(text: &str) -> Result<irbkin::AnyArm, String> {
-    irbkin::AnyArm::from_urdf(text, None, None).map_err(|error| error.to_string())
+fn any(text: &str) -> Result<irbkin_motion::AnyArm, String> {
+    irbkin_motion::AnyArm::from_urdf(text, None, None).map_err(|error| error.to_string())
 }
 
 #[test]

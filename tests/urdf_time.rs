@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use irbkin::Arm;
+use irbkin_motion::Arm;
 
 /// Pieces by their numbers, until they are `size` bytes.
 fn filled(size: usize, piece: &dyn Fn(usize) -> String) -> String {

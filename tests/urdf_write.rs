@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use crate::common::coupled_arm::{limited, odd, opposed, with_linkage};
 use crate::common::{Rng, apart, random_pose, reach_of};
 use crate::structures::spherical_wrist::kuka_kr6;
-use irbkin::{AnyArm, Arm, Error, JointLimits, Joints, PoseDifference, Robot, catalog, thresholds};
+use irbkin::{JointLimits, Joints, PoseDifference, Robot, catalog, thresholds};
+use irbkin_motion::{AnyArm, Arm, Error};
 
 const CASES: usize = 100;
 
@@ -225,7 +226,7 @@ fn a_mimic_is_a_linkage_beside_joint_3_on_its_axis_alone() {
     let refused = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
         let read = Arm::<6>::from_urdf(&text.replacen(from, to, 1), None, Some("tool0"));
-        assert!(matches!(read, Err(Error::InvalidModel(_))));
+        assert!(matches!(read, Err(Error::InvalidUrdf(_))));
         read.unwrap_err().to_string()
     };
     let wanted = |of: &str, multiplier: &str| {

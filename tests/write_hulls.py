@@ -1,8 +1,8 @@
-"""Write the hulls of the catalog's bodies, `src/body/arms/hulls.bin`, from meshes of their links.
+"""Write the hulls of the catalog's bodies, `crates/irbkin-motion/src/body/arms/hulls.bin`, from meshes of their links.
 
 python tests/write_hulls.py FRAMES: a YAML file, by arm and link a list of meshes: `path`, `scale`
 and `pose`, three rows of four [m], in the frame of the link. The sources of the meshes are in
-`src/body/arms`; they are not part of this repository.
+`crates/irbkin-motion/src/body/arms`; they are not part of this repository.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from irbkin._mesh_files import triangles
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
 
-TO = Path(__file__).parent.parent / "src/body/arms/hulls.bin"
+TO = Path(__file__).parent.parent / "crates/irbkin-motion/src/body/arms/hulls.bin"
 # Lengths of points and of radii [m].
 POINT, RADIUS = 1e-4, 1e-5
 # Arms with one body, which contains the meshes of both.

@@ -111,7 +111,8 @@ impl Batch<'_> {
     }
 
     /// Call `solve` for parts of rows of poses, of seeds and of answers.
-    pub(super) fn seeded<const N: usize>(
+    #[doc(hidden)]
+    pub fn seeded<const N: usize>(
         &mut self,
         poses: &[f64],
         seeds: &[f64],

@@ -1,13 +1,10 @@
 //! How much room many joint vectors, and the solutions of many poses, leave.
 
 use alloc::vec;
-use alloc::vec::Vec;
 
 use super::inverse::part_of;
 use super::pace::Batch;
 use super::rows::{check_length, is_finite, rows};
-use crate::arm::Arm;
-use crate::cell::{Cell, Checker};
 use crate::error::Error;
 use crate::kinematics::{Margin, Robot, Rows, Status};
 
@@ -58,58 +55,56 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// How much room the solutions of poses leave to limits and singularities, in a cell those that
-    /// do not collide: rows of 16 pose elements, and the angles, as [`Self::ik_with`] takes them. A
-    /// row that is invalid has no solution.
+    /// How much room the solutions of poses leave to limits and singularities: rows of 16 pose
+    /// elements, and the angles, as [`Self::ik_with`] takes them. A row that is invalid has no
+    /// solution.
     ///
     /// # Errors
     ///
-    /// As [`Self::ik_with`]; with a cell [`Error::InvalidBody`] if the robot has no body.
+    /// As [`Self::ik_with`].
     pub fn ik_margin<const N: usize>(
         &mut self,
-        arm: &Arm<N>,
+        robot: &Robot<N>,
         poses: &[f64],
         angles: &[f64],
-        cell: Option<&Cell>,
         answers: Margins<'_>,
     ) -> Result<(), Error> {
-        arm.check_structure()?;
-        cell.map(|_| arm.needed_body()).transpose()?;
+        self.ik_margin_without(robot, poses, angles, answers, |_, _| ())
+    }
+
+    /// [`Self::ik_margin`] without the solutions of which `leave_out` takes [`Status::WITHIN_LIMITS`].
+    #[doc(hidden)]
+    pub fn ik_margin_without<const N: usize>(
+        &mut self,
+        robot: &Robot<N>,
+        poses: &[f64],
+        angles: &[f64],
+        answers: Margins<'_>,
+        leave_out: impl Fn(&[[f64; N]], &mut [u8]) + Sync,
+    ) -> Result<(), Error> {
+        robot.check_structure()?;
         let poses = rows::<16>("poses", poses)?;
         let Margins { margin, singularities, solutions: count } = answers;
-        let angles = &*arm.angles_of_rows(angles, poses.len())?;
+        let angles = &*robot.angles_of_rows(angles, poses.len())?;
         check_length("margin", margin.len(), poses.len())?;
         check_length("singularities", singularities.len(), poses.len())?;
         check_length("solutions", count.len(), poses.len())?;
         let asked = poses.chunks(PART).enumerate();
         let numbers = margin.chunks_mut(PART).zip(singularities.chunks_mut(PART));
         let parts = asked.zip(numbers.zip(count.chunks_mut(PART)));
-        let slots = arm.slot_count();
+        let slots = robot.slot_count();
         self.run(poses.len(), parts, |((part, poses), ((margin, room), count)), _| {
             let mut q = vec![f64::NAN; poses.len() * slots * N];
             let mut status = vec![0; poses.len() * slots];
             let locked = part_of(angles, PART * part);
-            arm.ik_rows(Rows { poses, locked, q: &mut q, status: &mut status });
-            if let Some(Ok(mut checker)) = cell.map(|cell| cell.checker(arm)) {
-                leave_out(&mut checker, q.as_chunks().0, &mut status);
-            }
+            robot.ik_rows(Rows { poses, locked, q: &mut q, status: &mut status });
+            leave_out(q.as_chunks().0, &mut status);
             let solved = q.as_chunks::<N>().0.chunks(slots).zip(status.chunks(slots));
             for (row, (q, status)) in solved.enumerate() {
-                (margin[row], room[row], count[row]) = most_room(arm, q, status);
+                (margin[row], room[row], count[row]) = most_room(robot, q, status);
             }
         });
         Ok(())
-    }
-}
-
-/// Take solutions that collide for outside the limits.
-fn leave_out<const N: usize>(checker: &mut Checker<'_, N>, q: &[[f64; N]], status: &mut [u8]) {
-    let within = Status::WITHIN_LIMITS;
-    let is_within = |slot: &usize| Status::from_bits_truncate(status[*slot]).contains(within);
-    let slots: Vec<usize> = (0..q.len()).filter(is_within).collect();
-    let postures: Vec<[f64; N]> = slots.iter().map(|&slot| q[slot]).collect();
-    for (slot, is_free) in slots.into_iter().zip(checker.free_postures(&postures)) {
-        status[slot] &= if is_free { u8::MAX } else { !within.bits() };
     }
 }
 
@@ -133,12 +128,13 @@ fn most_room<const N: usize>(robot: &Robot<N>, q: &[[f64; N]], status: &[u8]) ->
 mod tests {
     use core::num::NonZeroUsize;
     use std::string::ToString;
+    use std::vec::Vec;
 
     use super::*;
     use crate::kinematics::pose_to_rows;
     use crate::rng::Rng;
 
-    fn margins(arm: &Arm<6>, poses: &[f64], threads: usize) -> (Vec<f64>, Vec<f64>, Vec<u8>) {
+    fn margins(robot: &Robot<6>, poses: &[f64], threads: usize) -> (Vec<f64>, Vec<f64>, Vec<u8>) {
         let count = poses.len() / 16;
         let (mut margin, mut singularities) = (vec![9.0; count], vec![9.0; count]);
         let mut solutions = vec![9; count];
@@ -148,14 +144,14 @@ mod tests {
             solutions: &mut solutions,
         };
         let mut batch = Batch::new(NonZeroUsize::new(threads));
-        batch.ik_margin(arm, poses, &[], None, answers).unwrap();
+        batch.ik_margin(robot, poses, &[], answers).unwrap();
         (margin, singularities, solutions)
     }
 
     #[test]
     fn the_best_of_each_pose_is_that_of_its_solutions_in_any_batch() {
         for name in ["IRB 2600-12/1.65", "IRB 2400-16/1.55", "UR5e"] {
-            let robot: Arm<6> = Arm::named(name).unwrap();
+            let robot: Robot<6> = Robot::named(name).unwrap();
             let mut rng = Rng::new(5);
             let mut poses: Vec<f64> = Vec::new();
             for _ in 0..700 {
@@ -222,14 +218,14 @@ mod tests {
 
     #[test]
     fn an_output_of_another_length_is_named() {
-        let robot: Arm<6> = Arm::named("IRB 2600-12/1.65").unwrap();
+        let robot: Robot<6> = Robot::named("IRB 2600-12/1.65").unwrap();
         let (mut margin, mut singularities, mut solutions) = ([0.0; 2], [0.0; 1], [0; 2]);
         let answers = Margins {
             margin: &mut margin,
             singularities: &mut singularities,
             solutions: &mut solutions,
         };
-        let error = Batch::new(None).ik_margin(&robot, &[0.0; 32], &[], None, answers).unwrap_err();
+        let error = Batch::new(None).ik_margin(&robot, &[0.0; 32], &[], answers).unwrap_err();
         assert!(error.to_string().contains("singularities"), "{error}");
     }
 }

@@ -62,7 +62,7 @@ impl Batch<'_> {
     /// Works on the parts of `rows` rows, in any order. Work that takes long asks whether to end.
     ///
     /// The caller works, too: it does not wait for threads that wake up late.
-    pub(crate) fn run<P: Send>(
+    pub fn run<P: Send>(
         &mut self,
         rows: usize,
         mut parts: impl Iterator<Item = P> + Send,

@@ -3,7 +3,8 @@
 use crate::error::Error;
 
 /// The whole rows of an input.
-pub(super) fn rows<'a, const R: usize>(
+#[doc(hidden)]
+pub fn rows<'a, const R: usize>(
     field: &'static str,
     numbers: &'a [f64],
 ) -> Result<&'a [[f64; R]], Error> {
@@ -37,7 +38,9 @@ pub(super) fn rows_out<'a, const R: usize, T>(
     Ok(out.as_chunks_mut::<R>().0)
 }
 
-pub(super) fn check_length(field: &'static str, found: usize, wanted: usize) -> Result<(), Error> {
+/// Check the number of elements of a slice.
+#[doc(hidden)]
+pub fn check_length(field: &'static str, found: usize, wanted: usize) -> Result<(), Error> {
     if found == wanted { Ok(()) } else { Err(Error::WrongLength { field, found, wanted }) }
 }
 

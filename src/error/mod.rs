@@ -4,26 +4,17 @@
 //! A caller matches [`Error`] and prints the fault inside it: most types of faults have no public
 //! names. Those that one room raises are in that room; here are those that several raise.
 
-use alloc::string::String;
-
 pub(crate) mod input;
 mod model;
-mod motion;
 #[cfg(test)]
 mod tests;
 
 pub use self::input::{JointFault, PoseFault};
 pub use self::model::ModelFault;
-pub use self::motion::MotionFault;
-use crate::body::fault::BodyFault;
 use crate::catalog::fault::UnknownRobot;
-use crate::go::fault::GoFault;
 use crate::interrupt::Interrupted;
 use crate::kinematics::NoConfiguration;
-use crate::plan::fault::PlanFault;
 use crate::report::Explanation;
-#[cfg(feature = "urdf")]
-use crate::urdf::fault::UrdfFault;
 
 /// Why a call was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -38,38 +29,12 @@ pub enum Error {
     /// The arm cannot be built, or cannot do what was asked.
     #[error(transparent)]
     InvalidModel(#[from] ModelFault),
-    /// An argument of a trajectory or a path is invalid.
-    #[error(transparent)]
-    InvalidMotion(#[from] MotionFault),
-    /// An argument of a plan is invalid.
-    #[error(transparent)]
-    InvalidPlan(#[from] PlanFault),
-    /// A shape, a body or a cell is invalid, or the arm has no body.
-    #[error(transparent)]
-    InvalidBody(#[from] BodyFault),
     /// The catalog has no arm of that name.
     #[error(transparent)]
     UnknownRobot(#[from] UnknownRobot),
     /// No solution is inside the limits.
     #[error("{0}")]
     Unreachable(Explanation),
-    /// Every solution inside the limits collides; of the nearest one, the link, what it is in, and
-    /// how deep [m].
-    #[error(
-        "every solution inside the limits collides, the nearest one link {link} with {other}, \
-         {:.1} mm deep", 1e3 * depth
-    )]
-    Collides {
-        /// The link.
-        link: usize,
-        /// The obstacle or link.
-        other: String,
-        /// How deep, the margin included [m].
-        depth: f64,
-    },
-    /// A free motion cannot be, or was not found.
-    #[error(transparent)]
-    NoMotion(#[from] GoFault),
     /// Solutions are inside the limits, none with the configuration that was asked for.
     #[error(transparent)]
     NoConfiguration(#[from] NoConfiguration),
@@ -92,11 +57,4 @@ pub enum Error {
         /// The length that it must have.
         wanted: usize,
     },
-}
-
-#[cfg(feature = "urdf")]
-impl From<UrdfFault> for Error {
-    fn from(fault: UrdfFault) -> Self {
-        ModelFault::Urdf(fault).into()
-    }
 }

@@ -3,14 +3,11 @@
 use core::f64::consts::TAU;
 use core::fmt;
 
-use alloc::boxed::Box;
 use alloc::string::String;
 
 use thiserror::Error;
 
 use crate::report::{Snap, UnknownStructure};
-#[cfg(feature = "urdf")]
-use crate::urdf::fault::UrdfFault;
 
 /// Why the model of an arm is refused, or a question to it. Lengths in meters, angles in radians;
 /// joints, axes and rows count from 1, an `index` of 0 is a parameter by itself.
@@ -69,9 +66,6 @@ pub enum ModelFault {
     Velocity { joint: usize, value: f64 },
     #[error("the robot has {found} joints, it must have {wanted}")]
     JointCount { found: usize, wanted: usize },
-    /// `fault`: why the arm between two links of a URDF is refused.
-    #[error("URDF: the arm from {base:?} to {tip:?} is refused: {fault}")]
-    Chain { base: String, tip: String, fault: Box<Self> },
     #[error("no inverse kinematics for this arm: {0}")]
     UnknownStructure(UnknownStructure),
     #[error(
@@ -126,9 +120,6 @@ pub enum ModelFault {
         .bound[0], .bound[1]
     )]
     FarFromNominal { position: f64, rotation: f64, bound: [f64; 2] },
-    #[cfg(feature = "urdf")]
-    #[error("URDF: {0}")]
-    Urdf(UrdfFault),
 }
 
 impl ModelFault {

@@ -9,44 +9,42 @@ mod solve;
 mod structure;
 pub mod thresholds;
 
-pub use answer::check::{check_joints, check_most_near, check_near, check_seed, check_weights};
+pub use answer::check::{check_joints, check_near, check_seed, check_weights};
 pub use answer::request::ConfigurationRequest;
 pub use answer::select::Cost;
 pub use answer::singularity::{SingularDistances, Singularity};
 pub use answer::slot::{MOST_SLOTS, Slot};
 pub use answer::solutions::{Solution, Solutions};
 pub use answer::status::{SingularityKind, Status};
-pub(crate) use chain::axes::Axes;
+pub use chain::axes::Axes;
 pub use chain::corrections::Corrections;
-#[cfg(feature = "urdf")]
-pub(crate) use chain::dh::check_snap;
-pub(crate) use chain::dh::screw_x;
+pub use chain::dh::check_snap;
+pub use chain::dh::screw_x;
 pub use chain::dh::{DhRow, Mdh, Sdh};
 pub use chain::jacobian::JacobianFrame;
 pub use chain::joint_axes::JointAxis;
-#[cfg(feature = "urdf")]
-pub(crate) use chain::joint_axes::unit;
+pub use chain::joint_axes::unit;
 pub use chain::limits::JointLimits;
-pub(crate) use chain::limits::at_limit;
+pub use chain::limits::at_limit;
 pub use path::follow::{Break, BreakReason, Followed, Follower, Progress};
 pub use path::singularity_mode::{FollowOptions, SingularityMode};
+pub use path::step::largest;
 pub use path::step::largest_step;
-pub(crate) use path::step::{largest, steps};
-#[cfg(feature = "urdf")]
-pub(crate) use pose::angles::snapped;
+pub use path::step::steps;
+pub use pose::angles::nearest_turn;
+pub use pose::angles::rotation_vector;
+pub use pose::angles::snapped;
 pub use pose::angles::{angle_between, constant_sin_cos};
-pub(crate) use pose::angles::{nearest_turn, rotation_vector};
-pub(crate) use pose::checked_pose;
-#[cfg(feature = "urdf")]
-pub(crate) use pose::constant_pose;
+pub use pose::checked_pose;
+pub use pose::constant_pose;
 pub use pose::matrix::{pose_from_isometry, pose_from_matrix, pose_to_isometry, pose_to_matrix};
 pub use pose::{
     Pose, PoseDifference, pose_from_euler_zyx, pose_from_rotation, pose_from_rotvec,
     pose_from_rows, pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx, pose_to_rows, pose_to_wxyz,
 };
 pub use robot::any::{AnyRobot, ByJoints};
-pub(crate) use robot::build::POSTURES;
+pub use robot::build::POSTURES;
 pub use robot::{Definition, Joints, Margin, Robot};
 pub use solve::configuration::fault::NoConfiguration;
-pub(crate) use structure::inverse::Rows;
+pub use structure::inverse::Rows;
 pub use structure::spherical_wrist::OpwParameters;

@@ -16,7 +16,7 @@ pub(crate) const LAST_ROW_BOUND: f64 = 1e-9;
 
 /// How far a quaternion's norm may be from one [1]. Normalizing keeps the direction, so text with
 /// three digits is accepted.
-pub(crate) const QUATERNION_NORM_BOUND: f64 = 2e-3;
+pub const QUATERNION_NORM_BOUND: f64 = 2e-3;
 
 /// Greatest Euler angle [rad]: a full turn, as text with four decimals writes it. More are degrees.
 pub(crate) const MOST_EULER: f64 = core::f64::consts::TAU + 1e-4;
@@ -158,7 +158,7 @@ pub(crate) const FARTHEST_NORMAL: f64 = MOST_LENGTH / 2.0;
 
 /// Longest tool that is taken, in sizes of the arm [1], the largest distance of its flange from an
 /// axis in two poses. No arm carries a longer one; for most a tool of 20 mm in millimeters is one.
-pub(crate) const MOST_TOOL: f64 = 10.0;
+pub const MOST_TOOL: f64 = 10.0;
 
 /// Farthest that the flange of an arm may be from its base [m]: the longest manipulators reach 70
 /// m, and an arm in millimeters hundreds.
@@ -181,7 +181,7 @@ pub const MOST_ANGLE: f64 = 1e5;
 
 /// How far a Denavit-Hartenberg table may deviate from a known structure and still be recognized
 /// [rad, m]: the rounding of a table in text. The deviation is removed.
-pub(crate) const FORM_TOLERANCE: f64 = 1e-9;
+pub const FORM_TOLERANCE: f64 = 1e-9;
 
 /// How far the tool of a calibrated arm may be from its nominal one's [rad, or part of the
 /// reach]: Newton's method starts from the nominal joints, and no maker's arm is so far off.
@@ -203,7 +203,7 @@ pub(crate) const JUMP_LEAST: f64 = 0.035;
 pub(crate) const JUMP_BLIND: f64 = 0.35;
 
 /// Largest joint step between two points at which the way between two poses is examined [rad].
-pub(crate) const EXAMINED_STEP: f64 = 0.1;
+pub const EXAMINED_STEP: f64 = 0.1;
 
 /// Joint step below which an arm with axis 4 locked has converged [rad]: rounding.
 pub(crate) const LOCKED_CONVERGED: f64 = 1e-15;

@@ -21,7 +21,7 @@ pub enum InstructionSet {
 }
 
 /// A computation that is compiled for each instruction set.
-pub(crate) trait Kernel {
+pub trait Kernel {
     /// The result.
     type Answer;
 
@@ -122,7 +122,7 @@ impl InstructionSet {
     all(feature = "std", target_arch = "x86_64"),
     expect(unsafe_code, reason = "a function for instructions that were detected")
 )]
-pub(crate) fn run<K: Kernel>(kernel: K) -> K::Answer {
+pub fn run<K: Kernel>(kernel: K) -> K::Answer {
     match InstructionSet::in_use() {
         #[cfg(all(feature = "std", target_arch = "x86_64"))]
         // SAFETY: the set in use is one that `is_available` found in this processor.

@@ -82,13 +82,13 @@ pub(crate) fn mul_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
 /// The nearest whole number, for a number below 2^51 in size or infinite; ties to even. Without a
 /// call on any processor.
 #[inline(always)]
-pub(crate) fn nearest_whole(number: f64) -> f64 {
+pub fn nearest_whole(number: f64) -> f64 {
     (number + ROUND) - ROUND
 }
 
 /// The largest whole number that is not above.
 #[inline(always)]
-pub(crate) fn whole_below(number: f64) -> f64 {
+pub fn whole_below(number: f64) -> f64 {
     let nearest = nearest_whole(number);
     if nearest > number { nearest - 1.0 } else { nearest }
 }

@@ -13,21 +13,28 @@ mod number;
 mod vector;
 
 pub use dispatch::InstructionSet;
-pub(crate) use dispatch::{Kernel, run};
+pub use dispatch::Kernel;
+pub use dispatch::run;
+pub use functions::nearest_whole;
+pub use functions::whole_below;
 pub(crate) use functions::{
-    MOST_SIN_COS, atan2, atan2_of, mul_add, nearest_whole, sin_cos, sin_cos_of, whole_above,
-    whole_below,
+    MOST_SIN_COS, atan2, atan2_of, mul_add, sin_cos, sin_cos_of, whole_above,
 };
-pub(crate) use number::{Number, cross, dot};
+pub use number::Number;
+pub use number::cross;
+pub use number::dot;
+pub use vector::Vector;
+pub use vector::VectorKernel;
 #[cfg(test)]
 pub(crate) use vector::run_on;
-pub(crate) use vector::{Vector, VectorKernel, run_vectors, same, transposed};
+pub use vector::run_vectors;
+pub(crate) use vector::{same, transposed};
 
 /// Lanes of a block: the widest vector of any instruction set, in `f64`.
-pub(crate) const LANES: usize = 8;
+pub const LANES: usize = 8;
 
 /// A number for each lane.
-pub(crate) type Column = [f64; LANES];
+pub type Column = [f64; LANES];
 
 /// Flags for each lane: as wide as the numbers, so that both move through vectors together.
 pub(crate) type Flags = [u64; LANES];

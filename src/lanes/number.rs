@@ -9,7 +9,7 @@ use nalgebra::ComplexField as _;
 use super::Vector;
 
 /// A number, or a vector of numbers.
-pub(crate) trait Number:
+pub trait Number:
     Copy
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -19,43 +19,53 @@ pub(crate) trait Number:
     + Neg<Output = Self>
 {
     /// A constant, in as many lanes.
+    #[must_use]
     fn like(self, constant: f64) -> Self;
 
     /// `self * by + plus`; of vectors in one rounding where the instruction set has it.
+    #[must_use]
     fn times_plus(self, by: Self, plus: Self) -> Self;
 
     /// The square root.
+    #[must_use]
     fn root(self) -> Self;
 
     /// The absolute value.
+    #[must_use]
     fn size(self) -> Self;
 
     /// Return the size with the sign of another number.
+    #[must_use]
     fn signed_as(self, sign: Self) -> Self;
 
     /// `yes` where this number is above another, else `no`: also where one is not a number.
+    #[must_use]
     fn if_above(self, other: Self, yes: Self, no: Self) -> Self;
 
     /// `self * by + plus` with a constant factor.
     #[inline(always)]
+    #[must_use]
     fn scaled_plus(self, by: f64, plus: Self) -> Self {
         self.times_plus(self.like(by), plus)
     }
 
     /// `self * by - minus`.
     #[inline(always)]
+    #[must_use]
     fn times_minus(self, by: Self, minus: Self) -> Self {
         self.times_plus(by, -minus)
     }
 
     /// The inverse.
     #[inline(always)]
+    #[must_use]
     fn inverse(self) -> Self {
         self.like(1.0) / self
     }
 
     /// The larger of this and another number; the other if this is not a number.
     #[inline(always)]
+    #[must_use]
     fn or_more(self, other: Self) -> Self {
         self.if_above(other, self, other)
     }
@@ -63,13 +73,13 @@ pub(crate) trait Number:
 
 /// The product of two vectors with three components.
 #[inline(always)]
-pub(crate) fn dot<T: Number>(a: [T; 3], b: [T; 3]) -> T {
+pub fn dot<T: Number>(a: [T; 3], b: [T; 3]) -> T {
     a[0].times_plus(b[0], a[1].times_plus(b[1], a[2] * b[2]))
 }
 
 /// The cross product.
 #[inline(always)]
-pub(crate) fn cross<T: Number>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+pub fn cross<T: Number>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [
         a[1].times_minus(b[2], a[2] * b[1]),
         a[2].times_minus(b[0], a[0] * b[2]),

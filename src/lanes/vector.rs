@@ -12,7 +12,7 @@ use super::LANES;
 use super::dispatch::InstructionSet;
 
 /// A number for each lane, in registers of an instruction set.
-pub(crate) type Vector<S> = f64x8<S>;
+pub type Vector<S> = f64x8<S>;
 
 /// The number that is in every lane, if it is one.
 #[inline(always)]
@@ -70,7 +70,7 @@ fn turned_over<S: Simd>(mut rows: [Vector<S>; LANES]) -> [Vector<S>; LANES] {
 ///
 /// Everything in it must be `#[inline(always)]`, without closures: a function of its own is
 /// compiled for the baseline.
-pub(crate) trait VectorKernel {
+pub trait VectorKernel {
     /// The result.
     type Answer;
 
@@ -81,7 +81,7 @@ pub(crate) trait VectorKernel {
 /// Run a kernel on the instruction set in use. AVX-512 is taken where the processor has what
 /// Ice Lake has of it, else AVX2: the bits are the same.
 #[inline]
-pub(crate) fn run_vectors<K: VectorKernel>(kernel: K) -> K::Answer {
+pub fn run_vectors<K: VectorKernel>(kernel: K) -> K::Answer {
     run_on(InstructionSet::in_use(), kernel)
 }
 

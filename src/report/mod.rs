@@ -7,10 +7,12 @@ mod unknown_structure;
 
 pub use answer::{Approach, Configuration, ConfigurationRule, Explanation, Reach};
 pub use free_joint::FreeJoint;
+pub use names::Listed;
 pub use names::Names;
-pub(crate) use names::{Listed, excess};
+pub use names::excess;
+pub use unknown_structure::OFFSET_WRIST;
+pub use unknown_structure::SNAPS;
 pub(crate) use unknown_structure::{
-    Columns, Freedom, MOST_CONDITIONS, OFFSET_WRIST, ORDERS, Pattern, Reading, Relation, SNAPS,
-    Snap,
+    Columns, Freedom, MOST_CONDITIONS, ORDERS, Pattern, Reading, Relation, Snap,
 };
 pub use unknown_structure::{Convention, UnknownStructure};

@@ -25,8 +25,8 @@ impl<T: fmt::Display> FromIterator<T> for Names {
 }
 
 impl Names {
-    #[cfg(feature = "urdf")]
-    pub(crate) fn is_empty(&self) -> bool {
+    #[doc(hidden)]
+    pub fn is_empty(&self) -> bool {
         self.listed.is_empty()
     }
 }
@@ -39,7 +39,7 @@ impl fmt::Display for Names {
 }
 
 /// Elements with a separator between them.
-pub(crate) struct Listed<'a, T>(pub(crate) &'a [T], pub(crate) &'static str);
+pub struct Listed<'a, T>(pub &'a [T], pub &'static str);
 
 impl<T: fmt::Display> fmt::Display for Listed<'_, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -51,7 +51,7 @@ impl<T: fmt::Display> fmt::Display for Listed<'_, T> {
 }
 
 /// How far a value is beyond its bounds, in words: both may look equal.
-pub(crate) fn excess(value: f64, [lower, upper]: [f64; 2]) -> String {
+pub fn excess(value: f64, [lower, upper]: [f64; 2]) -> String {
     let size = (lower - value).max(value - upper);
     if size < 1e-3 { format!("by {size:.1e}") } else { format!("by {size:.3}") }
 }

@@ -20,10 +20,10 @@ pub(crate) enum Relation {
 
 /// Values of `snap` that are proposed for an arm that needs one [rad]; the least that helps is
 /// named.
-pub(crate) const SNAPS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
+pub const SNAPS: [f64; 6] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3];
 
 /// Name of the structure of a proposal that is no closed form.
-pub(crate) const OFFSET_WRIST: &str = "offset wrist";
+pub const OFFSET_WRIST: &str = "offset wrist";
 
 /// Most conditions that a structure has.
 pub(crate) const MOST_CONDITIONS: usize = 10;

@@ -1,9 +1,10 @@
 //! Scenes for free motions: a table with boxes on it, a shelf with boards; and problems in them.
 
-use irbkin::body::Shape;
-use irbkin::cell::Cell;
-use irbkin::go::End;
-use irbkin::{Arm, Pose, pose};
+use irbkin::{Pose, pose};
+use irbkin_motion::Arm;
+use irbkin_motion::body::Shape;
+use irbkin_motion::cell::Cell;
+use irbkin_motion::go::End;
 
 use super::rng::Rng;
 

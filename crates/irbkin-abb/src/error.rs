@@ -1,7 +1,10 @@
 //! Errors of input.
 
+use alloc::boxed::Box;
+
 use irbkin::Interrupted;
-use irbkin::internal::{JointFault, MotionFault};
+use irbkin::internal::JointFault;
+use irbkin_motion::internal::MotionFault;
 
 use crate::egm::fault::EgmFault;
 use crate::rapid::text::fault::{FrameFault, RapidFault};
@@ -19,22 +22,34 @@ pub enum Error {
     /// The bytes are no EGM message.
     #[error(transparent)]
     InvalidMessage(#[from] EgmFault),
-    /// The arm refuses an argument, or does not reach a target.
+    /// The robot refuses an argument, or does not reach a target.
     #[error(transparent)]
-    Arm(#[from] irbkin::Error),
+    Robot(#[from] irbkin::Error),
+    /// A path, a shape or a cell is invalid.
+    #[error(transparent)]
+    Motion(Box<irbkin_motion::Error>),
+}
+
+impl From<irbkin_motion::Error> for Error {
+    fn from(error: irbkin_motion::Error) -> Self {
+        match error {
+            irbkin_motion::Error::Robot(error) => Self::Robot(error),
+            other => Self::Motion(other.into()),
+        }
+    }
 }
 
 /// Faults of arms and motions that are raised here.
-macro_rules! faults_of_arms {
+macro_rules! faults {
     ($($Fault:ty)*) => {$(
         impl From<$Fault> for Error {
             fn from(fault: $Fault) -> Self {
-                irbkin::Error::from(fault).into()
+                irbkin_motion::Error::from(fault).into()
             }
         }
     )*};
 }
-faults_of_arms! { JointFault MotionFault Interrupted }
+faults! { JointFault MotionFault Interrupted }
 
 #[cfg(test)]
 mod tests {

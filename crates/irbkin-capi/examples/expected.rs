@@ -5,14 +5,14 @@
 use std::fmt::Display;
 
 use irbkin::batch::Batch;
-use irbkin::body::Shape;
-use irbkin::cell::Cell;
 use irbkin::follow::{Break, Follower};
-use irbkin::plan::{PlanError, PlanOptions, ToolAxis, ToolRotation};
 use irbkin::{
-    Arm, Configuration, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh, Status,
-    pose,
+    Configuration, JacobianFrame, JointLimits, Mdh, OpwParameters, Pose, Robot, Sdh, Status, pose,
 };
+use irbkin_motion::Arm;
+use irbkin_motion::body::Shape;
+use irbkin_motion::cell::Cell;
+use irbkin_motion::plan::{PlanError, PlanOptions, ToolAxis, ToolRotation};
 
 const URDF: &str = include_str!("../../../tests/data/ur5e.urdf");
 
@@ -186,7 +186,7 @@ fn main() {
     let cell = Cell::new(vec![("wall".to_owned(), wall)], 0.01).unwrap();
     for (name, cell) in [("MANY_COLLIDE", &cell), ("MANY_FOLD", &Cell::default())] {
         let mut collides = vec![false; 4200];
-        batch.collides(cell, &irb, &joints, &mut collides).unwrap();
+        cell.collides_batch(&mut batch, &irb, &joints, &mut collides).unwrap();
         println!(
             "static const bool {name}[] = {{{}}};",
             list(collides.iter().map(|it| u8::from(*it)))

@@ -2,9 +2,9 @@
 
 use core::ffi::c_char;
 
-use irbkin::body::Shape;
-use irbkin::cell::Cell;
 use irbkin::pose;
+use irbkin_motion::body::Shape;
+use irbkin_motion::cell::Cell;
 
 use crate::arguments::{slice, text};
 use crate::fault::{Fault, IrbkinCode, guarded};
@@ -33,8 +33,9 @@ pub unsafe extern "C" fn irbkin_cell_of_boxes(
     let named = |(index, one): (usize, &IrbkinBox)| {
         // SAFETY: the name is as the header says.
         let name = unsafe { text("boxes[].name", one.name) }?.to_owned();
-        let shape = pose::from_rows(&one.pose).and_then(|pose| Shape::cuboid(one.size, &pose));
-        Ok((name, shape.map_err(Fault::item("boxes", index))?))
+        let pose = pose::from_rows(&one.pose).map_err(Fault::item("boxes", index))?;
+        let shape = Shape::cuboid(one.size, &pose).map_err(Fault::item("boxes", index))?;
+        Ok((name, shape))
     };
     let new = || {
         // SAFETY: the pointers are as the header says.

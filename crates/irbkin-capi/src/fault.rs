@@ -5,8 +5,9 @@ use core::ffi::c_char;
 use core::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use irbkin::Error;
+use irbkin::Error as RobotError;
 use irbkin::follow::Break;
+use irbkin_motion::Error;
 
 /// The outcome of a call. irbkin_last_error() has the sentence.
 #[repr(C)]
@@ -73,21 +74,21 @@ pub(crate) enum Fault {
     NoPlan(String),
 }
 
-impl From<Error> for Fault {
-    fn from(error: Error) -> Self {
-        Self::Other(error.into())
+impl<E: Into<Error>> From<E> for Fault {
+    fn from(error: E) -> Self {
+        Self::Other(Box::new(error.into()))
     }
 }
 
 impl Fault {
     /// The fault of what an argument holds.
-    pub(crate) fn of(argument: &'static str) -> impl Fn(Error) -> Self {
-        move |error| Self::Of { argument, error: error.into() }
+    pub(crate) fn of<E: Into<Error>>(argument: &'static str) -> impl Fn(E) -> Self {
+        move |error| Self::Of { argument, error: Box::new(error.into()) }
     }
 
     /// The fault of one element of an argument.
-    pub(crate) fn item(argument: &'static str, index: usize) -> impl Fn(Error) -> Self {
-        move |error| Self::Item { argument, index, error: error.into() }
+    pub(crate) fn item<E: Into<Error>>(argument: &'static str, index: usize) -> impl Fn(E) -> Self {
+        move |error| Self::Item { argument, index, error: Box::new(error.into()) }
     }
 
     fn code(&self) -> IrbkinCode {
@@ -111,14 +112,16 @@ impl Fault {
 
 fn code_of(error: &Error) -> IrbkinCode {
     match error {
-        Error::InvalidPose(_) => IrbkinCode::InvalidPose,
-        Error::InvalidJoints(_) => IrbkinCode::InvalidJoints,
-        Error::InvalidModel(_) => IrbkinCode::InvalidModel,
+        Error::Robot(RobotError::InvalidPose(_)) => IrbkinCode::InvalidPose,
+        Error::Robot(RobotError::InvalidJoints(_)) => IrbkinCode::InvalidJoints,
+        Error::Robot(RobotError::InvalidModel(_)) | Error::InvalidUrdf(_) => {
+            IrbkinCode::InvalidModel
+        }
+        Error::Robot(RobotError::UnknownRobot(_)) => IrbkinCode::UnknownRobot,
+        Error::Robot(RobotError::Unreachable(_)) => IrbkinCode::Unreachable,
+        Error::Robot(RobotError::NoConfiguration(_)) => IrbkinCode::NoConfiguration,
         Error::InvalidPlan(_) | Error::InvalidMotion(_) => IrbkinCode::InvalidPlan,
         Error::InvalidBody(_) => IrbkinCode::InvalidBody,
-        Error::UnknownRobot(_) => IrbkinCode::UnknownRobot,
-        Error::Unreachable(_) => IrbkinCode::Unreachable,
-        Error::NoConfiguration(_) => IrbkinCode::NoConfiguration,
         _ => IrbkinCode::InvalidArgument,
     }
 }

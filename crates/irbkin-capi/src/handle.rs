@@ -9,8 +9,9 @@ use core::sync::atomic::{AtomicU64, Ordering};
 use std::ffi::CString;
 use std::sync::Arc;
 
-use irbkin::cell::Cell;
-use irbkin::{Arm, ByJoints, on};
+use irbkin::{ByJoints, on};
+use irbkin_motion::Arm;
+use irbkin_motion::cell::Cell;
 
 use crate::arguments::{array_mut, given, reference};
 use crate::fault::Fault;

@@ -1,8 +1,8 @@
 //! Paths of poses: followed from a seed, or planned over all branches.
 
 use irbkin::follow::{Break, Follower};
-use irbkin::plan::{Plan, PlanError, PlanOptions, ToolAxis, ToolRotation};
 use irbkin::{Pose, Robot, on, pose};
+use irbkin_motion::plan::{Plan, PlanError, PlanOptions, ToolAxis, ToolRotation};
 
 use crate::arguments::{array_mut, check_length, given, joints, reference, slice, slice_mut};
 use crate::fault::{Fault, IrbkinCode, guarded};

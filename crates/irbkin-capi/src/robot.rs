@@ -2,9 +2,8 @@
 
 use core::ffi::c_char;
 
-use irbkin::{
-    AnyArm, Arm, DhRow, Error, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, on,
-};
+use irbkin::{DhRow, Error, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh, on};
+use irbkin_motion::{AnyArm, Arm};
 
 use crate::arguments::{check_length, given, pose, reference, slice, slice_mut, text};
 use crate::fault::{Fault, IrbkinCode, guarded, report};

@@ -3,8 +3,8 @@
 use core::num::NonZeroUsize;
 
 use irbkin::batch::Batch;
-use irbkin::cell::Cell;
 use irbkin::on;
+use irbkin_motion::cell::Cell;
 
 use crate::arguments::{check_apart, given, slice, slice_mut};
 use crate::fault::{IrbkinCode, guarded};
@@ -104,6 +104,6 @@ pub unsafe extern "C" fn irbkin_collides(
         };
         let alone = Cell::default();
         let cell = cell.map_or(&alone, |cell| cell.cell());
-        on!(robot.robot(), robot => Ok(batch(threads).collides(cell, robot, q, collides)?))
+        on!(robot.robot(), robot => Ok(cell.collides_batch(&mut batch(threads), robot, q, collides)?))
     })
 }

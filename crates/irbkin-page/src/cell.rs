@@ -5,9 +5,9 @@ use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use irbkin::body::Shape;
-use irbkin::cell::Cell;
-use irbkin::{Error, Pose};
+use irbkin::Pose;
+use irbkin_motion::body::Shape;
+use irbkin_motion::cell::Cell;
 use serde::Serialize;
 
 use super::request::{Refusal, Request};
@@ -47,7 +47,7 @@ pub(crate) fn read(request: &Request<'_>) -> Result<Cell, Refusal> {
 /// points out of it and a `point` of its plane.
 fn shape(obstacle: &Request<'_>) -> Result<Shape, Refusal> {
     let pose = || Ok::<_, Refusal>(obstacle.optional_pose("pose")?.unwrap_or(Pose::identity()));
-    let named = |error: Error| Refusal(format!("{}: {error}", obstacle.name()));
+    let named = |error: irbkin_motion::Error| Refusal(format!("{}: {error}", obstacle.name()));
     match obstacle.text("shape")? {
         "box" => Shape::cuboid(obstacle.point("size")?, &pose()?),
         "sphere" => Shape::sphere(obstacle.length("radius")?, obstacle.point("center")?),

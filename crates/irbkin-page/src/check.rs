@@ -4,10 +4,10 @@ use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use irbkin::Arm;
-use irbkin::cell::Cell;
 use irbkin_abb::rapid;
 use irbkin_abb::rapid::{CheckOptions, RoutineKind};
+use irbkin_motion::Arm;
+use irbkin_motion::cell::Cell;
 use serde::Serialize;
 
 use super::program::{Fault, Finding, Program, faults};

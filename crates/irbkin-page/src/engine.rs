@@ -4,8 +4,8 @@ use alloc::borrow::ToOwned;
 use alloc::format;
 use alloc::string::String;
 
-use irbkin::cell::Cell;
 use irbkin::on;
+use irbkin_motion::cell::Cell;
 use serde::Serialize;
 use serde_json::Value;
 

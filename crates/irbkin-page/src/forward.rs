@@ -2,8 +2,8 @@
 
 use alloc::vec::Vec;
 
-use irbkin::Arm;
-use irbkin::cell::Cell;
+use irbkin_motion::Arm;
+use irbkin_motion::cell::Cell;
 use serde::Serialize;
 
 use super::posture::{Contact, Margin, arm_angle, confdata};

@@ -5,8 +5,9 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use irbkin::cell::Cell;
-use irbkin::{Arm, Error, Explanation, Pose, Robot, Solutions};
+use irbkin::{Error, Explanation, Pose, Robot, Solutions};
+use irbkin_motion::Arm;
+use irbkin_motion::cell::Cell;
 use serde::Serialize;
 
 use super::posture::{Margin, arm_angle, collides, confdata, words};

@@ -3,8 +3,9 @@
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use irbkin::cell::Cell;
-use irbkin::{Arm, Robot, SingularityKind};
+use irbkin::{Robot, SingularityKind};
+use irbkin_motion::Arm;
+use irbkin_motion::cell::Cell;
 use serde::Serialize;
 
 use super::request::Refusal;

@@ -4,7 +4,7 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use irbkin::{Error, Pose, pose, thresholds};
+use irbkin::{Pose, pose, thresholds};
 use serde_json::{Map, Value};
 
 /// Largest text of a module or of a URDF [bytes].
@@ -14,17 +14,16 @@ pub(crate) const MOST_TEXT: usize = 4_000_000;
 #[derive(Debug)]
 pub(crate) struct Refusal(pub(crate) String);
 
-impl From<Error> for Refusal {
-    fn from(error: Error) -> Self {
-        Self(error.to_string())
-    }
+macro_rules! refusals {
+    ($($Error:ty)*) => {$(
+        impl From<$Error> for Refusal {
+            fn from(error: $Error) -> Self {
+                Self(error.to_string())
+            }
+        }
+    )*};
 }
-
-impl From<irbkin_abb::Error> for Refusal {
-    fn from(error: irbkin_abb::Error) -> Self {
-        Self(error.to_string())
-    }
-}
+refusals! { irbkin::Error irbkin_motion::Error irbkin_abb::Error }
 
 impl From<String> for Refusal {
     fn from(sentence: String) -> Self {
@@ -183,7 +182,7 @@ impl<'a> Request<'a> {
         for (to, from) in rows.iter_mut().zip(twelve.into_iter().chain([0.0, 0.0, 0.0, 1.0])) {
             *to = from;
         }
-        let named = |error: Error| Refusal(format!("{}: {error}", self.named(field)));
+        let named = |error: irbkin::Error| Refusal(format!("{}: {error}", self.named(field)));
         pose::from_rows(&rows).map_err(named)
     }
 

@@ -5,9 +5,10 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use irbkin::body::{Body, LinkCapsule};
 use irbkin::report::ConfigurationRule;
-use irbkin::{AnyArm, ByJoints, Error, catalog, on};
+use irbkin::{ByJoints, Error, catalog, on};
+use irbkin_motion::AnyArm;
+use irbkin_motion::body::{Body, LinkCapsule};
 use serde::Serialize;
 
 use super::request::{Refusal, Request, twelve};
@@ -94,7 +95,7 @@ pub struct Hull {
 }
 
 /// The arm of six or of seven joints.
-pub(crate) type Arms = ByJoints<irbkin::Arm<6>, irbkin::Arm<7>>;
+pub(crate) type Arms = ByJoints<irbkin_motion::Arm<6>, irbkin_motion::Arm<7>>;
 
 /// The robot of a request.
 pub(crate) fn read(request: &Request<'_>) -> Result<Arms, Refusal> {
@@ -114,9 +115,9 @@ pub(crate) fn read(request: &Request<'_>) -> Result<Arms, Refusal> {
 
 /// The robot with the tool and the base of a request, and with a body if it has none.
 fn placed<const N: usize>(
-    mut arm: irbkin::Arm<N>,
+    mut arm: irbkin_motion::Arm<N>,
     request: &Request<'_>,
-) -> Result<irbkin::Arm<N>, Refusal> {
+) -> Result<irbkin_motion::Arm<N>, Refusal> {
     if arm.body().is_none()
         && let Ok(body) = arm.approximate_body()
     {
@@ -133,7 +134,7 @@ fn placed<const N: usize>(
 }
 
 impl Arm {
-    pub(crate) fn of<const N: usize>(robot: &irbkin::Arm<N>) -> Self {
+    pub(crate) fn of<const N: usize>(robot: &irbkin_motion::Arm<N>) -> Self {
         let rule = robot.configuration_rule().ok();
         let mut before = *robot.base();
         let (frames, _) = robot.link_frames(&[0.0; N]);
@@ -188,8 +189,8 @@ impl Shapes {
     }
 }
 
-impl From<&irbkin::body::Capsule> for Capsule {
-    fn from(capsule: &irbkin::body::Capsule) -> Self {
+impl From<&irbkin_motion::body::Capsule> for Capsule {
+    fn from(capsule: &irbkin_motion::body::Capsule) -> Self {
         let [a, b] = capsule.ends();
         Self { a, b, radius: capsule.radius() }
     }

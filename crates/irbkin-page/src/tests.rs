@@ -2,7 +2,8 @@
 
 use crate::Page;
 use crate::robot::Arms;
-use irbkin::{Arm, pose};
+use irbkin::pose;
+use irbkin_motion::Arm;
 use serde_json::{Value, json};
 
 const YUMI: &str = "IRB 14000-0.5/0.5 (left)";
@@ -368,7 +369,7 @@ fn hulls_are_those_of_the_body_with_faces_of_their_points() {
     let mut page = Page::default();
     for name in ["UR5e", "Panda", "IRB 140-6/0.81"] {
         let drawn = granted(&mut page, &json!({"do": "robot", "name": name}));
-        let robot = irbkin::AnyArm::named(name).unwrap();
+        let robot = irbkin_motion::AnyArm::named(name).unwrap();
         let body = irbkin::on!(Arms::from(robot), robot => robot.body().cloned());
         let wanted = body.as_ref().map_or(&[][..], |body| body.hulls());
         let hulls = drawn["body"]["hulls"].as_array().unwrap();

@@ -9,11 +9,11 @@ use super::arrays::Rows;
 use super::errors::{Fault, shape_text};
 use irbkin::JacobianFrame;
 use irbkin::follow::SingularityMode;
-use irbkin::internal::MOST_SAMPLES;
-use irbkin::paths::ArcOrientation;
-use irbkin::plan::{PlanOrder, ToolAxis};
-use irbkin::stream::OnViolation;
-use irbkin::trajectory::{Profile, SplineKind, Synchronization};
+use irbkin_motion::internal::MOST_SAMPLES;
+use irbkin_motion::paths::ArcOrientation;
+use irbkin_motion::plan::{PlanOrder, ToolAxis};
+use irbkin_motion::stream::OnViolation;
+use irbkin_motion::trajectory::{Profile, SplineKind, Synchronization};
 
 /// Look up the value that a word names.
 pub(super) fn one_of<T: Copy>(field: &str, word: &str, words: &[(&str, T)]) -> PyResult<T> {

@@ -8,9 +8,11 @@ use pyo3::prelude::*;
 use super::arrays::Rows;
 use super::errors::{Fault, exception};
 use irbkin::catalog::find;
-use irbkin::internal::{ModelFault, check_joints, check_most_near, check_near};
-use irbkin::{Arm, Error, JointLimits, Robot};
+use irbkin::internal::{ModelFault, check_joints, check_near};
 pub(super) use irbkin::{ByJoints, on};
+use irbkin::{JointLimits, Robot};
+use irbkin_motion::internal::check_most_near;
+use irbkin_motion::{Arm, Error};
 
 /// A robot of six or seven joints.
 pub(super) type SharedArm = ByJoints<Arc<Arm<6>>, Arc<Arm<7>>>;
@@ -25,14 +27,14 @@ pub(super) fn named(name: &str) -> Result<SharedArm, Error> {
     }
     let entry = find(name)?;
     let arm = known(entry.name)
-        .map_or_else(|| irbkin::AnyArm::from_catalog(&entry).map(SharedArm::from), Ok)?;
+        .map_or_else(|| irbkin_motion::AnyArm::from_catalog(&entry).map(SharedArm::from), Ok)?;
     Ok(made().entry(entry.name).or_insert(arm).clone())
 }
 
 /// An arm with a robot that `change` makes of its own.
 pub(super) fn changed<const N: usize>(
     arm: &Arm<N>,
-    change: impl FnOnce(Robot<N>) -> Result<Robot<N>, Error>,
+    change: impl FnOnce(Robot<N>) -> Result<Robot<N>, irbkin::Error>,
 ) -> PyResult<SharedArm>
 where
     SharedArm: From<Arm<N>>,

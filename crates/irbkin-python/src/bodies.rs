@@ -6,8 +6,8 @@ use pyo3::prelude::*;
 use super::arm::{SharedArm, on};
 use super::robot::PyRobot;
 use super::shapes::{PyBody, PyShape, read_pose};
-use irbkin::Arm;
-use irbkin::body::Shape;
+use irbkin_motion::Arm;
+use irbkin_motion::body::Shape;
 
 #[pymethods]
 impl PyRobot {

@@ -21,9 +21,9 @@ use super::signals::{detached, detached_until};
 use super::state::{Reduced, reduced};
 use super::targets::checked_joints;
 use super::trajectory::PyTrajectory;
-use irbkin::cell::{Cell, Checker, Contact, Nearest};
-use irbkin::internal::{Memory, Motion, check_most_near};
-use irbkin::{Arm, Error};
+use irbkin_motion::cell::{Cell, Checker, Contact, Nearest};
+use irbkin_motion::internal::{Memory, Motion, check_most_near};
+use irbkin_motion::{Arm, Error};
 
 /// Most obstacles with which a single joint vector is looked at with the interpreter's lock.
 const FEW: usize = 100;
@@ -188,7 +188,7 @@ impl PyCell {
         }
         let (q, to) = (rows.data()?, answer.slice()?);
         on!(robot.arm(), robot => {
-            detached(py, threads, |batch| batch.collides(&self.cell, robot, q, to))?;
+            detached(py, threads, |batch| self.cell.collides_batch(batch, robot, q, to))?;
         });
         Ok(answer.bound())
     }

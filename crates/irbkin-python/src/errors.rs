@@ -7,10 +7,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::records::Configuration;
-use irbkin::Error as ArmError;
-use irbkin::internal::{MotionFault, PlanFault};
+use irbkin::Error as RobotError;
 use irbkin_abb::Error;
 use irbkin_abb::rapid::text::fault::FrameFault;
+use irbkin_motion::Error as MotionError;
+use irbkin_motion::internal::{MotionFault, PlanFault};
 
 /// The kind of invalid input, which determines the exception.
 #[derive(Clone, Copy)]
@@ -63,17 +64,16 @@ pub(super) fn with_attributes(
 pub(super) fn exception(error: impl Into<Error>) -> PyErr {
     let error = error.into();
     let class = match &error {
-        Error::Arm(error) => match class_of(error) {
-            Some(class) => class,
-            None => return PyValueError::new_err(error.to_string()),
-        },
-        Error::Frame(FrameFault::Pose { .. }) => "InvalidPoseError",
-        Error::InvalidMessage(_) => "StreamError",
-        _ => "RapidError",
+        Error::Robot(error) => class_of_robot(error),
+        Error::Motion(error) => class_of_motion(error),
+        Error::Frame(FrameFault::Pose { .. }) => Some("InvalidPoseError"),
+        Error::InvalidMessage(_) => Some("StreamError"),
+        _ => Some("RapidError"),
     };
+    let Some(class) = class else { return PyValueError::new_err(error.to_string()) };
     with_attributes(raised(class, &error), |value| match error {
         // The configurations that exist.
-        Error::Arm(ArmError::NoConfiguration(fault)) => {
+        Error::Robot(RobotError::NoConfiguration(fault)) => {
             let existing = fault.existing.into_iter().map(Configuration::from);
             value.setattr("configurations", PyTuple::new(value.py(), existing.collect::<Vec<_>>())?)
         }
@@ -85,36 +85,40 @@ pub(super) fn exception(error: impl Into<Error>) -> PyErr {
     })
 }
 
-/// The class of an exception of an arm; a `ValueError` has none.
-fn class_of(error: &ArmError) -> Option<&'static str> {
+/// The class of the exception of a robot's error; a `ValueError` has none.
+fn class_of_robot(error: &RobotError) -> Option<&'static str> {
     Some(match error {
-        ArmError::InvalidPose(_) | ArmError::InvalidPlan(PlanFault::Pose { .. }) => {
-            "InvalidPoseError"
-        }
-        ArmError::InvalidJoints(_)
-        | ArmError::InvalidMotion(MotionFault::Row { .. })
-        | ArmError::InvalidPlan(PlanFault::EndOff { .. } | PlanFault::EndOutside { .. }) => {
+        RobotError::InvalidPose(_) => "InvalidPoseError",
+        RobotError::InvalidJoints(_) => "InvalidJointsError",
+        RobotError::InvalidModel(_) | RobotError::WrongLength { .. } => "InvalidModelError",
+        RobotError::UnknownRobot(_) => "UnknownRobotError",
+        RobotError::Unreachable(_) | RobotError::NoConfiguration(_) => "UnreachableError",
+        _ => return None,
+    })
+}
+
+/// The class of the exception of an error of motions, bodies and cells.
+fn class_of_motion(error: &MotionError) -> Option<&'static str> {
+    Some(match error {
+        MotionError::Robot(error) => return class_of_robot(error),
+        MotionError::InvalidPlan(PlanFault::Pose { .. }) => "InvalidPoseError",
+        MotionError::InvalidMotion(MotionFault::Row { .. })
+        | MotionError::InvalidPlan(PlanFault::EndOff { .. } | PlanFault::EndOutside { .. }) => {
             "InvalidJointsError"
         }
-        ArmError::InvalidModel(_) | ArmError::InvalidBody(_) | ArmError::WrongLength { .. } => {
-            "InvalidModelError"
-        }
-        ArmError::InvalidMotion(_) | ArmError::InvalidPlan(_) => "InvalidMotionError",
-        ArmError::UnknownRobot(_) => "UnknownRobotError",
-        ArmError::Unreachable(_)
-        | ArmError::NoMotion(_)
-        | ArmError::Collides { .. }
-        | ArmError::NoConfiguration(_) => "UnreachableError",
+        MotionError::InvalidBody(_) | MotionError::InvalidUrdf(_) => "InvalidModelError",
+        MotionError::InvalidMotion(_) | MotionError::InvalidPlan(_) => "InvalidMotionError",
+        MotionError::NoMotion(_) | MotionError::Collides { .. } => "UnreachableError",
         _ => return None,
     })
 }
 
 /// The error of a solve from a seed [rad]: one outside the limits whose seed is beyond two turns
 /// asks for degrees.
-pub(super) fn of_seed(error: ArmError, seed: &[f64]) -> PyErr {
+pub(super) fn of_seed(error: MotionError, seed: &[f64]) -> PyErr {
     let large = seed.iter().position(|angle| angle.abs() > 2.0 * std::f64::consts::TAU);
     match (&error, large) {
-        (ArmError::Unreachable(_), Some(i)) => raised(
+        (MotionError::Robot(RobotError::Unreachable(_)), Some(i)) => raised(
             "UnreachableError",
             format!("{error} (seed: joint {} is {} rad, did you pass degrees?)", i + 1, seed[i]),
         ),

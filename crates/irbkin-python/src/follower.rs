@@ -13,7 +13,8 @@ use super::robot::PyRobot;
 use super::targets::{read_seed, read_single_pose, read_weights};
 use irbkin::follow::{Break, BreakReason, Follower};
 use irbkin::internal::Progress;
-use irbkin::{Arm, Error, Pose};
+use irbkin::{Error, Pose};
+use irbkin_motion::Arm;
 
 /// A path that is followed pose by pose, as `Robot.follow` does a whole one: each step is the
 /// solution inside the limits that continues the previous joints, turns considered.

@@ -7,9 +7,10 @@ use crate::errors::exception;
 use pyo3::prelude::*;
 
 use super::solution::Member;
-use irbkin::cell::{Cell, Nearest};
 use irbkin::internal::{Cost, MOST_SLOTS};
-use irbkin::{Arm, Error, Explanation, Joints, Robot, Solution, Solutions};
+use irbkin::{Error, Explanation, Joints, Robot, Solution, Solutions};
+use irbkin_motion::Arm;
+use irbkin_motion::cell::{Cell, Nearest};
 
 /// More turns than any robot has inside its limits: a list this long means limits in degrees, or
 /// none.

@@ -7,8 +7,8 @@ use pyo3::types::{PyBool, PyString};
 use super::arguments::{AXES, one_of};
 use super::arrays::{Rows, vector};
 use super::errors::{Fault, exception};
-use irbkin::internal::MOST_TOOL_ANGLES;
-use irbkin::plan::{ExternalAxis, ToolAxis, ToolCone, ToolRotation};
+use irbkin_motion::internal::MOST_TOOL_ANGLES;
+use irbkin_motion::plan::{ExternalAxis, ToolAxis, ToolCone, ToolRotation};
 
 /// A tuple of `irbkin.freedom`, as the argument `field`.
 struct Fields<'a, 'py> {

@@ -14,12 +14,13 @@ use super::signals::detached_until;
 use super::targets::shape_of;
 use super::trajectories::read_limits;
 use super::trajectory::PyTrajectory;
-use irbkin::cell::Cell;
-use irbkin::go::{End, GoOptions};
-use irbkin::internal::{GoFault, MotionFault};
+use irbkin::Interrupt;
 use irbkin::pose::from_rows as pose_from_rows;
-use irbkin::trajectory::Trajectory;
-use irbkin::{Arm, Error, Interrupt};
+use irbkin_motion::cell::Cell;
+use irbkin_motion::go::{End, GoOptions};
+use irbkin_motion::internal::{GoFault, MotionFault};
+use irbkin_motion::trajectory::Trajectory;
+use irbkin_motion::{Arm, Error};
 
 #[pymethods]
 impl PyRobot {
@@ -71,7 +72,7 @@ impl PyRobot {
         if !(seconds > 0.0 && seconds.is_finite()) {
             let value = seconds;
             let fault = MotionFault::NotPositive { field: "seconds", index: None, value };
-            return Err(exception(Error::from(fault)));
+            return Err(exception(fault));
         }
         let asked = Asked { ends: [start, goal], seconds, seed, max_velocity, max_acceleration };
         let alone = Cell::default();

@@ -18,10 +18,11 @@ use super::records::Array;
 use super::robot::PyRobot;
 use super::targets::shape_of;
 use super::trajectories::{read_each, read_limits};
-use irbkin::cell::Cell;
 use irbkin::pose::from_rows as pose_from_rows;
-use irbkin::stream::{Guard, GuardOptions, OnViolation};
-use irbkin::{Arm, Error, Pose};
+use irbkin::{Error, Pose};
+use irbkin_motion::Arm;
+use irbkin_motion::cell::Cell;
+use irbkin_motion::stream::{Guard, GuardOptions, OnViolation};
 
 record! {
     "irbkin.stream";

@@ -22,7 +22,8 @@ use super::solutions::PySolutions;
 use super::targets::{Seeded, read_ik_pose, read_seeded, read_single_pose, read_weights};
 use irbkin::Robot;
 use irbkin::batch::Margins;
-use irbkin::internal::{check_most_near, check_near};
+use irbkin::internal::check_near;
+use irbkin_motion::internal::check_most_near;
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]
@@ -163,11 +164,10 @@ impl PyRobot {
                 solutions: solutions.slice()?,
             },
         );
-        detached(
-            py,
-            threads,
-            |batch| on!(arm, robot => batch.ik_margin(robot, data, &angles, cell, answers)),
-        )?;
+        on!(arm, arm => detached(py, threads, |batch| match cell {
+            None => Ok(batch.ik_margin(arm, data, &angles, answers)?),
+            Some(cell) => cell.ik_margin_batch(batch, arm, data, &angles, answers),
+        }))?;
         let [margin, singularities] = [margin, singularities].map(Output::array);
         Ok(IkMargin { margin, singularities, solutions: solutions.array() })
     }
@@ -216,7 +216,7 @@ impl PyRobot {
                 let weights = read_weights(weights)?;
                 check_near("seed", &seed, robot.limits(), &weights).map_err(exception)?;
                 let nearest = match cell {
-                    None => robot.nearest_checked(pose, &seed, &weights),
+                    None => robot.nearest_checked(pose, &seed, &weights).map_err(Into::into),
                     Some(cell) => cell.ik_nearest(robot, &pose, &seed, &weights),
                 };
                 answer_row(T, out, &nearest.map_err(|error| of_seed(error, &seed))?.q)
@@ -229,8 +229,8 @@ impl PyRobot {
                 let mut answer = Output::new(py, out, &shape, &inputs)?;
                 let (poses, seeds, q) = (poses.data()?, seeds.data()?, answer.slice()?);
                 detached(py, threads, |batch| match cell {
-                    None => batch.ik_nearest(robot, poses, seeds, &weights, q),
-                    Some(cell) => batch.ik_nearest_free(cell, robot, poses, seeds, &weights, q),
+                    None => Ok(batch.ik_nearest(robot, poses, seeds, &weights, q)?),
+                    Some(cell) => cell.ik_nearest_batch(batch, robot, poses, seeds, &weights, q),
                 })?;
                 Ok(answer.bound())
             }

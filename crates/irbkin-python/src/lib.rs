@@ -120,9 +120,8 @@ fn restore<'py>(py: Python<'py>, kind: &str, state: &[u8]) -> PyResult<Bound<'py
         }
         "Shape" => PyShape(read(kind, state, |_| true)?).into_bound_py_any(py),
         "Body" => PyBody(read(kind, state, |_| true)?).into_bound_py_any(py),
-        "Cell" => {
-            PyCell::from(read::<irbkin::cell::Cell>(kind, state, |_| true)?).into_bound_py_any(py)
-        }
+        "Cell" => PyCell::from(read::<irbkin_motion::cell::Cell>(kind, state, |_| true)?)
+            .into_bound_py_any(py),
         "Trajectory" => {
             let (motion, times, names) = read(kind, state, |_| true)?;
             PyTrajectory::new(py, motion, times)?.with_names(names).into_bound_py_any(py)

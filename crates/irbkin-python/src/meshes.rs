@@ -8,7 +8,7 @@ use super::errors::{Fault, exception};
 use super::shapes::{PyShape, read_points, read_pose};
 use super::signals::detached_until;
 use irbkin::Interrupt;
-use irbkin::body::Shape;
+use irbkin_motion::body::Shape;
 
 #[pymethods]
 impl PyShape {

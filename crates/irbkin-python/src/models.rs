@@ -12,8 +12,10 @@ use super::outputs::matrix;
 use super::robot::PyRobot;
 use super::shapes::{read_capsules, row_of};
 use super::targets::pose_array;
-use irbkin::internal::{Carrier, Convention, ModelFault, UrdfArm, UrdfFault, read_document};
-use irbkin::{Arm, DhRow, Error, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh};
+use irbkin::internal::{Convention, ModelFault};
+use irbkin::{DhRow, JointLimits, Joints, Mdh, OpwParameters, Pose, Robot, Sdh};
+use irbkin_motion::internal::{Carrier, UrdfArm, UrdfFault, read_document};
+use irbkin_motion::{Arm, Error};
 
 #[pymethods]
 impl PyRobot {
@@ -252,7 +254,7 @@ fn robot_of_table<const N: usize>(
     numbers: &[[f64; 4]],
     convention: Convention,
     snap: f64,
-) -> Result<Arm<N>, Error>
+) -> Result<Arm<N>, irbkin::Error>
 where
     Robot<N>: Joints<N>,
 {
@@ -292,7 +294,10 @@ fn with_limits(arm: &SharedArm, limits: &Bound<'_, PyAny>) -> PyResult<SharedArm
     on!(arm, arm => { let limits = rows.chunks()?; changed(arm, |robot| limited(robot, limits)) })
 }
 
-fn limited<const N: usize>(robot: Robot<N>, limits: &[[f64; 2]]) -> Result<Robot<N>, Error> {
+fn limited<const N: usize>(
+    robot: Robot<N>,
+    limits: &[[f64; 2]],
+) -> Result<Robot<N>, irbkin::Error> {
     let found = limits.len();
     let limits = limits.try_into().map_err(|_| ModelFault::JointCount { found, wanted: N })?;
     Ok(robot.with_limits(JointLimits::new(limits)?))

@@ -18,10 +18,10 @@ use super::robot::PyRobot;
 use super::signals::watched;
 use super::targets::{read_path_poses, read_weights};
 use super::trajectories::read_each;
-use irbkin::cell::Cell;
-use irbkin::plan::{Accept, NoPlan, Plan, PlanError, PlanOptions};
 use irbkin::pose::to_rows as pose_to_rows;
 use irbkin::{Interrupt, Pose, Robot};
+use irbkin_motion::cell::Cell;
+use irbkin_motion::plan::{Accept, NoPlan, Plan, PlanError, PlanOptions};
 
 #[pymethods]
 #[expect(non_snake_case, reason = "T is the name that users pass")]

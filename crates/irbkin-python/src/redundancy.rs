@@ -11,7 +11,8 @@ use super::arrays::{Rows, together};
 use super::errors::{Fault, exception};
 use super::outputs::describe;
 use super::robot::PyRobot;
-use irbkin::{Arm, Robot};
+use irbkin::Robot;
+use irbkin_motion::Arm;
 
 #[pymethods]
 impl PyRobot {

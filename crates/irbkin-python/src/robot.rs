@@ -16,8 +16,9 @@ use super::rapid::class::ToolData;
 use super::rapid::records::carried_tool;
 use super::state::{Reduced, hash_of, reduced};
 use super::targets::{pose_array, read_frame};
+use irbkin::Robot;
 use irbkin::pose::to_rows as pose_to_rows;
-use irbkin::{Arm, Robot};
+use irbkin_motion::Arm;
 
 /// A robot arm of six or seven joints: `Robot("IRB 2600-12/1.65")`.
 ///

@@ -5,7 +5,7 @@ use pyo3::types::PyDict;
 
 use super::shapes::PyShape;
 use irbkin::Pose;
-use irbkin::body::Shape;
+use irbkin_motion::body::Shape;
 
 #[pymethods]
 impl PyShape {

@@ -8,8 +8,9 @@ use super::errors::{Fault, exception};
 use super::outputs::{column, matrix};
 use super::state::{Reduced, reduced};
 use super::targets::read_place;
-use irbkin::body::{Body, Capsule, LinkCapsule, LinkHull, RoundedHull, Shape};
-use irbkin::{Error, Pose};
+use irbkin::Pose;
+use irbkin_motion::Error;
+use irbkin_motion::body::{Body, Capsule, LinkCapsule, LinkHull, RoundedHull, Shape};
 
 /// A box, sphere, capsule, cylinder, half space, convex hull, triangle mesh, point cloud, or
 /// several of them. Lengths are in meters.

@@ -10,17 +10,18 @@ use pyo3::intern;
 use pyo3::prelude::*;
 
 use irbkin::batch::Batch;
-use irbkin::{Error, Interrupt, Pace};
+use irbkin::{Interrupt, Pace};
+use irbkin_abb::Error;
 
 /// How long a signal may wait.
 const PATIENCE: Duration = Duration::from_millis(50);
 
 /// Works without the interpreter's lock, on up to `threads` threads; for as long as no signal's
 /// handler raises an exception.
-pub(super) fn detached<R: Send>(
+pub(super) fn detached<R: Send, E: Into<Error> + Send>(
     py: Python<'_>,
     threads: Option<NonZeroUsize>,
-    work: impl FnOnce(&mut Batch<'_>) -> Result<R, Error> + Send,
+    work: impl FnOnce(&mut Batch<'_>) -> Result<R, E> + Send,
 ) -> PyResult<R> {
     detached_until(py, |interrupt| work(&mut Batch::until(threads, interrupt)))?.map_err(exception)
 }

@@ -11,7 +11,8 @@ use super::arm::{ByJoints, on};
 use super::errors::{Fault, exception};
 use super::records::{self, Configuration, FreeJoint};
 use super::state::{Reduced, hash_of, reduced};
-use irbkin::{Arm, Joints, Pose, Robot, Solution, Status};
+use irbkin::{Joints, Pose, Robot, Solution, Status};
+use irbkin_motion::Arm;
 
 /// A solution, with the robot and the pose that it is of.
 #[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -9,9 +9,10 @@ use super::arrays::{matrix4, vector};
 use super::errors::{Fault, exception};
 use super::outputs::array;
 use super::targets::{check_meters, read_path_poses};
-use irbkin::paths::{Spacing, Zone};
+use irbkin::Pose;
 use irbkin::pose::{from_rows as pose_from_rows, to_rows as pose_to_rows};
-use irbkin::{Error, Pose};
+use irbkin_motion::Error;
+use irbkin_motion::paths::{Spacing, Zone};
 
 /// Poses as an array of shape (m, 4, 4).
 fn pose_rows(py: Python<'_>, poses: Result<Vec<Pose>, Error>) -> PyResult<Py<PyAny>> {
@@ -90,7 +91,7 @@ pub(super) fn line(
     check_meters(&ends)?;
     let axis = axis.map(|axis| vector::<3>(axis, "axis", Fault::Motion)).transpose()?;
     let spacing = read_spacing(steps, [step, turn, speed, dt])?;
-    pose_rows(py, irbkin::paths::line(&ends[0], &ends[1], spacing, axis))
+    pose_rows(py, irbkin_motion::paths::line(&ends[0], &ends[1], spacing, axis))
 }
 
 /// Move the tool on a circular arc through three poses.
@@ -134,7 +135,7 @@ pub(super) fn arc(
     check_meters(&poses)?;
     let orientation = one_of("orientation", orientation, &ORIENTATIONS)?;
     let spacing = read_spacing(steps, [step, turn, speed, dt])?;
-    pose_rows(py, irbkin::paths::arc(&poses[0], &poses[1], &poses[2], orientation, spacing))
+    pose_rows(py, irbkin_motion::paths::arc(&poses[0], &poses[1], &poses[2], orientation, spacing))
 }
 
 /// Move the tool on lines from pose to pose, with rounded corners.
@@ -178,7 +179,7 @@ pub(super) fn polyline(
     check_meters(&poses)?;
     let zones = read_zones(zones, poses.len())?;
     let spacing = read_spacing(steps, [step, turn, speed, dt])?;
-    pose_rows(py, irbkin::paths::polyline(&poses, &zones, spacing))
+    pose_rows(py, irbkin_motion::paths::polyline(&poses, &zones, spacing))
 }
 
 /// Move the tool on a smooth curve through poses, all of which are met.
@@ -219,7 +220,7 @@ pub(super) fn spline(
     let poses = read_path_poses(T)?;
     check_meters(&poses)?;
     let spacing = read_spacing(steps, [step, turn, speed, dt])?;
-    pose_rows(py, py.detach(|| irbkin::paths::spline(&poses, spacing)))
+    pose_rows(py, py.detach(|| irbkin_motion::paths::spline(&poses, spacing)))
 }
 
 /// A zone for each pose, or one for all.

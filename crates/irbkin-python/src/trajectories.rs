@@ -12,9 +12,9 @@ use super::arguments::{
 use super::arrays::{Rows, copied_numbers, numbers};
 use super::errors::{Fault, exception, shape_text};
 use super::trajectory::PyTrajectory;
-use irbkin::Error;
 use irbkin::thresholds::FARTHEST_OUTSIDE;
-use irbkin::trajectory::{AxisLimits, AxisState, Trajectory, joint_within};
+use irbkin_motion::Error;
+use irbkin_motion::trajectory::{AxisLimits, AxisState, Trajectory, joint_within};
 
 /// Joints of an arm, at least: external axes, which turn on and on, are fewer.
 const LEAST_JOINTS: usize = 4;
@@ -217,7 +217,7 @@ pub(super) fn joint(
         }
         joint_within(profile, &start, &end, &limits, synchronization)
     } else {
-        irbkin::trajectory::joint(profile, &from, &to, duration.unwrap_or(1.0))
+        irbkin_motion::trajectory::joint(profile, &from, &to, duration.unwrap_or(1.0))
             .and_then(|motion| motion.within(&limits).map(|()| motion))
     };
     let motion = inside(motion.map_err(exception)?, angles.as_deref()).map_err(exception)?;
@@ -278,7 +278,7 @@ pub(super) fn spline(
     let times = t.map(|t| numbers(t, "(n,)", "t", Fault::Joints)).transpose()?;
     let duration = duration.or(if given { None } else { Some(1.0) });
     let motion = py.detach(|| {
-        irbkin::trajectory::through(kind, &points, dof, times.as_deref(), duration, &limits)
+        irbkin_motion::trajectory::through(kind, &points, dof, times.as_deref(), duration, &limits)
             .and_then(|motion| inside(motion, angles.as_deref()))
     });
     let motion = motion.map_err(exception)?;

@@ -13,7 +13,7 @@ use super::errors::{Fault, exception};
 use super::outputs::{array, column, read_only};
 use super::records::{MotionPeaks, TrajectorySample};
 use super::state::{Reduced, reduced};
-use irbkin::trajectory::{AxisLimits, AxisState, Trajectory};
+use irbkin_motion::trajectory::{AxisLimits, AxisState, Trajectory};
 
 /// Joint angles, velocities and accelerations over time.
 ///
@@ -298,7 +298,7 @@ pub(super) fn between(
     let limits: Vec<_> = limits.into_iter().map(limit).collect();
     PyTrajectory::even(
         py,
-        irbkin::trajectory::state::between(&start, &end, &limits).map_err(exception)?,
+        irbkin_motion::trajectory::state::between(&start, &end, &limits).map_err(exception)?,
         2,
     )
 }

@@ -1,12 +1,8 @@
 //! Checks of the joint vectors, weights and joint angles that a caller passes.
 
-use crate::error::MotionFault;
 use crate::error::{Error, JointFault};
 use crate::kinematics::chain::limits::JointLimits;
 use crate::kinematics::thresholds::{FARTHEST_OUTSIDE, MOST_ANGLE};
-
-/// Rows of a batch, evenly spaced, that are looked at for degrees.
-const SAMPLED_ROWS: usize = 64;
 
 /// Check that every angle of a joint vector is finite.
 #[doc(hidden)]
@@ -51,28 +47,6 @@ pub fn check_near<const N: usize>(
         }
     }
     Ok(())
-}
-
-/// Check that most rows of a batch are near the limits, as [`check_near`] does: one row that is not
-/// may be what the caller wants to see, most are in degrees.
-#[doc(hidden)]
-pub fn check_most_near<const N: usize>(
-    field: &'static str,
-    rows: &[[f64; N]],
-    limits: &JointLimits<N>,
-    weights: &[f64; N],
-) -> Result<(), Error> {
-    let step = rows.len().div_ceil(SAMPLED_ROWS).max(1);
-    let (mut first, mut far, mut near) = (None, 0, 0);
-    for (row, q) in rows.iter().enumerate().step_by(step) {
-        if let Err(Error::InvalidJoints(fault)) = check_near(field, q, limits, weights) {
-            first.get_or_insert(MotionFault::Row { row, fault });
-            far += 1;
-        } else {
-            near += 1;
-        }
-    }
-    first.filter(|_| far > near).map_or(Ok(()), |fault| Err(fault.into()))
 }
 
 /// Check the angle of a joint (from 1) that is copied into the answer: beyond [`MOST_ANGLE`], turns

@@ -21,7 +21,8 @@ impl Slot {
     /// A slot from an index below [`MOST_SLOTS`].
     #[expect(clippy::cast_possible_truncation, reason = "no structure has more than 16 slots")]
     #[inline(always)]
-    pub(crate) const fn new(index: usize) -> Self {
+    #[doc(hidden)]
+    pub const fn new(index: usize) -> Self {
         Self(index as u8)
     }
 

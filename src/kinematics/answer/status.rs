@@ -66,7 +66,8 @@ impl SingularityKind {
     }
 
     /// The word for the one that explains a jump: the first of wrist, shoulder and elbow.
-    pub(crate) fn word(self) -> Option<&'static str> {
+    #[doc(hidden)]
+    pub fn word(self) -> Option<&'static str> {
         let words = [(Self::WRIST, "wrist"), (Self::SHOULDER, "shoulder"), (Self::ELBOW, "elbow")];
         words.into_iter().find(|(kind, _)| self.contains(*kind)).map(|(_, word)| word)
     }

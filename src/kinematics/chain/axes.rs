@@ -32,16 +32,18 @@ pub(crate) type Vectors<const W: usize> = [[f64; W]; 3];
 
 /// `W` frames side by side.
 #[derive(Clone, Copy)]
-pub(crate) struct Axes<const W: usize> {
-    pub(crate) x: Vectors<W>,
-    pub(crate) y: Vectors<W>,
-    pub(crate) z: Vectors<W>,
-    pub(crate) origin: Vectors<W>,
+#[doc(hidden)]
+pub struct Axes<const W: usize> {
+    pub x: Vectors<W>,
+    pub y: Vectors<W>,
+    pub z: Vectors<W>,
+    pub origin: Vectors<W>,
 }
 
 impl<const W: usize> Axes<W> {
     /// Broadcast a frame to every lane.
-    pub(crate) fn of(pose: &Pose) -> Self {
+    #[doc(hidden)]
+    pub fn of(pose: &Pose) -> Self {
         let r = pose.rotation.matrix();
         let axis = |j: usize| [[r[(0, j)]; W], [r[(1, j)]; W], [r[(2, j)]; W]];
         let p = &pose.translation.vector;
@@ -162,7 +164,8 @@ impl<const W: usize> Axes<W> {
 
     /// The pose in one lane.
     #[inline(always)]
-    pub(crate) fn pose(&self, lane: usize) -> Pose {
+    #[doc(hidden)]
+    pub fn pose(&self, lane: usize) -> Pose {
         let vector = |v: &Vectors<W>| Vector3::new(v[0][lane], v[1][lane], v[2][lane]);
         let axes = Matrix3::from_columns(&[vector(&self.x), vector(&self.y), vector(&self.z)]);
         Pose::from_parts(

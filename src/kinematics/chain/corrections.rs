@@ -72,7 +72,8 @@ impl<const N: usize> Corrections<N> {
 
     /// Check that every correction is finite.
     /// Whether the table itself is corrected, not its ends alone.
-    pub(crate) fn are_of_rows(&self) -> bool {
+    #[doc(hidden)]
+    pub fn are_of_rows(&self) -> bool {
         self.rows.as_flattened().iter().any(|correction| *correction != 0.0)
     }
 
@@ -97,7 +98,8 @@ impl<const N: usize> Corrections<N> {
 
     /// The frame of a link of the arm as it is corrected, in the frame of the corrected table, which
     /// may be far away; `None` if they are the same.
-    pub(crate) fn link(&self, mdh: &Mdh<N>, link: usize) -> Option<Pose> {
+    #[doc(hidden)]
+    pub fn link(&self, mdh: &Mdh<N>, link: usize) -> Option<Pose> {
         // The base is its own frame, whatever the first row is.
         let behind = (1..N).contains(&link).then_some(link)?;
         let (turn, shift) = self.unskewed(mdh, behind)?.before;

@@ -100,7 +100,8 @@ impl<const N: usize> Sdh<N> {
 
 /// Check `snap`, how far an angle may be from a multiple of 90 deg to become one: 0 to
 /// 1e-3 rad.
-pub(crate) fn check_snap(value: f64) -> Result<(), Error> {
+#[doc(hidden)]
+pub fn check_snap(value: f64) -> Result<(), Error> {
     if (0.0..=MOST_SNAP).contains(&value) {
         Ok(())
     } else {
@@ -136,7 +137,7 @@ impl<const N: usize> From<Mdh<N>> for Sdh<N> {
 }
 
 /// `Rx(alpha) Tx(a)`: the part of a row that does not move.
-pub(crate) fn screw_x(alpha: f64, a: f64) -> Pose {
+pub fn screw_x(alpha: f64, a: f64) -> Pose {
     let (sin, cos) = constant_sin_cos(alpha);
     let rotation = Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos);
     IsometryMatrix3::from_parts(

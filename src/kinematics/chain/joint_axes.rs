@@ -218,7 +218,7 @@ impl Line {
 }
 
 /// The direction with length one; exact along x, y and z.
-pub(crate) fn unit(direction: [f64; 3]) -> Option<Vector3<f64>> {
+pub fn unit(direction: [f64; 3]) -> Option<Vector3<f64>> {
     // Scaled first: squares of very small and very large numbers lose their digits.
     let largest = direction.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let scaled = Vector3::from(direction.map(|value| value / largest));

@@ -148,7 +148,8 @@ impl<const N: usize> JointLimits<N> {
 
     /// How far an angle of joint `joint` (from 0), at its best 2 pi equivalent, exceeds its limits
     /// [rad]; negative inside.
-    pub(crate) fn overrun(&self, joint: usize, angle: f64) -> f64 {
+    #[doc(hidden)]
+    pub fn overrun(&self, joint: usize, angle: f64) -> f64 {
         overrun(self.lower[joint], self.upper[joint], angle)
     }
 
@@ -202,7 +203,8 @@ impl<const N: usize> JointLimits<N> {
 
     /// The angle that an undetermined joint takes without a seed [rad]: zero if that is inside the
     /// limits, otherwise their middle.
-    pub(crate) fn rest(&self) -> [f64; N] {
+    #[doc(hidden)]
+    pub fn rest(&self) -> [f64; N] {
         core::array::from_fn(|joint| {
             let middle = 0.5 * (self.lower[joint] + self.upper[joint]);
             if self.excess(joint, 0.0) > 0.0 && middle.is_finite() { middle } else { 0.0 }
@@ -211,7 +213,8 @@ impl<const N: usize> JointLimits<N> {
 
     /// Every angle at its 2 pi equivalent inside the limits that is nearest to `seed`; `None` if an
     /// angle has none, or if the linkage is outside its limits, which no turn changes.
-    pub(crate) fn wrapped_near(&self, q: &[f64; N], seed: &[f64; N]) -> Option<[f64; N]> {
+    #[doc(hidden)]
+    pub fn wrapped_near(&self, q: &[f64; N], seed: &[f64; N]) -> Option<[f64; N]> {
         if self.linkage_excess(q) > 0.0 {
             return None;
         }
@@ -255,7 +258,7 @@ impl<const N: usize> JointLimits<N> {
 }
 
 /// An angle inside its limits, or at the one that it exceeds by at most [`START_TOLERANCE`].
-pub(crate) fn at_limit(angle: f64, [lower, upper]: [f64; 2]) -> Option<f64> {
+pub fn at_limit(angle: f64, [lower, upper]: [f64; 2]) -> Option<f64> {
     let is_near = angle >= lower - START_TOLERANCE && angle <= upper + START_TOLERANCE;
     is_near.then(|| angle.max(lower).min(upper))
 }

@@ -206,7 +206,8 @@ impl<'a, const N: usize> Follower<'a, N> {
     }
 
     /// The solution that continues at a pose from where the joints are; none elsewhere is sought.
-    pub(crate) fn continued(&self, pose: &Pose) -> Result<Option<Solution<N>>, Error> {
+    #[doc(hidden)]
+    pub fn continued(&self, pose: &Pose) -> Result<Option<Solution<N>>, Error> {
         let pose = checked_pose(pose)?;
         let mut next = self.robot.continued(&pose, &self.at.q, &self.weights)?;
         if let Some(next) = &mut next {

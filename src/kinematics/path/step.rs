@@ -1,12 +1,12 @@
 //! Steps of joints: how far apart two joint vectors are.
 
 /// The steps from one joint vector to another [rad].
-pub(crate) fn steps<const N: usize>(from: &[f64; N], to: &[f64; N]) -> [f64; N] {
+pub fn steps<const N: usize>(from: &[f64; N], to: &[f64; N]) -> [f64; N] {
     core::array::from_fn(|joint| to[joint] - from[joint])
 }
 
 /// The largest size of steps [rad].
-pub(crate) fn largest<const N: usize>(steps: &[f64; N]) -> f64 {
+pub fn largest<const N: usize>(steps: &[f64; N]) -> f64 {
     steps.iter().fold(0.0, |most, step| most.max(step.abs()))
 }
 

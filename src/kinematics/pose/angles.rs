@@ -26,7 +26,7 @@ pub(crate) fn wrap(angle: f64) -> f64 {
 /// The 2 pi equivalent of an angle that is nearest to another one [rad].
 #[must_use]
 #[inline(always)]
-pub(crate) fn nearest_turn(angle: f64, near: f64) -> f64 {
+pub fn nearest_turn(angle: f64, near: f64) -> f64 {
     angle + TAU * nearest_whole((near - angle) / TAU)
 }
 
@@ -61,14 +61,14 @@ pub fn constant_sin_cos(angle: f64) -> (f64, f64) {
 
 /// The multiple of 90 deg within `snap` of an angle [rad], or the angle.
 #[must_use]
-pub(crate) fn snapped(angle: f64, snap: f64) -> f64 {
+pub fn snapped(angle: f64, snap: f64) -> f64 {
     let nearest = (angle / FRAC_PI_2).round() * FRAC_PI_2;
     if (angle - nearest).abs() <= snap { nearest } else { angle }
 }
 
 /// The rotation vector of a rotation [rad], of length 0 to pi; exact to rounding at both ends, where
 /// the trace that nalgebra's `scaled_axis` takes the arc cosine of has none or half of the digits.
-pub(crate) fn rotation_vector(rotation: &Rotation3<f64>) -> Vector3<f64> {
+pub fn rotation_vector(rotation: &Rotation3<f64>) -> Vector3<f64> {
     let [w, x, y, z] = quaternion(rotation);
     let vector = Vector3::new(x, y, z);
     let sin = vector.norm();

@@ -10,7 +10,6 @@ use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3, Vector3};
 use nalgebra::{ComplexField as _, RealField as _};
 
 use crate::error::{Error, PoseFault};
-#[cfg(feature = "urdf")]
 use crate::kinematics::pose::angles::constant_sin_cos;
 use crate::kinematics::pose::rotation::{
     Rows3, determinant, gram_excess, nearest_rotation, quaternion,
@@ -127,7 +126,8 @@ fn checked_rotation(rows: Rows3) -> Result<Rotation3<f64>, Error> {
 
 /// Check a pose from another program: finite, and its rotation orthonormal, repaired as by
 /// [`pose_from_rows`].
-pub(crate) fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
+#[doc(hidden)]
+pub fn checked_pose(pose: &Pose) -> Result<Pose, Error> {
     let r = pose.rotation.matrix();
     let rows = [0, 1, 2].map(|row| [r[(row, 0)], r[(row, 1)], r[(row, 2)]]);
     // The comparison is false for NaN, too.
@@ -243,8 +243,7 @@ fn check_angles(field: &'static str, angles: &[f64; 3]) -> Result<(), Error> {
 
 /// The pose of a model's constants, as [`pose_from_euler_zyx`] for finite input; quarter turns are
 /// exact.
-#[cfg(feature = "urdf")]
-pub(crate) fn constant_pose(xyz: [f64; 3], zyx: [f64; 3]) -> Pose {
+pub fn constant_pose(xyz: [f64; 3], zyx: [f64; 3]) -> Pose {
     pose_of_zyx(xyz, zyx.map(constant_sin_cos))
 }
 

@@ -22,7 +22,7 @@ use crate::kinematics::thresholds::{MOST_ANGLE, MOST_LENGTH, MOST_REACH, MOST_TO
 use crate::report::{ConfigurationRule, Convention, SNAPS};
 
 /// Postures in which what always holds is looked for.
-pub(crate) const POSTURES: u32 = 64;
+pub const POSTURES: u32 = 64;
 
 impl Robot<6> {
     /// A robot from the parameters of an ortho-parallel arm with a spherical wrist.
@@ -92,7 +92,8 @@ where
     }
 
     /// A robot from any table, with its inverse if its joints are independent.
-    pub(crate) fn of_table(mdh: Mdh<N>) -> Result<Self, Error> {
+    #[doc(hidden)]
+    pub fn of_table(mdh: Mdh<N>) -> Result<Self, Error> {
         Self::recognized(mdh, Self::COUNT, known::recognize)
     }
 
@@ -119,15 +120,16 @@ where
     }
 
     /// The robot of a table with the structure of a closed form.
-    #[cfg(feature = "urdf")]
-    pub(crate) fn in_closed_form(mdh: Mdh<N>) -> Option<Self> {
+    #[doc(hidden)]
+    pub fn in_closed_form(mdh: Mdh<N>) -> Option<Self> {
         Self::closed(mdh, Self::COUNT)
     }
 }
 
 impl<const N: usize> Robot<N> {
     /// Refuse an arm of six joints whose structure is unknown.
-    pub(crate) fn with_inverse(self) -> Result<Self, Error> {
+    #[doc(hidden)]
+    pub fn with_inverse(self) -> Result<Self, Error> {
         match self.unknown_structure() {
             Some(reason) if N == 6 => Err(ModelFault::UnknownStructure(reason).into()),
             _ => Ok(self),
@@ -167,7 +169,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The largest distance of the flange from an axis, in two poses [m].
-    pub(crate) fn size(&self) -> f64 {
+    #[doc(hidden)]
+    pub fn size(&self) -> f64 {
         let bare = self.chain.clone().with_tool(Pose::identity());
         distances_of_axes(&bare).map(|(_, distance)| distance).fold(0.0, f64::max)
     }
@@ -184,7 +187,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// A posture of a Weyl sequence that fills the limits, or a turn where a joint has none.
-    pub(crate) fn posture(&self, number: u32) -> [f64; N] {
+    #[doc(hidden)]
+    pub fn posture(&self, number: u32) -> [f64; N] {
         const PRIMES: [f64; 7] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0];
         let limits = self.limits().to_array();
         array::from_fn(|joint| {
@@ -218,8 +222,9 @@ impl<const N: usize> Robot<N> {
     }
 
     /// Propose another one of [`SNAPS`], with the robot that it makes.
-    #[cfg(feature = "urdf")]
-    pub(crate) fn proposing(mut self, snap: Option<(u8, Self)>) -> Self {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn proposing(mut self, snap: Option<(u8, Self)>) -> Self {
         let snap = snap.map(|snap| self.by_snap(snap));
         self.missing_form = self.missing_form.map(|missing| missing.proposing(snap));
         self

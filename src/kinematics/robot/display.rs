@@ -3,7 +3,6 @@
 use core::fmt;
 
 use alloc::string::String;
-#[cfg(any(feature = "urdf", feature = "serde"))]
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
@@ -27,8 +26,9 @@ impl<const N: usize> Robot<N> {
         self.labels.as_ref().map(|labels| &labels.1[..]).filter(|remark| !remark.is_empty())
     }
 
-    #[cfg(any(feature = "urdf", feature = "serde"))]
-    pub(crate) fn with_labels(self, labels: Option<Labels>) -> Self {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_labels(self, labels: Option<Labels>) -> Self {
         Self { labels: labels.map(Arc::new), ..self }
     }
 }

@@ -131,7 +131,8 @@ impl<const N: usize> Robot<N> {
 
     /// The axis of the locked joint and a point on it [m]: of the first joint in the world, of the
     /// last in the frame of the tool.
-    pub(crate) fn locked_axis(&self) -> Option<(Unit<Vector3<f64>>, Vector3<f64>)> {
+    #[doc(hidden)]
+    pub fn locked_axis(&self) -> Option<(Unit<Vector3<f64>>, Vector3<f64>)> {
         self.lock.as_ref().map(|lock| lock.joint.axis())
     }
 
@@ -142,7 +143,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The index of the joint whose angle a caller or a lock determines.
-    pub(crate) fn locked_index(&self) -> usize {
+    #[doc(hidden)]
+    pub fn locked_index(&self) -> usize {
         self.lock.as_ref().map_or(N - 1, |lock| lock.joint.joint())
     }
 

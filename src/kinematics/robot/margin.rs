@@ -50,12 +50,14 @@ impl<const N: usize> Robot<N> {
     }
 
     /// How near `q` is to each limit: the sum of the squares of 1 minus its margin.
-    pub(crate) fn nearness_to_limits(&self, q: &[f64; N]) -> f64 {
+    #[doc(hidden)]
+    pub fn nearness_to_limits(&self, q: &[f64; N]) -> f64 {
         of_limits(&self.limits, q).map(squared_lack).sum()
     }
 
     /// How near `q` is to each singularity, likewise.
-    pub(crate) fn nearness_to_singularities(&self, q: &[f64; N]) -> f64 {
+    #[doc(hidden)]
+    pub fn nearness_to_singularities(&self, q: &[f64; N]) -> f64 {
         self.of_singularities(q).into_iter().flatten().map(squared_lack).sum()
     }
 

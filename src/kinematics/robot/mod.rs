@@ -148,6 +148,12 @@ impl<const N: usize> Robot<N> {
         self.with_redundancy().filter(|_| self.lock.is_none())
     }
 
+    /// Whether it has seven joints, none of them locked.
+    #[doc(hidden)]
+    pub fn is_redundant(&self) -> bool {
+        self.redundancy().is_some()
+    }
+
     /// Whether the arm has a structure with a closed form.
     pub(in crate::kinematics) fn is_closed_form(&self) -> bool {
         self.missing_form.is_none() && !matches!(self.definition, Definition::Refined { .. })
@@ -279,12 +285,14 @@ impl<const N: usize> Robot<N> {
     }
 
     /// The frames of [`Self::link_frames`] for up to eight joint vectors, one in a lane.
-    pub(crate) fn frames(&self, q: &[[f64; N]], frames: &mut [Axes<LANES>]) {
+    #[doc(hidden)]
+    pub fn frames(&self, q: &[[f64; N]], frames: &mut [Axes<LANES>]) {
         run(Frames { chain: &self.chain, q, out: frames });
     }
 
     /// Derivatives in the controller's joint angles, by derivatives in the angles of the table.
-    pub(crate) fn by_controller(&self, mut derivatives: [f64; N]) -> [f64; N] {
+    #[doc(hidden)]
+    pub fn by_controller(&self, mut derivatives: [f64; N]) -> [f64; N] {
         if let [_, second, third, ..] = &mut derivatives[..] {
             *second -= self.chain.coupling() * *third;
         }
@@ -292,7 +300,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// How far the joints of the table turn at most, by how far the controller's do [rad].
-    pub(crate) fn table_spans(&self, mut spans: [f64; N]) -> [f64; N] {
+    #[doc(hidden)]
+    pub fn table_spans(&self, mut spans: [f64; N]) -> [f64; N] {
         if let [_, second, third, ..] = &mut spans[..] {
             *third += self.chain.coupling().abs() * *second;
         }
@@ -300,7 +309,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// How far the joints of the table turn, by how far the controller's do [rad].
-    pub(crate) fn table_turns(&self, turns: &[f64; N]) -> [f64; N] {
+    #[doc(hidden)]
+    pub fn table_turns(&self, turns: &[f64; N]) -> [f64; N] {
         self.chain.uncoupled(turns)
     }
 

@@ -91,7 +91,8 @@ impl<const N: usize> Robot<N> {
     }
 
     /// Every joint vector of many poses: rows of pose elements in, slots and their status out.
-    pub(crate) fn ik_rows(&self, rows: Rows<'_>) {
+    #[doc(hidden)]
+    pub fn ik_rows(&self, rows: Rows<'_>) {
         let (poses, locked) = (rows.poses, rows.locked);
         let Some(inverse) = self.inverse() else { return };
         inverse.solve_rows(rows, &mut |row, q, status| {

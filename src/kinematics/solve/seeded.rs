@@ -88,7 +88,8 @@ impl<const N: usize> Robot<N> {
 
     /// [`Self::ik_nearest`] among the solutions that satisfy a condition. Of seven joints none of
     /// which is locked, among those that the search along the redundancy passes.
-    pub(crate) fn nearest_accepted(
+    #[doc(hidden)]
+    pub fn nearest_accepted(
         &self,
         pose: &Pose,
         seed: &[f64; N],

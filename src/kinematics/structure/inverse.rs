@@ -110,11 +110,12 @@ pub(crate) trait Inverse<const N: usize>: Debug + Send + Sync {
 
 /// Rows to be solved: poses, the angle of the locked joint in each (empty for six joints), and room
 /// for the slots and their status.
-pub(crate) struct Rows<'a> {
-    pub(crate) poses: &'a [PoseRow],
-    pub(crate) locked: &'a [f64],
-    pub(crate) q: &'a mut [f64],
-    pub(crate) status: &'a mut [u8],
+#[doc(hidden)]
+pub struct Rows<'a> {
+    pub poses: &'a [[f64; 16]],
+    pub locked: &'a [f64],
+    pub q: &'a mut [f64],
+    pub status: &'a mut [u8],
 }
 
 /// Solve the row with an index into its slots and their status.

@@ -16,11 +16,11 @@ use crate::robot::PyRobot;
 use crate::signals::detached_until;
 use crate::targets::read_pose;
 use crate::trajectories::read_limits;
-use irbkin::Arm;
 use irbkin_abb::rapid;
 use irbkin_abb::rapid::{
     Carried, CheckOptions, Code, Module, MotionOptions, Unit, UnitAxis, Units,
 };
+use irbkin_motion::Arm;
 
 /// Check every move of a module, of all routines.
 ///

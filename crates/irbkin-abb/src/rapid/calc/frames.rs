@@ -4,9 +4,8 @@ use super::units::Units;
 use crate::Error;
 use crate::rapid::data::records::{RapidPose, ToolData, WobjData};
 use crate::rapid::text::fault::FrameFault;
-use irbkin::Error as ArmError;
 use irbkin::pose::{from_wxyz as pose_from_wxyz, to_wxyz as pose_to_wxyz};
-use irbkin::{Pose, Robot};
+use irbkin::{Error as RobotError, Pose, Robot};
 
 /// A tool and a work object, one of which the robot carries while the other is fixed in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +94,7 @@ impl Frames {
 /// Convert a pose in millimeters to one in meters.
 pub(in crate::rapid) fn pose_in(pose: &RapidPose, field: &'static str) -> Result<Pose, Error> {
     pose_from_wxyz(pose.trans_mm.map(|mm| mm / 1e3), pose.rot).map_err(|error| match error {
-        ArmError::InvalidPose(fault) => FrameFault::Pose { field, fault }.into(),
+        RobotError::InvalidPose(fault) => FrameFault::Pose { field, fault }.into(),
         other => other.into(),
     })
 }

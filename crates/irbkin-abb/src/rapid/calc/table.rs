@@ -18,8 +18,7 @@ use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::{JointTarget, NOT_THERE, RobTarget, ToolData, WobjData};
 use crate::rapid::data::value::Value;
 use crate::rapid::text::fault::FrameFault;
-use irbkin::Error as ArmError;
-use irbkin::{Configuration, Explanation, Robot, SingularDistances, Solution};
+use irbkin::{Configuration, Error as RobotError, Explanation, Robot, SingularDistances, Solution};
 
 /// The result for one target.
 #[derive(Clone, Debug, PartialEq)]
@@ -262,7 +261,7 @@ impl<'a, const N: usize> Table<'a, N> {
             Ok(all) => return chosen(&all),
             Err(error) => Error::from(error),
         };
-        let (Error::Arm(ArmError::NoConfiguration(_)), Fallback::Nearest(_), Some(seed)) =
+        let (Error::Robot(RobotError::NoConfiguration(_)), Fallback::Nearest(_), Some(seed)) =
             (&missed, self.fallback, asked.seed)
         else {
             return Err(refused(missed));
@@ -275,7 +274,7 @@ impl<'a, const N: usize> Table<'a, N> {
 
 /// The first of the solutions that a configuration names, with a finding if there are more.
 fn chosen<const N: usize>(all: &[Solution<N>]) -> Solved<N> {
-    let none = || not_solved(&ArmError::Unreachable(Explanation::FilteredOut).into());
+    let none = || not_solved(&RobotError::Unreachable(Explanation::FilteredOut).into());
     let first = all.first().ok_or_else(none)?;
     let count = all.len();
     Ok((first.q, (count > 1).then(|| ambiguous(count))))

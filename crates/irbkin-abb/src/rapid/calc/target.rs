@@ -8,11 +8,10 @@ use super::frames::{Frames, pose_in, rapid_pose};
 use super::units::MOST_DEGREES;
 use crate::Error;
 use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
-use irbkin::Error as ArmError;
 use irbkin::internal::JointFault;
 use irbkin::report::ConfigurationRule;
 use irbkin::thresholds::CONFIGURATION_EDGE;
-use irbkin::{ConfigurationRequest, Pose, Robot};
+use irbkin::{ConfigurationRequest, Error as RobotError, Pose, Robot};
 
 /// The treatment of a target whose configuration no solution has.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +93,7 @@ pub fn calc_rob_t<const N: usize>(
 /// printed digits: controllers hold targets that are up to 0.005 deg beyond a limit.
 pub(in crate::rapid) fn with_flange<const N: usize>(
     robot: &Robot<N>,
-) -> Result<Robot<N>, ArmError> {
+) -> Result<Robot<N>, RobotError> {
     let limits = robot.limits().widened(CONFIGURATION_EDGE);
     robot.clone().with_limits(limits).with_tool(&Pose::identity())
 }

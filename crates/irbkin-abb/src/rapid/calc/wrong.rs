@@ -10,11 +10,11 @@ use crate::rapid::calc::units::EXTERNAL_AXES;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::records::NOT_THERE;
 use crate::rapid::data::value::Value;
-use irbkin::Error as ArmError;
 use irbkin::follow::BreakReason;
-use irbkin::internal::MotionFault;
 use irbkin::thresholds::CONFIGURATION_EDGE;
-use irbkin::{Explanation, Robot, SingularityKind};
+use irbkin::{Error as RobotError, Explanation, Robot, SingularityKind};
+use irbkin_motion::Error as MotionError;
+use irbkin_motion::internal::MotionFault;
 
 /// A result or a finding.
 pub(in crate::rapid) type Found<T> = Result<T, Box<Finding>>;
@@ -25,10 +25,12 @@ pub(in crate::rapid) type Found<T> = Result<T, Box<Finding>>;
 #[must_use]
 pub fn error_name(error: &Error) -> Option<&'static str> {
     match error {
-        Error::Arm(ArmError::Unreachable(
+        Error::Robot(RobotError::Unreachable(
             Explanation::OutOfReach(_) | Explanation::NoRoots { .. },
         )) => Some("ERR_OUTSIDE_REACH"),
-        Error::Arm(ArmError::Unreachable(_) | ArmError::NoConfiguration(_)) => Some("ERR_ROBLIMIT"),
+        Error::Robot(RobotError::Unreachable(_) | RobotError::NoConfiguration(_)) => {
+            Some("ERR_ROBLIMIT")
+        }
         _ => None,
     }
 }
@@ -42,18 +44,18 @@ fn named(error: &Error) -> String {
 /// A target without joint angles.
 pub(in crate::rapid) fn not_solved(error: &Error) -> Finding {
     let code = match error {
-        Error::Arm(ArmError::Unreachable(
+        Error::Robot(RobotError::Unreachable(
             Explanation::OutOfReach(_) | Explanation::NoRoots { .. },
         )) => Code::OutOfReach,
-        Error::Arm(ArmError::Unreachable(_)) => Code::OutsideLimits,
-        Error::Arm(ArmError::NoConfiguration(_) | ArmError::InvalidJoints(_)) => {
+        Error::Robot(RobotError::Unreachable(_)) => Code::OutsideLimits,
+        Error::Robot(RobotError::NoConfiguration(_) | RobotError::InvalidJoints(_)) => {
             Code::WrongConfdata
         }
         _ => Code::InvalidFrame,
     };
     let finding = Finding::new(code, named(error));
     match error {
-        Error::Arm(ArmError::Unreachable(explanation)) => finding.explained(explanation),
+        Error::Robot(RobotError::Unreachable(explanation)) => finding.explained(explanation),
         _ => finding,
     }
 }
@@ -130,9 +132,9 @@ pub(in crate::rapid) fn outside<const N: usize>(robot: &Robot<N>, q: &[f64; N]) 
 }
 
 /// No line or arc between two targets.
-pub(in crate::rapid) fn no_path(error: &ArmError) -> Box<Finding> {
+pub(in crate::rapid) fn no_path(error: &MotionError) -> Box<Finding> {
     let words = match error {
-        ArmError::InvalidMotion(MotionFault::HalfTurn { angle, .. }) => format!(
+        MotionError::InvalidMotion(MotionFault::HalfTurn { angle, .. }) => format!(
             "the tool turns by {:.1} deg, there are two ways: program a target between",
             angle.to_degrees()
         ),

@@ -7,8 +7,9 @@ use alloc::vec::Vec;
 use crate::Error;
 use crate::rapid::data::moves::Move;
 use crate::rapid::program::walker::{Run, Step};
-use irbkin::body::Shape;
-use irbkin::{Arm, Pose};
+use irbkin::Pose;
+use irbkin_motion::Arm;
+use irbkin_motion::body::Shape;
 
 /// Shapes in the flange frame, which it carries in moves with the tool or the work object of a name,
 /// in lower case.

@@ -24,8 +24,9 @@ use crate::rapid::program::walk::runs;
 use crate::rapid::program::walker::Run;
 use crate::rapid::program::whole::Program;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
-use irbkin::cell::{self, Cell};
-use irbkin::{Arm, Configuration, Interrupt, Robot};
+use irbkin::{Configuration, Interrupt, Robot};
+use irbkin_motion::cell::Cell;
+use irbkin_motion::{Arm, cell};
 
 /// Options of [`check`].
 #[derive(Clone, Copy, Debug, Default)]

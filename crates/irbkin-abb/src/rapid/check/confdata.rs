@@ -8,10 +8,9 @@ use nalgebra::ComplexField as _;
 use crate::rapid::calc::confdata::AXES;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::motion::goal::{Goal, Place};
-use irbkin::Error as ArmError;
-use irbkin::Robot;
 use irbkin::report::ConfigurationRule;
 use irbkin::thresholds::CONFIGURATION_EDGE;
+use irbkin::{Error as RobotError, Robot};
 
 /// A finding on confdata that no solution has, with the configuration of the nearest joints.
 pub(super) fn with_nearest<const N: usize>(
@@ -26,7 +25,7 @@ pub(super) fn with_nearest<const N: usize>(
         return finding;
     };
     let words = match flange.ik_configured(&goal.frames.flange(&pose), wanted) {
-        Err(error @ ArmError::InvalidJoints(_)) => error.to_string(),
+        Err(error @ RobotError::InvalidJoints(_)) => error.to_string(),
         _ => format!("no solution has its confdata {}", wanted.configuration),
     };
     let words = format!("{words}; that of the nearest is {nearest}");
@@ -55,7 +54,7 @@ pub(super) fn in_wrist_singularity<const N: usize>(
 pub(super) fn on_edges<const N: usize>(
     robot: &Robot<N>,
     q: &[f64; N],
-) -> Result<impl Iterator<Item = Finding>, ArmError> {
+) -> Result<impl Iterator<Item = Finding>, RobotError> {
     let (joints, zero) = robot.counted_joints()?;
     Ok(AXES.into_iter().zip(joints).filter_map(move |(axis, joint)| {
         let degrees = q[joint].to_degrees();

@@ -11,10 +11,10 @@ use crate::rapid::data::value::Value;
 use crate::rapid::motion::drive::Made;
 use crate::rapid::motion::goal::{Goal, Place};
 use crate::rapid::motion::joints::way;
-use irbkin::internal::Leg;
-use irbkin::internal::{LEAST_WAY, angle_between};
-use irbkin::paths::ArcOrientation;
+use irbkin::internal::angle_between;
 use irbkin::{Pose, Robot};
+use irbkin_motion::internal::{LEAST_WAY, Leg};
+use irbkin_motion::paths::ArcOrientation;
 
 /// Targets nearer to one another are passed as one [m].
 const CLOSE_TARGETS: f64 = 1e-4;

@@ -11,7 +11,7 @@ use crate::rapid::data::module::Content;
 use crate::rapid::data::records::{LoadData, SpeedData, ToolData, WobjData, ZoneData};
 use crate::rapid::data::unread::{AssignedBy, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
-use irbkin::internal::PREDEFINED as ZONES;
+use irbkin_motion::internal::PREDEFINED as ZONES;
 
 /// A scope of names.
 pub(crate) trait Names {

@@ -10,14 +10,13 @@ use crate::rapid::calc::wrong::{Found, broken, no_path};
 use crate::rapid::data::finding::Finding;
 use crate::rapid::data::settings::{CirPathMode, SingArea};
 use crate::rapid::motion::thresholds::JOINED_MOVES;
-use irbkin::Error as ArmError;
 use irbkin::follow::{BreakReason, SingularityMode};
-use irbkin::internal::part;
-use irbkin::internal::{Corner, Leg, Rounded};
-use irbkin::internal::{MOST_SAMPLES, largest_step};
-use irbkin::paths::{ArcOrientation, Spacing};
+use irbkin::internal::largest_step;
 use irbkin::thresholds::MOST_REACH;
 use irbkin::{Configuration, Interrupt, Pose, Robot, SingularityKind};
+use irbkin_motion::Error as MotionError;
+use irbkin_motion::internal::{Corner, Leg, MOST_SAMPLES, Rounded, part};
+use irbkin_motion::paths::{ArcOrientation, Spacing};
 
 /// Least number of steps of a line or an arc with a rounded corner.
 const LEAST_STEPS: usize = 4;
@@ -135,7 +134,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
             if found > MOST_SAMPLES {
                 #[expect(clippy::cast_precision_loss, reason = "some 1e7")]
                 let [found, most] = [found, MOST_SAMPLES].map(|count| count as f64);
-                return Err(irbkin::internal::MotionFault::TooMany { found, most }.into());
+                return Err(irbkin_motion::internal::MotionFault::TooMany { found, most }.into());
             }
         }
         Ok((drive.samples, drive.made))
@@ -219,7 +218,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
     }
 
     /// The line or the arc of a move between two poses of the tool.
-    fn leg(&self, index: usize, start: &Pose, end: &Pose) -> Result<Leg, ArmError> {
+    fn leg(&self, index: usize, start: &Pose, end: &Pose) -> Result<Leg, MotionError> {
         let goal = &self.goals[index];
         let orientation = match goal.step.settings.cir_path_mode {
             CirPathMode::ObjectFrame => ArcOrientation::Object,

@@ -17,8 +17,8 @@ use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::RobTarget;
 use crate::rapid::data::settings::CirPathMode;
 use crate::rapid::program::walker::Stepped;
-use irbkin::paths::Zone;
 use irbkin::{Configuration, ConfigurationRequest, Pose, Robot};
+use irbkin_motion::paths::Zone;
 
 /// The destination of a move.
 #[derive(Clone, Copy)]

@@ -13,12 +13,10 @@ use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::wrong::{ambiguous, beside_taken, nearest_taken, not_solved};
 use crate::rapid::data::finding::Finding;
 use crate::rapid::motion::thresholds::NEAR_CONFDATA;
-use irbkin::Error as ArmError;
-use irbkin::internal::STEP_ROUNDING;
-use irbkin::internal::part;
-use irbkin::paths::Spacing;
 use irbkin::report::ConfigurationRule;
-use irbkin::{ConfigurationRequest, Explanation, Pose, Robot};
+use irbkin::{ConfigurationRequest, Error as RobotError, Explanation, Pose, Robot};
+use irbkin_motion::internal::{STEP_ROUNDING, part};
+use irbkin_motion::paths::Spacing;
 
 /// The way of the tool between two samples: a length [m] and an angle [rad].
 pub(in crate::rapid) type Way = [f64; 2];
@@ -130,7 +128,9 @@ pub(super) fn solved<const N: usize>(
                 let is_one = count == 1 || conf != Conf::On || goal.is_cartesian();
                 return (Some(q), (!is_one).then(|| ambiguous(count)));
             }
-            Err(error @ Error::Arm(ArmError::NoConfiguration(_) | ArmError::InvalidJoints(_))) => {
+            Err(
+                error @ Error::Robot(RobotError::NoConfiguration(_) | RobotError::InvalidJoints(_)),
+            ) => {
                 beside = nearest_written(flange, &pose, &wanted);
                 if let Some((q, finding)) = beside.and_then(|it| nearly(flange, it, &wanted)) {
                     return (Some(q), Some(finding).filter(|_| conf == Conf::On));
@@ -159,7 +159,7 @@ fn named<const N: usize>(
         return Ok((flange.ik_configured(pose, *request)?.q, 1));
     }
     let all = flange.ik_configured_all(pose, *request)?;
-    let first = all.first().ok_or(ArmError::Unreachable(Explanation::FilteredOut))?;
+    let first = all.first().ok_or(RobotError::Unreachable(Explanation::FilteredOut))?;
     Ok((first.q, all.len()))
 }
 

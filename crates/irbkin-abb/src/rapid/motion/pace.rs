@@ -10,10 +10,10 @@ use super::joints::{Samples, slowest};
 use crate::Error;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::motion::thresholds::JOINED_MOVES;
-use irbkin::internal::{
+use irbkin_motion::internal::{
     LEAST_WAY, LIMIT_ROUNDING, MOST_DURATION, MotionFault, evenly, within_times,
 };
-use irbkin::trajectory::Trajectory;
+use irbkin_motion::trajectory::Trajectory;
 
 /// A motion to be timed.
 pub(super) struct Pace<'a, 'm, const N: usize> {

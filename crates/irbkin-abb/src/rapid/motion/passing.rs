@@ -8,9 +8,9 @@ use super::joints::Path;
 use crate::rapid::calc::wrong::passes;
 use crate::rapid::data::settings::SingArea;
 use crate::rapid::motion::thresholds::{ELBOW_ZONE, SHOULDER_ZONE};
-use irbkin::internal::part;
 use irbkin::thresholds::WRIST_ZONE;
 use irbkin::{Pose, SingularityKind, Slot};
+use irbkin_motion::internal::part;
 
 /// The bit of cfx that is the side of the wrist.
 const WRIST_SIDE: i32 = 1;

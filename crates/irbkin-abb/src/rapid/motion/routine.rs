@@ -18,10 +18,11 @@ use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::program::walker::Step;
 use crate::rapid::program::whole::Program;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind, RoutineFault};
-use irbkin::internal::{MotionFault, check_seed};
-use irbkin::paths::Spacing;
-use irbkin::trajectory::Trajectory;
+use irbkin::internal::check_seed;
 use irbkin::{Interrupt, Pose, Robot};
+use irbkin_motion::internal::MotionFault;
+use irbkin_motion::paths::Spacing;
+use irbkin_motion::trajectory::Trajectory;
 
 /// The moves of a routine as one motion of the joints, checked.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,8 @@ use std::vec::Vec;
 use crate::rapid::{
     CheckOptions, Checked, Code, Finding, Module, Unit, UnitAxis, Units, check, read,
 };
-use irbkin::{Arm, Pose};
+use irbkin::Pose;
+use irbkin_motion::Arm;
 
 const FAR: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";
 

@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use super::*;
 use crate::rapid::{CheckOptions, Code, Finding, Severity, check, read as read_on};
-use irbkin::Arm;
+use irbkin_motion::Arm;
 
 /// The lines, the columns and the words of the faults of a routine's statements, whose first line
 /// is 1.

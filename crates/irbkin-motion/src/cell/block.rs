@@ -1,0 +1,375 @@
+//! Eight joint vectors, or boxes of joint vectors, at once: which of them touch something.
+
+use alloc::vec::Vec;
+
+use fearless_simd::prelude::*;
+use nalgebra::Vector3;
+
+use super::apart::{ALL, Axis, Point, load, minus};
+use super::drift::Drift;
+use super::obstacles::Cell;
+use super::range::Range;
+use crate::body::{Capsule, Group, Outline, Way};
+use irbkin::Robot;
+use irbkin::internal::Axes;
+use irbkin::internal::lanes::{
+    Column, LANES, Number as _, Vector, VectorKernel, cross, dot, run_vectors,
+};
+
+/// How near shapes may be and count as touching, for the rounding of poses and distances [m].
+pub(super) const ROUNDING: f64 = 1e-9;
+
+/// What of joint vectors is looked at.
+#[derive(Clone, Copy)]
+pub(super) enum Looked<'a, const N: usize> {
+    /// Which of them touch something.
+    All,
+    /// One that touches something, if there is one.
+    Any,
+    /// Which of them may touch something while the joints are in ranges of which they are the middles.
+    Swept(&'a [Range<N>]),
+    /// As [`Self::Swept`], by capsules alone.
+    Roughly(&'a [Range<N>]),
+}
+
+/// What the kernel looks at: [`Looked`] for any number of joints, so that it is compiled once.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Look {
+    All,
+    Any,
+    Swept,
+    Roughly,
+}
+
+/// Where everything of an arm is, in eight lanes.
+#[derive(Clone)]
+pub(crate) struct Block {
+    base: Axes<LANES>,
+    /// The frame of each joint's link.
+    frames: Vec<Axes<LANES>>,
+    /// How far the joints turn to either side [rad]; zero for joint vectors.
+    pub(super) spans: Vec<Column>,
+    /// How far they do along a line, and beside it.
+    pub(super) turns: Vec<Column>,
+    pub(super) beside: Vec<Column>,
+    /// The middles and the halves of the axes of the capsules around the groups.
+    pub(super) around: Vec<[[Column; 3]; 2]>,
+    /// How far the axes of a group move, by the link from which it is seen: [`Self::seen`].
+    pub(super) moves: Vec<Column>,
+    /// How far they are then from where their velocities would lead.
+    pub(super) bends: Vec<Column>,
+    /// The middles and the halves of the capsules' axes, of the groups that are placed.
+    axes: Vec<[[Column; 3]; 2]>,
+    is_placed: Vec<bool>,
+    /// What hulls are to decide, by its place among all that is looked at, and the lanes, as bits.
+    pub(super) doubts: Vec<(usize, u64)>,
+    /// Ways that hulls were apart along, with the numbers of two.
+    pub(super) ways: Vec<(usize, Way)>,
+    /// What touched last, by its place.
+    pub(super) last: usize,
+}
+
+impl Block {
+    /// Memory for an arm.
+    pub(super) fn new<const N: usize>(robot: &Robot<N>, outline: &Outline) -> Self {
+        let mut block = Self {
+            base: Axes::of(robot.base()),
+            frames: Vec::new(),
+            spans: Vec::new(),
+            turns: Vec::new(),
+            beside: Vec::new(),
+            around: Vec::new(),
+            moves: Vec::new(),
+            bends: Vec::new(),
+            axes: Vec::new(),
+            is_placed: Vec::new(),
+            doubts: Vec::new(),
+            ways: Vec::new(),
+            last: 0,
+        };
+        block.fit(robot, outline);
+        block
+    }
+
+    /// Take the place of the memory for another arm, of which no answer is left.
+    pub(super) fn fit<const N: usize>(&mut self, robot: &Robot<N>, outline: &Outline) {
+        let (groups, zero) = (outline.groups.len(), [0.0; LANES]);
+        self.base = Axes::of(robot.base());
+        self.frames.resize(N, self.base);
+        for columns in [&mut self.spans, &mut self.turns, &mut self.beside] {
+            columns.resize(N, zero);
+        }
+        self.around.resize(groups, [[zero; 3]; 2]);
+        self.moves.resize(groups * N, zero);
+        self.bends.resize(groups * N, zero);
+        self.axes.resize(outline.capsules.len(), [[zero; 3]; 2]);
+        self.is_placed.resize(groups, false);
+        self.ways.clear();
+        self.last = 0;
+    }
+
+    /// The place of a group, seen from a link, among `moves` and `bends`.
+    pub(super) fn seen(&self, group: usize, from: usize) -> usize {
+        group * self.frames.len() + from
+    }
+
+    /// Which of up to eight joint vectors touch themselves or come nearer to an obstacle than the
+    /// margin [m], as bits, exact to rounding. Where joints turn, all that do not are certain not to
+    /// (eq. 2).
+    pub(super) fn touching<const N: usize>(
+        &mut self,
+        robot: &Robot<N>,
+        outline: &Outline,
+        cell: &Cell,
+        q: &[[f64; N]],
+        looked: Looked<'_, N>,
+    ) -> u64 {
+        robot.frames(q, &mut self.frames);
+        let mut has_lines = false;
+        if let Looked::Swept(ranges) | Looked::Roughly(ranges) = looked {
+            for (lane, range) in ranges.iter().enumerate() {
+                let spans = robot.table_spans(range.spans());
+                let turns = robot.table_turns(&range.turns);
+                let beside = robot.table_spans(range.beside);
+                for joint in 0..N {
+                    self.spans[joint][lane] = spans[joint];
+                    self.turns[joint][lane] = turns[joint];
+                    self.beside[joint][lane] = beside[joint];
+                    has_lines |= turns[joint] != 0.0;
+                }
+            }
+        }
+        let look = match looked {
+            Looked::All => Look::All,
+            Looked::Any => Look::Any,
+            Looked::Swept(_) => Look::Swept,
+            Looked::Roughly(_) => Look::Roughly,
+        };
+        self.touching_in_frames(outline, cell, q.len(), look, has_lines)
+    }
+
+    /// [`Self::touching`] where the frames are.
+    fn touching_in_frames(
+        &mut self,
+        outline: &Outline,
+        cell: &Cell,
+        count: usize,
+        look: Look,
+        has_lines: bool,
+    ) -> u64 {
+        let all = ALL >> (LANES - count);
+        run_vectors(Touch { block: self, outline, cell, look, has_lines, all, asked: all })
+    }
+
+    pub(super) fn frame(&self, link: usize) -> &Axes<LANES> {
+        match link.checked_sub(1) {
+            Some(joint) => &self.frames[joint],
+            None => &self.base,
+        }
+    }
+
+    /// A capsule in one lane.
+    pub(super) fn capsule(&self, outline: &Outline, index: usize, lane: usize) -> Capsule {
+        let [middle, half] = self.axes[index].map(|point| point.map(|component| component[lane]));
+        outline.capsules[index].at(middle.into(), half.into())
+    }
+}
+
+/// Whether lanes touch something.
+pub(super) struct Touch<'a> {
+    pub(super) block: &'a mut Block,
+    pub(super) outline: &'a Outline,
+    pub(super) cell: &'a Cell,
+    pub(super) look: Look,
+    /// Whether joints turn along lines.
+    pub(super) has_lines: bool,
+    /// The lanes, as bits.
+    all: u64,
+    /// The lanes in which nothing touches yet, as bits.
+    pub(super) asked: u64,
+}
+
+impl VectorKernel for Touch<'_> {
+    type Answer = u64;
+
+    #[inline(always)]
+    fn run<S: Simd>(mut self, simd: S) -> u64 {
+        self.block.doubts.clear();
+        for group in 0..self.outline.groups.len() {
+            self.block.is_placed[group] = false;
+            self.put_around(simd, group);
+            if self.is_swept() {
+                self.moves(simd, group);
+            }
+        }
+        let (pairs, groups) = (self.outline.pairs.len(), self.outline.groups.len());
+        let all = pairs + groups * self.cell.obstacles().len();
+        // If one is enough, what touched last is looked at first.
+        let mut at = if self.is_enough() && self.block.last < all { self.block.last } else { 0 };
+        let place = at.saturating_sub(pairs);
+        let (mut obstacle, mut group) = (place / groups.max(1), place % groups.max(1));
+        for left in (0..all).rev() {
+            if at < pairs {
+                self.apart_of_links(simd, at);
+            } else {
+                if self.cell.compares(obstacle, self.outline.groups[group].number) {
+                    self.apart_of_obstacle(simd, [group, obstacle], at);
+                }
+                (obstacle, group) =
+                    if group + 1 < groups { (obstacle, group + 1) } else { (obstacle + 1, 0) };
+            }
+            if self.is_done() {
+                self.block.last = at;
+                break;
+            }
+            if self.is_enough() && left + 1 == all || left == 0 {
+                self.decide(simd);
+            }
+            at += 1;
+            if at == all {
+                (at, obstacle, group) = (0, 0, 0);
+            }
+        }
+        self.all & !self.asked
+    }
+}
+
+impl Touch<'_> {
+    /// Whether the joints turn.
+    pub(super) fn is_swept(&self) -> bool {
+        matches!(self.look, Look::Swept | Look::Roughly)
+    }
+
+    /// Whether one lane that touches is enough.
+    pub(super) fn is_enough(&self) -> bool {
+        self.look == Look::Any
+    }
+
+    /// Whether nothing more is asked.
+    pub(super) fn is_done(&self) -> bool {
+        self.asked == 0 || self.is_enough() && self.asked != self.all
+    }
+
+    /// A point of a link's frame.
+    #[inline(always)]
+    pub(super) fn placed<S: Simd>(&self, simd: S, link: usize, point: &Vector3<f64>) -> Point<S> {
+        let turned = self.turned(simd, link, point);
+        let origin = load(simd, &self.block.frame(link).origin);
+        [origin[0] + turned[0], origin[1] + turned[1], origin[2] + turned[2]]
+    }
+
+    /// A direction of a link's frame.
+    #[inline(always)]
+    pub(super) fn turned<S: Simd>(&self, simd: S, link: usize, way: &Vector3<f64>) -> Point<S> {
+        let frame = self.block.frame(link);
+        let (x, y, z) = (load(simd, &frame.x), load(simd, &frame.y), load(simd, &frame.z));
+        [
+            x[0].scaled_plus(way.x, y[0].scaled_plus(way.y, z[0] * way.z)),
+            x[1].scaled_plus(way.x, y[1].scaled_plus(way.y, z[1] * way.z)),
+            x[2].scaled_plus(way.x, y[2].scaled_plus(way.y, z[2] * way.z)),
+        ]
+    }
+
+    #[inline(always)]
+    fn put_around<S: Simd>(&mut self, simd: S, group: usize) {
+        let Group { link, around, .. } = &self.outline.groups[group];
+        let middle = self.placed(simd, *link, &around.center);
+        let half = self.turned(simd, *link, &around.half);
+        store(middle, &mut self.block.around[group][0]);
+        store(half, &mut self.block.around[group][1]);
+    }
+
+    /// The axis of the capsule around a group.
+    #[inline(always)]
+    pub(super) fn around<S: Simd>(&self, simd: S, group: usize) -> Axis<S> {
+        let [middle, half] = &self.block.around[group];
+        Axis::new(load(simd, middle), load(simd, half), self.outline.groups[group].around.square)
+    }
+
+    /// How far the axes of a group move at most while its joints turn, seen from the links before
+    /// it: the joints turn one after another, the last one first (eq. 1); and how far from where
+    /// their velocities would lead (eq. 9).
+    #[inline(always)]
+    fn moves<S: Simd>(&mut self, simd: S, group: usize) {
+        let Group { link, spread, .. } = &self.outline.groups[group];
+        let center = load(simd, &self.block.around[group][0]);
+        let (mut moved, mut bent) = (Vector::splat(simd, 0.0), Vector::splat(simd, 0.0));
+        for joint in (0..*link).rev() {
+            let frame = &self.block.frames[joint];
+            let arm = minus(center, load(simd, &frame.origin));
+            let around = cross(load(simd, &frame.z), arm);
+            let span = Vector::load_array_ref(simd, &self.block.spans[joint]);
+            let beside = Vector::load_array_ref(simd, &self.block.beside[joint]);
+            let radius = dot(around, around).root() + *spread + moved;
+            let own = span * radius;
+            bent = beside.times_plus(radius, span.times_plus(own.scaled_plus(0.5, moved), bent));
+            moved += own;
+            let seen = self.block.seen(group, joint);
+            moved.store_array(&mut self.block.moves[seen]);
+            bent.store_array(&mut self.block.bends[seen]);
+        }
+    }
+
+    /// How a group moves along the line of its joint angles, seen from a link (eq. 9); not at all
+    /// where there are no lines.
+    #[inline(always)]
+    pub(super) fn drift<S: Simd>(&self, simd: S, group: usize, from: usize) -> Drift<S> {
+        let Group { link, .. } = &self.outline.groups[group];
+        let center = load(simd, &self.block.around[group][0]);
+        let mut drift = Drift::none(center);
+        if !self.has_lines || *link <= from {
+            return drift;
+        }
+        drift.bent = Vector::load_array_ref(simd, &self.block.bends[self.block.seen(group, from)]);
+        for joint in from..*link {
+            let frame = &self.block.frames[joint];
+            let turn = Vector::load_array_ref(simd, &self.block.turns[joint]);
+            drift.turn(load(simd, &frame.z), load(simd, &frame.origin), turn);
+        }
+        drift
+    }
+
+    /// How far the axes of a group move, seen from a link; zero for joint vectors.
+    #[inline(always)]
+    pub(super) fn moved<S: Simd>(&self, simd: S, group: usize, from: usize) -> Vector<S> {
+        if self.is_swept() {
+            Vector::load_array_ref(simd, &self.block.moves[self.block.seen(group, from)])
+        } else {
+            Vector::splat(simd, 0.0)
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn place<S: Simd>(&mut self, simd: S, group: usize) {
+        if self.block.is_placed[group] {
+            return;
+        }
+        self.block.is_placed[group] = true;
+        let Group { link, capsules, cores, .. } = &self.outline.groups[group];
+        for index in capsules.start..cores.end {
+            let own = &self.outline.capsules[index];
+            let middle = self.placed(simd, *link, &own.center);
+            let half = self.turned(simd, *link, &own.half);
+            store(middle, &mut self.block.axes[index][0]);
+            store(half, &mut self.block.axes[index][1]);
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn axis<S: Simd>(&self, simd: S, index: usize) -> Axis<S> {
+        let [middle, half] = &self.block.axes[index];
+        Axis::new(load(simd, middle), load(simd, half), self.outline.capsules[index].square)
+    }
+}
+
+/// The numbers of the lanes in bits.
+pub(super) fn bits(bits: u64) -> impl Iterator<Item = usize> {
+    (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
+}
+
+#[inline(always)]
+fn store<S: Simd>(point: Point<S>, columns: &mut [Column; 3]) {
+    for index in 0..3 {
+        point[index].store_array(&mut columns[index]);
+    }
+}

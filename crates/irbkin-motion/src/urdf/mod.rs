@@ -1,0 +1,330 @@
+//! Robots from URDF: the chain between two links as joint axes, limits and velocities. And back:
+//! the text of a robot.
+//!
+//! Reference: ROS wiki, urdf/XML/robot, link and joint.
+
+mod attributes;
+mod chain;
+mod collision;
+pub(crate) mod fault;
+mod joint;
+mod shape;
+mod sweep;
+mod text;
+mod tree;
+mod write;
+
+use alloc::borrow::ToOwned as _;
+use alloc::boxed::Box;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use nalgebra::Vector3;
+
+use self::chain::chain_between;
+use self::collision::{Solid, body_of, carriers, places, remark, shaped, solids};
+use self::joint::{Joint, Motion, Placed};
+pub use self::sweep::Carrier;
+use self::tree::Tree;
+pub use self::tree::read_document;
+use crate::arm::{AnyArm, Arm};
+use crate::error::Error;
+use crate::urdf::fault::UrdfFault;
+use irbkin::internal::thresholds::FORM_TOLERANCE;
+use irbkin::internal::{ModelFault, OFFSET_WRIST, SNAPS, check_snap};
+use irbkin::{JointAxis, JointLimits, Joints, Mdh, Pose, Robot};
+
+impl<const N: usize> Arm<N>
+where
+    Robot<N>: Joints<N>,
+{
+    /// An arm from the text of a URDF, with the solver of its kinematic structure.
+    ///
+    /// `base` is the link in whose frame poses are given; by default the link without a parent.
+    /// `tip` is the link whose poses are given; by default the only one at the end of a chain of
+    /// `N` revolute joints, or `tool0` if all such ends are fixed to one link. Joints are numbered from base to tip; fixed joints, and joints that are
+    /// not between them, are not counted. A joint turns in the sense of its axis. Limits and
+    /// velocities are the text's; a limit beyond 1e5 rad is none. A velocity that is no positive
+    /// number below 1e5 rad/s is unknown, and one unknown velocity leaves the robot without
+    /// velocities. [`Robot::joint_names`] are the text's. A joint
+    /// that takes joint 2 back on the axis of joint 3, by mimicking it with the multiplier -1, or 1
+    /// about the reverse axis, and any offset, is a parallelogram linkage: the arm is then
+    /// [`Robot::coupled`].
+    ///
+    /// The body of the robot has capsules that contain the collision shapes of all links that move
+    /// with the chain: boxes, cylinders, spheres and capsules. Links behind joints beside the chain,
+    /// as of a gripper, are in it wherever these joints may be; another arm on the same base is
+    /// not. [`Body::source`](crate::body::Body::source) names both. Links that are not neighbors are
+    /// kept apart, unless they touch in each of 64 postures that fill the limits. With a mesh among
+    /// the shapes, or another one that is not read, there is no body, and where one is needed the
+    /// error says why.
+    ///
+    /// # Errors
+    ///
+    /// [`irbkin::Error::InvalidModel`] when the text is not a URDF, `base` or `tip` are not links of a
+    /// chain of `N` revolute joints or are ambiguous, a joint may be a gripper's and `tip` is not
+    /// given, or six joints are not independent.
+    /// [`Arm::serial_chain_from_urdf`] accepts such an arm, without its inverse.
+    pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
+        UrdfArm::read(text, base, tip, &[N])?.solved(0.0)
+    }
+
+    /// As [`Arm::from_urdf`], with each angle of an origin, and each axis, that is within `snap`
+    /// of a multiple of 90 deg [rad] made exact, so that 1.5708 becomes a right angle.
+    ///
+    /// # Errors
+    ///
+    /// As [`Arm::from_urdf`], and when `snap` is not 0 to 1e-3 rad.
+    pub fn from_urdf_snapped(
+        text: &str,
+        base: Option<&str>,
+        tip: Option<&str>,
+        snap: f64,
+    ) -> Result<Self, Error> {
+        UrdfArm::read(text, base, tip, &[N])?.solved(snap)
+    }
+
+    /// As [`Arm::from_urdf`], of joints that are not independent too: then without the inverse.
+    ///
+    /// # Errors
+    ///
+    /// As [`Arm::from_urdf`], except that such an arm is accepted.
+    pub fn serial_chain_from_urdf(
+        text: &str,
+        base: Option<&str>,
+        tip: Option<&str>,
+    ) -> Result<Self, Error> {
+        UrdfArm::read(text, base, tip, &[N])?.arm(0.0)
+    }
+}
+
+impl AnyArm {
+    /// The arm of six or seven joints between two links of a URDF; see [`Arm::from_urdf`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Arm::from_urdf`].
+    pub fn from_urdf(text: &str, base: Option<&str>, tip: Option<&str>) -> Result<Self, Error> {
+        UrdfArm::read(text, base, tip, &[6, 7])?.any_arm(0.0)
+    }
+}
+
+/// A link that moves with the chain: its name, the link of the body, its way in the frame of that.
+type Moving = (String, usize, Carrier);
+
+/// The arm of a URDF, with any number of joints.
+#[doc(hidden)]
+pub struct UrdfArm {
+    name: String,
+    /// Base and tip.
+    ends: [String; 2],
+    labels: (Vec<String>, String),
+    joints: Vec<Placed>,
+    /// The shapes of its links, if all are read, and a remark on those beside the chain.
+    solids: Result<(Vec<Solid>, String), UrdfFault>,
+}
+
+impl UrdfArm {
+    /// Read the chain between two links; its number of joints must be in `wanted`.
+    #[doc(hidden)]
+    pub fn read(
+        text: &str,
+        base: Option<&str>,
+        tip: Option<&str>,
+        wanted: &[usize],
+    ) -> Result<Self, Error> {
+        read_document(text, |document, skipped| {
+            let tree = Tree::new(document, skipped)?;
+            let (base, chain, remark) = chain_between(&tree, base, tip, wanted)?;
+            let tip = chain.last().map_or(base, |joint| joint.child);
+            let ends = [base, tip].map(|link| tree.links[link].to_string());
+            let solids = solids(&tree, document.root_element(), base, &chain);
+            let turning = chain.iter().filter(|joint| joint.turns());
+            let names = turning.map(|joint| joint.name.to_string()).collect();
+            let placed = |joint: &Joint<'_>| joint.placed(tree.version);
+            let joints = chain.into_iter().map(placed).collect::<Result<_, _>>()?;
+            Ok(Self { name: tree.name.to_string(), ends, labels: (names, remark), joints, solids })
+        })
+    }
+
+    /// Every link with shapes that moves with the chain, and a remark on those beside the chain.
+    #[doc(hidden)]
+    pub fn links(
+        text: &str,
+        base: Option<&str>,
+        tip: Option<&str>,
+    ) -> Result<(Vec<Moving>, String), Error> {
+        let arm = Self::read(text, base, tip, &[6, 7])?;
+        let places = match arm.any_arm(0.0)? {
+            AnyArm::Six(own) => places(&own, &arm.joints, 0.0),
+            AnyArm::Seven(own) => places(&own, &arm.joints, 0.0),
+        };
+        read_document(text, |document, skipped| {
+            let tree = Tree::new(document, skipped)?;
+            let (base, chain, _) = chain_between(&tree, base, tip, &[6, 7])?;
+            let carriers = carriers(&tree, base, &chain);
+            let has_shapes = shaped(document.root_element(), &["collision", "visual"]);
+            let remark = remark(&tree, &carriers, &has_shapes);
+            let mut links = Vec::new();
+            for (link, carrier) in carriers.into_iter().enumerate().filter(|it| has_shapes[it.0]) {
+                let Some(mut carrier) = carrier.transpose()? else { continue };
+                if let Some((number, place)) = places[carrier.after] {
+                    let first = carrier.beside.first_mut().map(|(pose, _)| pose);
+                    let first = first.unwrap_or(&mut carrier.pose);
+                    *first = place * *first;
+                    links.push((tree.links[link].to_owned(), number, carrier));
+                }
+            }
+            Ok((links, remark))
+        })
+    }
+
+    fn motions(&self) -> impl Iterator<Item = &Motion> {
+        self.joints.iter().filter_map(|joint| joint.motion.as_ref())
+    }
+
+    /// As [`Self::arm`], of six or seven joints.
+    #[doc(hidden)]
+    pub fn any_arm(&self, snap: f64) -> Result<AnyArm, Error> {
+        match self.motions().count() {
+            7 => self.solved::<7>(snap).map(AnyArm::Seven),
+            _ => self.solved::<6>(snap).map(AnyArm::Six),
+        }
+    }
+
+    /// As [`Self::arm`], with its inverse; a refusal names the chain.
+    fn solved<const N: usize>(&self, snap: f64) -> Result<Arm<N>, Error>
+    where
+        Robot<N>: Joints<N>,
+    {
+        self.arm(snap).and_then(|arm| Ok(arm.map(Robot::with_inverse)?)).map_err(
+            |error| match error {
+                Error::Robot(irbkin::Error::InvalidModel(ModelFault::Snap { .. })) => error,
+                Error::Robot(irbkin::Error::InvalidModel(fault)) => {
+                    let [base, tip] = self.ends.clone();
+                    UrdfFault::Chain { base, tip, fault: Box::new(fault) }.into()
+                }
+                _ => error,
+            },
+        )
+    }
+
+    /// The arm, which must have `N` joints. Angles within `snap` of a multiple of 90 deg [rad]
+    /// are made exact. If the arm has no closed form, or no table, and would have one with a larger
+    /// snap, that is proposed.
+    fn arm<const N: usize>(&self, snap: f64) -> Result<Arm<N>, Error>
+    where
+        Robot<N>: Joints<N>,
+    {
+        check_snap(snap)?;
+        let snaps = || (0..).zip(SNAPS);
+        let closed = |(index, snap): (u8, f64)| {
+            Some((index, Robot::in_closed_form(self.table::<N>(snap).ok()?)?))
+        };
+        let proposal = || snaps().find_map(closed);
+        let robot = match self.robot::<N>(snap) {
+            Ok(robot) if robot.missing_form().is_some() => match proposal() {
+                None if robot.structure() == "general" => {
+                    // To recognize it takes milliseconds: the largest is tried first.
+                    let wrist = |(index, snap): (u8, f64)| {
+                        let other = self.robot::<N>(snap).ok()?;
+                        (other.structure() == OFFSET_WRIST).then_some((index, other))
+                    };
+                    let largest = snaps().last().and_then(wrist);
+                    robot.proposing(largest.and_then(|_| snaps().find_map(wrist)))
+                }
+                closed => robot.proposing(closed),
+            },
+            Err(Error::Robot(irbkin::Error::InvalidModel(ModelFault::NearlyParallel {
+                axes,
+                off,
+                distance,
+                bound,
+                ..
+            }))) => {
+                let snap = proposal().map(|(index, _)| SNAPS[usize::from(index)]);
+                return Err(ModelFault::NearlyParallel { axes, off, distance, bound, snap }.into());
+            }
+            other => other?,
+        };
+        let arm = Arm::from(self.limited(robot)?);
+        match &self.solids {
+            Ok((solids, remark)) => {
+                let body = body_of(&arm, solids, &self.joints, snap, remark);
+                arm.with_body(body)
+            }
+            Err(fault) => Ok(arm.without_body(fault.to_string())),
+        }
+    }
+
+    /// The table of the chain.
+    fn table<const N: usize>(&self, snap: f64) -> Result<Mdh<N>, Error> {
+        let (axes, t_base_tip) = self.axes(snap)?;
+        let axes = <[JointAxis; N]>::try_from(axes)
+            .map_err(|axes| ModelFault::JointCount { found: axes.len(), wanted: N })?;
+        Ok(Mdh::from_joint_axes(&axes, &t_base_tip)?)
+    }
+
+    /// The robot of the table.
+    fn robot<const N: usize>(&self, snap: f64) -> Result<Robot<N>, Error>
+    where
+        Robot<N>: Joints<N>,
+    {
+        Ok(Robot::of_table(self.table(snap)?)?)
+    }
+
+    /// The axes of the joints that turn, and the tip, both in the base at zero joint angles.
+    fn axes(&self, snap: f64) -> Result<(Vec<JointAxis>, Pose), UrdfFault> {
+        let mut t_base_tip = Pose::identity();
+        let mut axes = Vec::new();
+        let mut linkage = None;
+        for joint in &self.joints {
+            t_base_tip *= joint.origin(snap);
+            axes.extend(joint.motion.as_ref().map(|motion| motion.axis(&t_base_tip, snap)));
+            if let Some(found) = &joint.linkage {
+                linkage = Some((found.axis(&t_base_tip, snap), found));
+                t_base_tip *= found.turned(snap);
+            }
+        }
+        match (linkage, &axes[..]) {
+            (Some((axis, linkage)), [_, second, third, ..])
+                if !(are_on_one_line(&axis, third) && turn_alike(&axis, second)) =>
+            {
+                Err(linkage.fault.clone())
+            }
+            _ => Ok((axes, t_base_tip)),
+        }
+    }
+
+    /// The robot under its name, with limits and velocities.
+    fn limited<const N: usize>(&self, robot: Robot<N>) -> Result<Robot<N>, Error> {
+        let (mut limits, mut velocities, mut all_known) = ([[0.0; 2]; N], [0.0; N], true);
+        for (i, motion) in self.motions().enumerate().take(N) {
+            limits[i] = motion.limits;
+            velocities[i] = motion.velocity.unwrap_or(f64::INFINITY);
+            all_known &= motion.velocity.is_some();
+        }
+        let mut robot = robot;
+        if let Some(linkage) = self.joints.iter().find_map(|joint| joint.linkage.as_ref()) {
+            robot = robot.coupled()?.with_linkage_limits(linkage.limits)?;
+        }
+        let robot = robot
+            .with_labels(Some(self.labels.clone()))
+            .with_name(self.name.clone())
+            .with_limits(JointLimits::new(limits)?)
+            .with_max_velocity(all_known.then_some(velocities))?;
+        Ok(robot)
+    }
+}
+
+/// Whether two axes are on one line, in whatever sense.
+fn are_on_one_line(one: &JointAxis, two: &JointAxis) -> bool {
+    let [direction, other] = [one, two].map(|axis| Vector3::from(axis.direction));
+    let between = Vector3::from(two.point) - Vector3::from(one.point);
+    [other, between].iter().all(|along| direction.cross(along).norm() <= FORM_TOLERANCE)
+}
+
+/// Whether two axes, parallel or nearly so, turn in one sense.
+fn turn_alike(one: &JointAxis, two: &JointAxis) -> bool {
+    Vector3::from(one.direction).dot(&Vector3::from(two.direction)) > 0.0
+}
