@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from collections.abc import Callable, Iterable
+from typing import Any, Protocol
 
 from irbkin._core import Robot
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from irbkin.errors import IrbkinError
+from irbkin.errors import IrbkinError
 
 Report = Callable[[int, int], object]
 

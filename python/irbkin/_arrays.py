@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from irbkin.errors import InvalidMotionError
-
-if TYPE_CHECKING:
-    from irbkin.errors import IrbkinError
+from irbkin.errors import InvalidMotionError, IrbkinError
 
 Floats = npt.NDArray[np.float64]
 

@@ -4,22 +4,25 @@ of the extension's classes return.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from os import PathLike
+from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
 
+from irbkin._arrays import Floats
+from irbkin._core import (
+    CatalogEntry,
+    FollowResult,
+    IkBatch,
+    Plan,
+    Solutions,
+    TargetTable,
+    Trajectory,
+)
 from irbkin._files import write_columns
 from irbkin.errors import InvalidJointsError
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from os import PathLike
-    from typing import IO
-
-    from irbkin._arrays import Floats
-    from irbkin._core import CatalogEntry, FollowResult, IkBatch, Plan, Solutions, Trajectory
-    from irbkin.rapid import TargetTable
 
 Columns = dict[str, npt.NDArray[Any]]
 

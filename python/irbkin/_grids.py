@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from os import PathLike
+from typing import IO, Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from irbkin._equality import by_value
 from irbkin._files import write_columns
 from irbkin._words import counted
-
-if TYPE_CHECKING:
-    from os import PathLike
-    from typing import IO
-
-    import numpy.typing as npt
-
-    from irbkin.records import Plan
+from irbkin.records import Plan
 
 
 class Region(NamedTuple):

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
 from irbkin._core import Shape
 from irbkin.errors import InvalidModelError
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
 
 ENDINGS = (".stl", ".obj", ".dae", ".ply", ".off", ".glb", ".gltf", ".3mf")
 """Formats that are read. An archive may unpack to anything."""

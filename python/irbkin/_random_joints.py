@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 import operator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._arrays import Floats
+from irbkin._core import Robot
 from irbkin.errors import InvalidModelError
-
-if TYPE_CHECKING:
-    from irbkin._arrays import Floats
-    from irbkin._core import Robot
 
 # Rounds in which joint vectors outside the limits of a linkage are drawn anew: even if these leave
 # 1 % of the range of axes 2 and 3, all but one of 20,000 are found.

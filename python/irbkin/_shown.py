@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from irbkin._core import catalog, catalog_entry
+from irbkin._core import FollowResult, IkBatch, Plan, Robot, Singularity, catalog, catalog_entry
 from irbkin._words import counted, singularities
-
-if TYPE_CHECKING:
-    from irbkin._core import FollowResult, IkBatch, Plan, Robot, Singularity
 
 MOST_LINES = 8
 """Breaks of an answer that are listed."""

@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import numpy.typing as npt
 
-from irbkin._arrays import as_array, finite, limit_of_each
-from irbkin._core import _between, joint
+from irbkin._arrays import Floats, as_array, finite, limit_of_each
+from irbkin._core import Trajectory, _between, joint
 from irbkin.errors import InvalidJointsError, InvalidMotionError
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin._arrays import Floats
-    from irbkin._core import Trajectory
 
 # How far rounding may exceed a limit at the end, as a part of the limit [1].
 ROUNDING = 1e-9

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
+from irbkin._core import Cell, Shape
 from irbkin.errors import InvalidModelError
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from irbkin._core import Cell, Shape
 
 __all__ = ["load"]
 

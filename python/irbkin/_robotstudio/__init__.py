@@ -5,12 +5,9 @@ docs/guide/robotstudio.md.
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
 
+from irbkin._core import Robot
 from irbkin.errors import InvalidModelError, IrbkinError
-
-if TYPE_CHECKING:
-    from irbkin._core import Robot
 
 __all__ = ["robot_of"]
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from irbkin import Robot
 from irbkin.abb.units import LimitDifference
 from irbkin.errors import IrbkinError
-
-if TYPE_CHECKING:
-    from irbkin import Robot
 
 SAME_LIMIT = math.radians(0.06)
 """Limits that differ by less are one figure, printed with other digits [rad]."""

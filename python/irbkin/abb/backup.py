@@ -8,20 +8,19 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
+import numpy as np
+
+from irbkin import Robot
 from irbkin._words import counted, listed
 from irbkin.abb.carriers import MOST_CARRIERS
 from irbkin.abb.findings import Finding
 from irbkin.abb.folders import Folder
 from irbkin.abb.tasks import Task
-from irbkin.abb.units import NOT_THERE, ExternalUnit, RobotUnit
+from irbkin.abb.units import NOT_THERE, ExternalUnit, Pose, RobotUnit
 from irbkin.errors import InvalidModelError
-
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin.abb.units import Pose
-    from irbkin.rapid import Program
+from irbkin.rapid import Program
 
 ControllerKind = Literal["S4C+", "IRC5", "OmniCore"]
 NO_AXES = (NOT_THERE,) * 6
@@ -123,8 +122,6 @@ class Backup:
             InvalidModelError: The files do not determine it, or the target lacks an axis; the
                 message names the unit.
         """
-        import numpy as np
-
         unit = self._known(name)
         pose = _base_of(unit)
         for _ in range(MOST_CARRIERS):

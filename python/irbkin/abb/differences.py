@@ -9,6 +9,8 @@ from dataclasses import dataclass, replace
 from os import PathLike
 from typing import Any
 
+import numpy as np
+
 from irbkin.abb.backup import Backup
 from irbkin.abb.changes import (
     DATA,
@@ -234,8 +236,6 @@ def _turned(given: dict[str, Any], old: Sequence[float], new: Sequence[float]) -
 
 def _robots(old: Backup, new: Backup) -> Iterator[str]:
     """Lines for robots that differ."""
-    import numpy as np
-
     for name in dict.fromkeys([*old.robots, *new.robots]):
         a, b = old.robots.get(name), new.robots.get(name)
         if a is None or b is None:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import numpy as np
 
+from irbkin.abb.backup import Backup
 from irbkin.abb.carriers import MOST_CARRIERS
-from irbkin.abb.units import AXES, ExternalUnit
+from irbkin.abb.units import AXES, ExternalUnit, Pose
 
-if TYPE_CHECKING:
-    from irbkin.abb.backup import Backup
-    from irbkin.abb.units import Pose
-
-UnitRow = tuple[str, bool, bool, list[tuple[int, "Pose", bool]]]
+UnitRow = tuple[str, bool, bool, list[tuple[int, Pose, bool]]]
 """Name, whether it carries the robot, whether its axes are determined, and its axes: the external
 axis from 0, its frame seen from the axis before it [m], and whether it turns."""
 
@@ -42,8 +39,6 @@ def unit_rows(backup: Backup, robot: str) -> list[UnitRow]:
 
 def _row(backup: Backup, unit: ExternalUnit, *, is_carrier: bool) -> UnitRow:
     """Return a unit with the axes of the units that carry it before its own."""
-    import numpy as np
-
     chain = [unit]
     while (above := backup.unit(chain[0].carried_by or "")) and len(chain) <= MOST_CARRIERS:
         if not isinstance(above, ExternalUnit):

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from irbkin.abb.arms import Fitted, fitted
 from irbkin.abb.carriers import Machine, check_carriers, related
 from irbkin.abb.cfg import CfgFile, Instance
 from irbkin.abb.findings import Finding, Severity
-from irbkin.abb.units import AXES, ExternalAxis, ExternalUnit, RobotUnit, UnitKind
-
-if TYPE_CHECKING:
-    from irbkin.abb.units import Pose
+from irbkin.abb.units import AXES, ExternalAxis, ExternalUnit, Pose, RobotUnit, UnitKind
 
 NORM_TOLERANCE = 2e-3
 """Distance from 1 at which the norm of a quaternion is an error, as in `irbkin.pose` [1]."""

@@ -7,12 +7,11 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin.abb.external import UnitRow
-    from irbkin.rapid import CheckedMove, Program
+from irbkin import Robot
+from irbkin.abb.external import UnitRow
+from irbkin.rapid import CheckedMove, Program
 
 UNMET = ("R101", "R102")
 """Codes of targets that are not reached."""

@@ -7,18 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Literal
 
+import numpy as np
+
+from irbkin import Robot
+from irbkin._arrays import Floats
 from irbkin.errors import InvalidModelError
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from irbkin import Robot
-
-    Pose = NDArray[np.float64]
-
+Pose = Floats
 UnitKind = Literal["track", "positioner", "gantry", "servo"]
 AXES = "abcdef"
 """External axes of a target, eax_a to eax_f: logical axes 7 to 12."""
@@ -145,8 +142,6 @@ class ExternalUnit:
         Raises:
             InvalidModelError: The motion is not determined, or the target lacks the axis.
         """
-        import numpy as np
-
         if self.missing is not None:
             raise InvalidModelError(f"{self.name}: {self.missing}")
         eax = self.axes[0].eax
@@ -155,10 +150,10 @@ class ExternalUnit:
         value = external_mm_deg[place] if place < len(external_mm_deg) else NOT_THERE
         if not abs(value) < NOT_THERE:
             raise InvalidModelError(f"{self.name}: the target gives no eax_{eax}, which moves it")
-        pose: Any = np.eye(4)
+        pose = np.eye(4)
         if self.kind == "track":
             pose[0, 3] = value / 1e3
         else:
             angle = np.radians(value)
             pose[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-        return pose  # type: ignore[no-any-return]
+        return pose

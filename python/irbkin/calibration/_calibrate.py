@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
-from irbkin._arguments import check_robot, check_scipy, reporter
+from irbkin._arguments import Bar, Report, check_robot, check_scipy, reporter
+from irbkin._arrays import Floats
+from irbkin._core import Robot
 from irbkin.calibration import _fit, _identify, _measurements, _parameters, _start
 from irbkin.calibration._loss import check_weights
+from irbkin.calibration._measurements import Measurements
 from irbkin.calibration._records import (
     CalibratedParameter,
     Calibration,
@@ -18,16 +23,6 @@ from irbkin.calibration._records import (
     Residuals,
 )
 from irbkin.errors import CalibrationError
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping, Sequence
-
-    import numpy.typing as npt
-
-    from irbkin._arguments import Bar, Report
-    from irbkin._arrays import Floats
-    from irbkin._core import Robot
-    from irbkin.calibration._measurements import Measurements
 
 FITS = ("base", "table", "tool")
 

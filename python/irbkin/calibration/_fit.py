@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._arrays import Floats
+from irbkin._core import Robot
 from irbkin.calibration._loss import outlying
+from irbkin.calibration._measurements import Measurements
 from irbkin.errors import CalibrationError
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from irbkin._arrays import Floats
-    from irbkin._core import Robot
-    from irbkin.calibration._measurements import Measurements
 
 # Steps within which least squares of corrections converge; the first guess is near.
 MOST_STEPS = 200

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from collections.abc import Callable
+from typing import Literal, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from irbkin._arguments import check_scipy
+from irbkin._arrays import Floats
 from irbkin.calibration._calibrate import FAR_ANGLE, FAR_LENGTH, FAR_PART
 from irbkin.calibration._loss import check_weights, outlying
 from irbkin.calibration._measurements import read_poses
 from irbkin.calibration._start import nearest_rotation, turns
 from irbkin.errors import CalibrationError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    import numpy.typing as npt
-
-    from irbkin._arrays import Floats
 
 # Least singular value of the relative rotations, for each pose [1]: about the angle in rad by which
 # the hand turns about its second axis.

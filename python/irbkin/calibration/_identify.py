@@ -7,14 +7,11 @@ Enguehard, Identifiable Parameters and Optimum Configurations for Robots Calibra
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from irbkin._arrays import Floats
+from irbkin._arrays import Floats
 
 # Part of a column that is not a combination of those chosen, above which it is chosen [1]: less,
 # and its standard error is ten thousand times as large as of a parameter by itself.

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from irbkin._arrays import Floats
+from irbkin._arrays import Floats
 
 LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
 # Median absolute deviation of a normal distribution to its standard deviation.

@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
-from irbkin._arrays import as_array
-from irbkin._core import pose
+from irbkin._arrays import Floats, as_array
+from irbkin._core import Robot, pose
 from irbkin.errors import CalibrationError, InvalidJointsError, InvalidPoseError
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin._arrays import Floats
-    from irbkin._core import Robot
 
 # Ratio of the spreads of measured and nominal positions from which the units differ [1]: inches
 # and centimeters have 39 and 100, no two arms have.

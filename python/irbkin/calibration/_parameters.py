@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from irbkin._arrays import Floats
-    from irbkin._core import Robot
+from irbkin._arrays import Floats
+from irbkin._core import Robot
 
 # As `Robot.with_corrections` orders them.
 FRAME = ("x", "y", "z", "rx", "ry", "rz")

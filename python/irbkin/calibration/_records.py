@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from irbkin._arrays import Floats
+from irbkin._core import Robot
 from irbkin._equality import by_value
-
-if TYPE_CHECKING:
-    from irbkin._arrays import Floats
-    from irbkin._core import Robot
 
 _MILLI = 1e3
 

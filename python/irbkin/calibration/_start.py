@@ -6,14 +6,11 @@ With flange frames F_i of the robot, measured poses M_i, base Z and tool X, M_i 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from irbkin._arrays import Floats
-    from irbkin._core import Robot
-    from irbkin.calibration._measurements import Measurements
+from irbkin._arrays import Floats
+from irbkin._core import Robot
+from irbkin.calibration._measurements import Measurements
 
 # Rounds in which base and tool point take turns, of measured positions.
 ROUNDS = 100

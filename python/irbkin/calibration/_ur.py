@@ -9,15 +9,12 @@ from __future__ import annotations
 import math
 import os
 import re
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin._arrays import Floats
+from irbkin._core import Robot
 from irbkin.errors import InvalidModelError
-
-if TYPE_CHECKING:
-    from irbkin._arrays import Floats
-    from irbkin._core import Robot
 
 DELTAS = ("delta_theta", "delta_a", "delta_d", "delta_alpha")
 LINKS = ("shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3")

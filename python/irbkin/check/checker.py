@@ -6,17 +6,15 @@ import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from irbkin import Cell, rapid
 from irbkin.check.codes import NOT_CHECKED, REASONS, UNREAD, selected
 from irbkin.check.findings import Finding, of_file
+from irbkin.check.jobs import Job
+from irbkin.check.settings import Settings
 from irbkin.check.tools import tool_findings
 from irbkin.errors import InvalidModelError, IrbkinError
-
-if TYPE_CHECKING:
-    from irbkin import Cell, rapid
-    from irbkin.check.jobs import Job
-    from irbkin.check.settings import Settings
 
 NOQA = re.compile(r"!\s*noqa\b(?:\s*:\s*([A-Z0-9, ]+))?", re.IGNORECASE)
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from irbkin import rapid
+from irbkin.abb import Backup
 from irbkin.check.codes import BACKUP, codes
-
-if TYPE_CHECKING:
-    from irbkin import rapid
-    from irbkin.abb import Backup
 
 
 class Finding(NamedTuple):

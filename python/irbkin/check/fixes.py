@@ -7,26 +7,23 @@ from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from irbkin._files import replaced, shown, ways
+from irbkin.check.checker import Checker
+from irbkin.check.findings import Finding
+from irbkin.check.jobs import Job
 from irbkin.errors import IrbkinError
-
-if TYPE_CHECKING:
-    from irbkin.check.checker import Checker
-    from irbkin.check.findings import Finding
-    from irbkin.check.jobs import Job
-    from irbkin.rapid import Checked, ModuleFile
+from irbkin.rapid import Checked, ModuleFile
 
 PASSES = 10
 """Iterations of correction and check, beyond one for each file."""
 
 
-Text = tuple["ModuleFile", str, str]
+Text = tuple[ModuleFile, str, str]
 """A file, its text before and after corrections."""
 Edits = dict[str, dict[int, tuple[int, str]]]
 """The end and the replacement of each edit, by file and first byte."""
-Checks = Sequence[tuple["Checked", Sequence["Finding"]]]
+Checks = Sequence[tuple[Checked, Sequence[Finding]]]
 
 
 def corrected(

@@ -6,17 +6,14 @@ import os
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from irbkin import Robot
+from irbkin.abb import Backup, Task
+from irbkin.abb.external import UnitRow
 from irbkin.check.findings import Finding, of_backup
+from irbkin.check.settings import Settings
 from irbkin.errors import IrbkinError
-
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin.abb import Backup, Task
-    from irbkin.abb.external import UnitRow
-    from irbkin.check.settings import Settings
-    from irbkin.rapid import FileFinding, ModuleFile, Program
+from irbkin.rapid import FileFinding, ModuleFile, Program
 
 
 @dataclass(frozen=True)

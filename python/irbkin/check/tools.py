@@ -7,14 +7,12 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterator
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from irbkin import Robot
 from irbkin.check.codes import TOOLS
 from irbkin.errors import UnknownRobotError
-
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin.rapid import Finding, Program
+from irbkin.rapid import Finding, Program
 
 NO_CODE = re.compile(r'"[^"\n]*"|![^\n]*')
 UNSET, DOUBTFUL, SHAPELESS = (code for code, *_ in TOOLS)

@@ -6,7 +6,6 @@ import contextlib
 import re
 from collections.abc import Mapping
 from heapq import nsmallest
-from typing import TYPE_CHECKING
 
 from lsprotocol import types
 
@@ -14,10 +13,8 @@ from irbkin.errors import IrbkinError
 from irbkin.lsp.code import BEGINNING, NOTHING, TYPE, Call, calls_at
 from irbkin.lsp.instructions import NOWHERE, known
 from irbkin.lsp.names import ROUTINES, Declared, Parameter, parameters
-
-if TYPE_CHECKING:
-    from irbkin.lsp.session import Result
-    from irbkin.lsp.text import Text
+from irbkin.lsp.session import Result
+from irbkin.lsp.text import Text
 
 KINDS = {
     "PROC": types.CompletionItemKind.Function,
@@ -29,7 +26,7 @@ MOST = 1_000
 """Names that are offered at a time."""
 ANY = ("", "var", "anytype")
 """Types of parameters and places that take all."""
-Place = tuple["Result", int, "Text", int]
+Place = tuple[Result, int, Text, int]
 """The last check of a program, a module of it, the text of that as it is now, and an offset."""
 
 

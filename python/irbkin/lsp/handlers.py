@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from lsprotocol import types
 
 from irbkin.lsp.completion import MOST, completions, signature
 from irbkin.lsp.hover import hover
 from irbkin.lsp.marks import FIX_ALL, actions, folds, location, places, symbols
+from irbkin.lsp.names import Declared
 from irbkin.lsp.rename import refusal
 from irbkin.lsp.server import WAIT, Document, Refusal, Server, path_of
+from irbkin.lsp.session import Result
 from irbkin.lsp.text import Text
 from irbkin.rapid.program import ENDINGS
-
-if TYPE_CHECKING:
-    from irbkin.lsp.names import Declared
-    from irbkin.lsp.session import Result
 
 CODE_ACTIONS = types.CodeActionOptions([types.CodeActionKind.QuickFix, FIX_ALL])
 

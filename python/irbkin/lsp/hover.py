@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from irbkin import rapid
+from irbkin import Robot, rapid
 from irbkin.check.codes import rules
-from irbkin.lsp.text import NAME
-
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin.check.findings import Finding
-    from irbkin.lsp.names import Declared
-    from irbkin.lsp.session import Result
-    from irbkin.lsp.text import Text
-    from irbkin.rapid import CheckedMove, Pose
+from irbkin.check.findings import Finding
+from irbkin.lsp.names import Declared
+from irbkin.lsp.session import Result
+from irbkin.lsp.text import NAME, Text
+from irbkin.rapid import CheckedMove, Pose
 
 MOST_MOVES = 3
 """Largest number of moves shown for a target."""

@@ -7,18 +7,15 @@ import re
 from bisect import bisect
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from lsprotocol import types
 
 from irbkin.check.codes import LEVELS, PAGE, rules
+from irbkin.check.findings import Finding
 from irbkin.check.report import span
 from irbkin.lsp.names import ROUTINES, Declared
+from irbkin.lsp.session import Result
 from irbkin.lsp.text import Text
-
-if TYPE_CHECKING:
-    from irbkin.check.findings import Finding
-    from irbkin.lsp.session import Result
 
 SOURCE = "irbkin"
 """The source of diagnostics, as editors show it."""

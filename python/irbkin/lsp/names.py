@@ -6,11 +6,10 @@ import re
 from bisect import bisect
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-if TYPE_CHECKING:
-    from irbkin.lsp.text import Text
-    from irbkin.rapid import Module, Program
+from irbkin.lsp.text import Text
+from irbkin.rapid import Module, Program
 
 UNREAD = re.compile(r"(?:(LOCAL|TASK)\s+)?(CONST|PERS|VAR)\s+(\w+)\s+(\w+)", re.IGNORECASE)
 """A declaration of data whose type is not parsed."""

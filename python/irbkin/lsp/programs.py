@@ -6,18 +6,16 @@ import os
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from irbkin._arm_options import robot_of
+from irbkin.abb import Backup, Task
 from irbkin.check.checker import Checker
 from irbkin.check.jobs import Job, job_of_task
 from irbkin.check.settings import Settings, options_of, settings_of
 from irbkin.errors import IrbkinError
 from irbkin.lsp.session import Session
 from irbkin.rapid import Program
-
-if TYPE_CHECKING:
-    from irbkin.abb import Backup, Task
 
 NO_ARM = (
     'no arm is known for {}, only its text is checked: write robot = "IRB ..." into [check] of '

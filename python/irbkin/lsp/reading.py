@@ -5,17 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from irbkin._core import differing_names, read_module
 from irbkin._files import read
 from irbkin.lsp.names import unread
-from irbkin.lsp.text import NAME
+from irbkin.lsp.text import NAME, Text
+from irbkin.rapid import Module, Program
 from irbkin.rapid.program import FileFinding, ModuleFile, program_from
-
-if TYPE_CHECKING:
-    from irbkin.lsp.text import Text
-    from irbkin.rapid import Module, Program
 
 MOST_BYTES = 4_000_000
 """Largest file that is read while editing: 30,000 moves, which are checked in a second."""

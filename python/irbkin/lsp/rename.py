@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from irbkin import rapid
 from irbkin.errors import IrbkinError
 from irbkin.lsp.code import before, occurrences
 from irbkin.lsp.instructions import known
-
-if TYPE_CHECKING:
-    from irbkin.lsp.names import Declared
-    from irbkin.lsp.session import Result
+from irbkin.lsp.names import Declared
+from irbkin.lsp.session import Result
 
 LONGEST = 32
 """Characters of a name in RAPID."""

@@ -8,19 +8,15 @@ from concurrent.futures import Future, wait
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from operator import is_
-from typing import TYPE_CHECKING
 
+from irbkin.check.checker import Checker
+from irbkin.check.findings import Finding
 from irbkin.check.jobs import Job
 from irbkin.lsp.code import Span, before, blocks, calls_at, occurrences, own_names
 from irbkin.lsp.names import PARAMETER, Declared, Names
 from irbkin.lsp.reading import Reading
 from irbkin.lsp.text import Text
-from irbkin.rapid import Program
-
-if TYPE_CHECKING:
-    from irbkin.check.checker import Checker
-    from irbkin.check.findings import Finding
-    from irbkin.rapid import CheckedMove, Module, ModuleFile
+from irbkin.rapid import CheckedMove, Module, ModuleFile, Program
 
 
 @dataclass(eq=False)
@@ -91,7 +87,7 @@ class Result:
 
 SLOW = 2.0
 """Longest wait for a check [s], which then goes on beside the others."""
-Part = tuple[Sequence["Module"], Mapping[int, Sequence["CheckedMove"]], Sequence["Finding"]]
+Part = tuple[Sequence[Module], Mapping[int, Sequence[CheckedMove]], Sequence[Finding]]
 """Modules of a program that have names in common, checked: the moves by the place of their module
 among these, and the findings.
 """

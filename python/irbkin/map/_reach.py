@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from os import PathLike
+from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
-from irbkin._arguments import count
+from irbkin import Cell, Robot
+from irbkin._arguments import Bar, Report, count
+from irbkin._arrays import Floats
 from irbkin._grids import ReachMap
 from irbkin.errors import InvalidPoseError
 from irbkin.map._solved import Grid
 from irbkin.map._store import FIELDS, checked_output, load, records
-
-if TYPE_CHECKING:
-    from os import PathLike
-    from pathlib import Path
-
-    import numpy.typing as npt
-
-    from irbkin import Cell, Robot
-    from irbkin._arguments import Bar, Report
-    from irbkin._arrays import Floats
 
 
 def orientations(directions: int, turns: int = 1) -> Floats:

@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from irbkin._arguments import check_robot, count, reporter
-from irbkin._arrays import all_poses, as_array, finite
+from irbkin._arguments import Bar, Report, check_robot, count, reporter
+from irbkin._arrays import Floats, all_poses, as_array, finite
 from irbkin._core import Cell, Robot, __version__
 from irbkin.errors import InvalidPoseError
 from irbkin.map._store import FIELDS, RECORD, Job
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    import numpy.typing as npt
-
-    from irbkin._arguments import Bar, Report
-    from irbkin._arrays import Floats
 
 # Poses that are solved at a time, and poses of a block: a tenth of a second and more.
 AT_A_TIME, IN_A_BLOCK = 1 << 14, 1 << 18

@@ -8,8 +8,10 @@ import hashlib
 import os
 import pickle
 import zipfile
+from collections.abc import Callable, Iterator, Sequence
+from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -18,10 +20,6 @@ from irbkin._arrays import Floats
 from irbkin._files import continued, replaced
 from irbkin._grids import ReachMap
 from irbkin.errors import IrbkinError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
-    from os import PathLike
 
 FIELDS = {"reached": "<i8", "solutions": "<i8", "margin": "<f8", "singularities": "<f8"}
 RECORD = np.dtype([*FIELDS.items()])

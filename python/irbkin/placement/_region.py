@@ -5,18 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
+from irbkin import Robot
+from irbkin._arrays import Floats
 from irbkin._grids import Region
 from irbkin.errors import InvalidPoseError
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin import Robot
-    from irbkin._arrays import Floats
 
 FIELDS = ("x", "y", "z", "turn")
 MOST_BASES = 10**7

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._arrays import as_array
+from irbkin import Cell, Robot
+from irbkin._arrays import Floats, as_array
 from irbkin.errors import (
     InvalidModelError,
     InvalidMotionError,
@@ -19,10 +20,6 @@ from irbkin.errors import (
 )
 from irbkin.freedom import ToolRotation
 from irbkin.records import Plan, Status
-
-if TYPE_CHECKING:
-    from irbkin import Cell, Robot
-    from irbkin._arrays import Floats
 
 Flags = npt.NDArray[np.bool_]
 

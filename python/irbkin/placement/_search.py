@@ -2,28 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
-from irbkin._arguments import check_robot, reporter
-from irbkin._grids import BaseGrid, Placement
+from irbkin import Cell, Robot
+from irbkin._arguments import Bar, Report, check_robot, reporter
+from irbkin._arrays import Floats
+from irbkin._grids import BaseGrid, Placement, Region
 from irbkin._words import listed
+from irbkin.freedom import ToolRotation
 from irbkin.placement._region import Bases
-from irbkin.placement._scene import NOT_REACHED, PLANS_AT_A_TIME, Scene, Scores, inverse
+from irbkin.placement._scene import NOT_REACHED, PLANS_AT_A_TIME, Flags, Scene, Scores, inverse
 from irbkin.records import Plan, Status
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import numpy.typing as npt
-
-    from irbkin import Cell, Robot
-    from irbkin._arguments import Bar, Report
-    from irbkin._arrays import Floats
-    from irbkin._grids import Region
-    from irbkin.freedom import ToolRotation
-    from irbkin.placement._scene import Flags
 
 # Bases of the grid around which is searched, how often steps are halved, and how many steps of one
 # size are made at most.

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import numpy.typing as npt
+from matplotlib.figure import Figure
 
+from irbkin import Robot
 from irbkin._arguments import check_robot
-from irbkin._arrays import as_array, limit_of_each
+from irbkin._arrays import Floats, as_array, limit_of_each
 from irbkin.errors import InvalidMotionError
-from irbkin.plot._style import FONT, along_x, canvas, legend, line_style, shade, tidy, whole
+from irbkin.plot._style import FONT, Canvas, along_x, canvas, legend, line_style, shade, tidy, whole
 from irbkin.trajectory import Trajectory
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-    from matplotlib.figure import Figure
-
-    from irbkin import Robot
-    from irbkin._arrays import Floats
-    from irbkin.plot._style import Canvas
 
 QUANTITIES = (("position", "deg"), ("velocity", "deg/s"), ("acceleration", "deg/s²"))
 POINTS = 241

@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from irbkin import Robot
 from irbkin._arguments import check_robot
-from irbkin._arrays import as_array
+from irbkin._arrays import Floats, as_array
 from irbkin.errors import InvalidJointsError, InvalidMotionError
 from irbkin.plot import _style
-from irbkin.plot._style import BLACK, FONT, SHADE, canvas, line_style, tidy, whole
+from irbkin.plot._style import BLACK, FONT, SHADE, Canvas, canvas, line_style, tidy, whole
 from irbkin.records import Plan
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from irbkin import Robot
-    from irbkin._arrays import Floats
-    from irbkin.plot._style import Canvas
 
 ALL = np.array([0.0, 100.0])
 """All of a range [%]."""

@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import numpy.typing as npt
+from matplotlib.figure import Figure
 
+from irbkin import Robot
 from irbkin._arguments import check_robot
 from irbkin._arrays import as_array
 from irbkin.errors import InvalidJointsError
-from irbkin.plot._style import FONT, VERMILION, along_x, canvas, line_style, tidy, whole
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-    from matplotlib.figure import Figure
-
-    from irbkin import Robot
-    from irbkin.plot._style import Canvas
+from irbkin.plot._style import FONT, VERMILION, Canvas, along_x, canvas, line_style, tidy, whole
 
 
 def singularity(

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
+from irbkin._arrays import Floats
 from irbkin.plot._picture import Picture
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-    from irbkin._arrays import Floats
 
 Canvas = Figure | SubFigure
 

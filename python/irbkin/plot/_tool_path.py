@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
+from matplotlib.figure import Figure
 
-from irbkin._arrays import as_array, evenly
+from irbkin._arrays import Floats, as_array, evenly
 from irbkin.errors import InvalidPoseError
-from irbkin.plot._style import AXIS_COLORS, BLACK, FONT, canvas, legend, whole
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-    from matplotlib.figure import Figure
-
-    from irbkin._arrays import Floats
-    from irbkin.plot._style import Canvas
+from irbkin.plot._style import AXIS_COLORS, BLACK, FONT, Canvas, canvas, legend, whole
 
 # x, y and z of a frame: a color and dashes each.
 AXES: tuple[tuple[str, str, Any], ...] = (

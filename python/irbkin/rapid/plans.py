@@ -2,33 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
 
 import numpy as np
+import numpy.typing as npt
 
-from irbkin import _core
+from irbkin import Robot, _core
 from irbkin._arrays import as_array
 from irbkin._core import (
     NOT_THERE,
     JointTarget,
+    Module,
     Pose,
     RobTarget,
     SpeedData,
     ToolData,
+    Trajectory,
     WobjData,
     ZoneData,
 )
 from irbkin.errors import RapidError
 from irbkin.freedom import Positioner, Track
 from irbkin.records import Plan
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    import numpy.typing as npt
-
-    from irbkin import Robot
-    from irbkin._core import Module, Trajectory
 
 MOST_EXTERNAL = 6
 

@@ -8,14 +8,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from irbkin._core import check_program, read_modules
+from irbkin import Robot
+from irbkin._core import Checked, Module, check_program, read_modules
 from irbkin._files import STREAMS, is_plain, read
-
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin._core import Checked, Module
 
 SYSTEM = (".sys", ".sysx")
 """Endings of files of modules of the system."""

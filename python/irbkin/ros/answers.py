@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from irbkin._arguments import check_robot
-from irbkin._arrays import finite, limit_of_each
-from irbkin._core import retime
+from irbkin._arrays import Floats, finite, limit_of_each
+from irbkin._core import Robot, Trajectory, retime
 from irbkin.errors import InvalidJointsError, InvalidMotionError, InvalidPoseError, IrbkinError
-from irbkin.ros.messages import Answer, Message, read_pose, read_poses, write_pose
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin._core import Robot, Trajectory
-    from irbkin.freedom import Track
-    from irbkin.ros.messages import PoseStampedMessage, Stamped
-
-    _Floats = npt.NDArray[np.float64]
+from irbkin.freedom import Track
+from irbkin.ros.messages import (
+    Answer,
+    Message,
+    PoseStampedMessage,
+    Stamped,
+    read_pose,
+    read_poses,
+    write_pose,
+)
 
 # How far a start may exceed a limit [rad], as everywhere: rounding of what was reported there. It
 # is moved to the limit.
@@ -109,7 +110,7 @@ class Kinematics:
         self._track_acceleration = track_acceleration
 
     @property
-    def last(self) -> _Floats:
+    def last(self) -> Floats:
         """The last solution of a target pose, or the start [rad], shape (n,)."""
         with self._lock:
             return self._last.copy()
@@ -204,7 +205,7 @@ class Kinematics:
                 "transform it with tf2 first"
             )
 
-    def _planned(self, T: _Floats, request: Message) -> Trajectory:
+    def _planned(self, T: Floats, request: Message) -> Trajectory:
         """The path in the shortest time within the limits."""
         velocity, acceleration = self._max_velocity, self._max_acceleration
         if velocity is None or acceleration is None:
@@ -239,11 +240,11 @@ class Kinematics:
         ]
 
 
-def _start(start: npt.ArrayLike | None, robot: Robot) -> _Floats:
+def _start(start: npt.ArrayLike | None, robot: Robot) -> Floats:
     """A joint vector inside the limits; zeros, moved inside them, when not given."""
     lower, upper = robot.limits.T
     if start is None:
-        inside: _Floats = np.clip(np.zeros(robot.dof), lower, upper)
+        inside: Floats = np.clip(np.zeros(robot.dof), lower, upper)
         return inside
     q = finite(start, "start", (robot.dof,), InvalidJointsError)
     excess = np.maximum(lower - q, q - upper)
@@ -255,7 +256,7 @@ def _start(start: npt.ArrayLike | None, robot: Robot) -> _Floats:
     return np.clip(q, lower, upper)
 
 
-def _weights(weights: npt.ArrayLike, robot: Robot) -> _Floats:
+def _weights(weights: npt.ArrayLike, robot: Robot) -> Floats:
     """Costs of moving each joint."""
     costs = finite(weights, "weights", (robot.dof,), InvalidJointsError)
     for index in np.flatnonzero(costs < 0.0):
@@ -272,6 +273,6 @@ def _answered(response: _A, answer: Callable[[Message], str]) -> _A:
     return response
 
 
-def _vector(values: Sequence[float]) -> _Floats:
+def _vector(values: Sequence[float]) -> Floats:
     """Numbers of a sequence; a tuple in ROS 1, an `array.array` in ROS 2."""
     return np.asarray(values, dtype=np.float64)

@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from irbkin._arguments import check_robot
-from irbkin._arrays import as_array, evenly
+from irbkin._arrays import Floats, as_array, evenly
 from irbkin._core import Robot, catalog
+from irbkin.body import Body
 from irbkin.errors import InvalidJointsError, InvalidModelError
 from irbkin.scene._data import Arm, LinkHull, LinkShape, Motion, Posture
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin._arrays import Floats
-    from irbkin.body import Body
 
 MOST_SAMPLES = 2000
 """Samples of a motion; more are thinned."""

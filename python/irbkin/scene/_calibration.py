@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import numpy.typing as npt
 
-from irbkin._arrays import evenly
+from irbkin import Robot
+from irbkin._arrays import Floats, evenly
 from irbkin.calibration import Calibration, HandEye
 from irbkin.scene._arms import arm_of, rows
 from irbkin.scene._data import Arm, Cloud, Frame, Mark, Path, Posture, Scene
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin import Robot
-    from irbkin._arrays import Floats
 
 Calibrated = Calibration | HandEye
 MOST_POSTURES, MOST_VECTORS = 8, 500

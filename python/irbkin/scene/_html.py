@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from html import escape
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from irbkin import Plan, Robot, Solutions
 from irbkin._arrays import evenly
 from irbkin._shown import facts_of, joints_of
 from irbkin.scene._arms import arm_of, rest
 from irbkin.scene._svg import curves, drawn
-
-if TYPE_CHECKING:
-    from irbkin import Plan, Robot, Solutions
-    from irbkin.trajectory import Trajectory
+from irbkin.trajectory import Trajectory
 
 MOST_ROWS = 16
 CURVES = 120

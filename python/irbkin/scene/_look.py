@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-if TYPE_CHECKING:
-    from irbkin._arrays import Floats
+from irbkin._arrays import Floats
 
 # Seen from the front on the right, from above.
 AZIMUTH, ELEVATION = np.radians([-29.0, 20.0])

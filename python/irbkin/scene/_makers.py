@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from irbkin._arrays import evenly
 from irbkin._core import Cell, Robot, RoutineMotion, Solutions, Trajectory
 from irbkin._grids import ReachMap
 from irbkin.calibration import Calibration, HandEye
+from irbkin.rapid import Finding
 from irbkin.records import FollowResult, Plan
 from irbkin.scene._arms import arm_of, motion_of, rest, rows
 from irbkin.scene._calibration import Calibrated, of_calibration
 from irbkin.scene._data import Cloud, Frame, Mark, Motion, Obstacle, Path, Posture, Scene
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin.rapid import Finding
 
 MOST_POINTS = 500
 """Points of a path, and positions of a map in thousands: more are thinned."""

@@ -9,10 +9,9 @@ import json
 import re
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from irbkin.scene._data import Scene
+from irbkin.scene._data import Scene
 
 FOLDER = Path(__file__).with_name("page")
 ENGINE = FOLDER / "irbkin.wasm.gz"

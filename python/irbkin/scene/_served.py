@@ -10,17 +10,15 @@ import sys
 import threading
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from irbkin.scene._data import Scene
 from irbkin.scene._makers import of
 from irbkin.scene._page import page
 from irbkin.scene._solved import Engines, Joints
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
 
 MOST_BYTES = 32_000_000
 """Bytes of a request."""

@@ -6,19 +6,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from irbkin._core import PageEngine, Robot, catalog
 from irbkin.errors import InvalidJointsError, InvalidModelError
 from irbkin.scene._arms import link_frames, start
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin.scene._data import Scene
-
+from irbkin.scene._data import Scene
 
 MOST_ENGINES = 32
 """Engines that are kept: a page has one, and another one for its program."""

@@ -3,23 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin.scene._arms import face_normals, link_frames, outward, solids
-from irbkin.scene._data import LinkShape
+from irbkin.scene._data import Arm, LinkHull, LinkShape
 from irbkin.scene._look import CARRIED, LIGHT, link_color, nearness, on_paper, toned
 
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin._arrays import Floats
-    from irbkin.scene._data import Arm, LinkHull
-
-    Filled = Iterator[tuple[float, list[Floats], float]]
-    """How near, polygons of the paper, and how much lighter than the color of the link."""
-
+Filled = Iterator[tuple[float, list[Floats], float]]
+"""How near, polygons of the paper, and how much lighter than the color of the link."""
 LAYERS = ((1.0, -0.16), (0.82, 0.0), (0.5, 0.18))
 """Layers of a capsule: part of its radius, and how much lighter than its color."""
 TONES = 9

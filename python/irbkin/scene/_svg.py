@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin.scene._arms import link_frames, start
+from irbkin.scene._data import Arm, Scene
 from irbkin.scene._look import BASE, nearness, on_paper
 from irbkin.scene._strokes import pieces
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin._arrays import Floats
-    from irbkin.scene._data import Arm, Scene
 
 SIZE = 200
 """Width and height of a picture, in its own units."""

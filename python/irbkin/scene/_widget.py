@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from irbkin.scene._page import module
 from irbkin.scene._solved import Engines, Joints
@@ -14,12 +14,10 @@ except ImportError as missing:
     raise ImportError(
         "a view in a notebook needs anywidget: pip install 'irbkin[widget]'", name="anywidget"
     ) from missing
+import numpy as np
+import numpy.typing as npt
 
-if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-
-    from irbkin.scene._data import Scene
+from irbkin.scene._data import Scene
 
 
 class _Joints(traitlets.List):  # type: ignore[misc]

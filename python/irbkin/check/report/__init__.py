@@ -10,17 +10,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, Any
 
+from irbkin import Cell
 from irbkin._files import shown
+from irbkin.check.checker import Checker
 from irbkin.check.codes import LEVELS, REASONS, UNREAD
 from irbkin.check.findings import Finding
-
-if TYPE_CHECKING:
-    from irbkin import Cell
-    from irbkin.check.checker import Checker
-    from irbkin.check.jobs import Job
-    from irbkin.rapid import Checked
+from irbkin.check.jobs import Job
+from irbkin.rapid import Checked
 
 ENDINGS = {
     ".json": "json",

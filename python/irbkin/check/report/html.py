@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from irbkin import Robot
 from irbkin._core import PageEngine
 from irbkin._files import shown
+from irbkin.check.findings import Finding
+from irbkin.check.jobs import Job
 from irbkin.check.report import Report
-from irbkin.scene import of
+from irbkin.rapid import Checked
+from irbkin.scene import Arm, of
 from irbkin.scene._page import page
-
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin.check.findings import Finding
-    from irbkin.check.jobs import Job
-    from irbkin.rapid import Checked
-    from irbkin.scene import Arm
 
 
 def render(report: Report) -> str:

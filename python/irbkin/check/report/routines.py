@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from irbkin import Robot
 from irbkin._files import shown
 from irbkin.check.codes import UNUSED
 from irbkin.check.report import Report, counted
-
-if TYPE_CHECKING:
-    from irbkin import Robot
-    from irbkin.rapid import CheckedMove
+from irbkin.rapid import CheckedMove
 
 HEADINGS = (
     "routine", "moves", "not checked", "errors", "warnings", "nearest limit", "nearest singularity"

@@ -7,10 +7,13 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
+from irbkin import Robot
+from irbkin._arrays import Floats
 from irbkin._core import decode, encode, pose
 from irbkin.errors import IrbkinError
 from irbkin.stream.egm._records import (
@@ -23,12 +26,6 @@ from irbkin.stream.egm._records import (
     MessageType,
 )
 from irbkin.stream.egm._session import WORD, axes_of, tool_at
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin import Robot
-    from irbkin._arrays import Floats
 
 CYCLE = 0.004032
 """The controller's cycle [s]."""

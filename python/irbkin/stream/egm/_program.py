@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
+from irbkin import Robot
 from irbkin._arrays import finite
 from irbkin._core import JointTarget, Pose, ToolData, dump, parse
 from irbkin.errors import InvalidJointsError, StreamError
 from irbkin.stream.egm._session import axes_of
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin import Robot
 
 SETTINGS = {
     "RW6": "RobotWare 6.07.01 or later with option 689-1; Transmission Protocol of type UDPUC",

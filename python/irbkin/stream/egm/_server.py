@@ -6,15 +6,12 @@ import asyncio
 import socket
 import time
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
+
+import numpy.typing as npt
 
 from irbkin.errors import StreamError
-from irbkin.stream.egm._session import Session, Statistics
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin.stream.egm._session import Reference
+from irbkin.stream.egm._session import Reference, Session, Statistics
 
 MOST_BYTES = 65_536
 MOST_WAITING = 65_536

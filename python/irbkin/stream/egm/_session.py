@@ -5,10 +5,13 @@ from __future__ import annotations
 import logging
 from collections import Counter
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
+from irbkin import Robot
+from irbkin._arrays import Floats
 from irbkin._core import decode, encode, to_xyz_wxyz
 from irbkin.errors import StreamError
 from irbkin.stream.egm._records import (
@@ -21,12 +24,6 @@ from irbkin.stream.egm._records import (
     MciState,
     MessageType,
 )
-
-if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    from irbkin import Robot
-    from irbkin._arrays import Floats
 
 log = logging.getLogger("irbkin.stream.egm")
 log.addHandler(logging.NullHandler())

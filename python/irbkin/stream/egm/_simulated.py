@@ -7,16 +7,13 @@ import random
 import socket
 import time
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from irbkin._arrays import Floats
 from irbkin.stream.egm._controller import Controller
-from irbkin.stream.egm._session import Session, Statistics
-
-if TYPE_CHECKING:
-    from irbkin._arrays import Floats
-    from irbkin.stream.egm._session import Reference
+from irbkin.stream.egm._session import Reference, Session, Statistics
 
 
 class Link:
