@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,21 +14,11 @@ from irbkin._arrays import Floats, finite, limit_of_each
 from irbkin._core import Robot, Trajectory, retime
 from irbkin.errors import InvalidJointsError, InvalidMotionError, InvalidPoseError, IrbkinError
 from irbkin.freedom import Track
-from irbkin.ros.messages import (
-    Answer,
-    Message,
-    PoseStampedMessage,
-    Stamped,
-    read_pose,
-    read_poses,
-    write_pose,
-)
+from irbkin.ros.messages import Message, read_pose, read_poses, write_pose
 
 # How far a start may exceed a limit [rad], as everywhere: rounding of what was reported there. It
 # is moved to the limit.
 START_TOLERANCE = 1e-6
-
-_A = TypeVar("_A", bound=Answer)
 
 # A point of a trajectory, of which a node makes a message: positions [rad], velocities [rad/s],
 # accelerations [rad/s^2] and the time from the start [s].
@@ -115,7 +105,7 @@ class Kinematics:
         with self._lock:
             return self._last.copy()
 
-    def fk(self, request: Message, response: _A) -> _A:
+    def fk(self, request: Message, response: Message) -> Message:
         """Answer `FK`: the pose of the tool for joint angles."""
 
         def answer(filled: Message) -> str:
@@ -125,7 +115,7 @@ class Kinematics:
 
         return _answered(response, answer)
 
-    def ik(self, request: Message, response: _A) -> _A:
+    def ik(self, request: Message, response: Message) -> Message:
         """Answer `IK`: every solution of a pose, and the one that is nearest to a seed."""
 
         def answer(filled: Message) -> str:
@@ -153,7 +143,7 @@ class Kinematics:
             response.reachable, response.within_limits, response.reason = check
         return response
 
-    def plan_path(self, request: Message, response: _A, point: Point) -> _A:
+    def plan_path(self, request: Message, response: Message, point: Point) -> Message:
         """Answer `PlanPath`: the best joint path along poses, in the shortest time.
 
         Args:
@@ -176,7 +166,7 @@ class Kinematics:
 
         return _answered(response, answer)
 
-    def joint_state(self, target: PoseStampedMessage, message: Message) -> Message:
+    def joint_state(self, target: Message, message: Message) -> Message:
         """Fill a `sensor_msgs/JointState` with the solution of a target pose that is nearest to the
         last one, which it becomes.
 
@@ -196,7 +186,7 @@ class Kinematics:
         message.name, message.position = list(self.joint_names), position
         return message
 
-    def _check_frame(self, message: Stamped) -> None:
+    def _check_frame(self, message: Message) -> None:
         frame = message.header.frame_id
         # tf2 has no leading slash; old publishers do.
         if frame.lstrip("/") not in ("", self.base_frame):
@@ -264,7 +254,7 @@ def _weights(weights: npt.ArrayLike, robot: Robot) -> Floats:
     return costs
 
 
-def _answered(response: _A, answer: Callable[[Message], str]) -> _A:
+def _answered(response: Message, answer: Callable[[Message], str]) -> Message:
     """The response with what `answer` fills in, or with the reason of its failure."""
     try:
         response.message, response.success = answer(response), True

@@ -8,86 +8,23 @@ or, of `uint8[]` in ROS 1, as `bytes`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin._core import pose, to_xyz_wxyz
 
-__all__ = [
-    "Answer",
-    "IkSolutions",
-    "Message",
-    "PoseMessage",
-    "PoseStampedMessage",
-    "Stamped",
-    "read_pose",
-    "read_poses",
-    "read_solutions",
-    "write_pose",
-]
-
-_Floats = npt.NDArray[np.float64]
-
-# A request or response of a service of irbkin_interfaces, or a message: its fields are in the .srv
-# and .msg files, which Python's types do not know.
+# A message, or a request or response of a service of irbkin_interfaces: its fields are in the .msg
+# and .srv files, which Python's types do not know.
 Message = Any
-
-
-class _Point(Protocol):
-    x: float
-    y: float
-    z: float
-
-
-class _Quaternion(_Point, Protocol):
-    w: float
-
-
-class PoseMessage(Protocol):
-    """`geometry_msgs/Pose`."""
-
-    @property
-    def position(self) -> _Point:
-        """Translation [m]."""
-
-    @property
-    def orientation(self) -> _Quaternion:
-        """Quaternion."""
-
-
-class _Header(Protocol):
-    frame_id: str
-
-
-class Stamped(Protocol):
-    """A message with a header."""
-
-    @property
-    def header(self) -> _Header:
-        """Frame and time."""
-
-
-class PoseStampedMessage(Stamped, Protocol):
-    """`geometry_msgs/PoseStamped`."""
-
-    @property
-    def pose(self) -> PoseMessage:
-        """The pose."""
-
-
-class Answer(Protocol):
-    """The fields that responses have in common."""
-
-    success: bool
-    message: str
 
 
 class IkSolutions(NamedTuple):
     """The solutions in the response of an IK service."""
 
-    q: _Floats
+    q: Floats
     """Joint angles [rad], shape (k, n), inside the limits or not."""
     slot: npt.NDArray[np.uint8]
     """Slot of each, shape (k,)."""
@@ -95,7 +32,7 @@ class IkSolutions(NamedTuple):
     """`irbkin.Status` of each, shape (k,)."""
 
 
-def read_pose(message: PoseMessage) -> _Floats:
+def read_pose(message: Message) -> Floats:
     """Return the homogeneous matrix of a `geometry_msgs/Pose`, shape (4, 4).
 
     Raises:
@@ -105,14 +42,14 @@ def read_pose(message: PoseMessage) -> _Floats:
     return pose([p.x, p.y, p.z], xyzw=[o.x, o.y, o.z, o.w])
 
 
-def read_poses(messages: Sequence[PoseMessage]) -> _Floats:
+def read_poses(messages: Sequence[Message]) -> Floats:
     """As `read_pose` of many, shape (m, 4, 4); an error has the index of the first."""
     p = [[m.position.x, m.position.y, m.position.z] for m in messages]
     o = [[m.orientation.x, m.orientation.y, m.orientation.z, m.orientation.w] for m in messages]
     return pose(p, xyzw=o) if p else np.empty((0, 4, 4))
 
 
-def write_pose(T: npt.ArrayLike, message: PoseMessage) -> None:
+def write_pose(T: npt.ArrayLike, message: Message) -> None:
     """Write a homogeneous matrix into a `geometry_msgs/Pose`."""
     xyz, wxyz = to_xyz_wxyz(T)
     p, o = message.position, message.orientation

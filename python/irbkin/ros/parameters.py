@@ -15,8 +15,6 @@ from irbkin.errors import InvalidModelError, InvalidMotionError, InvalidPoseErro
 from irbkin.freedom import Track
 from irbkin.ros.answers import Kinematics
 
-__all__ = ["PARAMETERS", "Parameter", "kinematics_of", "service_prefix"]
-
 
 class Parameter(NamedTuple):
     """A parameter of a node. An empty value stands for none."""
