@@ -57,11 +57,22 @@ def as_array(
 def finite(
     value: npt.ArrayLike, name: str, shape: tuple[int | None, ...], error: type[IrbkinError]
 ) -> Floats:
-    """An array without NaN and infinity, of one dimension."""
+    """An array without NaN and infinity."""
     array = as_array(value, name, shape, error)
-    for index in np.flatnonzero(~np.isfinite(array)):
-        raise error(f"{name}[{index}] is {array[index]}: every element must be finite")
+    for index in np.argwhere(~np.isfinite(array)):
+        at = ", ".join(map(str, index))
+        raise error(f"{name}[{at}] is {array[tuple(index)]}: every element must be finite")
     return array
+
+
+def rotations(axis: int, angles: Floats) -> Floats:
+    """Rotations about x (0), y (1) or z (2), shape (n, 3, 3)."""
+    first, second = (axis + 1) % 3, (axis + 2) % 3
+    turns = np.tile(np.eye(3), (len(angles), 1, 1))
+    turns[:, first, first] = turns[:, second, second] = np.cos(angles)
+    turns[:, second, first] = np.sin(angles)
+    turns[:, first, second] = -turns[:, second, first]
+    return turns
 
 
 def limit_of_each(value: npt.ArrayLike, name: str, dof: int) -> Floats:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._arrays import Floats, as_array
+from irbkin._arrays import Floats, finite
 from irbkin._core import Robot, pose
 from irbkin.errors import CalibrationError, InvalidJointsError, InvalidPoseError
 
@@ -55,16 +55,14 @@ def read(robot: Robot, q: npt.ArrayLike, measured: npt.ArrayLike) -> Measurement
             pose.
         CalibrationError: Their units do not fit the robot, or all joint vectors are one.
     """
-    joints = as_array(q, "q", (None, robot.dof), InvalidJointsError)
-    check_finite(joints, "q", InvalidJointsError)
+    joints = finite(q, "q", (None, robot.dof), InvalidJointsError)
     count = len(joints)
     found = np.asarray(measured)
     if found.shape == (count, 4, 4):
         poses = read_poses(measured, "measured")
         measurements = Measurements(joints, poses[:, :3, 3], poses[:, :3, :3])
     elif found.shape == (count, 3):
-        points = as_array(measured, "measured", (count, 3), InvalidPoseError)
-        check_finite(points, "measured", InvalidPoseError)
+        points = finite(measured, "measured", (count, 3), InvalidPoseError)
         measurements = Measurements(joints, points, None)
     else:
         raise InvalidPoseError(
@@ -81,17 +79,8 @@ def read_poses(value: npt.ArrayLike, name: str) -> Floats:
     Raises:
         InvalidPoseError: A wrong shape, or a matrix that is no pose.
     """
-    poses = as_array(value, name, (None, 4, 4), InvalidPoseError)
-    check_finite(poses, name, InvalidPoseError)
+    poses = finite(value, name, (None, 4, 4), InvalidPoseError)
     return np.array([_pose(matrix, f"{name}[{index}]") for index, matrix in enumerate(poses)])
-
-
-def check_finite(
-    array: Floats, name: str, error: type[InvalidJointsError] | type[InvalidPoseError]
-) -> None:
-    for index in np.argwhere(~np.isfinite(array)):
-        at = ", ".join(str(i) for i in index)
-        raise error(f"{name}[{at}] is {array[tuple(index)]}: every element must be finite")
 
 
 def _pose(matrix: Floats, place: str) -> Floats:

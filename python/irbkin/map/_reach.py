@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from irbkin import Cell, Robot
 from irbkin._arguments import Bar, Report, count
-from irbkin._arrays import Floats
+from irbkin._arrays import Floats, rotations
 from irbkin._grids import ReachMap
 from irbkin.errors import InvalidPoseError
 from irbkin.map._solved import Grid
@@ -38,10 +38,8 @@ def orientations(directions: int, turns: int = 1) -> Floats:
     # The golden angle.
     around = indices * np.pi * (3.0 - np.sqrt(5.0))
     tilt = np.arccos(height)
-    first, second = (
-        _turn(2, around) @ _turn(1, tilt),
-        _turn(2, 2 * np.pi * np.arange(turns) / turns),
-    )
+    first = rotations(2, around) @ rotations(1, tilt)
+    second = rotations(2, 2 * np.pi * np.arange(turns) / turns)
     spread: Floats = (first[:, None] @ second).reshape(-1, 3, 3)
     return spread
 
@@ -129,13 +127,3 @@ def _write(grid: Grid, path: Path) -> None:
         for _, found in grid.blocks(ready):
             file.write(found.tobytes())
             file.flush()
-
-
-def _turn(axis: int, angles: Floats) -> Floats:
-    """Rotations about y (1) or z (2), shape (n, 3, 3)."""
-    first, second = (axis + 1) % 3, (axis + 2) % 3
-    turns = np.tile(np.eye(3), (len(angles), 1, 1))
-    turns[:, first, first] = turns[:, second, second] = np.cos(angles)
-    turns[:, second, first] = np.sin(angles)
-    turns[:, first, second] = -turns[:, second, first]
-    return turns

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin import Robot
-from irbkin._arrays import Floats
+from irbkin._arrays import Floats, rotations
 from irbkin._grids import Region
 from irbkin.errors import InvalidPoseError
 
@@ -109,11 +109,8 @@ class Bases:
 
     def poses(self, values: Floats) -> Floats:
         """The bases as poses, shape (k, 4, 4)."""
-        cos, sin = np.cos(values[:, 3]), np.sin(values[:, 3])
-        placed = np.zeros((len(values), 4, 4))
-        placed[:, 0, 0] = placed[:, 1, 1] = cos
-        placed[:, 1, 0], placed[:, 0, 1] = sin, -sin
-        placed[:, 2, 2] = placed[:, 3, 3] = 1.0
+        placed = np.tile(np.eye(4), (len(values), 1, 1))
+        placed[:, :3, :3] = rotations(2, values[:, 3])
         placed[:, :3, 3] = values[:, :3]
         turned: Floats = self.start @ placed @ self.mounting
         return turned

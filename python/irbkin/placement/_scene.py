@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin import Cell, Robot
-from irbkin._arrays import Floats, as_array
+from irbkin._arrays import Floats, as_array, rotations
 from irbkin.errors import (
     InvalidModelError,
     InvalidMotionError,
@@ -197,9 +197,6 @@ def _angles(rotation: ToolRotation) -> Floats:
 
 def _turns(axis: str, angles: Floats) -> Floats:
     """Turns about an axis of the tool, shape (b, 4, 4)."""
-    first, second = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[axis]
     turns = np.tile(np.eye(4), (len(angles), 1, 1))
-    turns[:, first, first] = turns[:, second, second] = np.cos(angles)
-    turns[:, second, first] = np.sin(angles)
-    turns[:, first, second] = -turns[:, second, first]
+    turns[:, :3, :3] = rotations("xyz".index(axis), angles)
     return turns
