@@ -8,7 +8,7 @@ import hashlib
 import os
 import pickle
 import zipfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
@@ -24,8 +24,6 @@ from irbkin.errors import IrbkinError
 FIELDS = {"reached": "<i8", "solutions": "<i8", "margin": "<f8", "singularities": "<f8"}
 RECORD = np.dtype([*FIELDS.items()])
 """The numbers of a position."""
-CHUNK = 1 << 20
-"""Bytes that are copied at a time."""
 INPUTS = ("robot", "q7", "cell", "version of irbkin")
 """Inputs of a map beside its grid."""
 
@@ -101,29 +99,15 @@ def records(path: Path, job: Job) -> Iterator[tuple[BinaryIO, int]]:
         count = (file.seek(0, os.SEEK_END) - len(begin)) // RECORD.itemsize
         file.seek(len(begin) + count * RECORD.itemsize)
         yield file, count
-
-        def column(name: str) -> Iterator[bytes]:
-            file.seek(len(begin))
-            while content := file.read(CHUNK):
-                yield np.frombuffer(content, RECORD)[name].tobytes()
-
-        _write(path, job, column)
+        file.flush()
+        # Of the columns only what is written at a time is in memory.
+        whole = np.memmap(file, RECORD, "r", len(begin), job.shape)
+        columns: dict[str, Any] = {**job._asdict(), **{name: whole[name] for name in FIELDS}}
+        with replaced(path) as archive:
+            np.savez(archive, **columns)
+        # Windows removes no file that is mapped.
+        del whole
     beside.unlink(missing_ok=True)
-
-
-def _write(path: Path, job: Job, column: Callable[[str], Iterator[bytes]]) -> None:
-    """Write a map as `numpy.savez` would."""
-    form = np.lib.format
-    with replaced(path) as file, zipfile.ZipFile(file, "w") as archive:
-        for name, array in job._asdict().items():
-            with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
-                form.write_array(entry, array)
-        for name, kind in FIELDS.items():
-            head = {"descr": kind, "fortran_order": False, "shape": job.shape}
-            with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
-                form.write_array_header_1_0(entry, head)
-                for content in column(name):
-                    entry.write(content)
 
 
 @contextlib.contextmanager
