@@ -17,6 +17,10 @@ from irbkin.rapid import Checked
 from irbkin.scene import Arm, of
 from irbkin.scene._page import page
 
+FINDING = ("code", "name", "severity", "line", "column", "message")
+MOVE = ("module", "line", "column", "routine", "target", "unchecked")
+"""Fields that a finding and a move have in the words of the engine, too."""
+
 
 def render(report: Report) -> str:
     """Return the page of a report on one program."""
@@ -55,17 +59,8 @@ def _finding(found: Finding, index: dict[str, int]) -> dict[str, Any]:
         {"module": index[file], "begin": begin, "end": end, "text": text}
         for file, begin, end, text in found.edits
     ]
-    return {
-        "code": found.code,
-        "name": found.name,
-        "severity": found.severity,
-        "shown": True,
-        "module": index[found.file],
-        "line": found.line,
-        "column": found.column,
-        "message": found.message,
-        "edits": edits,
-    }
+    own = {key: getattr(found, key) for key in FINDING}
+    return {**own, "shown": True, "module": index[found.file], "edits": edits}
 
 
 def _procedures(job: Job) -> list[dict[str, Any]]:
@@ -87,15 +82,10 @@ def _moves(job: Job, checked: Checked) -> list[dict[str, Any]]:
     }
     return [
         {
-            "module": it.module,
-            "line": it.line,
-            "column": it.column,
-            "routine": it.routine,
+            **{key: getattr(it, key) for key in MOVE},
             "instruction": instructions.get((it.module, it.line, it.column)),
-            "target": it.target,
             "q": None if it.q is None else it.q.tolist(),
             "confdata": None if it.confdata is None else list(it.confdata),
-            "unchecked": it.unchecked,
         }
         for it in checked.moves
     ]
