@@ -18,7 +18,7 @@ from irbkin.cli.arguments import Parser, joints, read_robot
 from irbkin.cli.errors import FINE, CommandError
 from irbkin.cli.numbers import number
 
-RATES = ("loss", "duplicate", "late")
+RATES = ("loss", "late")
 
 
 def add_arguments(parser: Parser) -> None:
@@ -28,10 +28,7 @@ def add_arguments(parser: Parser) -> None:
     add("--host", default="127.0.0.1", metavar="HOST", help="of the server: this machine")
     add("--port", type=int, default=6510, metavar="PORT", help="of the server: 6510")
     add("--seconds", type=number, default=math.inf, metavar="S", help="end after it")
-    add("--gain", type=number, default=5.0, metavar="K", help="of the law: 5 1/s")
-    add("--lag", type=number, default=16.0, metavar="MS", help="of the motion: 16 ms")
     add("--loss", type=number, default=0.0, metavar="P", help="share of datagrams that are lost")
-    add("--duplicate", type=number, default=0.0, metavar="P", help="that come twice")
     add("--late", type=number, default=0.0, metavar="P", help="that come late, behind others")
     add("--cut", nargs=2, type=number, metavar=("FROM", "TO"), help="all are lost between [s]")
     add("--seed", type=int, default=0, metavar="N", help="of what is lost")
@@ -50,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     q = joints(arguments.joints, "--joints", robot.dof)
     if q is None:
         q = np.clip(np.zeros(robot.dof), *robot.limits.T)
-    controller = egm.Controller(robot, q, gain=arguments.gain, lag=arguments.lag / 1e3)
+    controller = egm.Controller(robot, q)
     where = (arguments.host, arguments.port)
     options = dict(rates, cut=arguments.cut, seed=arguments.seed)
     egm.play(

@@ -22,9 +22,9 @@ class Link:
     def __init__(
         self,
         seed: int,
-        loss: float,
-        duplicate: float,
-        late: float,
+        loss: float = 0.0,
+        duplicate: float = 0.0,
+        late: float = 0.0,
         cut: tuple[float, float] | None = None,
     ) -> None:
         self._random = random.Random(seed)
@@ -115,10 +115,7 @@ def play(
     *,
     seconds: float = np.inf,
     seed: int = 0,
-    loss: float = 0.0,
-    duplicate: float = 0.0,
-    late: float = 0.0,
-    cut: tuple[float, float] | None = None,
+    **losses: Any,
 ) -> None:
     """Send the messages of a model to a server, in real time.
 
@@ -127,13 +124,10 @@ def play(
         address: Host and port of the server.
         say: Called with a line of each change of its state.
         seconds: Time after which it ends [s].
-        seed: As of `simulated`, as what follows.
-        loss: As of `simulated`.
-        duplicate: As of `simulated`.
-        late: As of `simulated`.
-        cut: As of `simulated`.
+        seed: As of `simulated`.
+        losses: `loss`, `duplicate`, `late` and `cut` as of `simulated`.
     """
-    there, back = (Link(2 * seed + way, loss, duplicate, late, cut) for way in (0, 1))
+    there, back = (Link(2 * seed + way, **losses) for way in (0, 1))
     state, begin = "", time.monotonic()
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as own:
         own.connect(address)
