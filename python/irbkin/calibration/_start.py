@@ -18,28 +18,14 @@ ROUNDS = 100
 
 def aligned(robot: Robot, measurements: Measurements, fit: frozenset[str]) -> Robot:
     """The robot with a base and a tool that fit its nominal table roughly."""
-    bare = robot.with_base(np.eye(4)).with_tool(np.eye(4))
-    flange = bare.fk(measurements.q)
-    base, tool = robot.base, robot.tool
-    fits_base, fits_tool = "base" in fit, "tool" in fit
+    flange = robot.with_base(np.eye(4)).with_tool(np.eye(4)).fk(measurements.q)
+    base, tool = np.array(robot.base), np.array(robot.tool)
     if measurements.rotation is None:
-        base, tool = _from_positions(
-            flange, measurements.position, base, tool, fits_base, fits_tool
-        )
+        _by_positions(flange, measurements.position, base, tool, fit)
     else:
-        turn_base, turn_tool = _turns(
-            flange[:, :3, :3], measurements.rotation, base, tool, fits_base, fits_tool
-        )
-        base, tool = _shifts(
-            flange, measurements.position, turn_base, turn_tool, base, tool, fits_base, fits_tool
-        )
+        _turn(flange[:, :3, :3], measurements.rotation, base[:3, :3], tool[:3, :3], fit)
+        _shift(flange, measurements.position, base, tool, fit)
     return robot.with_base(base).with_tool(tool)
-
-
-def _frame(rotation: Floats, position: Floats) -> Floats:
-    frame = np.eye(4)
-    frame[:3, :3], frame[:3, 3] = rotation, position
-    return frame
 
 
 def nearest_rotation(matrix: Floats) -> Floats:
@@ -50,17 +36,16 @@ def nearest_rotation(matrix: Floats) -> Floats:
     return rotation
 
 
-def _turns(
-    flange: Floats, measured: Floats, base: Floats, tool: Floats, fits_base: bool, fits_tool: bool
-) -> tuple[Floats, Floats]:
-    """Rotations of base and tool (eq. 11): of both, the null vector of Z^T M_i - F_i X = 0."""
-    if not fits_tool:
-        known = flange @ tool[:3, :3]
-        return nearest_rotation(np.einsum("mij,mkj->ik", measured, known)), tool[:3, :3]
-    if not fits_base:
-        known = base[:3, :3] @ flange
-        return base[:3, :3], nearest_rotation(np.einsum("mji,mjk->ik", known, measured))
-    return turns(flange, measured)
+def _turn(
+    flange: Floats, measured: Floats, base: Floats, tool: Floats, fit: frozenset[str]
+) -> None:
+    """Turn base and tool (eq. 11): both by the null vector of Z^T M_i - F_i X = 0."""
+    if "tool" not in fit:
+        base[:] = nearest_rotation(np.einsum("mij,mkj->ik", measured, flange @ tool))
+    elif "base" not in fit:
+        tool[:] = nearest_rotation(np.einsum("mji,mjk->ik", base @ flange, measured))
+    else:
+        base[:], tool[:] = turns(flange, measured)
 
 
 def turns(flange: Floats, measured: Floats) -> tuple[Floats, Floats]:
@@ -76,48 +61,37 @@ def turns(flange: Floats, measured: Floats) -> tuple[Floats, Floats]:
     return nearest_rotation(sign * inverse).T, nearest_rotation(sign * turn)
 
 
-def _shifts(
-    flange: Floats,
-    measured: Floats,
-    turn_base: Floats,
-    turn_tool: Floats,
-    base: Floats,
-    tool: Floats,
-    fits_base: bool,
-    fits_tool: bool,
-) -> tuple[Floats, Floats]:
-    """Base and tool with the positions that fit best, by linear least squares (eq. 12)."""
-    columns, wanted = [], measured - flange[:, :3, 3] @ turn_base.T
-    if fits_base:
+def _shift(
+    flange: Floats, measured: Floats, base: Floats, tool: Floats, fit: frozenset[str]
+) -> None:
+    """Move base and tool to where they fit best, by linear least squares (eq. 12)."""
+    columns, wanted = [], measured - flange[:, :3, 3] @ base[:3, :3].T
+    if "base" in fit:
         columns.append(np.broadcast_to(np.eye(3), (len(flange), 3, 3)))
     else:
         wanted = wanted - base[:3, 3]
-    levers = turn_base @ flange[:, :3, :3]
-    if fits_tool:
+    levers = base[:3, :3] @ flange[:, :3, :3]
+    if "tool" in fit:
         columns.append(levers)
     else:
         wanted = wanted - levers @ tool[:3, 3]
     matrix = np.concatenate(columns, axis=2).reshape(3 * len(flange), -1)
-    solved = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)
-    found = np.asarray(solved[0], dtype=np.float64)
-    base_at = found[:3] if fits_base else base[:3, 3]
-    tool_at = found[-3:] if fits_tool else tool[:3, 3]
-    return _frame(turn_base, base_at), _frame(turn_tool, tool_at)
+    found = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0]
+    if "base" in fit:
+        base[:3, 3] = found[:3]
+    if "tool" in fit:
+        tool[:3, 3] = found[-3:]
 
 
-def _from_positions(
-    flange: Floats, measured: Floats, base: Floats, tool: Floats, fits_base: bool, fits_tool: bool
-) -> tuple[Floats, Floats]:
+def _by_positions(
+    flange: Floats, measured: Floats, base: Floats, tool: Floats, fit: frozenset[str]
+) -> None:
     """Base and tool point by turns: the base by the rotation between two sets of points, the point
     by linear least squares (eq. 13).
     """
-    turn_base, turn_tool = base[:3, :3], tool[:3, :3]
-    for _ in range(ROUNDS if fits_base and fits_tool else 1):
-        if fits_base:
+    for _ in range(ROUNDS if {"base", "tool"} <= fit else 1):
+        if "base" in fit:
             points = flange[:, :3, :3] @ tool[:3, 3] + flange[:, :3, 3]
             off = points - points.mean(axis=0)
-            turn_base = nearest_rotation((measured - measured.mean(axis=0)).T @ off)
-        base, tool = _shifts(
-            flange, measured, turn_base, turn_tool, base, tool, fits_base, fits_tool
-        )
-    return base, tool
+            base[:3, :3] = nearest_rotation((measured - measured.mean(axis=0)).T @ off)
+        _shift(flange, measured, base, tool, fit)
