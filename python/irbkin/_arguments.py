@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterable
+from importlib import import_module
 from typing import Any, Protocol
 
 from irbkin._core import Robot
@@ -68,14 +69,14 @@ def count(value: object, name: str, error: type[IrbkinError]) -> int:
     return number
 
 
-def check_scipy(function: str) -> None:
-    """Check that scipy is installed."""
-    try:
-        import scipy.optimize  # type: ignore[import-untyped]  # noqa: F401
-    except ImportError as missing:
-        raise ImportError(
-            f"{function} needs scipy: pip install 'irbkin[calibrate]'", name="scipy"
-        ) from missing
+def check_extra(function: str, extra: str, *packages: str) -> None:
+    """Refuse to go on without a package of an extra."""
+    for name in packages:
+        try:
+            import_module(name)
+        except ImportError as missing:
+            words = f"{function} needs {name}: pip install 'irbkin[{extra}]'"
+            raise ImportError(words, name=name) from missing
 
 
 def close(name: str, known: Iterable[str]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from irbkin._arguments import check_extra
 from irbkin._core import Body, Shape
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def cover(
         FileNotFoundError: There is no such file.
         ImportError: trimesh or scipy is not installed.
     """
-    _check_extra("irbkin.body.cover")
+    check_extra("irbkin.body.cover", "mesh", "scipy", "trimesh")
     from irbkin._fit import capsules_around
 
     rows = capsules_around(mesh, scale, excess, most)
@@ -47,18 +48,7 @@ def cover(
 
 def _fit_body(*arguments: Any) -> Body:
     """Return the body of a URDF; see `Body.fit`."""
-    _check_extra("irbkin.body.Body.fit")
+    check_extra("irbkin.body.Body.fit", "mesh", "scipy", "trimesh")
     from irbkin._fit import body_of
 
     return body_of(*arguments)
-
-
-def _check_extra(function: str) -> None:
-    """Check that what reads and fits meshes is installed."""
-    try:
-        import scipy  # type: ignore[import-untyped]  # noqa: F401
-        import trimesh  # noqa: F401
-    except ImportError as missing:
-        raise ImportError(
-            f"{function} needs {missing.name}: pip install 'irbkin[mesh]'", name=missing.name
-        ) from missing

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._arguments import Bar, Report, check_robot, check_scipy, reporter
+from irbkin._arguments import Bar, Report, check_extra, check_robot, reporter
 from irbkin._arrays import Floats
 from irbkin._core import Robot
 from irbkin.calibration import _fit, _identify, _measurements, _parameters, _start
-from irbkin.calibration._loss import check_weights
+from irbkin.calibration._loss import Loss, check_weights
 from irbkin.calibration._measurements import Measurements
 from irbkin.calibration._records import (
     CalibratedParameter,
@@ -46,7 +45,7 @@ def calibrate(
     fit: Collection[str] = FITS,
     position_std: float = 1e-4,
     rotation_std: float = 5e-4,
-    loss: Literal["linear", "soft_l1", "huber", "cauchy", "arctan"] = "linear",
+    loss: Loss = "linear",
     folds: int = 5,
     progress: Report | Bar | None = None,
 ) -> Calibration:
@@ -86,7 +85,7 @@ def calibrate(
             joints and measurements that do not belong together.
         ValueError: Another `fit`, `loss`, standard deviation or number of folds.
     """
-    check_scipy("irbkin.calibrate")
+    check_extra("irbkin.calibrate", "calibrate", "scipy")
     check_robot(robot)
     report = reporter(progress)
     wanted = _check_fit(robot, fit, position_std, rotation_std, loss)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._arguments import check_scipy
+from irbkin._arguments import check_extra
 from irbkin._arrays import Floats
 from irbkin.calibration._calibrate import FAR_ANGLE, FAR_LENGTH, FAR_PART
-from irbkin.calibration._loss import check_weights, outlying
+from irbkin.calibration._loss import Loss, check_weights, outlying
 from irbkin.calibration._measurements import read_poses
 from irbkin.calibration._start import nearest_rotation, turns
 from irbkin.errors import CalibrationError
@@ -48,7 +48,7 @@ def hand_eye(
     *,
     position_std: float = 1e-4,
     rotation_std: float = 5e-4,
-    loss: Literal["linear", "soft_l1", "huber", "cauchy", "arctan"] = "linear",
+    loss: Loss = "linear",
 ) -> HandEye:
     """Return X of A X = X B: A are moves of the hand, B the moves that its camera sees. It needs
     scipy: `pip install 'irbkin[calibrate]'`.
@@ -93,7 +93,7 @@ def robot_world(
     *,
     position_std: float = 1e-4,
     rotation_std: float = 5e-4,
-    loss: Literal["linear", "soft_l1", "huber", "cauchy", "arctan"] = "linear",
+    loss: Loss = "linear",
 ) -> HandEye:
     """Return X and Y of A X = Y B: A are poses of the hand, B of what it carries in another frame.
     It needs scipy: `pip install 'irbkin[calibrate]'`.
@@ -137,7 +137,7 @@ def robot_world(
 
 
 def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floats]:
-    check_scipy("hand-eye calibration")
+    check_extra("hand-eye calibration", "calibrate", "scipy")
     first, second = read_poses(a, "a"), read_poses(b, "b")
     _check_meters(first[:, :3, 3], "a")
     _check_meters(second[:, :3, 3], "b")

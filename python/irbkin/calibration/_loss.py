@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Literal, get_args
+
 import numpy as np
 
 from irbkin._arrays import Floats
 
-LOSSES = ("linear", "soft_l1", "huber", "cauchy", "arctan")
+Loss = Literal["linear", "soft_l1", "huber", "cauchy", "arctan"]
+LOSSES = get_args(Loss)
 # Median absolute deviation of a normal distribution to its standard deviation.
 FROM_MEDIAN = 1.4826
 # Part of the scatter from which on a robust loss counts residuals less [1].
