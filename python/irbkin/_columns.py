@@ -42,7 +42,6 @@ def has_flag(status: npt.NDArray[np.uint8], flag: int) -> npt.NDArray[np.bool_]:
 
 
 def of_solutions(solutions: Solutions, has_confdata: bool) -> Columns:
-    """The columns of `Solutions.to_dict`."""
     columns = {
         "slot": np.array([one.slot for one in solutions], dtype=np.int64),
         **numbered("q", solutions.q),
@@ -57,7 +56,6 @@ def of_solutions(solutions: Solutions, has_confdata: bool) -> Columns:
 
 
 def of_ik_batch(batch: IkBatch) -> Columns:
-    """The columns of `IkBatch.to_dict`."""
     status = np.asarray(batch.status)
     slots = status.shape[-1]
     poses = int(np.prod(status.shape[:-1]))
@@ -72,7 +70,6 @@ def of_ik_batch(batch: IkBatch) -> Columns:
 
 
 def of_follow_result(result: FollowResult) -> Columns:
-    """The columns of `FollowResult.to_dict`."""
     error = np.asarray(result.orientation_error)
     length = error.shape[-1]
     paths = int(np.prod(error.shape[:-1]))
@@ -85,7 +82,6 @@ def of_follow_result(result: FollowResult) -> Columns:
 
 
 def of_plan(plan: Plan) -> Columns:
-    """The columns of `Plan.to_dict`."""
     return {
         **numbered("q", plan.q),
         "tool_angle": plan.tool_angle.copy(),
@@ -97,7 +93,6 @@ def of_plan(plan: Plan) -> Columns:
 
 
 def of_targets(table: TargetTable) -> dict[str, Any]:
-    """The columns of `rapid.TargetTable.to_dict`."""
     return {
         "kind": list(table.kinds),
         "name": list(table.names),
@@ -112,13 +107,11 @@ def of_targets(table: TargetTable) -> dict[str, Any]:
 
 
 def of_catalog_entry(entry: CatalogEntry) -> dict[str, Any]:
-    """The figures of `CatalogEntry.to_dict`."""
     names = ("name", "maker", "dof", "payload", "reach", "is_coupled", "sources")
     return {name: getattr(entry, name) for name in names}
 
 
 def of_trajectory(trajectory: Trajectory) -> Columns:
-    """The columns of `Trajectory.to_dict`."""
     return {
         "t": trajectory.t.copy(),
         **numbered("q", trajectory.q),
@@ -128,14 +121,12 @@ def of_trajectory(trajectory: Trajectory) -> Columns:
 
 
 def write_csv(answer: Any, path_or_file: str | PathLike[str] | IO[str]) -> None:
-    """Write the columns of an answer."""
     write_columns(answer.to_dict(), path_or_file)
 
 
 def of_joint_trajectory(
     trajectory: Trajectory, joint_names: Sequence[str] | None
 ) -> dict[str, Any]:
-    """The message of `Trajectory.to_joint_trajectory`."""
     dof = trajectory.dof
     numbered = [f"joint_{joint + 1}" for joint in range(dof)]
     names = joint_names if joint_names is not None else trajectory._joint_names or numbered

@@ -92,7 +92,6 @@ def _with_breaks(head: str, gaps: list[str]) -> str:
 
 
 def facts_of(robot: Robot) -> list[str]:
-    """Facts on an arm beside its joints."""
     words = [f"{robot.dof} joints", robot.structure or "general"]
     if robot.name in catalog():
         entry = catalog_entry(robot.name)

@@ -50,9 +50,6 @@ def state_to_state(
             instance: the motion must stay inside.
         steps: Number of samples, both ends included.
 
-    Returns:
-        The trajectory.
-
     Raises:
         InvalidJointsError: `q0` or `q1` has a wrong shape or is not finite.
         InvalidMotionError: Another argument has a wrong shape or is not finite, a limit is not

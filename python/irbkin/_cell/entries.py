@@ -73,7 +73,6 @@ class Entry:
         return {name: own.sub(name) for name in own.table}
 
     def number(self, key: str, default: float | None = None) -> float:
-        """A number."""
         value = self.table.get(key, default)
         if value is None:
             self.refuse(f"{key} is missing, a number")
@@ -82,7 +81,6 @@ class Entry:
         return float(value)
 
     def numbers(self, key: str, count: int) -> npt.NDArray[np.float64]:
-        """A list of numbers."""
         value = self.table.get(key)
         if value is None:
             self.refuse(f"{key} is missing, a list of {count} numbers")
@@ -91,7 +89,6 @@ class Entry:
         return np.array(value, dtype=float)
 
     def name(self, key: str) -> str:
-        """A text."""
         value = self.table.get(key)
         if value is None:
             self.refuse(f"{key} is missing, a text")
@@ -100,14 +97,12 @@ class Entry:
         return value
 
     def names(self, key: str) -> list[str]:
-        """A list of texts."""
         value = self.table.get(key)
         if not isinstance(value, list) or not all(isinstance(it, str) for it in value):
             self.refuse(f"is {value!r}, it must be a list of texts", key)
         return value
 
     def truth(self, key: str, default: bool) -> bool:
-        """A truth value."""
         value = self.table.get(key, default)
         if not isinstance(value, bool):
             self.refuse(f"is {value!r}, it must be true or false", key)

@@ -29,7 +29,6 @@ NO_FACES = np.empty((0, 3), np.intp)
 
 
 def check(excess: float | None, most: int) -> None:
-    """Check what is wanted of capsules."""
     if excess is not None and not 0 < excess < np.inf:
         raise InvalidModelError(f"excess is {excess} m, it must be positive")
     if not 1 <= most <= MOST:

@@ -61,7 +61,6 @@ def parts_of(triangles: Array) -> list[Part]:
 
 
 def part_of(triangles: Array) -> Part:
-    """A part by its triangles."""
     points = np.unique(triangles.reshape(-1, 3), axis=0)
     try:
         hull = ConvexHull(points)

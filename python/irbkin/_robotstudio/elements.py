@@ -67,7 +67,6 @@ def elements_of(content: bytes, *wanted: str) -> Iterator[Element]:
 
 
 def local(element: Element) -> str:
-    """The name of an element."""
     return element.tag.rpartition("}")[2].lower()
 
 
@@ -93,7 +92,6 @@ def word(element: Element | None, *names: str) -> str:
 
 
 def number(element: Element, *names: str) -> float:
-    """A finite number by its name."""
     text = word(element, *names)
     values = floats(text)
     if len(values) != 1 or not np.isfinite(values[0]):
@@ -102,7 +100,6 @@ def number(element: Element, *names: str) -> float:
 
 
 def integer(element: Element, *names: str) -> int:
-    """A whole number by its name."""
     value = number(element, *names)
     if value != int(value):
         raise InvalidModelError(f"{names[0]} of {local(element)} is {value:g}, not a whole number")

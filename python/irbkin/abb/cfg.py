@@ -126,7 +126,6 @@ class _Reader:
         self.findings.append(Finding(self.file, line, code, severity, message))
 
     def read(self, number: int, line: str) -> None:
-        """Read a line."""
         stripped = line.strip()
         if CONFLICT.match(stripped):
             message = "a marker of a merge conflict: both sides are read"
@@ -145,7 +144,6 @@ class _Reader:
             self.read_values(number, stripped)
 
     def end(self, number: int) -> None:
-        """End the instance."""
         if self.is_continued and self.instance is not None:
             message = f"{self.label()}: `\\` announces another line, and none follows"
             self.report(number, "cfg-line", "warning", message)
@@ -156,7 +154,6 @@ class _Reader:
         return f"{self.instance.type} {self.instance.name}".rstrip()
 
     def read_values(self, number: int, line: str) -> None:
-        """Read keys and values of a line."""
         is_continued = line.endswith("\\")
         line = line.rstrip("\\") if is_continued else line
         first = TOKEN.match(line)
@@ -185,7 +182,6 @@ class _Reader:
         self.first_key = key
 
     def take(self, number: int, token: re.Match[str]) -> None:
-        """Take a key or a value."""
         assert self.instance is not None
         values = self.instance.values
         if token["key"]:

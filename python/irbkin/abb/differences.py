@@ -98,9 +98,6 @@ def diff(old: Backup | str | PathLike[str], new: Backup | str | PathLike[str]) -
         old: The earlier backup, or its path.
         new: The later one.
 
-    Returns:
-        Difference.
-
     Raises:
         IrbkinError: As `load_backup`.
     """

@@ -101,7 +101,6 @@ class _Reader:
         return self.moc.named("SINGLE", f"{robot.name}_7")
 
     def robot(self, of: Instance) -> RobotUnit:
-        """Return a robot."""
         type_name = of.text("use_robot_type")
         joints = self.joints_of(of)
         base = self.base(of)
@@ -167,7 +166,6 @@ class _Reader:
         return any(motor.number("cal_offset") for motor in motors)
 
     def axis(self, joint: str) -> ExternalAxis:
-        """Return an axis of a unit."""
         named = self.moc.named("JOINT", joint)
         logical = int(named.number("logical_axis")) if named else 0
         place = logical - FIRST_LOGICAL_AXIS

@@ -32,7 +32,6 @@ class Measurements:
     """Measured rotations, shape (m, 3, 3); None where positions were measured."""
 
     def __len__(self) -> int:
-        """Number of measurements."""
         return len(self.q)
 
     @property
@@ -41,7 +40,6 @@ class Measurements:
         return 3 if self.rotation is None else 6
 
     def part(self, rows: npt.NDArray[np.bool_]) -> Measurements:
-        """Some of them."""
         rotation = None if self.rotation is None else self.rotation[rows]
         return Measurements(self.q[rows], self.position[rows], rotation)
 
@@ -84,7 +82,6 @@ def read_poses(value: npt.ArrayLike, name: str) -> Floats:
 
 
 def _pose(matrix: Floats, place: str) -> Floats:
-    """A measured pose, its rotation made exact."""
     last = np.abs(matrix[3] - [0.0, 0.0, 0.0, 1.0]).max()
     if last > 1e-9:
         raise InvalidPoseError(f"{place}: the last row must be 0 0 0 1, it is off by {last:.1e}")

@@ -24,7 +24,6 @@ def names(dof: int) -> list[str]:
 
 
 def unit(name: str) -> str:
-    """Unit of a parameter."""
     return "m" if LENGTHS.intersection(name.split()) else "rad"
 
 

@@ -68,12 +68,10 @@ def _run(given: list[str]) -> int:
 
 
 def module_of(verb: str) -> str:
-    """The module of a verb."""
     return f"irbkin.cli.{verb.replace('-', '_')}"
 
 
 def parser_of(verb: str, own: OneLine | None = None) -> Parser:
-    """The arguments of a verb."""
     from irbkin.cli.arguments import Parser
 
     module = importlib.import_module(module_of(verb))

@@ -183,7 +183,6 @@ class OneLine(argparse.ArgumentParser):
 
 
 def _is_arm(word: str) -> bool:
-    """Whether a word is a robot."""
     from irbkin import catalog_entry
 
     try:

@@ -183,7 +183,6 @@ def _each(jobs: list[Job], progress: Progress) -> Iterator[Job]:
 
 
 def _form(arguments: argparse.Namespace, options: dict[str, Any]) -> str:
-    """The format of the report."""
     form, output = arguments.output_format, arguments.output_file
     if output and not form:
         form = ENDINGS.get(os.path.splitext(output)[1].lower())
@@ -200,7 +199,6 @@ def _form(arguments: argparse.Namespace, options: dict[str, Any]) -> str:
 
 
 def given(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Return the options that are given."""
     return {name: value for name, value in vars(arguments).items() if value is not None}
 
 

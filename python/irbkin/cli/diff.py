@@ -69,7 +69,6 @@ def _difference(arguments: argparse.Namespace) -> Difference:
 
 
 def _last(difference: Difference) -> str:
-    """The last sentences."""
     kinds = Counter(it.kind for it in difference.targets)
     words = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
     moves = sum(it.moves for it in difference.moves)

@@ -12,7 +12,6 @@ TOO_LARGE = f"is too large: its size must be at most {MOST_ANGLE:.0f} deg (remov
 
 
 def number(text: str) -> float:
-    """A finite number."""
     try:
         value = float(text)
     except ValueError:
@@ -28,7 +27,6 @@ def number_or_data(text: str) -> float | str:
 
 
 def positive(text: str) -> float:
-    """A finite number above zero."""
     value = number(text)
     if value <= 0.0:
         raise ArgumentTypeError(f"{value:g} must be positive")

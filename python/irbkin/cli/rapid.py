@@ -74,7 +74,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def parsed(name: str, context: tuple[rapid.Module, ...] = ()) -> rapid.Module:
-    """The module in a file."""
     try:
         with opened(name) as file:
             return parse_module(file.read(), context)
@@ -100,7 +99,6 @@ def motion_of(
 
 
 def _moves(robot: Robot, motion: RoutineMotion) -> Columns:
-    """A row for each move."""
     moves = motion.moves
     q = np.array([np.full(robot.dof, np.nan) if it.q is None else it.q for it in moves])
     left = ["left out" if it.q is None else "joint move" for it in moves]

@@ -53,7 +53,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _scene(arguments: argparse.Namespace) -> Scene:
-    """Return the scene that the arguments name."""
     if arguments.robot.lower().endswith(".json"):
         try:
             return scene.Scene.load(arguments.robot)

@@ -93,7 +93,6 @@ def _confdata(robot: Robot, move: CheckedMove) -> str:
 
 
 def _limit(robot: Robot, q: Any) -> str:
-    """The nearest limit."""
     lower, upper = robot.limits.T
     rooms = [(float(low), axis, "lower") for axis, low in enumerate(q - lower, 1)]
     rooms += [(float(high), axis, "upper") for axis, high in enumerate(upper - q, 1)]

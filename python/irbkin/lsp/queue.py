@@ -107,7 +107,6 @@ class Queue:
             self._worker = asyncio.get_running_loop().create_task(self._work())
 
     async def _work(self) -> None:
-        """Run the pending searches and checks."""
         # Changes that are already here come together.
         await asyncio.sleep(0)
         while self._new or self._stale:

@@ -81,9 +81,6 @@ def reach(
         progress: Called with the number of positions that are ready, and of all; or a bar as
             `tqdm.tqdm()`.
 
-    Returns:
-        The map.
-
     Raises:
         InvalidPoseError: Positions that are not finite or have a wrong shape, or a matrix that is
             no rotation; the message has its index.

@@ -48,7 +48,6 @@ class Grid:
 
     @property
     def size(self) -> int:
-        """Number of positions."""
         return int(np.prod(self.shape))
 
     def job(self) -> Job:

@@ -117,7 +117,6 @@ class Bases:
 
 
 def _range(name: str, given: float | tuple[float, float]) -> tuple[float, float]:
-    """The two ends of a coordinate."""
     try:
         ends = np.broadcast_to(np.asarray(given, dtype=float), 2)
     except (TypeError, ValueError) as fault:

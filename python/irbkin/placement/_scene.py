@@ -176,7 +176,6 @@ class Scene:
             return error
 
     def margin_of(self, plan: Plan) -> float:
-        """The smallest margin along a plan."""
         return float(np.fmin(*self.robot.margin(plan.q)).min())
 
 

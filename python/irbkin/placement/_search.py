@@ -144,7 +144,6 @@ def _refined(search: Search, start: Start, watched: tuple[Report, int, int]) -> 
 
 
 def _answer(search: Search, scores: Scores, found: Start) -> Placement:
-    """The record of the best base."""
     (scene, bases), (value, score, anywhere) = search, found
     base = bases.poses(value[None])[0]
     count = len(scene.targets)

@@ -122,9 +122,6 @@ def load_program(path: str | PathLike[str] | Iterable[str | PathLike[str]]) -> P
             modules, or several of these. Of a task's folder PROGMOD and SYSMOD are read. Links
             that lead out of a folder are not followed.
 
-    Returns:
-        Program.
-
     Raises:
         OSError: A path that is given does not exist or cannot be read.
     """

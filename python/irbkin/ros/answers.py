@@ -247,7 +247,6 @@ def _start(start: npt.ArrayLike | None, robot: Robot) -> Floats:
 
 
 def _weights(weights: npt.ArrayLike, robot: Robot) -> Floats:
-    """Costs of moving each joint."""
     costs = finite(weights, "weights", (robot.dof,), InvalidJointsError)
     for index in np.flatnonzero(costs < 0.0):
         raise InvalidJointsError(f"weights[{index}] is {costs[index]}, it must be 0 or more")

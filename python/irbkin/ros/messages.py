@@ -63,9 +63,6 @@ def read_solutions(response: Message) -> IkSolutions:
     Args:
         response: `irbkin_interfaces/IK` response: its `joints`, `slots` and `statuses`.
 
-    Returns:
-        IkSolutions(q, slot, status).
-
     Raises:
         ValueError: The lengths do not fit together.
     """

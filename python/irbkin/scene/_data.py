@@ -36,7 +36,6 @@ class _Part:
 
 
 def _short(value: Any) -> str:
-    """A field in a line."""
     if isinstance(value, dict):
         return f"<{value.get('kind')}>"
     return f"<{len(value)}>" if isinstance(value, tuple) and len(value) > 3 else repr(value)

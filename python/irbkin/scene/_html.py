@@ -20,7 +20,6 @@ CURVES = 120
 
 
 def of_robot(robot: Robot) -> str:
-    """Return what is known of an arm."""
     picture = drawn(arm_of(robot), rest(robot))
     title = f"<b>{escape(robot.name or 'Robot')}</b>"
     return _beside(picture, title, facts_of(robot), _table(*joints_of(robot)))

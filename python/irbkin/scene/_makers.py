@@ -43,9 +43,6 @@ def of(
             [rad], shape (n,) or (k, n): several are drawn.
         title: Words above the scene; the robot's name when not given.
 
-    Returns:
-        The scene.
-
     Raises:
         TypeError: Something else, `robot` is missing, or `q` of a thing that has its own.
     """

@@ -58,7 +58,6 @@ def scripts() -> str:
 
 @cache
 def style() -> str:
-    """Return the style sheet."""
     return (FOLDER / "style.css").read_text(encoding="utf-8")
 
 

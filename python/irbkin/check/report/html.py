@@ -64,7 +64,6 @@ def _finding(found: Finding, index: dict[str, int]) -> dict[str, Any]:
 
 
 def _procedures(job: Job) -> list[dict[str, Any]]:
-    """The procedures, as the engine has them."""
     return [
         {"module": index, "name": it.name}
         for index, module in enumerate(job.program.modules)
@@ -74,7 +73,6 @@ def _procedures(job: Job) -> list[dict[str, Any]]:
 
 
 def _moves(job: Job, checked: Checked) -> list[dict[str, Any]]:
-    """The moves, as the engine has them."""
     instructions = {
         (index, it.line, it.column): it.instruction
         for index, module in enumerate(job.program.modules)

@@ -47,7 +47,6 @@ def _whole(report: Report, lines: Sequence[str]) -> str:
 
 
 def _routines(report: Report) -> Iterator[str]:
-    """The routines as a table."""
     tables = routines(report)
     every = [HEADINGS, *(row for rows in tables.values() for row in rows)]
     widths = [max(map(len, column)) for column in zip(*every, strict=True)]

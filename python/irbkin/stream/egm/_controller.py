@@ -145,7 +145,6 @@ class Controller:
         return encode(EgmRobot(header, feedback, planned, 1, mci, is_met, rapid_exec_state=2))
 
     def _position(self, q: Floats) -> EgmPosition:
-        """Joints, and the tool at them."""
         degrees = np.degrees(q)[self._axes].tolist()
         external = tuple(degrees[6:]) or None
         return EgmPosition(tuple(degrees[:6]), tool_at(self.robot, q), external)

@@ -104,9 +104,6 @@ class Server:
                 (n,), or a pose, shape (4, 4), or None to brake. StopIteration ends it.
             seconds: Time of the controller after which it ends [s].
 
-        Returns:
-            What was counted.
-
         Raises:
             StreamError: No datagram in time, or the controller does not go with the guard.
         """
@@ -220,11 +217,9 @@ class _Protocol(asyncio.DatagramProtocol):
         self.server, self.session, self.failed = server, session, failed
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Remember where answers are sent."""
         self.transport: Any = transport
 
     def datagram_received(self, data: bytes, sender: Any) -> None:
-        """Answer."""
         if self.failed.done():
             return
         try:

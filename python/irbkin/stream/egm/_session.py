@@ -423,7 +423,6 @@ def axes_of(robot: Robot) -> list[int]:
 
 
 def tool_at(robot: Robot, q: Floats) -> EgmPose:
-    """The pose of the tool."""
     xyz, wxyz = to_xyz_wxyz(robot.fk(q))
     return EgmPose(tuple((xyz * 1e3).tolist()), tuple(wxyz.tolist()))
 

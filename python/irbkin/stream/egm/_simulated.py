@@ -40,7 +40,6 @@ class Link:
         self._way += [(due, data)] * (1 + twice)
 
     def due(self, tick: int) -> list[bytes]:
-        """The datagrams that arrive in a cycle."""
         arrived = [data for due, data in self._way if due <= tick]
         self._way = [it for it in self._way if it[0] > tick]
         return arrived
