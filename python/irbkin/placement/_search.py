@@ -77,14 +77,13 @@ def best_base(
     bases = Bases.of(region, steps, frame, robot)
     scene = Scene(robot, T, rotation, path, cell, threads)
     values = bases.grid()
-    search = Search(scene, bases)
     poses = scene.turned.shape[0] * scene.turned.shape[1]
     # A plan of a path takes longer than all of its poses.
     size = max(1, IN_A_BLOCK // poses) if not path else PLANS_AT_A_TIME * max(threads, 1)
     total = len(values) + (HALVINGS * min(STARTS, len(values)) if refine else 0)
     ordered = []
     for first in range(0, len(values), size):
-        ordered.append(scene.scores(search.bases.poses(values[first : first + size])))
+        ordered.append(scene.scores(bases.poses(values[first : first + size])))
         report(min(first + size, len(values)), total)
     scores = Scores(
         reached=np.concatenate([part.reached for part in ordered]),
@@ -97,18 +96,11 @@ def best_base(
     best = starts[0]
     if refine:
         for number, start in enumerate(starts):
-            end = _refined(search, start, (report, len(values) + number * HALVINGS, total))
+            end = _refined(scene, bases, start, (report, len(values) + number * HALVINGS, total))
             best = best._replace(anywhere=best.anywhere | end.anywhere)
             if end.score > best.score:
                 best = end._replace(anywhere=best.anywhere)
-    return _answer(search, scores, best)
-
-
-class Search(NamedTuple):
-    """The state that all parts of a search share."""
-
-    scene: Scene
-    bases: Bases
+    return _answer(scene, bases, scores, best)
 
 
 class Start(NamedTuple):
@@ -121,9 +113,9 @@ class Start(NamedTuple):
     """Which targets some base that was tried reaches."""
 
 
-def _refined(search: Search, start: Start, watched: tuple[Report, int, int]) -> Start:
+def _refined(scene: Scene, bases: Bases, start: Start, watched: tuple[Report, int, int]) -> Start:
     """The best base that steps of falling size lead to."""
-    (scene, bases), (value, score, anywhere) = search, start
+    value, score, anywhere = start
     report, done, total = watched
     step = 0.5 * bases.spacing()
     for halving in range(HALVINGS):
@@ -143,8 +135,8 @@ def _refined(search: Search, start: Start, watched: tuple[Report, int, int]) -> 
     return Start(value, score, anywhere)
 
 
-def _answer(search: Search, scores: Scores, found: Start) -> Placement:
-    (scene, bases), (value, score, anywhere) = search, found
+def _answer(scene: Scene, bases: Bases, scores: Scores, found: Start) -> Placement:
+    value, score, anywhere = found
     base = bases.poses(value[None])[0]
     count = len(scene.targets)
     is_reached = score[0] == count and score[1] == 1.0
