@@ -8,6 +8,7 @@ from typing import IO, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin._equality import by_value
 from irbkin._files import write_columns
 from irbkin._words import counted
@@ -34,21 +35,21 @@ class Region(NamedTuple):
 class BaseGrid(NamedTuple):
     """The bases of the grid that were tried."""
 
-    x: npt.NDArray[np.float64]
+    x: Floats
     """Positions along x [m], shape (i,)."""
-    y: npt.NDArray[np.float64]
+    y: Floats
     """Positions along y [m], shape (j,)."""
-    z: npt.NDArray[np.float64]
+    z: Floats
     """Positions along z [m], shape (k,)."""
-    turn: npt.NDArray[np.float64]
+    turn: Floats
     """Angles about z [rad], shape (l,)."""
-    reachable: npt.NDArray[np.float64]
+    reachable: Floats
     """Share of the targets that are reached inside the limits, shape (i, j, k, l)."""
-    margin: npt.NDArray[np.float64]
+    margin: Floats
     """The smallest margin of all targets, shape (i, j, k, l). NaN where not all are reached, or
     where a path has no plan.
     """
-    frame: npt.NDArray[np.float64]
+    frame: Floats
     """The frame of these positions in the world, shape (4, 4)."""
 
 
@@ -56,19 +57,19 @@ class BaseGrid(NamedTuple):
 class Placement(NamedTuple):
     """Where a robot should stand."""
 
-    base: npt.NDArray[np.float64]
+    base: Floats
     """The best base, shape (4, 4): `robot.with_base(base)`."""
     margin: float
     """The smallest margin of all targets there; NaN if they cannot all be reached."""
     reachable: float
     """Share of the targets that are reached there."""
-    slack: npt.NDArray[np.float64]
+    slack: Floats
     """The margin of each target, shape (m,); NaN where it is not reached."""
-    q: npt.NDArray[np.float64]
+    q: Floats
     """Joint angles with that margin [rad], shape (m, 6); of a path, the joints of its plan. NaN
     where a target is not reached.
     """
-    tool_angle: npt.NDArray[np.float64]
+    tool_angle: Floats
     """The angle that the tool is turned by [rad], shape (m,); zeros without a free rotation."""
     nowhere: tuple[int, ...]
     """The targets that are reached from no base that was tried."""
@@ -88,13 +89,13 @@ class Placement(NamedTuple):
 class ReachMap(NamedTuple):
     """The reach of an arm: a grid of positions, each with every orientation."""
 
-    x: npt.NDArray[np.float64]
+    x: Floats
     """Positions along x [m], shape (i,)."""
-    y: npt.NDArray[np.float64]
+    y: Floats
     """Positions along y [m], shape (j,)."""
-    z: npt.NDArray[np.float64]
+    z: Floats
     """Positions along z [m], shape (k,)."""
-    orientations: npt.NDArray[np.float64]
+    orientations: Floats
     """Orientations of the tool, shape (o, 3, 3)."""
     reached: npt.NDArray[np.int64]
     """Number of orientations that are reached inside the limits and without a collision, shape (i,
@@ -102,15 +103,15 @@ class ReachMap(NamedTuple):
     """
     solutions: npt.NDArray[np.int64]
     """Number of these solutions, all orientations together, shape (i, j, k)."""
-    margin: npt.NDArray[np.float64]
+    margin: Floats
     """The smallest margin of the orientations that are reached, the margin of an orientation being
     `IkMargin.margin`, shape (i, j, k). NaN where none is reached.
     """
-    singularities: npt.NDArray[np.float64]
+    singularities: Floats
     """`IkMargin.singularities` in the same way: the worst distance from singularities."""
 
     @property
-    def share(self) -> npt.NDArray[np.float64]:
+    def share(self) -> Floats:
         """Share of the orientations that are reached, shape (i, j, k)."""
         return self.reached / len(self.orientations)
 

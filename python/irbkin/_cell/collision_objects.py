@@ -6,14 +6,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin._cell.entries import Entry
 from irbkin._core import Shape, pose
 from irbkin._mesh_files import mesh
 from irbkin.errors import IrbkinError
 
-_Array = npt.NDArray[np.float64]
 # In the order of their numbers.
 _PRIMITIVES = ("", "box", "sphere", "cylinder", "cone", "prism")
 
@@ -82,7 +81,7 @@ def _plane(entry: Entry) -> Shape:
     return Shape.half_space(normal, [-float(offset) / square * float(own) for own in normal])
 
 
-def pose_of(entry: Entry, xyz: str, turn: str) -> _Array:
+def pose_of(entry: Entry, xyz: str, turn: str) -> Floats:
     """A pose or a transform. Messages in which none was set have a quaternion of zeros."""
     entry.check(xyz, turn)
     wxyz = np.roll(_vector(entry, turn, "xyzw"), 1)
@@ -92,7 +91,7 @@ def pose_of(entry: Entry, xyz: str, turn: str) -> _Array:
         entry.refuse(error)
 
 
-def _vector(entry: Entry, key: str, names: str) -> _Array:
+def _vector(entry: Entry, key: str, names: str) -> Floats:
     """Numbers that are a list or a table of them; zeros, as in a message, if not given."""
     if key in entry.table and not isinstance(entry.table[key], Mapping):
         return entry.numbers(key, len(names))

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Any, NoReturn
 
 import numpy as np
-import numpy.typing as npt
 
 from irbkin._arguments import close
+from irbkin._arrays import Floats
 from irbkin.errors import InvalidModelError, IrbkinError
 
 MOST_CHARACTERS = 10_000_000
@@ -80,7 +80,7 @@ class Entry:
             self.refuse(f"is {reprlib.repr(value)}, it must be a number", key)
         return float(value)
 
-    def numbers(self, key: str, count: int) -> npt.NDArray[np.float64]:
+    def numbers(self, key: str, count: int) -> Floats:
         value = self.table.get(key)
         if value is None:
             self.refuse(f"{key} is missing, a list of {count} numbers")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-import numpy.typing as npt
 
 from irbkin._arguments import close
+from irbkin._arrays import Floats
 from irbkin._cell.entries import Entry
 from irbkin._core import pose
 from irbkin.errors import IrbkinError
@@ -20,20 +20,20 @@ class Frames:
 
     def __init__(self, entries: Mapping[str, Entry]) -> None:
         self._entries = entries
-        self._known: dict[str, npt.NDArray[np.float64]] = {}
+        self._known: dict[str, Floats] = {}
         for name in entries:
             self._of(name, ())
 
-    def pose_of(self, entry: Entry) -> npt.NDArray[np.float64]:
+    def pose_of(self, entry: Entry) -> Floats:
         """The pose of an entry in the world, by its key `pose`; the world's own without it."""
         return self._placed(entry.sub("pose"), ())
 
-    def _of(self, name: str, inner: tuple[str, ...]) -> npt.NDArray[np.float64]:
+    def _of(self, name: str, inner: tuple[str, ...]) -> Floats:
         if name not in self._known:
             self._known[name] = self._placed(self._entries[name], (*inner, name))
         return self._known[name]
 
-    def _placed(self, entry: Entry, inner: tuple[str, ...]) -> npt.NDArray[np.float64]:
+    def _placed(self, entry: Entry, inner: tuple[str, ...]) -> Floats:
         """The pose of a table in the world; `inner`: the frames that hang on it."""
         own = _pose(entry)
         if "frame" not in entry.table:
@@ -47,7 +47,7 @@ class Frames:
         return self._of(name, inner) @ own
 
 
-def _pose(entry: Entry) -> npt.NDArray[np.float64]:
+def _pose(entry: Entry) -> Floats:
     """The pose of a table in its frame."""
     entry.check("xyz", *_TURNS, "frame")
     turns = [key for key in _TURNS if key in entry.table]

@@ -9,14 +9,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin._cell.collision_objects import items_of, list_of, named, pose_of, shapes_of
 from irbkin._cell.entries import Entry
 from irbkin._core import Cell, Shape
 from irbkin.errors import InvalidModelError, IrbkinError
 
-_Array = npt.NDArray[np.float64]
 _SCENE = """name robot_model_name robot_state fixed_frame_transforms allowed_collision_matrix
 link_padding link_scale object_colors world is_diff""".split()  # noqa: SIM905
 _OBJECT = """header id type pose primitives primitive_poses meshes mesh_poses planes plane_poses
@@ -79,7 +78,7 @@ def _check_world(root: Entry) -> None:
 
 
 def _apply(
-    found: dict[str, list[Shape]], name: str, entry: Entry, frames: dict[str, _Array]
+    found: dict[str, list[Shape]], name: str, entry: Entry, frames: dict[str, Floats]
 ) -> None:
     """Do what an object's operation is."""
     operation = named(entry, "operation", _OPERATIONS, 0)
@@ -103,7 +102,7 @@ def _apply(
     found.setdefault(name, []).extend(shapes)
 
 
-def _frames(root: Entry) -> dict[str, _Array]:
+def _frames(root: Entry) -> dict[str, Floats]:
     """The poses of the frames that objects may be in; "" is the planning frame."""
     frames = {"": np.eye(4)}
     planning = ""
@@ -130,7 +129,7 @@ def _frame(name: Any) -> str:
     return str(name or "").removeprefix("/")
 
 
-def _in_frame(entry: Entry, frames: dict[str, _Array]) -> _Array:
+def _in_frame(entry: Entry, frames: dict[str, Floats]) -> Floats:
     frame = _frame(entry.sub("header").table.get("frame_id"))
     if frame not in frames:
         known = ", ".join(name for name in frames if name) or "not known"

@@ -11,8 +11,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin._robotstudio import elements as xml
-from irbkin._robotstudio.elements import Array, Element
+from irbkin._robotstudio.elements import Element
 from irbkin.errors import InvalidModelError
 
 MOST_NUMBER = 10.0
@@ -26,25 +27,25 @@ _NUMBERS = ("twist", "length", "rotation", "offset")
 class Arm(NamedTuple):
     """An arm as a file has it."""
 
-    frames: Array
+    frames: Floats
     """Its axes in the base at zero joints, z along the axis, shape (n, 4, 4)."""
     links: list[int]
     """The number of the link behind each axis."""
     linkage: float
     """The multiple of joint 2 that turns joint 3: -1 or 1 of a parallelogram linkage, else 0."""
-    flange: Array | None = None
+    flange: Floats | None = None
     """In the base at zero joints."""
-    limits: tuple[Array, Array] | None = None
+    limits: tuple[Floats, Floats] | None = None
     """A and b of the joints q that are within limits: A q <= b."""
 
 
 class _Row(NamedTuple):
     joint: int
-    step: Array
+    step: Floats
     following: int
 
 
-def poses_of(arm: Arm, q: npt.ArrayLike) -> Array:
+def poses_of(arm: Arm, q: npt.ArrayLike) -> Floats:
     """Poses of the links behind the axes in the base, shape (n, 4, 4)."""
     angles = np.array(q, dtype=float)
     angles[2] += arm.linkage * angles[1]
@@ -56,7 +57,7 @@ def poses_of(arm: Arm, q: npt.ArrayLike) -> Array:
     return np.array(poses)
 
 
-def check_pose(name: str, found: Array, wanted: Array, most: float) -> None:
+def check_pose(name: str, found: Floats, wanted: Floats, most: float) -> None:
     """Refuse a frame of a table that is not where the file itself has it."""
     off = np.linalg.norm(found[:3, 3] - wanted[:3, 3])
     turned = np.abs(found[:3, :3] - wanted[:3, :3]).max()
@@ -128,7 +129,7 @@ def _rows(kinematics: Element) -> tuple[dict[int, _Row], list[bool]]:
     return rows, [xml.word(it, "isrevolutejoint").lower() == "true" for it in joints]
 
 
-def _starts(kinematics: Element) -> dict[int, Array]:
+def _starts(kinematics: Element) -> dict[int, Floats]:
     """The frames of the joints that start at the base."""
     bases = [it for it in kinematics if xml.local(it).startswith("kinematicbaseframe")]
     several = [it for base in bases for it in base if len(it) == 4]
@@ -167,7 +168,7 @@ def _linkage(kinematics: Element, joints: list[int], active: int, count: int) ->
     return float(own[2, 1])
 
 
-def limits_of(element: Element, active: int) -> tuple[Array, Array] | None:
+def limits_of(element: Element, active: int) -> tuple[Floats, Floats] | None:
     """A and b of A q <= b, A of shape (m, active); None where an element has no limits."""
     given = xml.numbers(xml.child(element, "jointlimitsmatrix"))
     bounds = np.array(xml.numbers(xml.child(element, "jointlimitsvector")))
@@ -186,7 +187,7 @@ def limits_of(element: Element, active: int) -> tuple[Array, Array] | None:
     )
 
 
-def _step(twist: float, length: float, rotation: float, offset: float) -> Array:
+def _step(twist: float, length: float, rotation: float, offset: float) -> Floats:
     """The transform of a row of the table."""
     (s, c), (t, u) = ((np.sin(it), np.cos(it)) for it in (rotation, twist))
     rows = [[c, -s, 0.0, length], [s * u, c * u, -t, -offset * t], [s * t, c * t, u, offset * u]]

@@ -10,11 +10,10 @@ from collections.abc import Iterator
 from xml.etree import ElementTree
 
 import numpy as np
-import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin.errors import InvalidModelError
 
-Array = npt.NDArray[np.float64]
 Element = ElementTree.Element
 SKEW = 1e-5
 """How far a rotation may be from an orthonormal one [1]."""
@@ -141,7 +140,7 @@ def floats(text: str) -> list[float]:
         return []
 
 
-def transform(element: Element) -> Array:
+def transform(element: Element) -> Floats:
     """A rigid transform: RowX, RowY, RowZ, RowT, which are images of the axes and the origin, or
     numbers.
     """

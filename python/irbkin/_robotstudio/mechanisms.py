@@ -8,9 +8,9 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
+from irbkin._arrays import Floats
 from irbkin._core import Robot, to_xyz_euler_zyx
 from irbkin._robotstudio.chains import MOST_NUMBER, Arm, check_pose, poses_of
-from irbkin._robotstudio.elements import Array
 from irbkin._words import listed
 from irbkin.errors import InvalidModelError
 
@@ -66,7 +66,7 @@ def robot_of_arm(arm: Arm, name: str, coupled_limits: bool) -> Robot:
     return robot if arm.limits is None else _limited(robot, arm, coupled_limits)
 
 
-def _urdf(frames: list[Array], name: str) -> str:
+def _urdf(frames: list[Floats], name: str) -> str:
     """A URDF of axes and flange: at zero joints its links are parallel to the base."""
     text, parent, at = [f'<robot name={quoteattr(name)}><link name="base"/>'], "base", np.zeros(3)
     for index, frame in enumerate(frames, 1):
@@ -83,7 +83,7 @@ def _urdf(frames: list[Array], name: str) -> str:
     return "".join([*text, "</robot>"])
 
 
-def _words(values: Array) -> str:
+def _words(values: Floats) -> str:
     return " ".join(repr(float(value)) for value in values)
 
 
@@ -109,7 +109,7 @@ def _limited(robot: Robot, arm: Arm, coupled_limits: bool) -> Robot:
     return robot.with_linkage_limits(limits[-1]) if np.isfinite(limits[-1]).any() else robot
 
 
-def _narrow(limits: Array, factor: float, bound: float) -> None:
+def _narrow(limits: Floats, factor: float, bound: float) -> None:
     """Narrow limits to factor * q <= bound, to 1e-10 deg: files carry noise."""
     value = np.radians(np.round(np.degrees(bound / factor), 10))
     if factor > 0.0:

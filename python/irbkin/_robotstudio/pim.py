@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from irbkin._arrays import Floats
 from irbkin._robotstudio import elements as xml
 from irbkin._robotstudio.chains import Arm, arm_of, check_pose, limits_of, poses_of
-from irbkin._robotstudio.elements import Array, Element
+from irbkin._robotstudio.elements import Element
 from irbkin._robotstudio.mechanisms import Mechanism
 from irbkin.errors import InvalidModelError
 
@@ -32,9 +33,9 @@ class _Model(NamedTuple):
 
 class _Link(NamedTuple):
     name: str
-    frame: Array
+    frame: Floats
     """In the base at zero joints."""
-    pose: Array
+    pose: Floats
     """In the base at the joints of the instance."""
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin import Robot, _core
-from irbkin._arrays import as_array
+from irbkin._arrays import Floats, as_array
 from irbkin._core import (
     NOT_THERE,
     JointTarget,
@@ -188,9 +188,7 @@ def _carriers(
     return carriers
 
 
-def _standing(
-    robot: Robot, carriers: Sequence[Track | Positioner], values: npt.NDArray[np.float64]
-) -> Robot:
+def _standing(robot: Robot, carriers: Sequence[Track | Positioner], values: Floats) -> Robot:
     """Return the robot at its place seen from the work object."""
     if not carriers:
         return robot
@@ -210,7 +208,7 @@ def _standing(
     return robot.with_base(base)
 
 
-def _external(planned: int, count: int, extax: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
+def _external(planned: int, count: int, extax: npt.ArrayLike | None) -> Floats:
     """Return the six external axes of each pose, 9e9 for an axis that does not exist."""
     axes = np.full((count, MOST_EXTERNAL), NOT_THERE)
     if extax is None:

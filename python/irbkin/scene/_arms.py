@@ -31,7 +31,7 @@ def rows(values: npt.ArrayLike) -> Any:
     return tupled(np.asarray(values, dtype=float).tolist())
 
 
-def rest(robot: Robot) -> npt.NDArray[np.float64]:
+def rest(robot: Robot) -> Floats:
     """Joint angles of zero, or those inside the limits that are nearest to it [rad]."""
     lower, upper = robot.limits.T
     return np.clip(np.zeros(robot.dof), lower, upper)
@@ -132,7 +132,7 @@ def motion_of(
     return Motion(rows(times[kept]), rows(angles[kept]), own, source)
 
 
-def link_frames(arm: Arm, q: npt.ArrayLike) -> npt.NDArray[np.float64]:
+def link_frames(arm: Arm, q: npt.ArrayLike) -> Floats:
     """Return the frame of each link and of the tool in the world, as faces calculate them.
 
     Args:
@@ -166,7 +166,7 @@ def solids(arm: Arm) -> list[LinkShape | LinkHull]:
     return [*(it for it in arm.hulls if it.faces), *bare, *others]
 
 
-def outward(hull: LinkHull) -> npt.NDArray[np.float64]:
+def outward(hull: LinkHull) -> Floats:
     """Return the points of a hull moved out by its radius along the mean normal of their faces,
     weighted by their angles, shape (k, 3): what is drawn of them contains the hull of the points,
     and is in the rounded one.
@@ -178,15 +178,11 @@ def outward(hull: LinkHull) -> npt.NDArray[np.float64]:
     one, other = (it / np.linalg.norm(it, axis=2, keepdims=True) for it in sides)
     angles = np.arccos(np.clip(np.sum(one * other, axis=2, keepdims=True), -1.0, 1.0))
     np.add.at(mean, faces, angles * face_normals(points, faces)[:, None])
-    moved: npt.NDArray[np.float64] = points + hull.radius * mean / np.linalg.norm(
-        mean, axis=1, keepdims=True
-    )
+    moved: Floats = points + hull.radius * mean / np.linalg.norm(mean, axis=1, keepdims=True)
     return moved
 
 
-def face_normals(
-    points: npt.NDArray[np.float64], faces: npt.NDArray[np.int_]
-) -> npt.NDArray[np.float64]:
+def face_normals(points: Floats, faces: npt.NDArray[np.int_]) -> Floats:
     """Return the normals of triangles out of a hull, shape (t, 3)."""
     first, second, third = np.moveaxis(points[faces], 1, 0)
     normals = np.cross(second - first, third - first)

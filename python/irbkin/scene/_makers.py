@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from irbkin._arrays import evenly
+from irbkin._arrays import Floats, evenly
 from irbkin._core import Cell, Robot, RoutineMotion, Solutions, Trajectory
 from irbkin._grids import ReachMap
 from irbkin.calibration import Calibration, HandEye
@@ -111,7 +111,7 @@ def _of_motion(robot: Robot, motion: Motion) -> Scene:
     return Scene(arms=(arm_of(robot, motion=motion),), paths=_way(poses))
 
 
-def _way(poses: npt.NDArray[np.float64]) -> tuple[Path, ...]:
+def _way(poses: Floats) -> tuple[Path, ...]:
     points = poses[evenly(len(poses), MOST_POINTS), :3, 3]
     return (Path("tool", rows(points)),) if len(points) else ()
 
@@ -125,7 +125,7 @@ def _of_routine(robot: Robot, made: RoutineMotion) -> Scene:
     return Scene(arms=(arm_of(robot, motion=motion),), paths=_way(poses), marks=marks)
 
 
-def _mark(made: RoutineMotion, poses: npt.NDArray[np.float64], finding: Finding) -> Mark:
+def _mark(made: RoutineMotion, poses: Floats, finding: Finding) -> Mark:
     """A finding at the end of its move, or where the motion is if the move is left out."""
     before = np.flatnonzero(np.asarray(made.move_index) <= finding.move_index)
     sample = int(before[-1]) if len(before) else 0

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin.scene._data import Scene
 from irbkin.scene._makers import of
 from irbkin.scene._page import page
@@ -108,7 +109,7 @@ class ServedView:
         self._set(scene)
 
     @property
-    def q(self) -> npt.NDArray[np.float64]:
+    def q(self) -> Floats:
         """Joint angles of the first arm [rad], shape (n,); set them to move it."""
         return np.array(self._q)
 
@@ -118,7 +119,7 @@ class ServedView:
             self._move(self._joints.checked(q))
 
     @property
-    def T(self) -> npt.NDArray[np.float64]:
+    def T(self) -> Floats:
         """Pose of the tool of the first arm, shape (4, 4); set it to move it there, by the joint
         angles that are nearest to the present ones.
         """

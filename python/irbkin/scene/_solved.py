@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from irbkin._arrays import Floats
 from irbkin._core import PageEngine, Robot, catalog
 from irbkin.errors import InvalidJointsError, InvalidModelError
 from irbkin.scene._arms import link_frames, start
@@ -65,7 +66,7 @@ class Joints:
         joints: list[float] = q.tolist()
         return joints
 
-    def tool(self, q: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    def tool(self, q: npt.ArrayLike) -> Floats:
         """Return the pose of the tool, shape (4, 4); the world's without an arm."""
         return np.array(np.eye(4) if self.arm is None else link_frames(self.arm, q)[-1])
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from irbkin._arrays import Floats
 from irbkin.scene._page import module
 from irbkin.scene._solved import Engines, Joints
 
@@ -14,7 +15,6 @@ except ImportError as missing:
     raise ImportError(
         "a view in a notebook needs anywidget: pip install 'irbkin[widget]'", name="anywidget"
     ) from missing
-import numpy as np
 import numpy.typing as npt
 
 from irbkin.scene._data import Scene
@@ -56,7 +56,7 @@ class View(anywidget.AnyWidget):  # type: ignore[misc]
         self.send({"id": asked["id"], "answer": answer})
 
     @property
-    def T(self) -> npt.NDArray[np.float64]:
+    def T(self) -> Floats:
         """The pose of the tool of the first arm, shape (4, 4)."""
         return self._joints.tool(self.q)
 
