@@ -1,7 +1,5 @@
 """Arguments of Python functions that are no arrays: robots, numbers, names, who watches."""
 
-from __future__ import annotations
-
 import operator
 from collections.abc import Callable, Iterable
 from importlib import import_module

@@ -1,7 +1,5 @@
 """Arrays of Python code: arguments, as the extension reads its own, and samples of long ones."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -2,8 +2,6 @@
 of the extension's classes return.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from os import PathLike
 from typing import IO, Any

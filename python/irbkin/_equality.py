@@ -1,7 +1,5 @@
 """Equality of records that hold arrays."""
 
-from __future__ import annotations
-
 from typing import Any, TypeVar
 
 _Record = TypeVar("_Record", bound=type)

@@ -1,7 +1,5 @@
 """Files: how messages name them; written whole or not at all, and never where a link leads."""
 
-from __future__ import annotations
-
 import contextlib
 import csv
 import errno

@@ -1,7 +1,5 @@
 """Records of what is tried on a grid: bases, and positions of the tool."""
 
-from __future__ import annotations
-
 from os import PathLike
 from typing import IO, Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """Files of meshes, read by trimesh: `pip install 'irbkin[mesh]'`."""
 
-from __future__ import annotations
-
 import os
 
 import numpy as np

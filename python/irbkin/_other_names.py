@@ -1,7 +1,5 @@
 """Names of other packages: each raises an AttributeError that has irbkin's name for it."""
 
-from __future__ import annotations
-
 from typing import NoReturn
 
 from irbkin._core import Robot

@@ -1,7 +1,5 @@
 """Random joint vectors inside the limits of a robot."""
 
-from __future__ import annotations
-
 import math
 import operator
 

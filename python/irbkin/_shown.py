@@ -1,7 +1,5 @@
 """Representations of answers of the extension, and the table of a robot."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

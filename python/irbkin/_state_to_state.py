@@ -1,7 +1,5 @@
 """`irbkin.trajectory.state_to_state`: jerk-limited motion between any two states."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

@@ -1,7 +1,5 @@
 """Words that messages and representations share."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 

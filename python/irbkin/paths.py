@@ -7,8 +7,6 @@
 array([-0.2, -0.1,  0. ,  0.1,  0.2])
 """
 
-from __future__ import annotations
-
 from irbkin._core import arc, line, polyline
 from irbkin._core import path_spline as spline
 

@@ -4,8 +4,6 @@ A record is a frozen class of documented fields, and the sequence of them: it un
 tuple of equal fields. Arrays are equal if their shapes and elements are, NaN being equal to NaN.
 """
 
-from __future__ import annotations
-
 import enum
 import operator
 from typing import Any

@@ -8,8 +8,6 @@ array([ 1., -2.])
 array([ 0.9375, -1.875 ])
 """
 
-from __future__ import annotations
-
 from irbkin._core import (
     Trajectory,
     at_tool_speed,

@@ -1,7 +1,5 @@
 """Cells from files: `Cell.load`. What is in them is in docs/guide/cell.md."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from typing import Any

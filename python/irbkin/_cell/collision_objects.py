@@ -1,7 +1,5 @@
 """Shapes of a CollisionObject of MoveIt, and its fields: poses, lists, names with numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Frames of a cell that hang on one another."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -3,8 +3,6 @@
 Nothing of ROS is imported. The messages are in docs.ros.org under moveit_msgs and shape_msgs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Cells from TOML files."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Mapping
 from typing import Any

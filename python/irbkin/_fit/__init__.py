@@ -4,8 +4,6 @@
 `hulls` fit it, `pairs` finds the links that are kept apart.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 

@@ -11,8 +11,6 @@ as far as r + the largest signed distance on its axis. That is made small, by th
 radius: with a direction, a point and a radius given, the shortest axis follows from the points.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 from scipy.optimize import minimize  # type: ignore[import-untyped]

@@ -6,8 +6,6 @@ of closed triangles too. Of the corners of a hull some are kept, always the one 
 outside of those before; the radius is how far the others are from the hull of these at most.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

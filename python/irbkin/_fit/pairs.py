@@ -1,7 +1,5 @@
 """The pairs of links that are kept apart, by random postures inside the limits."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from irbkin._core import Body, Cell, Robot

@@ -1,7 +1,5 @@
 """Triangles as points: pieces of the surface, the inside, and distances from the surface."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 from scipy.ndimage import map_coordinates  # type: ignore[import-untyped]

@@ -2,8 +2,6 @@
 docs/guide/robotstudio.md.
 """
 
-from __future__ import annotations
-
 import os
 
 from irbkin._core import Robot

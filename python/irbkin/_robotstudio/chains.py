@@ -4,8 +4,6 @@ Rows are modified Denavit-Hartenberg rows: Rx(Twist) Tx(Length) Rz(Rotation + q)
 may have several, one for each link that goes on from it.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Documents in RobotStudio's files: XML, a ZIP of it (.rslib, .rsstn), a ZIP of these (.rspag)."""
 
-from __future__ import annotations
-
 import io
 import os
 import zipfile

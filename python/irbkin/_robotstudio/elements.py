@@ -3,8 +3,6 @@
 Names are given in lower case.
 """
 
-from __future__ import annotations
-
 import io
 from collections.abc import Iterator
 from xml.etree import ElementTree

@@ -1,7 +1,5 @@
 """Mechanisms of a file, the choice of one, and the robot that it is."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable
 from typing import NamedTuple
 from xml.sax.saxutils import quoteattr

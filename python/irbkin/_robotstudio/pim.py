@@ -1,7 +1,5 @@
 """Mechanisms of stations and libraries: definitions, and instances that refer to them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from typing import NamedTuple

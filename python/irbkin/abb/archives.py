@@ -1,7 +1,5 @@
 """Archives of backups (.zip, .rspag): unpacked into a temporary folder."""
 
-from __future__ import annotations
-
 import shutil
 import tempfile
 import weakref

@@ -1,7 +1,5 @@
 """The catalog arm of a type string, with the limits in force."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

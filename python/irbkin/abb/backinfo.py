@@ -1,7 +1,5 @@
 """BACKINFO/backinfo.txt: versions, arms, and the modules that were loaded into each task."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A controller's backup as one record."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Which units carry others, and which of them move work objects."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 from irbkin.abb.cfg import CfgFile

@@ -16,8 +16,6 @@ names are compared without case. Lengths are in meters, angles in radians.
     ('ROB_1', 3.0, True, 5)
 """
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Data, motion settings and moves in which two programs differ."""
 
-from __future__ import annotations
-
 import math
 import re
 from bisect import bisect

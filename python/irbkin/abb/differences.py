@@ -1,7 +1,5 @@
 """Differences of two backups: data, moves, targets in space and in joints, robots, modules."""
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Units of a backup as a check of RAPID takes them: axes from the world on."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from irbkin.abb.backup import Backup

@@ -1,7 +1,5 @@
 """Findings: what the files of a backup leave open, contradict, or have broken."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal

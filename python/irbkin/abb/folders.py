@@ -1,7 +1,5 @@
 """The files of a backup by name without case; texts in the encodings of controllers."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field

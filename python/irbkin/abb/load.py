@@ -1,7 +1,5 @@
 """`load_backup`: the files of a backup, read and related to each other."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from dataclasses import replace

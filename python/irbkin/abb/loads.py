@@ -1,7 +1,5 @@
 """The modules that SYS.cfg loads into tasks (CAB_TASK_MODULES)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 

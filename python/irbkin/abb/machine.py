@@ -1,7 +1,5 @@
 """MOC.cfg as a machine: its robots with base frames and limits, its external units."""
 
-from __future__ import annotations
-
 import math
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """The modules in the folder of a task."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Where a backup begins: the root of a path that a user gives."""
 
-from __future__ import annotations
-
 import os
 from collections import deque
 from pathlib import Path

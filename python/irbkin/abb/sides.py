@@ -1,7 +1,5 @@
 """One of two programs that are compared: its data, and its moves as they are written."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -4,8 +4,6 @@ Task -> mechanical unit group -> robot and external units, by SYS.cfg; folder RA
 backinfo.txt, else by the order of SYS.cfg.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path

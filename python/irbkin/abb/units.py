@@ -3,8 +3,6 @@
 Lengths are in meters, angles in radians, poses 4x4 matrices in the world.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal

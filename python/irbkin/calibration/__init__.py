@@ -5,8 +5,6 @@ a camera, and the calibration of a Universal Robots machine.
 fitted and how is in docs/guide/calibrate.md.
 """
 
-from __future__ import annotations
-
 from irbkin.calibration._calibrate import calibrate
 from irbkin.calibration._hand_eye import HandEye, hand_eye, robot_world
 from irbkin.calibration._records import (

@@ -1,7 +1,5 @@
 """`irbkin.calibrate`."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 

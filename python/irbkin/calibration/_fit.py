@@ -1,7 +1,5 @@
 """Nonlinear least squares over corrections of an arm, and the spread of what they give."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

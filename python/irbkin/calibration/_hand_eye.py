@@ -1,7 +1,5 @@
 """Where a camera, or another sensor, is: A X = X B and A X = Y B."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

@@ -5,8 +5,6 @@ Reference: Golub and Van Loan, Matrix Computations, 2013, section 5.4; for arms 
 Enguehard, Identifiable Parameters and Optimum Configurations for Robots Calibration, 1991.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

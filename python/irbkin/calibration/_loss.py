@@ -1,7 +1,5 @@
 """Weights of residuals: standard deviations, and losses that outliers do not lead astray."""
 
-from __future__ import annotations
-
 from typing import Literal, get_args
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The parameters of an arm: names, nominal values, and which of them are fitted first."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from irbkin._arrays import Floats

@@ -4,8 +4,6 @@ With flange frames F_i of the robot, measured poses M_i, base Z and tool X, M_i 
 (docs/guide/calibrate.md, eq. 10 to 13).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from irbkin._arrays import Floats

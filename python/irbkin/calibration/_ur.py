@@ -4,8 +4,6 @@ References: Universal Robots, DH parameters for calculations of kinematics and d
 `ur_calibration` of the Universal Robots ROS driver, whose file has a pose for each joint.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import re

@@ -1,7 +1,5 @@
 """Checks of programs, and the selection among their findings."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence

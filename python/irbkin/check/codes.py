@@ -1,7 +1,5 @@
 """The codes of a check: names, severities, rules and selection."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from functools import cache

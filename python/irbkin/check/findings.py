@@ -1,7 +1,5 @@
 """Findings in files, of modules, of backups and of moves."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from irbkin import rapid

@@ -1,7 +1,5 @@
 """Corrections of confdata: computed until no finding has one, and written into the files."""
 
-from __future__ import annotations
-
 import os
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence

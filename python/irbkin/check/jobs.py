@@ -1,7 +1,5 @@
 """Programs to check, each with its arm: of files, or of the tasks of a backup."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace

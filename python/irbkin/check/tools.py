@@ -1,7 +1,5 @@
 """Tools of moves: their loads, and their shapes among what an arm must not touch."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections import Counter

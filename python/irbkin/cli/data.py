@@ -1,7 +1,5 @@
 """RAPID in place of numbers: a value in brackets, or its declaration."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from typing import Any

@@ -3,8 +3,6 @@
 `irbkin lsp` starts it; docs/guide/lsp.md shows how to set up editors.
 """
 
-from __future__ import annotations
-
 import logging
 import os
 import sys

@@ -1,7 +1,5 @@
 """RAPID text as it is typed: its words outside strings and comments, blocks, calls."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field

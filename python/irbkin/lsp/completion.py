@@ -1,7 +1,5 @@
 """Completion by the place: instructions, options, data by their types, targets by reach."""
 
-from __future__ import annotations
-
 import contextlib
 import re
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """The handlers of messages."""
 
-from __future__ import annotations
-
 from lsprotocol import types
 
 from irbkin.lsp.completion import MOST, completions, signature

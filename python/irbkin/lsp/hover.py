@@ -1,7 +1,5 @@
 """Hovers: values of data; joints, confdata and distances of moves."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any

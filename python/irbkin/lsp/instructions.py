@@ -1,7 +1,5 @@
 """RAPID's own instructions, functions, data and words."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from functools import cache

@@ -1,7 +1,5 @@
 """Findings, corrections and declarations in the words of the protocol."""
 
-from __future__ import annotations
-
 import os
 import re
 from bisect import bisect

@@ -1,7 +1,5 @@
 """The declarations of the names of a program."""
 
-from __future__ import annotations
-
 import re
 from bisect import bisect
 from dataclasses import dataclass

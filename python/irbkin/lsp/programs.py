@@ -1,7 +1,5 @@
 """The program and the arm of a file: from its backup, its folder or its options."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """Checks of the programs of open documents: one at a time in a thread, of the latest text."""
 
-from __future__ import annotations
-
 import asyncio
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor

@@ -1,7 +1,5 @@
 """Incremental reading of a program: only modules that a change affects."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field

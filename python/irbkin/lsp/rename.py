@@ -1,7 +1,5 @@
 """Whether something declared can have another name."""
 
-from __future__ import annotations
-
 from irbkin import rapid
 from irbkin.errors import IrbkinError
 from irbkin.lsp.code import before, occurrences

@@ -1,7 +1,5 @@
 """The language server: messages of the protocol in, findings out."""
 
-from __future__ import annotations
-
 import contextlib
 import traceback
 from collections.abc import Generator, Mapping, Sequence

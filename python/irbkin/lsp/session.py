@@ -1,7 +1,5 @@
 """Programs of open documents, each with its arm, and the results of their checks."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, wait

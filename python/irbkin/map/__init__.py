@@ -8,8 +8,6 @@
 (2, 1, 2)
 """
 
-from __future__ import annotations
-
 from irbkin._grids import ReachMap
 from irbkin.map._reach import orientations, reach
 from irbkin.map._store import load

@@ -1,7 +1,5 @@
 """Reach and dexterity over a grid of positions and orientations."""
 
-from __future__ import annotations
-
 from os import PathLike
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A grid of positions and orientations, solved block by block."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -11,8 +11,6 @@
 True
 """
 
-from __future__ import annotations
-
 from irbkin._grids import BaseGrid, Placement, Region
 from irbkin.placement._search import best_base
 

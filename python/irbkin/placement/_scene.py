@@ -1,7 +1,5 @@
 """Targets as they are seen from bases: which are reached, and with what margin."""
 
-from __future__ import annotations
-
 import os
 from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple

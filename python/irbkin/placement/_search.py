@@ -1,7 +1,5 @@
 """The best base: on a grid, then around the best of it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -13,8 +13,6 @@ subfigure.
 'velocity'
 """
 
-from __future__ import annotations
-
 try:
     import matplotlib as _matplotlib  # noqa: F401
 except ImportError as _missing:

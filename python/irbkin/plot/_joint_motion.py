@@ -1,7 +1,5 @@
 """Position, velocity and acceleration of the joints over time."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 from matplotlib.figure import Figure

@@ -1,7 +1,5 @@
 """Figures that show themselves: in a notebook as its last line, in a script by `show`."""
 
-from __future__ import annotations
-
 import io
 
 from matplotlib.figure import Figure

@@ -1,7 +1,5 @@
 """A plan: tool angle, joints and velocities along its path."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes

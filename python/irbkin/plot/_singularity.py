@@ -1,7 +1,5 @@
 """Distances from the singularities along a path of joint vectors."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 from matplotlib.figure import Figure

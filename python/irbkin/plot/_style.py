@@ -1,7 +1,5 @@
 """The style of the pictures: colors, line styles, the look of axes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The path of a tool in space."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -12,8 +12,6 @@ Millimeters and degrees, as the names of fields say; the robot's own numbers sta
 radians.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from os import PathLike
 from pathlib import Path

@@ -1,7 +1,5 @@
 """RAPID of a plan: its robtargets, and a module that moves through them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

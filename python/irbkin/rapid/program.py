@@ -1,7 +1,5 @@
 """Programs: modules of files that know each other, written back as they were."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterable, Iterator, Sequence

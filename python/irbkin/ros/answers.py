@@ -1,7 +1,5 @@
 """The answers of a ROS node, without ROS."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Sequence
 from typing import Any

@@ -5,8 +5,6 @@ structure with the same fields. Numbers of a sequence arrive as a tuple, a list,
 or, of `uint8[]` in ROS 1, as `bytes`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 

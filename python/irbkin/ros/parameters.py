@@ -1,7 +1,5 @@
 """The parameters of a node, the same in ROS 1 and ROS 2."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple

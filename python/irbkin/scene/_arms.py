@@ -1,7 +1,5 @@
 """Arms of scenes: the chain of a robot, its body, its postures and its motion."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import Any

@@ -1,7 +1,5 @@
 """Scenes of calibrations: the arm where it was measured, and residuals as vectors."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

@@ -1,7 +1,5 @@
 """HTML of robots, solutions, plans and trajectories for notebooks: a table and a small picture."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from html import escape
 

@@ -1,7 +1,5 @@
 """The look of scenes in pictures and windows: the direction of the eye, and colors."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from irbkin._arrays import Floats

@@ -1,7 +1,5 @@
 """Scenes of what irbkin answers."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -2,8 +2,6 @@
 or by the process that serves it; without either it draws and plays.
 """
 
-from __future__ import annotations
-
 import base64
 import json
 import re

@@ -1,7 +1,5 @@
 """Frozen dataclasses as plain data and back: numbers, texts, tuples as lists, fields as keys."""
 
-from __future__ import annotations
-
 import sys
 import types
 from dataclasses import MISSING, fields, is_dataclass

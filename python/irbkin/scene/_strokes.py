@@ -1,7 +1,5 @@
 """Arms as flat pieces on paper, each of one color."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Small pictures of arms and curves, as SVG without any other package."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 import numpy as np

@@ -13,8 +13,6 @@ True
 'joint 1 would need a velocity of 249.9998 rad/s, its bound is 3.0543 rad/s'
 """
 
-from __future__ import annotations
-
 from irbkin._core import Guard, Step
 
 __all__ = ["Guard", "Step"]

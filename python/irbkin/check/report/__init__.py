@@ -1,7 +1,5 @@
 """The report of a check, and its formats: one a file, imported on demand."""
 
-from __future__ import annotations
-
 import importlib
 import os
 from bisect import bisect

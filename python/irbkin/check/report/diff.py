@@ -1,7 +1,5 @@
 """Corrections as a unified diff, which `patch` and `git apply` read unless it has escapes."""
 
-from __future__ import annotations
-
 import difflib
 import re
 

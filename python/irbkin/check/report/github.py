@@ -1,7 +1,5 @@
 """A report as workflow commands of GitHub Actions: annotations at the lines of a pull request."""
 
-from __future__ import annotations
-
 from irbkin._words import visible
 from irbkin.check.report import Report
 from irbkin.check.report.text import heading

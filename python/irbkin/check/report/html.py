@@ -1,7 +1,5 @@
 """A report as the page of `irbkin view`, with the program and what was found in it."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

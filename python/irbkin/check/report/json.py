@@ -1,7 +1,5 @@
 """A report as JSON: the moves that were checked, and an object for each finding."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A report as JUnit's XML, which Jenkins and GitLab read: a suite a file, a case a finding."""
 
-from __future__ import annotations
-
 import re
 from collections import defaultdict
 from xml.etree.ElementTree import Element, SubElement, indent, tostring

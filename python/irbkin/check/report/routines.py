@@ -1,7 +1,5 @@
 """Summary of the routines of a report: nearest limits and singularities, unused names."""
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """A report as SARIF 2.1.0, which code hosts and editors read."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Sequence

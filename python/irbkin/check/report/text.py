@@ -1,7 +1,5 @@
 """A report to read in a terminal: a line for each finding, its source line with a caret."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 
 from irbkin._words import visible

@@ -1,7 +1,5 @@
 """ABB's Externally Guided Motion (EGM)."""
 
-from __future__ import annotations
-
 from irbkin._core import decode, encode
 from irbkin.stream.egm._controller import CYCLE, Controller
 from irbkin.stream.egm._program import rapid_module

@@ -3,8 +3,6 @@
 What is from ABB's manual, and what is assumed, is in docs/guide/egm.md.
 """
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from typing import Literal

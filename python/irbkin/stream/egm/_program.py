@@ -1,7 +1,5 @@
 """The RAPID program of a controller that follows a `Server`."""
 
-from __future__ import annotations
-
 import math
 from typing import Literal
 

@@ -1,7 +1,5 @@
 """Messages of EGM by the names of egm.proto: what is None is not in the message."""
 
-from __future__ import annotations
-
 import enum
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """One session with a controller: datagrams in, datagrams out, no socket and no clock."""
 
-from __future__ import annotations
-
 import logging
 from collections import Counter
 from collections.abc import Callable, Iterable

@@ -1,7 +1,5 @@
 """A model of a controller on a link that loses datagrams: in virtual time, or on a socket."""
 
-from __future__ import annotations
-
 import contextlib
 import random
 import socket
