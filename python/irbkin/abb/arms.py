@@ -72,8 +72,6 @@ def fitted(
 
 def _named(names: Sequence[str]) -> tuple[Robot | None, str]:
     """Return the robot of the first name of the catalog, or the reason if no name is in it."""
-    from irbkin import Robot
-
     reason = "its type is not given"
     for name in filter(None, names):
         try:

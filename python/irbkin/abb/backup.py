@@ -19,6 +19,7 @@ from irbkin.abb.tasks import Task
 from irbkin.abb.units import NOT_THERE, ExternalUnit, Pose, RobotUnit
 from irbkin.errors import InvalidModelError
 from irbkin.rapid import Program
+from irbkin.rapid.program import ModuleFile, program_of
 
 ControllerKind = Literal["S4C+", "IRC5", "OmniCore"]
 NO_AXES = (NOT_THERE,) * 6
@@ -191,8 +192,6 @@ class Backup:
         return {task.name: self._program(task) for task in self.tasks if task.modules}
 
     def _program(self, task: Task) -> Program:
-        from irbkin.rapid.program import ModuleFile, program_of
-
         named = ((str(self.origin / it.file), it.path) for it in task.modules)
         return program_of(ModuleFile(name, path.read_bytes()) for name, path in named)
 

@@ -3,6 +3,7 @@
 import math
 from functools import cached_property
 
+from irbkin import pose
 from irbkin.abb.arms import Fitted, fitted
 from irbkin.abb.carriers import Machine, check_carriers, related
 from irbkin.abb.cfg import CfgFile, Instance
@@ -64,8 +65,6 @@ class _Reader:
 
     def base(self, of: Instance) -> Pose | None:
         """Return the base frame of an instance [m]. An absent key has its default; u0 is 1."""
-        from irbkin import pose
-
         position = [of.number(f"base_frame_pos_{axis}") for axis in "xyz"]
         wxyz = [of.number(f"base_frame_orient_u{i}", float(i == 0)) for i in range(4)]
         norm = math.hypot(*wxyz)

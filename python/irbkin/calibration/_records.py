@@ -9,6 +9,7 @@ import numpy as np
 from irbkin._arrays import Floats
 from irbkin._core import Robot
 from irbkin._equality import by_value
+from irbkin.calibration._parameters import names
 
 _MILLI = 1e3
 
@@ -122,8 +123,6 @@ class Calibration(NamedTuple):
     @property
     def corrections(self) -> Floats:
         """Corrections for `nominal.with_corrections`, shape (12 + 5 n,)."""
-        from irbkin.calibration._parameters import names
-
         index = {name: i for i, name in enumerate(names(self.nominal.dof))}
         corrections = np.zeros(len(index))
         for parameter in self.parameters:

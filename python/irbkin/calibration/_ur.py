@@ -11,7 +11,7 @@ import re
 import numpy as np
 
 from irbkin._arrays import Floats
-from irbkin._core import Robot
+from irbkin._core import Robot, pose, to_xyz_euler_zyx
 from irbkin.errors import InvalidModelError
 
 DELTAS = ("delta_theta", "delta_a", "delta_d", "delta_alpha")
@@ -38,8 +38,6 @@ def load_ur(robot: Robot, text_or_path: str | os.PathLike[str]) -> Robot:
             arm is not near `robot`.
         OSError: The file cannot be read.
     """
-    from irbkin._core import Robot as Made
-
     if robot.dof != 6 or "three parallel axes" not in robot.structure:
         raise InvalidModelError(
             f"robot is {robot!r}, it must be an arm of Universal Robots, such as Robot('UR5e')"
@@ -47,7 +45,7 @@ def load_ur(robot: Robot, text_or_path: str | os.PathLike[str]) -> Robot:
     text = _text(text_or_path)
     frames = _of_deltas(robot, text) if "delta_theta" in text else _of_poses(text)
     velocity = robot.max_velocity
-    bare = Made.from_urdf(_urdf(frames, robot.limits, velocity), name=robot.name)
+    bare = Robot.from_urdf(_urdf(frames, robot.limits, velocity), name=robot.name)
     found = bare.with_base(robot.base).with_tool(robot.tool)
     off = np.linalg.norm(found.fk(np.zeros(6))[:3, 3] - robot.fk(np.zeros(6))[:3, 3])
     if off > SAME_ARM * np.abs(robot.mdh[:, 1:3]).sum():
@@ -120,16 +118,12 @@ def _of_poses(text: str) -> list[Floats]:
 
 
 def _rotation(roll: float, pitch: float, yaw: float) -> Floats:
-    from irbkin._core import pose
-
     frame: Floats = pose([0.0, 0.0, 0.0], euler_zyx=[yaw, pitch, roll])
     return frame
 
 
 def _urdf(frames: list[Floats], limits: Floats, velocity: Floats | None) -> str:
     """The chain as URDF: frames between axes along z, the last one of the tool."""
-    from irbkin._core import to_xyz_euler_zyx
-
     lines = ['<robot name="ur"><link name="l0"/>']
     for joint, frame in enumerate(frames, 1):
         xyz, zyx = to_xyz_euler_zyx(frame)

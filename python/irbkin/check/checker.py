@@ -7,6 +7,8 @@ from functools import cache
 from typing import Any
 
 from irbkin import Cell, rapid
+from irbkin._cell import read
+from irbkin._core import Checked, check_codes
 from irbkin.check.codes import NOT_CHECKED, REASONS, UNREAD, selected
 from irbkin.check.findings import Finding, of_file
 from irbkin.check.jobs import Job
@@ -29,9 +31,6 @@ class Checker:
     """
 
     def __init__(self, options: Mapping[str, Any], settings: Settings) -> None:
-        from irbkin._cell import read
-        from irbkin._core import check_codes
-
         is_strict = bool(options.get("strict"))
         codes = selected(options.get("select"), options.get("ignore", ()), is_strict=is_strict)
         step = options.get("step", 5.0)
@@ -50,8 +49,6 @@ class Checker:
 
     def check(self, job: Job) -> tuple[rapid.Checked, list[Finding]]:
         """Check a program: return its moves, none if its arm is unknown, and the findings."""
-        from irbkin._core import Checked
-
         program = job.program
         found = [of_file(own) for own in program.findings if own.code in self.wanted(own.file)]
         if job.robot is None:

@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from irbkin._core import check_codes
 from irbkin.errors import IrbkinError
 
 UNREAD = "E002"
@@ -80,8 +81,6 @@ class Rule(NamedTuple):
 @cache
 def codes() -> dict[str, Code]:
     """Every code, with the codes of files first."""
-    from irbkin._core import check_codes
-
     return {row[0]: Code(*row) for row in (*FILES, *TOOLS, *check_codes())}
 
 

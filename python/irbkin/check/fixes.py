@@ -12,6 +12,7 @@ from irbkin.check.findings import Finding
 from irbkin.check.jobs import Job
 from irbkin.errors import IrbkinError
 from irbkin.rapid import Checked, ModuleFile
+from irbkin.rapid.program import program_of
 
 PASSES = 10
 """Iterations of correction and check, beyond one for each file."""
@@ -90,8 +91,6 @@ def _edits(checks: Checks, refused: Collection[str]) -> Edits:
 
 def _edited(job: Job, edits: Edits) -> Job:
     """A job with its program edited."""
-    from irbkin.rapid.program import program_of
-
     program = job.program
     files = [
         replace(file, content=file.encoded(edited(module.source, edits.get(file.path, {}))))

@@ -6,12 +6,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from irbkin import Robot
-from irbkin.abb import Backup, Task
-from irbkin.abb.external import UnitRow
+from irbkin.abb import Backup, Task, load_backup
+from irbkin.abb.archives import archive_of
+from irbkin.abb.external import UnitRow, unit_rows
+from irbkin.abb.roots import PARTS, backups_of
 from irbkin.check.findings import Finding, of_backup
 from irbkin.check.settings import Settings
 from irbkin.errors import IrbkinError
 from irbkin.rapid import FileFinding, ModuleFile, Program
+from irbkin.rapid.program import ENDINGS, files_of, program_of
 
 
 @dataclass(frozen=True)
@@ -37,8 +40,6 @@ class Job:
 
 def job_of_files(robot: Robot, given: Sequence[str | ModuleFile], settings: Settings) -> Job:
     """Return the job of files and folders, without excluded files."""
-    from irbkin.rapid.program import ENDINGS, files_of, program_of
-
     files: list[ModuleFile] = []
     wrong: list[FileFinding] = []
     for name in given:
@@ -52,8 +53,6 @@ def job_of_files(robot: Robot, given: Sequence[str | ModuleFile], settings: Sett
 
 def job_of_task(backup: Backup, task: Task, program: Program) -> Job:
     """Return the job of a task of a backup; without a robot if the task moves no known arm."""
-    from irbkin.abb.external import unit_rows
-
     unit = backup.robots.get(task.robot or "")
     if task.moves is False or unit is None or unit.robot is None:
         return Job(None, program, task.name)
@@ -70,8 +69,6 @@ def jobs_of_backup(path: str, names: Sequence[str] = ()) -> tuple[list[Job], lis
         names: Files or folders: tasks without a file in them are left out, and of the others no
             other file is corrected.
     """
-    from irbkin.abb import load_backup
-
     backup = load_backup(path)
     programs = [(task, backup.programs[task.name]) for task in backup.tasks if task.modules]
     given = _given(backup, names)
@@ -110,8 +107,6 @@ def backup_of(names: Sequence[str]) -> str | None:
     Raises:
         IrbkinError: They are several.
     """
-    from irbkin.abb.roots import backups_of
-
     found: dict[str, str] = {}
     for name in names:
         roots = [name] if is_backup(name) else list(map(str, backups_of(Path(name).absolute())))
@@ -127,9 +122,6 @@ def backup_of(names: Sequence[str]) -> str | None:
 
 def is_backup(name: str) -> bool:
     """Whether a path is a backup, or leads into one in an archive."""
-    from irbkin.abb.archives import archive_of
-    from irbkin.abb.roots import PARTS
-
     if archive_of(Path(name)) is not None:
         return True
     if not os.path.isdir(name):

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from irbkin import catalog
 from irbkin._arm_options import is_arm_file
 from irbkin._files import ways
 from irbkin.check.codes import codes, meant
@@ -174,8 +175,6 @@ KEYS: dict[str, Callable[[Entry, str], Any]] = {
 
 def schema() -> dict[str, Any]:
     """Return the JSON schema of `irbkin.toml`, with the arms, the codes and the formats."""
-    from irbkin import catalog
-
     found: dict[str, Any] = json.loads(SCHEMA.read_text(encoding="utf-8"))
     keys = found["properties"]["check"]["properties"]
     keys["robot"]["anyOf"][0]["enum"] = [*catalog()]

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 from functools import cache
 from typing import Any
 
-from irbkin import Robot
+from irbkin import Robot, catalog_entry
 from irbkin.check.codes import TOOLS
 from irbkin.errors import UnknownRobotError
 from irbkin.rapid import Finding, Program
@@ -22,9 +22,6 @@ def tool_findings(
     program: Program, robot: Robot, cell: str, shapes: Collection[str]
 ) -> Iterator[Finding]:
     """Yield findings on the loads that a program uses, and on tools without a shape in a cell."""
-    from irbkin import catalog_entry
-    from irbkin.rapid import Finding
-
     try:
         payload = catalog_entry(robot.name).payload or math.inf
     except UnknownRobotError:

@@ -13,6 +13,7 @@ from irbkin.lsp.instructions import NOWHERE, known
 from irbkin.lsp.names import ROUTINES, Declared, Parameter, parameters
 from irbkin.lsp.session import Result
 from irbkin.lsp.text import Text
+from irbkin.rapid import JointTarget, calc_targets
 
 KINDS = {
     "PROC": types.CompletionItemKind.Function,
@@ -116,8 +117,6 @@ def _item(it: Declared, module: int, fault: str | None) -> types.CompletionItem:
 
 def _faults(result: Result, module: int, line: int, seen: Mapping[str, Declared]) -> dict[str, str]:
     """Why the arm does not reach targets, with the tool of the move before a line, by names."""
-    from irbkin.rapid import JointTarget, calc_targets
-
     robot, modules, found = result.job.robot, result.job.program.modules, dict[str, str]()
     if robot is None:
         return found

@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping
 from functools import cache
 
+from irbkin._core import instructions
 from irbkin.lsp.names import Declared
 
 NOWHERE = -1
@@ -40,8 +41,6 @@ def known() -> Mapping[str, Declared]:
     """Return RAPID's own instructions and functions with their headers, data, types ("type") and
     words ("keyword"), by names in lower case.
     """
-    from irbkin._core import instructions
-
     found = {}
     types = {name: kind for kind, names in RETURNED.items() for name in names.split()}
     for name, kind, arguments in instructions():

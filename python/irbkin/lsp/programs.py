@@ -7,13 +7,15 @@ from pathlib import Path
 from typing import Any
 
 from irbkin._arm_options import robot_of
-from irbkin.abb import Backup, Task
+from irbkin.abb import Backup, Task, load_backup
+from irbkin.abb.roots import backup_above
 from irbkin.check.checker import Checker
 from irbkin.check.jobs import Job, job_of_task
 from irbkin.check.settings import Settings, options_of, settings_of
 from irbkin.errors import IrbkinError
 from irbkin.lsp.session import Session
 from irbkin.rapid import Program
+from irbkin.rapid.program import ENDINGS, FOLDERS, modules_in
 
 NO_ARM = (
     'no arm is known for {}, only its text is checked: write robot = "IRB ..." into [check] of '
@@ -48,8 +50,6 @@ class Programs:
     def _sessions(
         self, path: str, options: Mapping[str, Any], settings: Settings
     ) -> Sequence[Session]:
-        from irbkin.abb.roots import backup_above
-
         checker = Checker(options, settings)
         if "robot" in options:
             robot = robot_of(options, lambda words: print(f"irbkin: {words}", file=sys.stderr))
@@ -64,8 +64,6 @@ class Programs:
 
     def _in_backup(self, root: Path, path: str, checker: Checker) -> Sequence[Session]:
         """The sessions of the tasks of a backup that contain a file."""
-        from irbkin.abb import load_backup
-
         if root not in self._backups:
             self._backups[root] = load_backup(root)
         backup = self._backups[root]
@@ -99,8 +97,6 @@ def _no_arm(backup: Backup, task: Task) -> str:
 
 def _paths(path: str, settings: Settings) -> tuple[list[str], list[str]]:
     """The files of the program of a file outside backups, and notes on them."""
-    from irbkin.rapid.program import ENDINGS, FOLDERS, modules_in
-
     folder, name = os.path.split(path)
     if not os.path.isabs(path) or not path.lower().endswith(ENDINGS):
         return [path], []

@@ -4,6 +4,8 @@ import math
 from collections import Counter
 from collections.abc import Sequence
 
+import numpy as np
+
 from irbkin import Robot
 from irbkin._files import shown
 from irbkin.check.codes import UNUSED
@@ -60,8 +62,6 @@ def unused(report: Report) -> str:
 
 def _nearest(robot: Robot | None, moves: Sequence[CheckedMove]) -> tuple[str, str]:
     """The nearest limit and the nearest singularity of the targets of moves, each with its line."""
-    import numpy as np
-
     if robot is None or not moves:
         return "", ""
     q = np.array([move.q for move in moves])

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
+from irbkin import __version__
 from irbkin.check.codes import codes, rules
 from irbkin.check.findings import Finding
 from irbkin.check.report import Report
@@ -17,8 +18,6 @@ REGION = ("startLine", "startColumn", "endLine", "endColumn")
 
 def render(report: Report) -> str:
     """Return the log."""
-    from irbkin import __version__
-
     driver = {"name": "irbkin", "version": __version__, "rules": [_rule(code) for code in rules()]}
     run = {
         "tool": {"driver": driver},
