@@ -69,9 +69,8 @@ def _of_deltas(robot: Robot, text: str) -> list[Floats]:
     frames = [np.eye(4)]
     for (theta, a, d, alpha), delta in zip(_standard(robot), np.transpose(deltas), strict=True):
         theta, a, d, alpha = np.array([theta, a, d, alpha]) + delta
-        turn = _rotation(0.0, 0.0, theta)
-        shift = np.eye(4)
-        shift[:3, :3] = _rotation(alpha, 0.0, 0.0)[:3, :3]
+        turn = pose(np.zeros(3), euler_zyx=[theta, 0.0, 0.0])
+        shift = pose(np.zeros(3), euler_zyx=[0.0, 0.0, alpha])
         shift[:3, 3] = a, 0.0, d
         frames.append(turn @ shift)
     return frames
@@ -111,15 +110,10 @@ def _of_poses(text: str) -> list[Floats]:
             if found is None:
                 raise InvalidModelError(f"{link} of the calibration has no number {field}")
             values.append(float(found[1]))
-        frame = _rotation(*values[3:])
+        frame = pose(np.zeros(3), euler_zyx=values[:2:-1])
         frame[:3, 3] = values[:3]
         frames.append(frame)
     return [*frames, np.eye(4)]
-
-
-def _rotation(roll: float, pitch: float, yaw: float) -> Floats:
-    frame: Floats = pose([0.0, 0.0, 0.0], euler_zyx=[yaw, pitch, roll])
-    return frame
 
 
 def _urdf(frames: list[Floats], limits: Floats, velocity: Floats | None) -> str:
