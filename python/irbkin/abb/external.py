@@ -12,12 +12,7 @@ axis from 0, its frame seen from the axis before it [m], and whether it turns.""
 
 
 def unit_rows(backup: Backup, robot: str) -> list[UnitRow]:
-    """Return the external units of a backup for a robot of it.
-
-    Args:
-        backup: The backup.
-        robot: Name of the robot's unit.
-    """
+    """Return the external units of a backup for a robot of it."""
     carrier = backup.robots[robot].carried_by
     rows = []
     for unit in backup.units.values():

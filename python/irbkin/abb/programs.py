@@ -37,14 +37,7 @@ class TaskModule:
 def modules_in(
     folder: Folder, path: Path | None, loaded: LoadedTask | None, backinfo: str
 ) -> tuple[list[TaskModule], list[Finding]]:
-    """Return the modules in the folder of a task, in the order of backinfo.txt, and the missing.
-
-    Args:
-        folder: The backup.
-        path: RAPID/TASKn.
-        loaded: The task of backinfo.txt.
-        backinfo: Path of backinfo.txt in the backup.
-    """
+    """Return the modules in the folder of a task, as backinfo.txt orders them, and the missing."""
     listed = {it.path.lower(): it for it in loaded.modules} if loaded else {}
     order = {key: place for place, key in enumerate(listed)}
     found: list[tuple[int, int, str, TaskModule]] = []

@@ -142,9 +142,6 @@ def checked_output(output: str | PathLike[str]) -> Path:
 def load(path: str | PathLike[str]) -> ReachMap:
     """Read a map that `reach` has written.
 
-    Args:
-        path: The file.
-
     Raises:
         OSError: The file cannot be read.
         IrbkinError: It is not a map.

@@ -135,12 +135,7 @@ def files_of(path: str, findings: list[FileFinding]) -> list[ModuleFile]:
 
 
 def program_of(files: Iterable[ModuleFile], findings: Iterable[FileFinding] = ()) -> Program:
-    """Return the program of files that are read.
-
-    Args:
-        files: The files.
-        findings: What is known to be wrong with them.
-    """
+    """Return the program of files that are read; findings on them as before."""
     files = list(files)
     return program_from(files, read_modules([file.content for file in files]), findings)
 
