@@ -80,11 +80,8 @@ class Declared:
 class Names:
     """The declarations of a program."""
 
-    def __init__(
-        self, program: Program, known: dict[int, tuple[Module, list[Declared]]] | None = None
-    ) -> None:
-        self.program = program
-        self._known = {} if known is None else known
+    def __init__(self, program: Program, known: dict[int, tuple[Module, list[Declared]]]) -> None:
+        self.program, self._known = program, known
         """The declarations of modules that are perhaps the same as before."""
 
     @cached_property

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from irbkin._arrays import Floats, as_array, evenly
 from irbkin.errors import InvalidPoseError
@@ -76,11 +77,5 @@ def _view(axes: Any, points: Floats, size: float) -> None:
         axis.set_label_text(f"{name} [m]", fontsize=FONT)
         axis.labelpad = PAD
         axis.set_tick_params(labelsize=FONT - 1)
-        axis.set_major_locator(_ticks())
-
-
-def _ticks() -> Any:
-    """Few ticks: the sides of a box are short on paper."""
-    from matplotlib.ticker import MaxNLocator
-
-    return MaxNLocator(4)
+        # Few ticks: the sides of a box are short on paper.
+        axis.set_major_locator(MaxNLocator(4))

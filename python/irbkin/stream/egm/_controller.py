@@ -45,7 +45,6 @@ class Controller:
         comm_timeout: float = 1.0,
         max_speed: float = math.inf,
         delay: float = 0.2,
-        seqno: int = 0,
     ) -> None:
         """Start at rest.
 
@@ -60,13 +59,12 @@ class Controller:
             comm_timeout: CommTimeout [s].
             max_speed: MaxSpeedDeviation [rad/s].
             delay: From the first answer to the motion, as between EGMActJoint and EGMRunJoint [s].
-            seqno: The sequence number before the first.
         """
         self.robot, self.cycle, self.gain, self.ramp = robot, cycle, gain, ramp
         self.q: Floats = np.array(q, dtype=np.float64)
         self.dq = np.zeros_like(self.q)
         self.state: Literal["DISCONNECTED", "CONNECTED", "RUNNING"] = "DISCONNECTED"
-        self.seqno, self.ticks = seqno, 0
+        self.seqno, self.ticks = 0, 0
         self._axes = axes_of(robot)
         self._speeds = np.full(robot.dof, max_speed)
         if robot.max_velocity is not None:
