@@ -4,12 +4,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-venv=.venv
+venv=${VENV:-.venv}
 rust() { cargo test -p irbkin -p irbkin-tests --lib --tests --quiet --release -- "$@" --nocapture; }
 serial() { rust "$@" --test-threads=1; }
 tests() { "$venv/bin/python" -m pytest --quiet "$@"; }
-package() { make --no-print-directory package; }
-peers() { make --no-print-directory .venv-peers/.irbkin-built; }
+package() { make --no-print-directory "$venv/.irbkin-${PROFILE:-develop}" "$venv/.check"; }
+peers() { make --no-print-directory .venv-peers/.irbkin; }
 released() { make --no-print-directory "$venv/.irbkin-release"; }
 
 # A command on each instruction set of this processor; the widest is the default.
@@ -88,14 +88,19 @@ no-std() { ## Laws and unit tests without the standard library
         rapid:: rapid_calc::
 }
 
-times() { ## Times of single poses, batches, Python's calls, motions, plans, a RAPID module
-    local bench
+times() { ## Times of single poses and batches, of `calls`, and of a pose in C
     released
     cargo bench --bench one_pose --bench batch
-    for bench in $BENCHES; do
+    calls
+    make --no-print-directory bench-capi
+}
+
+calls() { ## Times of Python's calls, motions, plans, a RAPID module; QUICK=1 few of each
+    local bench
+    for bench in python_calls motion motion_limits plan cells free_motion stream reach_map \
+        rapid_module rapid_check command lsp; do
         "$venv/bin/python" "benches/$bench.py"
     done
-    make --no-print-directory bench-capi
 }
 
 stages() { ## Time of a pose by stages, with perf; SETS="avx2 avx512"
@@ -109,7 +114,7 @@ instructions() { ## Instructions of a call, with valgrind; WRITE=1 records them
 
 ros-starts() { ## COUNT (200) nodes of each ROS ended with SIGTERM: none may hang
     package
-    tests/ros/test.sh --starts "${COUNT:-200}" "$PWD/$venv/bin/python"
+    tests/ros/test.sh --starts "${COUNT:-200}"
 }
 
 readers() { ## to_urdf of every arm in eleven programs that read URDFs: wrong, farthest

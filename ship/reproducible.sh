@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds sdist and wheel of the last commit twice, in clones of different depth and with two cargo
-# homes, and compares them byte by byte: ship/reproducible.sh. VENV has the tools.
+# homes, and compares them byte by byte: ship/environment.sh ship/reproducible.sh
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 . ship/python_tests.sh
 root=$PWD/target/aarch64
 site=$PWD/target/aarch64-site
-compgen -G "dist/irbkin-*_aarch64.whl" >/dev/null || ship/wheel.sh dist aarch64-unknown-linux-gnu
+compgen -G "dist/irbkin-*_aarch64.whl" >/dev/null || ship/build.sh dist aarch64-unknown-linux-gnu
 wheel=$(echo dist/irbkin-*_aarch64.whl)
 
 if [ ! -d "$root" ]; then

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 . ship/debian.sh
 root=$PWD/target/musl
 site=$PWD/target/musl-site
-compgen -G "dist/irbkin-*musllinux*x86_64.whl" >/dev/null || ship/wheel.sh dist x86_64-unknown-linux-musl
+compgen -G "dist/irbkin-*musllinux*x86_64.whl" >/dev/null || ship/build.sh dist x86_64-unknown-linux-musl
 wheel=$(echo dist/irbkin-*musllinux*x86_64.whl)
 
 if [ ! -x "$root/python/python" ]; then

@@ -49,7 +49,7 @@ run_wine "$program" --quiet --test-threads 2 --include-ignored
 
 root=$PWD/target/windows-python
 site=$PWD/target/windows-site
-compgen -G "dist/irbkin-*win_amd64.whl" >/dev/null || ship/wheel.sh dist $target
+compgen -G "dist/irbkin-*win_amd64.whl" >/dev/null || ship/build.sh dist $target
 wheel=$(echo dist/irbkin-*win_amd64.whl)
 version=$(python -c 'import sys; print("%d.%d" % sys.version_info[:2])')
 # Wine 8 lacks functions of complex numbers that NumPy 2 calls.

@@ -1,33 +1,40 @@
 #!/usr/bin/env bash
-# Builds the wheel of a target into a folder: ship/wheel.sh FOLDER TARGET. zig links for each
-# target, so that a wheel asks for no newer C library than its tag says. Exit code 77 where the
-# compiler for other platforms cannot be had, with the reason.
+# Builds the wheel into dist, checks its size and paths, and tries it: the first example, and the
+# command `irbkin` as pip, uv and pipx install it: ship/environment.sh ship/wheel.sh
 set -euo pipefail
-folder=$1 target=$2
-options=(--release --locked --quiet --compression-level 9 --target "$target" --out "$folder")
-case $target in
-    # The installed compiler serves.
-    x86_64-unknown-linux-gnu) ;;
-    # musl is in the system, not in the wheel.
-    *-musl) export RUSTFLAGS="${RUSTFLAGS:-} -C target-feature=-crt-static" ;;&
-    *)
-        run=ship/cross.sh
-        options+=(-Zbuild-std=std,panic_unwind)
-        ;;
-esac
-case $target in
-    *-linux-gnu) options+=(--zig --compatibility manylinux_2_17) ;;
-    *-linux-musl) options+=(--zig) ;;
-    *-windows-gnu)
-        # With --zig, maturin 1.16 exports `PyInit_irbkin._core`, which does not exist. Called as
-        # dlltool, it is zig's.
-        tools=$PWD/target/ship/windows
-        mkdir -p "$tools"
-        ln -sf "$(command -v maturin)" "$tools/x86_64-w64-mingw32-dlltool"
-        printf '#!/bin/sh\nexec maturin zig cc -- -target x86_64-windows-gnu "$@"\n' >"$tools/zigcc"
-        chmod +x "$tools/zigcc"
-        export PATH=$tools:$PATH CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER=$tools/zigcc
-        ;;
-esac
-export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-target/ship}
-exec tests/step.sh "Build the wheel of $target" ${run:-} maturin build "${options[@]}"
+rm -rf dist/venv dist/irbkin-*.whl target/wheel
+maturin build --release --quiet --out target/wheel
+ship/documented.sh target/wheel/irbkin-*.whl \
+    maturin build --release --quiet --compression-level 9 --out dist
+wheel=$(realpath dist/irbkin-*.whl)
+python tests/check_wheel.py "$wheel"
+
+venv=$PWD/dist/venv
+install() { tests/retry.sh "$venv/bin/pip" install --quiet --disable-pip-version-check "$@"; }
+"$PYTHON" -m venv "$venv"
+install "$wheel"
+(cd dist && "$venv/bin/python" ../examples/01_solve_a_pose.py >/dev/null)
+"$venv/bin/irbkin" ik "IRB 2600-12/1.65" --xyz 850 320 640 >/dev/null
+
+# The module of README: it has an error, so the exit code is 1.
+check() {
+    local code=0 printed
+    printed=$("$@" check --output-format concise --robot "IRB 2600-12/1.65" examples/pick_and_place.mod) || code=$?
+    if [ "$code" != 1 ] || [[ $printed != *"Found 1 error, 2 notes." ]]; then
+        printf '%s: exit code %s\n%s\n' "$1" "$code" "$printed" >&2
+        exit 1
+    fi
+}
+
+echo "== the command by pip, uv and pipx" >&2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+check "$venv/bin/irbkin"
+
+install uv pipx
+export UV_CACHE_DIR=$folder/cache UV_TOOL_DIR=$folder/uv UV_TOOL_BIN_DIR=$folder/bin
+tests/retry.sh "$venv/bin/uv" tool install --quiet --python "$venv/bin/python" "$wheel"
+check "$folder/bin/irbkin"
+
+export PIPX_HOME=$folder/pipx
+check "$venv/bin/pipx" run --quiet --python "$venv/bin/python" --spec "$wheel" irbkin

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Tests the C interface as a user has it: the header, the installed library in C and C++, plain, in
-# valgrind and with gcc's address sanitizer, and the examples. What is missing is skipped with the
-# reason.
+# Runs the tests of crates/irbkin-capi, and tests the C interface as a user has it: the header, the
+# installed library in C and C++, plain, in valgrind and with gcc's address sanitizer, and the
+# examples. What is missing is skipped with the reason.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 root=$PWD prefix=$PWD/target/capi work=$PWD/target/capi-test
@@ -12,6 +12,7 @@ fail() {
     exit 1
 }
 
+tests/step.sh "Tests of crates/irbkin-capi" cargo test --quiet -p irbkin-capi
 code=0
 tests/step.sh "irbkin.h is of the source" crates/irbkin-capi/header.sh || code=$?
 case $code in

@@ -1,17 +1,16 @@
 #!/usr/bin/env bash
-# Installs ROS 1 and ROS 2 and checks the nodes: tests/ros/test.sh [--starts COUNT] PYTHON
-# PYTHON makes the environment of ROS 2. With --starts, nodes are started and ended COUNT times.
+# Installs ROS 1 and ROS 2, each in a folder of its own, and checks the nodes: tests/ros/test.sh
+# [--starts COUNT]. VENV has irbkin. With --starts, nodes are started and ended COUNT times.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 starts=
-if [ "$1" = --starts ]; then
+if [ "${1:-}" = --starts ]; then
     starts=$2
-    shift 2
 fi
 
 for ros in ros1 ros2; do
     code=0
-    tests/step.sh "Install $ros, build the workspace" "tests/ros/install_$ros.sh" "$1" || code=$?
+    tests/step.sh "Install $ros, build the workspace" "tests/ros/install_$ros.sh" "$VENV/bin/python" || code=$?
     if [ "$code" = 77 ]; then
         echo "SKIPPED: the node of $ros was not checked (the reason is above)"
         continue

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Builds the crate and the sdist, unpacks each into an empty folder, and runs its examples there.
-# The argument is the folder of Python and maturin. Downloads what pip and cargo need.
+# Downloads what pip and cargo need: ship/environment.sh ship/packages.sh
 set -euo pipefail
-bin=$1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
@@ -23,8 +22,8 @@ fi
 )
 
 echo "The sdist"
-"$bin/maturin" sdist --out "$folder/dist"
-"$bin/python" -m venv "$folder/venv"
+maturin sdist --out "$folder/dist"
+"$PYTHON" -m venv "$folder/venv"
 "$folder/venv/bin/pip" install --quiet --disable-pip-version-check "$folder"/dist/irbkin-*.tar.gz
 mkdir "$folder/sdist"
 tar xzf "$folder"/dist/irbkin-*.tar.gz -C "$folder/sdist"
