@@ -10,7 +10,7 @@ target=${CARGO_TARGET_DIR:-target}
 flags="-Zunstable-options -Cpanic=immediate-abort -Zlocation-detail=none -Ctarget-feature=+simd128"
 CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$PWD/target/compiler/wasm-ld RUSTFLAGS=$flags \
     ship/cross.sh tests/step.sh "Build irbkin for WebAssembly" \
-    cargo build --quiet --locked -p irbkin-page --profile wasm --target wasm32-unknown-unknown \
+    cargo rustc --quiet --locked -p irbkin-page --lib --crate-type cdylib,rlib --profile wasm --target wasm32-unknown-unknown \
     --target-dir "$target" -Zbuild-std=std,panic_abort -Zbuild-std-features=optimize_for_size "$@"
 mkdir -p target/page
 cp "$target/wasm32-unknown-unknown/wasm/irbkin_page.wasm" target/page/irbkin.wasm
