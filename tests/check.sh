@@ -15,8 +15,10 @@ rust() {
     step "clippy without urdf and serde" cargo clippy --quiet -p irbkin --lib --no-default-features --features std -- -D warnings
     step "the tails compile" cargo check --quiet --manifest-path benches/tails/Cargo.toml --target-dir target/tails
     step "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps -p irbkin -p irbkin-abb --features irbkin/serde
-    step "Rust documentation tests" env CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_PROFILE_DEV_DEBUG=false CARGO_INCREMENTAL=0 \
-        cargo test -p irbkin -p irbkin-abb -p irbkin-page --doc --features irbkin/serde
+    # Documentation tests, benches and examples share a build that is quick to make: they need not be
+    # fast. `make test-page` has the documentation test of irbkin-page, which knows no std.
+    export CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_PROFILE_DEV_DEBUG=false CARGO_INCREMENTAL=0
+    step "Rust documentation tests" cargo test --doc
     step "benches run" cargo test --bench one_pose --bench batch --bench instructions --bench microsecond -- --test
     step "examples in Rust run" bash -euc 'for example in examples/*.rs; do
         cargo run --quiet --example "$(basename "$example" .rs)" >/dev/null
