@@ -76,8 +76,7 @@ check-rust:
 	@tests/check.sh rust
 
 speed: | toolchains ## Criterion: every solution of a pose below 1 us; valgrind: no call by 3 % more instructions
-	$(STEP) "every solution of a pose is below a microsecond" cargo bench --quiet --bench microsecond
-	$(STEP) "instructions of single calls" $(PYTHON) benches/instructions.py --check
+	@benches/speed.sh
 
 $(PEERS)/.irbkin: benches/peers/requirements.txt $(RUST_SOURCES) $(wildcard python/irbkin/*) pyproject.toml | toolchains
 	@benches/peers/install.sh $(PEERS)
