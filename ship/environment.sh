@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs a command with the tools of VENV and with what determines the bytes of a release:
-# ship/environment.sh COMMAND... The extension in VENV, the wheel and the C library have the same
-# flags: one build serves.
+# ship/environment.sh COMMAND... The extension in VENV and the wheel have the same flags: one build
+# serves both. The C library, too, names no folders of this machine.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 VENV=${VENV:-.venv}
