@@ -28,7 +28,7 @@ $(VENV)/.made: | toolchains
 	@touch $@
 
 # A dependency group of pyproject.toml.
-$(VENV)/.%: $(VENV)/.made pyproject.toml
+$(VENV)/.group-%: $(VENV)/.made pyproject.toml
 	$(STEP) "Install the packages of '$*' into $(VENV)" tests/venv.sh $*
 	@touch $@
 
@@ -42,12 +42,12 @@ run: $(BUILT) ## Solve a pose of an IRB 2600 and show all solutions
 
 test: | toolchains ## Run the laws in Rust, and the tests in Python that need no extras
 	@echo "Builds irbkin for development and runs its laws: about ten minutes on two cores."
-	@$(MAKE) --no-print-directory $(BUILT) $(VENV)/.test
+	@$(MAKE) --no-print-directory $(BUILT) $(VENV)/.group-test
 	@tests/laws.sh all
 
 quick: $(VENV)/.quick-rust $(VENV)/.quick-python ## Test what changed since the last time, a tenth of the poses
 $(VENV)/.quick-rust: $(BUILT) $(shell find tests -name '*.rs')
-$(VENV)/.quick-python: $(BUILT) $(VENV)/.test $(shell find python tests/python -name '*.py')
+$(VENV)/.quick-python: $(BUILT) $(VENV)/.group-test $(shell find python tests/python -name '*.py')
 $(VENV)/.quick-%:
 	@tests/laws.sh quick-$*
 	@touch $@
@@ -56,11 +56,11 @@ test-sets: | toolchains ## Run unit tests of kinematics, and the laws on each in
 	@tests/laws.sh sets
 
 # Where everything can be installed, as in .ci/run, no test may be skipped.
-test-oracles: $(BUILT) $(VENV)/.check ## Install extras and reference packages; run the tests that need them
+test-oracles: $(BUILT) $(VENV)/.group-check ## Install extras and reference packages; run the tests that need them
 	$(STEP) "Python tests with extras and references" $(RUN) -m pytest -n auto --dist worksteal -m extra --no-skips
 
 # What cannot be installed is skipped, with the reason.
-test-recipes: $(BUILT) $(VENV)/.check ## Install JAX, Polars, xarray, rerun; run the recipes
+test-recipes: $(BUILT) $(VENV)/.group-check ## Install JAX, Polars, xarray, rerun; run the recipes
 test-ros: $(BUILT) ## Install ROS 1 and ROS 2, build the workspace, check both nodes
 test-page: $(BUILT) ## Test the page: crates/irbkin-page, its WebAssembly in Node, all of it in Chromium
 test-capi: capi ## Test the C interface: crates/irbkin-capi, C and C++ programs, in valgrind too
@@ -69,7 +69,7 @@ test-recipes test-ros test-page test-capi: test-%:
 
 # What is of Rust alone has another profile than the extension: they compile at the same time.
 check: | toolchains ## Check format, lints, types, stubs, docs, benches and examples
-	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.check check-rust
+	@$(MAKE) --no-print-directory -j3 $(BUILT) $(VENV)/.group-check check-rust
 	@tests/check.sh python
 
 check-rust:
@@ -94,7 +94,7 @@ evidence: | toolchains ## Run a suite of long tests or counts: SUITE=...
 	@benches/evidence.sh $(SUITE)
 
 soak: ## Laws with other random numbers for SECONDS (600), on from the last seed; SEED=
-fuzz: $(BUILT) $(VENV)/.check ## INPUTS (20,000) broken files of each kind for every reader, for SECONDS as soak
+fuzz: $(BUILT) $(VENV)/.group-check ## INPUTS (20,000) broken files of each kind for every reader, for SECONDS as soak
 soak fuzz: | toolchains
 	@tests/seeds.sh $@ $(or $(SECONDS),600)
 
@@ -105,18 +105,18 @@ page: $(BUILT) ## Build the page, one HTML file with irbkin as WebAssembly: targ
 capi: | toolchains ## Build the C library, install it with headers, pkg-config and CMake files: target/capi
 	@ship/environment.sh crates/irbkin-capi/install.sh
 
-docs: $(BUILT) $(VENV)/.check $(VENV)/.site ## Write generated tables and transcripts, draw the pictures, build cargo doc and the site
+docs: $(BUILT) $(VENV)/.group-check $(VENV)/.group-site ## Write generated tables and transcripts, draw the pictures, build cargo doc and the site
 	@docs/write.sh
 
-site: $(BUILT) $(VENV)/.site ## Build the site of README, docs, arms and docstrings: target/site/html
+site: $(BUILT) $(VENV)/.group-site ## Build the site of README, docs, arms and docstrings: target/site/html
 	$(RUN) docs/site/build.py
 
 # The files of a release, with what determines their bytes.
 wheel: $(VENV)/.made ## Build the wheel, check its size and paths, and try it
 packages: $(VENV)/.made ## Build the crate and the sdist, and run their unpacked examples
-ship: $(VENV)/.ship ## Build sdist and wheels of TARGETS into dist, check them, print a table
-test-platforms: $(VENV)/.ship ## Test under wine, under qemu aarch64 and on musl
-reproducible: $(VENV)/.ship ## Build sdist and wheel twice, in different folders: the same bytes
+ship: $(VENV)/.group-ship ## Build sdist and wheels of TARGETS into dist, check them, print a table
+test-platforms: $(VENV)/.group-ship ## Test under wine, under qemu aarch64 and on musl
+reproducible: $(VENV)/.group-ship ## Build sdist and wheel twice, in different folders: the same bytes
 wheel packages ship test-platforms reproducible:
 	@ship/environment.sh ship/$(subst -,_,$@).sh
 

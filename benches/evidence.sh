@@ -8,7 +8,7 @@ venv=${VENV:-.venv}
 rust() { cargo test -p irbkin -p irbkin-tests --lib --tests --quiet --release -- "$@" --nocapture; }
 serial() { rust "$@" --test-threads=1; }
 tests() { "$venv/bin/python" -m pytest --quiet "$@"; }
-package() { make --no-print-directory "$venv/.irbkin-${PROFILE:-develop}" "$venv/.check"; }
+package() { make --no-print-directory "$venv/.irbkin-${PROFILE:-develop}" "$venv/.group-check"; }
 peers() { make --no-print-directory .venv-peers/.irbkin; }
 released() { make --no-print-directory "$venv/.irbkin-release"; }
 
