@@ -12,9 +12,9 @@ rust() {
     cargo fmt --all --check
     step "clippy" cargo clippy --quiet --workspace --all-targets -- -D warnings
     step "clippy without std" cargo clippy --quiet -p irbkin-abb --lib "${without_std[@]}" -- -D warnings
-    step "clippy without urdf and serde" cargo clippy --quiet -p irbkin --lib --no-default-features --features std -- -D warnings
+    step "clippy without urdf and serde" cargo clippy --quiet -p irbkin-motion --lib --no-default-features --features std -- -D warnings
     step "the tails compile" cargo check --quiet --manifest-path benches/tails/Cargo.toml --target-dir target/tails
-    step "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps -p irbkin -p irbkin-abb --features irbkin/serde
+    step "Rust documentation" env RUSTDOCFLAGS='-D warnings' cargo doc --no-deps -p irbkin -p irbkin-motion -p irbkin-abb --features irbkin/serde
     # Documentation tests, benches and examples share a build that is quick to make: they need not be
     # fast. `make test-page` has the documentation test of irbkin-page, which knows no std.
     export CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_PROFILE_DEV_DEBUG=false CARGO_INCREMENTAL=0

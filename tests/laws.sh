@@ -49,7 +49,7 @@ quick-python() {
 
 # Unit tests of kinematics, and the laws on each instruction set; they share the build of the laws.
 sets() {
-    local units=(cargo test -p irbkin -p irbkin-abb -p irbkin-tests --lib)
+    local units=(cargo test -p irbkin -p irbkin-motion -p irbkin-abb -p irbkin-tests --lib)
     local tests=("${units[@]}" --tests)
     tests/step.sh -q "Compile the Rust tests" "${tests[@]}" --no-run
     tests/step.sh "Unit tests of kinematics" "${units[@]}"

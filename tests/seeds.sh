@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 name=$1 seconds=$2
-rust=(cargo test -p irbkin -p irbkin-abb -p irbkin-tests --lib --tests --quiet --release)
+rust=(cargo test -p irbkin -p irbkin-motion -p irbkin-abb -p irbkin-tests --lib --tests --quiet --release)
 
 # `evidence SUITE=hardsets` has its own numbers; that a seed is fixed is no law.
 soak() {
