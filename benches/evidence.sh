@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 venv=${VENV:-.venv}
-rust() { cargo test -p irbkin -p irbkin-tests --lib --tests --quiet --release -- "$@" --nocapture; }
+rust() { cargo test -p irbkin -p irbkin-motion -p irbkin-tests --lib --tests --quiet --release -- "$@" --nocapture; }
 serial() { rust "$@" --test-threads=1; }
 tests() { "$venv/bin/python" -m pytest --quiet "$@"; }
 package() { make --no-print-directory "$venv/.irbkin-${PROFILE:-develop}" "$venv/.group-check"; }
@@ -83,7 +83,7 @@ ulp() { ## Arc tangent, sine and cosine against correctly rounded ones
 
 no-std() { ## Laws and unit tests without the standard library
     local without=(--no-default-features --features libm)
-    cargo test -p irbkin --lib "${without[@]}" -- --include-ignored
+    cargo test -p irbkin -p irbkin-motion --lib "${without[@]}" -- --include-ignored
     cargo test -p irbkin-tests "${without[@]}" -- laws:: coupled:: configuration:: allocation:: \
         rapid:: rapid_calc::
 }

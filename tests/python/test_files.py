@@ -201,6 +201,7 @@ def test_what_libraries_write_goes_through_it():
     }
     assert found == {
         # Files of `replaced`, or in memory.
+        ("map/_store.py", "savez", "archive"),
         ("plot/_picture.py", "savefig", "file"),
         # A scene, which is a writer above.
         ("cli/plot.py", "save", "output"),

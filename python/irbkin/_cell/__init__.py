@@ -7,8 +7,6 @@ from typing import Any
 from irbkin._core import Cell, Shape
 from irbkin.errors import InvalidModelError
 
-__all__ = ["load"]
-
 _URDF = (".urdf", ".xml")
 
 

@@ -4,20 +4,17 @@ docs/guide/robotstudio.md.
 
 import os
 
-from irbkin._core import Robot
-from irbkin.errors import InvalidModelError, IrbkinError
+import numpy as np
 
-__all__ = ["robot_of"]
+from irbkin._core import Robot
+from irbkin._robotstudio.containers import documents
+from irbkin._robotstudio.mechanisms import chosen, robot_of_arm
+from irbkin._robotstudio.pim import mechanisms_of
+from irbkin.errors import InvalidModelError, IrbkinError
 
 
 def robot_of(path: str | os.PathLike[str], name: str | None, coupled_limits: bool) -> Robot:
     """Read the arm of a name, or the only one, of a station or a library."""
-    import numpy as np
-
-    from irbkin._robotstudio.containers import documents
-    from irbkin._robotstudio.mechanisms import chosen, robot_of_arm
-    from irbkin._robotstudio.pim import mechanisms_of
-
     where = path = os.fspath(path)
     try:
         # Numbers that overflow are as far from their bounds as NaN.

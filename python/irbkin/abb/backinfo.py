@@ -43,7 +43,6 @@ class LoadedTask:
     number: int | None
     """Number of its folder RAPID/TASKn."""
     name: str
-    """Name of the task."""
     program: str
     """Name of the program that is loaded, or empty."""
     modules: tuple[LoadedModule, ...]
@@ -59,7 +58,6 @@ class BackInfo:
     file: str = ""
     """Path in the backup; empty where there is no such file."""
     system: str = ""
-    """Name of the system."""
     robotware: str = ""
     """Version of RobotWare, as "6.08.01.00"; empty where it is not found."""
     arms: tuple[str, ...] = ()

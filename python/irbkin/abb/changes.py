@@ -40,7 +40,6 @@ class Change:
     """A datum, the settings of a routine, or moves of a routine that differ in one way."""
 
     task: str
-    """Name of the task."""
     module: str
     """Name of the module that has it."""
     subject: str

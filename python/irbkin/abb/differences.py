@@ -39,7 +39,6 @@ class TargetChange:
     """A target that is another one than before, or is reached otherwise."""
 
     task: str
-    """Name of the task."""
     module: str
     """Name of the module that declares it or moves to it."""
     target: str

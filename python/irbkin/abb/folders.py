@@ -92,17 +92,18 @@ class Folder:
             path = found
         return path
 
-    def text(self, path: Path) -> str | None:
-        """Return the text of a file, or None with a finding."""
+    def text(self, *names: str) -> tuple[str, str]:
+        """Return the text of the first file that is there, and its path in the backup; both empty
+        without one, and of one that cannot be read, which is a finding.
+        """
+        path = next(filter(None, map(self.find, names)), None)
+        if path is None or not path.is_file():
+            return "", ""
         try:
-            return decoded(path.read_bytes())
+            return decoded(path.read_bytes()), self.shown(path)
         except OSError as error:
             self.report(path, "unreadable", f"cannot be read: {error.strerror}")
-            return None
-
-    def cfg(self, name: str) -> Path | None:
-        """Return a configuration file: in SYSPAR, else in the root itself."""
-        return self.find(f"SYSPAR/{name}") or self.find(name)
+            return "", ""
 
     def tasks(self) -> list[tuple[int, Path]]:
         """Return the folders RAPID/TASKn with their numbers, in order."""

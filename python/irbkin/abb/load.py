@@ -41,8 +41,9 @@ def load_backup(path: str | PathLike[str], *, progress: Report | Bar | None = No
     """
     report = reporter(progress)
     folder = open_backup(Path(path).absolute())
-    moc, sys = _cfg(folder, "MOC.cfg"), _cfg(folder, "SYS.cfg")
-    info = _info(folder)
+    moc = parse_cfg(*folder.text("SYSPAR/MOC.cfg", "MOC.cfg"))
+    sys = parse_cfg(*folder.text("SYSPAR/SYS.cfg", "SYS.cfg"))
+    info = parse_backinfo(*folder.text("BACKINFO/backinfo.txt", "backinfo.txt"))
     machine = read_machine(moc, info.arms) if moc.file else _by_wording(info)
     reader = TaskReader(folder, sys, moc, info, machine)
     tasks = reader.read(report)
@@ -70,18 +71,6 @@ def load_backup(path: str | PathLike[str], *, progress: Report | Bar | None = No
         checksums,
         folder,
     )
-
-
-def _cfg(folder: Folder, name: str) -> CfgFile:
-    path = folder.cfg(name)
-    text = folder.text(path) if path and path.is_file() else None
-    return CfgFile("") if path is None or text is None else parse_cfg(text, folder.shown(path))
-
-
-def _info(folder: Folder) -> BackInfo:
-    path = folder.find("BACKINFO/backinfo.txt") or folder.find("backinfo.txt")
-    text = folder.text(path) if path and path.is_file() else None
-    return BackInfo() if path is None or text is None else parse_backinfo(text, folder.shown(path))
 
 
 def _by_wording(info: BackInfo) -> Machine:
@@ -167,9 +156,8 @@ def _controller(moc: CfgFile, sys: CfgFile, info: BackInfo, machine: Machine) ->
 
 def _checksums(folder: Folder) -> dict[str, str]:
     """Read BACKINFO/checksum.txt: a line with a path, then one with its base64."""
-    path = folder.find("BACKINFO/checksum.txt")
-    text = folder.text(path) if path and path.is_file() else None
-    lines = [line.strip() for line in lines_of(text or "") if line.strip()]
+    text, _ = folder.text("BACKINFO/checksum.txt")
+    lines = [line.strip() for line in lines_of(text) if line.strip()]
     # The first line is the version of the file.
     lines = lines[1:] if lines and lines[0].startswith("ver:") else lines
     names = [line.replace("\\", "/").lower().lstrip("./") for line in lines[::2]]

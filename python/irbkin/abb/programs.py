@@ -19,7 +19,6 @@ class TaskModule:
     """The file of a module of a task."""
 
     path: Path
-    """The file."""
     file: str
     """Path in the backup, with `/`."""
     kind: ModuleKind

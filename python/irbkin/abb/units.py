@@ -107,7 +107,6 @@ class ExternalUnit:
     carries: tuple[str, ...]
     """Names of the units that it carries."""
     axes: tuple[ExternalAxis, ...]
-    """Its axes."""
     moves_work_objects: bool
     """Whether work objects may refer to it by `ufmec`."""
     line: int

@@ -88,13 +88,11 @@ class Calibration(NamedTuple):
     """A calibrated robot, and how good it is. `print(calibration)` shows a table."""
 
     robot: Robot
-    """The calibrated robot."""
     nominal: Robot
     """The robot that the corrections are added to: the one given or, if its base or tool was far
     off, that with both aligned first.
     """
     parameters: tuple[CalibratedParameter, ...]
-    """The fitted parameters."""
     left_out: tuple[LeftOutParameter, ...]
     """Parameters that the measurements do not determine."""
     residuals: CalibrationResiduals

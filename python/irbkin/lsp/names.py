@@ -24,7 +24,6 @@ class Parameter(NamedTuple):
 
     name: str
     kind: str
-    """Its type."""
     is_optional: bool
     begin: int
     end: int

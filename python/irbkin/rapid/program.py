@@ -51,7 +51,6 @@ class ModuleFile:
     path: str
     """Path as it was given or found."""
     content: bytes = field(repr=False)
-    """Its bytes."""
 
     @property
     def mark(self) -> bytes:

@@ -18,11 +18,9 @@ class Parameter(NamedTuple):
     """A parameter of a node. An empty value stands for none."""
 
     name: str
-    """Its name."""
     kind: type[str] | type[float]
     """str, or float for an array of numbers."""
     is_array: bool
-    """Whether it is an array."""
     default: str
     """Its default as text; "" for none."""
     description: str

@@ -127,7 +127,6 @@ class Report:
     """Number of findings that corrections removed, by severity."""
     programs: Sequence[tuple[Job, Checked]] = ()
     cell: Cell | None = None
-    """The obstacles."""
     is_judged: bool = False
     """Whether the summary of routines is shown, in formats that have one."""
     is_counted: bool = False
