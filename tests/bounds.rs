@@ -7,7 +7,9 @@ use crate::common::{Rng, reach_of};
 use irbkin::batch::{Batch, NO_CONFIGURATION};
 use irbkin::follow::{FollowOptions, Follower};
 use irbkin::thresholds::{MOST_ANGLE, MOST_LENGTH};
-use irbkin::{Configuration, JacobianFrame, JointLimits, Pose, Robot, Status, pose};
+use irbkin::{
+    Configuration, ConfigurationRequest, JacobianFrame, JointLimits, Pose, Robot, Status, pose,
+};
 
 const SIXES: [&str; 4] = ["IRB 2600-12/1.65", "IRB 140-6/0.81", "IRB 2400-10/1.55", "UR5e"];
 const SEVENS: [&str; 2] = ["Panda", "FR3"];
@@ -200,7 +202,11 @@ fn every_call_refuses_a_seed_that_is_too_large() {
             assert!(nearest[6..].iter().all(|angle| angle.is_finite()), "{name}");
             if robot.structure() == "spherical wrist" {
                 let wanted = Configuration::default();
-                refused(robot.ik_configured_or_nearest(&pose, wanted, &seed).unwrap_err());
+                refused(
+                    robot
+                        .ik_configured(&pose, ConfigurationRequest::from(wanted).or_nearest(seed))
+                        .unwrap_err(),
+                );
                 let words = too_large("q", joint, value);
                 assert_eq!(robot.configuration(&seed).unwrap_err().to_string(), words, "{name}");
                 let rows = [seed, q].concat();

@@ -249,8 +249,12 @@ fn the_error_lists_the_configurations_that_exist() {
     assert!(Error::NoConfiguration(none).to_string().starts_with(
         "no solution inside the limits has the configuration [3, 0, 0, 0]; there are [0, -4, "
     ));
-    let nearest =
-        robot.ik_configured_or_nearest(&robot.fk(&q), configuration(3, 0, 0, 0), &q).unwrap();
+    let nearest = robot
+        .ik_configured(
+            &robot.fk(&q),
+            ConfigurationRequest::from(configuration(3, 0, 0, 0)).or_nearest(q),
+        )
+        .unwrap();
     assert!(apart(&nearest.q, &q) < 1e-9);
     let far = irbkin::pose::from_wxyz([9.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]).unwrap();
     assert!(matches!(
@@ -258,7 +262,10 @@ fn the_error_lists_the_configurations_that_exist() {
         Err(Error::Unreachable(_))
     ));
     assert!(matches!(
-        robot.ik_configured_or_nearest(&far, configuration(0, 0, 0, 0), &q),
+        robot.ik_configured(
+            &far,
+            ConfigurationRequest::from(configuration(0, 0, 0, 0)).or_nearest(q)
+        ),
         Err(Error::Unreachable(_))
     ));
 }
@@ -312,7 +319,14 @@ fn a_self_motion_with_members_inside_the_limits_is_reachable() {
             unreachable!("{q5}")
         };
         assert_eq!((none.existing[0].cf4, none.existing[0].cf6), (1, -1));
-        assert!(robot.ik_configured_or_nearest(&pose, configuration(3, 0, 0, 0), &seed).is_ok());
+        assert!(
+            robot
+                .ik_configured(
+                    &pose,
+                    ConfigurationRequest::from(configuration(3, 0, 0, 0)).or_nearest(seed)
+                )
+                .is_ok()
+        );
     }
 }
 

@@ -12,9 +12,6 @@ use crate::error::Error;
 use crate::kinematics::chain::limits::JointLimits;
 use crate::report::Explanation;
 
-/// Above this value, not every whole number is a float.
-const MOST_EXACT: f64 = 9_007_199_254_740_992.0;
-
 impl<const N: usize> Solutions<N> {
     /// The solutions inside the joint limits.
     #[must_use]
@@ -51,22 +48,8 @@ impl<const N: usize> Solutions<N> {
         self.iter().flat_map(|solution| Turns::of(&self.limits, solution))
     }
 
-    /// Number of items of [`Self::turns`]; `None` if it exceeds `usize`.
-    #[must_use]
-    pub fn turn_count(&self) -> Option<usize> {
-        let count = self.turn_total();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a whole number below 2^53"
-        )]
-        let exact = (count < MOST_EXACT).then_some(count as u64);
-        exact.and_then(|count| usize::try_from(count).ok())
-    }
-
     /// Number of items of [`Self::turns`] as a float, which cannot overflow.
     #[doc(hidden)]
-    #[must_use]
     pub fn turn_total(&self) -> f64 {
         let of_solution = |solution: &Solution<N>| {
             let turns = (0..N).map(|joint| {
@@ -119,7 +102,6 @@ impl<const N: usize> Solutions<N> {
 
     /// The cost is a sum over the joints, so the nearest turn is chosen for each joint separately.
     #[doc(hidden)]
-    #[must_use]
     pub fn cheapest(&self, seed: &[f64; N], weights: &[f64; N], cost: Cost) -> Option<Solution<N>> {
         let mut best: Option<(f64, Solution<N>)> = None;
         for solution in self {
@@ -154,7 +136,6 @@ pub enum Cost {
 impl Cost {
     /// The cost of moving from `seed` to `q`.
     #[doc(hidden)]
-    #[must_use]
     pub fn total<const N: usize>(self, q: &[f64; N], seed: &[f64; N], weights: &[f64; N]) -> f64 {
         let cost = |difference: f64| match self {
             Self::Distance => difference * difference,

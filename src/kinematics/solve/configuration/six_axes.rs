@@ -5,11 +5,10 @@ use alloc::vec::Vec;
 use super::having::{BEYOND, EDGE_ROUNDING};
 use super::rule::Quarters;
 use crate::error::{Error, ModelFault};
-use crate::kinematics::answer::check::check_seed_near;
 use crate::kinematics::answer::request::ConfigurationRequest;
 use crate::kinematics::answer::solutions::{Solution, Solutions};
+use crate::kinematics::pose::Pose;
 use crate::kinematics::pose::angles::wrap;
-use crate::kinematics::pose::{Pose, checked_pose};
 use crate::kinematics::robot::Robot;
 use crate::kinematics::robot::joints::Configured;
 use crate::kinematics::solve::configuration::fault::NoConfiguration;
@@ -63,25 +62,6 @@ impl Configured<6> for Robot<6> {
 }
 
 impl Robot<6> {
-    /// [`Robot::ik_configured`] or, if no solution has that configuration, the solution nearest to
-    /// `seed` [rad].
-    ///
-    /// Many programs contain `[0, 0, 0, 0]` without having computed it.
-    ///
-    /// # Errors
-    ///
-    /// As [`Robot::ik_configured`] and [`Robot::ik_nearest`]; never [`Error::NoConfiguration`].
-    pub fn ik_configured_or_nearest(
-        &self,
-        pose: &Pose,
-        wanted: Configuration,
-        seed: &[f64; 6],
-    ) -> Result<Solution<6>, Error> {
-        check_seed_near(seed, self.limits(), &[1.0; 6])?;
-        let request = ConfigurationRequest::from(wanted).or_nearest(*seed);
-        self.configured_checked(checked_pose(pose)?, &request)
-    }
-
     /// Of a singular pose, the joint vector inside the limits that has a configuration and is
     /// nearest to a seed: perhaps another member of a self-motion than its representative, or one
     /// that rounding has moved over a limit.
