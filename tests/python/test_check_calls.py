@@ -124,11 +124,14 @@ robot, module = irbkin.Robot("IRB 2600-12/1.65"), irbkin.rapid.load(sys.argv[1])
 used = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 began, before = time.process_time(), used()
 irbkin.rapid.check(robot, module)
-print(time.process_time() - began, (used() - before) / 1024)
+took, grown = time.process_time() - began, used() - before
+began = time.process_time()
+sum(number * number for number in range(10_000_000))
+print(took / (time.process_time() - began), grown / 1024)
 """
     command = [sys.executable, "-c", program, str(tmp_path / "m.mod")]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
-    seconds, megabytes = map(float, done.stdout.split())
-    # Half as much again for the other processes of this machine.
-    assert seconds < 1.5
+    loops, megabytes = map(float, done.stdout.split())
+    # Other processes slow the loop down, too. It takes half a second and more on a quiet machine.
+    assert loops < 2.0
     assert megabytes < 150.0
