@@ -10,14 +10,14 @@ use irbkin::Configuration;
 use irbkin_abb::rapid;
 
 /// An argument of a constructor.
-pub(crate) enum Given<'py, T> {
+pub(crate) enum Argument<'py, T> {
     /// The default.
     Default(T),
     /// An object to be read.
     Object(Bound<'py, PyAny>),
 }
 
-impl<'py, T> FromPyObject<'_, 'py> for Given<'py, T> {
+impl<'py, T> FromPyObject<'_, 'py> for Argument<'py, T> {
     type Error = Infallible;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> Result<Self, Infallible> {
@@ -25,7 +25,7 @@ impl<'py, T> FromPyObject<'_, 'py> for Given<'py, T> {
     }
 }
 
-impl<T: Field> Given<'_, T> {
+impl<T: Field> Argument<'_, T> {
     /// The value of a field, which has a class and a name for messages.
     pub(crate) fn read(self, class: &str, field: &str) -> PyResult<T> {
         match self {
@@ -197,9 +197,9 @@ macro_rules! classes {
         #[pymethods]
         impl $Record {
             #[new]
-            #[pyo3(signature = ($($field $(= Given::Default($default))?),*))]
+            #[pyo3(signature = ($($field $(= Argument::Default($default))?),*))]
             #[allow(clippy::too_many_arguments, reason = "as many as fields")]
-            fn made($($field: Given<'_, $Field>),*) -> PyResult<Self> {
+            fn made($($field: Argument<'_, $Field>),*) -> PyResult<Self> {
                 $(let $field = $field.read($class, stringify!($field))?;)*
                 Ok(Self(rapid::$Record { $($field),* }))
             }

@@ -234,7 +234,7 @@ impl From<&rapid::RapidFault> for TextFault {
 
 impl From<&rapid::Routine> for Routine {
     fn from(routine: &rapid::Routine) -> Self {
-        let rapid::Routine { kind, name, header, line, column } = routine.clone();
+        let rapid::Routine { kind, name, header, line, column, .. } = routine.clone();
         Self { kind: kind.name().into(), name, header, line, column }
     }
 }

@@ -4,7 +4,9 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
-use super::class::{Field, Given, JointTarget, LoadData, RapidPose, Refused, RobTarget, WobjData};
+use super::class::{
+    Argument, Field, JointTarget, LoadData, RapidPose, Refused, RobTarget, WobjData,
+};
 use crate::errors::{Fault, exception};
 use crate::targets::{pose_array, read_pose};
 use irbkin::pose::from_wxyz as pose_from_wxyz;
@@ -70,12 +72,12 @@ impl WobjData {
 impl RobTarget {
     /// Return the target of a homogeneous matrix, shape (4, 4), translation [m].
     #[staticmethod]
-    #[pyo3(signature = (T, robconf, extax=Given::Default([NOT_THERE; 6])))]
+    #[pyo3(signature = (T, robconf, extax=Argument::Default([NOT_THERE; 6])))]
     #[expect(non_snake_case, reason = "the name of a matrix")]
     fn of(
         T: &Bound<'_, PyAny>,
-        robconf: Given<'_, Configuration>,
-        extax: Given<'_, [f64; 6]>,
+        robconf: Argument<'_, Configuration>,
+        extax: Argument<'_, [f64; 6]>,
     ) -> PyResult<Self> {
         let RapidPose(rapid::RapidPose { trans_mm, rot }) = RapidPose::of(T)?;
         let robconf = robconf.read("RobTarget", "robconf")?;
@@ -93,8 +95,8 @@ impl RobTarget {
 impl JointTarget {
     /// Return the target of joint angles [rad], shape (6,).
     #[staticmethod]
-    #[pyo3(signature = (q, extax=Given::Default([NOT_THERE; 6])))]
-    fn of(q: Given<'_, [f64; 6]>, extax: Given<'_, [f64; 6]>) -> PyResult<Self> {
+    #[pyo3(signature = (q, extax=Argument::Default([NOT_THERE; 6])))]
+    fn of(q: Argument<'_, [f64; 6]>, extax: Argument<'_, [f64; 6]>) -> PyResult<Self> {
         let robax_deg = q.read("JointTarget", "robax_deg")?.map(f64::to_degrees);
         let extax = extax.read("JointTarget", "extax")?;
         Ok(Self(rapid::JointTarget { robax_deg, extax }))
@@ -115,8 +117,8 @@ impl Field for rapid::RapidPose {
         }
         let is_pair = given.is_instance_of::<PyTuple>() || given.is_instance_of::<PyList>();
         if is_pair && given.len()? == 2 {
-            let trans_mm = Given::Object(given.get_item(0)?).read("Pose", "trans_mm")?;
-            let rot = Given::Object(given.get_item(1)?).read("Pose", "rot")?;
+            let trans_mm = Argument::Object(given.get_item(0)?).read("Pose", "trans_mm")?;
+            let rot = Argument::Object(given.get_item(1)?).read("Pose", "rot")?;
             return Ok(Self { trans_mm, rot });
         }
         Err(Refused::Wanted("a Pose (Pose.of(T) makes one of a matrix)".into()))

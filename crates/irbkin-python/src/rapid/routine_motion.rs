@@ -110,7 +110,7 @@ pub(crate) fn motion(
 ) -> PyResult<PyRoutineMotion> {
     let arm = robot.get().arm();
     on!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
-    let given = Given { start, max_velocity, max_acceleration, step, turn };
+    let given = MotionArguments { start, max_velocity, max_acceleration, step, turn };
     match arm {
         SharedArm::Six(arm) => made(robot, arm, module, routine, &given, ByJoints::Six),
         SharedArm::Seven(arm) => made(robot, arm, module, routine, &given, ByJoints::Seven),
@@ -118,7 +118,7 @@ pub(crate) fn motion(
 }
 
 /// Options as Python gives them.
-struct Given<'a, 'py> {
+struct MotionArguments<'a, 'py> {
     start: Option<&'a Bound<'py, PyAny>>,
     max_velocity: Option<&'a Bound<'py, PyAny>>,
     max_acceleration: Option<&'a Bound<'py, PyAny>>,
@@ -131,7 +131,7 @@ fn made<'py, const N: usize>(
     arm: &Robot<N>,
     module: &Bound<'py, RapidModule>,
     routine: Option<&str>,
-    given: &Given<'_, 'py>,
+    given: &MotionArguments<'_, 'py>,
     of_joints: impl Fn(RoutineMotion<N>) -> ByJoints<RoutineMotion, RoutineMotion<7>>,
 ) -> PyResult<PyRoutineMotion> {
     let options = MotionOptions {

@@ -101,7 +101,6 @@ pub(in crate::rapid) fn pose_in(pose: &RapidPose, field: &'static str) -> Result
 
 /// Convert a pose in meters to one in millimeters.
 #[doc(hidden)]
-#[must_use]
 pub fn rapid_pose(pose: &Pose) -> RapidPose {
     let (xyz, rot) = pose_to_wxyz(pose);
     RapidPose { trans_mm: xyz.map(|m| m * 1e3), rot }

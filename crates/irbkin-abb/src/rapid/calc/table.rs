@@ -9,7 +9,7 @@ use super::frames::Frames;
 use super::target::{Fallback, absent_axis, joint_vector, request, target_pose, with_flange};
 use super::units::Units;
 use super::wrong::{
-    Found, absent, ambiguous, displaced, nearest_taken, not_solved, outside, unknown_axis,
+    OrFinding, absent, ambiguous, displaced, nearest_taken, not_solved, outside, unknown_axis,
 };
 use crate::Error;
 use crate::rapid::data::finding::{Code, Finding};
@@ -106,7 +106,7 @@ pub(in crate::rapid) fn frames_of<const N: usize>(
     robot: &Robot<N>,
     step: &Move,
     units: Option<&Units>,
-) -> Found<Frames> {
+) -> OrFinding<Frames> {
     let tool = known(&step.tool, Code::UnknownTool, "tool ")?;
     let wobj = step.wobj.as_ref().map(|wobj| known(wobj, Code::UnknownWorkObject, "work object "));
     let extax = external_axes::<N>(step);
@@ -146,14 +146,14 @@ pub(in crate::rapid) fn external_axes<const N: usize>(step: &Move) -> [f64; 6] {
 }
 
 /// The value of an argument, which messages name after what it is.
-fn known<'m, T>(argument: &'m Argument<T>, code: Code, what: &str) -> Found<&'m T> {
+fn known<'m, T>(argument: &'m Argument<T>, code: Code, what: &str) -> OrFinding<&'m T> {
     argument.value.as_ref().map_err(|reason| {
         Finding::unknown(code, reason, format!("{what}{}: {reason}", argument.text)).into()
     })
 }
 
 /// The value of a target.
-pub(in crate::rapid) fn target_of<T>(argument: &Argument<T>) -> Found<&T> {
+pub(in crate::rapid) fn target_of<T>(argument: &Argument<T>) -> OrFinding<&T> {
     let value = argument.value.as_ref();
     value.map_err(|reason| Finding::unknown(Code::UnknownTarget, reason, reason.to_string()).into())
 }
@@ -183,7 +183,7 @@ struct Row {
 }
 
 /// Joint angles, with a finding if they are others than the target requests.
-type Solved<const N: usize> = Found<([f64; N], Option<Finding>)>;
+type Solved<const N: usize> = OrFinding<([f64; N], Option<Finding>)>;
 
 struct Table<'a, const N: usize> {
     robot: &'a Robot<N>,
@@ -248,7 +248,7 @@ impl<'a, const N: usize> Table<'a, N> {
     }
 
     /// The joint angles of a target.
-    fn solved(&self, target: &RobTarget, frames: Found<Frames>) -> Solved<N> {
+    fn solved(&self, target: &RobTarget, frames: OrFinding<Frames>) -> Solved<N> {
         let refused = |error: Error| Box::new(not_solved(&error));
         let pose = frames?.flange(&target_pose(target).map_err(refused)?);
         let mut asked = request(&self.flange, target).map_err(refused)?;

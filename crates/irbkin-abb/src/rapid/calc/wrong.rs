@@ -17,7 +17,7 @@ use irbkin_motion::Error as MotionError;
 use irbkin_motion::internal::MotionFault;
 
 /// A result or a finding.
-pub(in crate::rapid) type Found<T> = Result<T, Box<Finding>>;
+pub(in crate::rapid) type OrFinding<T> = Result<T, Box<Finding>>;
 
 /// RAPID's name of an error of [`calc_joint_t`](crate::rapid::calc_joint_t): `ERR_OUTSIDE_REACH` if
 /// the arm is too short or too long, `ERR_ROBLIMIT` if solutions exist, but none inside the limits

@@ -216,7 +216,7 @@ fn unread_names(module: &Module) -> BTreeSet<String> {
 
 /// Whether an add-in may have the instruction: its name continues one that moves.
 fn is_of_add_in(name: &str) -> bool {
-    Effect::Moves.is_of(name) && !Entry::all().any(|it| is_slip(it.0, name))
+    Effect::of(name) == Effect::Moves && !Entry::all().any(|it| is_slip(it.0, name))
 }
 
 /// Whether one letter makes a name another one. Digits and the last letter of a word tell names

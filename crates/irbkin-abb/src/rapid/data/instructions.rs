@@ -8,14 +8,14 @@ pub(crate) enum Effect {
     /// another word, or continues the name of a move that only some controllers have.
     Moves,
     /// It displaces the targets of the moves after it.
-    Displaces,
-    /// It ends the displacement.
-    EndsDisplacement,
-    /// It adds something to external axes, or ends that.
-    Offsets,
+    Displaces(Shift),
+    /// It adds something to external axes.
+    Offsets(Shift),
     /// It sets how the moves after it are made.
     Sets,
-    /// It leaves the routine.
+    /// It returns to the caller.
+    Returns,
+    /// It leaves the routine, to wherever.
     Leaves,
     /// It ends the execution, which may go on behind it.
     Stops,
@@ -23,4 +23,14 @@ pub(crate) enum Effect {
     Waits,
     /// It goes on at a label.
     Jumps,
+}
+
+/// What shifts the moves after an instruction.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shift {
+    /// What lies between two positions.
+    Between,
+    /// The argument.
+    Given,
+    Off,
 }

@@ -13,12 +13,13 @@ impl MoveInstruction {
 }
 
 impl Effect {
-    /// Whether an instruction has the effect.
-    pub(crate) fn is_of(self, instruction: &str) -> bool {
+    /// The effect of an instruction.
+    pub(crate) fn of(instruction: &str) -> Self {
         match Entry::instruction(instruction) {
-            Some(entry) if self == Self::Moves => entry.moves_unread(),
-            Some(entry) => entry.effect == self,
-            None => self == Self::Moves && continues_a_move(instruction),
+            Some(entry) if entry.moves_unread() => Self::Moves,
+            Some(entry) => entry.effect,
+            None if continues_a_move(instruction) => Self::Moves,
+            None => Self::Nothing,
         }
     }
 }
@@ -52,12 +53,12 @@ mod tests {
     #[test]
     fn instructions_that_move_are_recognized_by_whole_words() {
         for name in ["MoveLDO", "movejdo", "TriggLIOs", "ArcLStart", "ArcL", "EGMMoveL", "ArcL1"] {
-            assert!(Effect::Moves.is_of(name), "{name}");
+            assert!(Effect::of(name) == Effect::Moves, "{name}");
         }
         for name in
             ["DisplayText", "PaintColor", "ArcCheck", "Set", "MoveHome", "SearchLine", "searchl_1"]
         {
-            assert!(!Effect::Moves.is_of(name), "{name}");
+            assert!(Effect::of(name) != Effect::Moves, "{name}");
         }
     }
 

@@ -133,6 +133,21 @@ pub struct Routine {
     pub line: usize,
     /// Column, from 1, in characters; 0 if it was not read from a text.
     pub column: usize,
+    pub(crate) parameters: Vec<Parameter>,
+}
+
+/// A parameter of a routine.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Parameter {
+    /// Name in lower case.
+    pub(crate) name: String,
+    /// Its type; `None` for a switch and for types that are not read.
+    pub(crate) data_type: Option<DataType>,
+    pub(crate) is_optional: bool,
+    /// Whether what the routine assigns to it is assigned to its argument.
+    pub(crate) is_reference: bool,
+    /// Whether it is one of the alternatives of the parameter before it, as in `\A | \B`.
+    pub(crate) is_alternative: bool,
 }
 
 impl Routine {

@@ -204,7 +204,6 @@ impl ZoneData {
 impl SpeedData {
     /// RAPID's own speeddata with a speed of the tool center point [mm/s].
     #[doc(hidden)]
-    #[must_use]
     pub const fn of(v_tcp_mm_s: f64) -> Self {
         Self { v_tcp_mm_s, v_ori_deg_s: 500.0, v_leax_mm_s: 5000.0, v_reax_deg_s: 1000.0 }
     }

@@ -4,8 +4,9 @@ use alloc::format;
 use core::cmp::Ordering;
 
 use super::instructions::Effect::{
-    self, Displaces, EndsDisplacement, Jumps, Leaves, Moves, Nothing, Offsets, Sets, Stops, Waits,
+    self, Displaces, Jumps, Leaves, Moves, Nothing, Offsets, Returns, Sets, Stops, Waits,
 };
+use super::instructions::Shift::{Between, Given, Off};
 use super::moves::MoveKind::{self, MoveAbsJ, MoveC, MoveExtJ, MoveJ, MoveL};
 use super::moving::{
     AFTER, ALONG, EXTERNAL, Layout, MoveInstruction, PLAIN, SEARCH, SEARCH_EXTERNAL, STOPS, THEN,
@@ -185,9 +186,9 @@ static TABLE: &[Entry] = &[
     goes("EGMMoveC", MoveC, AFTER, concat!("egmident EGMid,", via!(), more!())),
     goes("EGMMoveL", MoveL, AFTER, concat!("egmident EGMid,", to!(), more!())),
     does("EGMRun", "...", Moves),
-    does("EOffsOff", "", Offsets),
-    does("EOffsOn", r"\robtarget ExeP,robtarget ProgPoint", Offsets),
-    does("EOffsSet", "extjoint EAxOffs", Offsets),
+    does("EOffsOff", "", Offsets(Off)),
+    does("EOffsOn", r"\robtarget ExeP,robtarget ProgPoint", Offsets(Between)),
+    does("EOffsSet", "extjoint EAxOffs", Offsets(Given)),
     call("EraseModule", "string ModuleName"),
     call("ErrLog", r"errnum ErrorId\switch W|switch I,..."),
     call("ErrRaise", "string ErrorName,num ErrorId,..."),
@@ -319,9 +320,9 @@ static TABLE: &[Entry] = &[
     function("PathRecValidBwd", r"\pathrecid ID"),
     function("PathRecValidFwd", r"\pathrecid ID"),
     call("PathResol", "num Value"),
-    does("PDispOff", "", EndsDisplacement),
-    does("PDispOn", r"\switch Rot\robtarget ExeP,robtarget ProgPoint,tooldata Tool\wobjdata WObj", Displaces),
-    does("PDispSet", "pose DispFrame", Displaces),
+    does("PDispOff", "", Displaces(Off)),
+    does("PDispOn", r"\switch Rot\robtarget ExeP,robtarget ProgPoint,tooldata Tool\wobjdata WObj", Displaces(Between)),
+    does("PDispSet", "pose DispFrame", Displaces(Given)),
     function("PFRestart", r"\..."),
     function("PoseInv", "pose Pose"),
     function("PoseMult", "pose Pose1,pose Pose2"),
@@ -350,7 +351,7 @@ static TABLE: &[Entry] = &[
     call("RenameFile", "string OldPath,string NewPath"),
     call("Reset", "signaldo Signal"),
     does("RETRY", "...", Leaves),
-    does("RETURN", "...", Leaves),
+    does("RETURN", "...", Returns),
     call("Rewind", "iodev IODevice"),
     call("RMQFindSlot", "INOUT rmqslot Slot,string Name"),
     call("RMQGetMessage", "INOUT rmqmessage Message"),

@@ -161,3 +161,13 @@ pub enum NotRead {
     #[error("{name} is not an instruction that is read")]
     Instruction { name: String },
 }
+
+impl NotRead {
+    /// The word of a branch, a loop or a handler, or the name of an instruction, as it is written.
+    pub(crate) fn word(&self) -> &str {
+        match self {
+            Self::Flow { word: name } | Self::Motion { name } | Self::Instruction { name } => name,
+            _ => "",
+        }
+    }
+}

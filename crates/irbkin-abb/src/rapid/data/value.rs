@@ -114,7 +114,6 @@ impl DataType {
 impl Value {
     /// The value as one of a type, which a number may be too: a `num` becomes a `dnum`.
     #[doc(hidden)]
-    #[must_use]
     pub fn into_type(self, data_type: DataType) -> Self {
         match self {
             Self::Num(number) if data_type == DataType::Dnum => Self::Dnum(number),

@@ -14,7 +14,7 @@ use super::geometry::{
     cross, def_frame, difference, dot, euler_zyx, length, mir_pos, normalized, offs, orient_zyx,
     pose_inv, pose_mult, pose_vect, rel_tool,
 };
-use super::names::Found;
+use super::names::Lookup;
 use super::tree::{Call, Expression};
 use crate::rapid::data::records::{RobTarget, WobjData};
 use crate::rapid::data::types::{
@@ -43,17 +43,17 @@ pub(super) struct Function {
     optional: &'static [(&'static str, Option<&'static Type>)],
     pub(super) result: &'static Type,
     /// The result; `None` where it is not defined.
-    apply: fn(&Given) -> Option<Atoms>,
+    apply: fn(&Arguments) -> Option<Atoms>,
 }
 
 /// The arguments of a function.
-struct Given {
+struct Arguments {
     required: Vec<Atoms>,
     /// In the order of the function's own; a switch that is there has no atoms.
     optional: Vec<Option<Atoms>>,
 }
 
-impl Given {
+impl Arguments {
     /// A required argument.
     fn at<T: Part>(&self, place: usize) -> Option<T> {
         T::take(&mut self.required.get(place)?.clone().into_iter())
@@ -85,7 +85,7 @@ const fn line(
     required: &'static [&'static Type],
     optional: &'static [(&'static str, Option<&'static Type>)],
     result: &'static Type,
-    apply: fn(&Given) -> Option<Atoms>,
+    apply: fn(&Arguments) -> Option<Atoms>,
 ) -> Function {
     Function { name, required, optional, result, apply }
 }
@@ -93,44 +93,44 @@ const fn line(
 static ONE_NUMBER: [&Type; 1] = [&NUM];
 
 /// A function of one number, which a `dnum` may be too.
-const fn of_number(name: &'static str, apply: fn(&Given) -> Option<Atoms>) -> Function {
+const fn of_number(name: &'static str, apply: fn(&Arguments) -> Option<Atoms>) -> Function {
     line(name, &ONE_NUMBER, &[], &NUM, apply)
 }
 
 /// A number to some decimals, 0 without `\Dec`.
-fn to_decimals(given: &Given, whole: fn(f64) -> f64) -> Option<Atoms> {
+fn to_decimals(given: &Arguments, whole: fn(f64) -> f64) -> Option<Atoms> {
     let unit = 10_f64.powf(given.or(0, 0.0)?);
     made(whole(given.at::<f64>(0)? * unit) / unit)
 }
 
 /// The three numbers behind a target.
-fn shift(given: &Given) -> Option<[f64; 3]> {
+fn shift(given: &Arguments) -> Option<[f64; 3]> {
     Some([given.at(1)?, given.at(2)?, given.at(3)?])
 }
 
-fn turned(given: &Given) -> Option<Atoms> {
+fn turned(given: &Arguments) -> Option<Atoms> {
     let turns = [given.or(0, 0.0)?, given.or(1, 0.0)?, given.or(2, 0.0)?];
     made(rel_tool(&given.at(0)?, shift(given)?, turns))
 }
 
 /// The angle about the axis that a switch names.
-fn euler_angle(given: &Given) -> Option<Atoms> {
+fn euler_angle(given: &Arguments) -> Option<Atoms> {
     let [z, y, x] = euler_zyx(given.at(0)?);
     let angles = [x, y, z].into_iter().enumerate();
     made(angles.filter(|(axis, _)| given.has(*axis)).map(|(_, angle)| angle).next()?)
 }
 
-fn frame_of_points(given: &Given) -> Option<Atoms> {
+fn frame_of_points(given: &Arguments) -> Option<Atoms> {
     let point = |place| given.at::<RobTarget>(place).map(|target| target.trans_mm);
     made(def_frame([point(0)?, point(1)?, point(2)?], given.or(0, 1.0)?)?)
 }
 
-fn mirrored(given: &Given) -> Option<Atoms> {
+fn mirrored(given: &Arguments) -> Option<Atoms> {
     let (target, plane): (RobTarget, WobjData) = (given.at(0)?, given.at(1)?);
     made(mir_pos(&target, &plane, &given.or(0, WobjData::WOBJ0)?, given.has(1)))
 }
 
-fn sin_cos(given: &Given) -> Option<(f64, f64)> {
+fn sin_cos(given: &Arguments) -> Option<(f64, f64)> {
     Some(constant_sin_cos(given.at::<f64>(0)?.to_radians()))
 }
 
@@ -197,7 +197,7 @@ impl Evaluator<'_, '_> {
             return Err(Reason::Function { name: name_of() });
         };
         match self.names.find(self.at, name) {
-            Found::NotHere => Ok(function),
+            Lookup::NotHere => Ok(function),
             _ => Err(Reason::OwnFunction { name: name_of() }),
         }
     }
@@ -243,7 +243,7 @@ impl Evaluator<'_, '_> {
         expression: &Expression<'_>,
         call: &Call<'_>,
         function: &Function,
-    ) -> Result<Given, Stop> {
+    ) -> Result<Arguments, Stop> {
         let (found, wanted) = (call.required.len(), function.required.len());
         if found != wanted {
             let instruction = function.name;
@@ -269,6 +269,6 @@ impl Evaluator<'_, '_> {
                 *place = Some(atoms);
             }
         }
-        Ok(Given { required, optional })
+        Ok(Arguments { required, optional })
     }
 }

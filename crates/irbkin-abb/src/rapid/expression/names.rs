@@ -16,12 +16,12 @@ use irbkin_motion::internal::PREDEFINED as ZONES;
 /// A scope of names.
 pub(crate) trait Names {
     /// Find what a name refers to at a place.
-    fn find(&self, at: At, name: &str) -> Found<'_>;
+    fn find(&self, at: At, name: &str) -> Lookup<'_>;
 
     /// Why some of these atoms of a datum may be different where the program moves.
     fn cause_of(&self, at: At, name: &str, _atoms: Range<usize>) -> Option<Cause<'_>> {
         match self.find(at, name) {
-            Found::Datum { cause, .. } => cause,
+            Lookup::Datum { cause, .. } => cause,
             _ => None,
         }
     }
@@ -37,7 +37,7 @@ pub(crate) struct At {
 }
 
 /// The result of looking up a name.
-pub(crate) enum Found<'r> {
+pub(crate) enum Lookup<'r> {
     Datum {
         content: &'r Content,
         can_change: bool,
@@ -96,8 +96,8 @@ pub(crate) fn lower(name: &str) -> Cow<'_, str> {
 pub(crate) struct NoNames;
 
 impl Names for NoNames {
-    fn find(&self, _: At, _: &str) -> Found<'_> {
-        Found::NotHere
+    fn find(&self, _: At, _: &str) -> Lookup<'_> {
+        Lookup::NotHere
     }
 }
 

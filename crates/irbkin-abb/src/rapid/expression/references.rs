@@ -6,7 +6,7 @@ use alloc::string::{String, ToString};
 use core::ops::Range;
 
 use super::evaluate::{Component, Evaluator, Stop, positive_whole};
-use super::names::Found;
+use super::names::Lookup;
 use super::tree::{Expression, Form, written};
 use crate::rapid::data::module::Content;
 use crate::rapid::data::own_types::DEEPEST_TYPE;
@@ -60,7 +60,7 @@ impl Evaluator<'_, '_> {
         if components.is_empty()
             || !matches!(
                 self.names.find(self.at, name),
-                Found::NotHere | Found::Unknown(Unresolved::OtherType { .. })
+                Lookup::NotHere | Lookup::Unknown(Unresolved::OtherType { .. })
             )
         {
             return own;
@@ -69,7 +69,7 @@ impl Evaluator<'_, '_> {
         for (index, component) in components.iter().take(DEEPEST_TYPE).enumerate() {
             joined.push('.');
             joined.push_str(component);
-            if let Found::Datum { .. } = self.names.find(self.at, &joined) {
+            if let Lookup::Datum { .. } = self.names.find(self.at, &joined) {
                 return (Cow::Owned(joined), &components[index + 1..]);
             }
         }
@@ -109,21 +109,21 @@ impl Evaluator<'_, '_> {
             Err(self.fault(expression, RapidFaultKind::IndexCount { text, found, wanted }))
         };
         let content = match self.names.find(self.at, name) {
-            Found::NotHere => return unknown(Unresolved::NotDeclared),
-            Found::Unknown(why) => return unknown(why),
-            Found::Predefined(_) if !indices.is_empty() => return count(0),
-            Found::Predefined(value) => return Ok(Cow::Owned(value)),
-            Found::Datum { can_change: true, .. } if self.constant => {
+            Lookup::NotHere => return unknown(Unresolved::NotDeclared),
+            Lookup::Unknown(why) => return unknown(why),
+            Lookup::Predefined(_) if !indices.is_empty() => return count(0),
+            Lookup::Predefined(value) => return Ok(Cow::Owned(value)),
+            Lookup::Datum { can_change: true, .. } if self.constant => {
                 return unknown(Unresolved::CanChange);
             }
-            Found::Datum { content, cause: Some(_), .. } if self.at_move => {
+            Lookup::Datum { content, cause: Some(_), .. } if self.at_move => {
                 let atoms = self.used_atoms(expression, content, components)?;
                 if let Some(cause) = self.names.cause_of(self.at, name, atoms) {
                     return unknown(cause.of(name));
                 }
                 content
             }
-            Found::Datum { content, .. } => content,
+            Lookup::Datum { content, .. } => content,
         };
         match content {
             Content::Uninitialized { .. } => unknown(Unresolved::NoValue),
@@ -155,12 +155,12 @@ impl Evaluator<'_, '_> {
         };
         let (name, components) = self.whole_name(name, components);
         let value = match self.names.find(self.at, &name) {
-            Found::Predefined(value) => Cow::Owned(value),
-            Found::Datum { content: Content::Single(value), .. } => Cow::Borrowed(value),
-            Found::Datum { content: Content::Array { values, .. }, .. } => {
+            Lookup::Predefined(value) => Cow::Owned(value),
+            Lookup::Datum { content: Content::Single(value), .. } => Cow::Borrowed(value),
+            Lookup::Datum { content: Content::Array { values, .. }, .. } => {
                 Cow::Borrowed(values.first()?)
             }
-            Found::Unknown(Unresolved::OtherType { type_name }) if components.is_empty() => {
+            Lookup::Unknown(Unresolved::OtherType { type_name }) if components.is_empty() => {
                 return Some(type_name.to_lowercase());
             }
             _ => return None,

@@ -261,6 +261,7 @@ fn routines(data: &[Datum], moves: &[Move]) -> Vec<Routine> {
         header: format!("PROC {name}()"),
         line: 0,
         column: 0,
+        parameters: Vec::new(),
     };
     names.map(procedure).collect()
 }

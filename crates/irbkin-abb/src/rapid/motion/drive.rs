@@ -6,7 +6,7 @@ use super::goal::{Goal, Place};
 use super::joints::{Conf, Path, Samples, joint_line, round_joints, solved, way};
 use crate::Error;
 use crate::rapid::calc::frames::Frames;
-use crate::rapid::calc::wrong::{Found, broken, no_path};
+use crate::rapid::calc::wrong::{OrFinding, broken, no_path};
 use crate::rapid::data::finding::Finding;
 use crate::rapid::data::settings::{CirPathMode, SingArea};
 use crate::rapid::motion::thresholds::JOINED_MOVES;
@@ -254,7 +254,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         end: &Pose,
         here: &Here<N>,
         entry: Option<Entry>,
-    ) -> Result<Found<Made<N>>, Error> {
+    ) -> Result<OrFinding<Made<N>>, Error> {
         let goal = &self.goals[index];
         let (before, leg) = match entry {
             Some(Entry { before, corner, leg }) => (Some((before, corner)), leg),
@@ -310,7 +310,7 @@ impl<'a, 'm, const N: usize> Drive<'a, 'm, N> {
         index: usize,
         here: &Here<N>,
         poses: &[Pose],
-    ) -> Result<Found<Path<N>>, Error> {
+    ) -> Result<OrFinding<Path<N>>, Error> {
         let goal = &self.goals[index];
         if poses.len() < 2 {
             return Ok(Ok(Path::default()));

@@ -11,7 +11,7 @@ use crate::rapid::calc::frames::Frames;
 use crate::rapid::calc::table::{frames_of, target_of};
 use crate::rapid::calc::target::{absent_axis, joint_vector, request, target_pose, with_flange};
 use crate::rapid::calc::units::Units;
-use crate::rapid::calc::wrong::{Found, absent, displaced, not_solved, outside};
+use crate::rapid::calc::wrong::{OrFinding, absent, displaced, not_solved, outside};
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::RobTarget;
@@ -158,8 +158,8 @@ fn old_confdata(cfx: i32, now: Option<Configuration>) -> Finding {
 fn placed<const N: usize>(
     robot: &Robot<N>,
     step: &Move,
-    frames: &Found<Frames>,
-) -> Found<Place<N>> {
+    frames: &OrFinding<Frames>,
+) -> OrFinding<Place<N>> {
     if let Some(line) = step.displaced {
         return Err(displaced(line).into());
     }
@@ -179,7 +179,7 @@ fn placed<const N: usize>(
 }
 
 /// The point on a circle.
-fn pose_of(step: &Move, via: &Argument<RobTarget>) -> Found<Pose> {
+fn pose_of(step: &Move, via: &Argument<RobTarget>) -> OrFinding<Pose> {
     if let Some(line) = step.displaced {
         return Err(displaced(line).into());
     }

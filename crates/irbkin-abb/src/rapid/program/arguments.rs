@@ -1,67 +1,12 @@
-//! Parameters of routines, and the arguments of calls as they are written.
+//! The arguments of instructions and calls, and assignments, as they are written.
 
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use crate::rapid::data::module::Routine;
-use crate::rapid::data::value::DataType;
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::Expression;
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::{TokenKind, Tokens};
-
-/// A parameter of a routine.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Parameter {
-    /// Name in lower case.
-    pub(super) name: String,
-    /// Its type; `None` for a switch and for types that are not read.
-    pub(super) data_type: Option<DataType>,
-    pub(super) is_optional: bool,
-    /// Whether what the routine assigns to it is assigned to its argument.
-    pub(super) is_reference: bool,
-    /// Whether it is one of the alternatives of the parameter before it, as in `\A | \B`.
-    pub(super) is_alternative: bool,
-}
-
-/// The parameters of a routine, by its header.
-pub(super) fn parameters(routine: &Routine) -> Vec<Parameter> {
-    let open = routine.header.find('(');
-    let Some(mut tokens) = open.and_then(|at| Tokens::new(&routine.header[at..]).ok()) else {
-        return Vec::new();
-    };
-    let mut found = Vec::new();
-    let (mut words, mut is_optional, mut is_alternative) = (Vec::new(), false, false);
-    while let Ok(token) = tokens.take() {
-        match token.kind {
-            TokenKind::Name => words.push(tokens.text_of(token)),
-            TokenKind::End | TokenKind::Symbol(b',' | b'|' | b'\\' | b')') => {
-                found.extend(parameter(&words, is_optional, is_alternative));
-                words.clear();
-                match token.kind {
-                    TokenKind::Symbol(b'\\') => is_optional = true,
-                    TokenKind::Symbol(b'|') => (is_optional, is_alternative) = (true, true),
-                    TokenKind::Symbol(b',') => (is_optional, is_alternative) = (false, false),
-                    _ => return found,
-                }
-            }
-            _ => {}
-        }
-    }
-    found
-}
-
-/// A parameter by its words: perhaps a mode, a type, a name.
-fn parameter(words: &[&str], is_optional: bool, is_alternative: bool) -> Option<Parameter> {
-    let (name, before) = words.split_last()?;
-    let is_mode = |word: &&str| {
-        ["INOUT", "VAR", "PERS", "REF"].iter().any(|mode| mode.eq_ignore_ascii_case(word))
-    };
-    let is_reference = before.first().is_some_and(is_mode);
-    let data_type = before.last().and_then(|of| DataType::named(of));
-    let name = name.to_lowercase();
-    Some(Parameter { name, data_type, is_optional, is_reference, is_alternative })
-}
 
 /// The arguments of an instruction or a call.
 pub(super) struct Arguments<'a> {
@@ -130,31 +75,7 @@ pub(super) fn referred(expression: &Expression<'_>) -> Option<(String, String)> 
 
 #[cfg(test)]
 mod tests {
-    use alloc::string::ToString;
-
     use super::*;
-    use crate::rapid::data::module::RoutineKind;
-
-    fn of(header: &str) -> Vec<Parameter> {
-        let header = header.to_string();
-        let (kind, name) = (RoutineKind::Proc, "GoL".to_string());
-        parameters(&Routine { kind, name, header, line: 1, column: 1 })
-    }
-
-    #[test]
-    fn parameters_have_types_modes_and_alternatives() {
-        let found = of("PROC GoL(robtarget p,speeddata v{*} \\ zonedata Z | switch Fine, \
-            PERS tooldata t \\PERS wobjdata WObj)");
-        let names: Vec<&str> = found.iter().map(|it| it.name.as_str()).collect();
-        assert_eq!(names, ["p", "v", "z", "fine", "t", "wobj"]);
-        let are = |of: fn(&Parameter) -> bool| found.iter().map(of).collect::<Vec<bool>>();
-        assert_eq!(are(|it| it.is_optional), [false, false, true, true, false, true]);
-        assert_eq!(are(|it| it.is_reference), [false, false, false, false, true, true]);
-        assert_eq!(are(|it| it.is_alternative), [false, false, false, true, false, false]);
-        assert_eq!(found[3].data_type, None);
-        assert_eq!(found[4].data_type, Some(DataType::ToolData));
-        assert!(of("PROC main()").is_empty() && of("TRAP t").is_empty());
-    }
 
     #[test]
     fn arguments_are_read_behind_names_and_calls_by_name() {

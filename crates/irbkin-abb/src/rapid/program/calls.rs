@@ -8,15 +8,15 @@ use alloc::vec::Vec;
 use core::mem;
 use core::ops::Range;
 
-use super::arguments::{Parameter, arguments, assignment, called, referred};
+use super::arguments::{Arguments, referred};
 use super::effects::MOST_CALLED;
 use super::frame::{Frame, Site};
 use super::state::{Local, Locals, MOST_KNOWN};
+use super::statement::Instruction;
 use super::walker::Walk;
 use super::whole::Program;
-use crate::rapid::data::lookup::written_argument;
-use crate::rapid::data::module::{Content, Storage};
-use crate::rapid::data::unread::{NotRead, Reason, Skipped, Unresolved};
+use crate::rapid::data::module::{Content, Parameter, Storage};
+use crate::rapid::data::unread::{Reason, Skipped, Unresolved};
 use crate::rapid::expression::tree::Expression;
 
 /// Most calls within calls.
@@ -58,9 +58,9 @@ impl Program<'_> {
 }
 
 impl<'m> Walk<'_, 'm> {
-    /// Follow a statement that may be a call.
-    pub(super) fn call(&mut self, skipped: &'m Skipped) {
-        let Some(name) = called(&skipped.text) else {
+    /// Follow an instruction that may be a call.
+    pub(super) fn call(&mut self, skipped: &'m Skipped, instruction: &Instruction<'m>) {
+        let Some(name) = instruction.name.clone() else {
             // It may assign any datum.
             self.state.forget_globals(None);
             let words = "the name of the routine is calculated".to_string();
@@ -84,10 +84,8 @@ impl<'m> Walk<'_, 'm> {
         } else {
             None
         };
-        let bound = match (why, arguments(&skipped.text)) {
-            (None, Ok(arguments)) => {
-                self.bound(skipped, parameters, arguments.required, arguments.optional)
-            }
+        let bound = match (why, &instruction.arguments) {
+            (None, Some(arguments)) => self.bound(skipped, parameters, arguments),
             (why, _) => {
                 let assigned = program.effects.assigned_by(Vec::from([(home, name)]), MOST_CALLED);
                 self.state.forget_globals(assigned.as_ref());
@@ -115,10 +113,7 @@ impl<'m> Walk<'_, 'm> {
             line: skipped.line,
             column: skipped.column,
             routine: skipped.routine.clone(),
-            called: match &skipped.what {
-                NotRead::Instruction { name } => name.clone(),
-                _ => name.clone(),
-            },
+            called: skipped.what.word().to_string(),
         };
         let site = self.frame.site.clone().or_else(|| Some(own_site()));
         let next = self.chains.len() + 1;
@@ -169,40 +164,19 @@ impl<'m> Walk<'_, 'm> {
         }
     }
 
-    /// An assignment.
-    pub(super) fn assign(&mut self, skipped: &Skipped) {
-        let Ok((target, value)) = assignment(&skipped.text) else { return };
-        let Some((name, _)) = referred(&target) else { return };
-        let content = self.scope().assigned(&skipped.text, &target, &value);
-        self.put(&name, content);
-    }
-
-    /// The datum that an instruction writes to is not known any more.
-    pub(super) fn written(&mut self, skipped: &Skipped, name: &str) {
-        let Some(place) = written_argument(name) else { return };
-        if let Ok(arguments) = arguments(&skipped.text)
-            && let Some(argument) = place.checked_sub(1).and_then(|at| arguments.required.get(at))
-            && let Some((name, _)) = referred(argument)
-        {
-            self.put(&name, None);
-        }
-    }
-
     /// The parameters of a routine with the arguments of a call.
-    fn bound<'a>(
+    fn bound(
         &self,
-        skipped: &'a Skipped,
+        skipped: &Skipped,
         parameters: &[Parameter],
-        required: Vec<Expression<'a>>,
-        mut optional: Vec<(&'a str, Option<Expression<'a>>)>,
+        arguments: &Arguments<'_>,
     ) -> Bound {
         let mut bound = Bound::default();
-        let mut required = required.into_iter();
+        let mut required = arguments.required.iter();
         for parameter in parameters {
             let argument = if parameter.is_optional {
-                let is_own = |(name, _): &(&str, _)| name.eq_ignore_ascii_case(&parameter.name);
-                let place = optional.iter().position(is_own);
-                place.map(|place| optional.swap_remove(place).1)
+                let is_own = |(name, _): &&(&str, _)| name.eq_ignore_ascii_case(&parameter.name);
+                arguments.optional.iter().find(is_own).map(|(_, value)| value.as_ref())
             } else {
                 required.next().map(Some)
             };
@@ -221,11 +195,11 @@ impl<'m> Walk<'_, 'm> {
         &self,
         skipped: &Skipped,
         parameter: &Parameter,
-        value: Option<Expression<'_>>,
+        value: Option<&Expression<'_>>,
         bound: &mut Bound,
     ) {
         let name = parameter.name.clone();
-        let text = value.as_ref().and_then(|it| skipped.text.get(it.start..it.end));
+        let text = value.and_then(|it| skipped.text.get(it.start..it.end));
         let text = text.unwrap_or_default();
         // \Name?parameter passes on an argument, if there is one.
         let passed = text.strip_prefix('?').map(|passed| passed.trim().to_lowercase());
@@ -245,11 +219,11 @@ impl<'m> Walk<'_, 'm> {
             );
             return bound.give(parameter, content);
         }
-        let name = referred(&value).filter(|(_, components)| components.is_empty());
-        let array = name.as_ref().and_then(|(name, _)| self.whole(name, &value));
+        let name = referred(value).filter(|(_, components)| components.is_empty());
+        let array = name.as_ref().and_then(|(name, _)| self.whole(name, value));
         let content = match array {
             Some(content) => Ok(content),
-            None => match self.scope().value(&skipped.text, &value, data_type) {
+            None => match self.scope().value(&skipped.text, value, data_type) {
                 Ok(value) => Ok(Content::Single(value)),
                 Err(Reason::Reference { why, .. }) => Err(why),
                 Err(_) => Err(Unresolved::ValueNotKnown),
@@ -270,12 +244,11 @@ impl<'m> Walk<'_, 'm> {
 
     /// The whole array that a name refers to.
     fn whole(&self, name: &str, value: &Expression<'_>) -> Option<Content> {
-        use crate::rapid::expression::names::At;
-        use crate::rapid::expression::names::{Found, Names as _};
+        use crate::rapid::expression::names::{At, Lookup, Names as _};
         use crate::rapid::expression::tree::Form;
         let Form::Name(_) = value.form else { return None };
         match self.scope().find(At::default(), name) {
-            Found::Datum { content: content @ Content::Array { .. }, cause: None, .. } => {
+            Lookup::Datum { content: content @ Content::Array { .. }, cause: None, .. } => {
                 Some(content.clone())
             }
             _ => None,

@@ -7,13 +7,14 @@ use alloc::vec::Vec;
 use core::cell::Cell;
 use core::ops::Range;
 
-use super::arguments::{Parameter, arguments, assignment, called, referred};
+use super::arguments::referred;
 use super::index::{DatumId, Index};
+use super::statement::{Action, Instruction};
 use super::tree::{Block, Body, Node};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::lookup::written_argument;
+use crate::rapid::data::module::Parameter;
 use crate::rapid::data::moves::Move;
-use crate::rapid::data::unread::{NotRead, Skipped};
 use crate::rapid::data::value::DataType;
 use crate::rapid::resolve::resolver::atoms_of;
 
@@ -340,49 +341,30 @@ impl<'e, 'm> Reader<'e, 'm> {
                         self.assign(&name, String::new(), step.line);
                     }
                 }
-                Node::Other(skipped) => self.statement(skipped),
+                Node::Other(skipped, action) => self.statement(skipped.line, action),
                 Node::Branches { parts, .. } => parts.iter().for_each(|part| self.block(part)),
                 Node::Loop { body, .. } => self.block(body),
             }
         }
     }
 
-    fn statement(&mut self, skipped: &Skipped) {
-        match &skipped.what {
-            NotRead::Motion { name } => {
-                self.acts.moves = true;
-                self.written(name, skipped);
-                self.call(skipped);
+    fn statement(&mut self, line: usize, action: &Action<'_>) {
+        match action {
+            Action::Nothing | Action::Label => {}
+            Action::Unread => self.acts.moves = true,
+            Action::Assign { to: (name, components), .. } => {
+                self.assign(name, components.clone(), line);
             }
-            NotRead::Unfinished { .. } | NotRead::Invalid { .. } => self.acts.moves = true,
-            NotRead::Assignment { .. } => {
-                if let Ok((target, _)) = assignment(&skipped.text)
-                    && let Some((name, components)) = referred(&target)
-                {
-                    self.assign(&name, components, skipped.line);
+            Action::Instruct(instruction) => {
+                self.acts.moves |= matches!(
+                    instruction.effect,
+                    Effect::Moves | Effect::Displaces(_) | Effect::Offsets(_) | Effect::Sets
+                );
+                if let Some((name, components)) = &instruction.written {
+                    self.assign(name, components.clone(), line);
                 }
+                self.call(instruction, line);
             }
-            NotRead::Instruction { name } => {
-                let is_of = |effect: Effect| effect.is_of(name);
-                self.acts.moves |= is_of(Effect::Displaces)
-                    || is_of(Effect::EndsDisplacement)
-                    || is_of(Effect::Offsets)
-                    || is_of(Effect::Sets);
-                self.written(name, skipped);
-                self.call(skipped);
-            }
-            _ => {}
-        }
-    }
-
-    /// The datum that an instruction writes to.
-    fn written(&mut self, name: &str, skipped: &Skipped) {
-        let Some(place) = written_argument(name) else { return };
-        if let Ok(arguments) = arguments(&skipped.text)
-            && let Some(argument) = place.checked_sub(1).and_then(|at| arguments.required.get(at))
-            && let Some((name, components)) = referred(argument)
-        {
-            self.assign(&name, components, skipped.line);
         }
     }
 
@@ -400,22 +382,21 @@ impl<'e, 'm> Reader<'e, 'm> {
         }
     }
 
-    fn call(&mut self, skipped: &Skipped) {
-        let Skipped { line, text, .. } = skipped;
-        let Some(name) = called(text) else {
+    fn call(&mut self, instruction: &Instruction<'_>, line: usize) {
+        let Some(name) = &instruction.name else {
             // A call by a name that is calculated may do anything.
             self.acts.moves = true;
             return;
         };
-        let Some(home) = self.names.procedure(self.module, &name) else { return };
-        let to = (home, name);
-        let Ok(arguments) = arguments(text) else { return };
+        let Some(home) = self.names.procedure(self.module, name) else { return };
+        let Some(arguments) = &instruction.arguments else { return };
+        let to = (home, name.clone());
         let name_of = |it| referred(it).map(|(name, _)| name);
         let required = arguments.required.iter().map(name_of).collect();
         let optional = arguments.optional.iter();
         let optional = optional
             .map(|(name, value)| (name.to_lowercase(), value.as_ref().and_then(name_of)))
             .collect();
-        self.calls.push(Call { line: *line, to, required, optional });
+        self.calls.push(Call { line, to, required, optional });
     }
 }

@@ -4,9 +4,8 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::arguments::{Parameter, parameters};
 use super::tree::{Body, bodies};
-use crate::rapid::data::module::{Datum, Module, RoutineKind, Scope};
+use crate::rapid::data::module::{Datum, Module, Parameter, RoutineKind, Scope};
 use crate::rapid::data::unread::{NotRead, Unresolved};
 
 /// A datum: its module and its index there.
@@ -20,7 +19,7 @@ pub(in crate::rapid) struct DatumId {
 pub(in crate::rapid) struct Index<'m> {
     pub(in crate::rapid) modules: Vec<&'m Module>,
     /// The parameters of the routines of each module by their names in lower case.
-    parameters: Vec<BTreeMap<String, Vec<Parameter>>>,
+    parameters: Vec<BTreeMap<String, &'m [Parameter]>>,
     /// The names in lower case of the procedures and the traps of each module.
     procedures: Vec<BTreeSet<String>>,
     traps: Vec<BTreeSet<String>>,
@@ -54,14 +53,14 @@ impl<'m> Index<'m> {
             let mut traps = BTreeSet::new();
             for routine in &module.routines {
                 let name = routine.name.to_lowercase();
-                all.entry(name.clone()).or_insert_with(|| parameters(routine));
+                all.entry(name.clone()).or_insert(&routine.parameters[..]);
                 if routine.kind == RoutineKind::Trap {
                     traps.insert(name.clone());
                 }
                 if routine.kind != RoutineKind::Proc {
                     continue;
                 }
-                if !is_local(&routine.header) {
+                if !routine.is_local() {
                     names.global_procedures.entry(name.clone()).or_insert(index);
                 }
                 own.insert(name);
@@ -153,8 +152,8 @@ impl<'m> Index<'m> {
     }
 
     /// The parameters of a routine, by its name in lower case.
-    pub(super) fn parameters(&self, module: usize, lower: &str) -> &[Parameter] {
-        self.parameters.get(module).and_then(|it| it.get(lower)).map_or(&[], Vec::as_slice)
+    pub(super) fn parameters(&self, module: usize, lower: &str) -> &'m [Parameter] {
+        self.parameters.get(module).and_then(|it| it.get(lower)).copied().unwrap_or_default()
     }
 
     /// The routines of all modules in the order of the text, by module and name in lower case; ""
@@ -194,9 +193,4 @@ fn unread(module: &Module) -> BTreeMap<String, Unresolved> {
         _ => None,
     });
     names.collect()
-}
-
-/// Whether a header begins with LOCAL.
-fn is_local(header: &str) -> bool {
-    header.get(.."LOCAL".len()).is_some_and(|word| word.eq_ignore_ascii_case("LOCAL"))
 }

@@ -13,6 +13,7 @@ mod index;
 mod loops;
 mod moves;
 mod state;
+mod statement;
 mod tree;
 mod values;
 pub(super) mod walk;

@@ -2,14 +2,15 @@
 
 use alloc::borrow::Cow;
 
-use super::arguments::{Arguments, arguments};
 use super::frame::Frame;
 use super::state::{Displacement, Offsets, State};
+use super::statement::Instruction;
 use super::values::Scope;
 use crate::Error;
 use crate::rapid::calc::frames::{pose_in, rapid_pose};
 use crate::rapid::calc::target::target_pose;
 use crate::rapid::calc::units::MOST_DEGREES;
+use crate::rapid::data::instructions::Shift;
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
 use crate::rapid::data::records::{RapidPose, RobTarget};
 use crate::rapid::data::types::Record;
@@ -130,45 +131,56 @@ impl Scope<'_, '_> {
         }
     }
 
-    /// The displacement of targets, or of external axes, by an instruction.
+    /// The displacement of targets behind an instruction.
     pub(super) fn displacement(
         &self,
         skipped: &Skipped,
-        name: &str,
-    ) -> Result<Displacement, Offsets> {
-        let is = |own: &str| name.eq_ignore_ascii_case(own);
-        if is("PDispOff") {
-            return Ok(Displacement::Nothing);
+        instruction: &Instruction<'_>,
+        shift: Shift,
+    ) -> Displacement {
+        let pose = match shift {
+            Shift::Off => return Displacement::Nothing,
+            Shift::Given => self.first(skipped, instruction, DataType::Pose),
+            Shift::Between => self.between(skipped, instruction).map(Value::Pose),
+        };
+        match pose {
+            Some(Value::Pose(pose)) => Displacement::Known(pose, skipped.line),
+            _ => Displacement::Unknown(skipped.line),
         }
-        if is("EOffsOff") {
-            return Err(Ok([0.0; 6]));
+    }
+
+    /// The offsets of external axes behind an instruction.
+    pub(super) fn offsets(
+        &self,
+        skipped: &Skipped,
+        instruction: &Instruction<'_>,
+        shift: Shift,
+    ) -> Offsets {
+        match shift {
+            Shift::Off => Ok([0.0; 6]),
+            Shift::Between => Err(skipped.line),
+            Shift::Given => match self.first(skipped, instruction, DataType::ExtJoint) {
+                Some(Value::ExtJoint(offsets)) => Ok(offsets),
+                _ => Err(skipped.line),
+            },
         }
-        let arguments = arguments(&skipped.text).ok();
-        if is("EOffsSet") || is("EOffsOn") {
-            let offsets = arguments.filter(|_| is("EOffsSet")).and_then(|arguments| {
-                match self.value(&skipped.text, arguments.required.first()?, DataType::ExtJoint) {
-                    Ok(Value::ExtJoint(offsets)) => Some(offsets),
-                    _ => None,
-                }
-            });
-            return Err(offsets.ok_or(skipped.line));
-        }
-        let pose = arguments.and_then(|arguments| {
-            if !is("PDispSet") {
-                return self.between(skipped, &arguments);
-            }
-            match self.value(&skipped.text, arguments.required.first()?, DataType::Pose) {
-                Ok(Value::Pose(pose)) => Some(pose),
-                _ => None,
-            }
-        });
-        let line = skipped.line;
-        Ok(pose.map_or(Displacement::Unknown(line), |pose| Displacement::Known(pose, line)))
+    }
+
+    /// The value of the first argument.
+    fn first(
+        &self,
+        skipped: &Skipped,
+        instruction: &Instruction<'_>,
+        data_type: DataType,
+    ) -> Option<Value> {
+        let argument = instruction.arguments.as_ref()?.required.first()?;
+        self.value(&skipped.text, argument, data_type).ok()
     }
 
     /// The displacement of PDispOn from a programmed position to the one that is executed, which is
     /// where the robot is unless `\ExeP` gives it.
-    fn between(&self, skipped: &Skipped, arguments: &Arguments<'_>) -> Option<RapidPose> {
+    fn between(&self, skipped: &Skipped, instruction: &Instruction<'_>) -> Option<RapidPose> {
+        let arguments = instruction.arguments.as_ref()?;
         let has =
             |name: &str| arguments.optional.iter().find(|(own, _)| own.eq_ignore_ascii_case(name));
         let pose =

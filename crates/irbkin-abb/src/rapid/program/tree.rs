@@ -5,6 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::mem;
 
+use super::statement::{Action, Condition, Counter};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::settings::Setting;
@@ -18,11 +19,11 @@ pub(super) enum Node<'m> {
     /// A move, by its index in the module.
     Move(usize, &'m Move),
     Setting(&'m Setting),
-    /// An instruction, an assignment, a label.
-    Other(&'m Skipped),
+    Other(&'m Skipped, Action<'m>),
     /// IF or TEST, by its first line.
     Branches {
         head: &'m Skipped,
+        condition: Condition,
         parts: Vec<Block<'m>>,
         /// Whether one of the parts is certainly executed.
         is_complete: bool,
@@ -30,6 +31,10 @@ pub(super) enum Node<'m> {
     /// FOR or WHILE, by its first line.
     Loop {
         head: &'m Skipped,
+        condition: Condition,
+        /// Of a FOR that refers to its variable, or not.
+        counter: Option<Counter<'m>>,
+        is_counted: bool,
         body: Block<'m>,
     },
 }
@@ -66,10 +71,10 @@ pub(super) fn bodies(module: &Module) -> BTreeMap<String, Body<'_>> {
         (module.settings.iter())
             .map(|it| (it.line, it.column, it.routine.as_deref(), Node::Setting(it))),
     );
-    items.extend(
-        (module.skipped.iter())
-            .map(|it| (it.line, it.column, it.routine.as_deref(), Node::Other(it))),
-    );
+    items
+        .extend((module.skipped.iter()).map(|it| {
+            (it.line, it.column, it.routine.as_deref(), Node::Other(it, Action::of(it)))
+        }));
     items.sort_by_key(|(line, column, ..)| (*line, *column));
     let mut grown: BTreeMap<String, Grower<'_>> = BTreeMap::new();
     let mut last: Option<(Option<&str>, String)> = None;
@@ -110,16 +115,13 @@ struct Grower<'m> {
 
 impl<'m> Grower<'m> {
     fn add(&mut self, node: Node<'m>) {
-        match node {
-            Node::Other(skipped) if matches!(skipped.what, NotRead::Flow { .. }) => {
-                let NotRead::Flow { word } = &skipped.what else { return };
-                self.flow(skipped, word);
-            }
-            node => {
-                self.push(node);
-                self.close_single();
-            }
+        if let Node::Other(skipped, _) = &node
+            && let NotRead::Flow { word } = &skipped.what
+        {
+            return self.flow(skipped, word);
         }
+        self.push(node);
+        self.close_single();
     }
 
     fn push(&mut self, node: Node<'m>) {
@@ -160,15 +162,15 @@ impl<'m> Grower<'m> {
 
     fn close(&mut self) {
         let Some(Open { head, mut parts, part, has_else, .. }) = self.open.pop() else { return };
-        let word = match &head.what {
-            NotRead::Flow { word } => word.as_str(),
-            _ => "",
-        };
+        let word = head.what.word();
+        let condition = Condition::of(&head.text);
         if matches!(word, "FOR" | "WHILE") {
-            self.push(Node::Loop { head, body: part });
+            let counter = Counter::of(&head.text);
+            let is_counted = counter.as_ref().is_some_and(|it| mentions(&part, &it.variable));
+            self.push(Node::Loop { head, condition, counter, is_counted, body: part });
         } else {
             parts.push(part);
-            self.push(Node::Branches { head, parts, is_complete: has_else });
+            self.push(Node::Branches { head, condition, parts, is_complete: has_else });
         }
     }
 
@@ -194,4 +196,24 @@ impl<'m> Grower<'m> {
 fn ends_with_then(text: &str) -> bool {
     let start = text.len().saturating_sub("THEN".len());
     text.get(start..).is_some_and(|end| end.eq_ignore_ascii_case("THEN"))
+}
+
+/// Whether a block has a word, in lower case.
+fn mentions(block: &Block<'_>, word: &str) -> bool {
+    let has = |text: &str| {
+        let words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        words.filter(|it| it.len() == word.len()).any(|it| it.to_lowercase() == word)
+    };
+    block.iter().any(|node| match node {
+        Node::Move(_, step) => {
+            let arguments = [Some(&step.target.text), Some(&step.tool.text)];
+            let optional =
+                [step.via.as_ref().map(|via| &via.text), step.wobj.as_ref().map(|wobj| &wobj.text)];
+            arguments.into_iter().chain(optional).flatten().any(|text| has(text))
+        }
+        Node::Setting(_) => false,
+        Node::Other(skipped, _) => has(&skipped.text),
+        Node::Branches { parts, .. } => parts.iter().any(|part| mentions(part, word)),
+        Node::Loop { head, body, .. } => has(&head.text) || mentions(body, word),
+    })
 }

@@ -11,7 +11,7 @@ use crate::rapid::data::types::{Atoms, Record};
 use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
-use crate::rapid::expression::names::{At, By, Cause, Found, Names, lower, predefined};
+use crate::rapid::expression::names::{At, By, Cause, Lookup, Names, lower, predefined};
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Expression, Form};
 use crate::rapid::text::place::Place;
@@ -29,12 +29,12 @@ pub(super) struct Scope<'s, 'm> {
 }
 
 impl Names for Scope<'_, '_> {
-    fn find(&self, _: At, name: &str) -> Found<'_> {
+    fn find(&self, _: At, name: &str) -> Lookup<'_> {
         let lower = lower(name);
-        let known = |content| Found::Datum { content, can_change: false, cause: None };
+        let known = |content| Lookup::Datum { content, can_change: false, cause: None };
         match self.state.locals.get(&*lower).map(|local| &local.content) {
             Some(Ok(content)) => return known(content),
-            Some(Err(why)) => return Found::Unknown(why.clone()),
+            Some(Err(why)) => return Lookup::Unknown(why.clone()),
             None => {}
         }
         let Some((id, datum)) = self.program.datum(self.module, &lower) else {
@@ -42,9 +42,9 @@ impl Names for Scope<'_, '_> {
                 return known(&part.content);
             }
             if let Some(why) = self.program.unread(self.module, &lower) {
-                return Found::Unknown(why.clone());
+                return Lookup::Unknown(why.clone());
             }
-            return predefined(&lower).map_or(Found::NotHere, Found::Predefined);
+            return predefined(&lower).map_or(Lookup::NotHere, Lookup::Predefined);
         };
         if let Some(content) = self.state.global(id) {
             return known(content);
@@ -54,13 +54,13 @@ impl Names for Scope<'_, '_> {
                 self.has_taken.set(true);
                 known(&datum.content)
             }
-            Ok(cause) => Found::Datum { content: &datum.content, can_change: false, cause },
-            Err(why) => Found::Unknown(why),
+            Ok(cause) => Lookup::Datum { content: &datum.content, can_change: false, cause },
+            Err(why) => Lookup::Unknown(why),
         }
     }
 
     fn cause_of(&self, at: At, name: &str, atoms: Range<usize>) -> Option<Cause<'_>> {
-        let Found::Datum { cause: Some(cause), .. } = self.find(at, name) else { return None };
+        let Lookup::Datum { cause: Some(cause), .. } = self.find(at, name) else { return None };
         let (id, datum) = self.program.datum(self.module, &lower(name))?;
         let assigned = self.program.effects.assigned(id)?;
         assigned.meets(datum.data_type, &atoms).then_some(cause)

@@ -10,16 +10,16 @@ use alloc::vec::Vec;
 
 use super::effects::written_by;
 use super::frame::Frame;
-use super::loops::{asked_for, never_holds};
 use super::state::{Displacement, Here, State};
+use super::statement::{Action, Condition, Instruction};
 use super::tree::{Block, Node};
-use super::walker::{Filled, Run, Step, Stepped, Uncertain, Walk, word_of};
+use super::walker::{Filled, Run, Step, Stepped, Uncertain, Walk};
 use super::whole::Program;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::settings::Setting;
-use crate::rapid::data::unread::{NotRead, Skipped};
+use crate::rapid::data::unread::Skipped;
 use irbkin::{Interrupt, Interrupted};
 
 /// The runs of a program: of its main routine, then of every routine that was not called; and what
@@ -106,13 +106,13 @@ impl<'m> Walk<'_, 'm> {
             match node {
                 Node::Move(index, step) => self.step(*index, step),
                 Node::Setting(setting) => self.set(setting),
-                Node::Other(skipped) => self.statement(skipped),
-                Node::Branches { head, parts, is_complete } => {
+                Node::Other(skipped, action) => self.statement(skipped, action),
+                Node::Branches { head, condition, parts, is_complete } => {
                     if self.is_one && parts.iter().any(|part| self.acts(part)) {
-                        self.decides(head.line, word_of(head));
+                        self.decides(head.line, head.what.word());
                     }
                     let entry = self.state.clone();
-                    let holds = self.holds(&head.text);
+                    let holds = self.holds(condition);
                     let is_passed = !is_complete && holds != Some(true);
                     let mut ends = Vec::from_iter(is_passed.then(|| entry.clone()));
                     let mut parts = parts.iter();
@@ -120,7 +120,7 @@ impl<'m> Walk<'_, 'm> {
                         && let Some(other) = parts.next()
                     {
                         self.left_out(other);
-                    } else if never_holds(&head.text)
+                    } else if matches!(condition, Condition::Never)
                         && let Some(never) = parts.next()
                     {
                         self.never_run(head, never);
@@ -136,17 +136,21 @@ impl<'m> Walk<'_, 'm> {
                     }
                     self.join(entry, ends, head.line);
                 }
-                Node::Loop { head, body } if never_holds(&head.text) => self.never_run(head, body),
-                Node::Loop { head, body } => self.repeat(head, body),
+                Node::Loop { head, condition: Condition::Never, body, .. } => {
+                    self.never_run(head, body);
+                }
+                Node::Loop { head, counter, is_counted, body, .. } => {
+                    self.repeat(head, (counter.as_ref(), *is_counted), body);
+                }
             }
         }
     }
 
     /// Whether a condition holds in the call that is followed, if it asks for an argument alone.
-    fn holds(&self, head: &str) -> Option<bool> {
-        let (name, is_wanted) = asked_for(head)?;
-        let is_there = self.frame.present.contains(&name);
-        (is_there || self.frame.absent.contains(&name)).then_some(is_there == is_wanted)
+    fn holds(&self, condition: &Condition) -> Option<bool> {
+        let Condition::Present(name, is_wanted) = condition else { return None };
+        let is_there = self.frame.present.contains(name);
+        (is_there || self.frame.absent.contains(name)).then_some(is_there == *is_wanted)
     }
 
     /// A block that the call that is followed does not execute.
@@ -236,59 +240,61 @@ impl<'m> Walk<'_, 'm> {
         }
     }
 
-    fn is_procedure(&self, name: &str) -> bool {
-        self.program.procedure(self.frame.module, &name.to_lowercase()).is_some()
-    }
-
     /// Something that is no move and no branch.
-    fn statement(&mut self, skipped: &'m Skipped) {
-        match &skipped.what {
-            NotRead::Motion { name } if self.is_procedure(name) => self.call(skipped),
-            NotRead::Motion { .. } | NotRead::Unfinished { .. } | NotRead::Invalid { .. } => {
-                self.not_followed(skipped, skipped.what.to_string());
-            }
-            NotRead::Label { .. } => {
-                let body = self.program.body(self.frame.module, &self.frame.routine);
-                if let Some(body) = body {
+    fn statement(&mut self, skipped: &'m Skipped, action: &Action<'m>) {
+        match action {
+            Action::Nothing => {}
+            Action::Unread => self.not_followed(skipped, skipped.what.to_string()),
+            Action::Label => {
+                if let Some(body) = self.program.body(self.frame.module, &self.frame.routine) {
                     self.forget(&body.main);
                 }
                 self.state.here = Here::Unknown;
             }
-            NotRead::Assignment { .. } => self.assign(skipped),
-            NotRead::Instruction { name } => self.instruction(skipped, name),
-            _ => {}
+            Action::Assign { target, value, to } => {
+                let content = self.scope().assigned(&skipped.text, target, value);
+                self.put(&to.0, content);
+            }
+            Action::Instruct(instruction) => self.instruct(skipped, instruction),
         }
     }
 
-    fn instruction(&mut self, skipped: &'m Skipped, name: &str) {
-        let is_of = |effect: Effect| effect.is_of(name);
-        if name.eq_ignore_ascii_case("RETURN") {
-            self.frame.exits.push(self.state.clone());
-            self.state.here = Here::Left;
-        } else if is_of(Effect::Leaves) || is_of(Effect::Jumps) {
-            if is_of(Effect::Jumps) {
+    fn instruct(&mut self, skipped: &'m Skipped, instruction: &Instruction<'m>) {
+        match instruction.effect {
+            Effect::Moves => {
+                let name = instruction.name.as_deref();
+                let home = name.and_then(|name| self.program.procedure(self.frame.module, name));
+                match home {
+                    Some(_) => self.call(skipped, instruction),
+                    None => self.not_followed(skipped, skipped.what.to_string()),
+                }
+            }
+            Effect::Returns => {
+                self.frame.exits.push(self.state.clone());
+                self.state.here = Here::Left;
+            }
+            Effect::Leaves => self.state.here = Here::Left,
+            Effect::Jumps => {
                 self.decides(skipped.line, "GOTO");
+                self.state.here = Here::Left;
             }
-            self.state.here = Here::Left;
-        } else if is_of(Effect::Displaces)
-            || is_of(Effect::EndsDisplacement)
-            || is_of(Effect::Offsets)
-        {
-            let scope = self.scope();
-            let displacement = scope.displacement(skipped, name);
-            match displacement {
-                Ok(displacement) => self.state.displacement = displacement,
-                Err(offsets) => self.state.offsets = offsets,
+            Effect::Displaces(shift) => {
+                self.state.displacement = self.scope().displacement(skipped, instruction, shift);
             }
-        } else if is_of(Effect::Sets) {
-            self.not_followed(skipped, skipped.what.to_string());
-        } else if self.is_one && is_of(Effect::Stops) {
-            self.state.here = Here::Left;
-        } else if is_of(Effect::Waits) || is_of(Effect::Stops) {
-            self.halt(&format!("{name} on line {}", skipped.line));
-        } else {
-            self.written(skipped, name);
-            self.call(skipped);
+            Effect::Offsets(shift) => {
+                self.state.offsets = self.scope().offsets(skipped, instruction, shift);
+            }
+            Effect::Sets => self.not_followed(skipped, skipped.what.to_string()),
+            Effect::Stops if self.is_one => self.state.here = Here::Left,
+            Effect::Waits | Effect::Stops => {
+                self.halt(&format!("{} on line {}", skipped.what.word(), skipped.line));
+            }
+            Effect::Nothing => {
+                if let Some((name, _)) = &instruction.written {
+                    self.put(name, None);
+                }
+                self.call(skipped, instruction);
+            }
         }
     }
 }

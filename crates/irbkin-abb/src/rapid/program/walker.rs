@@ -11,13 +11,14 @@ use nalgebra::Vector3;
 
 use super::frame::Frame;
 use super::state::{Here, State};
+use super::statement::Action;
 use super::tree::{Block, Node, size};
 use super::values::Scope;
 use super::whole::Program;
 use crate::rapid::data::finding::Finding;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind, Target};
-use crate::rapid::data::unread::{NotRead, Skipped};
+use crate::rapid::data::unread::Skipped;
 use irbkin::Interrupt;
 
 /// Statements, moves, and the way of the tool [mm] that are followed for each hundred bytes of the
@@ -265,26 +266,18 @@ impl<'p, 'm> Walk<'p, 'm> {
             Node::Setting(_) => true,
             Node::Branches { parts, .. } => parts.iter().any(|part| self.acts(part)),
             Node::Loop { body, .. } => self.acts(body),
-            Node::Other(skipped) => match &skipped.what {
-                NotRead::Motion { .. } | NotRead::Unfinished { .. } | NotRead::Invalid { .. } => {
-                    true
-                }
-                NotRead::Instruction { name } => {
-                    let lower = name.to_lowercase();
-                    let home = self.program.procedure(self.frame.module, &lower);
-                    let of = home.and_then(|it| self.program.effects.of_routine(it, &lower));
-                    Effect::Leaves.is_of(name) || of.is_some_and(|of| of.moves)
-                }
+            Node::Other(_, action) => match action {
+                Action::Unread => true,
+                Action::Instruct(instruction) => match instruction.effect {
+                    Effect::Moves | Effect::Leaves | Effect::Returns => true,
+                    _ => instruction.name.as_ref().is_some_and(|name| {
+                        let home = self.program.procedure(self.frame.module, name);
+                        let of = home.and_then(|it| self.program.effects.of_routine(it, name));
+                        of.is_some_and(|of| of.moves)
+                    }),
+                },
                 _ => false,
             },
         })
-    }
-}
-
-/// The first word of a branch or a loop, in capitals.
-pub(super) fn word_of(head: &Skipped) -> &str {
-    match &head.what {
-        NotRead::Flow { word } => word,
-        _ => "",
     }
 }

@@ -14,7 +14,7 @@ use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::DataType;
 use crate::rapid::expression::content::Placed;
 use crate::rapid::expression::evaluate::Stop;
-use crate::rapid::expression::names::{At, By, Cause, Found, Names, lower, predefined};
+use crate::rapid::expression::names::{At, By, Cause, Lookup, Names, lower, predefined};
 use crate::rapid::statements::blocks::Blocks;
 use crate::rapid::statements::declarations::Declared;
 use crate::rapid::statements::faults::Faults;
@@ -44,23 +44,23 @@ pub(super) struct Resolver<'a> {
 }
 
 impl Names for Resolver<'_> {
-    fn find(&self, at: At, name: &str) -> Found<'_> {
+    fn find(&self, at: At, name: &str) -> Lookup<'_> {
         let lower = lower(name);
         if self.blocks.is_variable(at.inside_loop, &lower) {
-            return Found::Unknown(Unresolved::LoopVariable);
+            return Lookup::Unknown(Unresolved::LoopVariable);
         }
         match self.scopes.find(at.routine, &lower) {
-            Some(Named::Other(why)) => return Found::Unknown(why.clone()),
+            Some(Named::Other(why)) => return Lookup::Unknown(why.clone()),
             Some(Named::Datum(index)) => return self.datum(*index),
             None => {}
         }
         match self.elsewhere(&lower) {
-            Some((datum, cause)) => Found::Datum {
+            Some((datum, cause)) => Lookup::Datum {
                 content: &datum.content,
                 can_change: datum.storage != Storage::Const,
                 cause,
             },
-            None => predefined(&lower).map_or(Found::NotHere, Found::Predefined),
+            None => predefined(&lower).map_or(Lookup::NotHere, Lookup::Predefined),
         }
     }
 
@@ -68,7 +68,7 @@ impl Names for Resolver<'_> {
         match self.scopes.find(at.routine, &lower(name)) {
             Some(Named::Datum(index)) => self.causes.of_atoms(*index, &atoms),
             _ => match self.find(at, name) {
-                Found::Datum { cause, .. } => cause,
+                Lookup::Datum { cause, .. } => cause,
                 _ => None,
             },
         }
@@ -105,14 +105,14 @@ impl<'a> Resolver<'a> {
     }
 
     /// A datum of the module.
-    fn datum(&self, index: usize) -> Found<'_> {
+    fn datum(&self, index: usize) -> Lookup<'_> {
         let (Some(declared), Some(Ok(Placed { content, .. }))) =
             (self.declared.get(index), self.contents.get(index))
         else {
-            return Found::Unknown(Unresolved::ValueNotKnown);
+            return Lookup::Unknown(Unresolved::ValueNotKnown);
         };
         let can_change = declared.storage != Storage::Const;
-        Found::Datum { content, can_change, cause: self.causes.of_datum(index) }
+        Lookup::Datum { content, can_change, cause: self.causes.of_datum(index) }
     }
 
     /// Resolve every datum, each after those that it refers to, without recursion.

@@ -21,7 +21,6 @@ pub struct Faults<'a> {
 
 impl<'a> Faults<'a> {
     #[doc(hidden)]
-    #[must_use]
     pub fn new(is_tolerant: bool, interrupt: Interrupt<'a>) -> Self {
         Self { is_tolerant, interrupt, kept: Vec::new() }
     }

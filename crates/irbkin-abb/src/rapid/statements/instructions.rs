@@ -187,7 +187,7 @@ impl<'a> StatementReader<'a> {
         if let Some(name) = named {
             note(&mut self.tokens, name, false, fit);
         }
-        let what = match name.filter(|it| Effect::Moves.is_of(it)) {
+        let what = match name.filter(|it| Effect::of(it) == Effect::Moves) {
             Some(name) => NotRead::Motion { name: name.to_string() },
             None => NotRead::Instruction { name: self.tokens.text_of(first).to_string() },
         };
@@ -209,7 +209,7 @@ impl<'a> StatementReader<'a> {
     /// nothing read, for another instruction or one that is not as RAPID has it.
     fn setting(&mut self, first: Token) -> Result<bool, RapidFault> {
         let name = self.tokens.text_of(first);
-        if !Effect::Sets.is_of(name) {
+        if Effect::of(name) != Effect::Sets {
             return Ok(false);
         }
         let mark = self.tokens.mark();

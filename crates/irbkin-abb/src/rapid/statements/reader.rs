@@ -11,7 +11,7 @@ use super::declarations::Declared;
 use super::faults::Faults;
 use super::moves::WrittenMove;
 use super::types::Types;
-use crate::rapid::data::instructions::Effect;
+use crate::rapid::data::instructions::{Effect, Shift};
 use crate::rapid::data::module::{Module, Routine};
 use crate::rapid::data::moves::MoveKind;
 use crate::rapid::data::own_types::OwnTypes;
@@ -285,10 +285,10 @@ impl DisplacedBy {
 
     /// Record an instruction on a line.
     pub(crate) fn see(&mut self, name: &str, line: usize) {
-        if Effect::Displaces.is_of(name) {
-            self.line = Some(line);
-        } else if Effect::EndsDisplacement.is_of(name) {
-            self.line = None;
+        match Effect::of(name) {
+            Effect::Displaces(Shift::Off) => self.line = None,
+            Effect::Displaces(_) => self.line = Some(line),
+            _ => {}
         }
     }
 }

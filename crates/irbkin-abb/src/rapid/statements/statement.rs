@@ -11,8 +11,9 @@ use super::faults::{Faults, is_encoded};
 use super::parts::DatumPart;
 use super::reader::{Named, Stage, StatementReader, Written, is_placeholder};
 use super::recovery::skip_to_end;
-use crate::rapid::data::module::{Module, Routine, RoutineKind, Scope};
+use crate::rapid::data::module::{Module, Parameter, Routine, RoutineKind, Scope};
 use crate::rapid::data::unread::{NotRead, Unresolved};
+use crate::rapid::data::value::DataType;
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::tokens::{Token, TokenKind};
 use crate::rapid::text::words::{Capitals, is_reserved};
@@ -263,17 +264,19 @@ impl StatementReader<'_> {
             header: self.written.text[first.start..self.tokens.last_end].to_string(),
             line,
             column,
+            parameters: Vec::new(),
         });
         self.routine = self.written.routines.len();
         (self.displaced_by, self.settings) = Default::default();
+        let mut parameters = Vec::new();
         if self.tokens.peek().is(b'(') && kind != RoutineKind::Trap {
-            self.parameters(name)?;
+            parameters = self.parameters(name)?;
         } else if kind != RoutineKind::Trap {
             self.complain(self.tokens.lacking("("))?;
         }
         let header = self.written.text[first.start..self.tokens.last_end].to_string();
         if let Some(routine) = self.written.routines.last_mut() {
-            routine.header = header;
+            (routine.header, routine.parameters) = (header, parameters);
         }
         Ok(())
     }
@@ -303,9 +306,10 @@ impl StatementReader<'_> {
     }
 
     /// Read the parameters in parentheses: each has perhaps a mode, then a type and a name.
-    fn parameters(&mut self, routine: &str) -> Result<(), RapidFault> {
+    fn parameters(&mut self, routine: &str) -> Result<Vec<Parameter>, RapidFault> {
         let open = self.tokens.take()?;
         let (mut last, mut count) = (None, 0);
+        let (mut found, mut own) = (Vec::new(), Parameter::default());
         loop {
             let token = self.tokens.peek();
             let is_mode = ["INOUT", "VAR", "PERS", "REF"].iter().any(|it| self.tokens.at_word(it));
@@ -315,8 +319,13 @@ impl StatementReader<'_> {
                         .tokens
                         .fault(open.start, RapidFaultKind::Unclosed { bracket: '(' }));
                 }
-                TokenKind::Name if is_mode && count == 0 => {}
-                TokenKind::Name if count < 2 => (last, count) = (Some(token), count + 1),
+                TokenKind::Name if is_mode && count == 0 => own.is_reference = true,
+                TokenKind::Name if count < 2 => {
+                    if count == 0 {
+                        own.data_type = DataType::named(self.tokens.text_of(token));
+                    }
+                    (last, count) = (Some(token), count + 1);
+                }
                 TokenKind::Symbol(b',' | b'|' | b'\\' | b')') => {
                     if count == 1 && last.is_some() {
                         return Err(self.tokens.unexpected("the name of a parameter"));
@@ -327,8 +336,15 @@ impl StatementReader<'_> {
                         if let Err(fault) = self.declare(name, text, named) {
                             self.complain(fault)?;
                         }
+                        found.push(Parameter { name: text.to_lowercase(), ..own.clone() });
                     }
                     count = 0;
+                    own = Parameter {
+                        is_optional: token.is(b'|')
+                            || !token.is(b',') && (own.is_optional || token.is(b'\\')),
+                        is_alternative: token.is(b'|') || !token.is(b',') && own.is_alternative,
+                        ..Parameter::default()
+                    };
                 }
                 TokenKind::Placeholder => (last, count) = (None, count + 1),
                 TokenKind::Symbol(b'{') if last.is_some() => {
@@ -341,7 +357,7 @@ impl StatementReader<'_> {
             }
             self.tokens.take()?;
             if token.is(b')') {
-                return Ok(());
+                return Ok(found);
             }
         }
     }

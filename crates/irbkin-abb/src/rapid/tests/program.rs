@@ -5,8 +5,10 @@ use std::string::{String, ToString};
 use std::vec;
 use std::vec::Vec;
 
+use crate::rapid::data::module::Parameter;
 use crate::rapid::{
-    CheckOptions, Checked, Code, Finding, Module, Unit, UnitAxis, Units, check, read,
+    CheckOptions, Checked, Code, DataType, Finding, Module, Unit, UnitAxis, Units, check, parse,
+    read,
 };
 use irbkin::Pose;
 use irbkin_motion::Arm;
@@ -366,4 +368,26 @@ fn an_external_axis_in_one_of_two_targets_and_bad_circles_are_found() {
     assert!(outcome(&long).0.contains(&Code::UncertainCircle));
     let near = circle("Offs(a,0,0.05,0)", "Offs(a,100,0,0)");
     assert!(outcome(&near).0.contains(&Code::UncertainCircle));
+}
+
+#[test]
+fn parameters_have_types_modes_and_alternatives() {
+    let of = |header: &str, end: &str| {
+        let module = parse(&format!("MODULE M\n{header}\n{end}\nENDMODULE"), &[]).unwrap();
+        module.routines()[0].parameters.clone()
+    };
+    let found = of(
+        "PROC GoL(robtarget p,INOUT speeddata v{*} \\ zonedata Z | switch Fine, PERS tooldata t \
+         \\PERS wobjdata WObj)",
+        "ENDPROC",
+    );
+    let names: Vec<&str> = found.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names, ["p", "v", "z", "fine", "t", "wobj"]);
+    let are = |of: fn(&Parameter) -> bool| found.iter().map(of).collect::<Vec<bool>>();
+    assert_eq!(are(|it| it.is_optional), [false, false, true, true, false, true]);
+    assert_eq!(are(|it| it.is_reference), [false, true, false, false, true, true]);
+    assert_eq!(are(|it| it.is_alternative), [false, false, false, true, false, false]);
+    assert_eq!(found[3].data_type, None);
+    assert_eq!(found[4].data_type, Some(DataType::ToolData));
+    assert!(of("PROC main()", "ENDPROC").is_empty() && of("TRAP t", "ENDTRAP").is_empty());
 }
