@@ -74,7 +74,6 @@ impl<'a> Interrupt<'a> {
 
     /// Whether a loop ends at its round of this number.
     #[doc(hidden)]
-    #[must_use]
     pub fn ends(self, round: usize) -> bool {
         round.is_multiple_of(ROUNDS) && self.is_raised()
     }

@@ -52,12 +52,15 @@
 //! | `libm` | | square roots and angles without `std` (a solve never allocates, either way) |
 //! | `serde` | | `Serialize` and `Deserialize`, see below |
 //!
-//! `serde` is implemented for robots and arms ([`Robot`] and [`Arm`], with limits, velocities, base
-//! and tool; reading one runs every check of its constructors), for models ([`Definition`], [`OpwParameters`],
-//! [`Mdh`], [`Sdh`], [`DhRow`], [`JointAxis`], [`JointLimits`]), for answers ([`Solutions`],
-//! [`Solution`], [`Slot`], [`Status`], [`SingularityKind`], [`FreeJoint`], [`Configuration`], [`Singularity`],
+//! Arms with bodies, cells, plans and URDF are in `irbkin-motion`, RAPID and EGM in `irbkin-abb`.
+//!
+//! `serde` is implemented for robots ([`Robot`], with limits, velocities, base and tool; reading one
+//! runs every check of its constructors), for models ([`Definition`], [`OpwParameters`], [`Mdh`],
+//! [`Sdh`], [`DhRow`], [`JointAxis`], [`JointLimits`]), for answers ([`Solutions`], [`Solution`],
+//! [`Slot`], [`Status`], [`SingularityKind`], [`FreeJoint`], [`Configuration`], [`Singularity`],
 //! [`SingularDistances`], [`PoseDifference`]) and for options ([`follow::FollowOptions`],
-//! [`follow::SingularityMode`], [`JacobianFrame`]). In text formats, a joint without a limit is `null`.
+//! [`follow::SingularityMode`], [`JacobianFrame`]). In text formats, a joint without a limit is
+//! `null`.
 //!
 //! Unoptimized, a solve is many times slower. To optimize this crate in a debug build of yours, add
 //! to your `Cargo.toml`:

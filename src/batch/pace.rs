@@ -52,7 +52,6 @@ impl Batch<'static> {
 impl<'a> Batch<'a> {
     /// A batch that ends early when it is interrupted.
     #[doc(hidden)]
-    #[must_use]
     pub fn until(threads: Option<NonZeroUsize>, interrupt: Interrupt<'a>) -> Self {
         Self { interrupt, ..Batch::new(threads) }
     }

@@ -22,7 +22,6 @@ where
     /// The limits of the catalog's arm of the same table where they are others, in words; of
     /// several such arms, of the one with the fewest. `None` if there is no such arm or no such limit.
     #[doc(hidden)]
-    #[must_use]
     pub fn limits_of_the_catalog(&self) -> Option<String> {
         let arms = catalog().filter(|arm| arm.dof() == N && self.may_be(arm));
         let arms = arms.filter_map(|arm| Self::from_catalog(&arm).ok());

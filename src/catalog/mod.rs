@@ -63,7 +63,6 @@ pub enum AngleUnit {
 
 impl AngleUnit {
     #[doc(hidden)]
-    #[must_use]
     pub fn to_radians(self, angle: f64) -> f64 {
         match self {
             Self::Degrees => angle.to_radians(),

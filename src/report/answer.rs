@@ -60,7 +60,7 @@ pub struct Approach {
 #[non_exhaustive]
 pub enum Explanation {
     /// Solutions inside the limits exist.
-    #[error("{}", Found(*.solutions, *.inside))]
+    #[error("{}", SolutionCount(*.solutions, *.inside))]
     Found {
         /// All solutions.
         solutions: usize,
@@ -134,9 +134,9 @@ const NO_ROOTS: &str = "out of reach: no closed form; 0 real roots";
 const NOT_CERTAIN: &str = "no solution found, which is not certain: no closed form";
 
 /// How many solutions there are, and how many of them inside the limits.
-struct Found(usize, usize);
+struct SolutionCount(usize, usize);
 
-impl fmt::Display for Found {
+impl fmt::Display for SolutionCount {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self(1, 1) => f.write_str("1 solution, inside limits"),

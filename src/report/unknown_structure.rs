@@ -203,7 +203,6 @@ impl UnknownStructure {
 
     /// The structure that a `snap` gives the arm, in words.
     #[doc(hidden)]
-    #[must_use]
     pub fn helpful_snap(&self) -> Option<alloc::string::String> {
         let Hint::Snap { snap, structure, moves } = self.hint else { return None };
         let moves = alloc::format!("moves the tool by up to {moves:.1e} m");

@@ -1,13 +1,19 @@
 //! Arms with bodies for [`irbkin`]: cells and collisions, paths and trajectories, plans, free
 //! motions, guards of control loops, URDF.
 //!
-//! A free motion of a UR5e beside a box:
+//! Whether a UR5e touches itself or the floor:
 //!
 //! ```
 //! use irbkin_motion::Arm;
+//! use irbkin_motion::body::Shape;
+//! use irbkin_motion::cell::Cell;
 //!
 //! let arm: Arm<6> = Arm::named("UR5e")?;
-//! assert!(arm.body().is_some());
+//! let floor = Shape::half_space([0.0, 0.0, 1.0], [0.0; 3])?;
+//! let cell = Cell::new(vec![("floor".into(), floor)], 0.01)?;
+//! let mut checker = cell.checker(&arm)?;
+//! assert!(!checker.collides(&[0.3, -1.2, 1.4, -0.5, 0.6, 0.7])?);
+//! assert!(checker.collides(&[0.3, 0.6, 1.4, -0.5, 0.6, 0.7])?);
 //! # Ok::<(), irbkin_motion::Error>(())
 //! ```
 //!

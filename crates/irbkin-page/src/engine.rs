@@ -13,7 +13,7 @@ use super::catalog::Catalog;
 use super::cell::{self, Obstacles};
 use super::check::Checked;
 use super::forward::Posture;
-use super::inverse::Found;
+use super::inverse::PoseSolutions;
 use super::motion::Motion;
 use super::program::Program;
 use super::request::{Refusal, Request};
@@ -63,7 +63,9 @@ impl Page {
                 ok(Obstacles::of(&self.cell))
             }
             "fk" => on!(self.robot()?, robot => ok(Posture::read(robot, &self.cell, request)?)),
-            "ik" => on!(self.robot()?, robot => ok(Found::read(robot, &self.cell, request)?)),
+            "ik" => {
+                on!(self.robot()?, robot => ok(PoseSolutions::read(robot, &self.cell, request)?))
+            }
             "ik_target" => on!(self.robot()?, robot => ok(Meant::read(robot, request)?)),
             "check" => {
                 self.read_program(request)?;

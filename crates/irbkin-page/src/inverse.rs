@@ -20,7 +20,7 @@ const JUMP: f64 = 1.0;
 
 /// All solutions of a pose.
 #[derive(Debug, Serialize)]
-pub struct Found {
+pub struct PoseSolutions {
     /// The solutions, in the order of their slots.
     pub solutions: Vec<Solution>,
     /// Whether these are certain to be all.
@@ -74,7 +74,7 @@ pub struct Solution {
     pub collides: Option<bool>,
 }
 
-impl Found {
+impl PoseSolutions {
     pub(crate) fn read<const N: usize>(
         robot: &Arm<N>,
         cell: &Cell,

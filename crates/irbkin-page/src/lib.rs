@@ -20,7 +20,7 @@
 //! | `robot` | `name`, or `urdf` with `base` and `tip`; `tool`, `base_pose` | [`robot::Arm`] |
 //! | `cell` | `obstacles`, `margin` | [`cell::Obstacles`] |
 //! | `fk` | `q`, `collide` | [`forward::Posture`] |
-//! | `ik` | `T`, `seed`, `q7`, `collide` | [`inverse::Found`] |
+//! | `ik` | `T`, `seed`, `q7`, `collide` | [`inverse::PoseSolutions`] |
 //! | `ik_target` | `robtarget`, `wobj` | [`target::Meant`] |
 //! | `check` | `modules`, `collide` | [`check::Checked`] |
 //! | `motion` | `modules`, `module`, `routine` | [`motion::Motion`] |

@@ -153,7 +153,7 @@ impl PyRobot {
         on!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
         let or_nearest = !every && or_nearest(arm, fallback, seed)?;
         on!(arm, robot => {
-            let asked = Asked::read(robot, configuration, arm_angle, seed, or_nearest)?;
+            let asked = SelectionArguments::read(robot, configuration, arm_angle, seed, or_nearest)?;
             if every { asked.every(robot, T) } else { asked.one(robot, T, out, threads) }
         })
     }
@@ -186,14 +186,14 @@ pub(super) fn or_nearest(
 }
 
 /// The arguments that select solutions of poses of an arm of `N` joints.
-struct Asked<'py, const N: usize> {
+struct SelectionArguments<'py, const N: usize> {
     configurations: Rows<'py>,
     arm_angles: Option<Rows<'py>>,
     seeds: Option<Rows<'py>>,
     or_nearest: bool,
 }
 
-impl<'py, const N: usize> Asked<'py, N> {
+impl<'py, const N: usize> SelectionArguments<'py, N> {
     fn read(
         _: &Robot<N>,
         configuration: &Bound<'py, PyAny>,

@@ -74,7 +74,8 @@ impl PyRobot {
             let fault = MotionFault::NotPositive { field: "seconds", index: None, value };
             return Err(exception(fault));
         }
-        let asked = Asked { ends: [start, goal], seconds, seed, max_velocity, max_acceleration };
+        let asked =
+            GoArguments { ends: [start, goal], seconds, seed, max_velocity, max_acceleration };
         let alone = Cell::default();
         let cell = cell.map_or(&alone, |cell| &cell.get().cell);
         let motion = match self.arm() {
@@ -86,7 +87,7 @@ impl PyRobot {
 }
 
 /// The arguments of a call.
-struct Asked<'a, 'py> {
+struct GoArguments<'a, 'py> {
     ends: [&'a Bound<'py, PyAny>; 2],
     seconds: f64,
     seed: u64,
@@ -94,7 +95,7 @@ struct Asked<'a, 'py> {
     max_acceleration: Option<&'a Bound<'py, PyAny>>,
 }
 
-impl Asked<'_, '_> {
+impl GoArguments<'_, '_> {
     fn motion<const N: usize>(&self, robot: &Arm<N>, cell: &Cell) -> PyResult<Trajectory> {
         let [start, goal] = self.ends;
         let (start, goal) = (read_end::<N>(start, "start")?, read_end::<N>(goal, "goal")?);

@@ -104,7 +104,8 @@ impl PyGuard {
     ) -> PyResult<Self> {
         let on_violation = one_of("on_violation", on_violation, &VIOLATIONS)?;
         let limits = [max_velocity, Some(max_acceleration), max_jerk];
-        let asked = Asked { cycle, start, limits, margin, max_tool_speed, on_violation, hold };
+        let asked =
+            GuardArguments { cycle, start, limits, margin, max_tool_speed, on_violation, hold };
         let cell = read_cell(cell)?;
         let guard = match robot.get().arm() {
             SharedArm::Six(robot) => ByJoints::Six(Mutex::new(asked.guard(robot, cell.as_ref())?)),
@@ -177,7 +178,7 @@ impl PyGuard {
 }
 
 /// The arguments of a guard.
-struct Asked<'a, 'py> {
+struct GuardArguments<'a, 'py> {
     cycle: f64,
     start: &'a Bound<'py, PyAny>,
     /// Of velocity, acceleration and jerk.
@@ -188,7 +189,7 @@ struct Asked<'a, 'py> {
     hold: f64,
 }
 
-impl Asked<'_, '_> {
+impl GuardArguments<'_, '_> {
     fn guard<const N: usize>(&self, robot: &Arm<N>, cell: Option<&Cell>) -> PyResult<Guard<N>> {
         let [velocity, acceleration, jerk] = self.limits;
         let mut max_acceleration = [f64::INFINITY; N];

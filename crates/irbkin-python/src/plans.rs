@@ -125,7 +125,7 @@ impl PyRobot {
         max_acceleration: Option<&Bound<'py, PyAny>>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<records::Plan> {
-        let asked = Asked {
+        let asked = PlanArguments {
             T,
             rotation,
             times,
@@ -162,7 +162,7 @@ impl PyRobot {
 
 /// The arguments of a plan.
 #[expect(non_snake_case, reason = "T is the name that users pass")]
-struct Asked<'a, 'py> {
+struct PlanArguments<'a, 'py> {
     T: &'a Bound<'py, PyAny>,
     rotation: Option<&'a Bound<'py, PyAny>>,
     times: Option<&'a Bound<'py, PyAny>>,
@@ -183,7 +183,7 @@ struct Asked<'a, 'py> {
     progress: Option<&'a Bound<'py, PyAny>>,
 }
 
-impl Asked<'_, '_> {
+impl PlanArguments<'_, '_> {
     fn options<const N: usize>(&self) -> PyResult<PlanOptions<N>> {
         let external = self.carrier.map(read_carrier).transpose()?.unwrap_or_default();
         let (start, start_external) = read_end(self.start, "start", external.len())?;

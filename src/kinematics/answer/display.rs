@@ -46,7 +46,6 @@ impl<const N: usize> fmt::Display for Solution<N> {
 impl<const N: usize> Solutions<N> {
     /// Return the words behind the outcome: whether there may be more solutions.
     #[doc(hidden)]
-    #[must_use]
     pub fn reservation(&self) -> &'static str {
         let may_have_more = !self.is_certified && !self.is_empty();
         if may_have_more { "; there may be more (not certified)" } else { "" }

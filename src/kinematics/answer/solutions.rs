@@ -146,7 +146,6 @@ impl<const N: usize> Solutions<N> {
 
     /// Whether every solution is in its own slot.
     #[doc(hidden)]
-    #[must_use]
     pub fn is_consistent(&self) -> bool {
         let is_own = |(slot, place): (usize, &Place<N>)| {
             place.found().is_none_or(|solution| solution.slot.index() == slot)

@@ -109,7 +109,6 @@ impl<const N: usize> JointLimits<N> {
     /// How far the serial joint 3, at its best 2 pi equivalent, exceeds the linkage limits, beyond
     /// [`LIMIT_TOLERANCE`] [rad]; zero inside.
     #[doc(hidden)]
-    #[must_use]
     pub fn linkage_excess(&self, q: &[f64; N]) -> f64 {
         let excess = self.linkage_overrun(q);
         if excess <= LIMIT_TOLERANCE { 0.0 } else { excess }
@@ -118,7 +117,6 @@ impl<const N: usize> JointLimits<N> {
     /// How far the serial joint 3, at its best 2 pi equivalent, exceeds the linkage limits [rad];
     /// negative inside.
     #[doc(hidden)]
-    #[must_use]
     pub fn linkage_overrun(&self, q: &[f64; N]) -> f64 {
         let (Some([lower, upper]), [_, q2, q3, ..]) = (self.linkage, &q[..]) else {
             return f64::NEG_INFINITY;

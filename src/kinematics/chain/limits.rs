@@ -106,7 +106,6 @@ impl<const N: usize> JointLimits<N> {
 
     /// These limits, each wider by `beyond` [rad].
     #[doc(hidden)]
-    #[must_use]
     pub fn widened(mut self, beyond: f64) -> Self {
         self.lower = self.lower.map(|lower| lower - beyond);
         self.upper = self.upper.map(|upper| upper + beyond);
@@ -128,7 +127,6 @@ impl<const N: usize> JointLimits<N> {
 
     /// How far an angle of joint `joint` (from 0) is outside its limits [rad]; zero inside.
     #[doc(hidden)]
-    #[must_use]
     pub fn excess(&self, joint: usize, angle: f64) -> f64 {
         (self.lower[joint] - angle).max(angle - self.upper[joint]).max(0.0)
     }

@@ -125,14 +125,12 @@ impl<'a, const N: usize> Follower<'a, N> {
 
     /// A follower of the robot that goes on from where another one was.
     #[doc(hidden)]
-    #[must_use]
     pub fn resumed(robot: &'a Robot<N>, weights: &[f64; N], at: Progress<N>) -> Self {
         Self { robot, weights: *weights, at }
     }
 
     /// How far the path was followed.
     #[doc(hidden)]
-    #[must_use]
     pub fn progress(&self) -> Progress<N> {
         self.at
     }

@@ -12,7 +12,6 @@ pub fn largest<const N: usize>(steps: &[f64; N]) -> f64 {
 
 /// The joint (from 1) that moves most from one joint vector to another, and its step [rad].
 #[doc(hidden)]
-#[must_use]
 pub fn largest_step<const N: usize>(from: &[f64; N], to: &[f64; N]) -> (usize, f64) {
     let steps = steps(from, to);
     let joint = (0..N).fold(0, |most, i| if steps[i].abs() > steps[most].abs() { i } else { most });

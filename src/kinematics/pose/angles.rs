@@ -44,7 +44,6 @@ pub(crate) fn distance_from_half_turns(angle: f64) -> f64 {
 
 /// Sine and cosine of a model constant: exact (0, 1, -1) for a quarter turn, so that right angles
 /// of an arm stay right angles.
-#[must_use]
 #[doc(hidden)]
 pub fn constant_sin_cos(angle: f64) -> (f64, f64) {
     let quarters = (angle / FRAC_PI_2).round();
@@ -78,7 +77,6 @@ pub fn rotation_vector(rotation: &Rotation3<f64>) -> Vector3<f64> {
 
 /// The angle between two vectors [rad], 0 to pi, exact to rounding at both ends.
 #[doc(hidden)]
-#[must_use]
 pub fn angle_between(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     a.cross(b).norm().atan2(a.dot(b))
 }

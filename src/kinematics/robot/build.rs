@@ -223,7 +223,6 @@ impl<const N: usize> Robot<N> {
 
     /// Propose another one of [`SNAPS`], with the robot that it makes.
     #[doc(hidden)]
-    #[must_use]
     pub fn proposing(mut self, snap: Option<(u8, Self)>) -> Self {
         let snap = snap.map(|snap| self.by_snap(snap));
         self.missing_form = self.missing_form.map(|missing| missing.proposing(snap));

@@ -21,13 +21,11 @@ impl<const N: usize> Robot<N> {
 
     /// How its tip was chosen among several in its file.
     #[doc(hidden)]
-    #[must_use]
     pub fn tip_remark(&self) -> Option<&str> {
         self.labels.as_ref().map(|labels| &labels.1[..]).filter(|remark| !remark.is_empty())
     }
 
     #[doc(hidden)]
-    #[must_use]
     pub fn with_labels(self, labels: Option<Labels>) -> Self {
         Self { labels: labels.map(Arc::new), ..self }
     }

@@ -71,7 +71,6 @@ impl<const N: usize> Robot<N> {
 
     /// Lower and upper limit of each joint [rad]; of a locked one its angle.
     #[doc(hidden)]
-    #[must_use]
     pub fn free_ranges(&self) -> [[f64; 2]; N] {
         let mut ranges = self.limits.to_array();
         if let Some((joint, angle)) = self.locked_joint() {
@@ -117,14 +116,12 @@ impl<const N: usize> Robot<N> {
 
     /// The angles of the other six joints.
     #[doc(hidden)]
-    #[must_use]
     pub fn others(&self, q: &[f64; N]) -> [f64; 6] {
         others(q, self.locked_index())
     }
 
     /// The joint vector for one of the other six joints, with the locked joint at its angle.
     #[doc(hidden)]
-    #[must_use]
     pub fn with_others(&self, six: &[f64; 6]) -> [f64; N] {
         self.lock.as_ref().map_or([f64::NAN; N], |lock| lock.joint.joints(six, lock.angle))
     }

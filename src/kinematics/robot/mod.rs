@@ -323,7 +323,6 @@ impl<const N: usize> Robot<N> {
 
     /// The rows of [`Self::jacobian`].
     #[doc(hidden)]
-    #[must_use]
     pub fn jacobian_rows(&self, q: &[f64; N], frame: JacobianFrame) -> [[f64; N]; 6] {
         self.chain.jacobian_rows(q, frame)
     }
@@ -375,7 +374,6 @@ impl<const N: usize> Robot<N> {
 
     /// [`Self::singularity`] without the singular values.
     #[doc(hidden)]
-    #[must_use]
     pub fn near_singularities(&self, q: &[f64; N]) -> (Option<SingularDistances>, SingularityKind) {
         self.inverse().map_or((None, SingularityKind::empty()), |inverse| inverse.singular(q))
     }

@@ -121,7 +121,6 @@ impl<const N: usize> Robot<N> {
     /// An answer without solutions, to be solved in place.
     #[inline]
     #[doc(hidden)]
-    #[must_use]
     pub fn unsolved(&self, pose: Pose) -> Solutions<N> {
         Solutions::none(self.slot_count(), pose, *self.limits())
     }
@@ -132,12 +131,12 @@ impl<const N: usize> Robot<N> {
         if self.solve_in_lanes(solutions, locked) {
             return Ok(());
         }
-        self.solve_at_rest(solutions, locked)
+        self.solve_singular(solutions, locked)
     }
 
     /// [`Self::ik_into`] for a pose that is not regular.
     #[cold]
-    pub(in crate::kinematics) fn solve_at_rest(
+    pub(in crate::kinematics) fn solve_singular(
         &self,
         solutions: &mut Solutions<N>,
         locked: f64,
@@ -145,7 +144,7 @@ impl<const N: usize> Robot<N> {
         if let Some(lock) = self.lock_of_six() {
             let pose = lock.joint.seen(&solutions.pose, locked);
             let mut six = lock.six.unsolved(pose);
-            lock.six.solve_at_rest(&mut six, f64::NAN)?;
+            lock.six.solve_singular(&mut six, f64::NAN)?;
             lock.joint.extend(&six, locked, solutions);
             return Ok(());
         }

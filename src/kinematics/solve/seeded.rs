@@ -60,7 +60,7 @@ impl<const N: usize> Robot<N> {
         let nearest = if self.solve_in_lanes(&mut solutions, f64::NAN) {
             solutions.cheapest(seed, weights, Cost::Distance)
         } else {
-            self.solve_at_rest(&mut solutions, f64::NAN)?;
+            self.solve_singular(&mut solutions, f64::NAN)?;
             if self.are_regular(&solutions) {
                 solutions.cheapest(seed, weights, Cost::Distance)
             } else {
@@ -246,7 +246,6 @@ impl<const N: usize> Robot<N> {
     /// The outcome of a solve in a sentence, with the nearest approach; of seven joints with joint
     /// 7 at `q7` [rad], unless a joint is locked.
     #[doc(hidden)]
-    #[must_use]
     pub fn explained_answer(&self, solutions: &Solutions<N>, q7: Option<f64>) -> Explanation {
         let explanation = solutions.explain();
         let Explanation::NoRoots { .. } = explanation else { return explanation };

@@ -29,24 +29,24 @@ use irbkin::{Corrections, Joints, Pose, Robot};
 /// let arm = arm.map(|robot| robot.with_tool(&Pose::translation(0.0, 0.0, 0.1)))?;
 /// let (body, pose) = (arm.body(), arm.fk(&[0.3, -1.2, 1.4, -0.5, 0.6, 0.7]));
 /// assert!(body.is_some() && arm.ik(&pose)?.len() == 8);
-/// # Ok::<(), irbkin::Error>(())
+/// # Ok::<(), irbkin_motion::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Arm<const N: usize> {
     robot: Robot<N>,
-    body: Option<Arc<Shaped>>,
+    body: Option<Arc<ArmBody>>,
     /// Why the shapes of its links make no body, if they do not; no part of its value.
     no_body: Option<Arc<str>>,
 }
 
 /// A body with its outline on an arm.
 #[derive(Debug)]
-pub(crate) struct Shaped {
+pub(crate) struct ArmBody {
     body: Body,
     pub(crate) outline: Outline,
 }
 
-impl Shaped {
+impl ArmBody {
     fn new(body: Body, last: usize, t_last_flange: &Pose) -> Self {
         let outline = Outline::of(&body, last, t_last_flange);
         Self { body, outline }
@@ -128,7 +128,7 @@ impl<const N: usize> Arm<N> {
         let robot = change(self.robot)?;
         let body = match self.body {
             Some(own) if robot.mdh().flange != flange => {
-                Some(Arc::new(Shaped::new(own.body.clone(), N, &robot.mdh().flange)))
+                Some(Arc::new(ArmBody::new(own.body.clone(), N, &robot.mdh().flange)))
             }
             body => body,
         };

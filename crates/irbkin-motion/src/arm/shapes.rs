@@ -9,7 +9,7 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use nalgebra::Vector3;
 
-use super::{Arm, Shaped};
+use super::{Arm, ArmBody};
 use crate::body::fault::BodyFault;
 use crate::body::{Body, Capsule, LinkCapsule, Shape};
 use crate::error::Error;
@@ -42,7 +42,7 @@ impl<const N: usize> Arm<N> {
         if let Some(pair) = body.iter().flat_map(Body::pairs).find(is_rigid) {
             return Err(BodyFault::Rigid { pair: *pair }.into());
         }
-        let body = body.map(|body| Arc::new(Shaped::new(body, N, &self.mdh().flange)));
+        let body = body.map(|body| Arc::new(ArmBody::new(body, N, &self.mdh().flange)));
         Ok(Self { body, ..self })
     }
 
@@ -81,7 +81,7 @@ impl<const N: usize> Arm<N> {
     /// # Errors
     ///
     /// [`Error::InvalidBody`] if the arm has none.
-    pub(crate) fn shaped(&self) -> Result<&Arc<Shaped>, Error> {
+    pub(crate) fn shaped(&self) -> Result<&Arc<ArmBody>, Error> {
         Ok(self.body.as_ref().ok_or_else(|| self.no_body())?)
     }
 

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use nalgebra::{ComplexField as _, RealField as _};
 
 use super::links::{Body, LinkCapsule, LinkHull};
-use super::shape::{Asked, Capsule, RoundedHull, Separation, Shape};
+use super::shape::{Capsule, DistanceQuery, RoundedHull, Separation, Shape};
 use irbkin::Pose;
 
 /// Cores of a group, at most.
@@ -174,10 +174,11 @@ impl Group {
 /// The least of some separations.
 fn least<T>(
     items: impl Iterator<Item = T>,
-    separation: impl Fn(T, Asked) -> Separation,
+    separation: impl Fn(T, DistanceQuery) -> Separation,
 ) -> Separation {
     items.fold(Separation::NOTHING, |nearest, item| {
-        let own = separation(item, Asked { far: nearest.distance, ..Asked::DISTANCE });
+        let own =
+            separation(item, DistanceQuery { far: nearest.distance, ..DistanceQuery::DISTANCE });
         if own.distance < nearest.distance { own } else { nearest }
     })
 }

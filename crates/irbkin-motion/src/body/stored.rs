@@ -15,11 +15,11 @@ use crate::body::fault::BodyFault;
 #[serde(rename = "Body")]
 enum Stored {
     OfArm(String),
-    Given(Given),
+    GivenBody(GivenBody),
 }
 
 #[derive(Serialize, Deserialize)]
-struct Given {
+struct GivenBody {
     links: Vec<LinkCapsule>,
     parts: Vec<LinkCapsule>,
     #[serde(default)]
@@ -34,7 +34,7 @@ impl Serialize for Body {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.arm {
             Some(arm) => Stored::OfArm(arm.to_string()),
-            None => Stored::Given(Given {
+            None => Stored::GivenBody(GivenBody {
                 links: self.links.clone(),
                 parts: self.parts.clone(),
                 hulls: self.hulls.clone(),
@@ -52,7 +52,15 @@ impl<'de> Deserialize<'de> for Body {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match Stored::deserialize(deserializer)? {
             Stored::OfArm(arm) => body_of(&arm).ok_or_else(|| D::Error::custom(BodyFault::NoBody)),
-            Stored::Given(Given { links, parts, hulls, pairs, source, excess, is_approximate }) => {
+            Stored::GivenBody(GivenBody {
+                links,
+                parts,
+                hulls,
+                pairs,
+                source,
+                excess,
+                is_approximate,
+            }) => {
                 let (arm, source) = (None, Cow::Owned(source));
                 let body = Self { arm, links, parts, hulls, pairs, source, excess, is_approximate };
                 body.check_pairs().map_err(D::Error::custom)?;

@@ -5,11 +5,11 @@ use alloc::vec::Vec;
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
-use super::apart::{ALL, Axis, Point, load, minus};
-use super::drift::Drift;
+use super::distance_bounds::{ALL, Axis, Point, load, minus};
+use super::link_motion::Drift;
 use super::obstacles::Cell;
-use super::range::Range;
-use crate::body::{Capsule, Group, Outline, Way};
+use super::path::Range;
+use crate::body::{Capsule, Group, Outline, SeparatingDirection};
 use irbkin::Robot;
 use irbkin::internal::Axes;
 use irbkin::internal::lanes::{
@@ -21,7 +21,7 @@ pub(super) const ROUNDING: f64 = 1e-9;
 
 /// What of joint vectors is looked at.
 #[derive(Clone, Copy)]
-pub(super) enum Looked<'a, const N: usize> {
+pub(super) enum Query<'a, const N: usize> {
     /// Which of them touch something.
     All,
     /// One that touches something, if there is one.
@@ -32,9 +32,9 @@ pub(super) enum Looked<'a, const N: usize> {
     Roughly(&'a [Range<N>]),
 }
 
-/// What the kernel looks at: [`Looked`] for any number of joints, so that it is compiled once.
+/// What the kernel looks at: [`Query`] for any number of joints, so that it is compiled once.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Look {
+pub(super) enum QueryKind {
     All,
     Any,
     Swept,
@@ -62,9 +62,9 @@ pub(crate) struct Block {
     axes: Vec<[[Column; 3]; 2]>,
     is_placed: Vec<bool>,
     /// What hulls are to decide, by its place among all that is looked at, and the lanes, as bits.
-    pub(super) doubts: Vec<(usize, u64)>,
+    pub(super) undecided: Vec<(usize, u64)>,
     /// Ways that hulls were apart along, with the numbers of two.
-    pub(super) ways: Vec<(usize, Way)>,
+    pub(super) directions: Vec<(usize, SeparatingDirection)>,
     /// What touched last, by its place.
     pub(super) last: usize,
 }
@@ -83,8 +83,8 @@ impl Block {
             bends: Vec::new(),
             axes: Vec::new(),
             is_placed: Vec::new(),
-            doubts: Vec::new(),
-            ways: Vec::new(),
+            undecided: Vec::new(),
+            directions: Vec::new(),
             last: 0,
         };
         block.fit(robot, outline);
@@ -104,7 +104,7 @@ impl Block {
         self.bends.resize(groups * N, zero);
         self.axes.resize(outline.capsules.len(), [[zero; 3]; 2]);
         self.is_placed.resize(groups, false);
-        self.ways.clear();
+        self.directions.clear();
         self.last = 0;
     }
 
@@ -122,11 +122,11 @@ impl Block {
         outline: &Outline,
         cell: &Cell,
         q: &[[f64; N]],
-        looked: Looked<'_, N>,
+        looked: Query<'_, N>,
     ) -> u64 {
         robot.frames(q, &mut self.frames);
         let mut has_lines = false;
-        if let Looked::Swept(ranges) | Looked::Roughly(ranges) = looked {
+        if let Query::Swept(ranges) | Query::Roughly(ranges) = looked {
             for (lane, range) in ranges.iter().enumerate() {
                 let spans = robot.table_spans(range.spans());
                 let turns = robot.table_turns(&range.turns);
@@ -140,10 +140,10 @@ impl Block {
             }
         }
         let look = match looked {
-            Looked::All => Look::All,
-            Looked::Any => Look::Any,
-            Looked::Swept(_) => Look::Swept,
-            Looked::Roughly(_) => Look::Roughly,
+            Query::All => QueryKind::All,
+            Query::Any => QueryKind::Any,
+            Query::Swept(_) => QueryKind::Swept,
+            Query::Roughly(_) => QueryKind::Roughly,
         };
         self.touching_in_frames(outline, cell, q.len(), look, has_lines)
     }
@@ -154,11 +154,19 @@ impl Block {
         outline: &Outline,
         cell: &Cell,
         count: usize,
-        look: Look,
+        look: QueryKind,
         has_lines: bool,
     ) -> u64 {
         let all = ALL >> (LANES - count);
-        run_vectors(Touch { block: self, outline, cell, look, has_lines, all, asked: all })
+        run_vectors(CollisionKernel {
+            block: self,
+            outline,
+            cell,
+            look,
+            has_lines,
+            all,
+            asked: all,
+        })
     }
 
     pub(super) fn frame(&self, link: usize) -> &Axes<LANES> {
@@ -176,11 +184,11 @@ impl Block {
 }
 
 /// Whether lanes touch something.
-pub(super) struct Touch<'a> {
+pub(super) struct CollisionKernel<'a> {
     pub(super) block: &'a mut Block,
     pub(super) outline: &'a Outline,
     pub(super) cell: &'a Cell,
-    pub(super) look: Look,
+    pub(super) look: QueryKind,
     /// Whether joints turn along lines.
     pub(super) has_lines: bool,
     /// The lanes, as bits.
@@ -189,12 +197,12 @@ pub(super) struct Touch<'a> {
     pub(super) asked: u64,
 }
 
-impl VectorKernel for Touch<'_> {
+impl VectorKernel for CollisionKernel<'_> {
     type Answer = u64;
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) -> u64 {
-        self.block.doubts.clear();
+        self.block.undecided.clear();
         for group in 0..self.outline.groups.len() {
             self.block.is_placed[group] = false;
             self.put_around(simd, group);
@@ -234,15 +242,15 @@ impl VectorKernel for Touch<'_> {
     }
 }
 
-impl Touch<'_> {
+impl CollisionKernel<'_> {
     /// Whether the joints turn.
     pub(super) fn is_swept(&self) -> bool {
-        matches!(self.look, Look::Swept | Look::Roughly)
+        matches!(self.look, QueryKind::Swept | QueryKind::Roughly)
     }
 
     /// Whether one lane that touches is enough.
     pub(super) fn is_enough(&self) -> bool {
-        self.look == Look::Any
+        self.look == QueryKind::Any
     }
 
     /// Whether nothing more is asked.

@@ -1,13 +1,13 @@
-//! What of an arm is near to itself or to obstacles: by bounds around groups of capsules, then by the
-//! capsules; what these leave is for hulls.
+//! The broad phase: what of an arm may touch itself or obstacles, by bounds around groups of capsules,
+//! then by the capsules; what these leave undecided is for the narrow phase.
 
 use fearless_simd::prelude::*;
 
-use super::apart::{against_parts, ball_beyond, load};
-use super::block::{Look, ROUNDING, Touch, bits};
+use super::block::{CollisionKernel, QueryKind, ROUNDING, bits};
+use super::distance_bounds::{against_parts, ball_beyond, load};
 use irbkin::internal::lanes::{Number as _, Vector};
 
-impl Touch<'_> {
+impl CollisionKernel<'_> {
     /// Look at two groups of capsules of the arm.
     #[inline(always)]
     pub(super) fn apart_of_links<S: Simd>(&mut self, simd: S, at: usize) {
@@ -60,7 +60,7 @@ impl Touch<'_> {
                 }
             }
         }
-        if doubtful == 0 || self.look == Look::Roughly || !(one.has_hulls || other.has_hulls) {
+        if doubtful == 0 || self.look == QueryKind::Roughly || !(one.has_hulls || other.has_hulls) {
             self.asked &= !doubtful;
             return;
         }
@@ -72,7 +72,7 @@ impl Touch<'_> {
                 self.asked &= !(doubtful & own.against_axis(&facing, limit, doubtful).near);
             }
         }
-        self.block.doubts.push((at, doubtful));
+        self.block.undecided.push((at, doubtful));
     }
 
     /// Look at a group of capsules and an obstacle.
@@ -122,7 +122,7 @@ impl Touch<'_> {
                 doubtful |= self.settle_obstacle(open, [index, obstacle], moved);
             }
         }
-        if doubtful == 0 || self.look == Look::Roughly || !own.has_hulls {
+        if doubtful == 0 || self.look == QueryKind::Roughly || !own.has_hulls {
             self.asked &= !doubtful;
             return;
         }
@@ -131,7 +131,7 @@ impl Touch<'_> {
             let decided = against_parts(&self.axis(simd, core), shape, limit, doubtful);
             self.asked &= !(doubtful & decided.near);
         }
-        self.block.doubts.push((at, doubtful));
+        self.block.undecided.push((at, doubtful));
     }
 
     /// The lanes in which two capsules touch, of those that bounds leave open.

@@ -5,9 +5,9 @@ use alloc::vec::Vec;
 
 use nalgebra::Vector3;
 
-use super::block::{Block, Looked};
+use super::block::{Block, Query};
 use super::obstacles::Cell;
-use super::one::is_obstructed;
+use super::single_posture::is_obstructed;
 use crate::arm::Arm;
 use crate::body::{Capsule, Centered, Group, Outline};
 use crate::error::Error;
@@ -30,7 +30,7 @@ use irbkin::{Interrupt, Pose};
 /// let mut checker = cell.checker(&arm)?;
 /// assert!(!checker.collides(&[0.0, -1.5, 1.2, 0.0, 0.5, 0.0])?);
 /// assert!(checker.collides(&[0.0, 0.5, 0.5, 0.0, 0.5, 0.0])?);
-/// # Ok::<(), irbkin::Error>(())
+/// # Ok::<(), irbkin_motion::Error>(())
 /// ```
 pub struct Checker<'a, const N: usize> {
     pub(super) cell: &'a Cell,
@@ -83,21 +83,19 @@ impl<'a, const N: usize> Checker<'a, N> {
 
     /// Its memory, for another checker.
     #[doc(hidden)]
-    #[must_use]
     pub fn into_memory(self) -> Memory {
         Memory(self.block)
     }
 
     /// For work that ends when it is interrupted.
     #[doc(hidden)]
-    #[must_use]
     pub fn until(mut self, interrupt: Interrupt<'a>) -> Self {
         self.interrupt = interrupt;
         self
     }
 
     /// Which of up to eight joint vectors touch something, as bits: [`Block::touching`].
-    pub(super) fn touching(&mut self, q: &[[f64; N]], looked: Looked<'_, N>) -> u64 {
+    pub(super) fn touching(&mut self, q: &[[f64; N]], looked: Query<'_, N>) -> u64 {
         debug_assert!(q.len() <= LANES);
         self.block.touching(self.arm, self.outline, self.cell, q, looked)
     }
@@ -105,7 +103,7 @@ impl<'a, const N: usize> Checker<'a, N> {
     /// Whether one joint vector touches something.
     pub(crate) fn touches(&mut self, q: &[f64; N]) -> bool {
         let (alone, one) = (Cell::default(), core::slice::from_ref(q));
-        self.block.touching(self.arm, self.outline, &alone, one, Looked::All) != 0
+        self.block.touching(self.arm, self.outline, &alone, one, Query::All) != 0
             || is_obstructed(&self.block, self.outline, self.cell)
     }
 

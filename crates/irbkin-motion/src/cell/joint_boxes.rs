@@ -2,12 +2,12 @@
 
 use alloc::sync::Arc;
 
-use super::block::{Block, Looked};
+use super::block::{Block, Query};
 use super::checker::{Checker, most_motion, reach};
 use super::obstacles::Cell;
 use super::pairs::Other;
-use super::range::Range;
-use crate::arm::{Arm, Shaped};
+use super::path::Range;
+use crate::arm::{Arm, ArmBody};
 use crate::error::Error;
 use irbkin::internal::lanes::LANES;
 
@@ -15,7 +15,7 @@ use irbkin::internal::lanes::LANES;
 #[derive(Clone)]
 pub(crate) struct Boxes<const N: usize> {
     arm: Arm<N>,
-    shaped: Arc<Shaped>,
+    shaped: Arc<ArmBody>,
     cell: Cell,
     block: Block,
     /// How far anything is from an axis of a joint at most [m].
@@ -56,7 +56,7 @@ impl<const N: usize> Boxes<N> {
         for ((range, middle), beside) in ranges.iter_mut().zip(q).zip(spans) {
             (range.middle, range.beside) = (*middle, *beside);
         }
-        let swept = Looked::Swept(&ranges[..q.len()]);
+        let swept = Query::Swept(&ranges[..q.len()]);
         self.block.touching(&self.arm, &self.shaped.outline, &self.cell, q, swept)
     }
 

@@ -3,7 +3,7 @@
 
 use fearless_simd::prelude::*;
 
-use super::apart::{Axis, Plane, Point, minus, plane_to};
+use super::distance_bounds::{Axis, Plane, Point, minus, plane_to};
 use crate::body::Shape;
 use irbkin::internal::lanes::{Number as _, Vector, cross, dot};
 
@@ -77,10 +77,10 @@ mod tests {
     use core::array;
     use core::f64::consts::PI;
 
-    use super::super::block::Looked;
+    use super::super::block::Query;
     use super::super::checker::Checker;
     use super::super::obstacles::Cell;
-    use super::super::range::Range;
+    use super::super::path::Range;
     use super::*;
     use crate::arm::Arm;
     use irbkin::Pose;
@@ -116,7 +116,7 @@ mod tests {
                     beside: array::from_fn(|_| 0.02 * scale * random(&mut state).abs()),
                 };
                 let is_open = |checker: &mut Checker<'_, 6>, range: Range<6>| {
-                    checker.touching(&[range.middle], Looked::Swept(&[range])) != 0
+                    checker.touching(&[range.middle], Query::Swept(&[range])) != 0
                 };
                 if is_open(&mut checker, range) {
                     continue;

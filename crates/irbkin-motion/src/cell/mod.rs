@@ -1,25 +1,21 @@
 //! A cell: obstacles around an arm, and whether the arm touches them or itself.
 
-mod apart;
 mod batch;
 mod block;
-mod boxes;
+mod broad_phase;
 mod checker;
-mod doubts;
-mod drift;
-mod edges;
-mod gradient;
-mod near;
+mod distance_bounds;
+mod joint_boxes;
+mod link_motion;
+mod narrow_phase;
 mod obstacles;
-mod one;
 mod pairs;
 mod path;
 mod postures;
-mod range;
-mod standing;
+mod single_posture;
 
-pub(crate) use boxes::Boxes;
 pub use checker::{Checker, Memory};
+pub(crate) use joint_boxes::Boxes;
 pub use obstacles::Cell;
 pub use pairs::Other;
 pub use path::{Contact, Motion, RESOLUTION};

@@ -1,4 +1,5 @@
-//! What capsules leave in doubt, decided by hulls (docs/theory/cell.md, hulls of links).
+//! The narrow phase: what capsules leave undecided, by separating planes and distances of hulls
+//! (docs/theory/cell.md, hulls of links).
 
 use alloc::vec::Vec;
 use core::array;
@@ -7,41 +8,42 @@ use core::mem::take;
 use fearless_simd::prelude::*;
 use nalgebra::Vector3;
 
-use super::apart::{
+use super::block::{Block, CollisionKernel, ROUNDING};
+use super::distance_bounds::{
     Axis, Plane, Point, ball_beyond, constant, load, minus, plane_across, plane_to,
 };
-use super::block::{Block, ROUNDING, Touch};
-use super::drift::Drift;
-use crate::body::{Asked, Centered, RoundedHull, Shape, Way};
+use super::link_motion::Drift;
+use crate::body::{Centered, DistanceQuery, RoundedHull, SeparatingDirection, Shape};
 use irbkin::internal::lanes::{Column, Number as _, Vector, dot};
 
-/// Numbers of ways between two groups: more hulls than these have some in common.
-const OF_TWO: usize = 11;
+/// Numbers of directions between two groups: more hulls than these have some in common.
+const OF_PAIR: usize = 11;
 
-/// Ways that are kept.
-const WAYS: usize = 128;
+/// Separating directions that are kept.
+const DIRECTIONS: usize = 128;
 
 impl Block {
-    /// Make room for doubts about all places, so that none is made later.
+    /// Make room for all places that may be undecided, so that none is made later.
     pub(super) fn reserve(&mut self, places: usize) {
-        self.doubts.reserve(places);
-        self.ways.resize(WAYS, (0, None));
+        self.undecided.reserve(places);
+        self.directions.resize(DIRECTIONS, (0, None));
     }
 }
 
-/// Where a search for a plane along a line ends, from the distance at which two touch to the one at
-/// which they are certain not to: nearer ones hardly stay apart, and take the longest [1].
-const DEEPER: f64 = 0.5;
+/// Where the search for a separating plane along a line stops, between the distance at which a pair
+/// touches (0) and the one at which it certainly does not (1): nearer pairs take the longest and are
+/// hardly ever apart.
+const SEARCH_END: f64 = 0.5;
 
 /// How far points move at least where it goes on so far [m]: the last parts before a contact are
 /// decided by the distance alone, the same of a box and of its mesh.
 const LEAST: f64 = 1e-3;
 
-/// A hull of a link, and what it faces.
-struct Two<'a, S: Simd> {
+/// A hull of a link, and the hull or obstacle that it is compared with.
+struct HullPair<'a, S: Simd> {
     link: usize,
     hull: &'a RoundedHull,
-    facing: Facing<'a>,
+    other: Counterpart<'a>,
     /// Distances above which they are certain to stay apart, and the one above which they are [m].
     limits: &'a Column,
     least: f64,
@@ -49,16 +51,16 @@ struct Two<'a, S: Simd> {
 }
 
 /// A hull of a link, or an obstacle.
-enum Facing<'a> {
+enum Counterpart<'a> {
     Hull(usize, &'a RoundedHull),
     Shape(&'a Shape),
 }
 
-impl Touch<'_> {
-    /// Decide by hulls what is in doubt.
+impl CollisionKernel<'_> {
+    /// Decide by hulls what capsules leave undecided.
     #[inline(always)]
     pub(super) fn decide<S: Simd>(&mut self, simd: S) {
-        while let Some((at, lanes)) = self.block.doubts.pop() {
+        while let Some((at, lanes)) = self.block.undecided.pop() {
             let pairs = &self.outline.pairs;
             match pairs.get(at) {
                 Some(pair) => self.decide_links(simd, at, *pair, lanes),
@@ -74,7 +76,7 @@ impl Touch<'_> {
         let limit = Vector::load_array_ref(simd, limits);
         let drift = self.hulls_drift(simd, pair[1], one.link);
         let hulls = one.hulls.iter().flat_map(|own| other.hulls.iter().map(move |two| [own, two]));
-        for (number, [own, two]) in (OF_TWO * at..).zip(hulls) {
+        for (number, [own, two]) in (OF_PAIR * at..).zip(hulls) {
             if lanes & self.asked == 0 || self.is_done() {
                 return;
             }
@@ -86,9 +88,15 @@ impl Touch<'_> {
             if open == 0 {
                 continue;
             }
-            let facing = Facing::Hull(other.link, two);
-            let both =
-                Two { link: one.link, hull: own, facing, limits, least: ROUNDING, drift: &drift };
+            let other_hull = Counterpart::Hull(other.link, two);
+            let both = HullPair {
+                link: one.link,
+                hull: own,
+                other: other_hull,
+                limits,
+                least: ROUNDING,
+                drift: &drift,
+            };
             open &= !self.beyond(simd, &both, &self.plane(simd, other.link, two, way));
             if open != 0 {
                 let facing = self.axis_in(simd, other.link, two);
@@ -107,7 +115,7 @@ impl Touch<'_> {
         let limits = &array::from_fn(|lane| least + self.hulls_moved(group, 0, lane));
         let limit = Vector::load_array_ref(simd, limits);
         let drift = self.hulls_drift(simd, group, 0);
-        for (number, hull) in (OF_TWO * at..).zip(&own.hulls) {
+        for (number, hull) in (OF_PAIR * at..).zip(&own.hulls) {
             if lanes & self.asked == 0 || self.is_done() {
                 return;
             }
@@ -116,8 +124,8 @@ impl Touch<'_> {
             if open == 0 {
                 continue;
             }
-            let facing = Facing::Shape(shape);
-            let two = Two { link: own.link, hull, facing, limits, least, drift: &drift };
+            let other = Counterpart::Shape(shape);
+            let two = HullPair { link: own.link, hull, other, limits, least, drift: &drift };
             if let Some(plane) = plane_to(shape, &self.axis_in(simd, own.link, hull)) {
                 open &= !self.beyond(simd, &two, &plane);
             }
@@ -125,32 +133,32 @@ impl Touch<'_> {
         }
     }
 
-    /// Decide lanes of two, the ways between which have a number, by their distance.
+    /// Decide lanes of a pair, whose separating directions have a number, by its distance.
     #[inline(always)]
     fn settle<S: Simd>(
         &mut self,
         simd: S,
         [at, number]: [usize; 2],
-        two: &Two<'_, S>,
+        two: &HullPair<'_, S>,
         mut lanes: u64,
     ) {
-        // Joint vectors that are near each other have ways in common.
-        let has_ways = self.is_swept() || self.is_enough();
-        let mut ways = take(&mut self.block.ways);
+        // Joint vectors that are near each other have separating directions in common.
+        let has_directions = self.is_swept() || self.is_enough();
+        let mut directions = take(&mut self.block.directions);
         lanes &= self.asked;
         while lanes != 0 && !self.is_done() {
             let lane = lanes.trailing_zeros() as usize;
             lanes &= lanes - 1;
             let far = two.limits[lane];
             let moved = far - two.least;
-            let near = if self.has_lines && moved > LEAST { far - DEEPER * moved } else { far };
+            let near = if self.has_lines && moved > LEAST { far - SEARCH_END * moved } else { far };
             let mut none = None;
-            let way = if has_ways { of(&mut ways, number) } else { &mut none };
-            let found = self.distance(two, lane, Asked { far, near }, way);
+            let way = if has_directions { direction(&mut directions, number) } else { &mut none };
+            let found = self.distance(two, lane, DistanceQuery { far, near }, way);
             let mut beyond = u64::from(found > far) << lane;
             // The plane that keeps them apart may do so in other lanes, and along a line.
             if let Some(way) = way
-                && has_ways
+                && has_directions
                 && found > near
                 && (lanes != 0 || beyond == 0)
             {
@@ -162,30 +170,38 @@ impl Touch<'_> {
                 self.block.last = at;
             }
         }
-        self.block.ways = ways;
+        self.block.directions = directions;
     }
 
     /// How far two are apart in a lane [m], or what of it is asked, by a way in the frame of the first
     /// link, or of the cell before an obstacle.
-    fn distance<S: Simd>(&self, two: &Two<'_, S>, lane: usize, asked: Asked, way: &mut Way) -> f64 {
+    fn distance<S: Simd>(
+        &self,
+        two: &HullPair<'_, S>,
+        lane: usize,
+        asked: DistanceQuery,
+        way: &mut SeparatingDirection,
+    ) -> f64 {
         let pose = |link| self.block.frame(link).pose(lane);
-        let apart = match two.facing {
-            Facing::Hull(link, hull) => {
+        let apart = match two.other {
+            Counterpart::Hull(link, hull) => {
                 two.hull.separation(&pose(two.link), (hull, &pose(link)), asked, way)
             }
-            Facing::Shape(shape) => shape.separation_of_hull(two.hull, &pose(two.link), asked, way),
+            Counterpart::Shape(shape) => {
+                shape.separation_of_hull(two.hull, &pose(two.link), asked, way)
+            }
         };
         apart.distance
     }
 
     /// The lanes in which a plane across such a way keeps two apart.
     #[inline(always)]
-    fn beyond_across<S: Simd>(&self, simd: S, two: &Two<'_, S>, way: &Vector3<f64>) -> u64 {
-        let plane = match two.facing {
-            Facing::Hull(link, hull) => {
+    fn beyond_across<S: Simd>(&self, simd: S, two: &HullPair<'_, S>, way: &Vector3<f64>) -> u64 {
+        let plane = match two.other {
+            Counterpart::Hull(link, hull) => {
                 Some(self.plane(simd, link, hull, self.turned(simd, two.link, way)))
             }
-            Facing::Shape(shape) => plane_across(shape, constant(simd, way)),
+            Counterpart::Shape(shape) => plane_across(shape, constant(simd, way)),
         };
         plane.map_or(0, |plane| self.beyond(simd, two, &plane))
     }
@@ -193,7 +209,7 @@ impl Touch<'_> {
     /// The lanes in which the first one of two is farther beyond a plane than they may be, or stays
     /// beyond it.
     #[inline(always)]
-    fn beyond<S: Simd>(&self, simd: S, two: &Two<'_, S>, plane: &Plane<S>) -> u64 {
+    fn beyond<S: Simd>(&self, simd: S, two: &HullPair<'_, S>, plane: &Plane<S>) -> u64 {
         let back = [-plane.way[0], -plane.way[1], -plane.way[2]];
         let gap = -self.reach(simd, two.link, two.hull, back) - plane.reach;
         let (limit, radius) = (Vector::load_array_ref(simd, two.limits), two.hull.radius());
@@ -264,10 +280,13 @@ impl Touch<'_> {
     }
 }
 
-/// The way of a number.
-fn of(ways: &mut Vec<(usize, Way)>, number: usize) -> &mut Way {
-    ways.resize(WAYS, (0, None));
-    let (own, way) = &mut ways[number % WAYS];
+/// The separating direction of a number.
+fn direction(
+    directions: &mut Vec<(usize, SeparatingDirection)>,
+    number: usize,
+) -> &mut SeparatingDirection {
+    directions.resize(DIRECTIONS, (0, None));
+    let (own, way) = &mut directions[number % DIRECTIONS];
     if *own != number {
         (*own, *way) = (number, None);
     }

@@ -8,11 +8,10 @@ use alloc::vec::Vec;
 use core::array;
 use core::mem::replace;
 
-use super::block::Looked;
+use super::block::{Query, bits};
 use super::checker::Checker;
 use super::obstacles::Cell;
 use super::postures::Nearest;
-use super::range::Range;
 use crate::arm::Arm;
 use crate::error::Error;
 use crate::trajectory::Trajectory;
@@ -44,6 +43,22 @@ pub trait Motion<const N: usize> {
 
     /// Where the joint angles of a piece are from one part of it to another; a part is from 0 to 1.
     fn range(&self, piece: usize, part: [f64; 2]) -> Range<N>;
+}
+
+/// Joint angles `middle + u turns + e` with |u| <= 1 and |e| <= `beside` [rad].
+#[derive(Clone, Copy, Debug)]
+#[doc(hidden)]
+pub struct Range<const N: usize> {
+    pub(super) middle: [f64; N],
+    pub(super) turns: [f64; N],
+    pub(super) beside: [f64; N],
+}
+
+impl<const N: usize> Range<N> {
+    /// How far the joints turn from the middle to either side at most.
+    pub(super) fn spans(&self) -> [f64; N] {
+        array::from_fn(|joint| self.turns[joint].abs() + self.beside[joint])
+    }
 }
 
 /// Joint vectors, each joint moving evenly from one to the next.
@@ -335,7 +350,7 @@ impl<const N: usize> Checker<'_, N> {
             *range = motion.range(own.piece, own.part);
         }
         let q = ranges.map(|range| range.middle);
-        let some = Looked::Swept(&ranges[..parts.len()]);
+        let some = Query::Swept(&ranges[..parts.len()]);
         let touching = self.touching(&q[..parts.len()], some);
         array::from_fn(|lane| {
             if touching >> lane & 1 == 0 {
@@ -345,6 +360,28 @@ impl<const N: usize> Checker<'_, N> {
             } else {
                 Verdict::Open
             }
+        })
+    }
+
+    /// Whether an even motion is free: at eight states spread over it, and in each eighth, by a proof
+    /// or at `blocks` more states.
+    #[expect(clippy::cast_precision_loss, reason = "there are fewer than 2^52")]
+    pub(crate) fn is_free_or_looked_at(&mut self, blocks: usize, ends: &[[f64; N]; 2]) -> bool {
+        let eighth = |lane: usize| [lane, lane + 1].map(|end| end as f64 / LANES as f64);
+        let at = |part| ends[..].range(0, [part; 2]).middle;
+        if !self.are_free(1, at) {
+            return false;
+        }
+        let ranges: [_; LANES] = array::from_fn(|lane| ends[..].range(0, eighth(lane)));
+        let open = self.touching(&ranges.map(|range| range.middle), Query::Roughly(&ranges));
+        // An eighth takes a block of states at least.
+        let own = blocks.div_ceil(LANES);
+        if open.count_ones() as usize * own >= blocks {
+            return self.are_free(blocks, at);
+        }
+        bits(open).all(|lane| {
+            let [from, to] = eighth(lane);
+            self.are_free(own, |part| at(from + part * (to - from)))
         })
     }
 }

@@ -6,7 +6,7 @@ use core::array;
 use core::cell::RefCell;
 use core::fmt;
 
-use super::block::Looked;
+use super::block::Query;
 use super::checker::Checker;
 use super::obstacles::Cell;
 use super::pairs::{Other, Pair};
@@ -15,7 +15,10 @@ use crate::body::Separation;
 use crate::error::Error;
 use irbkin::internal::check_seed;
 use irbkin::internal::lanes::LANES;
-use irbkin::{Pose, Solution};
+use irbkin::{Pose, Robot, Solution};
+#[cfg(not(feature = "std"))]
+use nalgebra::ComplexField as _;
+use nalgebra::Vector3;
 
 /// Something that a link is near to.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,6 +53,35 @@ pub struct Nearest {
 }
 
 /// One question about one arm, with memory of its own: [`Cell::checker`] serves many.
+impl Nearest {
+    /// How the distance changes with each joint [m/rad], at the joint angles that it was found at:
+    /// the speed at which the two points come apart along the line between them. NaN where they are
+    /// one point, and of an axis inside a solid, whose nearest point on the surface is not known.
+    #[must_use]
+    pub fn gradient<const N: usize>(&self, robot: &Robot<N>, q: &[f64; N]) -> [f64; N] {
+        let [own, other] = self.points.map(Vector3::from);
+        let direction = (other - own) / (self.distance.signum() * (other - own).norm());
+        let frames = robot.link_frames(q).0;
+        // A link turns with the joints up to its own; what the flange carries with all.
+        let turned = |link: usize, point: &Vector3<f64>| -> [f64; N] {
+            array::from_fn(|joint| {
+                if joint >= link {
+                    return 0.0;
+                }
+                let frame = &frames[joint];
+                let axis = frame.rotation * Vector3::z();
+                direction.dot(&axis.cross(&(point - frame.translation.vector)))
+            })
+        };
+        let away = turned(self.link, &own);
+        let after = match self.near {
+            Near::Link(link) => turned(link, &other),
+            Near::Obstacle(_) => [0.0; N],
+        };
+        robot.by_controller(array::from_fn(|joint| after[joint] - away[joint]))
+    }
+}
+
 impl Cell {
     /// [`Checker::collides`] of an arm.
     ///
@@ -119,13 +151,13 @@ impl<const N: usize> Checker<'_, N> {
         (0..blocks).all(|block| {
             let place = |lane| ((lane + 1) * blocks - block) as f64 / (blocks * LANES) as f64;
             let q: [_; LANES] = array::from_fn(|lane| at(place(lane)));
-            self.touching(&q, Looked::Any) == 0
+            self.touching(&q, Query::Any) == 0
         })
     }
 
     /// Which of up to eight joint vectors collide, as bits.
     pub(crate) fn colliding(&mut self, q: &[[f64; N]]) -> u64 {
-        self.touching(q, Looked::All)
+        self.touching(q, Query::All)
     }
 
     /// The link and the other link or obstacle that are nearest; `None` if there is nothing to
@@ -186,7 +218,6 @@ impl<const N: usize> Checker<'_, N> {
 
     /// The two that are deepest in each other or in the margin, and how deep [m].
     #[doc(hidden)]
-    #[must_use]
     pub fn collision(&self, q: &[f64; N]) -> Option<(Nearest, f64)> {
         let (pair, apart) = self.deepest(q)?;
         Some((self.named(pair, &apart), self.depth(pair.other, &apart)))

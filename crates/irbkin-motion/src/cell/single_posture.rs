@@ -5,19 +5,19 @@
 
 use fearless_simd::prelude::*;
 
-use super::apart::{ball_beyond, load};
 use super::block::{Block, ROUNDING, bits};
+use super::distance_bounds::{ball_beyond, load};
 use super::obstacles::Cell;
-use crate::body::{Asked, Centered, Group, Outline};
+use crate::body::{Centered, DistanceQuery, Group, Outline};
 use irbkin::internal::lanes::{LANES, Vector, VectorKernel, run_vectors};
 
 /// Whether an arm touches an obstacle where the first lane of a block has it.
 pub(super) fn is_obstructed(block: &Block, outline: &Outline, cell: &Cell) -> bool {
     let limit = cell.margin() + ROUNDING;
-    !cell.obstacles().is_empty() && run_vectors(One { block, outline, cell, limit })
+    !cell.obstacles().is_empty() && run_vectors(PostureKernel { block, outline, cell, limit })
 }
 
-struct One<'a> {
+struct PostureKernel<'a> {
     block: &'a Block,
     outline: &'a Outline,
     cell: &'a Cell,
@@ -25,7 +25,7 @@ struct One<'a> {
     limit: f64,
 }
 
-impl VectorKernel for One<'_> {
+impl VectorKernel for PostureKernel<'_> {
     type Answer = bool;
 
     #[inline(always)]
@@ -52,7 +52,7 @@ impl VectorKernel for One<'_> {
     }
 }
 
-impl One<'_> {
+impl PostureKernel<'_> {
     /// Whether any of the groups that are near an obstacle, as bits, touches it.
     fn touches(&self, groups: &[Group], obstacle: usize, near: u64) -> bool {
         let shape = &self.cell.obstacles()[obstacle].1;
@@ -70,7 +70,7 @@ impl One<'_> {
                 && (!group.has_hulls
                     || self.outline.capsules[group.cores.clone()].iter().any(is_near)
                     || group.hulls.iter().any(|hull| {
-                        let asked = Asked::whether_above(self.limit);
+                        let asked = DistanceQuery::whether_above(self.limit);
                         let apart = shape.separation_of_hull(hull, &pose, asked, &mut None);
                         apart.distance <= self.limit
                     }))

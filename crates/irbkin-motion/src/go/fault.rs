@@ -49,7 +49,6 @@ pub enum GoFault {
 impl GoFault {
     /// Whether no motion can be.
     #[doc(hidden)]
-    #[must_use]
     pub fn is_proven(&self) -> bool {
         match self {
             Self::Outside { .. } | Self::Linkage { .. } => true,

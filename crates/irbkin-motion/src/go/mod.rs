@@ -69,7 +69,7 @@ impl<const N: usize> Arm<N> {
     ///     Interrupt::when(&is_enough),
     /// )?;
     /// assert!(cell.check_trajectory(&arm, &motion)?.is_none());
-    /// # Ok::<(), irbkin::Error>(())
+    /// # Ok::<(), irbkin_motion::Error>(())
     /// ```
     ///
     /// # Errors

@@ -100,7 +100,6 @@ impl Line {
 /// A part of the way, exact at both ends.
 #[expect(clippy::cast_precision_loss, reason = "at most 1e7 steps")]
 #[doc(hidden)]
-#[must_use]
 pub fn part(step: usize, steps: usize) -> f64 {
     step as f64 / steps as f64
 }

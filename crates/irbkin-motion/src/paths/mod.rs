@@ -8,7 +8,7 @@
 //! let start = pose::from_euler_zyx([0.8, -0.2, 0.6], [0.0, 3.1, 0.0])?;
 //! let end = pose::from_euler_zyx([0.8, 0.2, 0.6], [1.0, 3.1, 0.0])?;
 //! assert_eq!(line(&start, &end, Spacing::count(41)?, None)?.len(), 41);
-//! # Ok::<(), irbkin::Error>(())
+//! # Ok::<(), irbkin_motion::Error>(())
 //! ```
 
 mod arc;

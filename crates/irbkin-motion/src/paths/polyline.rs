@@ -131,7 +131,6 @@ impl Zone {
 
     /// A zone in the units of zonedata: position and orientation [mm], angle [deg].
     #[doc(hidden)]
-    #[must_use]
     pub fn of_zonedata([position, orientation]: [f64; 2], angle: f64) -> Self {
         Self {
             position: position * 1e-3,
@@ -176,7 +175,6 @@ impl Leg {
 
     /// Its length [m].
     #[doc(hidden)]
-    #[must_use]
     pub fn length(&self) -> f64 {
         match self {
             Self::Line(line) => line.length(),
@@ -186,7 +184,6 @@ impl Leg {
 
     /// An angle that the tool does not turn by more than [rad].
     #[doc(hidden)]
-    #[must_use]
     pub fn angle(&self) -> f64 {
         match self {
             Self::Line(line) => line.angle(),
@@ -230,7 +227,6 @@ pub struct Corner {
 
 impl Corner {
     #[doc(hidden)]
-    #[must_use]
     pub fn new(zone: &Zone, before: &Leg, after: &Leg) -> Self {
         let half = 0.5 * before.length().min(after.length());
         let position = zone.position.min(half);
@@ -245,7 +241,6 @@ impl Corner {
 
     /// Whether the pose at the corner is met.
     #[doc(hidden)]
-    #[must_use]
     pub fn is_met(&self) -> bool {
         self.position == 0.0 && self.orientation == 0.0
     }
@@ -262,7 +257,7 @@ pub struct Rounded<'a> {
 }
 
 /// A place inside a zone: the legs that meet there, its size, and how far through it, 0 to 1.
-struct Inside<'a> {
+struct ZonePoint<'a> {
     legs: [&'a Leg; 2],
     size: f64,
     u: f64,
@@ -285,23 +280,23 @@ impl Rounded<'_> {
     }
 
     /// The zone that a part of the leg is in.
-    fn inside(&self, part: f64, size: impl Fn(&Corner) -> f64) -> Option<Inside<'_>> {
+    fn inside(&self, part: f64, size: impl Fn(&Corner) -> f64) -> Option<ZonePoint<'_>> {
         let [behind, ahead] = [part, 1.0 - part].map(|part| part * self.leg.length());
         if let Some((before, corner)) = &self.before {
             let size = size(corner);
             if behind < size {
                 let (u, index) = (0.5 + 0.5 * behind / size, self.index - 1);
-                return Some(Inside { legs: [before, self.leg], size, u, index });
+                return Some(ZonePoint { legs: [before, self.leg], size, u, index });
             }
         }
         let (after, corner) = self.after.as_ref()?;
         let (size, index) = (size(corner), self.index);
         let u = 0.5 - 0.5 * ahead / size;
-        (ahead < size).then_some(Inside { legs: [self.leg, after], size, u, index })
+        (ahead < size).then_some(ZonePoint { legs: [self.leg, after], size, u, index })
     }
 }
 
-impl Inside<'_> {
+impl ZonePoint<'_> {
     /// Where the zone begins and ends, as parts of the legs.
     fn parts(&self) -> [f64; 2] {
         let [before, after] = self.legs;

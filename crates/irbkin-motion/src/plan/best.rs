@@ -46,7 +46,7 @@ impl JointPath {
 }
 
 /// A joint path modulo the turns that are not counted.
-struct Found {
+struct BestPath {
     nodes: Vec<Node>,
     /// The turns that are counted, at the beginning and at the end.
     states: [usize; 2],
@@ -59,7 +59,7 @@ struct Found {
 /// closed one from there is better.
 struct Region {
     bound: Bound,
-    found: Found,
+    found: BestPath,
 }
 
 impl Region {
@@ -199,7 +199,7 @@ impl Ladder<'_> {
         from: usize,
         states: &TurnStates,
         [first, last]: [Bound; 2],
-    ) -> Result<Vec<Found>, PlanError> {
+    ) -> Result<Vec<BestPath>, PlanError> {
         let mut windows = Windows::new(self);
         let pass = match self.order {
             PlanOrder::Bottleneck => Pass::Bottleneck,
@@ -249,7 +249,7 @@ impl Ladder<'_> {
         from: usize,
         slots: &[SlotReach],
         bottleneck: Option<f64>,
-    ) -> Vec<Found> {
+    ) -> Vec<BestPath> {
         let ends = search.cheapest(passed);
         let least = ends.first().map_or(0.0, |end| end.cost);
         let ties =
@@ -258,7 +258,7 @@ impl Ladder<'_> {
             let (nodes, begin) = search.path_to(passed, from, (end.number, end.state));
             let bottleneck = bottleneck.unwrap_or_else(|| self.bottleneck_along(&nodes, from));
             let (states, slots) = ([begin, end.state], slots.to_vec());
-            Found { nodes, states, bottleneck, squares: end.cost, slots }
+            BestPath { nodes, states, bottleneck, squares: end.cost, slots }
         })
         .collect()
     }
@@ -337,11 +337,11 @@ impl Ladder<'_> {
     /// counted, because they would leave their limits, miss the ends or cost more.
     fn with_turns(
         &self,
-        found: Found,
+        found: BestPath,
         from: usize,
         states: &TurnStates,
     ) -> Result<JointPath, Vec<usize>> {
-        let Found { nodes, states: [begin, _], bottleneck, squares, slots } = found;
+        let BestPath { nodes, states: [begin, _], bottleneck, squares, slots } = found;
         let mut turns = states.turns(begin);
         for joint in (0..6).filter(|joint| !states.has(*joint)) {
             turns[joint] = self.turn_along(&nodes, from, joint).ok_or_else(|| vec![joint])?;

@@ -14,14 +14,14 @@ use irbkin::{Pose, PoseDifference};
 
 /// Joint angles at an end of the path, as a node.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Given {
+pub(super) struct EndNode {
     pub(super) q: [f64; 6],
     pub(super) slot: usize,
     /// The nearest node of the grid, and what is free there.
     pub(super) own: Own,
 }
 
-impl Given {
+impl EndNode {
     /// The joint angles that are given for the ends of a path.
     pub(super) fn both(
         arm: &PlannedArm<'_>,

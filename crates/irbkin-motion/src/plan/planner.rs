@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::answer::PlanError;
 use super::best::JointPath;
 use super::certificate::{Between, HALVINGS, Step};
-use super::ends::Given;
+use super::ends::EndNode;
 use super::graph::{Grid, Layer, Node, Waypoint};
 use super::joints::TurnStates;
 use super::ladder::{Ends, Ladder};
@@ -44,7 +44,7 @@ impl<'a> Planner<'a> {
         arm: PlannedArm<'a>,
         path: &[Waypoint],
         options: &PlanOptions,
-        given: &[Option<Given>; 2],
+        given: &[Option<EndNode>; 2],
     ) -> Result<Self, Error> {
         let grid = arm.grid();
         let found = path.len().saturating_mul(grid.slots * grid.cells);
@@ -100,7 +100,7 @@ impl<'a> Planner<'a> {
     }
 
     /// Fix the joint angles at a layer; returns their turns.
-    fn fix(&mut self, layer: usize, given: &Given) -> [i32; 6] {
+    fn fix(&mut self, layer: usize, given: &EndNode) -> [i32; 6] {
         let joints = self.arm.joints;
         let q = core::array::from_fn(|joint| joints.first_turn(joint, given.q[joint]));
         let node = Node { slot: given.slot, cell: given.own.cell };

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use super::answer::PlanError;
 use super::best::JointPath;
-use super::ends::Given;
+use super::ends::EndNode;
 use super::freedom::Freedom;
 use super::graph::{Grid, Layer, Node, Own, Values, Waypoint, turns};
 use super::nodes::PlannedArm;
@@ -56,7 +56,7 @@ pub(super) fn coarse_to_fine<'a>(
     while is_long(&points[..points.len() / stride]) {
         stride *= FINER_STRIDE;
     }
-    let ends = Given::both(&arm, points, options)?;
+    let ends = EndNode::both(&arm, points, options)?;
     // Neighbors may be half a turn apart now: the whole grid is searched instead.
     let Ok(mut planner) = Planner::new(arm, &every(points, stride), options, &ends) else {
         return Ok(None);

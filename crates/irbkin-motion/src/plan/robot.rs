@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 
 use super::answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd};
 use super::best::JointPath;
-use super::ends::Given;
+use super::ends::EndNode;
 use super::freedom::Freedom;
 use super::graph::Waypoint;
 use super::joints::{NodeCost, PlannedJoints};
@@ -113,7 +113,7 @@ pub(super) fn planned(
     if let Some((planner, path)) = refined {
         return Ok(planner.plan_of(&[path])?);
     }
-    let ends = Given::both(&arm, &points, options)?;
+    let ends = EndNode::both(&arm, &points, options)?;
     let mut planner = Planner::new(arm, &points, options, &ends)?;
     let mut parts = Vec::new();
     let mut from = 0;
@@ -171,7 +171,7 @@ fn reached_from_the_end(
     loop {
         let is_whole = count == path.len();
         let open = PlanOptions { end: options.end.filter(|_| is_whole), ..options.clone() };
-        let ends = Given::both(&arm, &points[..count], &open)?;
+        let ends = EndNode::both(&arm, &points[..count], &open)?;
         let mut planner = Planner::new(arm, &points[..count], &open, &ends)?;
         let reached = planner.proven_path(0, caller)?.map_or(0, |path| path.reached() + 1);
         let layers = planner.layers.len();

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::answer::PlanError;
 use super::best::JointPath;
-use super::ends::Given;
+use super::ends::EndNode;
 use super::freedom::Freedom;
 use super::graph::Waypoint;
 use super::nodes::PlannedArm;
@@ -52,7 +52,7 @@ pub(super) fn fastest<'a>(
     // External axes of a fixed tool are a plan of their own.
     if arm.freedom.external == 0 && !arm.freedom.axes.is_empty() {
         let arm = PlannedArm { freedom: fixed, ..arm };
-        let ends = Given::both(&arm, points, options)?;
+        let ends = EndNode::both(&arm, points, options)?;
         for order in [PlanOrder::Bottleneck, PlanOrder::Sum] {
             let options = PlanOptions { order, ..options.clone() };
             let mut planner = Planner::new(arm, points, &options, &ends)?;
@@ -76,7 +76,7 @@ fn whole<'a>(
     if long.is_some() || (is_long(points) && !coarse.axes.is_empty()) {
         return Ok(long);
     }
-    let ends = Given::both(&arm, points, options)?;
+    let ends = EndNode::both(&arm, points, options)?;
     let mut planner = Planner::new(arm, points, options, &ends)?;
     let Some(path) = planner.whole_path(caller)? else { return Ok(None) };
     let path = planner.refined(path, caller)?;

@@ -23,7 +23,7 @@
 //! let step = guard.step(&reference);
 //! assert_eq!(step.state, State::Braking);
 //! assert!(guard.words(&step.reason.unwrap()).starts_with("joint 1 would need"));
-//! # Ok::<(), irbkin::Error>(())
+//! # Ok::<(), irbkin_motion::Error>(())
 //! ```
 
 /// The Rust blocks of the guide, run as documentation tests.

@@ -13,7 +13,7 @@
 //!     Synchronization::Time,
 //! )?;
 //! assert!(motion.peaks()[5].velocity <= 3.0 * (1.0 + 1e-12));
-//! # Ok::<(), irbkin::Error>(())
+//! # Ok::<(), irbkin_motion::Error>(())
 //! ```
 
 mod axis;

@@ -31,7 +31,6 @@ impl AxisState {
     /// Whether a velocity or an acceleration is zero: at most 1e-9 rad/s or rad/s^2, the rounding
     /// of a motion that ends at rest.
     #[doc(hidden)]
-    #[must_use]
     pub fn is_rest(rate: f64) -> bool {
         rate.abs() <= JOINED_POSITION
     }

@@ -35,7 +35,7 @@ const TOOL_STEP: f64 = 0.1;
 /// let rest = Retiming { start_velocity: Some(&[1.0]), ..Retiming::within(&[1.0], &[2.0]) };
 /// let rest = rest.along(&[1.0, 2.0])?;
 /// assert!((2.0 * rest.duration() - whole.duration()).abs() < 1e-3);
-/// # Ok::<(), irbkin::Error>(())
+/// # Ok::<(), irbkin_motion::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Retiming<'a> {
@@ -228,7 +228,6 @@ fn check_steps(q: &[f64], dof: usize) -> Result<(), Error> {
 /// Joints that go evenly from row to row [rad]. The times of the rows [s] begin at zero and do not
 /// decrease; rows at one time are equal.
 #[doc(hidden)]
-#[must_use]
 pub fn evenly<const N: usize>(times: &[f64], rows: &[[f64; N]]) -> Trajectory {
     let mut terms = Vec::with_capacity(rows.len() * N);
     for (ends, rows) in times.windows(2).zip(rows.windows(2)) {

@@ -11,7 +11,7 @@
 //! let duration = state::to_rest(&[now; 6], &[0.9; 6], &[limits; 6], &mut motions)?;
 //! assert!((motions[5].state(duration).position - 0.9).abs() < 1e-15);
 //! assert!(state::brake(&now, &limits)?.duration() < duration);
-//! # Ok::<(), irbkin::Error>(())
+//! # Ok::<(), irbkin_motion::Error>(())
 //! ```
 
 #[cfg(not(feature = "std"))]

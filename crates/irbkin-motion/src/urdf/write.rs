@@ -63,7 +63,7 @@ impl<const N: usize> Arm<N> {
     /// let again = Arm::<6>::from_urdf(&arm.to_urdf(), None, None)?;
     /// let q = [0.3, -0.2, 0.4, 0.5, -0.6, 0.7];
     /// assert!(again.residual(&q, &arm.fk(&q)).largest() < 1e-14);
-    /// # Ok::<(), irbkin::Error>(())
+    /// # Ok::<(), irbkin_motion::Error>(())
     /// ```
     #[must_use]
     pub fn to_urdf(&self) -> String {

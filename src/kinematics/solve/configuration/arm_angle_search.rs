@@ -51,7 +51,7 @@ const FREE_APART: f64 = 1e-5;
 pub(super) const MOST: usize = 48;
 
 /// The solutions found.
-pub(super) type Found = [Option<Solution<7>>; MOST];
+pub(super) type Members = [Option<Solution<7>>; MOST];
 
 /// The solutions with one joint at an angle, and which of them a curve has passed.
 #[derive(Clone, Copy)]
@@ -69,7 +69,7 @@ pub(super) struct Search<'a> {
     pub(super) wanted: f64,
     /// The arm with the joint of the sections locked, if that is not the last.
     pub(super) locked: Option<Robot<7>>,
-    pub(super) found: Found,
+    pub(super) found: Members,
 }
 
 fn largest_difference(a: &[f64; 7], b: &[f64; 7]) -> f64 {

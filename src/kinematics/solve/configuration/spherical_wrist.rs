@@ -39,7 +39,7 @@ impl Robot<6> {
         let found = if self.solve_in_lanes(&mut solutions, f64::NAN) {
             self.configured_regular(&solutions, wanted)
         } else {
-            self.solve_at_rest(&mut solutions, f64::NAN)?;
+            self.solve_singular(&mut solutions, f64::NAN)?;
             self.configured_singular(&solutions, wanted)?
         };
         if let Some(found) = found {

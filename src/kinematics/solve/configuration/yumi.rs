@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use alloc::vec::Vec;
 
 use super::arm_angle::ArmAngle;
-use super::arm_angle_search::{Found, MOST, Search};
+use super::arm_angle_search::{MOST, Members, Search};
 use super::having::BEYOND;
 use super::rule::Quarters;
 use crate::error::{Error, JointFault, ModelFault};
@@ -63,7 +63,7 @@ impl Configured<7> for Robot<7> {
         wanted.check(false)?;
         let arm_angle = request.arm_angle.ok_or(JointFault::MissingArmAngle)?;
         let mut found = [None; MOST];
-        let having = |found: &Found| self.having_at(&rule, pose, found, request, seed);
+        let having = |found: &Members| self.having_at(&rule, pose, found, request, seed);
         let [first, _, last] = Quarters::of(&rule).ranges(wanted, CONFIGURATION_EDGE);
         let limits = self.limits().widened(TAUGHT_BEYOND_LIMITS).narrowed(&[first, last]);
         if let Some([first, .., last]) = limits.map(|limits| limits.to_array()) {
@@ -92,7 +92,7 @@ impl Robot<7> {
         &self,
         rule: &ConfigurationRule,
         pose: &Pose,
-        found: &Found,
+        found: &Members,
         request: &ConfigurationRequest<7>,
         seed: &[f64; 7],
     ) -> Option<Vec<Solution<7>>> {
@@ -123,7 +123,7 @@ impl Robot<7> {
         pose: &Pose,
         wanted: Configuration,
         arm_angle: f64,
-        found: &Found,
+        found: &Members,
     ) -> Result<Error, Error> {
         let free = found.iter().flatten().find_map(|solution| solution.free_joint);
         let mut none = NoConfiguration { wanted, existing: Vec::new(), more: false, free };
@@ -140,7 +140,7 @@ impl Robot<7> {
     }
 
     /// The joint vectors of a pose that have an arm angle, by every search.
-    fn at_arm_angle_anywhere(&self, pose: &Pose, wanted: f64) -> Result<Found, Error> {
+    fn at_arm_angle_anywhere(&self, pose: &Pose, wanted: f64) -> Result<Members, Error> {
         let mut found = [None; MOST];
         for joint in [7, 1, BETWEEN] {
             self.search_arm_angle(pose, wanted, joint, AROUND, &mut found)?;
@@ -156,7 +156,7 @@ impl Robot<7> {
         wanted: f64,
         joint: usize,
         [from, to]: [f64; 2],
-        found: &mut Found,
+        found: &mut Members,
     ) -> Result<(), Error> {
         let reference = self.arm_angle_reference()?;
         if self.lock().is_some() {

@@ -7,7 +7,7 @@ use fearless_simd::prelude::*;
 
 use super::method::ByRoots;
 use super::search::quasi_random;
-use super::solved::{Found, Solved};
+use super::solved::{RootRows, Solved};
 use crate::kinematics::structure::closure::Candidates;
 use crate::kinematics::structure::end_frames::Frame;
 use crate::kinematics::structure::lanes::JointRow;
@@ -81,12 +81,12 @@ impl<M: ByRoots> VectorKernel for Solve<'_, M> {
     fn run<S: Simd>(self, simd: S) {
         let Self { method, joints, poses, solved } = self;
         let mut posed = ArrayVec::<M::Posed, LANES>::new();
-        let mut found = ArrayVec::<Found, LANES>::new();
+        let mut found = ArrayVec::<RootRows, LANES>::new();
         let mut roots = SimpleRoots::new();
         for pose in poses {
             posed.push(method.posed(simd, pose));
             roots.push(method.polynomial(simd, &posed[posed.len() - 1]).in_doubt());
-            found.push(Found::new());
+            found.push(RootRows::new());
         }
         let closure = method.closure();
         for number in 0..roots.isolate(simd) {

@@ -11,7 +11,7 @@ use crate::lanes::{Column, LANES, Vector};
 
 /// The solutions of a pose as they are found: rows of angles of the table [rad], with what fills the
 /// lanes behind them.
-pub(super) struct Found {
+pub(super) struct RootRows {
     rows: ArrayVec<Column, SLOTS>,
     /// Whether these are certain to be all.
     pub(super) is_regular: bool,
@@ -30,7 +30,7 @@ pub(crate) struct Solved {
 const INSIDE: u8 = Status::FOUND.union(Status::WITHIN_LIMITS).bits();
 const OUTSIDE: u8 = Status::FOUND.bits();
 
-impl Found {
+impl RootRows {
     #[inline(always)]
     pub(super) fn new() -> Self {
         Self { rows: ArrayVec::new(), is_regular: true }
@@ -78,7 +78,7 @@ impl Solved {
 
     /// Take what was found, in order, by joint angles; two that are the same are not regular.
     #[inline(always)]
-    pub(super) fn take<S: Simd>(&mut self, simd: S, found: &Found, joints: &JointRow) {
+    pub(super) fn take<S: Simd>(&mut self, simd: S, found: &RootRows, joints: &JointRow) {
         self.q.clear();
         self.status.clear();
         self.is_regular = false;

@@ -17,13 +17,13 @@ use crate::report::FreeJoint;
 use crate::report::Reach;
 
 /// The shoulders to solve.
-enum Asked {
+enum ShoulderChoice {
     Both,
     Front,
     Behind,
 }
 
-impl Asked {
+impl ShoulderChoice {
     fn of(merged: bool, policy: SeedPolicy) -> Self {
         match policy {
             SeedPolicy::Forced { behind: true, .. } => Self::Behind,
@@ -53,10 +53,10 @@ impl ThreeParallel {
         let mut branches = Branches::empty(Reach::Reached);
         let mut fill =
             |base: usize, shoulder: &Shoulder| self.fill(&mut branches, base, shoulder, target);
-        branches.reach = match Asked::of(*merged, target.free.policy) {
-            Asked::Front => fill(0, front),
-            Asked::Behind => fill(4, behind),
-            Asked::Both => {
+        branches.reach = match ShoulderChoice::of(*merged, target.free.policy) {
+            ShoulderChoice::Front => fill(0, front),
+            ShoulderChoice::Behind => fill(4, behind),
+            ShoulderChoice::Both => {
                 let reach = fill(0, front).nearer(fill(4, behind));
                 self.drop_beyond(&mut branches, front);
                 reach

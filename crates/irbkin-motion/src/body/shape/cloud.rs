@@ -21,13 +21,13 @@ use irbkin::Interrupt;
     derive(serde::Serialize, serde::Deserialize),
     serde(try_from = "Stored", into = "Stored")
 )]
-pub struct Cloud(Arc<Inside>);
+pub struct Cloud(Arc<CloudData>);
 
 /// A cloud as serde reads and writes it.
 type Stored = (Vec<[f64; 3]>, f64);
 
 #[derive(Debug)]
-struct Inside {
+struct CloudData {
     points: Vec<Vector3<f64>>,
     radius: f64,
     tree: Tree,
@@ -63,7 +63,7 @@ impl Cloud {
         check_size("point cloud", "radius", radius)?;
         let points = check_points("point cloud", "points", points, 1)?;
         let boxes: Vec<_> = points.iter().map(|point| Bounds::of([point])).collect();
-        Ok(Self(Arc::new(Inside { points, radius, tree: Tree::new(&boxes, interrupt)? })))
+        Ok(Self(Arc::new(CloudData { points, radius, tree: Tree::new(&boxes, interrupt)? })))
     }
 
     /// The points [m].

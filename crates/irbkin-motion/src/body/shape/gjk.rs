@@ -84,12 +84,12 @@ pub(super) fn placed(pose: &Pose, point: &Vector3<f64>) -> Vector3<f64> {
 /// The part of a distance that is asked [m]: beyond `far` and from `near` on downwards, only that it
 /// is there.
 #[derive(Clone, Copy)]
-pub(crate) struct Asked {
+pub(crate) struct DistanceQuery {
     pub(crate) far: f64,
     pub(crate) near: f64,
 }
 
-impl Asked {
+impl DistanceQuery {
     /// The distance.
     pub(crate) const DISTANCE: Self = Self { far: f64::INFINITY, near: f64::NEG_INFINITY };
 
@@ -106,7 +106,7 @@ impl Asked {
 
 /// A direction across which planes separated two shapes before: a search that begins with it is
 /// short where they do again.
-pub(crate) type Way = Option<Vector3<f64>>;
+pub(crate) type SeparatingDirection = Option<Vector3<f64>>;
 
 /// At most four differences of points of the two shapes, of which the one nearest to the origin is
 /// a weighted mean.
@@ -127,7 +127,7 @@ pub(super) fn nearest(
     one: &(impl Convex + ?Sized),
     other: &(impl Convex + ?Sized),
     way: &mut Vector3<f64>,
-    asked: Asked,
+    asked: DistanceQuery,
 ) -> (f64, [Vector3<f64>; 2]) {
     let mut simplex = Simplex::default();
     let first = [one.support(&-*way, None), other.support(way, None)];

@@ -9,7 +9,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::{LEAST, check_points};
-use super::gjk::{Asked, Convex, nearest};
+use super::gjk::{Convex, DistanceQuery, nearest};
 use super::tree::{Bounds, Tree};
 use crate::body::fault::BodyFault;
 use crate::error::Error;
@@ -22,10 +22,10 @@ use irbkin::Interrupt;
     derive(serde::Serialize, serde::Deserialize),
     serde(try_from = "Vec<[f64; 3]>", into = "Vec<[f64; 3]>")
 )]
-pub struct Hull(Arc<Inside>);
+pub struct Hull(Arc<HullData>);
 
 #[derive(Debug)]
-struct Inside {
+struct HullData {
     points: Vec<Vector3<f64>>,
     tree: Tree,
 }
@@ -59,7 +59,7 @@ impl Hull {
             return Err(BodyFault::Flat { thickness, least: LEAST }.into());
         }
         let boxes: Vec<_> = points.iter().map(|point| Bounds::of([point])).collect();
-        Ok(Self(Arc::new(Inside { points, tree: Tree::new(&boxes, interrupt)? })))
+        Ok(Self(Arc::new(HullData { points, tree: Tree::new(&boxes, interrupt)? })))
     }
 
     /// The points [m].
@@ -75,18 +75,18 @@ impl Hull {
 
     /// How far a capsule is from it.
     pub(super) fn separation(&self, capsule: &Capsule) -> Separation {
-        let (distance, points) = self.nearest(capsule, Asked::DISTANCE);
+        let (distance, points) = self.nearest(capsule, DistanceQuery::DISTANCE);
         Separation::of_axis(distance, points, capsule.radius)
     }
 
     /// Whether a capsule is as near to it as a distance [m], or nearer.
     pub(super) fn is_within(&self, capsule: &Capsule, distance: f64) -> bool {
         let most = distance + capsule.radius;
-        self.nearest(capsule, Asked::whether_above(most)).0 <= most
+        self.nearest(capsule, DistanceQuery::whether_above(most)).0 <= most
     }
 
     /// How far the axis of a capsule is from it.
-    fn nearest(&self, capsule: &Capsule, asked: Asked) -> (f64, [Vector3<f64>; 2]) {
+    fn nearest(&self, capsule: &Capsule, asked: DistanceQuery) -> (f64, [Vector3<f64>; 2]) {
         let axis = &capsule.ends;
         let (one, other): (&dyn Convex, &dyn Convex) = (axis, self);
         nearest(one, other, &mut (axis[0] - self.0.points[0]), asked)

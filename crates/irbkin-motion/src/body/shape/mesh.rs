@@ -34,13 +34,13 @@ const DIRECTIONS: [[f64; 3]; 5] = [
     derive(serde::Serialize, serde::Deserialize),
     serde(try_from = "Stored", into = "Stored")
 )]
-pub struct Mesh(Arc<Inside>);
+pub struct Mesh(Arc<MeshData>);
 
 /// A mesh as serde reads and writes it.
 type Stored = (Vec<[[f64; 3]; 3]>, bool);
 
 #[derive(Debug)]
-struct Inside {
+struct MeshData {
     triangles: Vec<Triangle>,
     is_solid: bool,
     tree: Tree,
@@ -84,7 +84,7 @@ impl Mesh {
             check_volume(&triangles)?;
         }
         let boxes: Vec<_> = triangles.iter().map(Bounds::of).collect();
-        Ok(Self(Arc::new(Inside { triangles, is_solid, tree: Tree::new(&boxes, interrupt)? })))
+        Ok(Self(Arc::new(MeshData { triangles, is_solid, tree: Tree::new(&boxes, interrupt)? })))
     }
 
     /// The corners of the triangles [m].

@@ -22,7 +22,7 @@ pub use self::capsule::Capsule;
 pub(crate) use self::capsule::Separation;
 pub(crate) use self::checks::check_length;
 pub use self::cloud::Cloud;
-pub(crate) use self::gjk::{Asked, Way};
+pub(crate) use self::gjk::{DistanceQuery, SeparatingDirection};
 pub use self::hull::Hull;
 pub use self::mesh::Mesh;
 pub use self::rounded::RoundedHull;

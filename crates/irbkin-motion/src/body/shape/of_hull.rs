@@ -6,7 +6,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::Separation;
 use super::cloud::Cloud;
-use super::gjk::{Asked, Convex, Framed, Way, placed};
+use super::gjk::{Convex, DistanceQuery, Framed, SeparatingDirection, placed};
 use super::mesh::Mesh;
 use super::rounded::{ROUNDING, RoundedHull};
 use super::solid::Shape;
@@ -40,8 +40,8 @@ impl Shape {
         &self,
         hull: &RoundedHull,
         pose: &Pose,
-        asked: Asked,
-        way: &mut Way,
+        asked: DistanceQuery,
+        way: &mut SeparatingDirection,
     ) -> Separation {
         let (middle, radius) = (hull.center_in(pose), hull.ball());
         if let Some((center, own)) = self.ball() {
@@ -95,8 +95,8 @@ impl Shape {
 fn least(
     (tree, beyond): (&Tree, f64),
     (hull, pose): (&RoundedHull, &Pose),
-    asked: Asked,
-    item: impl Fn(usize, Asked) -> Separation,
+    asked: DistanceQuery,
+    item: impl Fn(usize, DistanceQuery) -> Separation,
 ) -> Separation {
     let (middle, radius) = (hull.center_in(pose), hull.ball());
     let room = ROUNDING * (1.0 + radius + beyond + middle.norm());
@@ -106,7 +106,7 @@ fn least(
     let mut nearest = Separation::NOTHING;
     tree.search(asked.far + room, away, |index| {
         let far = asked.far.min(nearest.distance);
-        let own = item(index, Asked { far, ..asked });
+        let own = item(index, DistanceQuery { far, ..asked });
         if own.distance <= far {
             nearest = own;
         }
@@ -116,7 +116,12 @@ fn least(
 }
 
 impl Cloud {
-    fn separation_of_hull(&self, hull: &RoundedHull, pose: &Pose, asked: Asked) -> Separation {
+    fn separation_of_hull(
+        &self,
+        hull: &RoundedHull,
+        pose: &Pose,
+        asked: DistanceQuery,
+    ) -> Separation {
         least((self.tree(), self.radius()), (hull, pose), asked, |index, asked| {
             let point = self.point(index);
             hull.separation_of(pose, (&[point], self.radius(), point), asked, &mut None)
@@ -125,7 +130,12 @@ impl Cloud {
 }
 
 impl Mesh {
-    fn separation_of_hull(&self, hull: &RoundedHull, pose: &Pose, asked: Asked) -> Separation {
+    fn separation_of_hull(
+        &self,
+        hull: &RoundedHull,
+        pose: &Pose,
+        asked: DistanceQuery,
+    ) -> Separation {
         // If it is not inside as a whole, it goes through a triangle or is outside.
         let one = placed(pose, &hull.point(0));
         if self.is_solid() && self.holds(&one) {

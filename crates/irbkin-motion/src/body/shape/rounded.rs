@@ -10,7 +10,7 @@ use nalgebra::{ComplexField as _, RealField as _};
 
 use super::capsule::{Capsule, Separation};
 use super::checks::{check_length, check_points};
-use super::gjk::{Asked, Convex, Framed, Way, nearest, placed};
+use super::gjk::{Convex, DistanceQuery, Framed, SeparatingDirection, nearest, placed};
 use super::tree::Bounds;
 use crate::body::fault::BodyFault;
 use crate::error::Error;
@@ -33,10 +33,10 @@ const MOST_POINTS: usize = 256;
     derive(serde::Serialize, serde::Deserialize),
     serde(try_from = "Stored", into = "Stored")
 )]
-pub struct RoundedHull(Arc<Inside>);
+pub struct RoundedHull(Arc<RoundedHullData>);
 
 #[derive(Debug, PartialEq)]
-struct Inside {
+struct RoundedHullData {
     /// The points, lane beside lane; the last one fills the rest.
     columns: Vec<[Column; 3]>,
     count: usize,
@@ -119,7 +119,7 @@ impl RoundedHull {
             core::array::from_fn(|axis| core::array::from_fn(|lane| point(lane)[axis]))
         });
         let (columns, count) = (columns.collect(), points.len());
-        Self(Arc::new(Inside { columns, count, faces, radius, center, spread, core }))
+        Self(Arc::new(RoundedHullData { columns, count, faces, radius, center, spread, core }))
     }
 
     /// A capsule as a hull.
@@ -182,7 +182,6 @@ impl RoundedHull {
 
     /// A capsule inside of it, if one is known.
     #[doc(hidden)]
-    #[must_use]
     pub fn core(&self) -> Option<&Capsule> {
         self.0.core.as_ref()
     }
@@ -217,8 +216,8 @@ impl RoundedHull {
         &self,
         pose: &Pose,
         (shape, radius, middle): (&dyn Convex, f64, Vector3<f64>),
-        asked: Asked,
-        way: &mut Way,
+        asked: DistanceQuery,
+        way: &mut SeparatingDirection,
     ) -> Separation {
         let radii = [self.radius(), radius];
         let way = way.get_or_insert_with(|| self.center_in(pose) - middle);
@@ -233,8 +232,8 @@ impl RoundedHull {
         &self,
         pose: &Pose,
         (other, to): (&Self, &Pose),
-        asked: Asked,
-        way: &mut Way,
+        asked: DistanceQuery,
+        way: &mut SeparatingDirection,
     ) -> Separation {
         let between = self.center_in(pose) - other.center_in(to);
         let distance = between.norm() * (1.0 - ROUNDING) - self.ball() - other.ball();
@@ -301,7 +300,7 @@ struct Between<'a> {
     hulls: [&'a RoundedHull; 2],
     pose: Pose,
     way: &'a mut Vector3<f64>,
-    asked: Asked,
+    asked: DistanceQuery,
 }
 
 impl VectorKernel for Between<'_> {
