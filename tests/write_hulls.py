@@ -1,4 +1,4 @@
-"""Write `crates/irbkin-motion/src/body/arms/hulls.bin`, the hulls of the catalog's bodies, from meshes.
+"""Write the hulls of the catalog's bodies, hulls.bin of irbkin-motion, from meshes of their links.
 
 python tests/write_hulls.py FRAMES: a YAML file, by arm and link a list of meshes: `path`, `scale`
 and `pose`, three rows of four [m], in the frame of the link. The sources of the meshes are in
