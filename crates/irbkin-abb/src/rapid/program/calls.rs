@@ -87,7 +87,7 @@ impl<'m> Walk<'_, 'm> {
         let bound = match (why, &instruction.arguments) {
             (None, Some(arguments)) => self.bound(skipped, parameters, arguments),
             (why, _) => {
-                let assigned = program.effects.assigned_by(Vec::from([(home, name)]), MOST_CALLED);
+                let assigned = program.effects.assigned_by(&[(home, name)], MOST_CALLED);
                 self.state.forget_globals(assigned.as_ref());
                 if acts.moves {
                     let words = why.unwrap_or_else(|| "its arguments are not read".to_string());

@@ -130,7 +130,7 @@ impl Effects {
                 }
             }
         }
-        found.extend(self.assigned_by(called, usize::MAX).unwrap_or_default());
+        found.extend(self.assigned_by(&called, usize::MAX).unwrap_or_default());
         found
     }
 
@@ -167,7 +167,7 @@ impl Effects {
         block: &Block<'_>,
     ) -> (Option<BTreeSet<DatumId>>, BTreeSet<String>) {
         let (own, called, locals) = self.of_statements(names, place, block);
-        let others = self.assigned_by(called, MOST_CALLED);
+        let others = self.assigned_by(&called, MOST_CALLED);
         (others.map(|others| own.into_iter().chain(others).collect()), locals)
     }
 
@@ -199,25 +199,22 @@ impl Effects {
 
     /// The data that routines assign, with the ones that they call; `None` if these are more than
     /// `most`.
-    pub(super) fn assigned_by(
-        &self,
-        mut open: Vec<Name>,
-        most: usize,
-    ) -> Option<BTreeSet<DatumId>> {
+    pub(super) fn assigned_by(&self, called: &[Name], most: usize) -> Option<BTreeSet<DatumId>> {
         let (mut found, mut seen) = (BTreeSet::new(), BTreeSet::new());
+        let mut open: Vec<&Name> = called.iter().collect();
         while let Some(name) = open.pop() {
+            if !seen.insert(name) {
+                continue;
+            }
             self.gone_through.update(|count| count + 1);
-            let Some(acts) = self.of_routines.get(&name).filter(|acts| acts.assigns) else {
+            let Some(acts) = self.of_routines.get(name).filter(|acts| acts.assigns) else {
                 continue;
             };
             if seen.len() + open.len() + found.len() + acts.own.len() > most {
                 return None;
             }
-            found.extend(acts.own.iter().copied());
-            let called = self.calls.get(&name).into_iter().flatten().map(|call| call.to.clone());
-            let called: Vec<Name> = called.filter(|it| !seen.contains(it)).collect();
-            seen.insert(name);
-            open.extend(called);
+            found.extend(&acts.own);
+            open.extend(self.calls.get(name).into_iter().flatten().map(|call| &call.to));
         }
         Some(found)
     }
