@@ -27,10 +27,6 @@ pub trait Kernel {
 
     /// Whether there is enough parallel work for 512-bit registers to pay off: the processor lowers
     /// its clock and joins ports for them.
-    #[cfg_attr(
-        not(all(feature = "std", target_arch = "x86_64")),
-        expect(dead_code, reason = "there is no choice of widths")
-    )]
     const WIDE: bool;
 
     /// Compute the answer; `FUSED` if the instruction set multiplies and adds in one rounding. Must
