@@ -37,8 +37,8 @@ semver() {
         return
     fi
     tool cargo-semver-checks 0.51.0
-    cargo semver-checks --package irbkin --baseline-rev "$tag" \
-        --only-explicit-features --features std,urdf,serde
+    cargo semver-checks --package irbkin --package irbkin-motion --package irbkin-abb \
+        --baseline-rev "$tag"
 }
 
 msrv() {
@@ -61,7 +61,7 @@ mutants() {
     timeout --signal=INT "$seconds" \
         cargo mutants --shuffle --output target \
         --file "${FILES:-src/kinematics/structure/**}" \
-        --test-package irbkin,irbkin-tests --cargo-arg=--lib --cargo-arg=--tests -- \
+        --test-package irbkin,irbkin-motion,irbkin-tests --cargo-arg=--lib --cargo-arg=--tests -- \
         --include-ignored laws:: hard_sets:: reach_and_paths:: certificates:: follow:: structure:: solve:: ||
         code=$?
     case $code in 0 | 2 | 3 | 124) ;; *) return 1 ;; esac

@@ -18,29 +18,19 @@ pub use answer::solutions::{Solution, Solutions};
 pub use answer::status::{SingularityKind, Status};
 pub use chain::axes::Axes;
 pub use chain::corrections::Corrections;
-pub use chain::dh::check_snap;
-pub use chain::dh::screw_x;
-pub use chain::dh::{DhRow, Mdh, Sdh};
+pub use chain::dh::{DhRow, Mdh, Sdh, check_snap, screw_x};
 pub use chain::jacobian::JacobianFrame;
-pub use chain::joint_axes::JointAxis;
-pub use chain::joint_axes::unit;
-pub use chain::limits::JointLimits;
-pub use chain::limits::at_limit;
+pub use chain::joint_axes::{JointAxis, unit};
+pub use chain::limits::{JointLimits, at_limit};
 pub use path::follow::{Break, BreakReason, Followed, Follower, Progress};
 pub use path::singularity_mode::{FollowOptions, SingularityMode};
-pub use path::step::largest;
-pub use path::step::largest_step;
-pub use path::step::steps;
-pub use pose::angles::nearest_turn;
-pub use pose::angles::rotation_vector;
-pub use pose::angles::snapped;
-pub use pose::angles::{angle_between, constant_sin_cos};
-pub use pose::checked_pose;
-pub use pose::constant_pose;
+pub use path::step::{largest, largest_step, steps};
+pub use pose::angles::{angle_between, constant_sin_cos, nearest_turn, rotation_vector, snapped};
 pub use pose::matrix::{pose_from_isometry, pose_from_matrix, pose_to_isometry, pose_to_matrix};
 pub use pose::{
-    Pose, PoseDifference, pose_from_euler_zyx, pose_from_rotation, pose_from_rotvec,
-    pose_from_rows, pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx, pose_to_rows, pose_to_wxyz,
+    Pose, PoseDifference, checked_pose, constant_pose, pose_from_euler_zyx, pose_from_rotation,
+    pose_from_rotvec, pose_from_rows, pose_from_wxyz, pose_from_xyzw, pose_to_euler_zyx,
+    pose_to_rows, pose_to_wxyz,
 };
 pub use robot::any::{AnyRobot, ByJoints};
 pub use robot::build::POSTURES;

@@ -12,22 +12,15 @@ mod functions;
 mod number;
 mod vector;
 
-pub use dispatch::InstructionSet;
-pub use dispatch::Kernel;
-pub use dispatch::run;
-pub use functions::nearest_whole;
-pub use functions::whole_below;
+pub use dispatch::{InstructionSet, Kernel, run};
 pub(crate) use functions::{
     MOST_SIN_COS, atan2, atan2_of, mul_add, sin_cos, sin_cos_of, whole_above,
 };
-pub use number::Number;
-pub use number::cross;
-pub use number::dot;
-pub use vector::Vector;
-pub use vector::VectorKernel;
+pub use functions::{nearest_whole, whole_below};
+pub use number::{Number, cross, dot};
 #[cfg(test)]
 pub(crate) use vector::run_on;
-pub use vector::run_vectors;
+pub use vector::{Vector, VectorKernel, run_vectors};
 pub(crate) use vector::{same, transposed};
 
 /// Lanes of a block: the widest vector of any instruction set, in `f64`.

@@ -19,53 +19,43 @@ pub trait Number:
     + Neg<Output = Self>
 {
     /// A constant, in as many lanes.
-    #[must_use]
     fn like(self, constant: f64) -> Self;
 
     /// `self * by + plus`; of vectors in one rounding where the instruction set has it.
-    #[must_use]
     fn times_plus(self, by: Self, plus: Self) -> Self;
 
     /// The square root.
-    #[must_use]
     fn root(self) -> Self;
 
     /// The absolute value.
-    #[must_use]
     fn size(self) -> Self;
 
     /// Return the size with the sign of another number.
-    #[must_use]
     fn signed_as(self, sign: Self) -> Self;
 
     /// `yes` where this number is above another, else `no`: also where one is not a number.
-    #[must_use]
     fn if_above(self, other: Self, yes: Self, no: Self) -> Self;
 
     /// `self * by + plus` with a constant factor.
     #[inline(always)]
-    #[must_use]
     fn scaled_plus(self, by: f64, plus: Self) -> Self {
         self.times_plus(self.like(by), plus)
     }
 
     /// `self * by - minus`.
     #[inline(always)]
-    #[must_use]
     fn times_minus(self, by: Self, minus: Self) -> Self {
         self.times_plus(by, -minus)
     }
 
     /// The inverse.
     #[inline(always)]
-    #[must_use]
     fn inverse(self) -> Self {
         self.like(1.0) / self
     }
 
     /// The larger of this and another number; the other if this is not a number.
     #[inline(always)]
-    #[must_use]
     fn or_more(self, other: Self) -> Self {
         self.if_above(other, self, other)
     }

@@ -7,12 +7,8 @@ mod unknown_structure;
 
 pub use answer::{Approach, Configuration, ConfigurationRule, Explanation, Reach};
 pub use free_joint::FreeJoint;
-pub use names::Listed;
-pub use names::Names;
-pub use names::excess;
-pub use unknown_structure::OFFSET_WRIST;
-pub use unknown_structure::SNAPS;
+pub use names::{Listed, Names, excess};
 pub(crate) use unknown_structure::{
     Columns, Freedom, MOST_CONDITIONS, ORDERS, Pattern, Reading, Relation, Snap,
 };
-pub use unknown_structure::{Convention, UnknownStructure};
+pub use unknown_structure::{Convention, OFFSET_WRIST, SNAPS, UnknownStructure};

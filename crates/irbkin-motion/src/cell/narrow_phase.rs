@@ -31,8 +31,8 @@ impl Block {
 }
 
 /// Where the search for a separating plane along a line stops, between the distance at which a pair
-/// touches (0) and the one at which it certainly does not (1): nearer pairs take the longest and are
-/// hardly ever apart.
+/// certainly does not touch (0) and the one at which it does (1): nearer pairs take the longest and
+/// are hardly ever apart.
 const SEARCH_END: f64 = 0.5;
 
 /// How far points move at least where it goes on so far [m]: the last parts before a contact are
@@ -88,19 +88,18 @@ impl CollisionKernel<'_> {
             if open == 0 {
                 continue;
             }
-            let other_hull = Counterpart::Hull(other.link, two);
             let both = HullPair {
                 link: one.link,
                 hull: own,
-                other: other_hull,
+                other: Counterpart::Hull(other.link, two),
                 limits,
                 least: ROUNDING,
                 drift: &drift,
             };
             open &= !self.beyond(simd, &both, &self.plane(simd, other.link, two, way));
             if open != 0 {
-                let facing = self.axis_in(simd, other.link, two);
-                let way = self.axis_in(simd, one.link, own).way_from(&facing).0;
+                let axis = self.axis_in(simd, other.link, two);
+                let way = self.axis_in(simd, one.link, own).way_from(&axis).0;
                 open &= !self.beyond(simd, &both, &self.plane(simd, other.link, two, way));
             }
             self.settle(simd, [at, number], &both, open);
