@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Builds the crate and the sdist, unpacks each into an empty folder, and runs its examples there.
+# Builds the crates and the sdist, unpacks kinematics and the sdist into an empty folder, and runs
+# their examples there.
 # Downloads what pip and cargo need: ship/environment.sh ship/packages.sh
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-echo "The crate"
-cargo package --package irbkin --quiet --allow-dirty --no-verify
-tar xzf target/package/irbkin-*.crate -C "$folder"
+echo "The crates"
+cargo package -p irbkin -p irbkin-motion -p irbkin-abb --quiet --allow-dirty --no-verify
+tar xzf target/package/irbkin-[0-9]*.crate -C "$folder"
 if find "$folder" -name '*.py' | grep .; then
     echo "The crate has Python files" >&2
     exit 1
