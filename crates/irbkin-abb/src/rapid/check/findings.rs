@@ -8,25 +8,27 @@ use alloc::vec::Vec;
 use super::fixes::{Demand, correct};
 use crate::rapid::data::finding::{Code, Finding};
 
-/// The places, codes and words of findings.
-pub(super) type Seen = BTreeSet<([usize; 3], Code, String)>;
+/// The places, codes, words and cases of findings.
+pub(super) type Seen = BTreeSet<([usize; 3], Code, String, String)>;
 
 /// Add a finding that is new: routines are followed again for each of their callers.
 pub(super) fn add_once(found: &mut Vec<Finding>, seen: &mut Seen, finding: Finding) {
     let place = [finding.module, finding.line, finding.column];
-    if seen.insert((place, finding.code, finding.message.clone())) {
+    if seen.insert((place, finding.code, finding.message.clone(), finding.case.clone())) {
         found.push(finding);
     }
 }
 
-/// Findings in the order of the text, each once, with their corrections.
-pub(super) fn sorted(mut found: Vec<Finding>, demands: &[Demand]) -> Vec<Finding> {
+/// Findings in the order of the text, each once, with their corrections, by the number of cases of
+/// the moves at each place.
+pub(super) fn sorted(
+    mut found: Vec<Finding>,
+    demands: &[Demand],
+    cases: &BTreeMap<[usize; 3], usize>,
+) -> Vec<Finding> {
     correct(demands, &mut found);
-    found.sort_by_key(|it| (it.module, it.line, it.column, it.code));
-    found.dedup_by(|a, b| {
-        (a.module, a.line, a.column, a.code, &a.message)
-            == (b.module, b.line, b.column, b.code, &b.message)
-    });
+    found.sort_by_key(|it| (it.module, it.line, it.column, it.code, it.joint));
+    let mut found = of_all_cases(&found, cases);
     // Nothing is said of the way to a target that cannot be met.
     let (mut unmet, mut without_path) = (None, None);
     found.retain(|it| {
@@ -41,6 +43,31 @@ pub(super) fn sorted(mut found: Vec<Finding>, demands: &[Demand]) -> Vec<Finding
         true
     });
     of_one_cause(found)
+}
+
+/// Findings of the cases of a move as the first of them, with the number of the others.
+fn of_all_cases(found: &[Finding], cases: &BTreeMap<[usize; 3], usize>) -> Vec<Finding> {
+    let mut kept: Vec<Finding> = Vec::new();
+    let identity = |it: &Finding| (it.module, it.line, it.column, it.code, it.joint);
+    for all in found.chunk_by(|a, b| identity(a) == identity(b)) {
+        let first = &all[0];
+        if first.case.is_empty() {
+            let mut messages = BTreeSet::new();
+            kept.extend(all.iter().filter(|it| messages.insert(&it.message)).cloned());
+            continue;
+        }
+        let count = all.iter().map(|it| &it.case).collect::<BTreeSet<_>>().len();
+        let total = cases.get(&[first.module, first.line, first.column]).copied().unwrap_or(count);
+        let mut own = first.clone();
+        if count < total || all.iter().any(|it| it.message != first.message) {
+            let which = if count > 1 { "first " } else { "" };
+            let kind = if first.case.starts_with("at ") { "passes" } else { "cases" };
+            own.message =
+                format!("{} ({which}{}; {count} of {total} {kind})", first.message, first.case);
+        }
+        kept.push(own);
+    }
+    kept
 }
 
 /// Findings of one cause as the first of them, with the places and the corrections of the others.

@@ -233,6 +233,9 @@ pub struct Finding {
     pub unknown: Option<String>,
     /// Findings of one code and one cause are one; empty if it stands alone.
     pub(crate) cause: String,
+    /// The pass of a loop, or which of the values that data may have, in words; empty of the only
+    /// one.
+    pub(crate) case: String,
     /// Where else its cause shows: modules, lines and columns.
     pub related: Vec<(usize, usize, usize)>,
     /// The corrections, in the order of the text; empty where nothing corrects it.
@@ -256,6 +259,7 @@ impl Finding {
             bound: None,
             unknown: None,
             cause: String::new(),
+            case: String::new(),
             related: Vec::new(),
             edits: Vec::new(),
         }
@@ -297,6 +301,11 @@ impl Finding {
             Explanation::OutOfReach(reach) => self.with_value(reach.shortfall(), 0.0),
             _ => self,
         }
+    }
+
+    /// In one case of several.
+    pub(crate) fn in_case(self, case: &str) -> Self {
+        Self { case: case.into(), ..self }
     }
 
     /// In a module.

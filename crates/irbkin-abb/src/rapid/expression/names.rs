@@ -18,6 +18,12 @@ pub(crate) trait Names {
     /// Find what a name refers to at a place.
     fn find(&self, at: At, name: &str) -> Lookup<'_>;
 
+    /// An element, from 0, of an array of a size, by the text of an index that is not known; every
+    /// one is asked for.
+    fn element(&self, _index: &str, _size: usize) -> Option<usize> {
+        None
+    }
+
     /// Why some of these atoms of a datum may be different where the program moves.
     fn cause_of(&self, at: At, name: &str, _atoms: Range<usize>) -> Option<Cause<'_>> {
         match self.find(at, name) {

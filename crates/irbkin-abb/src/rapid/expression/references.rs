@@ -200,7 +200,15 @@ impl Evaluator<'_, '_> {
         let constant = Self { constant: true, ..*self };
         let mut element = 0;
         for (index, size) in indices.iter().zip(sizes) {
-            let value = constant.number(index)?;
+            let value = match constant.number(index) {
+                Err(Stop::Unknown(reason)) if may_be_any(&reason) => {
+                    let text = self.text.get(index.start..index.end).unwrap_or_default();
+                    let chosen = self.names.element(text, *size).ok_or(reason)?;
+                    element = element * size + chosen;
+                    continue;
+                }
+                value => value?,
+            };
             let Some(from_one) = positive_whole(value).filter(|from_one| from_one <= size) else {
                 let text = format!("{}{{{}}}", name, written(self.text, index));
                 return Err(self.fault(index, RapidFaultKind::Index { text, value, size: *size }));
@@ -209,4 +217,12 @@ impl Evaluator<'_, '_> {
         }
         Ok(element)
     }
+}
+
+/// Whether an index that is not known for a reason may be each one: the variable of a loop without
+/// known bounds may end before.
+fn may_be_any(reason: &Reason) -> bool {
+    let is_of_loop =
+        matches!(reason, Reason::Reference { why: Unresolved::LoopVariable, .. });
+    !is_of_loop && *reason != Reason::Unfinished
 }

@@ -9,6 +9,7 @@ use core::mem;
 use core::ops::Range;
 
 use super::arguments::{Arguments, referred};
+use super::cases::Known;
 use super::effects::MOST_CALLED;
 use super::frame::{Frame, Site};
 use super::state::{Local, Locals, MOST_KNOWN};
@@ -38,7 +39,7 @@ impl Program<'_> {
             let content = match (&datum.content, datum.storage) {
                 (Content::Uninitialized { .. }, _) => Err(Unresolved::NoValue),
                 (_, Storage::Pers) => Err(Unresolved::ValueNotKnown),
-                (content, _) => Ok(content.clone()),
+                (content, _) => Ok(Known::certain(content.clone(), "")),
             };
             (datum.name.to_lowercase(), Local { data_type: Some(datum.data_type), content })
         });
@@ -149,7 +150,8 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// Give a datum or a local another content, or none that is known.
-    pub(super) fn put(&mut self, lower: &str, content: Option<Content>) {
+    pub(super) fn put(&mut self, lower: &str, content: Option<Known>) {
+        self.state.ask_anew(lower);
         if self.state.locals.contains_key(lower) {
             if self.state.locals.len() <= MOST_KNOWN
                 && let Some(local) = Rc::make_mut(&mut self.state.locals).get_mut(lower)
@@ -166,7 +168,7 @@ impl<'m> Walk<'_, 'm> {
 
     /// The parameters of a routine with the arguments of a call.
     fn bound(
-        &self,
+        &mut self,
         skipped: &Skipped,
         parameters: &[Parameter],
         arguments: &Arguments<'_>,
@@ -192,7 +194,7 @@ impl<'m> Walk<'_, 'm> {
 
     /// Put an argument in for a parameter.
     fn bind(
-        &self,
+        &mut self,
         skipped: &Skipped,
         parameter: &Parameter,
         value: Option<&Expression<'_>>,
@@ -220,14 +222,20 @@ impl<'m> Walk<'_, 'm> {
             return bound.give(parameter, content);
         }
         let name = referred(value).filter(|(_, components)| components.is_empty());
-        let array = name.as_ref().and_then(|(name, _)| self.whole(name, value));
-        let content = match array {
+        let ways = self.in_each_case(|scope| match scope.whole(value) {
             Some(content) => Ok(content),
-            None => match self.scope().value(&skipped.text, value, data_type) {
+            None => match scope.value(&skipped.text, value, data_type) {
                 Ok(value) => Ok(Content::Single(value)),
                 Err(Reason::Reference { why, .. }) => Err(why),
                 Err(_) => Err(Unresolved::ValueNotKnown),
             },
+        });
+        let content = match ways.iter().find_map(|way| way.value.as_ref().err()) {
+            Some(why) => Err(why.clone()),
+            None => {
+                let words = format!("{} is {text}", parameter.name);
+                Known::of_ways(ways, Result::ok, &words).ok_or(Unresolved::ValueNotKnown)
+            }
         };
         let own = (
             text.to_string(),
@@ -240,19 +248,6 @@ impl<'m> Walk<'_, 'm> {
             bound.names.push((parameter.name.clone(), name));
         }
         bound.give(parameter, content);
-    }
-
-    /// The whole array that a name refers to.
-    fn whole(&self, name: &str, value: &Expression<'_>) -> Option<Content> {
-        use crate::rapid::expression::names::{At, Lookup, Names as _};
-        use crate::rapid::expression::tree::Form;
-        let Form::Name(_) = value.form else { return None };
-        match self.scope().find(At::default(), name) {
-            Lookup::Datum { content: content @ Content::Array { .. }, cause: None, .. } => {
-                Some(content.clone())
-            }
-            _ => None,
-        }
     }
 }
 
@@ -268,7 +263,7 @@ struct Bound {
 }
 
 impl Bound {
-    fn give(&mut self, parameter: &Parameter, content: Result<Content, Unresolved>) {
+    fn give(&mut self, parameter: &Parameter, content: Result<Known, Unresolved>) {
         let local = Local { data_type: parameter.data_type, content };
         self.given.push((parameter.name.clone(), local));
     }

@@ -1,6 +1,7 @@
 //! The routine that is followed, and the call that it belongs to.
 
 use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -41,6 +42,11 @@ pub(super) struct Frame {
 impl Frame {
     pub(super) fn of(module: usize, routine: String) -> Self {
         Self { module, routine, ..Self::default() }
+    }
+
+    /// The question what a text is in this call.
+    pub(super) fn question(&self, text: &str) -> String {
+        format!("{} {} {} {}", self.module, self.routine, self.chain, text.to_lowercase())
     }
 
     /// A reason with the text of an argument in the place of its parameter.

@@ -104,6 +104,12 @@ impl<'m> Index<'m> {
         at(module).or_else(|| at(*self.global_data.get(lower)?))
     }
 
+    /// The name of a datum, as it is declared.
+    pub(super) fn name(&self, DatumId { module, datum }: DatumId) -> &'m str {
+        let data = self.modules.get(module).map(|it| it.data.as_slice());
+        data.and_then(|data| data.get(datum)).map_or("", |it| &it.name)
+    }
+
     /// The data of a routine, by its name in lower case.
     pub(in crate::rapid) fn locals(
         &self,

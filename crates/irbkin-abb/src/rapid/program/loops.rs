@@ -1,15 +1,18 @@
 //! Loops: each pass is followed where its bounds are known.
 
+use alloc::format;
 use alloc::rc::Rc;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
 use super::state::{Here, Local};
-use super::statement::Counter;
-use super::tree::{Block, size};
+use super::statement::{Action, Condition, Counter};
+use super::tree::{Block, Node, size};
 use super::walker::Walk;
+use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::unread::{Skipped, Unresolved};
 use crate::rapid::data::value::Value;
+use crate::rapid::expression::tree::Expression;
 
 /// Most passes of a loop that are followed.
 const MOST_PASSES: usize = 1000;
@@ -19,24 +22,24 @@ impl<'m> Walk<'_, 'm> {
     pub(super) fn repeat(
         &mut self,
         head: &'m Skipped,
-        (counter, is_counted): (Option<&Counter<'_>>, bool),
+        (counter, is_counted): (&Counter<'_>, bool),
         body: &Block<'m>,
     ) {
-        let name = counter.map(|counter| counter.variable.clone());
-        let before = name.as_ref().and_then(|name| self.state.locals.get(name).cloned());
-        let passes = counter.map_or_else(Vec::new, |counter| {
-            let of = |bound: &Option<_>| {
-                bound.as_ref().and_then(|it| self.scope().number(&head.text, it).ok())
-            };
-            values_of(counter.bounds.each_ref().map(of))
-        });
-        if let Some(name) = &name
-            && !passes.is_empty()
-            && !self.is_spent()
-            && passes.len().saturating_mul(size(body)) <= self.steps_left.min(self.moves_left)
+        let name = &counter.variable;
+        let before = self.state.locals.get(name).cloned();
+        let of = |walk: &mut Self, bound: &Option<Expression<'_>>| {
+            let bound = bound.as_ref()?;
+            walk.in_all_cases(|scope| scope.number(&head.text, bound).ok())
+        };
+        let passes = values_of(counter.bounds.each_ref().map(|bound| of(self, bound)));
+        if !passes.is_empty()
+            && self.affords(passes.len(), body)
             && (self.is_one || is_counted)
         {
+            let depth = self.passes.len();
             for value in passes {
+                self.passes.truncate(depth);
+                self.passes.push(format!("{name} = {value}"));
                 let local = Local::single(Value::Num(value));
                 Rc::make_mut(&mut self.state.locals).insert(name.clone(), local);
                 self.block(body);
@@ -50,29 +53,80 @@ impl<'m> Walk<'_, 'm> {
                     break;
                 }
             }
+            self.passes.truncate(depth);
         } else {
-            if self.is_one && self.acts(body) {
-                self.decides(head.line, head.what.word());
-            }
-            self.forget(body);
-            if let Some(name) = &name {
-                let content = Err(Unresolved::LoopVariable);
-                let local = Local { data_type: None, content };
-                Rc::make_mut(&mut self.state.locals).insert(name.clone(), local);
-            }
-            let entry = self.state.clone();
-            self.block(body);
-            let ends = Vec::from([entry.clone(), self.state.clone()]);
-            self.join(entry, ends, head.line);
+            let local = Local { data_type: None, content: Err(Unresolved::LoopVariable) };
+            Rc::make_mut(&mut self.state.locals).insert(name.clone(), local);
+            self.repeat_first(head, body);
         }
-        if let Some(name) = name {
-            let locals = Rc::make_mut(&mut self.state.locals);
-            match before {
-                Some(local) => locals.insert(name, local),
-                None => locals.remove(&name),
-            };
+        let locals = Rc::make_mut(&mut self.state.locals);
+        match before {
+            Some(local) => locals.insert(name.clone(), local),
+            None => locals.remove(name),
+        };
+    }
+
+    /// A loop with a condition: each pass as long as it is known to hold, then the first of those
+    /// in which it may.
+    pub(super) fn repeat_while(
+        &mut self,
+        head: &'m Skipped,
+        condition: &Condition<'m>,
+        body: &Block<'m>,
+    ) {
+        if let Condition::Compared { .. } = condition {
+            let depth = self.passes.len();
+            for pass in 1..=MOST_PASSES {
+                match self.holds((head, None), condition) {
+                    Some(true) if self.affords(1, body) => {}
+                    Some(false) => return,
+                    _ => break,
+                }
+                let before = self.state.clone();
+                self.passes.push(format!("pass {pass}"));
+                self.block(body);
+                self.passes.truncate(depth);
+                if self.state.here == Here::Left {
+                    return;
+                }
+                if self.state.knows_as(&before) {
+                    break;
+                }
+            }
+        }
+        self.repeat_first(head, body);
+        if matches!(condition, Condition::Always) && !jumps(body) {
+            self.state.here = Here::Left;
         }
     }
+
+    /// Whether so many passes of a loop can be followed.
+    fn affords(&self, passes: usize, body: &Block<'m>) -> bool {
+        let left = self.steps_left.min(self.moves_left);
+        !self.is_spent() && passes.saturating_mul(size(body)) <= left
+    }
+
+    /// The first pass of a loop whose passes are not known.
+    fn repeat_first(&mut self, head: &'m Skipped, body: &Block<'m>) {
+        if self.is_one && self.acts(body) {
+            self.decides(head.line, head.what.word());
+        }
+        self.forget(body);
+        let entry = self.state.clone();
+        self.block(body);
+        let ends = Vec::from([(0, entry.clone()), (1, self.state.clone())]);
+        self.join(entry, ends, (self.question(), head.line));
+    }
+}
+
+/// Whether a block has a jump, which may leave it.
+fn jumps(block: &Block<'_>) -> bool {
+    block.iter().any(|node| match node {
+        Node::Branches { parts, .. } => parts.iter().any(|part| jumps(&part.block)),
+        Node::Loop { body, .. } => jumps(body),
+        Node::Other(_, Action::Instruct(instruction)) => instruction.effect == Effect::Jumps,
+        _ => false,
+    })
 }
 
 /// The values of a loop between bounds: from, to and step.

@@ -7,6 +7,7 @@
 
 pub(super) mod arguments;
 mod calls;
+mod cases;
 mod effects;
 mod frame;
 mod index;

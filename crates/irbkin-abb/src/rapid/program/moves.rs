@@ -21,7 +21,8 @@ use irbkin::Pose;
 impl Scope<'_, '_> {
     /// Fill a move with the values that it has here. Whether its target depends on what the call of
     /// its routine passes on.
-    pub(super) fn fill(&self, own: &mut Cow<'_, Move>, frame: &Frame) -> bool {
+    pub(super) fn fill(&self, own: &mut Cow<'_, Move>) -> bool {
+        let frame = self.frame;
         let is_known = own.target.value.is_ok()
             && own.via.as_ref().is_none_or(|via| via.value.is_ok())
             && own.tool.value.is_ok()

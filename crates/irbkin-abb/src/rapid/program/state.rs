@@ -1,11 +1,15 @@
 //! The knowledge at a place of a program: values, settings, displacements, where the robot is.
 
 use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::format;
 use alloc::rc::Rc;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::cell::Cell;
 
+use super::cases::{Case, Known};
 use super::index::DatumId;
+use super::whole::Program;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::records::RapidPose;
 use crate::rapid::data::settings::MotionSettings;
@@ -17,11 +21,13 @@ use crate::rapid::data::value::{DataType, Value};
 pub(super) const MOST_KNOWN: usize = 1000;
 
 /// Where the robot is.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, PartialEq)]
 pub(super) enum Here {
     Unknown,
     /// After so many steps of a run.
     After(usize, usize),
+    /// In each case after so many steps of a run.
+    OneOf(Rc<Vec<(Case, usize, usize)>>),
     /// Nowhere: the routine was left.
     Left,
 }
@@ -44,21 +50,19 @@ pub(super) type Offsets = Result<[f64; 6], usize>;
 pub(super) struct Local {
     /// `None` for a type that is not read.
     pub(super) data_type: Option<DataType>,
-    /// Its content here, or why it is unknown.
-    pub(super) content: Result<Content, Unresolved>,
+    /// What is known of its content here, or why nothing is.
+    pub(super) content: Result<Known, Unresolved>,
 }
 
 impl Local {
     pub(super) fn single(value: Value) -> Self {
-        Self { data_type: Some(value.data_type()), content: Ok(Content::Single(value)) }
+        let data_type = Some(value.data_type());
+        Self { data_type, content: Ok(Known::certain(Content::Single(value), "")) }
     }
 
     /// How many values it has, at least one.
     pub(super) fn size(&self) -> usize {
-        match &self.content {
-            Ok(Content::Array { values, .. }) => values.len().max(1),
-            _ => 1,
-        }
+        self.content.as_ref().map_or(1, Known::size)
     }
 }
 
@@ -72,9 +76,11 @@ pub(super) struct State {
     pub(super) settings: MotionSettings,
     pub(super) displacement: Displacement,
     pub(super) offsets: Offsets,
-    /// Assigned data with the contents that they have here; all others are unknown.
-    globals: Rc<BTreeMap<DatumId, Content>>,
+    /// Assigned data of which something is known here; all others are unknown.
+    globals: Rc<BTreeMap<DatumId, Known>>,
     pub(super) locals: Rc<Locals>,
+    /// The numbers of open questions that have the same answer when they are asked again.
+    pub(super) asked: Rc<BTreeMap<String, usize>>,
 }
 
 impl State {
@@ -87,7 +93,13 @@ impl State {
             offsets: Ok([0.0; 6]),
             globals: Rc::default(),
             locals: Rc::default(),
+            asked: Rc::default(),
         }
+    }
+
+    /// Whether the same is known.
+    pub(super) fn knows_as(&self, other: &Self) -> bool {
+        self.globals == other.globals && self.locals == other.locals
     }
 
     /// How many contents were copied since it was the other one: all or none.
@@ -98,13 +110,13 @@ impl State {
         globals + locals
     }
 
-    /// The content of an assigned datum; `None` if it is not known.
-    pub(super) fn global(&self, datum: DatumId) -> Option<&Content> {
+    /// What is known of an assigned datum.
+    pub(super) fn global(&self, datum: DatumId) -> Option<&Known> {
         self.globals.get(&datum)
     }
 
     /// Give a datum another content, or none that is known.
-    pub(super) fn set_global(&mut self, datum: DatumId, content: Option<Content>) {
+    pub(super) fn set_global(&mut self, datum: DatumId, content: Option<Known>) {
         let content = content
             .filter(|_| self.globals.len() < MOST_KNOWN || self.globals.contains_key(&datum));
         if content.is_none() && !self.globals.contains_key(&datum) {
@@ -143,13 +155,46 @@ impl State {
         }
     }
 
-    /// The knowledge behind parts that begin with `entry` and end with `ends`; `line` is theirs.
-    pub(super) fn joined(entry: Self, ends: Vec<Self>, line: usize) -> Self {
-        let mut ends = ends.into_iter().filter(|end| end.here != Here::Left);
-        let Some(mut all) = ends.next() else {
-            return Self { here: Here::Left, ..entry };
+    /// Ask questions anew whose texts have a word.
+    pub(super) fn ask_anew(&mut self, lower: &str) {
+        let is_word = |text: &String| words_of(text).any(|word| word == lower);
+        if self.asked.keys().any(is_word) {
+            Rc::make_mut(&mut self.asked).retain(|text, _| !is_word(text));
+        }
+    }
+
+    /// Ask a question anew.
+    pub(super) fn forget_question(&mut self, question: usize) {
+        Rc::make_mut(&mut self.asked).retain(|_, own| *own != question);
+    }
+
+    /// Keep what may be so in a case.
+    pub(super) fn assume(&mut self, case: &Case) {
+        if self.globals.values().any(|known| known.excludes(case)) {
+            let known = Rc::make_mut(&mut self.globals).values_mut();
+            known.for_each(|known| known.assume(case));
+        }
+        let known = |local: &Local| local.content.as_ref().is_ok_and(|known| known.excludes(case));
+        if self.locals.values().any(known) {
+            let known = Rc::make_mut(&mut self.locals).values_mut();
+            known.flat_map(|local| &mut local.content).for_each(|known| known.assume(case));
+        }
+    }
+
+    /// The knowledge behind parts that begin with `entry` and end with `ends`, of which one is
+    /// executed, each with the answer to a question; `line` is theirs. Whether something that is known
+    /// depends on the answer.
+    pub(super) fn joined(
+        program: &Program<'_>,
+        entry: Self,
+        mut ends: Vec<(usize, Self)>,
+        (question, line): (usize, usize),
+    ) -> (Self, bool) {
+        ends.retain(|(_, end)| end.here != Here::Left);
+        let Some((_, mut all)) = ends.first().cloned() else {
+            return (Self { here: Here::Left, ..entry }, false);
         };
-        for end in ends {
+        for (_, end) in &ends[1..] {
             if end.here != all.here {
                 all.here = Here::Unknown;
             }
@@ -160,18 +205,42 @@ impl State {
             if end.offsets != all.offsets {
                 all.offsets = Err(line);
             }
-            if !Rc::ptr_eq(&all.globals, &end.globals) {
-                let is_same = |datum: &DatumId, content: &mut Content| {
-                    end.globals.get(datum) == Some(content)
-                };
-                Rc::make_mut(&mut all.globals).retain(is_same);
-            }
-            if !Rc::ptr_eq(&all.locals, &end.locals) {
-                all.forget_locals(|name, local| end.locals.get(name) != Some(local));
+            if !Rc::ptr_eq(&all.asked, &end.asked) {
+                Rc::make_mut(&mut all.asked).retain(|text, own| end.asked.get(text) == Some(own));
             }
         }
-        all
+        let depends = Cell::new(false);
+        let behind = |parts: Vec<Option<&Known>>, name: &str| {
+            let parts: Vec<&Known> = parts.into_iter().collect::<Option<_>>()?;
+            if parts.iter().all(|part| *part == parts[0]) {
+                return Some(parts[0].clone());
+            }
+            depends.set(true);
+            let parts = ends.iter().map(|(answer, _)| *answer).zip(parts);
+            Known::joined(question, parts, || format!("{name} is unchanged on line {line}"))
+        };
+        if ends.iter().any(|(_, end)| !Rc::ptr_eq(&all.globals, &end.globals)) {
+            let of = |datum: &DatumId| {
+                let parts = ends.iter().map(|(_, end)| end.globals.get(datum)).collect();
+                Some((*datum, behind(parts, program.name(*datum))?))
+            };
+            all.globals = Rc::new(all.globals.keys().filter_map(of).collect());
+        }
+        if ends.iter().any(|(_, end)| !Rc::ptr_eq(&all.locals, &end.locals)) {
+            let known = Rc::make_mut(&mut all.locals).iter_mut();
+            for (name, local) in known.filter(|(_, local)| local.content.is_ok()) {
+                let parts = ends.iter().map(|(_, end)| end.locals.get(name)?.content.as_ref().ok());
+                let parts = parts.collect();
+                local.content = behind(parts, name).ok_or(Unresolved::ValueNotKnown);
+            }
+        }
+        (all, depends.get())
     }
+}
+
+/// The words of a text.
+pub(super) fn words_of(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
 }
 
 /// Of two settings the ones with which less is wrong.

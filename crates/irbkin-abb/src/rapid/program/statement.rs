@@ -1,6 +1,7 @@
 //! Statements as they are executed, read once: what they do, with their expressions.
 
 use alloc::string::String;
+use alloc::vec::Vec;
 
 use super::arguments::{Arguments, arguments, assignment, called, referred};
 use crate::rapid::data::instructions::Effect;
@@ -68,39 +69,93 @@ impl<'m> Instruction<'m> {
     }
 }
 
-/// A condition of a branch or a loop, as far as it is evaluated.
-pub(super) enum Condition {
+/// A condition of a part of a branch, or of a loop, as far as it is evaluated.
+pub(super) enum Condition<'m> {
+    /// `TRUE`, ELSE, DEFAULT.
+    Always,
     /// `FALSE`.
     Never,
     /// Whether an optional parameter, in lower case, must be there: `Present(x)`, `NOT Present(x)`.
     Present(String, bool),
+    /// Of two numbers, in a text.
+    Compared { text: &'m str, numbers: [Expression<'m>; 2], relation: Relation },
+    /// Whether what is tested is one of some numbers.
+    Case { text: &'m str, numbers: Vec<Expression<'m>> },
     Other,
 }
 
-impl Condition {
-    /// Of the first line of a branch or a loop.
-    pub(super) fn of(head: &str) -> Self {
+/// A relation of two numbers.
+pub(super) type Relation = fn(f64, f64) -> bool;
+
+impl<'m> Condition<'m> {
+    /// Of the first line of a branch, of a part of it, or of a loop.
+    pub(super) fn of(head: &'m str) -> Self {
         Self::read(head).ok().flatten().unwrap_or(Self::Other)
     }
 
-    fn read(head: &str) -> Result<Option<Self>, RapidFault> {
-        let mut tokens = Tokens::new(head)?;
-        tokens.take()?;
-        let mut condition = Self::Never;
-        if !tokens.take_word("FALSE")? {
-            let is_wanted = !tokens.take_word("NOT")?;
-            if !tokens.take_word("Present")? || !tokens.take_if(b'(')? {
-                return Ok(None);
-            }
-            let name = tokens.take()?;
-            condition = Self::Present(tokens.text_of(name).to_lowercase(), is_wanted);
-            if !tokens.take_if(b')')? {
-                return Ok(None);
-            }
+    fn read(text: &'m str) -> Result<Option<Self>, RapidFault> {
+        let mut tokens = Tokens::new(text)?;
+        if tokens.take_word("ELSE")? || tokens.take_word("DEFAULT")? {
+            return Ok(Some(Self::Always));
         }
+        if tokens.take_word("CASE")? {
+            let mut numbers = Vec::from([ExpressionReader::new(&mut tokens).sum()?]);
+            while tokens.take_if(b',')? {
+                numbers.push(ExpressionReader::new(&mut tokens).sum()?);
+            }
+            return Ok(tokens.take_if(b':')?.then_some(Self::Case { text, numbers }));
+        }
+        tokens.take()?;
+        let condition = if tokens.take_word("FALSE")? {
+            Self::Never
+        } else if tokens.take_word("TRUE")? {
+            Self::Always
+        } else {
+            let mark = tokens.mark();
+            let is_wanted = !tokens.take_word("NOT")?;
+            if tokens.take_word("Present")? {
+                tokens.take()?;
+                let name = tokens.take()?;
+                tokens.take()?;
+                Self::Present(tokens.text_of(name).to_lowercase(), is_wanted)
+            } else {
+                tokens.rewind(mark);
+                let left = ExpressionReader::new(&mut tokens).sum()?;
+                let Some(relation) = relation(&mut tokens)? else { return Ok(None) };
+                let right = ExpressionReader::new(&mut tokens).sum()?;
+                Self::Compared { text, numbers: [left, right], relation }
+            }
+        };
         let is_alone = tokens.peek().kind == TokenKind::End || tokens.take_word("THEN")?;
         Ok((is_alone || tokens.take_word("DO")?).then_some(condition))
     }
+}
+
+/// The relation at the next token, if there is one.
+fn relation(tokens: &mut Tokens<'_>) -> Result<Option<Relation>, RapidFault> {
+    let relation: Relation = if tokens.take_if(b'=')? {
+        |a, b| a.total_cmp(&b).is_eq()
+    } else if tokens.take_if(b'<')? {
+        if tokens.take_if(b'>')? {
+            |a, b| a.total_cmp(&b).is_ne()
+        } else if tokens.take_if(b'=')? {
+            |a, b| a <= b
+        } else {
+            |a, b| a < b
+        }
+    } else if tokens.take_if(b'>')? {
+        if tokens.take_if(b'=')? { |a, b| a >= b } else { |a, b| a > b }
+    } else {
+        return Ok(None);
+    };
+    Ok(Some(relation))
+}
+
+/// What the first line of a TEST tests.
+pub(super) fn tested(head: &str) -> Option<Expression<'_>> {
+    let mut tokens = Tokens::new(head).ok()?;
+    let is_test = tokens.take_word("TEST").ok()?;
+    is_test.then(|| ExpressionReader::new(&mut tokens).sum().ok())?
 }
 
 /// The variable of a FOR and its bounds.

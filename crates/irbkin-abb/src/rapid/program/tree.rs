@@ -5,11 +5,12 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::mem;
 
-use super::statement::{Action, Condition, Counter};
+use super::statement::{Action, Condition, Counter, tested};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::settings::Setting;
 use crate::rapid::data::unread::{NotRead, Skipped};
+use crate::rapid::expression::tree::Expression;
 
 /// Statements in the order of the text.
 pub(super) type Block<'m> = Vec<Node<'m>>;
@@ -20,18 +21,12 @@ pub(super) enum Node<'m> {
     Move(usize, &'m Move),
     Setting(&'m Setting),
     Other(&'m Skipped, Action<'m>),
-    /// IF or TEST, by its first line.
-    Branches {
-        head: &'m Skipped,
-        condition: Condition,
-        parts: Vec<Block<'m>>,
-        /// Whether one of the parts is certainly executed.
-        is_complete: bool,
-    },
+    /// IF or TEST, by its first line; of TEST with what is tested.
+    Branches { head: &'m Skipped, tested: Option<Expression<'m>>, parts: Vec<Part<'m>> },
     /// FOR or WHILE, by its first line.
     Loop {
         head: &'m Skipped,
-        condition: Condition,
+        condition: Condition<'m>,
         /// Of a FOR that refers to its variable, or not.
         counter: Option<Counter<'m>>,
         is_counted: bool,
@@ -39,10 +34,18 @@ pub(super) enum Node<'m> {
     },
 }
 
+/// A part of a branch.
+pub(super) struct Part<'m> {
+    /// Its first line.
+    pub(super) head: &'m Skipped,
+    pub(super) condition: Condition<'m>,
+    pub(super) block: Block<'m>,
+}
+
 /// The number of statements in a block.
 pub(super) fn size(block: &Block<'_>) -> usize {
     let of = |node: &Node<'_>| match node {
-        Node::Branches { parts, .. } => parts.iter().map(size).sum::<usize>() + 1,
+        Node::Branches { parts, .. } => parts.iter().map(|part| size(&part.block)).sum::<usize>() + 1,
         Node::Loop { body, .. } => size(body) + 1,
         _ => 1,
     };
@@ -96,14 +99,23 @@ pub(super) fn bodies(module: &Module) -> BTreeMap<String, Body<'_>> {
 struct Open<'m> {
     head: &'m Skipped,
     /// Its parts that are closed.
-    parts: Vec<Block<'m>>,
-    /// The part that is open.
+    parts: Vec<Part<'m>>,
+    /// The first line of the part that is open: of a TEST none before its first CASE.
+    part_head: Option<&'m Skipped>,
+    /// The statements of the part that is open.
     part: Block<'m>,
-    /// Whether a part has begun: a TEST's begins at its first CASE.
-    has_begun: bool,
-    has_else: bool,
     /// Whether it is an IF without THEN, of one instruction.
     is_single: bool,
+}
+
+impl<'m> Open<'m> {
+    /// Close the open part.
+    fn close_part(&mut self) {
+        let block = mem::take(&mut self.part);
+        if let Some(head) = self.part_head {
+            self.parts.push(Part { head, condition: Condition::of(&head.text), block });
+        }
+    }
 }
 
 /// A body that grows by one statement after another.
@@ -136,16 +148,14 @@ impl<'m> Grower<'m> {
         match word {
             "IF" | "FOR" | "WHILE" | "TEST" => {
                 let is_single = word == "IF" && !ends_with_then(&head.text);
-                let (parts, part, has_begun) = (Vec::new(), Vec::new(), word != "TEST");
-                self.open.push(Open { head, parts, part, has_begun, has_else: false, is_single });
+                let (parts, part) = (Vec::new(), Vec::new());
+                let part_head = (word != "TEST").then_some(head);
+                self.open.push(Open { head, parts, part_head, part, is_single });
             }
             "ELSEIF" | "ELSE" | "CASE" | "DEFAULT" => {
                 if let Some(open) = self.open.last_mut() {
-                    let part = mem::take(&mut open.part);
-                    if mem::replace(&mut open.has_begun, true) {
-                        open.parts.push(part);
-                    }
-                    open.has_else |= word == "ELSE" || word == "DEFAULT";
+                    open.close_part();
+                    open.part_head = Some(head);
                 }
             }
             "ENDIF" | "ENDFOR" | "ENDWHILE" | "ENDTEST" => {
@@ -161,16 +171,16 @@ impl<'m> Grower<'m> {
     }
 
     fn close(&mut self) {
-        let Some(Open { head, mut parts, part, has_else, .. }) = self.open.pop() else { return };
-        let word = head.what.word();
-        let condition = Condition::of(&head.text);
-        if matches!(word, "FOR" | "WHILE") {
-            let counter = Counter::of(&head.text);
-            let is_counted = counter.as_ref().is_some_and(|it| mentions(&part, &it.variable));
-            self.push(Node::Loop { head, condition, counter, is_counted, body: part });
+        let Some(mut open) = self.open.pop() else { return };
+        let head = open.head;
+        if matches!(head.what.word(), "FOR" | "WHILE") {
+            let (body, counter) = (open.part, Counter::of(&head.text));
+            let is_counted = counter.as_ref().is_some_and(|it| mentions(&body, &it.variable));
+            let condition = Condition::of(&head.text);
+            self.push(Node::Loop { head, condition, counter, is_counted, body });
         } else {
-            parts.push(part);
-            self.push(Node::Branches { head, condition, parts, is_complete: has_else });
+            open.close_part();
+            self.push(Node::Branches { head, tested: tested(&head.text), parts: open.parts });
         }
     }
 
@@ -213,7 +223,7 @@ fn mentions(block: &Block<'_>, word: &str) -> bool {
         }
         Node::Setting(_) => false,
         Node::Other(skipped, _) => has(&skipped.text),
-        Node::Branches { parts, .. } => parts.iter().any(|part| mentions(part, word)),
+        Node::Branches { parts, .. } => parts.iter().any(|part| mentions(&part.block, word)),
         Node::Loop { head, body, .. } => has(&head.text) || mentions(body, word),
     })
 }

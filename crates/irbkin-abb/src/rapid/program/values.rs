@@ -1,10 +1,16 @@
 //! Values at a place of a program: names looked up, arguments evaluated, assignments made.
 
-use core::cell::Cell;
+use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::rc::Rc;
+use alloc::string::String;
+use core::cell::{Cell, RefCell};
 use core::ops::Range;
 
+use super::cases::{Choices, MOST_CASES};
+use super::frame::Frame;
 use super::index::DatumId;
-use super::state::State;
+use super::state::{State, words_of};
 use super::whole::Program;
 use crate::rapid::data::module::{Content, Datum, Storage};
 use crate::rapid::data::types::{Atoms, Record};
@@ -20,34 +26,51 @@ use crate::rapid::text::tokens::Tokens;
 /// The names that a place sees, with what is known there.
 pub(super) struct Scope<'s, 'm> {
     pub(super) program: &'s Program<'m>,
-    pub(super) module: usize,
     pub(super) state: &'s State,
+    pub(super) frame: &'s Frame,
     /// Whether a PERS that the program assigns has its last value, which the text has.
     pub(super) takes_last: bool,
     /// Whether a last value was taken.
     pub(super) has_taken: Cell<bool>,
+    /// What is taken of several values.
+    pub(super) choices: Choices,
+    /// The open questions of the state, and those of this scope.
+    pub(super) asked: RefCell<Rc<BTreeMap<String, usize>>>,
+    /// The number of the next question.
+    pub(super) questions: &'s Cell<usize>,
 }
+
+/// Words of conditions beside names and numbers.
+const STEADY_WORDS: [&str; 16] = [
+    "if", "elseif", "else", "then", "test", "case", "default", "and", "or", "xor", "not", "div",
+    "mod", "true", "false", "present",
+];
 
 impl Names for Scope<'_, '_> {
     fn find(&self, _: At, name: &str) -> Lookup<'_> {
         let lower = lower(name);
+        let module = self.frame.module;
         let known = |content| Lookup::Datum { content, can_change: false, cause: None };
+        let chosen = |several| {
+            let content = self.choices.content(several);
+            content.map_or(Lookup::Unknown(Unresolved::ValueNotKnown), known)
+        };
         match self.state.locals.get(&*lower).map(|local| &local.content) {
-            Some(Ok(content)) => return known(content),
+            Some(Ok(several)) => return chosen(several),
             Some(Err(why)) => return Lookup::Unknown(why.clone()),
             None => {}
         }
-        let Some((id, datum)) = self.program.datum(self.module, &lower) else {
-            if let Some(part) = self.program.part(self.module, &lower) {
+        let Some((id, datum)) = self.program.datum(module, &lower) else {
+            if let Some(part) = self.program.part(module, &lower) {
                 return known(&part.content);
             }
-            if let Some(why) = self.program.unread(self.module, &lower) {
+            if let Some(why) = self.program.unread(module, &lower) {
                 return Lookup::Unknown(why.clone());
             }
             return predefined(&lower).map_or(Lookup::NotHere, Lookup::Predefined);
         };
-        if let Some(content) = self.state.global(id) {
-            return known(content);
+        if let Some(several) = self.state.global(id) {
+            return chosen(several);
         }
         match self.cause(id, datum) {
             Ok(Some(_)) | Err(_) if self.takes_last && datum.storage == Storage::Pers => {
@@ -61,13 +84,47 @@ impl Names for Scope<'_, '_> {
 
     fn cause_of(&self, at: At, name: &str, atoms: Range<usize>) -> Option<Cause<'_>> {
         let Lookup::Datum { cause: Some(cause), .. } = self.find(at, name) else { return None };
-        let (id, datum) = self.program.datum(self.module, &lower(name))?;
+        let (id, datum) = self.program.datum(self.frame.module, &lower(name))?;
         let assigned = self.program.effects.assigned(id)?;
         assigned.meets(datum.data_type, &atoms).then_some(cause)
+    }
+
+    fn element(&self, index: &str, size: usize) -> Option<usize> {
+        if size > MOST_CASES {
+            return None;
+        }
+        let question = self.question(index);
+        let element = self.choices.answer(question, size, |from_zero| {
+            format!("{} is {}", index.trim(), from_zero + 1)
+        });
+        element.filter(|element| *element < size)
     }
 }
 
 impl<'s> Scope<'s, '_> {
+    /// The number of the question what a text is here.
+    pub(super) fn question(&self, text: &str) -> usize {
+        let key = self.frame.question(text);
+        if let Some(number) = self.asked.borrow().get(&key) {
+            return *number;
+        }
+        let number = self.questions.replace(self.questions.get() + 1);
+        if words_of(text).all(|word| self.is_steady(word)) {
+            Rc::make_mut(&mut self.asked.borrow_mut()).insert(key, number);
+        }
+        number
+    }
+
+    /// Whether a word of an expression means the same until something is assigned to it: no signal,
+    /// no function.
+    fn is_steady(&self, word: &str) -> bool {
+        let lower = lower(word);
+        word.starts_with(|c: char| c.is_ascii_digit())
+            || STEADY_WORDS.contains(&&*lower)
+            || self.state.locals.contains_key(&*lower)
+            || self.program.datum(self.frame.module, &lower).is_some()
+    }
+
     /// Why the declared content of a datum, or a part of it, may not be what it has here; an error
     /// if it is declared by an expression of data that are assigned.
     fn cause(&self, id: DatumId, datum: &'s Datum) -> Result<Option<Cause<'s>>, Unresolved> {
@@ -77,7 +134,7 @@ impl<'s> Scope<'s, '_> {
         if let Some(assigned) = self.program.effects.assigned(id) {
             let (module, line) = assigned.by;
             let of = self.program.modules.get(module);
-            let by = if module == self.module {
+            let by = if module == self.frame.module {
                 By::Line(line)
             } else {
                 By::Module(of.and_then(|it| it.name()), Some(line))
@@ -132,7 +189,7 @@ impl<'s> Scope<'s, '_> {
         let effects = &self.program.effects;
         effects.has_references()
             && text.split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|word| {
-                let datum = self.program.datum(self.module, &lower(word));
+                let datum = self.program.datum(self.frame.module, &lower(word));
                 datum.is_some_and(|(id, _)| effects.is_passed_and_assigned(id))
             })
     }
@@ -153,10 +210,10 @@ impl<'s> Scope<'s, '_> {
         let lower = lower(name);
         let of_components = components.join(".").to_lowercase();
         let (data_type, content, is_array) = if let Some(local) = self.state.locals.get(&*lower) {
-            let content = local.content.as_ref().ok();
+            let content = local.content.as_ref().ok().and_then(|it| self.choices.content(it));
             (local.data_type, content, matches!(content, Some(Content::Array { .. })))
         } else {
-            let (id, datum) = self.program.datum(self.module, &lower)?;
+            let (id, datum) = self.program.datum(self.frame.module, &lower)?;
             let assigned = self.program.effects.assigned(id);
             let is_declared =
                 indices.is_empty() && assigned.is_some_and(|it| it.are_within(&of_components));
@@ -165,7 +222,9 @@ impl<'s> Scope<'s, '_> {
                 Content::Uninitialized { sizes } => sizes.is_empty(),
                 content => matches!(content, Content::Single(_)),
             };
-            (Some(datum.data_type), self.state.global(id).or(declared), !is_single)
+            let known = self.state.global(id);
+            let content = known.map_or(declared, |known| self.choices.content(known));
+            (Some(datum.data_type), content, !is_single)
         };
         let data_type = data_type?;
         let part = self.part(text, value, data_type, components)?;
@@ -191,6 +250,17 @@ impl<'s> Scope<'s, '_> {
         }
         *place = Value::of(data_type, atoms)?;
         Some(content)
+    }
+
+    /// The whole array that an expression refers to.
+    pub(super) fn whole(&self, expression: &Expression<'_>) -> Option<Content> {
+        let Form::Name(name) = expression.form else { return None };
+        match self.find(At::default(), name) {
+            Lookup::Datum { content: content @ Content::Array { .. }, cause: None, .. } => {
+                Some(content.clone())
+            }
+            _ => None,
+        }
     }
 
     /// An index of an array, from 0.

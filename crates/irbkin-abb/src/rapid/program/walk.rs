@@ -8,18 +8,22 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
+use super::cases::{Case, Known, Way};
 use super::effects::written_by;
 use super::frame::Frame;
 use super::state::{Displacement, Here, State};
 use super::statement::{Action, Condition, Instruction};
-use super::tree::{Block, Node};
+use super::tree::{Block, Node, Part};
 use super::walker::{Filled, Run, Step, Stepped, Uncertain, Walk};
 use super::whole::Program;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
+use crate::rapid::data::module::Storage;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::settings::Setting;
 use crate::rapid::data::unread::Skipped;
+use crate::rapid::expression::names::lower;
+use crate::rapid::expression::tree::Expression;
 use irbkin::{Interrupt, Interrupted};
 
 /// The runs of a program: of its main routine, then of every routine that was not called; and what
@@ -78,7 +82,8 @@ impl<'m> Walk<'_, 'm> {
         self.block(&body.main);
         let mut ends = core::mem::take(&mut self.frame.exits);
         ends.push(self.state.clone());
-        self.join(entry, ends, 0);
+        let ends = ends.into_iter().enumerate().collect();
+        self.join(entry, ends, (self.question(), 0));
         if !is_first || self.is_one {
             return;
         }
@@ -107,50 +112,117 @@ impl<'m> Walk<'_, 'm> {
                 Node::Move(index, step) => self.step(*index, step),
                 Node::Setting(setting) => self.set(setting),
                 Node::Other(skipped, action) => self.statement(skipped, action),
-                Node::Branches { head, condition, parts, is_complete } => {
-                    if self.is_one && parts.iter().any(|part| self.acts(part)) {
+                Node::Branches { head, tested, parts } => {
+                    if self.is_one && parts.iter().any(|part| self.acts(&part.block)) {
                         self.decides(head.line, head.what.word());
                     }
-                    let entry = self.state.clone();
-                    let holds = self.holds(condition);
-                    let is_passed = !is_complete && holds != Some(true);
-                    let mut ends = Vec::from_iter(is_passed.then(|| entry.clone()));
-                    let mut parts = parts.iter();
-                    if holds == Some(false)
-                        && let Some(other) = parts.next()
-                    {
-                        self.left_out(other);
-                    } else if matches!(condition, Condition::Never)
-                        && let Some(never) = parts.next()
-                    {
-                        self.never_run(head, never);
-                    }
-                    for (index, part) in parts.enumerate() {
-                        if holds == Some(true) && index > 0 {
-                            self.left_out(part);
-                            continue;
-                        }
-                        self.state = entry.clone();
-                        self.block(part);
-                        ends.push(self.state.clone());
-                    }
-                    self.join(entry, ends, head.line);
+                    self.branches(head, tested.as_ref(), parts);
                 }
                 Node::Loop { head, condition: Condition::Never, body, .. } => {
                     self.never_run(head, body);
                 }
-                Node::Loop { head, counter, is_counted, body, .. } => {
-                    self.repeat(head, (counter.as_ref(), *is_counted), body);
+                Node::Loop { head, condition, counter: None, body, .. } => {
+                    self.repeat_while(head, condition, body);
+                }
+                Node::Loop { head, counter: Some(counter), is_counted, body, .. } => {
+                    self.repeat(head, (counter, *is_counted), body);
                 }
             }
         }
     }
 
-    /// Whether a condition holds in the call that is followed, if it asks for an argument alone.
-    fn holds(&self, condition: &Condition) -> Option<bool> {
-        let Condition::Present(name, is_wanted) = condition else { return None };
-        let is_there = self.frame.present.contains(name);
-        (is_there || self.frame.absent.contains(name)).then_some(is_there == *is_wanted)
+    /// A branch: the part whose condition holds, or every part whose condition may.
+    fn branches(
+        &mut self,
+        head: &'m Skipped,
+        tested: Option<&Expression<'m>>,
+        parts: &[Part<'m>],
+    ) {
+        let (mut open, mut is_passed) = (Vec::new(), true);
+        for (index, part) in parts.iter().enumerate() {
+            let holds = if is_passed {
+                self.holds((head, tested), &part.condition)
+            } else {
+                Some(false)
+            };
+            is_passed &= holds != Some(true);
+            match holds {
+                Some(false) if matches!(part.condition, Condition::Never) => {
+                    self.never_run(part.head, &part.block);
+                }
+                Some(false) => self.left_out(&part.block),
+                _ => open.push((index, part)),
+            }
+        }
+        if let ([(_, only)], false) = (open.as_slice(), is_passed) {
+            return self.block(&only.block);
+        }
+        let texts = parts.iter().map(|part| part.head.text.as_str());
+        let text = core::iter::once(head.text.as_str()).chain(texts).collect::<Vec<_>>().join(" ");
+        let (question, is_new) = self.ask(&text);
+        let entry = self.state.clone();
+        let mut ends = Vec::new();
+        for (answer, part) in open {
+            self.state = entry.clone();
+            if !is_new {
+                self.state.assume(&Case::of(question, answer));
+            }
+            self.block(&part.block);
+            ends.push((answer, self.state.clone()));
+        }
+        if is_passed {
+            ends.push((parts.len(), entry.clone()));
+        }
+        if !self.join(entry, ends, (question, head.line)) && is_new {
+            self.state.forget_question(question);
+        }
+    }
+
+    /// Whether a condition holds here, by arguments, by what was assigned, and by constants.
+    pub(super) fn holds(
+        &mut self,
+        (head, tested): (&'m Skipped, Option<&Expression<'m>>),
+        condition: &Condition<'m>,
+    ) -> Option<bool> {
+        match condition {
+            Condition::Always => Some(true),
+            Condition::Never => Some(false),
+            Condition::Present(name, is_wanted) => {
+                let is_there = self.frame.present.contains(name);
+                (is_there || self.frame.absent.contains(name)).then_some(is_there == *is_wanted)
+            }
+            Condition::Compared { text, numbers: [left, right], relation } => {
+                let operands = [(*text, left), (*text, right)].map(|it| self.certain_number(it));
+                let [left, right] = operands;
+                Some(relation(left?, right?))
+            }
+            Condition::Case { text, numbers } => {
+                let own = self.certain_number((&head.text, tested?))?;
+                let numbers = numbers.iter().map(|it| self.certain_number((*text, it)));
+                let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
+                Some(numbers.iter().any(|number| number.total_cmp(&own).is_eq()))
+            }
+            Condition::Other => None,
+        }
+    }
+
+    /// The number that an expression is here, unless a declared value counts that may be another
+    /// one when the program starts.
+    fn certain_number(&mut self, (text, expression): (&str, &Expression<'_>)) -> Option<f64> {
+        let mut names = Vec::new();
+        expression.collect_names(&mut names);
+        let is_certain = |name: &&str| {
+            let lower = lower(name);
+            let datum = self.program.datum(self.frame.module, &lower);
+            self.state.locals.contains_key(&*lower)
+                || datum.is_none_or(|(id, datum)| {
+                    datum.storage == Storage::Const || self.state.global(id).is_some()
+                })
+        };
+        if !names.iter().all(is_certain) {
+            return None;
+        }
+        self.in_all_cases(|scope| scope.number(text, expression).ok())
     }
 
     /// A block that the call that is followed does not execute.
@@ -160,7 +232,7 @@ impl<'m> Walk<'_, 'm> {
                 Node::Move(index, step) => {
                     self.left.insert((self.frame.module, *index), *step);
                 }
-                Node::Branches { parts, .. } => parts.iter().for_each(|part| self.left_out(part)),
+                Node::Branches { parts, .. } => parts.iter().for_each(|part| self.left_out(&part.block)),
                 Node::Loop { body, .. } => self.left_out(body),
                 _ => {}
             }
@@ -209,10 +281,45 @@ impl<'m> Walk<'_, 'm> {
         if written.kind == MoveKind::MoveExtJ {
             return;
         }
-        let scope = self.scope();
-        let mut own = Cow::Borrowed(written);
-        let is_passed_on = scope.fill(&mut own, &self.frame);
-        let takes_last = scope.has_taken.get();
+        let mut ways = self.in_each_case(|scope| {
+            let mut own = Cow::Borrowed(written);
+            let is_passed_on = scope.fill(&mut own);
+            (own, is_passed_on, scope.has_taken.take())
+        });
+        let mut steps = Vec::with_capacity(ways.len());
+        for Way { case, words, value: (own, is_passed_on, takes_last) } in ways.drain(..) {
+            let step = self.stepped((index, own), is_passed_on, takes_last, self.case(&words));
+            steps.push((case, step));
+        }
+        match steps.pop() {
+            Some((_, only)) if steps.is_empty() => self.push(only),
+            Some(last) => {
+                steps.push(last);
+                self.push_each(steps);
+            }
+            None => {}
+        }
+        if let Some(name) = written_by(written) {
+            self.put(&name, None);
+        }
+    }
+
+    /// Which passes of loops are followed, and which of its values a move has, in words.
+    fn case(&self, values: &str) -> String {
+        let passes = if self.passes.is_empty() { "" } else { "at " };
+        let values = if values.is_empty() { String::new() } else { format!("if {values}") };
+        let all = format!("{passes}{} {values}", self.passes.join(", "));
+        all.trim().to_string()
+    }
+
+    /// A step of a move with the values that it has here, which settings and displacements change.
+    fn stepped(
+        &mut self,
+        (index, mut own): (usize, Cow<'m, Move>),
+        is_passed_on: bool,
+        takes_last: bool,
+        case: String,
+    ) -> Step<'m> {
         if own.settings != self.state.settings {
             own.to_mut().settings = self.state.settings;
         }
@@ -233,11 +340,16 @@ impl<'m> Walk<'_, 'm> {
             Cow::Owned(step) => Filled::Other(Box::new(step)),
         };
         self.spend_move(&step);
-        let stepped = Stepped { module, instruction, step, chain, takes_last, halt, displaced_on };
-        self.push(Step::Move(Box::new(stepped)));
-        if let Some(name) = written_by(written) {
-            self.put(&name, None);
-        }
+        Step::Move(Box::new(Stepped {
+            module,
+            instruction,
+            step,
+            chain,
+            case,
+            takes_last,
+            halt,
+            displaced_on,
+        }))
     }
 
     /// Something that is no move and no branch.
@@ -252,8 +364,10 @@ impl<'m> Walk<'_, 'm> {
                 self.state.here = Here::Unknown;
             }
             Action::Assign { target, value, to } => {
-                let content = self.scope().assigned(&skipped.text, target, value);
-                self.put(&to.0, content);
+                let ways = self.in_each_case(|scope| scope.assigned(&skipped.text, target, value));
+                let written = skipped.text.trim_end_matches(';').split_once(":=");
+                let words = written.map(|(to, value)| format!("{} is {}", to.trim(), value.trim()));
+                self.put(&to.0, Known::of_ways(ways, |content| content, &words.unwrap_or_default()));
             }
             Action::Instruct(instruction) => self.instruct(skipped, instruction),
         }
@@ -279,10 +393,13 @@ impl<'m> Walk<'_, 'm> {
                 self.state.here = Here::Left;
             }
             Effect::Displaces(shift) => {
-                self.state.displacement = self.scope().displacement(skipped, instruction, shift);
+                let known =
+                    self.in_all_cases(|it| Some(it.displacement(skipped, instruction, shift)));
+                self.state.displacement = known.unwrap_or(Displacement::Unknown(skipped.line));
             }
             Effect::Offsets(shift) => {
-                self.state.offsets = self.scope().offsets(skipped, instruction, shift);
+                let known = self.in_all_cases(|it| Some(it.offsets(skipped, instruction, shift)));
+                self.state.offsets = known.unwrap_or(Err(skipped.line));
             }
             Effect::Sets => self.not_followed(skipped, skipped.what.to_string()),
             Effect::Stops if self.is_one => self.state.here = Here::Left,

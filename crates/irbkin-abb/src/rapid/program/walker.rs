@@ -2,13 +2,15 @@
 
 use alloc::boxed::Box;
 use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::rc::Rc;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::cell::Cell;
+use core::cell::{Cell, RefCell};
 use core::ops::Deref;
 
 use nalgebra::Vector3;
 
+use super::cases::{Case, Choices, MOST_CASES, Way};
 use super::frame::Frame;
 use super::state::{Here, State};
 use super::statement::Action;
@@ -48,6 +50,8 @@ pub(in crate::rapid) struct Stepped<'m> {
     pub(in crate::rapid) step: Filled<'m>,
     /// The chain of calls to it where its place is a call, whose moves it tells apart; else 0.
     pub(in crate::rapid) chain: usize,
+    /// Which of its values these are, in words; empty of the only ones.
+    pub(in crate::rapid) case: String,
     /// Whether a value is the last one that a PERS had.
     pub(in crate::rapid) takes_last: bool,
     /// The statement behind it at which the program may wait, in words.
@@ -102,6 +106,10 @@ pub(super) struct Walk<'p, 'm> {
     /// Chains of calls: the number of each by that of the chain before its last call, with the
     /// module and the first byte of that call.
     pub(super) chains: BTreeMap<(usize, usize, usize), usize>,
+    /// The passes of loops that are followed, each in words.
+    pub(super) passes: Vec<String>,
+    /// The number of the next open question.
+    pub(super) questions: Cell<usize>,
     /// The routines that are being followed and called the one of the frame.
     pub(super) above: Vec<(usize, String)>,
     /// Statements, moves among them, and their way that may still be followed in calls and loops.
@@ -135,6 +143,8 @@ impl<'p, 'm> Walk<'p, 'm> {
             frame: Frame::default(),
             followed: BTreeSet::new(),
             chains: BTreeMap::new(),
+            passes: Vec::new(),
+            questions: Cell::new(0),
             above: Vec::new(),
             steps_left: STEPS * bytes / 100 + SPARE,
             moves_left: MOVES * bytes / 100 + SPARE,
@@ -182,10 +192,34 @@ impl<'p, 'm> Walk<'p, 'm> {
         self.is_ended
     }
 
-    /// The knowledge behind parts that begin with `entry` and end with `ends`.
-    pub(super) fn join(&mut self, entry: State, ends: Vec<State>, line: usize) {
-        self.spend(ends.iter().map(|end| end.copied(&entry)).sum());
-        self.state = State::joined(entry, ends, line);
+    /// The knowledge behind parts that begin with `entry` and end with `ends`, of which one is
+    /// executed, by the answer to a question; `line` is theirs. Whether something that is known
+    /// depends on the answer.
+    pub(super) fn join(
+        &mut self,
+        entry: State,
+        ends: Vec<(usize, State)>,
+        (question, line): (usize, usize),
+    ) -> bool {
+        self.spend(ends.iter().map(|(_, end)| end.copied(&entry)).sum());
+        let depends;
+        (self.state, depends) = State::joined(self.program, entry, ends, (question, line));
+        depends
+    }
+
+    /// The number of the question what a text is here, and whether it is a new one.
+    pub(super) fn ask(&mut self, text: &str) -> (usize, bool) {
+        let next = self.questions.get();
+        let scope = self.scope(Choices::off());
+        let question = scope.question(text);
+        let asked = scope.asked.into_inner();
+        self.state.asked = asked;
+        (question, question == next)
+    }
+
+    /// A question that is asked once.
+    pub(super) fn question(&self) -> usize {
+        self.questions.replace(self.questions.get() + 1)
     }
 
     /// Record a place that decides on steps.
@@ -196,6 +230,7 @@ impl<'p, 'm> Walk<'p, 'm> {
     /// Forget the data that a block assigns.
     pub(super) fn forget(&mut self, block: &Block<'m>) {
         self.spend(size(block));
+        self.state.asked = Rc::default();
         if self.steps_left == 0 {
             self.state.forget_globals(None);
             return self.state.forget_locals(|_, _| true);
@@ -207,14 +242,48 @@ impl<'p, 'm> Walk<'p, 'm> {
     }
 
     /// The names and values that are known here.
-    pub(super) fn scope(&self) -> Scope<'_, 'm> {
+    pub(super) fn scope(&self, choices: Choices) -> Scope<'_, 'm> {
         Scope {
             program: self.program,
-            module: self.frame.module,
             state: &self.state,
+            frame: &self.frame,
             takes_last: self.takes_last,
             has_taken: Cell::new(false),
+            choices,
+            asked: RefCell::new(self.state.asked.clone()),
+            questions: &self.questions,
         }
+    }
+
+    /// What something is in each case; only what is so in all of them, if these are too many.
+    pub(super) fn in_each_case<T>(
+        &mut self,
+        evaluate: impl Fn(&Scope<'_, 'm>) -> T,
+    ) -> Vec<Way<T>> {
+        let scope = self.scope(Choices::default());
+        let mut ways = Vec::from([scope.choices.end(evaluate(&scope))]);
+        while scope.choices.advance() {
+            if ways.len() == MOST_CASES {
+                let scope = self.scope(Choices::off());
+                ways = Vec::from([scope.choices.end(evaluate(&scope))]);
+                break;
+            }
+            ways.push(scope.choices.end(evaluate(&scope)));
+        }
+        let asked = scope.asked.into_inner();
+        self.state.asked = asked;
+        self.spend(ways.len() - 1);
+        ways
+    }
+
+    /// What something is whatever the case.
+    pub(super) fn in_all_cases<T: PartialEq>(
+        &mut self,
+        evaluate: impl Fn(&Scope<'_, 'm>) -> Option<T>,
+    ) -> Option<T> {
+        let mut values = self.in_each_case(evaluate).into_iter().map(|way| way.value);
+        let first = values.next()?;
+        values.all(|value| value == first).then_some(first)?
     }
 
     pub(super) fn push(&mut self, step: Step<'m>) {
@@ -222,20 +291,39 @@ impl<'p, 'm> Walk<'p, 'm> {
             return;
         }
         let last = self.runs.len().wrapping_sub(1);
-        if let (Here::After(run, count), Some(own)) = (self.state.here, self.runs.last_mut())
-            && run == last
-            && own.steps.len() == count
+        if let (Here::After(run, count), Some(own)) = (&mut self.state.here, self.runs.last_mut())
+            && *run == last
+            && own.steps.len() == *count
         {
             own.steps.push(step);
-            self.state.here = Here::After(run, count + 1);
+            *count += 1;
             return;
         }
         let from = match self.state.here {
             Here::After(run, count) => Some((run, self.moves(run, count))),
-            Here::Unknown | Here::Left => None,
+            Here::Unknown | Here::OneOf(_) | Here::Left => None,
         };
         self.state.here = Here::After(self.runs.len(), 1);
         self.runs.push(Run { from, steps: Vec::from([step]) });
+    }
+
+    /// A move in several cases, each from where the robot is in it.
+    pub(super) fn push_each(&mut self, steps: Vec<(Case, Step<'m>)>) {
+        let here = core::mem::replace(&mut self.state.here, Here::Unknown);
+        let mut ends = Vec::with_capacity(steps.len());
+        for (case, step) in steps {
+            let from = match &here {
+                Here::After(run, count) => Some((*run, *count)),
+                Here::OneOf(all) => {
+                    all.iter().find(|(own, ..)| *own == case).map(|(_, run, count)| (*run, *count))
+                }
+                Here::Unknown | Here::Left => None,
+            };
+            let from = from.map(|(run, count)| (run, self.moves(run, count)));
+            ends.push((case, self.runs.len(), 1));
+            self.runs.push(Run { from, steps: Vec::from([step]) });
+        }
+        self.state.here = Here::OneOf(Rc::new(ends));
     }
 
     /// The number of moves among the first steps of a run.
@@ -246,10 +334,16 @@ impl<'p, 'm> Walk<'p, 'm> {
 
     /// The program may wait here.
     pub(super) fn halt(&mut self, what: &str) {
-        let Here::After(run, count) = self.state.here else { return };
-        let steps = self.runs.get_mut(run).map(|run| &mut run.steps);
-        if let Some(Step::Move(last)) = steps.and_then(|steps| steps.get_mut(count - 1)) {
-            last.halt.get_or_insert_with(|| what.to_string());
+        let ends = match &self.state.here {
+            Here::After(run, count) => Vec::from([(*run, *count)]),
+            Here::OneOf(ends) => ends.iter().map(|(_, run, count)| (*run, *count)).collect(),
+            Here::Unknown | Here::Left => return,
+        };
+        for (run, count) in ends {
+            let steps = self.runs.get_mut(run).map(|run| &mut run.steps);
+            if let Some(Step::Move(last)) = steps.and_then(|steps| steps.get_mut(count - 1)) {
+                last.halt.get_or_insert_with(|| what.to_string());
+            }
         }
     }
 
@@ -264,7 +358,7 @@ impl<'p, 'm> Walk<'p, 'm> {
         block.iter().any(|node| match node {
             Node::Move(_, step) => step.kind != MoveKind::MoveExtJ,
             Node::Setting(_) => true,
-            Node::Branches { parts, .. } => parts.iter().any(|part| self.acts(part)),
+            Node::Branches { parts, .. } => parts.iter().any(|part| self.acts(&part.block)),
             Node::Loop { body, .. } => self.acts(body),
             Node::Other(_, action) => match action {
                 Action::Unread => true,

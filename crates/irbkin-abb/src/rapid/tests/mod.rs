@@ -2,6 +2,7 @@
 
 mod assigned;
 mod build;
+mod cases;
 mod check;
 mod direct;
 mod functions;

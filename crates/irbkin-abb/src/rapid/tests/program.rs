@@ -47,7 +47,7 @@ fn text(body: &str) -> String {
     format!("MODULE M\n{}PROC main()\n{body}\nENDPROC\nENDMODULE", data())
 }
 
-fn of(body: &str) -> Checked {
+pub(super) fn of(body: &str) -> Checked {
     checked(&[&text(body)], &CheckOptions::default())
 }
 
@@ -109,7 +109,7 @@ fn assigned_values_are_known_behind_their_assignments() {
     for (body, wanted) in [
         ("VAR robtarget x; x:=a; x.trans.z:=400; MoveJ x,v100,fine,t;", 1),
         ("VAR robtarget x; x:=out; x:=Offs(a,0,0,10); MoveJ x,v100,fine,t;", 1),
-        ("VAR robtarget x; x:=a; IF go THEN x:=b; ENDIF MoveJ x,v100,fine,t;", 0),
+        ("VAR robtarget x; x:=a; IF go THEN x:=b; ENDIF MoveJ x,v100,fine,t;", 1),
         ("VAR robtarget x; x:=a; IF go THEN x:=b; ELSE x:=b; ENDIF MoveJ x,v100,fine,t;", 1),
         ("VAR robtarget x; IF go THEN x:=a; RETURN; ENDIF x:=b; MoveJ x,v100,fine,t;", 1),
         ("VAR robtarget x; x:=a; WHILE go DO MoveJ x,v100,fine,t; x:=b; ENDWHILE", 0),
@@ -165,7 +165,7 @@ fn data_that_another_module_assigns_are_as_in_one_text() {
         ("MoveJ p", "p:=out; go;", vec![reach]),
         ("MoveJ p", "p:=out; p:=a; go;", vec![]),
         ("MoveJ p", "go; p:=out;", vec![unknown]),
-        ("MoveJ p", "p:=a; IF dx=2 p:=out; go;", vec![unknown]),
+        ("MoveJ p", "p:=a; IF dx=2 p:=out; go;", vec![reach]),
         ("MoveJ p", "p.trans.x:=3000; go;", vec![reach]),
         ("MoveJ p", "set p; go; ENDPROC PROC set(INOUT robtarget x) x:=out;", vec![reach]),
         ("MoveJ p", "set; go; ENDPROC PROC set() p:=out;", vec![reach]),

@@ -1,0 +1,222 @@
+//! Data that have one of several known values: in each case one, by the answers to questions that
+//! the text leaves open, such as which part of a branch is executed.
+
+use alloc::collections::BTreeMap;
+use alloc::rc::Rc;
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::cell::{Cell, RefCell};
+
+use crate::rapid::data::module::Content;
+
+/// Most values of a datum that are followed, and most cases of a statement.
+pub(super) const MOST_CASES: usize = 64;
+
+/// The answers under which something holds, by the numbers of the questions.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Case(BTreeMap<usize, usize>);
+
+impl Case {
+    pub(super) fn of(question: usize, answer: usize) -> Self {
+        Self(BTreeMap::from([(question, answer)]))
+    }
+
+    /// Both cases; `None` if they exclude each other.
+    pub(super) fn with(&self, other: &Self) -> Option<Self> {
+        let mut both = self.clone();
+        for (question, answer) in &other.0 {
+            if both.0.insert(*question, *answer).is_some_and(|own| own != *answer) {
+                return None;
+            }
+        }
+        Some(both)
+    }
+
+    fn excludes(&self, other: &Self) -> bool {
+        other.0.iter().any(|(question, answer)| {
+            self.0.get(question).is_some_and(|own| own != answer)
+        })
+    }
+}
+
+/// A content, the case in which it is the datum's, and this in words.
+#[derive(Clone, Debug, PartialEq)]
+struct Candidate {
+    case: Case,
+    words: Rc<str>,
+    content: Content,
+}
+
+/// What is known of a datum: its content, or the one that it has in each case.
+#[derive(Clone, Debug)]
+pub(super) struct Known(Rc<Vec<Candidate>>);
+
+impl PartialEq for Known {
+    fn eq(&self, other: &Self) -> bool {
+        Rc::ptr_eq(&self.0, &other.0) || self.0 == other.0
+    }
+}
+
+impl Known {
+    /// The only content, with the assignment in words.
+    pub(super) fn certain(content: Content, words: &str) -> Self {
+        Self(Rc::new(Vec::from([Candidate { case: Case::default(), words: words.into(), content }])))
+    }
+
+    /// The contents of the ways in which a statement is evaluated; `None` if one is not known.
+    pub(super) fn of_ways<T>(
+        ways: Vec<Way<T>>,
+        content: impl Fn(T) -> Option<Content>,
+        words: &str,
+    ) -> Option<Self> {
+        let is_certain = ways.len() == 1;
+        let candidate = |Way { case, words: own, value }: Way<T>| {
+            let words = if is_certain { words } else { &own };
+            Some(Candidate { case, words: words.into(), content: content(value)? })
+        };
+        Some(Self(Rc::new(ways.into_iter().map(candidate).collect::<Option<_>>()?)))
+    }
+
+    /// The content that the datum has in every case.
+    pub(super) fn only(&self) -> Option<&Content> {
+        match self.0.as_slice() {
+            [only] => Some(&only.content),
+            _ => None,
+        }
+    }
+
+    /// How many values it has, at least one.
+    pub(super) fn size(&self) -> usize {
+        let of = |candidate: &Candidate| match &candidate.content {
+            Content::Array { values, .. } => values.len().max(1),
+            _ => 1,
+        };
+        self.0.iter().map(of).sum()
+    }
+
+    /// What is known behind parts that answer a question with their index; `None` if these are too
+    /// many contents. A content that no statement gave is named after its datum and a line.
+    pub(super) fn joined<'k>(
+        question: usize,
+        parts: impl Iterator<Item = (usize, &'k Self)>,
+        unchanged: impl Fn() -> String,
+    ) -> Option<Self> {
+        let mut all = Vec::new();
+        for (answer, part) in parts {
+            for candidate in &*part.0 {
+                let Some(case) = candidate.case.with(&Case::of(question, answer)) else { continue };
+                let mut own = Candidate { case, ..candidate.clone() };
+                if own.words.is_empty() {
+                    own.words = unchanged().into();
+                }
+                all.push(own);
+            }
+        }
+        (all.len() <= MOST_CASES && !all.is_empty()).then(|| Self(Rc::new(all)))
+    }
+
+    /// Whether it is not all of it so in a case.
+    pub(super) fn excludes(&self, case: &Case) -> bool {
+        self.0.iter().any(|candidate| candidate.case.excludes(case))
+    }
+
+    /// Keep what may be so in a case.
+    pub(super) fn assume(&mut self, case: &Case) {
+        if self.excludes(case) {
+            Rc::make_mut(&mut self.0).retain(|candidate| !candidate.case.excludes(case));
+        }
+    }
+}
+
+/// A way in which a statement is evaluated.
+pub(super) struct Way<T> {
+    pub(super) case: Case,
+    /// The case in words; empty of the only one.
+    pub(super) words: String,
+    pub(super) value: T,
+}
+
+/// The choices of one way after the other, in the order in which they are made.
+#[derive(Default)]
+pub(super) struct Choices {
+    /// Each with the number of what there is to choose from.
+    made: RefCell<Vec<(usize, usize)>>,
+    next: Cell<usize>,
+    case: RefCell<Case>,
+    words: RefCell<Vec<Rc<str>>>,
+    /// Whether what is not certain is unknown.
+    is_off: bool,
+}
+
+impl Choices {
+    /// No choices: what is not certain is unknown.
+    pub(super) fn off() -> Self {
+        Self { is_off: true, ..Self::default() }
+    }
+
+    /// The content of a datum on this way; `None` if it is not known.
+    pub(super) fn content<'k>(&self, known: &'k Known) -> Option<&'k Content> {
+        if known.0.len() == 1 || self.is_off {
+            return known.only();
+        }
+        let own = self.case.borrow().clone();
+        let possible = known.0.iter().filter(|candidate| !own.excludes(&candidate.case));
+        let possible: Vec<&Candidate> = possible.collect();
+        let chosen = possible.get(self.choose(possible.len()))?;
+        if possible.len() > 1 {
+            self.words.borrow_mut().push(chosen.words.clone());
+        }
+        *self.case.borrow_mut() = own.with(&chosen.case)?;
+        Some(&chosen.content)
+    }
+
+    /// An answer to a question that has so many, in words if it is a new one.
+    pub(super) fn answer(
+        &self,
+        question: usize,
+        count: usize,
+        words: impl Fn(usize) -> String,
+    ) -> Option<usize> {
+        if let Some(known) = self.case.borrow().0.get(&question) {
+            return Some(*known);
+        }
+        if self.is_off || count == 0 {
+            return None;
+        }
+        let answer = self.choose(count);
+        self.case.borrow_mut().0.insert(question, answer);
+        self.words.borrow_mut().push(words(answer).into());
+        Some(answer)
+    }
+
+    fn choose(&self, count: usize) -> usize {
+        if count < 2 {
+            return 0;
+        }
+        let mut made = self.made.borrow_mut();
+        let place = self.next.replace(self.next.get() + 1);
+        if place == made.len() {
+            made.push((0, count));
+        }
+        made[place].0
+    }
+
+    /// End a way with its value.
+    pub(super) fn end<T>(&self, value: T) -> Way<T> {
+        let words = self.words.take().join(" and ");
+        Way { case: self.case.take(), words, value }
+    }
+
+    /// Begin the next way; false if there is none.
+    pub(super) fn advance(&self) -> bool {
+        self.next.set(0);
+        let mut made = self.made.borrow_mut();
+        while let Some((chosen, count)) = made.pop() {
+            if chosen + 1 < count {
+                made.push((chosen + 1, count));
+                return true;
+            }
+        }
+        false
+    }
+}
