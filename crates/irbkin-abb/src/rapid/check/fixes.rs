@@ -159,7 +159,7 @@ impl<'a, 'm> Finder<'a, 'm> {
             }
             // A displaced target keeps its confdata.
             Form::Call(call) if Displacement::named(call.name).is_some() => {
-                self.of_value(call.required.first()?, begin, at, names)
+                self.of_value(call.arguments.required.first()?, begin, at, names)
             }
             _ => None,
         }

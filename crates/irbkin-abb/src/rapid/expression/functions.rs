@@ -210,7 +210,13 @@ impl Evaluator<'_, '_> {
         place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
-        let function = self.function(call.name)?;
+        let function = match self.function(call.name) {
+            Ok(function) => function,
+            Err(reason) => {
+                let value = self.names.returned(self.text, call).ok_or(reason)?;
+                return self.fill_value(expression, &value, &call.components, place, atoms);
+            }
+        };
         let (of, begin) = self.part(expression, function.result, &call.components)?;
         let is_number = |of: &Type| matches!(of.shape, Shape::Num | Shape::Whole);
         if of.name != place.of.name && !(is_number(of) && is_number(place.of)) {
@@ -244,17 +250,17 @@ impl Evaluator<'_, '_> {
         call: &Call<'_>,
         function: &Function,
     ) -> Result<Arguments, Stop> {
-        let (found, wanted) = (call.required.len(), function.required.len());
+        let (found, wanted) = (call.arguments.required.len(), function.required.len());
         if found != wanted {
             let instruction = function.name;
             let kind = RapidFaultKind::ArgumentCount { instruction, found, wanted };
             return Err(self.fault(expression, kind));
         }
-        let required = call.required.iter().zip(function.required);
+        let required = call.arguments.required.iter().zip(function.required);
         let required = required.map(|(argument, of)| self.atoms(argument, of));
         let required = required.collect::<Result<Vec<_>, _>>()?;
         let mut optional: Vec<_> = function.optional.iter().map(|_| None).collect();
-        for (argument, value) in &call.optional {
+        for (argument, value) in &call.arguments.optional {
             let is = |(own, _): &&(&str, Option<&'static Type>)| own.eq_ignore_ascii_case(argument);
             let own = function.optional.iter().zip(&mut optional).find(|(own, _)| is(own));
             let atoms = match (own.as_ref().map(|((_, of), _)| *of), value) {

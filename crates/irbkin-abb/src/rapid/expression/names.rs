@@ -7,6 +7,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::tree::Call;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::records::{LoadData, SpeedData, ToolData, WobjData, ZoneData};
 use crate::rapid::data::unread::{AssignedBy, Unresolved};
@@ -21,6 +22,11 @@ pub(crate) trait Names {
     /// An element, from 0, of an array of a size, by the text of an index that is not known; every
     /// one is asked for.
     fn element(&self, _index: &str, _size: usize) -> Option<usize> {
+        None
+    }
+
+    /// What a function of the program returns, as it is called in a text.
+    fn returned(&self, _text: &str, _call: &Call<'_>) -> Option<Value> {
         None
     }
 

@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
-use super::tree::{Call, Expression, Form, Operator, Reference, Unread};
+use super::tree::{Arguments, Call, Expression, Form, Operator, Reference, Unread};
 use super::whole::{DEEPEST_NESTING, WholeReader, note};
 use crate::rapid::data::fit::Fit;
 use crate::rapid::data::table::Entry;
@@ -290,25 +290,23 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
                 .fault(open.start, RapidFaultKind::TooDeep { bound: DEEPEST_NESTING }));
         }
         let name = self.tokens.text_of(token);
-        let mut call =
-            Call { name, required: Vec::new(), optional: Vec::new(), components: Vec::new() };
+        let mut arguments = Arguments::default();
         let mut fit = Fit::of(Entry::function(name));
         let mut is_more = !self.tokens.peek().is(b')');
         while is_more {
             if self.tokens.take_if(b'\\')? {
                 let (name, value) = self.optional()?;
                 fit.optional(name, value.is_some());
-                call.optional.push((name, value));
+                arguments.optional.push((name, value));
             } else {
-                call.required.push(self.argument()?);
+                arguments.required.push(self.argument()?);
                 fit.required();
             }
             is_more = self.tokens.take_if(b',')? || self.tokens.peek().is(b'\\');
         }
         self.close(open, b')')?;
         note(self.tokens, token, true, fit);
-        call.components = self.components()?;
-        Ok(call)
+        Ok(Call { name, arguments, components: self.components()? })
     }
 
     /// A required argument: its value, perhaps after its name and `:=`. The name is not kept:

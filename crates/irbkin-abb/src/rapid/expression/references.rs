@@ -24,9 +24,20 @@ impl Evaluator<'_, '_> {
         place: &Component<'_>,
         atoms: &mut Atoms,
     ) -> Result<(), Stop> {
-        let text = || written(self.text, expression);
         let (name, components) = self.whole_name(name, components);
         let value = self.referred(expression, &name, indices, components)?;
+        self.fill_value(expression, &value, components, place, atoms)
+    }
+
+    /// Append a component of a value that an expression has.
+    pub(super) fn fill_value(
+        &self,
+        expression: &Expression<'_>,
+        value: &Value,
+        components: &[&str],
+        place: &Component<'_>,
+        atoms: &mut Atoms,
+    ) -> Result<(), Stop> {
         let (of, begin) = self.part(expression, value.data_type().described(), components)?;
         let mut source = value.atoms().into_iter();
         if begin > 0 {
@@ -42,7 +53,7 @@ impl Evaluator<'_, '_> {
             return self.fill_number(expression, number, place, atoms);
         }
         if of.name != place.of.name {
-            let found = format!("{}, of type {}", text(), of.name);
+            let found = format!("{}, of type {}", written(self.text, expression), of.name);
             return Err(self.wrong_type(expression, place, &found));
         }
         atoms.extend(source.take(of.size()));

@@ -36,8 +36,8 @@ impl<'a> Expression<'a> {
             }
             Form::Call(call) => {
                 names.push(call.name);
-                call.required.iter().for_each(|it| it.collect_names(names));
-                let optional = call.optional.iter().filter_map(|(_, value)| value.as_ref());
+                call.arguments.required.iter().for_each(|it| it.collect_names(names));
+                let optional = call.arguments.optional.iter().filter_map(|(_, value)| value.as_ref());
                 optional.for_each(|it| it.collect_names(names));
             }
             Form::Aggregate(parts) => parts.iter().for_each(|it| it.collect_names(names)),
@@ -86,10 +86,16 @@ pub(crate) struct Reference<'a> {
 #[derive(Debug)]
 pub(crate) struct Call<'a> {
     pub(crate) name: &'a str,
-    pub(crate) required: Vec<Expression<'a>>,
-    pub(crate) optional: Vec<(&'a str, Option<Expression<'a>>)>,
+    pub(crate) arguments: Arguments<'a>,
     /// Components of the result.
     pub(crate) components: Vec<&'a str>,
+}
+
+/// The arguments of a function, an instruction or a call.
+#[derive(Debug, Default)]
+pub(crate) struct Arguments<'a> {
+    pub(crate) required: Vec<Expression<'a>>,
+    pub(crate) optional: Vec<(&'a str, Option<Expression<'a>>)>,
 }
 
 /// The reason why an expression is not evaluated, whatever its names refer to.

@@ -1,18 +1,11 @@
 //! The arguments of instructions and calls, and assignments, as they are written.
 
 use alloc::string::String;
-use alloc::vec::Vec;
 
 use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::expression::tree::Expression;
+use crate::rapid::expression::tree::{Arguments, Expression};
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::{TokenKind, Tokens};
-
-/// The arguments of an instruction or a call.
-pub(super) struct Arguments<'a> {
-    pub(super) required: Vec<Expression<'a>>,
-    pub(super) optional: Vec<(&'a str, Option<Expression<'a>>)>,
-}
 
 /// The arguments of a statement, which begins with its name.
 pub(super) fn arguments(statement: &str) -> Result<Arguments<'_>, RapidFault> {
@@ -21,7 +14,7 @@ pub(super) fn arguments(statement: &str) -> Result<Arguments<'_>, RapidFault> {
     if tokens.take()?.is(b'%') {
         while tokens.peek().kind != TokenKind::End && !tokens.take()?.is(b'%') {}
     }
-    let mut found = Arguments { required: Vec::new(), optional: Vec::new() };
+    let mut found = Arguments::default();
     while tokens.peek().kind != TokenKind::End && !tokens.peek().is(b';') {
         tokens.take_if(b',')?;
         if tokens.take_if(b'\\')? {

@@ -8,9 +8,9 @@ use alloc::vec::Vec;
 use core::mem;
 use core::ops::Range;
 
-use super::arguments::{Arguments, referred};
+use super::arguments::referred;
 use super::cases::Known;
-use super::effects::MOST_CALLED;
+use super::effects::{Acts, MOST_CALLED};
 use super::frame::{Frame, Site};
 use super::state::{Local, Locals, MOST_KNOWN};
 use super::statement::Instruction;
@@ -18,7 +18,10 @@ use super::walker::Walk;
 use super::whole::Program;
 use crate::rapid::data::module::{Content, Parameter, Storage};
 use crate::rapid::data::unread::{Reason, Skipped, Unresolved};
-use crate::rapid::expression::tree::Expression;
+use crate::rapid::expression::tree::{Arguments, Call, Expression};
+
+/// The name of what a function returns: no name of RAPID.
+const RETURNED: &str = "RETURN";
 
 /// Most calls within calls.
 const DEEPEST_CALLS: usize = 32;
@@ -86,7 +89,9 @@ impl<'m> Walk<'_, 'm> {
             None
         };
         let bound = match (why, &instruction.arguments) {
-            (None, Some(arguments)) => self.bound(skipped, parameters, arguments),
+            (None, Some(arguments)) => {
+                self.bound((&skipped.text, skipped.start), parameters, arguments)
+            }
             (why, _) => {
                 let assigned = program.effects.assigned_by(&[(home, name)], MOST_CALLED);
                 self.state.forget_globals(assigned.as_ref());
@@ -128,10 +133,10 @@ impl<'m> Walk<'_, 'm> {
             routine: name,
             site: site.filter(|_| !parameters.is_empty()),
             chain,
-            exits: Vec::new(),
             absent,
             present,
             texts,
+            ..Frame::default()
         };
         let own_frame = mem::replace(&mut self.frame, frame);
         self.above.push((own_frame.module, own_frame.routine.clone()));
@@ -147,6 +152,52 @@ impl<'m> Walk<'_, 'm> {
                 self.put(&name, local.content.clone().ok());
             }
         }
+    }
+
+    /// What a function returns, as it is called in a text; `None` if that is not known, or if the
+    /// function does more than that.
+    pub(super) fn returned(&self, text: &str, call: &Call<'_>) -> Option<Known> {
+        let (program, name) = (self.program, call.name.to_lowercase());
+        let (home, data_type) = program.function(self.frame.module, &name)?;
+        let is_circular = self.above.iter().any(|it| (it.0, &it.1) == (home, &name))
+            || (self.frame.module, &self.frame.routine) == (home, &name);
+        let does_more = program.effects.of_routine(home, &name).is_some_and(Acts::matters);
+        if is_circular || does_more || self.above.len() >= DEEPEST_CALLS || self.is_spent() {
+            return None;
+        }
+        let mut walk = Self::new(program, self.takes_last, self.interrupt);
+        (walk.state, walk.frame) = (self.state.clone(), self.frame.clone());
+        walk.above.clone_from(&self.above);
+        walk.above.push((self.frame.module, self.frame.routine.clone()));
+        walk.questions.set(self.questions.get());
+        walk.steps_left = self.steps_left.saturating_sub(self.inside.get());
+        let left = walk.steps_left;
+        let bound = walk.bound((text, 0), program.parameters(home, &name), &call.arguments);
+        walk.state.locals = program.locals_of(home, &name, Some(bound.given));
+        walk.frame = Frame {
+            result: Some(data_type),
+            absent: bound.absent,
+            present: bound.present,
+            ..Frame::of(home, name)
+        };
+        walk.routine();
+        self.questions.set(walk.questions.get());
+        self.inside.update(|count| count + CALL + left - walk.steps_left);
+        walk.state.locals.get(RETURNED)?.content.clone().ok()
+    }
+
+    /// Keep what a function returns.
+    pub(super) fn give_back(&mut self, skipped: &Skipped, instruction: &Instruction<'_>) {
+        let Some(data_type) = self.frame.result else { return };
+        let value = instruction.arguments.as_ref().and_then(|it| it.required.first());
+        let Some(value) = value else { return };
+        let ways = self.in_each_case(|it| it.value(&skipped.text, value, data_type).ok());
+        let written = skipped.text.get(value.start..value.end).unwrap_or_default();
+        let words = format!("{} is {written}", self.frame.routine);
+        let known = Known::of_ways(ways, |value| value.map(Content::Single), &words);
+        let content = known.ok_or(Unresolved::ValueNotKnown);
+        let local = Local { data_type: Some(data_type), content };
+        Rc::make_mut(&mut self.state.locals).insert(RETURNED.to_string(), local);
     }
 
     /// Give a datum or a local another content, or none that is known.
@@ -169,7 +220,7 @@ impl<'m> Walk<'_, 'm> {
     /// The parameters of a routine with the arguments of a call.
     fn bound(
         &mut self,
-        skipped: &Skipped,
+        written: (&str, usize),
         parameters: &[Parameter],
         arguments: &Arguments<'_>,
     ) -> Bound {
@@ -183,7 +234,7 @@ impl<'m> Walk<'_, 'm> {
                 required.next().map(Some)
             };
             if let Some(value) = argument {
-                self.bind(skipped, parameter, value, &mut bound);
+                self.bind(written, parameter, value, &mut bound);
             } else {
                 bound.absent.insert(parameter.name.clone());
                 bound.give(parameter, Err(Unresolved::NoValue));
@@ -195,13 +246,13 @@ impl<'m> Walk<'_, 'm> {
     /// Put an argument in for a parameter.
     fn bind(
         &mut self,
-        skipped: &Skipped,
+        (whole, start): (&str, usize),
         parameter: &Parameter,
         value: Option<&Expression<'_>>,
         bound: &mut Bound,
     ) {
         let name = parameter.name.clone();
-        let text = value.and_then(|it| skipped.text.get(it.start..it.end));
+        let text = value.and_then(|it| whole.get(it.start..it.end));
         let text = text.unwrap_or_default();
         // \Name?parameter passes on an argument, if there is one.
         let passed = text.strip_prefix('?').map(|passed| passed.trim().to_lowercase());
@@ -224,7 +275,7 @@ impl<'m> Walk<'_, 'm> {
         let name = referred(value).filter(|(_, components)| components.is_empty());
         let ways = self.in_each_case(|scope| match scope.whole(value) {
             Some(content) => Ok(content),
-            None => match scope.value(&skipped.text, value, data_type) {
+            None => match scope.value(whole, value, data_type) {
                 Ok(value) => Ok(Content::Single(value)),
                 Err(Reason::Reference { why, .. }) => Err(why),
                 Err(_) => Err(Unresolved::ValueNotKnown),
@@ -240,7 +291,7 @@ impl<'m> Walk<'_, 'm> {
         let own = (
             text.to_string(),
             self.frame.module,
-            skipped.start + value.start..skipped.start + value.end,
+            start + value.start..start + value.end,
         );
         let above = name.as_ref().and_then(|(name, _)| self.frame.texts.get(name).cloned());
         bound.texts.insert(parameter.name.clone(), above.unwrap_or(own));

@@ -9,6 +9,7 @@ use core::ops::Range;
 use super::state::State;
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::unread::Reason;
+use crate::rapid::data::value::DataType;
 
 /// The call that a routine's moves are placed at where they depend on its arguments.
 #[derive(Clone)]
@@ -30,6 +31,8 @@ pub(super) struct Frame {
     pub(super) site: Option<Site>,
     /// The number of the chain of calls that leads here, from 1; 0 of a routine that nothing calls.
     pub(super) chain: usize,
+    /// Of a function the type of what it returns.
+    pub(super) result: Option<DataType>,
     /// The knowledge at each place where it was left.
     pub(super) exits: Vec<State>,
     /// Its optional parameters that no argument was given for, and its others that have one.

@@ -5,8 +5,9 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use super::tree::{Body, bodies};
-use crate::rapid::data::module::{Datum, Module, Parameter, RoutineKind, Scope};
+use crate::rapid::data::module::{Datum, Module, Parameter, Routine, RoutineKind, Scope};
 use crate::rapid::data::unread::{NotRead, Unresolved};
+use crate::rapid::data::value::DataType;
 
 /// A datum: its module and its index there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -23,6 +24,9 @@ pub(in crate::rapid) struct Index<'m> {
     /// The names in lower case of the procedures and the traps of each module.
     procedures: Vec<BTreeSet<String>>,
     traps: Vec<BTreeSet<String>>,
+    /// The types of what the functions of each module return, if they are read, by their names in
+    /// lower case.
+    functions: Vec<BTreeMap<String, DataType>>,
     /// The first module that has a global procedure, by its name in lower case.
     global_procedures: BTreeMap<String, usize>,
     /// The first module that has a global datum, by its name in lower case.
@@ -41,6 +45,7 @@ impl<'m> Index<'m> {
             modules: modules.to_vec(),
             parameters: Vec::with_capacity(modules.len()),
             procedures: Vec::with_capacity(modules.len()),
+            functions: modules.iter().map(|module| functions(module)).collect(),
             traps: Vec::with_capacity(modules.len()),
             global_procedures: BTreeMap::new(),
             global_data: BTreeMap::new(),
@@ -83,6 +88,20 @@ impl<'m> Index<'m> {
             return Some(module);
         }
         self.global_procedures.get(lower).copied()
+    }
+
+    /// The module of the function that a name in lower case refers to in a module, and the type of
+    /// what it returns.
+    pub(super) fn function(&self, module: usize, lower: &str) -> Option<(usize, DataType)> {
+        let of = |home: usize| Some((home, *self.functions.get(home)?.get(lower)?));
+        of(module).or_else(|| {
+            let is_global = |home: &usize| {
+                let routines = self.modules[*home].routines.iter();
+                let mut own = routines.filter(|it| it.name.eq_ignore_ascii_case(lower));
+                own.any(|it| !it.is_local())
+            };
+            (0..self.modules.len()).filter(|home| of(*home).is_some()).find(is_global).and_then(of)
+        })
     }
 
     /// Whether a routine is a trap, by its name in lower case.
@@ -186,6 +205,16 @@ fn locals(module: &Module) -> BTreeMap<String, BTreeMap<String, usize>> {
         }
     }
     found
+}
+
+/// The types of what functions return, if they are read, by their names in lower case.
+fn functions(module: &Module) -> BTreeMap<String, DataType> {
+    let of = |routine: &Routine| {
+        let mut words = routine.header.split_whitespace();
+        words.find(|word| word.eq_ignore_ascii_case("FUNC"))?;
+        Some((routine.name.to_lowercase(), DataType::named(words.next()?)?))
+    };
+    module.routines.iter().filter_map(of).collect()
 }
 
 /// The names in lower case of data that are not read, with the reasons.

@@ -3,12 +3,12 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::arguments::{Arguments, arguments, assignment, called, referred};
+use super::arguments::{arguments, assignment, called, referred};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::unread::{NotRead, Skipped};
 use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::expression::tree::Expression;
+use crate::rapid::expression::tree::{Arguments, Expression};
 use crate::rapid::text::fault::RapidFault;
 use crate::rapid::text::tokens::{TokenKind, Tokens};
 

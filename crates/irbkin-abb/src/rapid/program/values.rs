@@ -11,6 +11,7 @@ use super::cases::{Choices, MOST_CASES};
 use super::frame::Frame;
 use super::index::DatumId;
 use super::state::{State, words_of};
+use super::walker::Walk;
 use super::whole::Program;
 use crate::rapid::data::module::{Content, Datum, Storage};
 use crate::rapid::data::types::{Atoms, Record};
@@ -19,25 +20,22 @@ use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::names::{At, By, Cause, Lookup, Names, lower, predefined};
 use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::expression::tree::{Expression, Form};
+use crate::rapid::expression::tree::{Call, Expression, Form};
 use crate::rapid::text::place::Place;
 use crate::rapid::text::tokens::Tokens;
 
 /// The names that a place sees, with what is known there.
 pub(super) struct Scope<'s, 'm> {
+    pub(super) walk: &'s Walk<'s, 'm>,
     pub(super) program: &'s Program<'m>,
     pub(super) state: &'s State,
     pub(super) frame: &'s Frame,
-    /// Whether a PERS that the program assigns has its last value, which the text has.
-    pub(super) takes_last: bool,
     /// Whether a last value was taken.
     pub(super) has_taken: Cell<bool>,
     /// What is taken of several values.
     pub(super) choices: Choices,
     /// The open questions of the state, and those of this scope.
     pub(super) asked: RefCell<Rc<BTreeMap<String, usize>>>,
-    /// The number of the next question.
-    pub(super) questions: &'s Cell<usize>,
 }
 
 /// Words of conditions beside names and numbers.
@@ -73,7 +71,7 @@ impl Names for Scope<'_, '_> {
             return chosen(several);
         }
         match self.cause(id, datum) {
-            Ok(Some(_)) | Err(_) if self.takes_last && datum.storage == Storage::Pers => {
+            Ok(Some(_)) | Err(_) if self.walk.takes_last && datum.storage == Storage::Pers => {
                 self.has_taken.set(true);
                 known(&datum.content)
             }
@@ -87,6 +85,14 @@ impl Names for Scope<'_, '_> {
         let (id, datum) = self.program.datum(self.frame.module, &lower(name))?;
         let assigned = self.program.effects.assigned(id)?;
         assigned.meets(datum.data_type, &atoms).then_some(cause)
+    }
+
+    fn returned(&self, text: &str, call: &Call<'_>) -> Option<Value> {
+        let known = self.walk.returned(text, call)?;
+        match self.choices.content(&known)? {
+            Content::Single(value) => Some(value.clone()),
+            _ => None,
+        }
     }
 
     fn element(&self, index: &str, size: usize) -> Option<usize> {
@@ -108,7 +114,7 @@ impl<'s> Scope<'s, '_> {
         if let Some(number) = self.asked.borrow().get(&key) {
             return *number;
         }
-        let number = self.questions.replace(self.questions.get() + 1);
+        let number = self.walk.question();
         if words_of(text).all(|word| self.is_steady(word)) {
             Rc::make_mut(&mut self.asked.borrow_mut()).insert(key, number);
         }

@@ -384,6 +384,7 @@ impl<'m> Walk<'_, 'm> {
                 }
             }
             Effect::Returns => {
+                self.give_back(skipped, instruction);
                 self.frame.exits.push(self.state.clone());
                 self.state.here = Here::Left;
             }

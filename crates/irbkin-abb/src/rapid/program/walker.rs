@@ -118,7 +118,9 @@ pub(super) struct Walk<'p, 'm> {
     way_left: usize,
     /// The target of the last move [mm], if it is known.
     last_place: Option<[f64; 3]>,
-    interrupt: Interrupt<'p>,
+    pub(super) interrupt: Interrupt<'p>,
+    /// The statements of functions that were followed.
+    pub(super) inside: Cell<usize>,
     /// Whether the caller has ended the walk, which asks at some of its statements.
     pub(super) is_ended: bool,
     statements: usize,
@@ -151,6 +153,7 @@ impl<'p, 'm> Walk<'p, 'm> {
             way_left: WAY * bytes / 100 + 100 * SPARE,
             last_place: None,
             interrupt,
+            inside: Cell::new(0),
             is_ended: false,
             statements: 0,
         }
@@ -176,8 +179,8 @@ impl<'p, 'm> Walk<'p, 'm> {
 
     /// Take what takes as long as so many statements from what is left.
     pub(super) fn spend(&mut self, statements: usize) {
-        let gone_through = self.program.effects.gone_through.take();
-        self.steps_left = self.steps_left.saturating_sub(statements + gone_through);
+        let others = self.program.effects.gone_through.take() + self.inside.take();
+        self.steps_left = self.steps_left.saturating_sub(statements + others);
     }
 
     /// Whether nothing is left for calls and loops.
@@ -244,14 +247,13 @@ impl<'p, 'm> Walk<'p, 'm> {
     /// The names and values that are known here.
     pub(super) fn scope(&self, choices: Choices) -> Scope<'_, 'm> {
         Scope {
+            walk: self,
             program: self.program,
             state: &self.state,
             frame: &self.frame,
-            takes_last: self.takes_last,
             has_taken: Cell::new(false),
             choices,
             asked: RefCell::new(self.state.asked.clone()),
-            questions: &self.questions,
         }
     }
 
