@@ -149,8 +149,8 @@ pub fn check<const N: usize>(
     checker.found.extend(undeclared(&modules, &sources, is_whole, of_system, interrupt)?);
     let Checker { found, demands, moves, .. } = checker;
     let mut cases = BTreeMap::new();
-    for ((place, _), _) in &moves {
-        *cases.entry(*place).or_insert(0) += 1;
+    for ((place, [_, module, index]), _) in &moves {
+        *cases.entry((*place, (*module, *index))).or_insert(0) += 1;
     }
     Ok(Checked { findings: sorted(found, &demands, &cases), moves: each_once(moves) })
 }
@@ -232,7 +232,7 @@ impl<const N: usize> Checker<'_, '_, N> {
                 finding = with_nearest(self.robots[1], finding, goal, &q);
             }
             let finding = self.worded(finding, goal, is_wrong).in_module(goal.stepped.module);
-            let finding = finding.in_case(&goal.stepped.case);
+            let finding = finding.in_case(goal.stepped.instruction, &goal.stepped.case);
             if is_wrong {
                 self.found.push(finding);
             } else {
@@ -245,7 +245,8 @@ impl<const N: usize> Checker<'_, '_, N> {
             self.interrupt.check(0)?;
             let finding = self.collision(goal.step, followed.along(index));
             let placed = finding.map(|it| it.at(goal.step, index).in_module(goal.stepped.module));
-            self.found.extend(placed.map(|it| it.in_case(&goal.stepped.case)));
+            self.found
+                .extend(placed.map(|it| it.in_case(goal.stepped.instruction, &goal.stepped.case)));
         }
         let zones = Zones { flange: self.robots[1], goals, made };
         for (index, goal) in goals.iter().enumerate() {
@@ -269,7 +270,11 @@ impl<const N: usize> Checker<'_, '_, N> {
             self.moves.push((([module, line, column], by), own));
             let mut found = |finding: Finding| {
                 let finding = finding.at(goal.step, index).in_module(goal.stepped.module);
-                add_once(&mut self.found, &mut self.seen, finding.in_case(&goal.stepped.case));
+                add_once(
+                    &mut self.found,
+                    &mut self.seen,
+                    finding.in_case(goal.stepped.instruction, &goal.stepped.case),
+                );
             };
             zones.checked(index).for_each(&mut found);
             if goal.stepped.takes_last {

@@ -19,15 +19,18 @@ pub(super) fn add_once(found: &mut Vec<Finding>, seen: &mut Seen, finding: Findi
     }
 }
 
+/// A move that has cases: its place, and the module and the index of the instruction.
+pub(super) type Cased = ([usize; 3], (usize, usize));
+
 /// Findings in the order of the text, each once, with their corrections, by the number of cases of
 /// the moves at each place.
 pub(super) fn sorted(
     mut found: Vec<Finding>,
     demands: &[Demand],
-    cases: &BTreeMap<[usize; 3], usize>,
+    cases: &BTreeMap<Cased, usize>,
 ) -> Vec<Finding> {
     correct(demands, &mut found);
-    found.sort_by_key(|it| (it.module, it.line, it.column, it.code, it.joint));
+    found.sort_by_key(identity);
     let mut found = of_all_cases(&found, cases);
     // Nothing is said of the way to a target that cannot be met.
     let (mut unmet, mut without_path) = (None, None);
@@ -45,10 +48,14 @@ pub(super) fn sorted(
     of_one_cause(found)
 }
 
+/// What is the same of findings in several cases.
+fn identity(it: &Finding) -> ([usize; 3], Code, Option<usize>, (usize, usize)) {
+    ([it.module, it.line, it.column], it.code, it.joint, it.instruction)
+}
+
 /// Findings of the cases of a move as the first of them, with the number of the others.
-fn of_all_cases(found: &[Finding], cases: &BTreeMap<[usize; 3], usize>) -> Vec<Finding> {
+fn of_all_cases(found: &[Finding], cases: &BTreeMap<Cased, usize>) -> Vec<Finding> {
     let mut kept: Vec<Finding> = Vec::new();
-    let identity = |it: &Finding| (it.module, it.line, it.column, it.code, it.joint);
     for all in found.chunk_by(|a, b| identity(a) == identity(b)) {
         let first = &all[0];
         if first.case.is_empty() {
@@ -57,7 +64,8 @@ fn of_all_cases(found: &[Finding], cases: &BTreeMap<[usize; 3], usize>) -> Vec<F
             continue;
         }
         let count = all.iter().map(|it| &it.case).collect::<BTreeSet<_>>().len();
-        let total = cases.get(&[first.module, first.line, first.column]).copied().unwrap_or(count);
+        let place = [first.module, first.line, first.column];
+        let total = cases.get(&(place, first.instruction)).copied().unwrap_or(count);
         let mut own = first.clone();
         if count < total || all.iter().any(|it| it.message != first.message) {
             let which = if count > 1 { "first " } else { "" };

@@ -236,6 +236,8 @@ pub struct Finding {
     /// The pass of a loop, or which of the values that data may have, in words; empty of the only
     /// one.
     pub(crate) case: String,
+    /// The module and the index of the instruction that the case is of.
+    pub(crate) instruction: (usize, usize),
     /// Where else its cause shows: modules, lines and columns.
     pub related: Vec<(usize, usize, usize)>,
     /// The corrections, in the order of the text; empty where nothing corrects it.
@@ -260,6 +262,7 @@ impl Finding {
             unknown: None,
             cause: String::new(),
             case: String::new(),
+            instruction: (0, 0),
             related: Vec::new(),
             edits: Vec::new(),
         }
@@ -303,9 +306,9 @@ impl Finding {
         }
     }
 
-    /// In one case of several.
-    pub(crate) fn in_case(self, case: &str) -> Self {
-        Self { case: case.into(), ..self }
+    /// In one case of several of an instruction, by its module and its index.
+    pub(crate) fn in_case(self, instruction: (usize, usize), case: &str) -> Self {
+        Self { instruction, case: case.into(), ..self }
     }
 
     /// In a module.

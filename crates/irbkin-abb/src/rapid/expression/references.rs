@@ -233,7 +233,6 @@ impl Evaluator<'_, '_> {
 /// Whether an index that is not known for a reason may be each one: the variable of a loop without
 /// known bounds may end before.
 fn may_be_any(reason: &Reason) -> bool {
-    let is_of_loop =
-        matches!(reason, Reason::Reference { why: Unresolved::LoopVariable, .. });
+    let is_of_loop = matches!(reason, Reason::Reference { why: Unresolved::LoopVariable, .. });
     !is_of_loop && *reason != Reason::Unfinished
 }

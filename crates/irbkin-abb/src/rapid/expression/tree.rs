@@ -37,7 +37,8 @@ impl<'a> Expression<'a> {
             Form::Call(call) => {
                 names.push(call.name);
                 call.arguments.required.iter().for_each(|it| it.collect_names(names));
-                let optional = call.arguments.optional.iter().filter_map(|(_, value)| value.as_ref());
+                let optional =
+                    call.arguments.optional.iter().filter_map(|(_, value)| value.as_ref());
                 optional.for_each(|it| it.collect_names(names));
             }
             Form::Aggregate(parts) => parts.iter().for_each(|it| it.collect_names(names)),

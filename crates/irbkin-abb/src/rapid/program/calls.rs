@@ -136,6 +136,7 @@ impl<'m> Walk<'_, 'm> {
             absent,
             present,
             texts,
+            entry: self.question(),
             ..Frame::default()
         };
         let own_frame = mem::replace(&mut self.frame, frame);
@@ -176,6 +177,7 @@ impl<'m> Walk<'_, 'm> {
         walk.state.locals = program.locals_of(home, &name, Some(bound.given));
         walk.frame = Frame {
             result: Some(data_type),
+            entry: walk.question(),
             absent: bound.absent,
             present: bound.present,
             ..Frame::of(home, name)
@@ -288,11 +290,7 @@ impl<'m> Walk<'_, 'm> {
                 Known::of_ways(ways, Result::ok, &words).ok_or(Unresolved::ValueNotKnown)
             }
         };
-        let own = (
-            text.to_string(),
-            self.frame.module,
-            start + value.start..start + value.end,
-        );
+        let own = (text.to_string(), self.frame.module, start + value.start..start + value.end);
         let above = name.as_ref().and_then(|(name, _)| self.frame.texts.get(name).cloned());
         bound.texts.insert(parameter.name.clone(), above.unwrap_or(own));
         if let (true, Some((name, _))) = (parameter.is_reference, name) {

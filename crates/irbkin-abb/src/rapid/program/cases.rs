@@ -33,9 +33,10 @@ impl Case {
     }
 
     fn excludes(&self, other: &Self) -> bool {
-        other.0.iter().any(|(question, answer)| {
-            self.0.get(question).is_some_and(|own| own != answer)
-        })
+        other
+            .0
+            .iter()
+            .any(|(question, answer)| self.0.get(question).is_some_and(|own| own != answer))
     }
 }
 
@@ -60,7 +61,11 @@ impl PartialEq for Known {
 impl Known {
     /// The only content, with the assignment in words.
     pub(super) fn certain(content: Content, words: &str) -> Self {
-        Self(Rc::new(Vec::from([Candidate { case: Case::default(), words: words.into(), content }])))
+        Self(Rc::new(Vec::from([Candidate {
+            case: Case::default(),
+            words: words.into(),
+            content,
+        }])))
     }
 
     /// The contents of the ways in which a statement is evaluated; `None` if one is not known.

@@ -339,7 +339,9 @@ impl<'e, 'm> Reader<'e, 'm> {
                     }
                 }
                 Node::Other(skipped, action) => self.statement(skipped.line, action),
-                Node::Branches { parts, .. } => parts.iter().for_each(|part| self.block(&part.block)),
+                Node::Branches { parts, .. } => {
+                    parts.iter().for_each(|part| self.block(&part.block))
+                }
                 Node::Loop { body, .. } => self.block(body),
             }
         }

@@ -31,6 +31,8 @@ pub(super) struct Frame {
     pub(super) site: Option<Site>,
     /// The number of the chain of calls that leads here, from 1; 0 of a routine that nothing calls.
     pub(super) chain: usize,
+    /// The number of this call among all.
+    pub(super) entry: usize,
     /// Of a function the type of what it returns.
     pub(super) result: Option<DataType>,
     /// The knowledge at each place where it was left.
@@ -49,7 +51,7 @@ impl Frame {
 
     /// The question what a text is in this call.
     pub(super) fn question(&self, text: &str) -> String {
-        format!("{} {} {} {}", self.module, self.routine, self.chain, text.to_lowercase())
+        format!("{} {} {} {}", self.module, self.routine, self.entry, text.to_lowercase())
     }
 
     /// A reason with the text of an argument in the place of its parameter.

@@ -32,14 +32,12 @@ impl<'m> Walk<'_, 'm> {
             walk.in_all_cases(|scope| scope.number(&head.text, bound).ok())
         };
         let passes = values_of(counter.bounds.each_ref().map(|bound| of(self, bound)));
-        if !passes.is_empty()
-            && self.affords(passes.len(), body)
-            && (self.is_one || is_counted)
-        {
+        if !passes.is_empty() && self.affords(passes.len(), body) && (self.is_one || is_counted) {
             let depth = self.passes.len();
             for value in passes {
                 self.passes.truncate(depth);
                 self.passes.push(format!("{name} = {value}"));
+                self.state.ask_anew(name);
                 let local = Local::single(Value::Num(value));
                 Rc::make_mut(&mut self.state.locals).insert(name.clone(), local);
                 self.block(body);

@@ -131,6 +131,7 @@ impl State {
 
     /// Forget assigned data; all of them without a set.
     pub(super) fn forget_globals(&mut self, assigned: Option<&BTreeSet<DatumId>>) {
+        self.asked = Rc::default();
         match assigned {
             None => self.globals = Rc::default(),
             Some(assigned) if self.globals.keys().any(|datum| assigned.contains(datum)) => {

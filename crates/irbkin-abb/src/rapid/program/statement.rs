@@ -78,9 +78,16 @@ pub(super) enum Condition<'m> {
     /// Whether an optional parameter, in lower case, must be there: `Present(x)`, `NOT Present(x)`.
     Present(String, bool),
     /// Of two numbers, in a text.
-    Compared { text: &'m str, numbers: [Expression<'m>; 2], relation: Relation },
+    Compared {
+        text: &'m str,
+        numbers: [Expression<'m>; 2],
+        relation: Relation,
+    },
     /// Whether what is tested is one of some numbers.
-    Case { text: &'m str, numbers: Vec<Expression<'m>> },
+    Case {
+        text: &'m str,
+        numbers: Vec<Expression<'m>>,
+    },
     Other,
 }
 

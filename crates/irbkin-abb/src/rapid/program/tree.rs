@@ -22,7 +22,11 @@ pub(super) enum Node<'m> {
     Setting(&'m Setting),
     Other(&'m Skipped, Action<'m>),
     /// IF or TEST, by its first line; of TEST with what is tested.
-    Branches { head: &'m Skipped, tested: Option<Expression<'m>>, parts: Vec<Part<'m>> },
+    Branches {
+        head: &'m Skipped,
+        tested: Option<Expression<'m>>,
+        parts: Vec<Part<'m>>,
+    },
     /// FOR or WHILE, by its first line.
     Loop {
         head: &'m Skipped,
@@ -45,7 +49,9 @@ pub(super) struct Part<'m> {
 /// The number of statements in a block.
 pub(super) fn size(block: &Block<'_>) -> usize {
     let of = |node: &Node<'_>| match node {
-        Node::Branches { parts, .. } => parts.iter().map(|part| size(&part.block)).sum::<usize>() + 1,
+        Node::Branches { parts, .. } => {
+            parts.iter().map(|part| size(&part.block)).sum::<usize>() + 1
+        }
         Node::Loop { body, .. } => size(body) + 1,
         _ => 1,
     };

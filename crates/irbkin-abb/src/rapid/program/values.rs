@@ -100,9 +100,9 @@ impl Names for Scope<'_, '_> {
             return None;
         }
         let question = self.question(index);
-        let element = self.choices.answer(question, size, |from_zero| {
-            format!("{} is {}", index.trim(), from_zero + 1)
-        });
+        let element = self
+            .choices
+            .answer(question, size, |from_zero| format!("{} is {}", index.trim(), from_zero + 1));
         element.filter(|element| *element < size)
     }
 }

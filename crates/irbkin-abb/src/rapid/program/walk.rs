@@ -132,19 +132,11 @@ impl<'m> Walk<'_, 'm> {
     }
 
     /// A branch: the part whose condition holds, or every part whose condition may.
-    fn branches(
-        &mut self,
-        head: &'m Skipped,
-        tested: Option<&Expression<'m>>,
-        parts: &[Part<'m>],
-    ) {
+    fn branches(&mut self, head: &'m Skipped, tested: Option<&Expression<'m>>, parts: &[Part<'m>]) {
         let (mut open, mut is_passed) = (Vec::new(), true);
         for (index, part) in parts.iter().enumerate() {
-            let holds = if is_passed {
-                self.holds((head, tested), &part.condition)
-            } else {
-                Some(false)
-            };
+            let holds =
+                if is_passed { self.holds((head, tested), &part.condition) } else { Some(false) };
             is_passed &= holds != Some(true);
             match holds {
                 Some(false) if matches!(part.condition, Condition::Never) => {
@@ -232,7 +224,9 @@ impl<'m> Walk<'_, 'm> {
                 Node::Move(index, step) => {
                     self.left.insert((self.frame.module, *index), *step);
                 }
-                Node::Branches { parts, .. } => parts.iter().for_each(|part| self.left_out(&part.block)),
+                Node::Branches { parts, .. } => {
+                    parts.iter().for_each(|part| self.left_out(&part.block))
+                }
                 Node::Loop { body, .. } => self.left_out(body),
                 _ => {}
             }
@@ -367,7 +361,10 @@ impl<'m> Walk<'_, 'm> {
                 let ways = self.in_each_case(|scope| scope.assigned(&skipped.text, target, value));
                 let written = skipped.text.trim_end_matches(';').split_once(":=");
                 let words = written.map(|(to, value)| format!("{} is {}", to.trim(), value.trim()));
-                self.put(&to.0, Known::of_ways(ways, |content| content, &words.unwrap_or_default()));
+                self.put(
+                    &to.0,
+                    Known::of_ways(ways, |content| content, &words.unwrap_or_default()),
+                );
             }
             Action::Instruct(instruction) => self.instruct(skipped, instruction),
         }

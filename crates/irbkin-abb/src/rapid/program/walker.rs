@@ -233,7 +233,6 @@ impl<'p, 'm> Walk<'p, 'm> {
     /// Forget the data that a block assigns.
     pub(super) fn forget(&mut self, block: &Block<'m>) {
         self.spend(size(block));
-        self.state.asked = Rc::default();
         if self.steps_left == 0 {
             self.state.forget_globals(None);
             return self.state.forget_locals(|_, _| true);

@@ -35,12 +35,14 @@ fn each_value_of_a_datum_is_checked_and_a_finding_names_it() {
     assert_eq!(code, Code::OutOfReach);
     assert!(message.ends_with("(if o is w2; 1 of 2 cases)"), "{message}");
     // Of an offset in a called routine, too.
-    let go = "go o; ENDPROC PROC go(PERS wobjdata own) MoveJ Offs(a,0,0,10),v100,fine,t\\WObj:=own;";
+    let go =
+        "go o; ENDPROC PROC go(PERS wobjdata own) MoveJ Offs(a,0,0,10),v100,fine,t\\WObj:=own;";
     assert!(only(&format!("{branch}{go}")).1.ends_with("(if o is w2; 1 of 2 cases)"));
     // What is unchanged in one part is a value as well.
     let (_, message) = only("x:=a; IF g=1 x:=out; MoveJ x,v100,fine,t;");
     assert!(message.ends_with("(if x is out; 1 of 2 cases)"), "{message}");
-    let (_, message) = only("x:=a; TEST g CASE 1: x:=b; CASE 2: x:=out; ENDTEST MoveJ x,v100,fine,t;");
+    let (_, message) =
+        only("x:=a; TEST g CASE 1: x:=b; CASE 2: x:=out; ENDTEST MoveJ x,v100,fine,t;");
     assert!(message.ends_with("(if x is out; 1 of 3 cases)"), "{message}");
 }
 
@@ -54,10 +56,21 @@ fn values_of_one_branch_go_together() {
     let then = "IF g=1 THEN x:=a; ELSE x:=a2; ENDIF MoveJ x,v100,fine,t\\WObj:=o;";
     assert_eq!(outcome(&format!("{again}{then}")).0, []);
     assert_eq!(only(&format!("{again} g:=g+1; {then}")).0, Code::OutOfReach);
-    let inside = "IF g=1 THEN MoveJ a,v100,fine,t\\WObj:=o; ELSE MoveJ a2,v100,fine,t\\WObj:=o; ENDIF";
+    let inside =
+        "IF g=1 THEN MoveJ a,v100,fine,t\\WObj:=o; ELSE MoveJ a2,v100,fine,t\\WObj:=o; ENDIF";
     assert_eq!(outcome(&format!("{again}{inside}")), (Vec::new(), 2, 2));
+    // A condition with the variable of a loop is asked anew in each pass.
+    let branch = "IF i=1 AND g=1 THEN x:=a2; o:=w2; ELSE x:=a; o:=w1; ENDIF ";
+    let again = "IF i=1 AND g=1 THEN o:=w2; ELSE o:=w1; ENDIF MoveJ x,v100,fine,t\\WObj:=o; ";
+    let inside = format!("VAR num g; g:=gi1; FOR i FROM 1 TO 2 DO {branch} {again} ENDFOR");
+    assert_eq!(outcome(&inside), (Vec::new(), 1, 1));
+    let across = format!("VAR num g; g:=gi1; FOR i FROM 1 TO 2 DO {again} {branch} ENDFOR");
+    assert_eq!(outcome(&format!("x:=a; {across}")).0[0].0, Code::OutOfReach);
     // A signal may change between.
-    assert_eq!(only(&format!("{} {then}", again.replace("VAR num g; g:=gi1;", ""))).0, Code::OutOfReach);
+    assert_eq!(
+        only(&format!("{} {then}", again.replace("VAR num g; g:=gi1;", ""))).0,
+        Code::OutOfReach
+    );
 }
 
 #[test]
