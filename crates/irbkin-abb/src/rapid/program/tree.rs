@@ -229,7 +229,10 @@ fn mentions(block: &Block<'_>, word: &str) -> bool {
         }
         Node::Setting(_) => false,
         Node::Other(skipped, _) => has(&skipped.text),
-        Node::Branches { parts, .. } => parts.iter().any(|part| mentions(&part.block, word)),
+        Node::Branches { head, parts, .. } => {
+            let has_part = |part: &Part<'_>| has(&part.head.text) || mentions(&part.block, word);
+            has(&head.text) || parts.iter().any(has_part)
+        }
         Node::Loop { head, body, .. } => has(&head.text) || mentions(body, word),
     })
 }
