@@ -100,6 +100,11 @@ impl<'m> Condition<'m> {
         Self::read(head).ok().flatten().unwrap_or(Self::Other)
     }
 
+    /// Whether a variable, in lower case, decides on it.
+    pub(super) fn depends_on(&self, lower: &str) -> bool {
+        matches!(self, Self::Compared { numbers, .. } if depends_on(numbers, lower))
+    }
+
     fn read(text: &'m str) -> Result<Option<Self>, RapidFault> {
         let mut tokens = Tokens::new(text)?;
         if tokens.take_word("ELSE")? || tokens.take_word("DEFAULT")? {
@@ -136,6 +141,16 @@ impl<'m> Condition<'m> {
         let is_alone = tokens.peek().kind == TokenKind::End || tokens.take_word("THEN")?;
         Ok((is_alone || tokens.take_word("DO")?).then_some(condition))
     }
+}
+
+/// Whether numbers depend on a name, in lower case, and on nothing else.
+pub(super) fn depends_on<'e>(
+    numbers: impl IntoIterator<Item = &'e Expression<'e>>,
+    lower: &str,
+) -> bool {
+    let mut names = Vec::new();
+    numbers.into_iter().for_each(|number| number.collect_names(&mut names));
+    !names.is_empty() && names.iter().all(|name| name.to_lowercase() == lower)
 }
 
 /// The relation at the next token, if there is one.

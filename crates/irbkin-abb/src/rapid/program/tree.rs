@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::mem;
 
-use super::statement::{Action, Condition, Counter, tested};
+use super::statement::{Action, Condition, Counter, depends_on, tested};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
 use crate::rapid::data::settings::Setting;
@@ -229,9 +229,10 @@ fn mentions(block: &Block<'_>, word: &str) -> bool {
         }
         Node::Setting(_) => false,
         Node::Other(skipped, _) => has(&skipped.text),
-        Node::Branches { head, parts, .. } => {
-            let has_part = |part: &Part<'_>| has(&part.head.text) || mentions(&part.block, word);
-            has(&head.text) || parts.iter().any(has_part)
+        Node::Branches { tested, parts, .. } => {
+            tested.as_ref().is_some_and(|tested| depends_on([tested], word))
+                || parts.iter().any(|part| part.condition.depends_on(word))
+                || parts.iter().any(|part| mentions(&part.block, word))
         }
         Node::Loop { head, body, .. } => has(&head.text) || mentions(body, word),
     })

@@ -60,11 +60,12 @@ fn values_of_one_branch_go_together() {
         "IF g=1 THEN MoveJ a,v100,fine,t\\WObj:=o; ELSE MoveJ a2,v100,fine,t\\WObj:=o; ENDIF";
     assert_eq!(outcome(&format!("{again}{inside}")), (Vec::new(), 2, 2));
     // A condition with the variable of a loop is asked anew in each pass.
-    let branch = "IF i=1 AND g=1 THEN x:=a2; o:=w2; ELSE x:=a; o:=w1; ENDIF ";
-    let again = "IF i=1 AND g=1 THEN o:=w2; ELSE o:=w1; ENDIF MoveJ x,v100,fine,t\\WObj:=o; ";
-    let inside = format!("VAR num g; g:=gi1; FOR i FROM 1 TO 2 DO {branch} {again} ENDFOR");
+    let set = "IF i=1 AND g=1 THEN x:=a2; o:=w2; ELSE x:=a; o:=w1; ENDIF ";
+    let use_it =
+        "IF i=1 AND g=1 THEN o:=w2; ELSE o:=w1; ENDIF MoveJ Offs(x,0,0,i),v100,fine,t\\WObj:=o; ";
+    let inside = format!("VAR num g; g:=gi1; FOR i FROM 1 TO 2 DO {set} {use_it} ENDFOR");
     assert_eq!(outcome(&inside), (Vec::new(), 1, 1));
-    let across = format!("VAR num g; g:=gi1; FOR i FROM 1 TO 2 DO {again} {branch} ENDFOR");
+    let across = format!("VAR num g; g:=gi1; FOR i FROM 1 TO 2 DO {use_it} {set} ENDFOR");
     assert_eq!(outcome(&format!("x:=a; {across}")).0[0].0, Code::OutOfReach);
     // A signal may change between.
     assert_eq!(
