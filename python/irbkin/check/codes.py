@@ -40,6 +40,7 @@ REASONS = {
     "R106": "absent axes",
     "C205": "old confdata",
     "D701": "invalid frames",
+    "D704": "indices outside arrays",
 }
 """Why a move is not checked, by the code of the finding on it."""
 LEVELS = ("error", "warning", "note")

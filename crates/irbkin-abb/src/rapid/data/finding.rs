@@ -23,7 +23,7 @@ macro_rules! codes {
 
         impl Code {
             /// Every code.
-            pub const ALL: [Self; 37] = [$(Self::$Code),*];
+            pub const ALL: [Self; 38] = [$(Self::$Code),*];
 
             /// The code: a letter for its group and three digits.
             #[must_use]
@@ -106,6 +106,8 @@ codes! {
     InvalidNumber "D702" "invalid-number";
     /// An external axis is in one of two targets that follow one another.
     ExternalAxes "D703" "external-axes";
+    /// The index of an array is none of its elements.
+    NoSuchElement "D704" "no-such-element";
     /// A value is not in the text.
     UnknownValue "U801" "unknown-value";
     /// An instruction that moves the robot is not followed.
@@ -275,6 +277,7 @@ impl Finding {
                 Self { unknown: Some(name.clone()), ..Self::new(code, words) }
                     .caused_by(name.to_lowercase())
             }
+            Reason::NoSuchElement { .. } => Self::new(Code::NoSuchElement, words),
             _ => Self::new(Code::UnknownValue, words),
         }
     }

@@ -37,6 +37,9 @@ pub enum Reason {
     NoAggregate,
     #[error("refers to {name}, {why}")]
     Reference { name: String, why: Unresolved },
+    /// An index that the program calculates.
+    #[error("{fault}")]
+    NoSuchElement { fault: String },
     /// Of a module that is read in spite of its faults.
     #[error("{fault}")]
     Invalid { fault: String },

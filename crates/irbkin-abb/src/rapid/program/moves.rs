@@ -97,7 +97,9 @@ impl Scope<'_, '_> {
                         ..
                     })
                 );
-                let is_better = is_parameter(&argument.value) || is_assigned && !is_named;
+                let is_better = is_parameter(&argument.value)
+                    || is_assigned && !is_named
+                    || matches!(reason, Reason::NoSuchElement { .. });
                 if argument.value.is_ok() || is_better {
                     argument.value = Err(frame.named(reason));
                 }

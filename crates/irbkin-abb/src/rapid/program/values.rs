@@ -3,7 +3,7 @@
 use alloc::collections::BTreeMap;
 use alloc::format;
 use alloc::rc::Rc;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use core::cell::{Cell, RefCell};
 use core::ops::Range;
 
@@ -21,6 +21,7 @@ use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::names::{At, By, Cause, Lookup, Names, lower, predefined};
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Call, Expression, Form};
+use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::Place;
 use crate::rapid::text::tokens::Tokens;
 
@@ -313,6 +314,9 @@ fn place_of(
 fn known<T>(value: Result<T, Stop>) -> Result<T, Reason> {
     value.map_err(|stop| match stop {
         Stop::Unknown(reason) => reason,
+        Stop::Fault(RapidFault { kind: kind @ RapidFaultKind::Index { .. }, .. }) => {
+            Reason::NoSuchElement { fault: kind.to_string() }
+        }
         Stop::Fault(_) => Reason::NoAggregate,
     })
 }

@@ -86,6 +86,10 @@ fn an_index_that_is_not_known_is_each_one() {
     );
     let both = "VAR num n; n:=giPart; IF n<3 THEN x:=c{n}; ELSE x:=a; ENDIF MoveJ x,v100,fine,t;";
     assert_eq!(only(both).0, Code::OutOfReach);
+    // One that is known must be one of them.
+    let loop_from = |from| format!("FOR i FROM {from} TO 2 DO MoveJ c{{i}},v100,fine,t; ENDFOR");
+    assert_eq!(codes(&loop_from(1)), []);
+    assert_eq!(codes(&loop_from(0)), [Code::NoSuchElement]);
     assert_eq!(outcome("FOR i FROM 1 TO n DO MoveJ c{i},v100,fine,t; ENDFOR").1, 0);
 }
 
