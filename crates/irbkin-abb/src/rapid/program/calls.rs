@@ -204,7 +204,7 @@ impl<'m> Walk<'_, 'm> {
 
     /// Give a datum or a local another content, or none that is known.
     pub(super) fn put(&mut self, lower: &str, content: Option<Known>) {
-        self.state.ask_anew(lower);
+        self.state.asked.forget_word(lower);
         if self.state.locals.contains_key(lower) {
             if self.state.locals.len() <= MOST_KNOWN
                 && let Some(local) = Rc::make_mut(&mut self.state.locals).get_mut(lower)

@@ -40,6 +40,50 @@ impl Case {
     }
 }
 
+/// Most open questions that are kept.
+const MOST_QUESTIONS: usize = 32;
+
+/// Open questions that have the same answer when they are asked again: with the words in lower case
+/// that they depend on, and their numbers.
+#[derive(Clone, Default, PartialEq)]
+pub(super) struct Questions(Rc<Vec<(String, Vec<String>, usize)>>);
+
+impl Questions {
+    /// The number of a question by its text.
+    pub(super) fn number(&self, text: &str) -> Option<usize> {
+        self.0.iter().find(|(own, ..)| own == text).map(|(.., number)| *number)
+    }
+
+    pub(super) fn add(&mut self, text: String, words: Vec<String>, number: usize) {
+        let own = Rc::make_mut(&mut self.0);
+        if own.len() == MOST_QUESTIONS {
+            own.remove(0);
+        }
+        own.push((text, words, number));
+    }
+
+    /// Keep those that are in another state, too.
+    pub(super) fn keep_shared(&mut self, other: &Self) {
+        if !Rc::ptr_eq(&self.0, &other.0) {
+            Rc::make_mut(&mut self.0).retain(|own| other.0.contains(own));
+        }
+    }
+
+    /// Forget those that depend on a word in lower case.
+    pub(super) fn forget_word(&mut self, lower: &str) {
+        let has_word = |words: &[String]| words.iter().any(|word| word == lower);
+        if self.0.iter().any(|(_, words, _)| has_word(words)) {
+            Rc::make_mut(&mut self.0).retain(|(_, words, _)| !has_word(words));
+        }
+    }
+
+    pub(super) fn forget_number(&mut self, number: usize) {
+        if self.0.iter().any(|(.., own)| *own == number) {
+            Rc::make_mut(&mut self.0).retain(|(.., own)| *own != number);
+        }
+    }
+}
+
 /// A content, the case in which it is the datum's, and this in words.
 #[derive(Clone, Debug, PartialEq)]
 struct Candidate {

@@ -37,7 +37,7 @@ impl<'m> Walk<'_, 'm> {
             for value in passes {
                 self.passes.truncate(depth);
                 self.passes.push(format!("{name} = {value}"));
-                self.state.ask_anew(name);
+                self.state.asked.forget_word(name);
                 let local = Local::single(Value::Num(value));
                 Rc::make_mut(&mut self.state.locals).insert(name.clone(), local);
                 self.block(body);

@@ -7,7 +7,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::cell::Cell;
 
-use super::cases::{Case, Known};
+use super::cases::{Case, Known, Questions};
 use super::index::DatumId;
 use super::whole::Program;
 use crate::rapid::data::module::Content;
@@ -79,8 +79,7 @@ pub(super) struct State {
     /// Assigned data of which something is known here; all others are unknown.
     globals: Rc<BTreeMap<DatumId, Known>>,
     pub(super) locals: Rc<Locals>,
-    /// The numbers of open questions that have the same answer when they are asked again.
-    pub(super) asked: Rc<BTreeMap<String, usize>>,
+    pub(super) asked: Questions,
 }
 
 impl State {
@@ -93,7 +92,7 @@ impl State {
             offsets: Ok([0.0; 6]),
             globals: Rc::default(),
             locals: Rc::default(),
-            asked: Rc::default(),
+            asked: Questions::default(),
         }
     }
 
@@ -131,7 +130,7 @@ impl State {
 
     /// Forget assigned data; all of them without a set.
     pub(super) fn forget_globals(&mut self, assigned: Option<&BTreeSet<DatumId>>) {
-        self.asked = Rc::default();
+        self.asked = Questions::default();
         match assigned {
             None => self.globals = Rc::default(),
             Some(assigned) if self.globals.keys().any(|datum| assigned.contains(datum)) => {
@@ -154,19 +153,6 @@ impl State {
                 }
             }
         }
-    }
-
-    /// Ask questions anew whose texts have a word.
-    pub(super) fn ask_anew(&mut self, lower: &str) {
-        let is_word = |text: &String| words_of(text).any(|word| word == lower);
-        if self.asked.keys().any(is_word) {
-            Rc::make_mut(&mut self.asked).retain(|text, _| !is_word(text));
-        }
-    }
-
-    /// Ask a question anew.
-    pub(super) fn forget_question(&mut self, question: usize) {
-        Rc::make_mut(&mut self.asked).retain(|_, own| *own != question);
     }
 
     /// Keep what may be so in a case.
@@ -206,9 +192,7 @@ impl State {
             if end.offsets != all.offsets {
                 all.offsets = Err(line);
             }
-            if !Rc::ptr_eq(&all.asked, &end.asked) {
-                Rc::make_mut(&mut all.asked).retain(|text, own| end.asked.get(text) == Some(own));
-            }
+            all.asked.keep_shared(&end.asked);
         }
         let depends = Cell::new(false);
         let behind = |parts: Vec<Option<&Known>>, name: &str| {

@@ -1,13 +1,11 @@
 //! Values at a place of a program: names looked up, arguments evaluated, assignments made.
 
-use alloc::collections::BTreeMap;
 use alloc::format;
-use alloc::rc::Rc;
-use alloc::string::{String, ToString};
+use alloc::string::ToString;
 use core::cell::{Cell, RefCell};
 use core::ops::Range;
 
-use super::cases::{Choices, MOST_CASES};
+use super::cases::{Choices, MOST_CASES, Questions};
 use super::frame::Frame;
 use super::index::DatumId;
 use super::state::{State, words_of};
@@ -36,7 +34,7 @@ pub(super) struct Scope<'s, 'm> {
     /// What is taken of several values.
     pub(super) choices: Choices,
     /// The open questions of the state, and those of this scope.
-    pub(super) asked: RefCell<Rc<BTreeMap<String, usize>>>,
+    pub(super) asked: RefCell<Questions>,
 }
 
 /// Words of conditions beside names and numbers.
@@ -112,12 +110,13 @@ impl<'s> Scope<'s, '_> {
     /// The number of the question what a text is here.
     pub(super) fn question(&self, text: &str) -> usize {
         let key = self.frame.question(text);
-        if let Some(number) = self.asked.borrow().get(&key) {
-            return *number;
+        if let Some(number) = self.asked.borrow().number(&key) {
+            return number;
         }
         let number = self.walk.question();
         if words_of(text).all(|word| self.is_steady(word)) {
-            Rc::make_mut(&mut self.asked.borrow_mut()).insert(key, number);
+            let words = words_of(text).map(str::to_lowercase).collect();
+            self.asked.borrow_mut().add(key, words, number);
         }
         number
     }

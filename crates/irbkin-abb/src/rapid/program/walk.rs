@@ -166,7 +166,7 @@ impl<'m> Walk<'_, 'm> {
             ends.push((parts.len(), entry.clone()));
         }
         if !self.join(entry, ends, (question, head.line)) && is_new {
-            self.state.forget_question(question);
+            self.state.asked.forget_number(question);
         }
     }
 
