@@ -213,7 +213,7 @@ impl Evaluator<'_, '_> {
         let function = match self.function(call.name) {
             Ok(function) => function,
             Err(reason) => {
-                let value = self.names.returned(self.text, call).ok_or(reason)?;
+                let value = self.names.returned(self.text, expression).ok_or(reason)?;
                 return self.fill_value(expression, &value, &call.components, place, atoms);
             }
         };

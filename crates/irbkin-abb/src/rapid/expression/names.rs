@@ -7,7 +7,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::tree::Call;
+use super::tree::Expression;
 use crate::rapid::data::module::Content;
 use crate::rapid::data::records::{LoadData, SpeedData, ToolData, WobjData, ZoneData};
 use crate::rapid::data::unread::{AssignedBy, Unresolved};
@@ -25,8 +25,8 @@ pub(crate) trait Names {
         None
     }
 
-    /// What a function of the program returns, as it is called in a text.
-    fn returned(&self, _text: &str, _call: &Call<'_>) -> Option<Value> {
+    /// What a function of the program returns, as it is called by an expression of a text.
+    fn returned(&self, _text: &str, _call: &Expression<'_>) -> Option<Value> {
         None
     }
 

@@ -1,42 +1,51 @@
 //! Data that have one of several known values: in each case one, by the answers to questions that
 //! the text leaves open, such as which part of a branch is executed.
 
-use alloc::collections::BTreeMap;
 use alloc::rc::Rc;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::cell::{Cell, RefCell};
+
+use arrayvec::ArrayVec;
 
 use crate::rapid::data::module::Content;
 
 /// Most values of a datum that are followed, and most cases of a statement.
 pub(super) const MOST_CASES: usize = 64;
 
-/// The answers under which something holds, by the numbers of the questions.
+/// Most questions that a value depends on.
+const MOST_ANSWERS: usize = 6;
+
+/// The answers under which something holds, by the numbers of the questions in rising order.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Case(BTreeMap<usize, usize>);
+pub(super) struct Case(ArrayVec<(usize, usize), MOST_ANSWERS>);
 
 impl Case {
     pub(super) fn of(question: usize, answer: usize) -> Self {
-        Self(BTreeMap::from([(question, answer)]))
+        Self(ArrayVec::from_iter([(question, answer)]))
     }
 
-    /// Both cases; `None` if they exclude each other.
-    pub(super) fn with(&self, other: &Self) -> Option<Self> {
+    fn answer(&self, question: usize) -> Option<usize> {
+        self.0.iter().find(|(own, _)| *own == question).map(|(_, answer)| *answer)
+    }
+
+    /// Both cases, which do not exclude each other; `None` if these are too many answers.
+    fn with(&self, other: &Self) -> Option<Self> {
         let mut both = self.clone();
         for (question, answer) in &other.0 {
-            if both.0.insert(*question, *answer).is_some_and(|own| own != *answer) {
-                return None;
+            let place = both.0.partition_point(|(own, _)| own < question);
+            if both.0.get(place).is_none_or(|(own, _)| own != question) {
+                both.0.try_insert(place, (*question, *answer)).ok()?;
             }
         }
         Some(both)
     }
 
     fn excludes(&self, other: &Self) -> bool {
-        other
-            .0
-            .iter()
-            .any(|(question, answer)| self.0.get(question).is_some_and(|own| own != answer))
+        let is_other = |(question, answer): &(usize, usize)| {
+            self.answer(*question).is_some_and(|own| own != *answer)
+        };
+        !self.0.is_empty() && other.0.iter().any(is_other)
     }
 }
 
@@ -152,8 +161,9 @@ impl Known {
     ) -> Option<Self> {
         let mut all = Vec::new();
         for (answer, part) in parts {
-            for candidate in &*part.0 {
-                let Some(case) = candidate.case.with(&Case::of(question, answer)) else { continue };
+            let answer = Case::of(question, answer);
+            for candidate in part.0.iter().filter(|it| !it.case.excludes(&answer)) {
+                let case = candidate.case.with(&answer)?;
                 let mut own = Candidate { case, ..candidate.clone() };
                 if own.words.is_empty() {
                     own.words = unchanged().into();
@@ -226,14 +236,15 @@ impl Choices {
         count: usize,
         words: impl Fn(usize) -> String,
     ) -> Option<usize> {
-        if let Some(known) = self.case.borrow().0.get(&question) {
-            return Some(*known);
+        if let Some(known) = self.case.borrow().answer(question) {
+            return Some(known);
         }
         if self.is_off || count == 0 {
             return None;
         }
         let answer = self.choose(count);
-        self.case.borrow_mut().0.insert(question, answer);
+        let case = self.case.borrow().with(&Case::of(question, answer))?;
+        *self.case.borrow_mut() = case;
         self.words.borrow_mut().push(words(answer).into());
         Some(answer)
     }

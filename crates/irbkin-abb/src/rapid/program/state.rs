@@ -169,17 +169,17 @@ impl State {
     }
 
     /// The knowledge behind parts that begin with `entry` and end with `ends`, of which one is
-    /// executed, each with the answer to a question; `line` is theirs. Whether something that is known
-    /// depends on the answer.
+    /// executed, each with the answer to a question; `line` is theirs. And the number of values that
+    /// depend on the answer.
     pub(super) fn joined(
         program: &Program<'_>,
         entry: Self,
         mut ends: Vec<(usize, Self)>,
         (question, line): (usize, usize),
-    ) -> (Self, bool) {
+    ) -> (Self, usize) {
         ends.retain(|(_, end)| end.here != Here::Left);
         let Some((_, mut all)) = ends.first().cloned() else {
-            return (Self { here: Here::Left, ..entry }, false);
+            return (Self { here: Here::Left, ..entry }, 0);
         };
         for (_, end) in &ends[1..] {
             if end.here != all.here {
@@ -194,15 +194,17 @@ impl State {
             }
             all.asked.keep_shared(&end.asked);
         }
-        let depends = Cell::new(false);
+        let depending = Cell::new(0);
         let behind = |parts: Vec<Option<&Known>>, name: &str| {
             let parts: Vec<&Known> = parts.into_iter().collect::<Option<_>>()?;
             if parts.iter().all(|part| *part == parts[0]) {
                 return Some(parts[0].clone());
             }
-            depends.set(true);
             let parts = ends.iter().map(|(answer, _)| *answer).zip(parts);
-            Known::joined(question, parts, || format!("{name} is unchanged on line {line}"))
+            let unchanged = || format!("{name} is unchanged on line {line}");
+            let known = Known::joined(question, parts, unchanged)?;
+            depending.update(|count| count + known.size());
+            Some(known)
         };
         if ends.iter().any(|(_, end)| !Rc::ptr_eq(&all.globals, &end.globals)) {
             let of = |datum: &DatumId| {
@@ -219,7 +221,7 @@ impl State {
                 local.content = behind(parts, name).ok_or(Unresolved::ValueNotKnown);
             }
         }
-        (all, depends.get())
+        (all, depending.get())
     }
 }
 

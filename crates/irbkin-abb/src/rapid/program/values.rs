@@ -1,11 +1,12 @@
 //! Values at a place of a program: names looked up, arguments evaluated, assignments made.
 
+use alloc::collections::BTreeMap;
 use alloc::format;
-use alloc::string::ToString;
+use alloc::string::{String, ToString};
 use core::cell::{Cell, RefCell};
 use core::ops::Range;
 
-use super::cases::{Choices, MOST_CASES, Questions};
+use super::cases::{Choices, Known, MOST_CASES, Questions};
 use super::frame::Frame;
 use super::index::DatumId;
 use super::state::{State, words_of};
@@ -18,7 +19,7 @@ use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
 use crate::rapid::expression::names::{At, By, Cause, Lookup, Names, lower, predefined};
 use crate::rapid::expression::reader::ExpressionReader;
-use crate::rapid::expression::tree::{Call, Expression, Form};
+use crate::rapid::expression::tree::{Expression, Form};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
 use crate::rapid::text::place::Place;
 use crate::rapid::text::tokens::Tokens;
@@ -33,6 +34,8 @@ pub(super) struct Scope<'s, 'm> {
     pub(super) has_taken: Cell<bool>,
     /// What is taken of several values.
     pub(super) choices: Choices,
+    /// What calls of functions return, by their texts.
+    pub(super) returned: RefCell<BTreeMap<String, Option<Known>>>,
     /// The open questions of the state, and those of this scope.
     pub(super) asked: RefCell<Questions>,
 }
@@ -86,9 +89,16 @@ impl Names for Scope<'_, '_> {
         assigned.meets(datum.data_type, &atoms).then_some(cause)
     }
 
-    fn returned(&self, text: &str, call: &Call<'_>) -> Option<Value> {
-        let known = self.walk.returned(text, call)?;
-        match self.choices.content(&known)? {
+    fn returned(&self, text: &str, expression: &Expression<'_>) -> Option<Value> {
+        let Form::Call(call) = &expression.form else { return None };
+        let own = text.get(expression.start..expression.end)?;
+        let before = self.returned.borrow().get(own).cloned();
+        let known = before.unwrap_or_else(|| {
+            let known = self.walk.returned(text, call);
+            self.returned.borrow_mut().insert(own.to_string(), known.clone());
+            known
+        });
+        match self.choices.content(&known?)? {
             Content::Single(value) => Some(value.clone()),
             _ => None,
         }

@@ -32,6 +32,9 @@ const MOVES: usize = 40;
 const WAY: usize = 5_000;
 const SPARE: usize = 10_000;
 
+/// Copies of what is known of a datum that take as long as a statement.
+const COPIED: usize = 8;
+
 /// A step of a program.
 pub(in crate::rapid) enum Step<'m> {
     /// A move.
@@ -204,10 +207,11 @@ impl<'p, 'm> Walk<'p, 'm> {
         ends: Vec<(usize, State)>,
         (question, line): (usize, usize),
     ) -> bool {
-        self.spend(ends.iter().map(|(_, end)| end.copied(&entry)).sum());
-        let depends;
-        (self.state, depends) = State::joined(self.program, entry, ends, (question, line));
-        depends
+        self.spend(ends.iter().map(|(_, end)| end.copied(&entry) / COPIED).sum());
+        let depending;
+        (self.state, depending) = State::joined(self.program, entry, ends, (question, line));
+        self.spend(depending);
+        depending > 0
     }
 
     /// The number of the question what a text is here, and whether it is a new one.
@@ -252,6 +256,7 @@ impl<'p, 'm> Walk<'p, 'm> {
             frame: &self.frame,
             has_taken: Cell::new(false),
             choices,
+            returned: RefCell::default(),
             asked: RefCell::new(self.state.asked.clone()),
         }
     }
