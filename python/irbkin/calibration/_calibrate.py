@@ -1,6 +1,6 @@
 """`irbkin.calibrate`."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -132,11 +132,10 @@ def _check_fit(
 
 def _everywhere(problem: _fit.Problem, corrections: Floats) -> Floats:
     """Weighted Jacobian at joint vectors all over the joint space."""
-    limits = np.clip(problem.robot.limits, -np.pi, np.pi)
-    q = np.random.default_rng(0).uniform(
-        limits[:, 0], limits[:, 1], (EVERYWHERE, problem.robot.dof)
-    )
-    jacobian = problem.robot._parameter_jacobian(q, corrections)
+    robot = problem.robot
+    lower, upper = np.clip(robot.limits, -np.pi, np.pi).T
+    q = np.random.default_rng(0).uniform(lower, upper, (EVERYWHERE, robot.dof))
+    jacobian = robot._parameter_jacobian(q, corrections)
     weights = np.r_[np.full(3, 1 / problem.position_std), np.full(3, 1 / problem.rotation_std)]
     rows = (jacobian * weights[:, None])[:, : problem.measurements.numbers]
     flat: Floats = rows.reshape(-1, jacobian.shape[-1])
@@ -227,11 +226,24 @@ def _calibration(
     found = robot.with_corrections(corrections)
     after, distance, angle = _residuals(found, measurements)
     jacobian, moved = problem.jacobian(corrections), _everywhere(problem, corrections)
+    left_out = sorted({index for tier in tiers for index in tier} - set(kept))
     return Calibration(
         robot=found,
         nominal=robot,
-        parameters=_fitted(names, nominal, corrections, dict(zip(kept, errors, strict=True))),
-        left_out=_left_out(jacobian, moved, tiers, kept, names),
+        parameters=tuple(
+            CalibratedParameter(
+                names[index],
+                _parameters.unit(names[index]),
+                float(nominal[index]),
+                float(nominal[index] + corrections[index]),
+                float(error),
+            )
+            for index, error in zip(kept, errors, strict=True)
+        ),
+        left_out=tuple(
+            LeftOutParameter(names[index], _identify.reason(jacobian, moved, kept, index, names))
+            for index in left_out
+        ),
         residuals=CalibrationResiduals(
             _residuals(robot, measurements)[0],
             _residuals(robot.with_corrections(start), measurements)[0],
@@ -243,37 +255,6 @@ def _calibration(
         condition=_identify.condition(jacobian[:, kept]),
         q=measurements.q,
         measured=measurements.position,
-    )
-
-
-def _fitted(
-    names: Sequence[str], nominal: Floats, corrections: Floats, errors: Mapping[int, float]
-) -> tuple[CalibratedParameter, ...]:
-    """The parameters that have standard errors."""
-    return tuple(
-        CalibratedParameter(
-            names[index],
-            _parameters.unit(names[index]),
-            float(nominal[index]),
-            float(nominal[index] + corrections[index]),
-            float(error),
-        )
-        for index, error in errors.items()
-    )
-
-
-def _left_out(
-    jacobian: Floats,
-    moved: Floats,
-    tiers: Sequence[Sequence[int]],
-    kept: Sequence[int],
-    names: Sequence[str],
-) -> tuple[LeftOutParameter, ...]:
-    """The parameters of the tiers that are not kept, with the reason."""
-    indices = sorted({index for tier in tiers for index in tier} - set(kept))
-    return tuple(
-        LeftOutParameter(names[index], _identify.reason(jacobian, moved, kept, index, names))
-        for index in indices
     )
 
 

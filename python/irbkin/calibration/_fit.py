@@ -45,15 +45,12 @@ class Problem:
     def jacobian(self, corrections: Floats) -> Floats:
         """Derivatives of the residuals, shape (k, p) (eq. 16)."""
         jacobian = self.robot._parameter_jacobian(self.measurements.q, corrections)
-        if self.measurements.rotation is None:
-            return _flat(jacobian[:, :3] / self.position_std)
-        _, rotation = self.errors(corrections)
-        angular = _inverse_left_jacobian(rotation) @ jacobian[:, 3:]
-        return _flat(
-            np.concatenate(
-                [jacobian[:, :3] / self.position_std, angular / self.rotation_std], axis=1
-            )
-        )
+        rows = jacobian[:, :3] / self.position_std
+        if self.measurements.rotation is not None:
+            _, rotation = self.errors(corrections)
+            angular = _inverse_left_jacobian(rotation) @ jacobian[:, 3:]
+            rows = np.concatenate([rows, angular / self.rotation_std], axis=1)
+        return rows.reshape(-1, rows.shape[-1])
 
 
 def errors_of(poses: Floats, measurements: Measurements) -> tuple[Floats, Floats]:
@@ -61,14 +58,14 @@ def errors_of(poses: Floats, measurements: Measurements) -> tuple[Floats, Floats
     position = poses[:, :3, 3] - measurements.position
     if measurements.rotation is None:
         return position, np.zeros((len(poses), 0))
+    return position, rotation_vectors(poses[:, :3, :3] @ measurements.rotation.swapaxes(1, 2))
+
+
+def rotation_vectors(rotations: Floats) -> Floats:
+    """Rotation vectors [rad], shape (m, 3)."""
     from scipy.spatial.transform import Rotation  # type: ignore[import-untyped]
 
-    turned = poses[:, :3, :3] @ np.swapaxes(measurements.rotation, 1, 2)
-    return position, np.asarray(Rotation.from_matrix(turned).as_rotvec(), dtype=np.float64)
-
-
-def _flat(jacobian: Floats) -> Floats:
-    return jacobian.reshape(-1, jacobian.shape[-1])
+    return np.asarray(Rotation.from_matrix(rotations).as_rotvec(), dtype=np.float64)
 
 
 def _inverse_left_jacobian(vectors: Floats) -> Floats:
@@ -96,13 +93,8 @@ def fit(problem: Problem, kept: Sequence[int], start: Floats) -> Floats:
     # The scatter of all residuals measures how far is far: twice, for the first fit has outliers.
     found = _solve(replace(problem, loss="linear"), kept, start, 1.0)
     for _ in range(2):
-        found = _solve(problem, kept, found, _outlying(problem, found))
+        found = _solve(problem, kept, found, outlying(problem.residuals(found)))
     return found
-
-
-def _outlying(problem: Problem, corrections: Floats) -> float:
-    """Residual from which on a measurement counts less."""
-    return outlying(problem.residuals(corrections))
 
 
 def _solve(problem: Problem, kept: Sequence[int], start: Floats, far: float) -> Floats:
@@ -140,8 +132,7 @@ def standard_errors(problem: Problem, kept: Sequence[int], corrections: Floats) 
     if problem.loss == "linear":
         influence, slope = residuals, 1.0
     else:
-        far = _outlying(problem, corrections)
-        weight, slopes = _influence(problem.loss, residuals / far)
+        weight, slopes = _influence(problem.loss, residuals / outlying(residuals))
         influence, slope = weight * residuals, float(np.mean(slopes))
     sizes = np.linalg.norm(jacobian, axis=0)
     _, values, axes = np.linalg.svd(jacobian / sizes, full_matrices=False)

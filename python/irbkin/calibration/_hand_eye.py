@@ -9,6 +9,7 @@ import numpy.typing as npt
 from irbkin._arguments import check_extra
 from irbkin._arrays import Floats
 from irbkin.calibration._calibrate import FAR_ANGLE, FAR_LENGTH, FAR_PART
+from irbkin.calibration._fit import rotation_vectors
 from irbkin.calibration._loss import Loss, check_weights, outlying
 from irbkin.calibration._measurements import read_poses
 from irbkin.calibration._start import nearest_rotation, turns
@@ -73,16 +74,14 @@ def hand_eye(
     _check_turns(hands[:, :3, :3], "a")
     _check_turns(eyes[:, :3, :3], "b")
     start = np.eye(4)
-    start[:3, :3] = nearest_rotation(_vectors(hands[:, :3, :3]).T @ _vectors(eyes[:, :3, :3]))
+    start[:3, :3] = nearest_rotation(
+        rotation_vectors(hands[:, :3, :3]).T @ rotation_vectors(eyes[:, :3, :3])
+    )
     matrix = (hands[:, :3, :3] - np.eye(3)).reshape(-1, 3)
     wanted = eyes[:, :3, 3] @ start[:3, :3].T - hands[:, :3, 3]
     start[:3, 3] = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0]
-    (x,) = _refined(
-        lambda frames: (hands @ frames[0], frames[0] @ eyes),
-        [start],
-        (position_std, rotation_std, loss),
-    )
-    return _hand_eye(x, None, hands @ x, x @ eyes)
+    options = (position_std, rotation_std, loss)
+    return _refined(lambda x: (hands @ x, x @ eyes), [start], options)
 
 
 def robot_world(
@@ -126,12 +125,8 @@ def robot_world(
     wanted = seen[:, :3, 3] @ y[:3, :3].T - hands[:, :3, 3]
     found = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0]
     x[:3, 3], y[:3, 3] = found[:3], found[3:]
-    x, y = _refined(
-        lambda frames: (hands @ frames[0], frames[1] @ seen),
-        [x, y],
-        (position_std, rotation_std, loss),
-    )
-    return _hand_eye(x, y, hands @ x, y @ seen)
+    options = (position_std, rotation_std, loss)
+    return _refined(lambda x, y: (hands @ x, y @ seen), [x, y], options)
 
 
 def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floats]:
@@ -146,16 +141,10 @@ def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floa
     return first, second
 
 
-def _vectors(rotations: Floats) -> Floats:
-    """Rotation vectors, shape (m, 3) [rad]."""
-    from scipy.spatial.transform import Rotation  # type: ignore[import-untyped]
-
-    return np.asarray(Rotation.from_matrix(rotations).as_rotvec(), dtype=np.float64)
-
-
 def _check_turns(rotations: Floats, name: str) -> None:
     """Refuse rotations about one axis: they leave a turn and a shift along it undetermined."""
-    second = np.linalg.svd(_vectors(rotations), compute_uv=False)[1] / np.sqrt(len(rotations))
+    turns = np.linalg.svd(rotation_vectors(rotations), compute_uv=False)
+    second = turns[1] / np.sqrt(len(rotations))
     if second < LEAST_TURN:
         raise CalibrationError(
             f"the poses of {name} turn by {second:.2g} rad about a second axis, at least "
@@ -186,23 +175,17 @@ def _check_near(distance: float, angle: float, positions: Floats) -> None:
 def _differences(left: Floats, right: Floats) -> tuple[Floats, Floats]:
     """Vectors [m] and rotation vectors [rad] from the right poses to the left ones."""
     turned = left[:, :3, :3] @ np.swapaxes(right[:, :3, :3], 1, 2)
-    return left[:, :3, 3] - right[:, :3, 3], _vectors(turned)
-
-
-def _hand_eye(x: Floats, y: Floats | None, left: Floats, right: Floats) -> HandEye:
-    shift, turn = (np.linalg.norm(it, axis=1) for it in _differences(left, right))
-    _check_near(float(np.median(shift)), float(np.median(turn)), right[:, :3, 3])
-    return HandEye(x, y, shift, turn, right[:, :3, 3], left[:, :3, 3])
+    return left[:, :3, 3] - right[:, :3, 3], rotation_vectors(turned)
 
 
 def _refined(
-    sides: Callable[[list[Floats]], tuple[Floats, Floats]],
+    sides: Callable[..., tuple[Floats, Floats]],
     start: list[Floats],
     options: tuple[float, float, str],
-) -> list[Floats]:
-    """The frames near `start` for which both sides differ least."""
+) -> HandEye:
+    """The frames near `start`, X and perhaps Y, for which both sides differ least."""
     from scipy.optimize import least_squares  # type: ignore[import-untyped]
-    from scipy.spatial.transform import Rotation
+    from scipy.spatial.transform import Rotation  # type: ignore[import-untyped]
 
     position_std, rotation_std, loss = options
 
@@ -216,7 +199,7 @@ def _refined(
         return moved
 
     def residuals(values: Floats) -> Floats:
-        shift, turn = _differences(*sides(frames(values)))
+        shift, turn = _differences(*sides(*frames(values)))
         return np.concatenate([shift / position_std, turn / rotation_std], axis=1).ravel()
 
     values = np.zeros(6 * len(start))
@@ -225,4 +208,9 @@ def _refined(
         values = least_squares(
             residuals, values, x_scale="jac", loss=loss, f_scale=far, xtol=1e-14, ftol=1e-14
         ).x
-    return frames(values)
+    found = frames(values)
+    left, right = sides(*found)
+    shift, turn = (np.linalg.norm(it, axis=1) for it in _differences(left, right))
+    _check_near(float(np.median(shift)), float(np.median(turn)), right[:, :3, 3])
+    y = found[1] if len(found) > 1 else None
+    return HandEye(found[0], y, shift, turn, right[:, :3, 3], left[:, :3, 3])

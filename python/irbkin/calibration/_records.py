@@ -58,14 +58,11 @@ class Residuals(NamedTuple):
     @classmethod
     def of(cls, position: Floats, rotation: Floats) -> Residuals:
         """Summary of the distances and angles of poses, shapes (m,)."""
-
-        def rms(values: Floats) -> float:
-            return float(np.sqrt(np.mean(np.square(values)))) if len(values) else float("nan")
-
-        def worst(values: Floats) -> float:
-            return float(values.max()) if len(values) else float("nan")
-
-        return cls(rms(position), worst(position), rms(rotation), worst(rotation))
+        figures = []
+        for values in (position, rotation):
+            known = values if len(values) else np.full(1, np.nan)
+            figures += [float(np.sqrt(np.mean(np.square(known)))), float(known.max())]
+        return cls(*figures)
 
 
 class CalibrationResiduals(NamedTuple):

@@ -4,7 +4,6 @@ References: Universal Robots, DH parameters for calculations of kinematics and d
 `ur_calibration` of the Universal Robots ROS driver, whose file has a pose for each joint.
 """
 
-import math
 import os
 import re
 
@@ -44,8 +43,7 @@ def load_ur(robot: Robot, text_or_path: str | os.PathLike[str]) -> Robot:
         )
     text = _text(text_or_path)
     frames = _of_deltas(robot, text) if "delta_theta" in text else _of_poses(text)
-    velocity = robot.max_velocity
-    bare = Robot.from_urdf(_urdf(frames, robot.limits, velocity), name=robot.name)
+    bare = Robot.from_urdf(_urdf(frames, robot), name=robot.name)
     found = bare.with_base(robot.base).with_tool(robot.tool)
     off = np.linalg.norm(found.fk(np.zeros(6))[:3, 3] - robot.fk(np.zeros(6))[:3, 3])
     if off > SAME_ARM * np.abs(robot.mdh[:, 1:3]).sum():
@@ -70,9 +68,7 @@ def _of_deltas(robot: Robot, text: str) -> list[Floats]:
     for (theta, a, d, alpha), delta in zip(_standard(robot), np.transpose(deltas), strict=True):
         theta, a, d, alpha = np.array([theta, a, d, alpha]) + delta
         turn = pose(np.zeros(3), euler_zyx=[theta, 0.0, 0.0])
-        shift = pose(np.zeros(3), euler_zyx=[0.0, 0.0, alpha])
-        shift[:3, 3] = a, 0.0, d
-        frames.append(turn @ shift)
+        frames.append(turn @ pose([a, 0.0, d], euler_zyx=[0.0, 0.0, alpha]))
     return frames
 
 
@@ -110,14 +106,13 @@ def _of_poses(text: str) -> list[Floats]:
             if found is None:
                 raise InvalidModelError(f"{link} of the calibration has no number {field}")
             values.append(float(found[1]))
-        frame = pose(np.zeros(3), euler_zyx=values[:2:-1])
-        frame[:3, 3] = values[:3]
-        frames.append(frame)
+        frames.append(pose(values[:3], euler_zyx=values[:2:-1]))
     return [*frames, np.eye(4)]
 
 
-def _urdf(frames: list[Floats], limits: Floats, velocity: Floats | None) -> str:
+def _urdf(frames: list[Floats], robot: Robot) -> str:
     """The chain as URDF: frames between axes along z, the last one of the tool."""
+    velocity = np.zeros(robot.dof) if robot.max_velocity is None else robot.max_velocity
     lines = ['<robot name="ur"><link name="l0"/>']
     for joint, frame in enumerate(frames, 1):
         xyz, zyx = to_xyz_euler_zyx(frame)
@@ -129,8 +124,8 @@ def _urdf(frames: list[Floats], limits: Floats, velocity: Floats | None) -> str:
             f'rpy="{place[1]}"/><axis xyz="0 0 1"/>'
         )
         if joint <= 6:
-            lower, upper = (math.copysign(min(abs(it), 1e5), it) for it in limits[joint - 1])
-            speed = 0.0 if velocity is None else float(velocity[joint - 1])
+            lower, upper = np.clip(robot.limits[joint - 1], -1e5, 1e5).tolist()
+            speed = float(velocity[joint - 1])
             lines.append(f'<limit lower="{lower!r}" upper="{upper!r}" velocity="{speed!r}"/>')
         lines.append("</joint>")
     return "".join([*lines, "</robot>"])

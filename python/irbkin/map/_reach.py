@@ -89,18 +89,7 @@ def reach(
         FileNotFoundError: The folder of `output` does not exist.
     """
     path = None if output is None else checked_output(output)
-    grid = Grid(
-        robot,
-        x,
-        y,
-        z,
-        orientations,
-        q7=q7,
-        cell=cell,
-        threads=threads,
-        block=block,
-        progress=progress,
-    )
+    grid = Grid(robot, (x, y, z), orientations, q7, cell, threads, block, progress)
     if path is not None:
         _write(grid, path)
         return load(path)

@@ -1,6 +1,6 @@
 """A grid of positions and orientations, solved block by block."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,20 +22,21 @@ class Grid:
     def __init__(
         self,
         robot: Robot,
-        x: npt.ArrayLike,
-        y: npt.ArrayLike,
-        z: npt.ArrayLike,
+        axes: Sequence[npt.ArrayLike],
         orientations: npt.ArrayLike,
-        *,
-        q7: float | None = None,
-        cell: Cell | None = None,
-        threads: int = 1,
-        block: int | None = None,
-        progress: Report | Bar | None = None,
+        q7: float | None,
+        cell: Cell | None,
+        threads: int,
+        block: int | None,
+        progress: Report | Bar | None,
     ) -> None:
         check_robot(robot)
         self.report, self.threads = reporter(progress), threads
-        self.axes = _axis("x", x), _axis("y", y), _axis("z", z)
+        x, y, z = (
+            finite(np.atleast_1d(np.asarray(values)), name, (None,), InvalidPoseError)
+            for name, values in zip("xyz", axes, strict=True)
+        )
+        self.axes = x, y, z
         self.shape = tuple(map(len, self.axes))
         self.orientations = _rotations(robot, orientations, q7)
         self.robot, self.q7 = robot, None if q7 is None else float(q7)
@@ -62,7 +63,6 @@ class Grid:
             self.report(high, self.size)
 
     def solved(self, first: int, last: int) -> npt.NDArray[Any]:
-        """Return the records of a range of positions."""
         count = last - first
         made = np.zeros(count, RECORD)
         reached, solutions, margin, singularities = (made[name] for name in FIELDS)
@@ -92,11 +92,6 @@ class Grid:
         """Positions by their number, x the slowest, shape (last - first, 3)."""
         indices = np.unravel_index(np.arange(first, last), self.shape)
         return np.stack([axis[index] for axis, index in zip(self.axes, indices, strict=True)], -1)
-
-
-def _axis(name: str, values: npt.ArrayLike) -> Floats:
-    """The positions along one axis."""
-    return finite(np.atleast_1d(np.asarray(values)), name, (None,), InvalidPoseError)
 
 
 def _rotations(robot: Robot, given: npt.ArrayLike, q7: float | None) -> Floats:

@@ -40,7 +40,6 @@ class Job(NamedTuple):
 
     @classmethod
     def of(cls, inputs: Sequence[Any], grid: Sequence[Floats]) -> Job:
-        """The job of inputs and a grid."""
         digests = [hashlib.sha256(pickle.dumps(it, protocol=4)).hexdigest() for it in inputs]
         return cls(np.array(digests), *grid)
 
@@ -110,22 +109,16 @@ def records(path: Path, job: Job) -> Iterator[tuple[BinaryIO, int]]:
     beside.unlink(missing_ok=True)
 
 
-@contextlib.contextmanager
-def _named(path: Path) -> Iterator[None]:
-    """Name the file that is no map."""
-    try:
-        yield
-    except (AttributeError, TypeError, ValueError, EOFError, zipfile.BadZipFile) as fault:
-        raise IrbkinError(f"{path} is not a map: {fault}") from fault
-
-
 def _arrays(path: Path, names: Sequence[str]) -> dict[str, npt.NDArray[Any]]:
     """Some arrays of a file, all of which it must have."""
-    with path.open("rb") as file, _named(path):
-        stored = np.load(file)
-        if missing := sorted({*names} - {*stored.files}):
-            raise ValueError(f"it has no {missing[0]}")
-        return {name: stored[name] for name in names}
+    with path.open("rb") as file:
+        try:
+            stored = np.load(file)
+            if missing := sorted({*names} - {*stored.files}):
+                raise ValueError(f"it has no {missing[0]}")
+            return {name: stored[name] for name in names}
+        except (AttributeError, TypeError, ValueError, EOFError, zipfile.BadZipFile) as fault:
+            raise IrbkinError(f"{path} is not a map: {fault}") from fault
 
 
 def checked_output(output: str | PathLike[str]) -> Path:

@@ -29,29 +29,20 @@ NOT_REACHED = -np.inf
 
 
 class Scores(NamedTuple):
-    """The value of bases; the first that differs decides."""
+    """The value of bases."""
 
-    reached: Floats
-    """Number of targets that are reached, shape (k,)."""
-    progress: Floats
-    """Of a path that is reached, how far a plan comes: 1 for a whole one, shape (k,)."""
-    margin: Floats
-    """The smallest margin of the targets that are reached, shape (k,)."""
+    values: Floats
+    """Number of targets that are reached; of a path that is reached, how far a plan comes, 1 for a
+    whole one; smallest margin of the targets that are reached; shape (k, 3). The first that differs
+    decides.
+    """
     anywhere: Flags
     """Which targets some of the bases reaches, shape (m,)."""
 
     def ranked(self) -> npt.NDArray[np.int64]:
         """Indices, the best first; of equal ones, the first first."""
-        order = np.lexsort((-np.arange(len(self.margin)), self.margin, self.progress, self.reached))
-        return order[::-1]
-
-    def of(self, index: int) -> tuple[float, float, float]:
-        """The values of one base, to be compared."""
-        return (
-            float(self.reached[index]),
-            float(self.progress[index]),
-            float(self.margin[index]),
-        )
+        reached, progress, margin = self.values.T
+        return np.lexsort((-np.arange(len(margin)), margin, progress, reached))[::-1]
 
 
 class Scene:
@@ -77,15 +68,18 @@ class Scene:
         self.robot = robot.with_base(np.eye(4))
         self.targets = as_array(T, "T", (None, 4, 4), InvalidPoseError)
         if rotation is not None and not isinstance(rotation, ToolRotation):
-            rotation = (
-                ToolRotation(*rotation) if isinstance(rotation, tuple) else ToolRotation(rotation)
-            )
+            given = rotation if isinstance(rotation, tuple) else (rotation,)
+            rotation = ToolRotation(*given)
         self.rotation = rotation
         self.path, self.cell, self.threads = path, cell, threads
         self._check()
-        self.angles = np.zeros(1) if self.rotation is None else _angles(self.rotation)
-        axis = "z" if self.rotation is None else self.rotation.axis
-        self.turned = self.targets[:, None] @ _turns(axis, self.angles)
+        own = ToolRotation(1, 0.0, 0.0) if rotation is None else rotation
+        is_full = own.upper - own.lower > 2 * np.pi - 1e-9
+        self.angles = np.linspace(own.lower, own.upper, own.steps, endpoint=not is_full)
+        """The angles of the tool [rad], shape (b,)."""
+        turns = np.tile(np.eye(4), (len(self.angles), 1, 1))
+        turns[:, :3, :3] = rotations("xyz".index(own.axis), self.angles)
+        self.turned = self.targets[:, None] @ turns
 
     def _check(self) -> None:
         """Refuse what is not a pose, and what no plan would take.
@@ -104,12 +98,6 @@ class Scene:
         except UnreachableError:
             return
 
-    def slack(self, base: Floats) -> Floats:
-        """The margin of each target from one base with each tool angle, shape (m, b); NaN where it
-        is not reached.
-        """
-        return self.robot.ik_margin(inverse(base) @ self.turned, threads=self.threads).margin
-
     def scores(self, bases: Floats, above: float | None = None) -> Scores:
         """Return the value of bases, shape (k, 4, 4).
 
@@ -117,7 +105,7 @@ class Scene:
         """
         reached, margin = np.zeros(len(bases)), np.full(len(bases), np.inf)
         anywhere = np.zeros(len(self.targets), dtype=bool)
-        views = inverse(bases)
+        views = np.linalg.inv(bases)
         block = max(1, AT_A_TIME // len(self.angles))
         for first in range(0, len(self.targets), block):
             turned = self.turned[first : first + block]
@@ -132,15 +120,16 @@ class Scene:
                 least = np.where(is_reached, best, np.inf).min(axis=1)
                 margin[base : base + at_once] = np.minimum(margin[base : base + at_once], least)
         margin[reached == 0] = NOT_REACHED
-        scores = Scores(reached, np.ones(len(bases)), margin, anywhere)
+        scores = Scores(np.column_stack([reached, np.ones(len(bases)), margin]), anywhere)
         return self._planned(bases, scores, above) if self.path else scores
 
     def _planned(self, bases: Floats, bounds: Scores, above: float | None) -> Scores:
         """Plans from the bases that reach all of a path, by falling bound, and with `above` as long
         as one can be the best.
         """
-        progress, margin = np.zeros(len(bases)), bounds.margin.copy()
-        whole = bounds.reached == len(self.targets)
+        reached, _, most = bounds.values.T
+        progress, margin = np.zeros(len(bases)), most.copy()
+        whole = reached == len(self.targets)
         margin[whole] = NOT_REACHED
         order = [int(index) for index in bounds.ranked() if whole[index]]
         block = PLANS_AT_A_TIME * max(self.threads, 1)
@@ -149,15 +138,16 @@ class Scene:
             now, order = order[:block], order[block:]
             # A plan has angles beside those on the grid: then its margin has no bound.
             is_bounded = above is not None and self.rotation is None
-            if is_bounded and bounds.margin[now[0]] <= best:
+            if is_bounded and most[now[0]] <= best:
                 break
             for index, answer in zip(now, self.plans(bases[now]), strict=True):
                 if isinstance(answer, Plan):
-                    progress[index], margin[index] = 1.0, self.margin_of(answer)
+                    progress[index] = 1.0
+                    margin[index] = np.fmin(*self.robot.margin(answer.q)).min()
                     best = max(best, margin[index])
                 else:
                     progress[index] = answer.index / len(self.targets)
-        return Scores(bounds.reached, progress, margin, bounds.anywhere)
+        return Scores(np.column_stack([reached, progress, margin]), bounds.anywhere)
 
     def plans(self, bases: Floats) -> list[Plan | PathError]:
         """The plan of the path from each base; threads plan without the interpreter's lock."""
@@ -172,28 +162,3 @@ class Scene:
             return robot.plan(self.targets, rotation=self.rotation, cell=self.cell)
         except PathError as error:
             return error
-
-    def margin_of(self, plan: Plan) -> float:
-        return float(np.fmin(*self.robot.margin(plan.q)).min())
-
-
-def inverse(poses: Floats) -> Floats:
-    """The inverse of rigid transforms, shape (..., 4, 4)."""
-    inverted = np.zeros_like(poses)
-    inverted[..., :3, :3] = np.swapaxes(poses[..., :3, :3], -1, -2)
-    inverted[..., :3, 3] = -(inverted[..., :3, :3] @ poses[..., :3, 3:])[..., 0]
-    inverted[..., 3, 3] = 1.0
-    return inverted
-
-
-def _angles(rotation: ToolRotation) -> Floats:
-    """The angles of a rotation [rad], shape (b,)."""
-    is_full = rotation.upper - rotation.lower > 2 * np.pi - 1e-9
-    return np.linspace(rotation.lower, rotation.upper, rotation.steps, endpoint=not is_full)
-
-
-def _turns(axis: str, angles: Floats) -> Floats:
-    """Turns about an axis of the tool, shape (b, 4, 4)."""
-    turns = np.tile(np.eye(4), (len(angles), 1, 1))
-    turns[:, :3, :3] = rotations("xyz".index(axis), angles)
-    return turns

@@ -13,7 +13,7 @@ from irbkin._grids import BaseGrid, Placement, Region
 from irbkin._words import listed
 from irbkin.freedom import ToolRotation
 from irbkin.placement._region import Bases
-from irbkin.placement._scene import NOT_REACHED, PLANS_AT_A_TIME, Flags, Scene, Scores, inverse
+from irbkin.placement._scene import NOT_REACHED, PLANS_AT_A_TIME, Flags, Scene, Scores
 from irbkin.records import Plan, Status
 
 # Bases of the grid around which is searched, how often steps are halved, and how many steps of one
@@ -84,13 +84,11 @@ def best_base(
         ordered.append(scene.scores(bases.poses(values[first : first + size])))
         report(min(first + size, len(values)), total)
     scores = Scores(
-        reached=np.concatenate([part.reached for part in ordered]),
-        progress=np.concatenate([part.progress for part in ordered]),
-        margin=np.concatenate([part.margin for part in ordered]),
-        anywhere=np.any([part.anywhere for part in ordered], axis=0),
+        np.concatenate([part.values for part in ordered]),
+        np.any([part.anywhere for part in ordered], axis=0),
     )
-    ranked = scores.ranked()
-    starts = [Start(values[i], scores.of(i), scores.anywhere) for i in ranked.tolist()[:STARTS]]
+    best_ones = scores.ranked()[:STARTS]
+    starts = [Start(values[i], scores.values[i].tolist(), scores.anywhere) for i in best_ones]
     best = starts[0]
     if refine:
         for number, start in enumerate(starts):
@@ -106,7 +104,8 @@ class Start(NamedTuple):
 
     value: Floats
     """x, y, z [m] and turn [rad]."""
-    score: tuple[float, float, float]
+    score: list[float]
+    """A row of `Scores.values`."""
     anywhere: Flags
     """Which targets some base that was tried reaches."""
 
@@ -124,10 +123,11 @@ def _refined(scene: Scene, bases: Bases, start: Start, watched: tuple[Report, in
             above = score[2] if score[1] == 1.0 else NOT_REACHED
             scores = scene.scores(bases.poses(around), above)
             anywhere = anywhere | scores.anywhere
-            best = int(scores.ranked()[0])
-            if scores.of(best) <= score:
+            best = scores.ranked()[0]
+            found: list[float] = scores.values[best].tolist()
+            if found <= score:
                 break
-            value, score = around[best], scores.of(best)
+            value, score = around[best], found
         step = 0.5 * step
         report(done + halving + 1, total)
     return Start(value, score, anywhere)
@@ -148,19 +148,14 @@ def _answer(scene: Scene, bases: Bases, scores: Scores, found: Start) -> Placeme
         else:
             end = str(answer)
     nowhere = tuple(np.flatnonzero(~anywhere).tolist())
-    whole = (scores.reached == count) & (scores.progress == 1.0)
+    reached, progress, margin = scores.values.T
+    whole = (reached == count) & (progress == 1.0)
     axes = bases.axes()
     shape = tuple(map(len, axes))
+    share = (reached / count).reshape(shape)
+    tightest = np.where(whole, margin, np.nan).reshape(shape)
     x, y, z, turn = axes
-    grid = BaseGrid(
-        x=x,
-        y=y,
-        z=z,
-        turn=turn,
-        reachable=(scores.reached / count).reshape(shape),
-        margin=np.where(whole, scores.margin, np.nan).reshape(shape),
-        frame=bases.start,
-    )
+    grid = BaseGrid(x, y, z, turn, share, tightest, bases.start)
     *xyz, angle = value.tolist()
     place = "({:.3f}, {:.3f}, {:.3f}) m, turned by {:.1f} deg".format(*xyz, np.degrees(angle))
     if is_reached:
@@ -195,12 +190,11 @@ def _joints(scene: Scene, base: Floats) -> tuple[Floats, Floats, Floats]:
     """Joint angles, tool angle and margin of each target from a base; NaN where it is not reached,
     with tool angle 0.
     """
-    by_angle = scene.slack(base)
-    count = len(by_angle)
+    seen = np.linalg.inv(base) @ scene.turned
+    by_angle = scene.robot.ik_margin(seen, threads=scene.threads).margin
     best = np.argmax(np.where(np.isnan(by_angle), NOT_REACHED, by_angle), axis=1)
-    rows = np.arange(count)
-    poses = inverse(base) @ scene.turned[rows, best]
-    solved = scene.robot.ik_batch(poses, threads=scene.threads)
+    rows = np.arange(len(best))
+    solved = scene.robot.ik_batch(seen[rows, best], threads=scene.threads)
     low, high = scene.robot.limits.T
     middle = 0.5 * (low + high)
     turns = np.round((middle - solved.q) / (2 * np.pi))
