@@ -64,9 +64,9 @@ def finite(
 
 
 def rotations(axis: int, angles: Floats) -> Floats:
-    """Rotations about x (0), y (1) or z (2), shape (n, 3, 3)."""
+    """Rotations about x (0), y (1) or z (2) as poses, shape (n, 4, 4)."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
-    turns = np.tile(np.eye(3), (len(angles), 1, 1))
+    turns = np.tile(np.eye(4), (len(angles), 1, 1))
     turns[:, first, first] = turns[:, second, second] = np.cos(angles)
     turns[:, second, first] = np.sin(angles)
     turns[:, first, second] = -turns[:, second, first]

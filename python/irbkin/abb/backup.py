@@ -12,7 +12,7 @@ import numpy as np
 
 from irbkin import Robot
 from irbkin._words import counted, listed
-from irbkin.abb.carriers import MOST_CARRIERS
+from irbkin.abb.carriers import carriers_of
 from irbkin.abb.findings import Finding
 from irbkin.abb.folders import Folder
 from irbkin.abb.tasks import Task
@@ -123,14 +123,14 @@ class Backup:
         """
         unit = self._known(name)
         pose = _base_of(unit)
-        for _ in range(MOST_CARRIERS):
-            if not unit.carried_by:
-                return pose
-            unit = self._carrier(unit)
+        carriers, wrong = carriers_of(unit, self.unit)
+        if wrong:
+            raise InvalidModelError(wrong)
+        for carrier in carriers:
             # A unit that it carries is given in the world, with all external axes at zero.
-            base = _base_of(unit)
-            pose = base @ unit.moved(external_mm_deg) @ np.linalg.inv(base) @ pose
-        raise InvalidModelError(f"{name}: the units that carry it carry each other")
+            base = _base_of(carrier)
+            pose = base @ carrier.moved(external_mm_deg) @ np.linalg.inv(base) @ pose
+        return pose
 
     def frame_at(self, name: str, external_mm_deg: Sequence[float] = NO_AXES) -> Pose:
         """Return the frame that an external unit moves, in the world: base frame times motion.
@@ -148,13 +148,6 @@ class Backup:
         if unit is None:
             raise InvalidModelError(f"{name}: no such unit in the backup")
         return unit
-
-    def _carrier(self, unit: RobotUnit | ExternalUnit) -> ExternalUnit:
-        carrier = self.unit(unit.carried_by or "")
-        if not isinstance(carrier, ExternalUnit):
-            name = unit.carried_by
-            raise InvalidModelError(f"{unit.name}: {name}, which carries it, is no unit of MOC.cfg")
-        return carrier
 
     def robot_at(self, name: str, external_mm_deg: Sequence[float] = NO_AXES) -> Robot:
         """Return a robot with its limits in force and its base in the world.

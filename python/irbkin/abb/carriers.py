@@ -1,9 +1,10 @@
 """Which units carry others, and which of them move work objects."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from irbkin.abb.cfg import CfgFile
-from irbkin.abb.findings import Finding
+from irbkin.abb.findings import Finding, Severity
 from irbkin.abb.units import ExternalUnit, RobotUnit
 
 MOST_CARRIERS = 8
@@ -57,22 +58,30 @@ def related(moc: CfgFile, machine: Machine) -> Machine:
     return Machine(robots, units, machine.findings)
 
 
+def carriers_of(
+    unit: RobotUnit | ExternalUnit,
+    find: Callable[[str], RobotUnit | ExternalUnit | None],
+) -> tuple[list[ExternalUnit], str]:
+    """Return the units that carry one, the nearest first, and what is wrong with them, or ""."""
+    found: list[ExternalUnit] = []
+    name = unit.carried_by
+    while name:
+        carrier = find(name)
+        if not isinstance(carrier, ExternalUnit):
+            return found, f"{unit.name}: {name}, which carries it, is no unit of MOC.cfg"
+        if len(found) == MOST_CARRIERS:
+            return found, f"{unit.name}: the units that carry it carry each other"
+        found.append(carrier)
+        name = carrier.carried_by
+    return found, ""
+
+
 def check_carriers(machine: Machine, file: str) -> None:
     """Report units whose carrier is missing, or that are carried in a circle."""
     units = {name.lower(): unit for name, unit in machine.units.items()}
     for unit in machine.all_units():
-        carriers: list[ExternalUnit] = []
-        name = unit.carried_by
-        while name and len(carriers) <= MOST_CARRIERS:
-            carrier = units.get(name.lower())
-            if carrier is None:
-                message = f"{unit.name}: {name}, which carries it, is no unit of MOC.cfg: "
-                message += "its place is not determined"
-                machine.findings.append(Finding(file, unit.line, "carrier", "warning", message))
-                break
-            carriers.append(carrier)
-            name = carrier.carried_by
-        if len(carriers) > MOST_CARRIERS:
-            message = f"{unit.name}: the units that carry it carry each other: "
-            message += "its place is not determined"
-            machine.findings.append(Finding(file, unit.line, "carrier", "error", message))
+        carriers, wrong = carriers_of(unit, lambda name: units.get(name.lower()))
+        if wrong:
+            severity: Severity = "error" if len(carriers) == MOST_CARRIERS else "warning"
+            message = f"{wrong}: its place is not determined"
+            machine.findings.append(Finding(file, unit.line, "carrier", severity, message))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from irbkin.abb.backup import Backup
-from irbkin.abb.carriers import MOST_CARRIERS
+from irbkin.abb.carriers import carriers_of
 from irbkin.abb.units import AXES, ExternalUnit, Pose
 
 UnitRow = tuple[str, bool, bool, list[tuple[int, Pose, bool]]]
@@ -32,17 +32,13 @@ def unit_rows(backup: Backup, robot: str) -> list[UnitRow]:
 
 def _row(backup: Backup, unit: ExternalUnit, *, is_carrier: bool) -> UnitRow:
     """Return a unit with the axes of the units that carry it before its own."""
-    chain = [unit]
-    while (above := backup.unit(chain[0].carried_by or "")) and len(chain) <= MOST_CARRIERS:
-        if not isinstance(above, ExternalUnit):
-            break
-        chain.insert(0, above)
+    carriers, _ = carriers_of(unit, backup.unit)
+    chain = [*reversed(carriers), unit]
     axes: list[tuple[int, Pose, bool]] = []
     before = np.eye(4)
     for part in chain:
         base = np.eye(4) if part.base is None else part.base
-        own = [axis.eax for axis in part.axes if axis.eax is not None]
-        for eax in own:
+        for eax in (axis.eax for axis in part.axes if axis.eax is not None):
             is_rotation = part.kind == "positioner"
             axes.append((AXES.index(eax), np.linalg.inv(before) @ base, is_rotation))
             before = base

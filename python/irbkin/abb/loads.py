@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from irbkin._words import counted
 from irbkin.abb.cfg import CfgFile, Instance
 from irbkin.abb.findings import Finding, Severity
 from irbkin.abb.folders import Folder
@@ -74,11 +75,7 @@ class Loads:
         if self.installed:
             prefixes = ", ".join(sorted({it.split(":")[0] for it in self.installed}))
             count = len(self.installed)
-            modules = (
-                "1 module of the controller's installation is"
-                if count == 1
-                else (f"{count} modules of the controller's installation are")
-            )
-            message = f"{modules} not in a backup ({prefixes})"
+            modules = f"{counted(count, 'module')} of the controller's installation"
+            message = f"{modules} {'is' if count == 1 else 'are'} not in a backup ({prefixes})"
             found.append(Finding(self.sys.file, 0, "module-installed", "note", message))
         return found

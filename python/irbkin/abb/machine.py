@@ -10,8 +10,6 @@ from irbkin.abb.cfg import CfgFile, Instance
 from irbkin.abb.findings import Finding, Severity
 from irbkin.abb.units import AXES, ExternalAxis, ExternalUnit, Pose, RobotUnit, UnitKind
 
-NORM_TOLERANCE = 2e-3
-"""Distance from 1 at which the norm of a quaternion is an error, as in `irbkin.pose` [1]."""
 FIRST_LOGICAL_AXIS = 7
 """The logical axis of eax_a."""
 
@@ -67,23 +65,12 @@ class _Reader:
         """Return the base frame of an instance [m]. An absent key has its default; u0 is 1."""
         position = [of.number(f"base_frame_pos_{axis}") for axis in "xyz"]
         wxyz = [of.number(f"base_frame_orient_u{i}", float(i == 0)) for i in range(4)]
-        norm = math.hypot(*wxyz)
-        if abs(norm - 1.0) > NORM_TOLERANCE:
-            self.report(
-                of.line, "base-frame", "error",
-                f"{of.name}: the quaternion of its base frame has norm {norm:.6f}, it must be 1 "
-                f"within {NORM_TOLERANCE:g}: its place is not determined",
-            )  # fmt: skip
-            return None
         try:
             return pose(position, wxyz)
         except ValueError as error:
             message = f"{of.name}: its base frame is not determined: {error}"
             self.report(of.line, "base-frame", "error", message)
             return None
-
-    def carrier(self, of: Instance) -> str | None:
-        return of.text("base_frame_coordinated") or None
 
     def joints_of(self, robot: Instance) -> tuple[str, ...]:
         """Return the joints of a robot, axis 1 first; axis 7 of a YuMi is a SINGLE beside it."""
@@ -116,7 +103,7 @@ class _Reader:
                 message = f"{of.name}: its base frame is not determined: {error}"
                 self.report(of.line, "base-frame", "error", message)
         calibration = of.text("use_robot_calib").lower()
-        is_calibrated = calibration.endswith("_calib") and bool(self.errors_of(joints))
+        is_calibrated = calibration.endswith("_calib") and self.has_errors(joints)
         if is_calibrated:
             self.report(
                 of.line, "calibrated", "note",
@@ -124,7 +111,7 @@ class _Reader:
                 "are used",
             )  # fmt: skip
         return RobotUnit(
-            of.name, type_name, found.arm, robot, base, self.carrier(of), found.differences,
+            of.name, type_name, found.arm, robot, base, _carrier(of), found.differences,
             is_calibrated, self.has_offsets(joints), joints, of.line,
         )  # fmt: skip
 
@@ -138,10 +125,8 @@ class _Reader:
             message += f"taken as {found.arm}, the arm of backinfo.txt"
             self.report(of.line, "arm-by-wording", "warning", message)
         for it in found.differences:
-            own, catalog = (
-                _degrees(it.lower, it.upper),
-                _degrees(it.catalog_lower, it.catalog_upper),
-            )
+            own = _degrees(it.lower, it.upper)
+            catalog = _degrees(it.catalog_lower, it.catalog_upper)
             message = f"{of.name}: {it.joint} is limited to {own} deg, {catalog} deg in the catalog"
             self.report(of.line, "limits-differ", "note", message)
         if found.without_limits:
@@ -149,14 +134,10 @@ class _Reader:
             message = f"{of.name}: no limits of axis {axes} in the file: the catalog's are used"
             self.report(of.line, "limits-missing", "warning", message)
 
-    def errors_of(self, joints: tuple[str, ...]) -> list[Instance]:
-        """Return the ARM_CALIB of joints that have measured errors."""
-        found = [self.moc.named("ARM_CALIB", joint) for joint in joints]
-        return [
-            it
-            for it in found
-            if it and any(key.startswith("error_") and it.number(key) for key in it.values)
-        ]
+    def has_errors(self, joints: tuple[str, ...]) -> bool:
+        """Whether the errors of some of the joints were measured."""
+        found = filter(None, (self.moc.named("ARM_CALIB", joint) for joint in joints))
+        return any(key.startswith("error_") and it.number(key) for it in found for key in it.values)
 
     def has_offsets(self, joints: tuple[str, ...]) -> bool:
         motors = filter(None, (self.moc.named("MOTOR_CALIB", joint) for joint in joints))
@@ -174,18 +155,20 @@ class _Reader:
         type_name = of.text("use_single_type")
         single_type = self.moc.named("SINGLE_TYPE", type_name)
         kind = _kind(type_name, single_type.text("mechanics") if single_type else "")
-        axes = (self.axis(of.text("use_joint", of.name)),)
-        return ExternalUnit(
-            of.name, type_name, kind, self.base(of), self.carrier(of), (), axes, False, of.line
-        )
+        return self.external(of, type_name, kind, (of.text("use_joint", of.name),))
 
     def gantry(self, of: Instance) -> ExternalUnit:
         """Return a robot whose kinematics are a gantry's or a positioner's."""
         type_name = of.text("use_robot_type")
-        axes = tuple(self.axis(joint) for joint in self.joints_of(of))
         kind: UnitKind = "positioner" if type_name.upper().startswith("IRBP") else "gantry"
+        return self.external(of, type_name, kind, self.joints_of(of))
+
+    def external(
+        self, of: Instance, type_name: str, kind: UnitKind, joints: tuple[str, ...]
+    ) -> ExternalUnit:
+        axes = tuple(map(self.axis, joints))
         return ExternalUnit(
-            of.name, type_name, kind, self.base(of), self.carrier(of), (), axes, False, of.line
+            of.name, type_name, kind, self.base(of), _carrier(of), (), axes, False, of.line
         )
 
     def is_gantry(self, of: Instance) -> bool:
@@ -193,6 +176,10 @@ class _Reader:
         of_type = self.moc.named("ROBOT_TYPE", type_name)
         is_general = of_type is not None and of_type.text("type").upper() == "GEN_KIN"
         return is_general or type_name.upper().startswith("IRBP")
+
+
+def _carrier(of: Instance) -> str | None:
+    return of.text("base_frame_coordinated") or None
 
 
 def _degrees(lower: float, upper: float) -> str:

@@ -9,8 +9,8 @@ from typing import Literal
 
 import numpy as np
 
-from irbkin import Robot
-from irbkin._arrays import Floats
+from irbkin import Robot, pose
+from irbkin._arrays import Floats, rotations
 from irbkin.errors import InvalidModelError
 
 Pose = Floats
@@ -147,10 +147,7 @@ class ExternalUnit:
         value = external_mm_deg[place] if place < len(external_mm_deg) else NOT_THERE
         if not abs(value) < NOT_THERE:
             raise InvalidModelError(f"{self.name}: the target gives no eax_{eax}, which moves it")
-        pose = np.eye(4)
         if self.kind == "track":
-            pose[0, 3] = value / 1e3
-        else:
-            angle = np.radians(value)
-            pose[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-        return pose
+            return pose([value / 1e3, 0.0, 0.0])
+        (turned,) = rotations(2, np.radians([value]))
+        return np.asarray(turned)

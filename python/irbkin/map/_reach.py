@@ -38,7 +38,7 @@ def orientations(directions: int, turns: int = 1) -> Floats:
     tilt = np.arccos(height)
     first = rotations(2, around) @ rotations(1, tilt)
     second = rotations(2, 2 * np.pi * np.arange(turns) / turns)
-    spread: Floats = (first[:, None] @ second).reshape(-1, 3, 3)
+    spread: Floats = (first[:, None] @ second)[..., :3, :3].reshape(-1, 3, 3)
     return spread
 
 

@@ -109,8 +109,7 @@ class Bases:
 
     def poses(self, values: Floats) -> Floats:
         """The bases as poses, shape (k, 4, 4)."""
-        placed = np.tile(np.eye(4), (len(values), 1, 1))
-        placed[:, :3, :3] = rotations(2, values[:, 3])
+        placed = rotations(2, values[:, 3])
         placed[:, :3, 3] = values[:, :3]
         turned: Floats = self.start @ placed @ self.mounting
         return turned

@@ -77,9 +77,7 @@ class Scene:
         is_full = own.upper - own.lower > 2 * np.pi - 1e-9
         self.angles = np.linspace(own.lower, own.upper, own.steps, endpoint=not is_full)
         """The angles of the tool [rad], shape (b,)."""
-        turns = np.tile(np.eye(4), (len(self.angles), 1, 1))
-        turns[:, :3, :3] = rotations("xyz".index(own.axis), self.angles)
-        self.turned = self.targets[:, None] @ turns
+        self.turned = self.targets[:, None] @ rotations("xyz".index(own.axis), self.angles)
 
     def _check(self) -> None:
         """Refuse what is not a pose, and what no plan would take.

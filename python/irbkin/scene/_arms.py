@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from irbkin._arguments import check_robot
-from irbkin._arrays import Floats, as_array, evenly
+from irbkin._arrays import Floats, as_array, evenly, rotations
 from irbkin._core import Robot, catalog
 from irbkin.body import Body
 from irbkin.errors import InvalidJointsError, InvalidModelError
@@ -144,9 +144,7 @@ def link_frames(arm: Arm, q: npt.ArrayLike) -> Floats:
     if arm.coupling:
         angles[2] += arm.coupling * angles[1]
     frames = [np.array(arm.base)]
-    for fixed, angle in zip(arm.joints, angles, strict=True):
-        turn = np.eye(4)
-        turn[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    for fixed, turn in zip(arm.joints, rotations(2, angles), strict=True):
         frames.append(frames[-1] @ np.array(fixed) @ turn)
     frames.append(frames[-1] @ np.array(arm.tool))
     return np.array(frames)
