@@ -56,7 +56,7 @@ def test_a_module_uses_only_what_is_above_it(file):
 
 def test_no_files_use_one_another_in_a_circle():
     graph = used_by()
-    # For its type alone: a scene has a method that returns its view, which is made of it.
+    # A scene has a method that returns its view, which is made of it.
     graph["scene/_data"].remove("scene/_widget")
     assert cycles(graph) == []
 

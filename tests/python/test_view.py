@@ -95,7 +95,7 @@ def test_a_text_in_a_scene_does_not_end_the_script(monkeypatch):
 
 
 def test_wrong_files_are_refused(tmp_path):
-    assert "must end in .html or .json" in command.refused("view", NAME, "-o", "arm.pdf")
+    assert "--output: arm.pdf: must end in .json" in command.refused("view", NAME, "-o", "arm.pdf")
     broken = tmp_path / "broken.json"
     broken.write_text(json.dumps({"format": "irbkin scene", "version": 1, "arms": 3}))
     assert "scene.arms is 3" in command.refused("view", broken, "-o", tmp_path / "x.json")

@@ -22,8 +22,6 @@ from irbkin.cli.errors import FINE, CommandError
 from irbkin.cli.rapid import motion_of, parsed
 from irbkin.scene import Scene
 
-ENDINGS = (".html", ".htm", ".json", ".svg")
-
 
 def add_arguments(parser: Parser) -> None:
     parser.add_robot()
@@ -40,15 +38,13 @@ def add_arguments(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     output: str | None = arguments.output
-    if output is not None and not output.lower().endswith(ENDINGS):
-        raise CommandError(f"--output: {output} must end in .html or .json, or in .svg")
     own = _scene(arguments)
     if output is None:
         return _serve(own, arguments.port, arguments.no_browser)
     try:
         own.save(output)
     except ValueError as error:
-        raise CommandError(str(error)) from None
+        raise CommandError(f"--output: {error}") from None
     return FINE
 
 

@@ -60,16 +60,8 @@ __all__ = [
 ]
 
 
-def _widget(*arguments: Any, **options: Any) -> Any:
-    """A widget of a notebook: it needs an extra, which is imported when it is first used."""
-    from irbkin.scene._widget import View
-
-    return View(*arguments, **options)
-
-
 # A scene is data: it does not know the faces that know it.
 FACES.update({".html": page, ".htm": page, ".svg": of_scene})
-FACES["view"] = _widget
 
 
 def __getattr__(name: str) -> Any:

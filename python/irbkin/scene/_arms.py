@@ -58,6 +58,8 @@ def arm_of(
     base = np.asarray(robot.base)
     frames = [base, *robot.link_frames(np.zeros(robot.dof))]
     between = [np.linalg.solve(one, other) for one, other in pairwise(frames)]
+    # As axes 2 and 3 turn in the same sense or in opposite ones.
+    coupling = -float(np.sign(np.cos(robot.mdh[2, 0]))) if robot.is_coupled else 0.0
     body = _body(robot)
     shapes = () if body is None else zip(body.links.tolist(), body.capsules, strict=True)
     return Arm(
@@ -65,7 +67,7 @@ def arm_of(
         rows(base),
         tuple(rows(it) for it in between[:-1]),
         rows(between[-1]),
-        _coupling(robot),
+        coupling,
         rows(np.clip(robot.limits, -UNLIMITED, UNLIMITED)),
         tuple(LinkShape(link, rows(c[:3]), rows(c[3:6]), float(c[6])) for link, c in shapes),
         bool(body is not None and body.is_approximate),
@@ -101,18 +103,6 @@ def _body(robot: Robot) -> Body | None:
         return robot.approximate_body()
     except InvalidModelError:
         return None
-
-
-def _coupling(robot: Robot) -> float:
-    """The factor of joint 2 in the turn of joint 3 against the link before it."""
-    if not robot.is_coupled:
-        return 0.0
-    q = np.zeros(robot.dof)
-    q[1] = 0.5
-    frames = robot.link_frames(np.array([np.zeros(robot.dof), q]))
-    turns = [np.linalg.solve(it[1], it[2]) for it in frames]
-    turned = np.linalg.solve(turns[0], turns[1])
-    return float(round(np.arctan2(turned[1, 0], turned[0, 0]) / q[1]))
 
 
 def motion_of(

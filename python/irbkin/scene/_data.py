@@ -20,7 +20,7 @@ FORMAT, VERSION = "irbkin scene", 1
 KINDS = ("sphere", "capsule", "box", "cylinder", "half_space", "convex", "mesh", "points")
 ENDINGS = (".json", ".html", ".htm", ".svg")
 FACES: dict[str, Callable[..., Any]] = {}
-"""Makers of a scene's files, by their endings, and of its `view`: `irbkin.scene` enters them."""
+"""Makers of a scene's files, by their endings: `irbkin.scene` enters them."""
 Vector = tuple[float, ...]
 Rows = tuple[Vector, ...]
 
@@ -240,8 +240,9 @@ class Scene(_Part):
         Args:
             height: Its height [pixels].
         """
-        view: View = FACES["view"](self, height=height)
-        return view
+        from irbkin.scene._widget import View
+
+        return View(self, height=height)
 
     @classmethod
     def from_dict(cls, data: Any) -> Scene:

@@ -32,11 +32,10 @@ def of_solutions(solutions: Solutions, robot: Robot) -> str:
         rows.append([str(it.slot), *(f"{angle:.2f}" for angle in it.q_deg), inside])
     more = len(solutions) - len(rows)
     words = [solutions.explain(), *([f"{more} more"] if more > 0 else [])]
-    if not rows:
-        return _beside("", f"<b>{escape(robot.name)}</b>", words, "")
     q = [it.q for it in solutions]
-    picture = drawn(arm_of(robot), q[0], q[1:])
-    return _beside(picture, f"<b>{escape(robot.name)}</b>", words, _table(head, rows))
+    picture = drawn(arm_of(robot), q[0], q[1:]) if rows else ""
+    table = _table(head, rows) if rows else ""
+    return _beside(picture, f"<b>{escape(robot.name)}</b>", words, table)
 
 
 def of_trajectory(move: Trajectory) -> str:
