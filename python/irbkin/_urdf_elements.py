@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
@@ -23,7 +26,6 @@ def attribute_of(element: ElementTree.Element, key: str) -> str:
 
 
 def number_of(element: ElementTree.Element, key: str, default: float | None = None) -> float:
-    """A number."""
     return float(numbers_of(element, key, 1, default)[0])
 
 
@@ -42,6 +44,23 @@ def numbers_of(
         many = f"{count} numbers" if count > 1 else "a number"
         raise InvalidModelError(f"{key} of {element.tag} is {text!r}, it must be {many}")
     return numbers
+
+
+def mesh_path(
+    name: str, folder: Path | None, packages: Mapping[str, str | PathLike[str]]
+) -> Path | None:
+    """The file of a mesh, None if it is not there: `package://` of `packages`, else beside the URDF
+    or in a folder above it.
+    """
+    if not name.startswith("package://"):
+        paths = [(folder or Path()) / name.removeprefix("file://")]
+    else:
+        package, _, rest = name.removeprefix("package://").partition("/")
+        above = [] if folder is None else [folder, *folder.parents]
+        paths = [at / part for at in above for part in (f"{package}/{rest}", rest)]
+        if package in packages:
+            paths = [Path(packages[package]) / rest]
+    return next(filter(Path.is_file, paths), None)
 
 
 def origin_of(element: ElementTree.Element) -> npt.NDArray[np.float64]:

@@ -19,7 +19,7 @@ _UNITS = {"revolute": "rad", "continuous": "rad", "prismatic": "m"}
 _ROUNDING = 1e-9
 
 
-def positions_of(
+def _positions(
     joints: Mapping[str, ElementTree.Element], given: Mapping[str, float]
 ) -> dict[str, float]:
     """The positions that are given, checked, and where the joints are that follow them."""
@@ -44,19 +44,20 @@ def positions_of(
     return at
 
 
-def fix(root: ElementTree.Element, given: Mapping[str, float], moving: Collection[str]) -> None:
+def fix(
+    joints: Mapping[str, ElementTree.Element], given: Mapping[str, float], moving: Collection[str]
+) -> None:
     """Fix joints of a URDF at the positions that are given, and those that follow them.
 
     Those in `moving` must not be.
     """
-    joints = {attribute_of(it, "name"): it for it in root.findall("joint")}
     joints = {name: it for name, it in joints.items() if attribute_of(it, "type") != "fixed"}
     for name in given:
         if name in moving:
             raise InvalidModelError(f"the joint {name} is of the arm, and moves: leave it out")
-    for name, position in positions_of(joints, given).items():
+    for name, position in _positions(joints, given).items():
         joint = joints[name]
-        xyz, zyx = to_xyz_euler_zyx(origin_of(joint) @ motion_of(joint, position))
+        xyz, zyx = to_xyz_euler_zyx(origin_of(joint) @ _motion(joint, position))
         for origin in joint.findall("origin"):
             joint.remove(origin)
         rows = {"xyz": xyz, "rpy": zyx[::-1]}
@@ -93,7 +94,7 @@ def _limits(joint: ElementTree.Element) -> tuple[float, float]:
     return number_of(limit, "lower", 0.0), number_of(limit, "upper", 0.0)
 
 
-def motion_of(joint: ElementTree.Element, position: float) -> npt.NDArray[np.float64]:
+def _motion(joint: ElementTree.Element, position: float) -> npt.NDArray[np.float64]:
     """The pose of a joint's child in its frame."""
     element = joint.find("axis")
     axis = np.array([1.0, 0, 0]) if element is None else numbers_of(element, "xyz", 3)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import reprlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
@@ -72,41 +72,34 @@ class Entry:
         own = self.sub(key)
         return {name: own.sub(name) for name in own.table}
 
-    def number(self, key: str, default: float | None = None) -> float:
+    def _value(self, key: str, kind: str, is_fit: Callable[[Any], bool], default: Any) -> Any:
         value = self.table.get(key, default)
         if value is None:
-            self.refuse(f"{key} is missing, a number")
-        if not _is_number(value):
-            self.refuse(f"is {reprlib.repr(value)}, it must be a number", key)
-        return float(value)
+            self.refuse(f"{key} is missing, {kind}")
+        if not is_fit(value):
+            self.refuse(f"is {reprlib.repr(value)}, it must be {kind}", key)
+        return value
+
+    def number(self, key: str, default: float | None = None) -> float:
+        return float(self._value(key, "a number", _is_number, default))
 
     def numbers(self, key: str, count: int) -> Floats:
-        value = self.table.get(key)
-        if value is None:
-            self.refuse(f"{key} is missing, a list of {count} numbers")
-        if not isinstance(value, list) or len(value) != count or not all(map(_is_number, value)):
-            self.refuse(f"is {reprlib.repr(value)}, it must be a list of {count} numbers", key)
-        return np.array(value, dtype=float)
+        def is_fit(value: Any) -> bool:
+            return isinstance(value, list) and len(value) == count and all(map(_is_number, value))
+
+        return np.array(self._value(key, f"a list of {count} numbers", is_fit, None), dtype=float)
 
     def name(self, key: str) -> str:
-        value = self.table.get(key)
-        if value is None:
-            self.refuse(f"{key} is missing, a text")
-        if not isinstance(value, str):
-            self.refuse(f"is {value!r}, it must be a text", key)
-        return value
+        return str(self._value(key, "a text", lambda it: isinstance(it, str), None))
 
     def names(self, key: str) -> list[str]:
-        value = self.table.get(key)
-        if not isinstance(value, list) or not all(isinstance(it, str) for it in value):
-            self.refuse(f"is {value!r}, it must be a list of texts", key)
-        return value
+        def is_fit(value: Any) -> bool:
+            return isinstance(value, list) and all(isinstance(it, str) for it in value)
+
+        return list(self._value(key, "a list of texts", is_fit, None))
 
     def truth(self, key: str, default: bool) -> bool:
-        value = self.table.get(key, default)
-        if not isinstance(value, bool):
-            self.refuse(f"is {value!r}, it must be true or false", key)
-        return value
+        return bool(self._value(key, "true or false", lambda it: isinstance(it, bool), default))
 
 
 def parsed(text: str) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from pathlib import Path
 from typing import NoReturn
 from xml.etree import ElementTree
 
@@ -16,8 +17,8 @@ import numpy.typing as npt
 
 from irbkin._core import Cell, Shape, _urdf_text
 from irbkin._mesh_files import mesh, triangles
-from irbkin._urdf_elements import attribute_of, number_of, numbers_of, origin_of
-from irbkin._urdf_joints import described, follows, motion_of, positions_of
+from irbkin._urdf_elements import attribute_of, mesh_path, number_of, numbers_of, origin_of
+from irbkin._urdf_joints import described, fix, follows
 from irbkin.errors import InvalidModelError, IrbkinError
 
 _LAST_LINK = 7
@@ -38,11 +39,12 @@ def cell_of_urdf(content: bytes, path: str, joints: Mapping[str, float], solid: 
     tops = [name for name in links if name not in children]
     if len(tops) != 1:
         raise InvalidModelError(f"must have one root link, has {tops}")
+    fix(joint_of, joints, ())
     movable = {name: it for name, it in joint_of.items() if attribute_of(it, "type") != "fixed"}
-    poses, numbers = _walk(tops[0], below, movable, positions_of(movable, joints))
+    poses, numbers = _walk(tops[0], below, movable)
     if lost := sorted({*links} - {*poses, *numbers}):
         raise InvalidModelError(f"the link {lost[0]} hangs on itself, by joints in a circle")
-    shapes, folder = {}, os.path.dirname(path)
+    shapes, folder = {}, Path(os.path.abspath(path)).parent
     for name, at in poses.items():
         if name not in numbers and (parts := _shapes(links[name], folder, solid)):
             shapes[name] = Shape.union(parts).moved(at)
@@ -71,7 +73,6 @@ def _walk(
     top: str,
     below: dict[str, list[ElementTree.Element]],
     movable: dict[str, ElementTree.Element],
-    at: dict[str, float],
 ) -> tuple[dict[str, npt.NDArray[np.float64]], dict[str, int]]:
     """The poses of links that stand still, and the numbers of the links of the arm."""
     poses: dict[str, npt.NDArray[np.float64]] = {top: np.eye(4)}
@@ -88,21 +89,18 @@ def _walk(
                 raise InvalidModelError(f"two joints lead to the link {child}")
             seen.add(child)
             waiting.append(child)
-            moves = name in movable and name not in at
-            if parent in poses and not moves:
-                motion = motion_of(joint, at[name]) if name in at else np.eye(4)
-                poses[child] = poses[parent] @ origin_of(joint) @ motion
+            if parent in poses and name not in movable:
+                poses[child] = poses[parent] @ origin_of(joint)
                 continue
             first[child] = first.get(parent, name)
-            numbers[child] = numbers.setdefault(parent, 0) + moves
+            numbers[child] = numbers.setdefault(parent, 0) + (name in movable)
             most[first[child]] = max(most.get(first[child], 0), numbers[child])
     arms = [name for name, count in most.items() if count >= _LEAST_JOINTS]
     if len(most) > len(arms) or len(arms) > 1:
         given = {
             name: joint
             for name, joint in movable.items()
-            if name not in at
-            and not (len(arms) == 1 and first.get(_end(joint, "child")) == arms[0])
+            if not (len(arms) == 1 and first.get(_end(joint, "child")) == arms[0])
         }
         own = [name for name in most if not follows(movable[name], movable)]
         _ask(own or [*most], given, movable)
@@ -124,7 +122,7 @@ def _ask(
     )
 
 
-def _shapes(link: ElementTree.Element, folder: str, solid: bool) -> list[Shape]:
+def _shapes(link: ElementTree.Element, folder: Path, solid: bool) -> list[Shape]:
     shapes = []
     for collision in link.findall("collision"):
         try:
@@ -137,7 +135,7 @@ def _shapes(link: ElementTree.Element, folder: str, solid: bool) -> list[Shape]:
     return shapes
 
 
-def _shape(element: ElementTree.Element, folder: str, solid: bool) -> Shape:
+def _shape(element: ElementTree.Element, folder: Path, solid: bool) -> Shape:
     if element.tag == "box":
         return Shape.box(numbers_of(element, "size", 3))
     if element.tag == "sphere":
@@ -148,30 +146,14 @@ def _shape(element: ElementTree.Element, folder: str, solid: bool) -> Shape:
         half = np.array([0.0, 0.0, 0.5 * number_of(element, "length")])
         return Shape.capsule(-half, half, number_of(element, "radius"))
     if element.tag == "mesh":
-        scale = numbers_of(element, "scale", 3, 1.0)
-        return mesh(triangles(file_of(attribute_of(element, "filename"), folder)) * scale, solid)
+        scale, name = numbers_of(element, "scale", 3, 1.0), attribute_of(element, "filename")
+        path = mesh_path(name, folder, {})
+        if path is None:
+            raise InvalidModelError(f"the mesh {name} is neither beside the file nor above it")
+        return mesh(triangles(path) * scale, solid)
     raise InvalidModelError(
         f"unknown shape {element.tag}; known: box, sphere, cylinder, capsule, mesh"
     )
-
-
-def file_of(name: str, folder: str) -> str:
-    """The path of a mesh: of package://name/path, beside the URDF or in a folder above it."""
-    scheme, _, rest = name.rpartition("://")
-    if scheme == "file":
-        return rest
-    places = [rest]
-    if scheme == "package":
-        places.append(rest.partition("/")[2])
-    here = os.path.abspath(folder)
-    while True:
-        for place in places:
-            if os.path.isfile(path := os.path.join(here, place)):
-                return path
-        above = os.path.dirname(here)
-        if scheme != "package" or above == here:
-            raise InvalidModelError(f"the mesh {name} is neither beside the file nor above it")
-        here = above
 
 
 def _pairs(path: str, shapes: dict[str, Shape], numbers: dict[str, int]) -> list[tuple[str, int]]:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from itertools import product
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
+from scipy.spatial import ConvexHull  # type: ignore[import-untyped]
 
 from irbkin._core import Robot, _urdf_links, _urdf_text
 from irbkin._fit.solid import Array
 from irbkin._mesh_files import triangles
-from irbkin._urdf_elements import numbers_of, origin_of
+from irbkin._urdf_elements import attribute_of, mesh_path, numbers_of, origin_of
 from irbkin._urdf_joints import fix
 from irbkin.errors import InvalidModelError, IrbkinError
 
@@ -32,7 +34,7 @@ def fixed(
         # Without these joints there may be an arm.
         moving = ()
     root = ElementTree.fromstring(_urdf_text(text))
-    fix(root, joints, moving)
+    fix({attribute_of(it, "name"): it for it in root.findall("joint")}, joints, moving)
     return ElementTree.tostring(root)
 
 
@@ -94,11 +96,16 @@ def solid_of(
         return values
 
     if kind.tag == "mesh":
-        scale = numbers_of(kind, "scale", 3, 1.0)
-        path = path_of(kind.get("filename", ""), link, folder, packages)
+        scale, name = numbers_of(kind, "scale", 3, 1.0), kind.get("filename", "")
+        path = mesh_path(name, folder, packages)
+        if path is None:
+            raise FileNotFoundError(
+                f'the mesh {name} of link "{link}" is not found: pass the folder of its package as '
+                "packages={name: folder}"
+            )
         return triangles(path) * scale
     if kind.tag == "box":
-        return hull(np.array([*signs()]) * given("size") / 2)
+        return hull(np.array([*product((-1, 1), repeat=3)]) * given("size") / 2)
     if kind.tag == "sphere":
         return hull(ball() * given("radius"))
     if kind.tag in ("cylinder", "capsule"):
@@ -107,11 +114,6 @@ def solid_of(
         ends = [points * [radius, radius, radius] + [0, 0, half * sign] for sign in (-1, 1)]
         return hull(np.concatenate(ends))
     raise InvalidModelError(f"has a shape <{kind.tag}>, which is not known")
-
-
-def signs() -> Iterator[tuple[int, int, int]]:
-    """The corners of a cube."""
-    return ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))
 
 
 def ring() -> Array:
@@ -132,29 +134,5 @@ def ball() -> Array:
 
 def hull(points: Array) -> Array:
     """The triangles of the convex hull of points."""
-    from scipy.spatial import ConvexHull  # type: ignore[import-untyped]
-
     corners: Array = points[ConvexHull(points).simplices]
     return corners
-
-
-def path_of(name: str, link: str, folder: Path | None, packages: Packages) -> Path:
-    """The file of a mesh: `package://` of `packages`, or of a folder above the URDF."""
-    if name.startswith("package://"):
-        package, _, rest = name.removeprefix("package://").partition("/")
-        if package in packages:
-            places = [Path(packages[package])]
-        else:
-            above = [] if folder is None else [folder, *folder.parents]
-            places = [place / package for place in above]
-            places += [place for place in above if place.name == package]
-        paths = [place / rest for place in places]
-    else:
-        paths = [(folder or Path()) / name.removeprefix("file://")]
-    for path in paths:
-        if path.is_file():
-            return path
-    raise FileNotFoundError(
-        f'the mesh {name} of link "{link}" is not found: pass the folder of its package as '
-        "packages={name: folder}"
-    )

@@ -1,7 +1,8 @@
 """The answers of a ROS node, without ROS."""
 
+import contextlib
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -85,15 +86,13 @@ class Kinematics:
         self._weights = None if weights is None else _weights(weights, robot)
         self._lock = threading.Lock()
         self._last = _start(start, robot)
-        limits = robot.max_velocity if max_velocity is None else max_velocity
-        self._max_velocity = (
-            None if limits is None else limit_of_each(limits, "max_velocity", robot.dof)
-        )
-        self._max_acceleration = (
-            None
-            if max_acceleration is None
-            else limit_of_each(max_acceleration, "max_acceleration", robot.dof)
-        )
+
+        def each(limit: npt.ArrayLike | None, name: str) -> Floats | None:
+            return None if limit is None else limit_of_each(limit, name, robot.dof)
+
+        max_velocity = robot.max_velocity if max_velocity is None else max_velocity
+        self._max_velocity = each(max_velocity, "max_velocity")
+        self._max_acceleration = each(max_acceleration, "max_acceleration")
         self._track, self._track_name = track, track_name
         self._track_acceleration = track_acceleration
 
@@ -105,31 +104,26 @@ class Kinematics:
 
     def fk(self, request: Message, response: Message) -> Message:
         """Answer `FK`: the pose of the tool for joint angles."""
-
-        def answer(filled: Message) -> str:
-            write_pose(self.robot.fk(_vector(request.joints)), filled.pose.pose)
-            filled.pose.header.frame_id = self.base_frame
-            return ""
-
-        return _answered(response, answer)
+        with _answered(response):
+            write_pose(self.robot.fk(_vector(request.joints)), response.pose.pose)
+            response.pose.header.frame_id = self.base_frame
+        return response
 
     def ik(self, request: Message, response: Message) -> Message:
         """Answer `IK`: every solution of a pose, and the one that is nearest to a seed."""
-
-        def answer(filled: Message) -> str:
+        with _answered(response):
             T = read_pose(request.pose)
             seven = self.robot.dof == 7
             solutions = self.robot.ik(T, request.q7) if seven else self.robot.ik(T)
-            filled.joints = solutions.q.ravel().tolist()
+            response.joints = solutions.q.ravel().tolist()
             # bytes fit `uint8[]` of both: ROS 1 sends nothing else, ROS 2 takes any sequence.
-            filled.slots = bytes(solution.slot for solution in solutions)
-            filled.statuses = bytes(solution.status for solution in solutions)
+            response.slots = bytes(solution.slot for solution in solutions)
+            response.statuses = bytes(solution.status for solution in solutions)
             # The filled fields stay if no solution is inside the limits.
             seed = _vector(request.seed) if len(request.seed) else self.last
-            filled.nearest = solutions.nearest(seed, self._weights).q.tolist()
-            return solutions.explain()
-
-        return _answered(response, answer)
+            response.nearest = solutions.nearest(seed, self._weights).q.tolist()
+            response.message = solutions.explain()
+        return response
 
     def check_pose(self, request: Message, response: Message) -> Message:
         """Answer `CheckPose`: whether a pose can be reached, and the reason if it cannot."""
@@ -150,8 +144,7 @@ class Kinematics:
             point: Makes a `trajectory_msgs/JointTrajectoryPoint` of positions, velocities,
                 accelerations and the time from the start [s].
         """
-
-        def answer(filled: Message) -> str:
+        with _answered(response):
             self._check_frame(request.path)
             poses = read_poses(request.path.poses)
             if len(poses) < 2:
@@ -159,10 +152,9 @@ class Kinematics:
                     f"path has {len(poses)} poses, a trajectory needs at least 2"
                 )
             trajectory = self._planned(poses, request)
-            self._write_trajectory(trajectory, filled.trajectory, point)
-            return f"{len(poses)} poses in {trajectory.duration:.3f} s"
-
-        return _answered(response, answer)
+            self._write_trajectory(trajectory, response.trajectory, point)
+            response.message = f"{len(poses)} poses in {trajectory.duration:.3f} s"
+        return response
 
     def joint_state(self, target: Message, message: Message) -> Message:
         """Fill a `sensor_msgs/JointState` with the solution of a target pose that is nearest to the
@@ -251,13 +243,14 @@ def _weights(weights: npt.ArrayLike, robot: Robot) -> Floats:
     return costs
 
 
-def _answered(response: Message, answer: Callable[[Message], str]) -> Message:
-    """The response with what `answer` fills in, or with the reason of its failure."""
+@contextlib.contextmanager
+def _answered(response: Message) -> Iterator[None]:
+    """Say in a response whether it is filled, or why not."""
+    response.message, response.success = "", True
     try:
-        response.message, response.success = answer(response), True
+        yield
     except IrbkinError as error:
         response.message, response.success = str(error), False
-    return response
 
 
 def _vector(values: Sequence[float]) -> Floats:

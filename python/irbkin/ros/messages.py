@@ -5,7 +5,7 @@ structure with the same fields. Numbers of a sequence arrive as a tuple, a list,
 or, of `uint8[]` in ROS 1, as `bytes`.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -66,7 +66,8 @@ def read_solutions(response: Message) -> IkSolutions:
     """
     joints: Sequence[float] = response.joints
     # `bytes` in ROS 1, `array.array` in ROS 2; both give integers when iterated.
-    slots, statuses = (_bytes(field) for field in (response.slots, response.statuses))
+    fields = response.slots, response.statuses
+    slots, statuses = (np.frombuffer(bytes(field), dtype=np.uint8) for field in fields)
     if len(slots) != len(statuses) or (len(joints) % len(slots) if len(slots) else len(joints)):
         raise ValueError(
             f"response has {len(joints)} joints, {len(slots)} slots and {len(statuses)} statuses: "
@@ -74,7 +75,3 @@ def read_solutions(response: Message) -> IkSolutions:
         )
     q = np.asarray(joints, dtype=np.float64).reshape(len(slots), -1 if len(slots) else 0)
     return IkSolutions(q, slots, statuses)
-
-
-def _bytes(values: Iterable[int]) -> npt.NDArray[np.uint8]:
-    return np.frombuffer(bytes(values), dtype=np.uint8)
