@@ -1,6 +1,5 @@
 """Differences of two backups: data, moves, targets in space and in joints, robots, modules."""
 
-import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -13,7 +12,6 @@ from irbkin.abb.backup import Backup
 from irbkin.abb.changes import (
     DATA,
     LEAST_ANGLE,
-    LEAST_DISTANCE,
     Change,
     angle_text,
     data_changes,
@@ -26,6 +24,7 @@ from irbkin.abb.changes import (
 from irbkin.abb.external import unit_rows
 from irbkin.abb.load import load_backup
 from irbkin.abb.sides import Declared, Key, Moved, Side
+from irbkin.rapid import Pose
 
 TARGETS = ("robtarget", "jointtarget")
 ROBOT: Key = ("", "robot")
@@ -244,8 +243,6 @@ def _robots(old: Backup, new: Backup) -> Iterator[str]:
                 words = [f"{lower:g}..{upper:g}" for lower, upper in limits]
                 yield f"{name}: J{axis + 1} was limited to {words[0]} deg, is to {words[1]}"
         if a.base is not None and b.base is not None:
-            shift = float(np.linalg.norm(a.base[:3, 3] - b.base[:3, 3])) * 1e3
-            turn = np.linalg.norm(a.base[:3, :3] - b.base[:3, :3]) / (2.0 * math.sqrt(2.0))
-            angle = math.degrees(2.0 * math.asin(min(float(turn), 1.0)))
-            if shift >= LEAST_DISTANCE or angle >= LEAST_ANGLE:
-                yield f"{name}: its base moved by {shift:.3f} mm and {angle:.3f} deg"
+            distance, angle = shift(Pose.of(a.base), Pose.of(b.base))
+            if not is_same(distance, angle):
+                yield f"{name}: its base moved by {distance:.3f} mm and {angle:.3f} deg"

@@ -64,19 +64,13 @@ def _text(text_or_path: str | os.PathLike[str]) -> str:
 def _of_deltas(robot: Robot, text: str) -> list[Floats]:
     """Frames at zero joint angles between the axes: Tz(d) Tx(a) Rx(alpha), each after its Rz."""
     deltas = [_array(text, name) for name in DELTAS]
+    alpha, a, d, theta = robot.mdh.T
+    standard = np.array([theta, np.r_[a[1:], 0.0], d, np.r_[alpha[1:], 0.0]])
     frames = [np.eye(4)]
-    for (theta, a, d, alpha), delta in zip(_standard(robot), np.transpose(deltas), strict=True):
-        theta, a, d, alpha = np.array([theta, a, d, alpha]) + delta
+    for theta, a, d, alpha in (standard + deltas).T:
         turn = pose(np.zeros(3), euler_zyx=[theta, 0.0, 0.0])
         frames.append(turn @ pose([a, 0.0, d], euler_zyx=[0.0, 0.0, alpha]))
     return frames
-
-
-def _standard(robot: Robot) -> Floats:
-    """The standard table of the nominal arm, theta, a, d, alpha, from its frames at zero."""
-    alpha, a, d, theta = robot.mdh.T
-    rows: Floats = np.column_stack([theta, np.r_[a[1:], 0.0], d, np.r_[alpha[1:], 0.0]])
-    return rows
 
 
 def _array(text: str, name: str) -> Floats:

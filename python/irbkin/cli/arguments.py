@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from irbkin._arm_options import check_millimeters, frame, is_arm_file, robot_of
 from irbkin.cli.data import angles_of, frame_of, is_data
 from irbkin.cli.errors import CommandError, complain
-from irbkin.cli.numbers import MOST_ANGLE, TOO_LARGE, angle, number, number_or_data
+from irbkin.cli.numbers import MOST_ANGLE, TOO_LARGE, number, number_or_data
 from irbkin.errors import UnknownRobotError
 
 if TYPE_CHECKING:
@@ -121,21 +121,6 @@ class Parser:
     def add_cell(self) -> None:
         """The cell around the arm."""
         self.add("--cell", metavar="FILE", help="what the arm must not touch: .toml, .urdf")
-
-    def add_pose(self) -> None:
-        """One pose of the tool."""
-        add = self.add
-        add("--xyz", nargs=3, type=number, metavar=(*"XYZ",), help="position of the tool [mm]")
-        add("--wxyz", nargs=4, type=number, metavar=(*"WXYZ",), help="its quaternion, w first")
-        add("--xyzw", nargs=4, type=number, metavar=(*"XYZW",), help="or w last")
-        turn = ("RZ", "RY", "RX")
-        add("--euler", nargs=3, type=number, metavar=turn, help="or ZYX angles [deg]")
-        add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
-
-    def add_rows(self, what: str, kind: str) -> None:
-        """A file of rows, or RAPID."""
-        words = f"{what}: a CSV or .npy file, - for stdin, or {kind} of RAPID"
-        self.add("file", metavar="FILE", nargs="*", help=words)
 
     def add_formats(self, array: str, *others: str) -> None:
         """How rows are written: by the ending of the output, which may be one of `others`."""

@@ -37,8 +37,8 @@ def add_arguments(parser: Parser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from irbkin.stream import egm
 
-    rates = {name: getattr(arguments, name) for name in RATES}
-    for name, value in rates.items():
+    for name in RATES:
+        value = getattr(arguments, name)
         if not 0.0 <= value <= 1.0:
             raise CommandError(f"--{name} is {value:g}, it must be 0 to 1")
     if not 0 < arguments.port < 65_536:
@@ -49,13 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
         q = np.clip(np.zeros(robot.dof), *robot.limits.T)
     controller = egm.Controller(robot, q)
     where = (arguments.host, arguments.port)
-    options = dict(rates, cut=arguments.cut, seed=arguments.seed)
-    egm.play(
-        controller,
-        where,
-        lambda line: print(line, flush=True),
-        seconds=arguments.seconds,
-        **options,
-    )
+    options = {name: getattr(arguments, name) for name in ("seconds", "cut", "seed", *RATES)}
+    egm.play(controller, where, lambda line: print(line, flush=True), **options)
     print("joints [deg]", *(f"{angle:.3f}" for angle in np.degrees(controller.q) + 0.0))
     return FINE

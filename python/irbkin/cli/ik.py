@@ -39,8 +39,14 @@ def add_arguments(parser: Parser) -> None:
     add = parser.add
     parser.add_robot()
     parser.add_wobj()
-    parser.add_rows("poses", "robtargets")
-    parser.add_pose()
+    words = "poses: a CSV or .npy file, - for stdin, or robtargets of RAPID"
+    add("file", metavar="FILE", nargs="*", help=words)
+    add("--xyz", nargs=3, type=number, metavar=(*"XYZ",), help="position of the tool [mm]")
+    add("--wxyz", nargs=4, type=number, metavar=(*"WXYZ",), help="its quaternion, w first")
+    add("--xyzw", nargs=4, type=number, metavar=(*"XYZW",), help="or w last")
+    turn = ("RZ", "RY", "RX")
+    add("--euler", nargs=3, type=number, metavar=turn, help="or ZYX angles [deg]")
+    add("--q7", type=angle, metavar="Q7", help="angle of joint 7 of a seven-axis arm [deg]")
     add("--given", type=joint_and_angle, metavar="J=Q", help="or of another one, as 3=11.5 [deg]")
     add("--within", action="store_true", help="only solutions inside the limits")
     parser.add_joints("seed", "only the nearest to these joints [deg]")
@@ -91,8 +97,9 @@ def _check(arguments: argparse.Namespace, robot: Robot) -> None:
         raise CommandError("--seed and --confdata: give one of them")
     if robot.dof != 7:
         for name in ("given",) * given + ("arm-angle",) * arm_angle:
-            words = f"--{name} is for arms of seven joints, {robot.name} has {robot.dof}"
-            raise CommandError(words)
+            raise CommandError(
+                f"--{name} is for arms of seven joints, {robot.name} has {robot.dof}"
+            )
     if own:
         # Refused for an arm without confdata.
         robot.configuration(np.zeros(robot.dof))
@@ -138,10 +145,9 @@ class _All:
 
     def reason(self, pose: Floats) -> str:
         """Why a pose has no solution inside the limits."""
-        robot = self.robot
-        return (
-            robot.check_pose(pose).reason if robot.dof == 6 else robot.ik(pose, self.q7).explain()
-        )
+        if self.robot.dof == 6:
+            return self.robot.check_pose(pose).reason
+        return self.robot.ik(pose, self.q7).explain()
 
     def solve(self, part: Part, poses: Floats, before: int) -> tuple[Columns, Floats, Any]:
         """The columns of poses, their joints, and which have some inside the limits."""
@@ -181,7 +187,6 @@ class _All:
         return [np.where(off.min(axis=1) < 1e-6, off.argmin(axis=1), -1)]
 
     def notes(self, rows: int) -> list[tuple[str, Any, str]]:
-        """Notes on all poses."""
         of = "" if self.is_one else f"of {self.uncertain} of {rows} poses "
         words = f"{of}there may be more solutions: their number is not certified"
         return self.said + [("uncertified", self.uncertain, words)] * (self.uncertain > 0)

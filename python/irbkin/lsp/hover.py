@@ -44,8 +44,7 @@ def hover(result: Result, module: int, offset: int) -> tuple[str, tuple[int, int
 def _span(text: Text, move: CheckedMove) -> tuple[int, int]:
     """The offsets of a statement without its semicolon."""
     begin = text.at(move.line, move.column)
-    end = text.source.find(";", begin)
-    return begin, len(text.source) if end < 0 else end
+    return begin, text.statement_end(begin)
 
 
 def _moves_to(result: Result, declared: Declared) -> Iterator[str]:

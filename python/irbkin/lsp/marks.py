@@ -74,7 +74,7 @@ def actions(
             edit = types.TextEdit(result.text(result.modules[file]).range_of_bytes(begin, end), new)
             for own in (edits, everything):
                 own.setdefault(uri_of(file), {})[begin, end] = edit
-        if edits and _meets(area, params.range):
+        if edits and area.start <= params.range.end and params.range.start <= area.end:
             at = [
                 mark
                 for mark in params.context.diagnostics
@@ -107,10 +107,6 @@ def _edit(edits: Edits) -> types.WorkspaceEdit:
     return types.WorkspaceEdit({uri: list(own.values()) for uri, own in edits.items()})
 
 
-def _meets(one: types.Range, other: types.Range) -> bool:
-    return one.start <= other.end and other.start <= one.end
-
-
 def location(result: Result, declared: Declared) -> types.Location:
     """Return the location of a declaration."""
     begin, end = declared.span(text := result.text(declared.module))
@@ -121,7 +117,7 @@ def location(result: Result, declared: Declared) -> types.Location:
 def symbols(result: Result, module: int) -> list[types.DocumentSymbol]:
     """Return the routines and data of a module, the data of routines in these."""
     text, outer = result.text(module), list[types.DocumentSymbol]()
-    blocks = result.blocks(module)
+    blocks = text.blocks
     routines: dict[str, list[types.DocumentSymbol]] = {}
     for declared in result.names.of_modules[module]:
         is_routine = declared.kind in ROUTINES
@@ -130,7 +126,7 @@ def symbols(result: Result, module: int) -> list[types.DocumentSymbol]:
         # LOCAL may be ahead of its block.
         at = bisect(blocks, (start,))
         is_block = is_routine and at < len(blocks) and blocks[at][0] < begin
-        stop = blocks[at][1] if is_block else _statement_end(text, end)
+        stop = blocks[at][1] if is_block else text.statement_end(end) + 1
         kind = KINDS.get(declared.kind, types.SymbolKind.Variable)
         if declared.is_constant:
             kind = types.SymbolKind.Constant
@@ -147,7 +143,7 @@ def symbols(result: Result, module: int) -> list[types.DocumentSymbol]:
 def folds(result: Result, module: int) -> list[types.FoldingRange]:
     """Return the blocks of a module, and its comments of several lines."""
     text = result.text(module)
-    parts = [(begin, end) for begin, end, _ in result.blocks(module)]
+    parts = [(begin, end) for begin, end, _ in text.blocks]
     parts += [match.span() for match in COMMENTS.finditer(text.source)]
     rows = ([text.place(offset)[0] - 1 for offset in part] for part in parts)
     return [types.FoldingRange(begin, end) for begin, end in rows if begin < end]
@@ -166,8 +162,3 @@ def places(
             if is_whole or place != own:
                 found[place.uri, at] = place
     return list(found.values())
-
-
-def _statement_end(text: Text, begin: int) -> int:
-    end = text.source.find(";", begin)
-    return len(text.source) if end < 0 else end + 1

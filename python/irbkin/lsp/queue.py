@@ -73,7 +73,9 @@ class Queue:
         """Wait until the current text of a document is checked; return whether it is in time."""
         loop = asyncio.get_running_loop()
         end = loop.time() + timeout
-        while self._worker and not self._worker.done() and self._is_open(path):
+        while self._worker and not self._worker.done():
+            if path not in self._new and self._stale.keys().isdisjoint(self.sessions(path)):
+                break
             left = end - loop.time()
             if left <= 0.0:
                 return False
@@ -89,10 +91,6 @@ class Queue:
     def stop(self) -> None:
         """End the thread after its current check."""
         self._pool.shutdown(wait=False, cancel_futures=True)
-
-    def _is_open(self, path: str) -> bool:
-        """Whether a search or a check of a document is pending."""
-        return path in self._new or any(session in self._stale for session in self.sessions(path))
 
     def _continue(self, session: Session) -> None:
         """Check a session again, a check of which took long."""

@@ -10,7 +10,7 @@ from operator import is_
 from irbkin.check.checker import Checker
 from irbkin.check.findings import Finding
 from irbkin.check.jobs import Job
-from irbkin.lsp.code import Span, before, blocks, calls_at, occurrences, own_names
+from irbkin.lsp.code import before, calls_at, occurrences, own_names
 from irbkin.lsp.names import PARAMETER, Declared, Names
 from irbkin.lsp.reading import Reading
 from irbkin.lsp.text import Text
@@ -29,7 +29,6 @@ class Result:
     names: Names
     """Where its names are declared."""
     _texts: dict[int, Text] = field(default_factory=dict, repr=False)
-    _blocks: dict[int, list[Span]] = field(default_factory=dict, repr=False)
 
     @cached_property
     def modules(self) -> dict[str, int]:
@@ -54,7 +53,7 @@ class Result:
         if ahead == "\\":
             of = self.names.find(module, routine, calls_at(text.source, end)[-1].name)
             return self.names.parameters(of).get(name.lower())
-        inner = own_names(text.source, (it for it in self.blocks(module) if it[0] <= begin < it[1]))
+        inner = own_names(text.source, (it for it in text.blocks if it[0] <= begin < it[1]))
         if found := [it for it in inner if it[2].lower() == name.lower()]:
             first, _, own = found[-1]
             place = (routine, True, *text.place(first))
@@ -75,12 +74,6 @@ class Result:
         """Return the modules whose statements see something declared."""
         is_inner = declared.is_local or declared.routine is not None
         return [declared.module] if is_inner else range(len(self.job.program.modules))
-
-    def blocks(self, module: int) -> list[Span]:
-        """Return the blocks of a module."""
-        if module not in self._blocks:
-            self._blocks[module] = blocks(self.text(module).source)
-        return self._blocks[module]
 
 
 SLOW = 2.0

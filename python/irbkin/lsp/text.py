@@ -9,6 +9,8 @@ from itertools import accumulate
 
 from lsprotocol import types
 
+from irbkin.lsp.code import Span, blocks
+
 END_OF_LINE = re.compile(r"\r\n|\n|\r")
 """Ends of lines, as the protocol defines them."""
 NAME = re.compile(r"[^\W\d]\w*")
@@ -40,10 +42,16 @@ class Text:
     def _bytes(self) -> bytes:
         return self.source.encode()
 
+    @cached_property
+    def blocks(self) -> list[Span]:
+        """Its blocks, as `code.blocks` has them."""
+        return blocks(self.source)
+
     def position(self, offset: int) -> types.Position:
         """Return the position of an offset."""
         line = bisect(self._starts, offset) - 1
-        return types.Position(line, _units(self.source[self._starts[line] : offset]))
+        units = self.source[self._starts[line] : offset].encode("utf-16-le")
+        return types.Position(line, len(units) // 2)
 
     def offset(self, position: types.Position) -> int:
         """Return the offset of a position, clamped to the end of its line and of the text."""
@@ -76,6 +84,11 @@ class Text:
         end = self._rows[line] - 1 if line < len(self._rows) else None
         return self.source[self._rows[line - 1] : end].rstrip("\r")
 
+    def statement_end(self, begin: int) -> int:
+        """Return the offset of the next semicolon, or the end of the text."""
+        end = self.source.find(";", begin)
+        return len(self.source) if end < 0 else end
+
     def range(self, begin: int, end: int) -> types.Range:
         """Return the range between two offsets."""
         return types.Range(self.position(begin), self.position(end))
@@ -101,11 +114,6 @@ class Text:
                 begin = self._rows[line - 1]
                 return begin + match.start(), begin + match.end()
         return offset, offset
-
-
-def _units(text: str) -> int:
-    """The number of UTF-16 code units of a text."""
-    return len(text) if text.isascii() else len(text.encode("utf-16-le")) // 2
 
 
 def _sound(text: str) -> str:

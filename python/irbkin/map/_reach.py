@@ -12,7 +12,7 @@ from irbkin._arrays import Floats, rotations
 from irbkin._grids import ReachMap
 from irbkin.errors import InvalidPoseError
 from irbkin.map._solved import Grid
-from irbkin.map._store import FIELDS, checked_output, load, records
+from irbkin.map._store import FIELDS, checked_output, is_in, load, records
 
 
 def orientations(directions: int, turns: int = 1) -> Floats:
@@ -104,7 +104,7 @@ def reach(
 def _write(grid: Grid, path: Path) -> None:
     """Write the map of a grid into a file, from where a run was ended."""
     job = grid.job()
-    if job.is_in(path):
+    if is_in(path, job):
         grid.report(grid.size, grid.size)
         return
     with records(path, job) as (file, ready):

@@ -8,10 +8,10 @@ import hashlib
 import os
 import pickle
 import zipfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, BinaryIO
 
 import numpy as np
 import numpy.typing as npt
@@ -28,48 +28,34 @@ INPUTS = ("robot", "q7", "cell", "version of irbkin")
 """Inputs of a map beside its grid."""
 
 
-class Job(NamedTuple):
-    """The inputs of a map, as its file has them beside the numbers."""
+GRID = ("x", "y", "z", "orientations")
+Job = Mapping[str, npt.NDArray[Any]]
+"""The inputs of a map, as its file has them beside the numbers: digests, "job", and GRID."""
 
-    job: npt.NDArray[Any]
-    """Digests of INPUTS."""
-    x: Floats
-    y: Floats
-    z: Floats
-    orientations: Floats
 
-    @classmethod
-    def of(cls, inputs: Sequence[Any], grid: Sequence[Floats]) -> Job:
-        digests = [hashlib.sha256(pickle.dumps(it, protocol=4)).hexdigest() for it in inputs]
-        return cls(np.array(digests), *grid)
+def job_of(inputs: Sequence[Any], grid: Sequence[Floats]) -> Job:
+    digests = [hashlib.sha256(pickle.dumps(it, protocol=4)).hexdigest() for it in inputs]
+    return {"job": np.array(digests), **dict(zip(GRID, grid, strict=True))}
 
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Numbers of positions."""
-        return len(self.x), len(self.y), len(self.z)
 
-    def differences(self, other: Job) -> str:
-        """Inputs of another job that are not its own."""
-        names = [it for it, own, its in zip(INPUTS, self.job, other.job, strict=True) if own != its]
-        grid = ("x", "y", "z", "orientations")
-        names += [it for it in grid if not np.array_equal(getattr(self, it), getattr(other, it))]
-        return ", ".join(names)
+def is_in(path: Path, job: Job) -> bool:
+    """Whether the map of a job is in a file already.
 
-    def is_in(self, path: Path) -> bool:
-        """Whether its map is in a file already.
-
-        Raises:
-            FileExistsError: The file has something else.
-        """
-        if not path.exists():
-            return False
-        try:
-            what = self.differences(Job(**_arrays(path, Job._fields)))
-        except IrbkinError as error:
-            what = str(error)
-        if what:
-            raise _another(path, what)
-        return True
+    Raises:
+        FileExistsError: The file has something else.
+    """
+    if not path.exists():
+        return False
+    try:
+        other = _arrays(path, [*job])
+    except IrbkinError as error:
+        raise _another(path, str(error)) from None
+    digests = zip(INPUTS, job["job"], other["job"], strict=True)
+    names = [name for name, own, its in digests if own != its]
+    names += [name for name in GRID if not np.array_equal(job[name], other[name])]
+    if names:
+        raise _another(path, ", ".join(names))
+    return True
 
 
 def _another(path: Path, what: str) -> FileExistsError:
@@ -89,7 +75,7 @@ def records(path: Path, job: Job) -> Iterator[tuple[BinaryIO, int]]:
     if not path.parent.is_dir():
         words = "cannot be written: its folder does not exist"
         raise FileNotFoundError(errno.ENOENT, words, str(path))
-    begin = hashlib.sha256(b"".join(it.tobytes() for it in job)).digest()
+    begin = hashlib.sha256(b"".join(it.tobytes() for it in job.values())).digest()
     with continued(beside) as file:
         if not begin.startswith(file.read(len(begin))):
             raise _another(beside, "a run of it was ended")
@@ -100,8 +86,8 @@ def records(path: Path, job: Job) -> Iterator[tuple[BinaryIO, int]]:
         yield file, count
         file.flush()
         # Of the columns only what is written at a time is in memory.
-        whole = np.memmap(file, RECORD, "r", len(begin), job.shape)
-        columns: dict[str, Any] = {**job._asdict(), **{name: whole[name] for name in FIELDS}}
+        whole = np.memmap(file, RECORD, "r", len(begin), tuple(len(job[it]) for it in "xyz"))
+        columns: dict[str, Any] = {**job, **{name: whole[name] for name in FIELDS}}
         with replaced(path) as archive:
             np.savez(archive, **columns)
         # Windows removes no file that is mapped.

@@ -45,16 +45,13 @@ def of_calibration(thing: Calibrated, robot: Robot | None, q: npt.ArrayLike | No
         # A link of a calibrated table may have its frame kilometers away: axes that are almost
         # parallel have their common normal there.
         drawn = thing.nominal if isinstance(thing, Calibration) else robot
-        arms = (arm_of(drawn, _postures(angles)),)
+        # Some postures, all but the first as ghosts.
+        kept = evenly(len(angles), MOST_POSTURES).tolist()
+        postures = (Posture(rows(angles[it]), f"measurement {it}", it > 0) for it in kept)
+        arms = (arm_of(drawn, postures),)
     own = Scene(arms=arms, frames=tuple(_frames(thing, at)))
     # Both sides of A X = X B are moves: they have no place.
     return own if is_move else own + _residuals(thing.measured, thing.fitted)
-
-
-def _postures(q: Floats) -> list[Posture]:
-    """Some of them, all but the first as ghosts."""
-    kept = evenly(len(q), MOST_POSTURES)
-    return [Posture(rows(q[it]), f"measurement {it}", is_ghost=it > 0) for it in kept.tolist()]
 
 
 def _frames(thing: Calibrated, at: Floats | None) -> list[Frame]:

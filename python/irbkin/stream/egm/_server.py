@@ -90,11 +90,7 @@ class Server:
     @property
     def statistics(self) -> Statistics:
         """The counts of the last session; zeros before the first."""
-        return (
-            self._session.statistics
-            if self._session
-            else Statistics(*[0] * len(Statistics._fields))
-        )
+        return self._session.statistics if self._session else Statistics()
 
     def run(self, reference: Reference, *, seconds: float | None = None) -> Statistics:
         """Serve one session.

@@ -50,25 +50,25 @@ FOLLOWING = {"joint": 0.2, "pose": 0.4}
 class Statistics(NamedTuple):
     """Datagrams of a session, and how its references fared."""
 
-    received: int
+    received: int = 0
     """Datagrams that were answered."""
-    lost: int
+    lost: int = 0
     """Sequence numbers that never came."""
-    late: int
+    late: int = 0
     """Datagrams behind a later one, or too old, or read together with a later one: not answered."""
-    duplicate: int
+    duplicate: int = 0
     """Datagrams that came again: not answered."""
-    broken: int
+    broken: int = 0
     """No messages of a controller, or of this robot."""
-    foreign: int
+    foreign: int = 0
     """Datagrams by other senders."""
-    bridged: int
+    bridged: int = 0
     """Cycles without a datagram in which the reference went on."""
-    refused: int
+    refused: int = 0
     """References that the guard did not take as they are."""
-    stops: int
+    stops: int = 0
     """Times that the guard stopped following a reference, before the end."""
-    slow: int
+    slow: int = 0
     """Answers for which the reference took longer than a cycle."""
 
 
@@ -153,7 +153,7 @@ class Session:
     @property
     def statistics(self) -> Statistics:
         """The counts until now."""
-        return Statistics(*(self._count[name] for name in Statistics._fields))
+        return Statistics(**self._count)
 
     def end(self, error: BaseException | None = None) -> None:
         """Brake from now on, hold, and be done; `error` is why."""
@@ -313,12 +313,8 @@ class Session:
             # The next datagram is one cycle on, whatever its number is: meanwhile none was lost.
             self._last = None
         if not is_resting and self._took > self.watchdog:
-            self.end(
-                StreamError(
-                    f"{text}, at most {self.watchdog:g} s are allowed while the guard moves "
-                    "(watchdog): calculate ahead, or in another thread"
-                )
-            )
+            words = f"{text}, at most {self.watchdog:g} s are allowed while the guard moves "
+            self.end(StreamError(f"{words}(watchdog): calculate ahead, or in another thread"))
 
     def _advance(self, gap: int, q: Floats, message: EgmRobot) -> None:
         """Step the guard for a message and for the cycles without one before it."""
@@ -378,12 +374,8 @@ class Session:
         """Brake if the robot does not follow."""
         default = TOLERANCE + FOLLOWING[self.mode] * self._fastest
         if apart := self._apart(q, default if self._bound is None else self._bound):
-            self.end(
-                StreamError(
-                    f"{apart} (max_following_error): the guard has braked; is the robot held, or "
-                    "MaxSpeedDeviation too low?"
-                )
-            )
+            words = f"{apart} (max_following_error): the guard has braked; is the robot held, or "
+            self.end(StreamError(f"{words}MaxSpeedDeviation too low?"))
             log.warning("cycle %d: %s", self._cycles, self.error)
 
     def _apart(self, q: Floats, most: npt.ArrayLike) -> str | None:

@@ -131,7 +131,9 @@ def play(
         while (now := controller.ticks * controller.cycle) < seconds:
             there.put(controller.tick(), controller.ticks, now)
             for data in there.due(controller.ticks):
-                _send(own, data)
+                # There may be no server yet.
+                with contextlib.suppress(ConnectionError):
+                    own.send(data)
             for data in _received(own, begin + now + controller.cycle):
                 back.put(data, controller.ticks, now)
             for data in back.due(controller.ticks):
@@ -139,12 +141,6 @@ def play(
             if controller.state != state:
                 state = controller.state
                 say(f"{now:7.3f} s  {state}")
-
-
-def _send(own: socket.socket, data: bytes) -> None:
-    """Send a datagram, whether or not there is a server yet."""
-    with contextlib.suppress(ConnectionError):
-        own.send(data)
 
 
 def _received(own: socket.socket, until: float) -> Iterator[bytes]:
