@@ -35,8 +35,7 @@ def numbered(name: str, rows: Floats) -> Columns:
 
 def has_flag(status: npt.NDArray[np.uint8], flag: int) -> npt.NDArray[np.bool_]:
     """Where a flag of `irbkin.Status` is set."""
-    is_set: npt.NDArray[np.bool_] = (np.asarray(status) & flag) != 0
-    return is_set
+    return np.asarray((np.asarray(status) & flag) != 0)
 
 
 def of_solutions(solutions: Solutions, has_confdata: bool) -> Columns:

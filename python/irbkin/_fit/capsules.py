@@ -160,15 +160,13 @@ def distances(points: Array, row: Array) -> Array:
     along = (points - row[:3]) @ axis
     part = np.clip(along / length, 0, 1) if length > 0 else 0 * along
     off = points - row[:3] - part[:, None] * axis
-    apart: Array = np.sqrt((off * off).sum(axis=1))
-    return apart
+    return np.asarray(np.sqrt((off * off).sum(axis=1)))
 
 
 def depths(row: Array, solid: Solid) -> Array:
     """How far the farthest corner of each piece is outside a capsule, not above zero inside."""
     off = distances(solid.points, row) - row[6]
-    farthest: Array = off[solid.pieces].max(axis=1)
-    return farthest
+    return np.asarray(off[solid.pieces].max(axis=1))
 
 
 def excess_of(solid: Solid, rows: Array, rng: np.random.Generator) -> float:
@@ -210,5 +208,4 @@ def corners_of(points: Array) -> Array:
 def unit(ways: Array) -> Array:
     """Vectors of length one."""
     lengths = np.linalg.norm(ways, axis=-1, keepdims=True)
-    units: Array = ways / np.maximum(lengths, 1e-300)
-    return units
+    return np.asarray(ways / np.maximum(lengths, 1e-300))

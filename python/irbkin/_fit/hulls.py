@@ -156,5 +156,4 @@ def from_triangle(points: Array, corners: Array) -> Array:
         least = np.minimum(least, np.linalg.norm(off - part[:, None] * edge, axis=1))
         is_over &= off @ np.cross(normal, edge) >= 0
     height = np.abs((points - corners[0]) @ unit(normal))
-    over: Array = np.where(is_over, np.minimum(least, height), least)
-    return over
+    return np.where(is_over, np.minimum(least, height), least)

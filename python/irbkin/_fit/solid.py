@@ -57,8 +57,7 @@ class Solid:
     def signed(self, points: Array) -> Array:
         """Distances from the surface by the grid, less than zero inside."""
         places = ((points - self.low) / self.cell).T
-        distances: Array = map_coordinates(self.grid, places, order=1, mode="nearest")
-        return distances
+        return np.asarray(map_coordinates(self.grid, places, order=1, mode="nearest"))
 
 
 def halved(triangles: Array, longest: float) -> Array:
@@ -83,8 +82,7 @@ def spread_over(triangles: Array, count: int) -> Array:
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     chosen = rng.choice(len(area), count, p=area / area.sum())
     u, v = np.sqrt(rng.uniform(size=count))[:, None], rng.uniform(size=count)[:, None]
-    points: Array = a[chosen] * (1 - u) + b[chosen] * u * (1 - v) + c[chosen] * u * v
-    return points
+    return np.asarray(a[chosen] * (1 - u) + b[chosen] * u * (1 - v) + c[chosen] * u * v)
 
 
 def inside(triangles: Array, axes: list[Array]) -> npt.NDArray[np.bool_]:

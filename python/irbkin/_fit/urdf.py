@@ -120,19 +120,16 @@ def ring() -> Array:
     """A polygon around the unit circle."""
     angle = np.arange(SIDES) * 2 * np.pi / SIDES
     points = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
-    around: Array = points / np.cos(np.pi / SIDES)
-    return around
+    return np.asarray(points / np.cos(np.pi / SIDES))
 
 
 def ball() -> Array:
     """Points whose hull is around the unit ball."""
     heights = np.sin(np.linspace(-np.pi / 2, np.pi / 2, SIDES // 2 + 1))
     rings = [ring() * [np.sqrt(1 - z * z), np.sqrt(1 - z * z), 0] + [0, 0, z] for z in heights]
-    around: Array = np.concatenate(rings) / np.cos(np.pi / SIDES) ** 2
-    return around
+    return np.asarray(np.concatenate(rings) / np.cos(np.pi / SIDES) ** 2)
 
 
 def hull(points: Array) -> Array:
     """The triangles of the convex hull of points."""
-    corners: Array = points[ConvexHull(points).simplices]
-    return corners
+    return np.asarray(points[ConvexHull(points).simplices])

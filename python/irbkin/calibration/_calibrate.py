@@ -138,8 +138,7 @@ def _everywhere(problem: _fit.Problem, corrections: Floats) -> Floats:
     jacobian = robot._parameter_jacobian(q, corrections)
     weights = np.r_[np.full(3, 1 / problem.position_std), np.full(3, 1 / problem.rotation_std)]
     rows = (jacobian * weights[:, None])[:, : problem.measurements.numbers]
-    flat: Floats = rows.reshape(-1, jacobian.shape[-1])
-    return flat
+    return np.asarray(rows.reshape(-1, jacobian.shape[-1]))
 
 
 def _bound(problem: _fit.Problem) -> float:

@@ -78,8 +78,7 @@ def _inverse_left_jacobian(vectors: Floats) -> Floats:
     near = angle < 1e-4
     safe = np.where(near, 1.0, half)
     factor = np.where(near, 1 / 12, (1 - safe / np.tan(safe)) / (4 * safe**2))
-    matrix: Floats = np.eye(3) - cross / 2 + factor[:, None, None] * (cross @ cross)
-    return matrix
+    return np.asarray(np.eye(3) - cross / 2 + factor[:, None, None] * (cross @ cross))
 
 
 def fit(problem: Problem, kept: Sequence[int], start: Floats) -> Floats:
@@ -138,8 +137,7 @@ def standard_errors(problem: Problem, kept: Sequence[int], corrections: Floats) 
     _, values, axes = np.linalg.svd(jacobian / sizes, full_matrices=False)
     freedom = len(residuals) - len(kept)
     scatter = np.sqrt(influence @ influence / freedom) / slope
-    errors: Floats = scatter * np.linalg.norm(axes.T / values, axis=1) / sizes
-    return errors
+    return np.asarray(scatter * np.linalg.norm(axes.T / values, axis=1) / sizes)
 
 
 def _influence(loss: str, parts: Floats) -> tuple[Floats, Floats]:

@@ -76,8 +76,7 @@ def reason(
 def _unit_columns(jacobian: Floats) -> Floats:
     """The columns scaled to one; those that are zero stay so."""
     sizes = np.linalg.norm(jacobian, axis=0)
-    scaled: Floats = jacobian / np.where(sizes > 0.0, sizes, 1.0)
-    return scaled
+    return jacobian / np.where(sizes > 0.0, sizes, 1.0)
 
 
 def condition(jacobian: Floats) -> float:

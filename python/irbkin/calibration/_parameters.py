@@ -28,8 +28,7 @@ def unit(name: str) -> str:
 def nominal(robot: Robot) -> Floats:
     """The value of each parameter without corrections."""
     rows = np.column_stack([robot.mdh, np.zeros(robot.dof)])
-    values: Floats = np.r_[np.zeros(len(FRAME)), rows.ravel(), np.zeros(len(FRAME))]
-    return values
+    return np.asarray(np.r_[np.zeros(len(FRAME)), rows.ravel(), np.zeros(len(FRAME))])
 
 
 def of_table(dof: int) -> list[str]:

@@ -30,8 +30,7 @@ def nearest_rotation(matrix: Floats) -> Floats:
     """The rotation nearest to a matrix."""
     left, _, right = np.linalg.svd(matrix)
     sign = np.diag([1.0, 1.0, np.linalg.det(left @ right)])
-    rotation: Floats = left @ sign @ right
-    return rotation
+    return np.asarray(left @ sign @ right)
 
 
 def _turn(

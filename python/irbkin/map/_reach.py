@@ -38,8 +38,7 @@ def orientations(directions: int, turns: int = 1) -> Floats:
     tilt = np.arccos(height)
     first = rotations(2, around) @ rotations(1, tilt)
     second = rotations(2, 2 * np.pi * np.arange(turns) / turns)
-    spread: Floats = (first[:, None] @ second)[..., :3, :3].reshape(-1, 3, 3)
-    return spread
+    return (first[:, None] @ second)[..., :3, :3].reshape(-1, 3, 3)
 
 
 def reach(

@@ -92,8 +92,7 @@ class Bases:
         """The distance of neighbors on the grid, shape (4,); half the range of one value."""
         width = self.high - self.low
         count = np.array(self.steps) - np.array([1, 1, 1, 0 if self.is_full_turn else 1])
-        spacing: Floats = np.where(count > 0, width / np.maximum(count, 1), width / 2)
-        return spacing
+        return np.where(count > 0, width / np.maximum(count, 1), width / 2)
 
     def around(self, values: Floats, step: Floats) -> Floats:
         """The neighbors of a base, one step along each coordinate or several, shape (k, 4)."""
@@ -104,15 +103,13 @@ class Bases:
         if self.is_full_turn:
             near[:, 3] = self.low[3] + (near[:, 3] - self.low[3]) % (2 * np.pi)
         near = np.clip(near, self.low, self.high)
-        kept: Floats = near[(near != values).any(axis=1)]
-        return kept
+        return np.asarray(near[(near != values).any(axis=1)])
 
     def poses(self, values: Floats) -> Floats:
         """The bases as poses, shape (k, 4, 4)."""
         placed = rotations(2, values[:, 3])
         placed[:, :3, 3] = values[:, :3]
-        turned: Floats = self.start @ placed @ self.mounting
-        return turned
+        return self.start @ placed @ self.mounting
 
 
 def _range(name: str, given: float | tuple[float, float]) -> tuple[float, float]:

@@ -224,8 +224,7 @@ def _start(start: npt.ArrayLike | None, robot: Robot) -> Floats:
     """A joint vector inside the limits; zeros, moved inside them, when not given."""
     lower, upper = robot.limits.T
     if start is None:
-        inside: Floats = np.clip(np.zeros(robot.dof), lower, upper)
-        return inside
+        return np.clip(np.zeros(robot.dof), lower, upper)
     q = finite(start, "start", (robot.dof,), InvalidJointsError)
     excess = np.maximum(lower - q, q - upper)
     for index in np.flatnonzero(excess > START_TOLERANCE):

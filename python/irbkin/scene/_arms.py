@@ -164,16 +164,14 @@ def outward(hull: LinkHull) -> Floats:
     one, other = (it / np.linalg.norm(it, axis=2, keepdims=True) for it in sides)
     angles = np.arccos(np.clip(np.sum(one * other, axis=2, keepdims=True), -1.0, 1.0))
     np.add.at(mean, faces, angles * face_normals(points, faces)[:, None])
-    moved: Floats = points + hull.radius * mean / np.linalg.norm(mean, axis=1, keepdims=True)
-    return moved
+    return np.asarray(points + hull.radius * mean / np.linalg.norm(mean, axis=1, keepdims=True))
 
 
 def face_normals(points: Floats, faces: npt.NDArray[np.int_]) -> Floats:
     """Return the normals of triangles out of a hull, shape (t, 3)."""
     first, second, third = np.moveaxis(points[faces], 1, 0)
     normals = np.cross(second - first, third - first)
-    unit: Floats = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
-    return unit
+    return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300))
 
 
 def start(arm: Arm) -> Sequence[float]:

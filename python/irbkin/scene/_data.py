@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 FORMAT, VERSION = "irbkin scene", 1
 KINDS = ("sphere", "capsule", "box", "cylinder", "half_space", "convex", "mesh", "points")
 ENDINGS = (".json", ".html", ".htm", ".svg")
-FACES: dict[str, Callable[..., Any]] = {}
+FACES: dict[str, Callable[..., str]] = {}
 """Makers of a scene's files, by their endings: `irbkin.scene` enters them."""
 Vector = tuple[float, ...]
 Rows = tuple[Vector, ...]
@@ -287,8 +287,7 @@ class Scene(_Part):
         """Return the scene as a page that opens in any browser without a network, draws and plays.
         It solves, too, where irbkin was built with the engine of such files: `make page`.
         """
-        text: str = FACES[".html"](self)
-        return text
+        return FACES[".html"](self)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the scene to a file, by its ending: a page (.html), JSON, or a picture of its arms

@@ -30,11 +30,9 @@ def toned(color: str, lighter: float) -> str:
 
 def on_paper(points: Floats) -> Floats:
     """Project points of the world, shape (..., 3), to the paper, (..., 2)."""
-    drawn: Floats = points @ np.column_stack([SIDEWAYS, UPWARD])
-    return drawn
+    return np.asarray(points @ np.column_stack([SIDEWAYS, UPWARD]))
 
 
 def nearness(points: Floats) -> Floats:
     """Return how near points are to the eye [m], shape (...): far ones are drawn first."""
-    near: Floats = points @ TOWARD
-    return near
+    return points @ TOWARD
