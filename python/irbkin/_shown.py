@@ -21,7 +21,6 @@ def of_record(record: object) -> str | None:
 
 
 def of_ik_batch(batch: IkBatch) -> str:
-    """How many poses have solutions."""
     status = np.asarray(batch.status)
     flags = np.bitwise_or.reduce(status.reshape(-1, status.shape[-1]), axis=1)
     inside, found = (int(np.count_nonzero(flags & it)) for it in (WITHIN_LIMITS, FOUND))
@@ -35,7 +34,6 @@ def of_ik_batch(batch: IkBatch) -> str:
 
 
 def of_plan(plan: Plan) -> str:
-    """How long and how good a plan is, and its breaks."""
     parts = [_poses((len(plan.q),)), f"{plan.q.shape[1]} joints"]
     axes = np.shape(plan.external)[1]
     parts += [f"{axes} external"] if axes else []
@@ -46,7 +44,6 @@ def of_plan(plan: Plan) -> str:
 
 
 def of_follow_result(result: FollowResult) -> str:
-    """How many poses are met, and the breaks."""
     q, error = np.asarray(result.q), np.asarray(result.orientation_error)
     is_met = ~np.isnan(error)
     head = f"<FollowResult: {_poses(error.shape)}, {q.shape[-1]} joints, {is_met.sum():,} met"

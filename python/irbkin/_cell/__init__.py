@@ -39,20 +39,14 @@ def read(
     with open(path, "rb") as file:
         content = file.read()
     try:
-        return _read(content, path, ending, solid, joints or {})
+        if ending == ".toml":
+            from irbkin._cell.tables import cell_of
+
+            return cell_of(content, os.path.dirname(path), solid)
+        from irbkin._cell.urdf import cell_of_urdf
+
+        return cell_of_urdf(content, path, joints or {}, solid), {}
     except InvalidModelError as error:
         raise InvalidModelError(f"{path}: {error}") from None
     except RecursionError:
         raise InvalidModelError(f"{path}: values or frames are nested too deeply") from None
-
-
-def _read(
-    content: bytes, path: str, ending: str, solid: bool, joints: Mapping[str, float]
-) -> tuple[Cell, dict[str, list[Shape]]]:
-    if ending == ".toml":
-        from irbkin._cell.tables import cell_of
-
-        return cell_of(content, os.path.dirname(path), solid)
-    from irbkin._cell.urdf import cell_of_urdf
-
-    return cell_of_urdf(content, path, joints, solid), {}

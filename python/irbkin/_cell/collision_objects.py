@@ -16,7 +16,6 @@ _PRIMITIVES = ("", "box", "sphere", "cylinder", "cone", "prism")
 
 
 def shapes_of(entry: Entry) -> list[Shape]:
-    """The shapes of an object in its frame."""
     shapes = []
     for kind, poses, make in [
         ("primitives", "primitive_poses", _primitive),

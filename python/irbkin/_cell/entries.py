@@ -103,7 +103,6 @@ class Entry:
 
 
 def parsed(text: str) -> dict[str, Any]:
-    """The table of a TOML text."""
     _bound(text)
     try:
         import tomllib

@@ -46,7 +46,6 @@ class Frames:
 
 
 def _pose(entry: Entry) -> Floats:
-    """The pose of a table in its frame."""
     entry.check("xyz", *_TURNS, "frame")
     turns = [key for key in _TURNS if key in entry.table]
     if len(turns) > 1:

@@ -45,7 +45,6 @@ def cell_of_message(message: Any, solid: bool) -> Cell:
 
 
 def _plain(value: Any) -> Any:
-    """A message as tables, lists, numbers and texts."""
     if value is None or isinstance(value, str | bytes | int | float):
         return value
     if hasattr(value, "tolist"):
@@ -78,7 +77,6 @@ def _check_world(root: Entry) -> None:
 def _apply(
     found: dict[str, list[Shape]], name: str, entry: Entry, frames: dict[str, Floats]
 ) -> None:
-    """Do what an object's operation is."""
     operation = named(entry, "operation", _OPERATIONS, 0)
     if operation == "remove":
         if name and name not in found:

@@ -206,6 +206,5 @@ def corners_of(points: Array) -> Array:
 
 
 def unit(ways: Array) -> Array:
-    """Vectors of length one."""
     lengths = np.linalg.norm(ways, axis=-1, keepdims=True)
     return np.asarray(ways / np.maximum(lengths, 1e-300))

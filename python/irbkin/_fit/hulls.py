@@ -146,7 +146,6 @@ def around(kept: Array, points: Array) -> tuple[npt.NDArray[np.intp], float]:
 
 
 def from_triangle(points: Array, corners: Array) -> Array:
-    """Distances of points from a triangle."""
     least = np.full(len(points), np.inf)
     normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
     is_over = np.ones(len(points), bool)

@@ -66,6 +66,5 @@ def meet(one: tuple[Array, Solid], other: tuple[Array, Solid]) -> bool:
 
 
 def area(triangles: Array) -> float:
-    """The area of triangles [m^2]."""
     a, b, c = triangles.transpose(1, 0, 2)
     return float(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())

@@ -131,5 +131,4 @@ def ball() -> Array:
 
 
 def hull(points: Array) -> Array:
-    """The triangles of the convex hull of points."""
     return np.asarray(points[ConvexHull(points).simplices])

@@ -23,8 +23,6 @@ _NUMBERS = ("twist", "length", "rotation", "offset")
 
 
 class Arm(NamedTuple):
-    """An arm as a file has it."""
-
     frames: Floats
     """Its axes in the base at zero joints, z along the axis, shape (n, 4, 4)."""
     links: list[int]
@@ -186,7 +184,6 @@ def limits_of(element: Element, active: int) -> tuple[Floats, Floats] | None:
 
 
 def _step(twist: float, length: float, rotation: float, offset: float) -> Floats:
-    """The transform of a row of the table."""
     (s, c), (t, u) = ((np.sin(it), np.cos(it)) for it in (rotation, twist))
     rows = [[c, -s, 0.0, length], [s * u, c * u, -t, -offset * t], [s * t, c * t, u, offset * u]]
     return np.array([*rows, [0.0, 0.0, 0.0, 1.0]])

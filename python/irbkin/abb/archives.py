@@ -44,21 +44,17 @@ def unpacked_of(archive: Path) -> Unpacked:
 
 
 def _unpack(opened: zipfile.ZipFile, member: zipfile.ZipInfo, folder: Path, left: int) -> int:
-    """Unpack a member; return its size."""
     parts = PurePosixPath(member.filename.replace("\\", "/")).parts
     if not parts or ".." in parts or parts[0].endswith((":", "/")):
         return 0
     path = folder.joinpath(*parts)
-    if member.is_dir():
-        path.mkdir(parents=True, exist_ok=True)
-        return 0
-    if not path.name.lower().endswith(READ_ENDINGS):
-        path.parent.mkdir(parents=True, exist_ok=True)
+    inside = path if member.is_dir() else path.parent
+    inside.mkdir(parents=True, exist_ok=True)
+    if member.is_dir() or not path.name.lower().endswith(READ_ENDINGS):
         return 0
     with opened.open(member) as file:
         content = file.read(left + 1)
     if len(content) > left:
         raise ValueError(f"it has more than {MOST_BYTES} bytes of text")
-    path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(content)
     return len(content)

@@ -28,7 +28,7 @@ TYPE = re.compile(r"\s*([A-Za-z_]\w*):\s*$")
 CONFLICT = re.compile(r"(?:<{7}|={7}|>{7}|\|{7})(?:\s|$)")
 # An unclosed quote takes in the rest of its line.
 TOKEN = re.compile(
-    r'\s+|-(?P<key>[A-Za-z_]\w*)|"(?P<string>[^"]*)"|(?P<open>".*)|(?P<word>[^\s"]+)', re.DOTALL
+    r'\s+|-(?P<key>[A-Za-z_]\w*)|"(?P<string>[^"]*)(?P<end>"?)|(?P<word>[^\s"]+)', re.DOTALL
 )
 NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 UNIQUE = (
@@ -107,8 +107,6 @@ class CfgFile:
 
 
 class _Reader:
-    """The state of reading a file line by line."""
-
     def __init__(self, file: str) -> None:
         self.file = file
         self.domain = self.version = self.type = ""
@@ -190,8 +188,6 @@ class _Reader:
             values[self.key] = ""
             return
         value = token["string"] if token["string"] is not None else token["word"]
-        if token["open"]:
-            value = token["open"][1:]
         if value is None:
             return
         if self.key is None:
@@ -200,7 +196,7 @@ class _Reader:
             return
         values[self.key] = value
         self.key = None
-        if token["open"]:
+        if token["end"] == "":
             message = f"{self.label()}: the string {_short(value)} has no closing quote"
             self.report(number, "cfg-line", "warning", message)
 
@@ -227,7 +223,6 @@ def parse_cfg(text: str, file: str = "") -> CfgFile:
 
 
 def _duplicates(types: dict[str, tuple[Instance, ...]], file: str) -> list[Finding]:
-    """Report instances of a type with the same name."""
     found = []
     for name in UNIQUE:
         seen: dict[str, int] = {}
@@ -240,5 +235,4 @@ def _duplicates(types: dict[str, tuple[Instance, ...]], file: str) -> list[Findi
 
 
 def _short(text: str) -> str:
-    """Quote the beginning of a text."""
     return repr(text if len(text) <= 40 else text[:37] + "...")

@@ -134,7 +134,6 @@ def named(
 
 
 def _parts(value: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-    """The fields of a value, and its frames."""
     fields, frames = {}, {}
     for name in vars(type(value)):
         if name in FRAMES:

@@ -187,7 +187,6 @@ def _change(
     declared: tuple[Declared | None, Declared | None],
     moves: tuple[Mapping[Key, Moved], Mapping[Key, Moved]],
 ) -> TargetChange | None:
-    """The change of a target, if there is one."""
     old, new = declared
     old_met, new_met = (it.get(key) for it in moves)
     known = new or new_met or old or old_met
@@ -228,7 +227,6 @@ def _turned(given: dict[str, Any], old: Sequence[float], new: Sequence[float]) -
 
 
 def _robots(old: Backup, new: Backup) -> Iterator[str]:
-    """Lines for robots that differ."""
     for name in dict.fromkeys([*old.robots, *new.robots]):
         a, b = old.robots.get(name), new.robots.get(name)
         if a is None or b is None:

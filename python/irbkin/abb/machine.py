@@ -15,8 +15,6 @@ FIRST_LOGICAL_AXIS = 7
 
 
 class _Reader:
-    """MOC.cfg while it is read."""
-
     def __init__(self, moc: CfgFile, wording: tuple[str, ...]) -> None:
         self.moc = moc
         self.wording = wording
@@ -35,7 +33,6 @@ class _Reader:
 
     @cached_property
     def arms_by_type(self) -> dict[str, Instance]:
-        """ARM instances by the name of their arm type."""
         return {it.text("use_arm_type").lower(): it for it in reversed(self.moc.of("ARM"))}
 
     def bounds(self, joint: str) -> tuple[float, float]:
@@ -135,7 +132,6 @@ class _Reader:
             self.report(of.line, "limits-missing", "warning", message)
 
     def has_errors(self, joints: tuple[str, ...]) -> bool:
-        """Whether the errors of some of the joints were measured."""
         found = filter(None, (self.moc.named("ARM_CALIB", joint) for joint in joints))
         return any(key.startswith("error_") and it.number(key) for it in found for key in it.values)
 

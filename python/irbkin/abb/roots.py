@@ -35,8 +35,6 @@ def open_backup(path: Path) -> Folder:
 
 
 def _root(start: Path, archive: Path | None, unpacked: Path | None) -> Path:
-    """Return the root of the backup of a path."""
-
     def shown(path: Path) -> str:
         return str(path if unpacked is None else archive / path.relative_to(unpacked))  # type: ignore[operator]
 

@@ -123,7 +123,6 @@ def _written(lines: Sequence[str], place: Place, it: Any) -> tuple[str, dict[str
 
 
 def _elements(name: str, value: Any, index: tuple[int, ...] = ()) -> Iterator[tuple[str, Any]]:
-    """The elements of a value with their names."""
     if isinstance(value, list):
         for number, element in enumerate(value, 1):
             yield from _elements(name, element, (*index, number))

@@ -177,7 +177,6 @@ def _kind(of: Instance | None) -> str:
 
 
 def _moving(sources: list[_Source]) -> dict[str, bool | None]:
-    """Return whether each task moves a unit."""
     motion = {it.name: it.configured.switch("MotionTask") for it in sources if it.configured}
     if any(motion.values()):
         return {it.name: motion.get(it.name) for it in sources}

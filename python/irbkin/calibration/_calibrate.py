@@ -118,7 +118,6 @@ def calibrate(
 def _check_fit(
     robot: Robot, fit: Collection[str], position_std: float, rotation_std: float, loss: str
 ) -> frozenset[str]:
-    """The parts to fit, which the robot has."""
     wanted = frozenset([fit] if isinstance(fit, str) else fit)
     names = _parameters.names(robot.dof)
     if not wanted or not wanted <= {*FITS, *names}:

@@ -12,7 +12,7 @@ from irbkin.calibration._calibrate import FAR_ANGLE, FAR_LENGTH, FAR_PART
 from irbkin.calibration._fit import rotation_vectors
 from irbkin.calibration._loss import Loss, check_weights, outlying
 from irbkin.calibration._measurements import read_poses
-from irbkin.calibration._start import nearest_rotation, turns
+from irbkin.calibration._start import nearest_rotation, shift, turns
 from irbkin.errors import CalibrationError
 
 # Least singular value of the relative rotations, for each pose [1]: about the angle in rad by which
@@ -80,8 +80,7 @@ def hand_eye(
     matrix = (hands[:, :3, :3] - np.eye(3)).reshape(-1, 3)
     wanted = eyes[:, :3, 3] @ start[:3, :3].T - hands[:, :3, 3]
     start[:3, 3] = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0]
-    options = (position_std, rotation_std, loss)
-    return _refined(lambda x: (hands @ x, x @ eyes), [start], options)
+    return _refined(lambda x: (hands @ x, x @ eyes), [start], (position_std, rotation_std, loss))
 
 
 def robot_world(
@@ -116,17 +115,12 @@ def robot_world(
     check_weights(position_std, rotation_std, loss)
     for poses, name in ((hands, "a"), (seen, "b")):
         _check_turns(poses[0, :3, :3].T @ poses[1:, :3, :3], name)
-    x, y = np.eye(4), np.eye(4)
     # A = Y B X^-1.
-    y[:3, :3], inverse = turns(seen[:, :3, :3], hands[:, :3, :3])
-    x[:3, :3] = inverse.T
-    eyes = np.broadcast_to(np.eye(3), (len(hands), 3, 3))
-    matrix = np.concatenate([hands[:, :3, :3], -eyes], axis=2).reshape(-1, 6)
-    wanted = seen[:, :3, 3] @ y[:3, :3].T - hands[:, :3, 3]
-    found = np.linalg.lstsq(matrix, wanted.ravel(), rcond=None)[0]
-    x[:3, 3], y[:3, 3] = found[:3], found[3:]
-    options = (position_std, rotation_std, loss)
-    return _refined(lambda x, y: (hands @ x, y @ seen), [x, y], options)
+    y, inverse = np.eye(4), np.eye(4)
+    y[:3, :3], inverse[:3, :3] = turns(seen[:, :3, :3], hands[:, :3, :3])
+    shift(seen, hands[:, :3, 3], y, inverse, frozenset({"base", "tool"}))
+    start = [np.asarray(np.linalg.inv(inverse), dtype=float), y]
+    return _refined(lambda x, y: (hands @ x, y @ seen), start, (position_std, rotation_std, loss))
 
 
 def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floats]:

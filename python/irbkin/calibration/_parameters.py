@@ -32,7 +32,6 @@ def nominal(robot: Robot) -> Floats:
 
 
 def of_table(dof: int) -> list[str]:
-    """The names of the parameters of the table."""
     return names(dof)[len(FRAME) : -len(FRAME)]
 
 

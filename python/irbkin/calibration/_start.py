@@ -22,12 +22,11 @@ def aligned(robot: Robot, measurements: Measurements, fit: frozenset[str]) -> Ro
         _by_positions(flange, measurements.position, base, tool, fit)
     else:
         _turn(flange[:, :3, :3], measurements.rotation, base[:3, :3], tool[:3, :3], fit)
-        _shift(flange, measurements.position, base, tool, fit)
+        shift(flange, measurements.position, base, tool, fit)
     return robot.with_base(base).with_tool(tool)
 
 
 def nearest_rotation(matrix: Floats) -> Floats:
-    """The rotation nearest to a matrix."""
     left, _, right = np.linalg.svd(matrix)
     sign = np.diag([1.0, 1.0, np.linalg.det(left @ right)])
     return np.asarray(left @ sign @ right)
@@ -58,7 +57,7 @@ def turns(flange: Floats, measured: Floats) -> tuple[Floats, Floats]:
     return nearest_rotation(sign * inverse).T, nearest_rotation(sign * turn)
 
 
-def _shift(
+def shift(
     flange: Floats, measured: Floats, base: Floats, tool: Floats, fit: frozenset[str]
 ) -> None:
     """Move base and tool to where they fit best, by linear least squares (eq. 12)."""
@@ -91,4 +90,4 @@ def _by_positions(
             points = flange[:, :3, :3] @ tool[:3, 3] + flange[:, :3, 3]
             off = points - points.mean(axis=0)
             base[:3, :3] = nearest_rotation((measured - measured.mean(axis=0)).T @ off)
-        _shift(flange, measured, base, tool, fit)
+        shift(flange, measured, base, tool, fit)

@@ -60,10 +60,9 @@ def _run(given: list[str]) -> int:
         code: int = importlib.import_module(module_of(verb)).run(parser.parsed(rest))
         return code
     else:
-        import difflib
+        from irbkin._arguments import close
 
-        close = ", ".join(difflib.get_close_matches(verb, VERBS, n=3, cutoff=0.5) or VERBS)
-        raise CommandError(f"unknown verb {verb!r}: did you mean {close}? (irbkin --help)")
+        raise CommandError(f"unknown verb {verb!r}: {close(verb, VERBS)} (irbkin --help)")
     return FINE
 
 

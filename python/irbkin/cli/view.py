@@ -70,7 +70,6 @@ def _scene(arguments: argparse.Namespace) -> Scene:
 
 
 def _serve(own: Scene, port: int, is_quiet: bool) -> int:
-    """Serve a page until the command is interrupted."""
     try:
         view = scene.serve(own, port=port)
     except (OSError, OverflowError) as error:

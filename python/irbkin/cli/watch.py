@@ -79,7 +79,6 @@ def _stamps(names: Iterable[str], output: str) -> dict[str, tuple[int, int, int]
 
 
 def _named(path: str) -> Iterator[str]:
-    """The files that a file names."""
     folder = os.path.dirname(path)
     for match in NAMED.finditer(Path(path).read_bytes()):
         own = os.path.join(folder, os.fsdecode(match[1]).replace("\\", "/"))

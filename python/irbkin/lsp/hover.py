@@ -102,7 +102,6 @@ def _limit(robot: Robot, q: Any) -> str:
 
 
 def _singularity(robot: Robot, q: Any) -> Iterator[str]:
-    """The distances from the singularities of the arm."""
     at = robot.singularity(q)
     distances = {
         f"wrist {math.degrees(at.wrist):.1f} deg": at.wrist,
@@ -114,7 +113,6 @@ def _singularity(robot: Robot, q: Any) -> Iterator[str]:
 
 
 def _rules(result: Result, module: int, move: CheckedMove) -> Iterator[str]:
-    """Yield the rules of the findings on a move."""
     for code in dict.fromkeys(found.code for found in _found_at(result, module, move)):
         rule = rules()[code]
         words = " ".join(f"{rule.meaning}\n\nCure: {rule.cure}".split())

@@ -112,7 +112,6 @@ class Names:
 
     @cached_property
     def _routines(self) -> list[list[tuple[int, str]]]:
-        """The lines and names of the routines of each module."""
         return [[(it.line, it.name) for it in of.routines] for of in self.program.modules]
 
     def routine_at(self, module: int, line: int) -> str | None:

@@ -106,7 +106,6 @@ class Bases:
         return np.asarray(near[(near != values).any(axis=1)])
 
     def poses(self, values: Floats) -> Floats:
-        """The bases as poses, shape (k, 4, 4)."""
         placed = rotations(2, values[:, 3])
         placed[:, :3, 3] = values[:, :3]
         return self.start @ placed @ self.mounting
