@@ -53,11 +53,7 @@ def check_robot(robot: object) -> None:
 
 
 def count(value: object, name: str, error: type[IrbkinError]) -> int:
-    """A whole number of at least 1.
-
-    Raises:
-        IrbkinError: Of the class that is given, for anything else.
-    """
+    """A whole number of at least 1; `error` is raised for anything else."""
     try:
         number = operator.index(value)  # type: ignore[arg-type]
     except TypeError:

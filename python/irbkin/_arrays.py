@@ -32,11 +32,7 @@ def all_poses(value: Any) -> Any:
 def as_array(
     value: npt.ArrayLike, name: str, shape: tuple[int | None, ...], error: type[IrbkinError]
 ) -> Floats:
-    """An array of numbers; `None` in a shape is any length but 0.
-
-    Raises:
-        IrbkinError: Of the class that is given, for another shape or dtype.
-    """
+    """An array of numbers; `None` in a shape is any length but 0. Others raise `error`."""
     wanted = ", ".join("m" if size is None else str(size) for size in shape)
     wanted = f"{name} must have shape ({wanted}{',' * (len(shape) == 1)})"
     try:
@@ -74,11 +70,7 @@ def rotations(axis: int, angles: Floats) -> Floats:
 
 
 def limit_of_each(value: npt.ArrayLike, name: str, dof: int) -> Floats:
-    """A positive limit for each joint, from a number for all or one for each.
-
-    Raises:
-        InvalidMotionError: Another shape, or a limit that is not positive.
-    """
+    """A positive limit for each joint, of a number for all or of one for each."""
     shape = () if np.ndim(value) == 0 else (dof,)
     limits = np.broadcast_to(as_array(value, name, shape, InvalidMotionError), (dof,))
     for index in np.flatnonzero(~(limits > 0.0)):

@@ -20,9 +20,7 @@ def same(first: Any, second: Any) -> bool:
 
 
 def by_value(record: _Record) -> _Record:
-    """Compare a record that holds arrays by value; without it, `==` would ask for the truth of an
-    array.
-    """
+    """Compare a record that holds arrays by value, not by the truth of an array."""
 
     def is_equal(self: tuple[object, ...], other: object) -> bool:
         return same(self, other) if isinstance(other, tuple) else NotImplemented

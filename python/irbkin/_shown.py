@@ -1,7 +1,6 @@
 """Representations of answers of the extension, and the table of a robot."""
 
-from collections.abc import Callable
-from typing import Any
+from functools import singledispatch
 
 import numpy as np
 
@@ -14,12 +13,13 @@ FOUND, WITHIN_LIMITS, INVALID = 1, 2, 64
 """Flags of `irbkin.Status`."""
 
 
+@singledispatch
 def of_record(record: object) -> str | None:
     """The representation of a record that is an answer; None of another one."""
-    own = ANSWERS.get(type(record).__name__)
-    return None if own is None else own(record)
+    return None
 
 
+@of_record.register
 def of_ik_batch(batch: IkBatch) -> str:
     status = np.asarray(batch.status)
     flags = np.bitwise_or.reduce(status.reshape(-1, status.shape[-1]), axis=1)
@@ -33,6 +33,7 @@ def of_ik_batch(batch: IkBatch) -> str:
     return f"<IkBatch: {_poses(status.shape[:-1])}, {status.shape[-1]} slots: {words}>"
 
 
+@of_record.register
 def of_plan(plan: Plan) -> str:
     parts = [_poses((len(plan.q),)), f"{plan.q.shape[1]} joints"]
     axes = np.shape(plan.external)[1]
@@ -43,6 +44,7 @@ def of_plan(plan: Plan) -> str:
     return _with_breaks(f"<Plan: {', '.join(parts)}", gaps)
 
 
+@of_record.register
 def of_follow_result(result: FollowResult) -> str:
     q, error = np.asarray(result.q), np.asarray(result.orientation_error)
     is_met = ~np.isnan(error)
@@ -53,6 +55,7 @@ def of_follow_result(result: FollowResult) -> str:
     return _with_breaks(head, gaps)
 
 
+@of_record.register
 def of_singularity(at: Singularity) -> str:
     """The distances, and the singularities that they are near; of many how many are near one."""
     near = np.asarray(at.near())
@@ -65,14 +68,6 @@ def of_singularity(at: Singularity) -> str:
         words += f"least singular value {at.min_singular_value:.3g}, "
         words += singularities(at.kinds, int(near)) or "near none"
     return f"<Singularity: {words}>"
-
-
-ANSWERS: dict[str, Callable[[Any], str]] = {
-    "FollowResult": of_follow_result,
-    "IkBatch": of_ik_batch,
-    "Plan": of_plan,
-    "Singularity": of_singularity,
-}
 
 
 def _poses(shape: tuple[int, ...]) -> str:

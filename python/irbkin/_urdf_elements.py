@@ -49,9 +49,7 @@ def numbers_of(
 def mesh_path(
     name: str, folder: Path | None, packages: Mapping[str, str | PathLike[str]]
 ) -> Path | None:
-    """The file of a mesh, None if it is not there: `package://` of `packages`, else beside the URDF
-    or in a folder above it.
-    """
+    """The file of a mesh or None: `package://` of `packages`, else beside the URDF or above it."""
     if not name.startswith("package://"):
         paths = [(folder or Path()) / name.removeprefix("file://")]
     else:

@@ -47,10 +47,7 @@ def _positions(
 def fix(
     joints: Mapping[str, ElementTree.Element], given: Mapping[str, float], moving: Collection[str]
 ) -> None:
-    """Fix joints of a URDF at the positions that are given, and those that follow them.
-
-    Those in `moving` must not be.
-    """
+    """Fix joints where they are given, and those that follow them; none of `moving` may be."""
     joints = {name: it for name, it in joints.items() if attribute_of(it, "type") != "fixed"}
     for name in given:
         if name in moving:

@@ -24,9 +24,7 @@ MOST_TEXT, MOST_NUMBERS = 1_000_000, 100_000
 
 
 def elements_of(content: bytes, *wanted: str) -> Iterator[Element]:
-    """The elements of these names; all else is dropped while it is read. A document type, which
-    can declare entities, is refused.
-    """
+    """The elements of these names; all else is dropped while it is read, a <!DOCTYPE> refused."""
     try:
         text = content.decode("utf-8-sig")
         if "<!DOCTYPE" in text:
@@ -139,9 +137,7 @@ def floats(text: str) -> list[float]:
 
 
 def transform(element: Element) -> Floats:
-    """A rigid transform: RowX, RowY, RowZ, RowT, which are images of the axes and the origin, or
-    numbers.
-    """
+    """A rigid transform: RowX, RowY, RowZ and RowT (images of axes and origin), or numbers."""
     rows = [it for it in element if local(it) in ("rowx", "rowy", "rowz", "rowt")]
     values = [number(row, axis) for row in rows for axis in "xyzw"] or numbers(element)
     name = local(element)

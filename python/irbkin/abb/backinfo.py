@@ -134,9 +134,7 @@ def _version(products: list[str]) -> str:
 
 
 def _arms(types: list[str], products: list[str]) -> tuple[str, ...]:
-    """Return the lines that are the wording of an arm, a line for each: of ROBOT_TYPE, or among the
-    options of PRODUCTS_ID.
-    """
+    """Return the lines that word an arm: of ROBOT_TYPE, or among the options of PRODUCTS_ID."""
     of_types, of_products = (
         tuple(line for line in lines if len(line) < 80 and ARM.fullmatch(line))
         for lines in (types, products)

@@ -52,10 +52,8 @@ class _Reader:
                 lower, upper = (arm.number(key, math.nan) for key in keys)
                 if lower < upper:
                     return lower, upper
-                self.report(
-                    arm.line, "linkage-limits", "warning",
-                    f"ARM {arm.name}: the limits of the linkage are empty: not used",
-                )  # fmt: skip
+                message = f"ARM {arm.name}: the limits of the linkage are empty: not used"
+                self.report(arm.line, "linkage-limits", "warning", message)
         return None
 
     def base(self, of: Instance) -> Pose | None:
@@ -102,11 +100,8 @@ class _Reader:
         calibration = of.text("use_robot_calib").lower()
         is_calibrated = calibration.endswith("_calib") and self.has_errors(joints)
         if is_calibrated:
-            self.report(
-                of.line, "calibrated", "note",
-                f"{of.name}: its kinematics were measured (Absolute Accuracy): the nominal ones "
-                "are used",
-            )  # fmt: skip
+            message = f"{of.name}: its kinematics were measured (Absolute Accuracy): "
+            self.report(of.line, "calibrated", "note", f"{message}the nominal ones are used")
         return RobotUnit(
             of.name, type_name, found.arm, robot, base, _carrier(of), found.differences,
             is_calibrated, self.has_offsets(joints), joints, of.line,
@@ -193,12 +188,7 @@ def _kind(type_name: str, mechanics: str) -> UnitKind:
 
 
 def read_machine(moc: CfgFile, wording: tuple[str, ...]) -> Machine:
-    """Read the mechanical units of MOC.cfg.
-
-    Args:
-        moc: The file.
-        wording: Arms as backinfo.txt lists them: for a robot whose type string is unknown.
-    """
+    """Read the units of MOC.cfg; `wording`: arms of backinfo.txt, for a type string not known."""
     reader = _Reader(moc, wording)
     robots: dict[str, RobotUnit] = {}
     units: dict[str, ExternalUnit] = {}

@@ -92,9 +92,7 @@ def _has_cfg(folder: Path) -> bool:
 
 
 def _below(start: Path) -> tuple[list[Path], list[Path]]:
-    """Return the whole backups below a folder, and the halves. A backup in the HOME of another one
-    is not looked for, nor behind links.
-    """
+    """Return whole backups below a folder, and halves; not behind links, nor in HOME of another."""
     whole, half = [], []
     queue = deque([start])
     for _ in range(MOST_FOLDERS):

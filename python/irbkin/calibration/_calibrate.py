@@ -182,9 +182,7 @@ def _is_typical(robot: Robot, measurements: Measurements) -> npt.NDArray[np.bool
 
 
 def _off(problem: _fit.Problem, robot: Robot) -> tuple[float, float]:
-    """How far a robot is off the measurements [m], [rad]: their root mean square and, for a robust
-    loss, their median, which outliers do not move.
-    """
+    """Errors of a robot [m], [rad]: root mean square or, for a robust loss, the median."""
     residuals, distance, angle = _residuals(robot, problem.measurements)
     if problem.loss == "linear":
         return residuals.position_rms, residuals.rotation_rms

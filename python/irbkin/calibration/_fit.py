@@ -82,11 +82,7 @@ def _inverse_left_jacobian(vectors: Floats) -> Floats:
 
 
 def fit(problem: Problem, kept: Sequence[int], start: Floats) -> Floats:
-    """The corrections that fit best; only those kept differ from the start.
-
-    Raises:
-        CalibrationError: It does not converge.
-    """
+    """The corrections that fit best; only those kept differ from the start."""
     if problem.loss == "linear":
         return _solve(problem, kept, start, 1.0)
     # The scatter of all residuals measures how far is far: twice, for the first fit has outliers.

@@ -21,12 +21,8 @@ PARTNERS, PARTNER = 3, 0.2
 
 
 def chosen(jacobian: Floats, tiers: Sequence[Sequence[int]], least: float) -> list[int]:
-    """Indices of independent columns, earlier tiers first.
-
-    Args:
-        jacobian: Weighted Jacobian, shape (k, p).
-        tiers: Columns to choose from, preferred ones first.
-        least: Part of a column that must be independent.
+    """Indices of independent columns of a weighted Jacobian, shape (k, p), earlier tiers first;
+    `least` is the part of a column that must be independent.
     """
     scaled = _unit_columns(jacobian)
     basis = np.zeros((len(jacobian), 0))
@@ -50,14 +46,8 @@ def chosen(jacobian: Floats, tiers: Sequence[Sequence[int]], least: float) -> li
 def reason(
     jacobian: Floats, everywhere: Floats, kept: Sequence[int], index: int, names: Sequence[str]
 ) -> str:
-    """Why a parameter is left out.
-
-    Args:
-        jacobian: Weighted Jacobian of the measurements, shape (k, p).
-        everywhere: The Jacobian of poses all over the joint space.
-        kept: Columns that are fitted.
-        index: The column that is not.
-        names: Names of the columns.
+    """Why the parameter `index` is left out: by the weighted Jacobians of the measurements and of
+    poses all over the joint space, and the columns that are kept.
     """
     if not np.any(everywhere[:, index]):
         return "which does not move what was measured"

@@ -15,11 +15,7 @@ OUTLIER = 3.0
 
 
 def check_weights(position_std: float, rotation_std: float, loss: str) -> None:
-    """Refuse a standard deviation that is not positive and finite, and an unknown loss.
-
-    Raises:
-        ValueError: One of them is wrong.
-    """
+    """Refuse a standard deviation that is not positive and finite, and an unknown loss."""
     for name, value in (("position_std", position_std), ("rotation_std", rotation_std)):
         if not 0.0 < value < np.inf:
             raise ValueError(f"{name} is {value}, it must be positive and finite")

@@ -78,17 +78,14 @@ def read_poses(value: npt.ArrayLike, name: str) -> Floats:
         InvalidPoseError: A wrong shape, or a matrix that is no pose.
     """
     poses = finite(value, name, (None, 4, 4), InvalidPoseError)
-    return np.array([_pose(matrix, f"{name}[{index}]") for index, matrix in enumerate(poses)])
-
-
-def _pose(matrix: Floats, place: str) -> Floats:
-    last = np.abs(matrix[3] - [0.0, 0.0, 0.0, 1.0]).max()
-    if last > 1e-9:
-        raise InvalidPoseError(f"{place}: the last row must be 0 0 0 1, it is off by {last:.1e}")
+    off = np.abs(poses[:, 3] - [0.0, 0.0, 0.0, 1.0]).max(axis=1)
+    for row in np.flatnonzero(off > 1e-9):
+        words = f"the last row must be 0 0 0 1, it is off by {off[row]:.1e}"
+        raise InvalidPoseError(f"{name}: row [{row}]: {words}")
     try:
-        return pose(matrix[:3, 3], rotation=matrix[:3, :3])
+        return pose(poses[:, :3, 3], rotation=poses[:, :3, :3])
     except InvalidPoseError as fault:
-        raise InvalidPoseError(f"{place}: {fault}") from None
+        raise InvalidPoseError(f"{name}: {fault}") from None
 
 
 def spread(points: Floats) -> float:
@@ -114,11 +111,7 @@ def _check_units(robot: Robot, measurements: Measurements) -> None:
 
 
 def check_poses(measurements: Measurements, table: bool, parameters: int) -> None:
-    """Check that there are enough different poses for a number of parameters.
-
-    Raises:
-        CalibrationError: There are fewer numbers than parameters, or a joint does not move.
-    """
+    """Refuse fewer different poses than the parameters need, and a joint that does not move."""
     rounded = np.round(measurements.q / SAME_JOINTS)
     different = len(np.unique(rounded, axis=0))
     needed = -(-(parameters + 1) // measurements.numbers)

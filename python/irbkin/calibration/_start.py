@@ -82,9 +82,7 @@ def shift(
 def _by_positions(
     flange: Floats, measured: Floats, base: Floats, tool: Floats, fit: frozenset[str]
 ) -> None:
-    """Base and tool point by turns: the base by the rotation between two sets of points, the point
-    by linear least squares (eq. 13).
-    """
+    """Base and tool point by turns: rotation between two sets of points, least squares (eq. 13)."""
     for _ in range(ROUNDS if {"base", "tool"} <= fit else 1):
         if "base" in fit:
             points = flange[:, :3, :3] @ tool[:3, 3] + flange[:, :3, 3]

@@ -2,7 +2,9 @@
 
 import argparse
 import contextlib
+import csv
 import io
+import json
 import math
 import sys
 from collections.abc import Iterator, Mapping, Sequence
@@ -155,8 +157,6 @@ class Csv(Rows):
         self._add([tuple(column.key for column in self.columns)], None)
 
     def _add(self, rows: Cells, array: Any) -> None:
-        import csv
-
         text = io.StringIO()
         csv.writer(text, lineterminator="\n").writerows([map(_short, row) for row in rows])
         self.put(text.getvalue())
@@ -172,19 +172,16 @@ class Json(Rows):
     """One object with the rows, each an object, and what is said of all."""
 
     def _begin(self) -> None:
-        import json
-
-        self.dumps = json.dumps
-        self.put(f'{{"heading": {self.dumps(self.heading)},\n"rows": [')
+        self.put(f'{{"heading": {json.dumps(self.heading)},\n"rows": [')
 
     def _add(self, rows: Cells, array: Any) -> None:
         keys = [column.key for column in self.columns]
-        texts = (self.dumps(dict(zip(keys, map(_plain, row), strict=True))) for row in rows)
+        texts = (json.dumps(dict(zip(keys, map(_plain, row), strict=True))) for row in rows)
         if rows:
             self.put((",\n" if self.count else "\n") + ",\n".join(texts))
 
     def _end(self) -> None:
-        notes = (f",\n{self.dumps(key)}: {self.dumps(_plain(it))}" for key, it, _ in self.notes)
+        notes = (f",\n{json.dumps(key)}: {json.dumps(_plain(it))}" for key, it, _ in self.notes)
         self.put(f"\n]{''.join(notes)}}}\n")
 
 

@@ -40,11 +40,7 @@ class Layout(NamedTuple):
         return " or ".join(", ".join(choice) for choice in self.choices)
 
     def placed(self, fields: Sequence[str]) -> dict[str, int]:
-        """Where the columns are in a row: of names, in one unit or the other, or of numbers.
-
-        Raises:
-            ValueError: What it lacks.
-        """
+        """Where columns are in a row, by names or numbers; a ValueError says what it lacks."""
         fields = [field.strip() for field in fields]
         if len(fields) == 1 or any(map(_is_number, fields)):
             for choice in self.choices:
@@ -99,11 +95,7 @@ def read_text(
 
 
 def _numbers(rows: Sequence[Row], name: str, places: Sequence[int], width: int) -> Floats:
-    """The values of rows, all of one width if there is one.
-
-    Raises:
-        CommandError: A value is no finite number, or is missing.
-    """
+    """The values of rows, all of one width if there is one; a CommandError has a wrong place."""
     form: Any = {"delimiter": ",", "comments": None, "ndmin": 2, "quotechar": '"'}
     with contextlib.suppress(ValueError):
         values = np.loadtxt([it for _, it in rows], usecols=None if width else places, **form)

@@ -25,9 +25,7 @@ MOST_ROWS = 30
 
 
 def before(source: str, at: int) -> str | None:
-    """Return the character before a place in a line, blanks left out; None in a string or a
-    comment.
-    """
+    """Return the character before a place in a line without blanks; None in a string or comment."""
     row, end = source.rfind("\n", 0, at) + 1, source.find("\n", at)
     hidden = HIDDEN.finditer(source, row, len(source) if end < 0 else end)
     if any(part.start() <= at < part.end() for part in hidden):
@@ -111,9 +109,7 @@ BEGINNING, NOTHING, TYPE = ([Call(f"!{name}")] for name in ("beginning", "nothin
 
 
 def calls_at(source: str, offset: int) -> list[Call]:
-    """Return the calls that an offset is in, the innermost last, by the text before it without the
-    word that ends there.
-    """
+    """Return the calls around an offset, the innermost last, without the word that ends there."""
     begin = offset
     for _ in range(MOST_ROWS):
         begin = max(source.rfind("\n", 0, begin), 0)
@@ -143,9 +139,7 @@ def calls_at(source: str, offset: int) -> list[Call]:
 
 
 def _is_over(parts: list[str], gap: str) -> bool:
-    """Whether a name behind a gap begins a statement: one in a new line does, if the one before it
-    may end there, and so does one behind the condition of an IF.
-    """
+    """Whether a name behind a gap begins a statement: in a new line, or behind an IF condition."""
     if not parts or parts[-1].upper() in OPERATORS or not re.search(r'[\w)\]}"]$', parts[-1]):
         return False
     is_condition = parts[0].upper() == "IF" and len(parts) > 1

@@ -18,9 +18,7 @@ TARGETS = ("robtarget", "jointtarget")
 
 
 def hover(result: Result, module: int, offset: int) -> tuple[str, tuple[int, int]]:
-    """Return Markdown on the name or the move at an offset in a module, empty without either, and
-    its range.
-    """
+    """Return Markdown on the name or move at an offset in a module, if any, and its range."""
     text, declared = result.text(module), result.declared(module, offset)
     span = text.word(offset)
     moves = ((_span(text, move), move) for move in result.moves.get(module, ()))

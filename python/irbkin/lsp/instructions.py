@@ -38,9 +38,7 @@ DATA = {
 
 @cache
 def known() -> Mapping[str, Declared]:
-    """Return RAPID's own instructions and functions with their headers, data, types ("type") and
-    words ("keyword"), by names in lower case.
-    """
+    """Return RAPID's own instructions, functions, data, types and words, by names in lower case."""
     found = {}
     types = {name: kind for kind, names in RETURNED.items() for name in names.split()}
     for name, kind, arguments in instructions():

@@ -161,9 +161,7 @@ def declarations(module: Module, index: int) -> list[Declared]:
 
 
 def unread(statement: str) -> tuple[str, str, str, bool] | None:
-    """Return the name, the kind and the words of a declaration that is not read, and whether it is
-    LOCAL; None for any other statement.
-    """
+    """Return name, kind, words and whether LOCAL of a declaration that is not read, else None."""
     if match := UNREAD.match(statement):
         name, kind = match[4], match[3]
     elif match := RECORD.match(statement):

@@ -6,13 +6,13 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from irbkin import Cell, Robot
+from irbkin import Cell, Robot, __version__
 from irbkin._arguments import Bar, Report, count
 from irbkin._arrays import Floats, rotations
 from irbkin._grids import ReachMap
 from irbkin.errors import InvalidPoseError
 from irbkin.map._solved import Grid
-from irbkin.map._store import FIELDS, checked_output, is_in, load, records
+from irbkin.map._store import FIELDS, checked_output, is_in, job_of, load, records
 
 
 def orientations(directions: int, turns: int = 1) -> Floats:
@@ -102,7 +102,8 @@ def reach(
 
 def _write(grid: Grid, path: Path) -> None:
     """Write the map of a grid into a file, from where a run was ended."""
-    job = grid.job()
+    inputs = (grid.robot, grid.q7, grid.cell, __version__)
+    job = job_of(inputs, (*grid.axes, grid.orientations))
     if is_in(path, job):
         grid.report(grid.size, grid.size)
         return

@@ -8,9 +8,9 @@ import numpy.typing as npt
 
 from irbkin._arguments import Bar, Report, check_robot, count, reporter
 from irbkin._arrays import Floats, all_poses, as_array, finite
-from irbkin._core import Cell, Robot, __version__
+from irbkin._core import Cell, Robot
 from irbkin.errors import InvalidPoseError
-from irbkin.map._store import FIELDS, RECORD, Job, job_of
+from irbkin.map._store import FIELDS, RECORD
 
 # Poses that are solved at a time, and poses of a block: a tenth of a second and more.
 AT_A_TIME, IN_A_BLOCK = 1 << 14, 1 << 18
@@ -48,11 +48,6 @@ class Grid:
     @property
     def size(self) -> int:
         return int(np.prod(self.shape))
-
-    def job(self) -> Job:
-        """What its file names beside the numbers."""
-        inputs = (self.robot, self.q7, self.cell, __version__)
-        return job_of(inputs, (*self.axes, self.orientations))
 
     def blocks(self, first: int) -> Iterator[tuple[slice, npt.NDArray[Any]]]:
         """The records of positions from `first` on, in blocks."""

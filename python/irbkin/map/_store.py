@@ -39,11 +39,7 @@ def job_of(inputs: Sequence[Any], grid: Sequence[Floats]) -> Job:
 
 
 def is_in(path: Path, job: Job) -> bool:
-    """Whether the map of a job is in a file already.
-
-    Raises:
-        FileExistsError: The file has something else.
-    """
+    """Whether the map of a job is in a file already; a FileExistsError if something else is."""
     if not path.exists():
         return False
     try:
@@ -108,11 +104,7 @@ def _arrays(path: Path, names: Sequence[str]) -> dict[str, npt.NDArray[Any]]:
 
 
 def checked_output(output: str | PathLike[str]) -> Path:
-    """The path of a map.
-
-    Raises:
-        IrbkinError: It does not end in .npz.
-    """
+    """The path of a map, which ends in .npz."""
     if (path := Path(output)).suffix != ".npz":
         raise IrbkinError(f"output must be a file .npz, got {path}")
     return path

@@ -39,11 +39,7 @@ class Bases:
         frame: npt.ArrayLike | None,
         robot: Robot,
     ) -> Bases:
-        """Read a region.
-
-        Raises:
-            InvalidPoseError: A range that is empty or not finite, steps that are none.
-        """
+        """Read a region; an InvalidPoseError for a range or steps that are none."""
         if not isinstance(region, Region):
             raise InvalidPoseError(
                 f"region must be a Region, got {region!r}: give Region(x=(lower, upper), ...)"

@@ -80,11 +80,7 @@ class Scene:
         self.turned = self.targets[:, None] @ rotations("xyz".index(own.axis), self.angles)
 
     def _check(self) -> None:
-        """Refuse what is not a pose, and what no plan would take.
-
-        Raises:
-            IrbkinError: Of the class that `ik` and `plan` raise.
-        """
+        """Refuse what is not a pose, and what no plan would take, as `ik` and `plan` do."""
         invalid = (self.robot.ik_batch(self.targets).status & Status.INVALID).any(axis=1)
         for index in np.flatnonzero(invalid):
             try:
@@ -122,9 +118,7 @@ class Scene:
         return self._planned(bases, scores, above) if self.path else scores
 
     def _planned(self, bases: Floats, bounds: Scores, above: float | None) -> Scores:
-        """Plans from the bases that reach all of a path, by falling bound, and with `above` as long
-        as one can be the best.
-        """
+        """Plans from the bases that reach all of a path, as long as one can be the best."""
         reached, _, most = bounds.values.T
         progress, margin = np.zeros(len(bases)), most.copy()
         whole = reached == len(self.targets)

@@ -187,9 +187,7 @@ def _answer(scene: Scene, bases: Bases, scores: Scores, found: Start) -> Placeme
 
 
 def _joints(scene: Scene, base: Floats) -> tuple[Floats, Floats, Floats]:
-    """Joint angles, tool angle and margin of each target from a base; NaN where it is not reached,
-    with tool angle 0.
-    """
+    """Joint angles, tool angle (else 0) and margin of each target from a base; NaN if unreached."""
     seen = np.linalg.inv(base) @ scene.turned
     by_angle = scene.robot.ik_margin(seen, threads=scene.threads).margin
     best = np.argmax(np.where(np.isnan(by_angle), NOT_REACHED, by_angle), axis=1)

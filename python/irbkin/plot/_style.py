@@ -18,8 +18,6 @@ BLACK = COLORS[6]
 # With them, so that black and white does: solid, dashed, dash-dot, dotted, ...
 DASHES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (2, 1)), (0, (9, 2)))
 SHADE = "#f6d5c5"
-AXIS_COLORS = ("#d62728", "#2ca02c", "#1f77b4")
-"""x, y and z of a frame."""
 FONT = 9
 
 

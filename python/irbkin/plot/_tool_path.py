@@ -9,13 +9,13 @@ from matplotlib.ticker import MaxNLocator
 
 from irbkin._arrays import Floats, as_array, evenly
 from irbkin.errors import InvalidPoseError
-from irbkin.plot._style import AXIS_COLORS, BLACK, FONT, Canvas, canvas, legend, whole
+from irbkin.plot._style import BLACK, FONT, Canvas, canvas, legend, whole
 
 # x, y and z of a frame: a color and dashes each.
 AXES: tuple[tuple[str, str, Any], ...] = (
-    ("tool x", AXIS_COLORS[0], "-"),
-    ("tool y", AXIS_COLORS[1], "--"),
-    ("tool z", AXIS_COLORS[2], ":"),
+    ("tool x", "#d62728", "-"),
+    ("tool y", "#2ca02c", "--"),
+    ("tool z", "#1f77b4", ":"),
 )
 # Parts of the longest extent: the arrows of a frame, and the least extent of an axis that is shown.
 FRAME, LEAST = 0.12, 0.3

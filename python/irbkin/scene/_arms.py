@@ -60,6 +60,10 @@ def arm_of(
     between = [np.linalg.solve(one, other) for one, other in pairwise(frames)]
     # As axes 2 and 3 turn in the same sense or in opposite ones.
     coupling = -float(np.sign(np.cos(robot.mdh[2, 0]))) if robot.is_coupled else 0.0
+    # A robot of the catalog is known by its name.
+    bare = robot.with_base(np.eye(4)).with_tool(np.eye(4))
+    is_known = bare.name in catalog() and bare == Robot(bare.name)
+    urdf = "" if is_known else bare.to_urdf(visual=False)
     body = _body(robot)
     shapes = () if body is None else zip(body.links.tolist(), body.capsules, strict=True)
     return Arm(
@@ -74,7 +78,7 @@ def arm_of(
         tuple(postures),
         motion,
         _hulls(body),
-        _urdf(robot),
+        urdf,
     )
 
 
@@ -87,12 +91,6 @@ def _hulls(body: Body | None) -> tuple[LinkHull, ...]:
         for link, points, faces, radius in rows_of
         if link not in open_ones
     )
-
-
-def _urdf(robot: Robot) -> str:
-    """The URDF of a robot that is not of the catalog, without its base and tool."""
-    bare = robot.with_base(np.eye(4)).with_tool(np.eye(4))
-    return "" if bare.name in catalog() and bare == Robot(bare.name) else bare.to_urdf(visual=False)
 
 
 def _body(robot: Robot) -> Body | None:
@@ -108,11 +106,7 @@ def _body(robot: Robot) -> Body | None:
 def motion_of(
     t: npt.ArrayLike, q: npt.ArrayLike, lines: npt.ArrayLike = (), source: str = ""
 ) -> Motion:
-    """Return a motion of samples, thinned evenly to a number that a face can draw.
-
-    Raises:
-        InvalidJointsError: The joint angles are not finite.
-    """
+    """Return a motion of samples, thinned evenly to a number that a face can draw."""
     times, angles = np.asarray(t, dtype=float), as_array(q, "q", (None, None), InvalidJointsError)
     kept = evenly(len(times), MOST_SAMPLES)
     numbers = np.asarray(lines, dtype=int)
@@ -121,14 +115,8 @@ def motion_of(
 
 
 def link_frames(arm: Arm, q: npt.ArrayLike) -> Floats:
-    """Return the frame of each link and of the tool in the world, as faces calculate them.
-
-    Args:
-        arm: The arm.
-        q: Joint angles [rad], shape (n,).
-
-    Returns:
-        Frames, shape (n + 2, 4, 4): the base, links 1 to n, the tool.
+    """Return the frames of the base, links 1 to n and the tool in the world at joint angles [rad],
+    shape (n + 2, 4, 4), as faces calculate them.
     """
     angles = np.array(q, dtype=float)
     if arm.coupling:

@@ -61,9 +61,7 @@ def style() -> str:
 
 @cache
 def engine() -> str:
-    """Return the crate as WebAssembly, packed by gzip, in base 85 with . for <; empty where it was
-    not built: `make page` in the sources does.
-    """
+    """Return the crate as WebAssembly, gzip in base 85 with . for <; empty if it is not built."""
     packed = ENGINE.read_bytes() if ENGINE.exists() else b""
     return base64.b85encode(packed).decode().replace("<", ".")
 

@@ -31,11 +31,7 @@ def _hints(of: type) -> dict[str, Any]:
 
 
 def read(of: Any, data: Any, place: str) -> Any:
-    """Make a value of a type from plain data.
-
-    Raises:
-        IrbkinError: The data do not fit; the message begins with the place.
-    """
+    """Make a value of a type from plain data; an IrbkinError begins with the place."""
     if is_dataclass(of):
         return _read_fields(of, data, place)
     origin = get_origin(of)

@@ -46,11 +46,7 @@ class Joints:
         return [] if self.arm is None else list(start(self.arm))
 
     def checked(self, value: npt.ArrayLike) -> list[float]:
-        """Return joint angles [rad] as a list.
-
-        Raises:
-            InvalidJointsError: Another number of them than the arm has, or not finite.
-        """
+        """Return joint angles [rad] as a list; an InvalidJointsError if they are not the arm's."""
         dof = 0 if self.arm is None else len(self.arm.joints)
         try:
             q = np.asarray(value, dtype=float)

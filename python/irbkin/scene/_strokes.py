@@ -21,14 +21,8 @@ CAP = 11
 
 
 def pieces(arm: Arm, q: npt.ArrayLike) -> list[tuple[list[Floats], str]]:
-    """Return the body of an arm as polygons of the paper, far ones first.
-
-    Args:
-        arm: The arm.
-        q: Joint angles [rad], shape (n,).
-
-    Returns:
-        Polygons, shape (k, 2) [m], that are filled together, and their color, as "#0072b2".
+    """Return the body of an arm at joint angles [rad] as pieces, far ones first: polygons of the
+    paper, shape (k, 2) [m], that are filled together, and their color, as "#0072b2".
     """
     frames = link_frames(arm, q)[:-1]
     found = []

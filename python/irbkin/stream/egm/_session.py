@@ -285,9 +285,7 @@ class Session:
             )
 
     def _check_cycle(self, seqno: int, tm: int) -> None:
-        """Refuse a controller of another cycle time, which three times in a row are the same: one
-        time alone may be wrong.
-        """
+        """Refuse another cycle time if it is measured three times: one alone may be wrong."""
         cycles = (seqno - self._start[0]) % WORD
         if cycles < OBSERVED:
             return
@@ -391,9 +389,7 @@ class Session:
         )
 
     def _set_point(self, now: float) -> bytes:
-        """The message of the last step. In pose mode speeds are left out: the manual has no units
-        of a rotation's.
-        """
+        """The last step's message; in pose mode without speeds, whose units the manual lacks."""
         self.sent = (self.sent + 1) % WORD
         header = EgmHeader(self.sent, int(now * 1e3) % WORD, MessageType.CORRECTION)
         q, dq = (np.degrees(it)[self.axes].tolist() for it in (self._step.q, self._step.dq))
