@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
-from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
@@ -47,7 +47,7 @@ def numbers_of(
 
 
 def mesh_path(
-    name: str, folder: Path | None, packages: Mapping[str, str | PathLike[str]]
+    name: str, folder: Path | None, packages: Mapping[str, str | os.PathLike[str]]
 ) -> Path | None:
     """The file of a mesh or None: `package://` of `packages`, else beside the URDF or above it."""
     if not name.startswith("package://"):
@@ -58,7 +58,7 @@ def mesh_path(
         paths = [at / part for at in above for part in (f"{package}/{rest}", rest)]
         if package in packages:
             paths = [Path(packages[package]) / rest]
-    return next(filter(Path.is_file, paths), None)
+    return next(filter(os.path.isfile, paths), None)
 
 
 def origin_of(element: ElementTree.Element) -> npt.NDArray[np.float64]:

@@ -243,4 +243,4 @@ def _robots(old: Backup, new: Backup) -> Iterator[str]:
         if a.base is not None and b.base is not None:
             distance, angle = shift(Pose.of(a.base), Pose.of(b.base))
             if not is_same(distance, angle):
-                yield f"{name}: its base moved by {distance:.3f} mm and {angle:.3f} deg"
+                yield f"{name}: its base moved by {distance:.3f} mm and {angle_text(angle)}"

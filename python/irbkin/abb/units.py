@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from irbkin import Robot, pose
+from irbkin import Robot
 from irbkin._arrays import Floats, rotations
 from irbkin.errors import InvalidModelError
 
@@ -147,7 +147,7 @@ class ExternalUnit:
         value = external_mm_deg[place] if place < len(external_mm_deg) else NOT_THERE
         if not abs(value) < NOT_THERE:
             raise InvalidModelError(f"{self.name}: the target gives no eax_{eax}, which moves it")
-        if self.kind == "track":
-            return pose([value / 1e3, 0.0, 0.0])
-        (turned,) = rotations(2, np.radians([value]))
-        return np.asarray(turned)
+        is_track = self.kind == "track"
+        (pose,) = rotations(2, np.radians([0.0 if is_track else value]))
+        pose[0, 3] = value / 1e3 if is_track else 0.0
+        return np.asarray(pose)

@@ -12,7 +12,7 @@ from irbkin.calibration._calibrate import FAR_ANGLE, FAR_LENGTH, FAR_PART
 from irbkin.calibration._fit import rotation_vectors
 from irbkin.calibration._loss import Loss, check_weights, outlying
 from irbkin.calibration._measurements import read_poses
-from irbkin.calibration._start import nearest_rotation, shift, turns
+from irbkin.calibration._start import fit_shift, nearest_rotation, turns
 from irbkin.errors import CalibrationError
 
 # Least singular value of the relative rotations, for each pose [1]: about the angle in rad by which
@@ -118,7 +118,7 @@ def robot_world(
     # A = Y B X^-1.
     y, inverse = np.eye(4), np.eye(4)
     y[:3, :3], inverse[:3, :3] = turns(seen[:, :3, :3], hands[:, :3, :3])
-    shift(seen, hands[:, :3, 3], y, inverse, frozenset({"base", "tool"}))
+    fit_shift(seen, hands[:, :3, 3], y, inverse, frozenset({"base", "tool"}))
     start = [np.asarray(np.linalg.inv(inverse), dtype=float), y]
     return _refined(lambda x, y: (hands @ x, y @ seen), start, (position_std, rotation_std, loss))
 
@@ -137,8 +137,8 @@ def _pairs(a: npt.ArrayLike, b: npt.ArrayLike, least: int) -> tuple[Floats, Floa
 
 def _check_turns(rotations: Floats, name: str) -> None:
     """Refuse rotations about one axis: they leave a turn and a shift along it undetermined."""
-    turns = np.linalg.svd(rotation_vectors(rotations), compute_uv=False)
-    second = turns[1] / np.sqrt(len(rotations))
+    values = np.linalg.svd(rotation_vectors(rotations), compute_uv=False)
+    second = values[1] / np.sqrt(len(rotations))
     if second < LEAST_TURN:
         raise CalibrationError(
             f"the poses of {name} turn by {second:.2g} rad about a second axis, at least "

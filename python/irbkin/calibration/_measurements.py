@@ -81,7 +81,7 @@ def read_poses(value: npt.ArrayLike, name: str) -> Floats:
     off = np.abs(poses[:, 3] - [0.0, 0.0, 0.0, 1.0]).max(axis=1)
     for row in np.flatnonzero(off > 1e-9):
         words = f"the last row must be 0 0 0 1, it is off by {off[row]:.1e}"
-        raise InvalidPoseError(f"{name}: row [{row}]: {words}")
+        raise InvalidPoseError(f"{name}[{row}]: {words}")
     try:
         return pose(poses[:, :3, 3], rotation=poses[:, :3, :3])
     except InvalidPoseError as fault:

@@ -22,7 +22,7 @@ def aligned(robot: Robot, measurements: Measurements, fit: frozenset[str]) -> Ro
         _by_positions(flange, measurements.position, base, tool, fit)
     else:
         _turn(flange[:, :3, :3], measurements.rotation, base[:3, :3], tool[:3, :3], fit)
-        shift(flange, measurements.position, base, tool, fit)
+        fit_shift(flange, measurements.position, base, tool, fit)
     return robot.with_base(base).with_tool(tool)
 
 
@@ -57,7 +57,7 @@ def turns(flange: Floats, measured: Floats) -> tuple[Floats, Floats]:
     return nearest_rotation(sign * inverse).T, nearest_rotation(sign * turn)
 
 
-def shift(
+def fit_shift(
     flange: Floats, measured: Floats, base: Floats, tool: Floats, fit: frozenset[str]
 ) -> None:
     """Move base and tool to where they fit best, by linear least squares (eq. 12)."""
@@ -88,4 +88,4 @@ def _by_positions(
             points = flange[:, :3, :3] @ tool[:3, 3] + flange[:, :3, 3]
             off = points - points.mean(axis=0)
             base[:3, :3] = nearest_rotation((measured - measured.mean(axis=0)).T @ off)
-        shift(flange, measured, base, tool, fit)
+        fit_shift(flange, measured, base, tool, fit)

@@ -69,7 +69,9 @@ def _of_deltas(robot: Robot, text: str) -> list[Floats]:
     frames = [np.eye(4)]
     for theta, a, d, alpha in (standard + deltas).T:
         turn = pose(np.zeros(3), euler_zyx=[theta, 0.0, 0.0])
-        frames.append(turn @ pose([a, 0.0, d], euler_zyx=[0.0, 0.0, alpha]))
+        shift = pose(np.zeros(3), euler_zyx=[0.0, 0.0, alpha])
+        shift[:3, 3] = a, 0.0, d
+        frames.append(turn @ shift)
     return frames
 
 
@@ -100,7 +102,9 @@ def _of_poses(text: str) -> list[Floats]:
             if found is None:
                 raise InvalidModelError(f"{link} of the calibration has no number {field}")
             values.append(float(found[1]))
-        frames.append(pose(values[:3], euler_zyx=values[:2:-1]))
+        frame = pose(np.zeros(3), euler_zyx=values[:2:-1])
+        frame[:3, 3] = values[:3]
+        frames.append(frame)
     return [*frames, np.eye(4)]
 
 

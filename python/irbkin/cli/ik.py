@@ -97,9 +97,8 @@ def _check(arguments: argparse.Namespace, robot: Robot) -> None:
         raise CommandError("--seed and --confdata: give one of them")
     if robot.dof != 7:
         for name in ("given",) * given + ("arm-angle",) * arm_angle:
-            raise CommandError(
-                f"--{name} is for arms of seven joints, {robot.name} has {robot.dof}"
-            )
+            words = f"--{name} is for arms of seven joints, {robot.name} has {robot.dof}"
+            raise CommandError(words)
     if own:
         # Refused for an arm without confdata.
         robot.configuration(np.zeros(robot.dof))
