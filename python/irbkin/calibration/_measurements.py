@@ -78,14 +78,17 @@ def read_poses(value: npt.ArrayLike, name: str) -> Floats:
         InvalidPoseError: A wrong shape, or a matrix that is no pose.
     """
     poses = finite(value, name, (None, 4, 4), InvalidPoseError)
-    off = np.abs(poses[:, 3] - [0.0, 0.0, 0.0, 1.0]).max(axis=1)
-    for row in np.flatnonzero(off > 1e-9):
-        words = f"the last row must be 0 0 0 1, it is off by {off[row]:.1e}"
-        raise InvalidPoseError(f"{name}[{row}]: {words}")
+    return np.array([_pose(matrix, f"{name}[{index}]") for index, matrix in enumerate(poses)])
+
+
+def _pose(matrix: Floats, place: str) -> Floats:
+    last = np.abs(matrix[3] - [0.0, 0.0, 0.0, 1.0]).max()
+    if last > 1e-9:
+        raise InvalidPoseError(f"{place}: the last row must be 0 0 0 1, it is off by {last:.1e}")
     try:
-        return pose(poses[:, :3, 3], rotation=poses[:, :3, :3])
+        return pose(matrix[:3, 3], rotation=matrix[:3, :3])
     except InvalidPoseError as fault:
-        raise InvalidPoseError(f"{name}: {fault}") from None
+        raise InvalidPoseError(f"{place}: {fault}") from None
 
 
 def spread(points: Floats) -> float:
