@@ -11,18 +11,17 @@ use pyo3::types::PyTuple;
 /// Elements of an array that a representation shows.
 const MOST_SHOWN: usize = 16;
 
-/// Define a record of a module by its fields.
+/// Define records of a module by their fields.
 macro_rules! record {
     (
         $module:literal;
-        $(#[$doc:meta])*
-        $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)+ }
-    ) => {
+        $($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)+ })+
+    ) => {$(
         $(#[$doc])*
         #[pyclass(module = $module, frozen, get_all, sequence)]
         pub(crate) struct $name { $($(#[$field_doc])* pub(crate) $field: $type,)+ }
         record_methods!($name { $($field: $type,)+ });
-    };
+    )+};
 }
 
 /// Implement the methods of a record on a class. Needs PyO3's prelude, `PyTuple`, `CompareOp` and

@@ -50,24 +50,18 @@ record! {
         /// `Status` of each slot, shape (..., slots).
         status: Array,
     }
-}
 
-record! {
-    "irbkin.records";
     /// The joint that a singular pose leaves undetermined.
     FreeJoint {
         /// Its number, from 1.
         joint: usize,
         /// Joints that stay fixed along the self-motion: "q4 + q6", "q4 - q6", "q2, q3", "q1, q3"
-        /// or, with coupled axes 2 and 3, "q1, q3 - q2" or "q1, q3 + q2"; "q1, q5" of three parallel
-        /// axes; "q1 + q3", "q1 - q3", "q4, q6" or "q4, q5" of seven axes. Of an arm without a
-        /// closed form the joints that stand still, or "nothing".
+        /// or, with coupled axes 2 and 3, "q1, q3 - q2" or "q1, q3 + q2"; "q1, q5" of three
+        /// parallel axes; "q1 + q3", "q1 - q3", "q4, q6" or "q4, q5" of seven axes. Of an arm
+        /// without a closed form the joints that stand still, or "nothing".
         fixed: String,
     }
-}
 
-record! {
-    "irbkin.records";
     /// A place where the joints cannot follow a path without a jump.
     Break {
         /// Index of the pose that is not met, or at which the joints arrive by a jump.
@@ -79,10 +73,7 @@ record! {
         /// The cause, a `BreakReason`.
         kind: Py<PyAny>,
     }
-}
 
-record! {
-    "irbkin.records";
     /// A joint path along a path of poses.
     FollowResult {
         /// Joint angles [rad], shape (..., m, n), NaN where a pose is not met.
@@ -93,10 +84,7 @@ record! {
         /// Each `Break`: where the joints cannot follow, and why.
         breaks: Py<PyTuple>,
     }
-}
 
-record! {
-    "irbkin.records";
     /// ABB's confdata of many joint vectors: int32 arrays of shape (...).
     ConfigurationBatch {
         /// Quarter turns of axis 1: floor(q1 / 90 deg).
@@ -108,10 +96,7 @@ record! {
         /// The slots, as `Configuration.cfx`.
         cfx: Array,
     }
-}
 
-record! {
-    "irbkin.records";
     /// Distances of joint vectors from the singularities: numbers for one, arrays of shape (...)
     /// for many. NaN where an arm has no such singularity.
     Singularity {
@@ -132,10 +117,7 @@ record! {
         /// has a zone.
         kinds: Array,
     }
-}
 
-record! {
-    "irbkin.records";
     /// The nearest two of links and obstacles.
     CellDistance {
         /// How far they are apart [m], shape (...); less than zero if they touch, infinite if there
@@ -149,10 +131,7 @@ record! {
         /// known: where the points are one, and of the axis of a capsule inside a solid.
         gradient: Array,
     }
-}
 
-record! {
-    "irbkin.records";
     /// Where a motion first touches something.
     CellContact {
         /// When: the index of the row before it, plus the part of the way to the next row that is
@@ -166,10 +145,7 @@ record! {
         /// 16 postures to the next row or knot and one at each that follows.
         depth: f64,
     }
-}
 
-record! {
-    "irbkin.records";
     /// How far joint vectors are from limits and singularities, each as a part of the farthest that
     /// they can be: 1 in the middle, 0 at one, negative outside limits.
     Margin {
@@ -181,10 +157,7 @@ record! {
         /// joint space to first order, as a part of 90 deg. NaN of other arms.
         singularities: Array,
     }
-}
 
-record! {
-    "irbkin.records";
     /// How much room the solutions of poses leave.
     IkMargin {
         /// The largest margin (the smaller part of `Margin`) of the solutions inside the limits,
@@ -195,10 +168,7 @@ record! {
         /// Their number, shape (...).
         solutions: Array,
     }
-}
 
-record! {
-    "irbkin.records";
     /// Whether a pose can be reached.
     PoseCheck {
         /// Some joint vector brings the tool there.
@@ -208,10 +178,7 @@ record! {
         /// The outcome in a sentence.
         reason: String,
     }
-}
 
-record! {
-    "irbkin.records";
     /// Data of an arm in the catalog.
     CatalogEntry {
         /// The maker's type name.
@@ -233,7 +200,8 @@ record! {
         limits: Array,
         /// Largest velocity of each joint [rad/s], shape (n,), or None where no source has it.
         max_velocity: Option<Array>,
-        /// Largest acceleration of each joint [rad/s^2], shape (n,), or None where no source has it.
+        /// Largest acceleration of each joint [rad/s^2], shape (n,), or None where no source has
+        /// it.
         max_acceleration: Option<Array>,
         /// Whether a parallelogram linkage couples axes 2 and 3.
         is_coupled: bool,
@@ -242,10 +210,7 @@ record! {
         /// These sources; after semicolons, of other figures, what disagrees, what is not modeled.
         provenance: String,
     }
-}
 
-record! {
-    "irbkin.records";
     /// The state of the joints at times.
     TrajectorySample {
         /// Joint angles [rad], shape (..., n).
@@ -255,10 +220,7 @@ record! {
         /// Joint accelerations [rad/s^2], shape (..., n).
         ddq: Array,
     }
-}
 
-record! {
-    "irbkin.records";
     /// The largest sizes of each joint's derivatives.
     MotionPeaks {
         /// Velocities [rad/s], shape (n,).
@@ -268,10 +230,7 @@ record! {
         /// Jerks [rad/s^3], shape (n,).
         jerk: Array,
     }
-}
 
-record! {
-    "irbkin.records";
     /// The constant speed of the tool along a path that the limits of the joints allow.
     ToolSpeedLimits {
         /// The highest at each sample [m/s], shape (m,); infinite where no limit binds.
@@ -285,10 +244,7 @@ record! {
         /// The sample at which it does, or the last one before the place.
         fastest_index: usize,
     }
-}
 
-record! {
-    "irbkin.records";
     /// A part of a path that the joints cannot follow.
     PlanBreak {
         /// The last pose before it; None where the path begins with it.
@@ -296,10 +252,7 @@ record! {
         /// The first pose after it; None where the path ends with it.
         enter: Option<usize>,
     }
-}
 
-record! {
-    "irbkin.records";
     /// Where and why a branch of a path ends.
     StrandEnd {
         /// Its slot.
@@ -309,10 +262,7 @@ record! {
         /// The reason in a sentence.
         reason: String,
     }
-}
 
-record! {
-    "irbkin.records";
     /// The best joint path along a path of poses.
     #[allow(non_snake_case, reason = "T is the name that users pass")]
     Plan {
