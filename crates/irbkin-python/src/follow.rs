@@ -71,11 +71,11 @@ impl PyRobot {
         let mode = one_of("singularity_mode", singularity_mode, &SINGULARITY_MODES)?;
         let zone = zone.unwrap_or(WRIST_ZONE);
         let options = |weights| FollowOptions { weights, singularity_mode: mode, zone };
-        let paths = Paths { T, seed, out, threads: thread_count(threads)? };
+        let threads = thread_count(threads)?;
         match self.arm() {
             SharedArm::Six(robot) => {
                 let options = options(read_weights(weights)?);
-                paths.follow(|path, seed, interrupt| {
+                follow(T, seed, out, threads, |path, seed, interrupt| {
                     robot.follow_until(path, seed, &options, interrupt)
                 })
             }
@@ -83,12 +83,12 @@ impl PyRobot {
                 let weights = read_weights(weights)?;
                 let Some(six) = robot.six_turned().map_err(exception)? else {
                     check_through(mode, singularity_mode)?;
-                    return paths.follow(|path, seed, interrupt| {
+                    return follow(T, seed, out, threads, |path, seed, interrupt| {
                         robot.follow_until(path, seed, &weights, interrupt)
                     });
                 };
                 let options = options(robot.others(&weights));
-                paths.follow(|path, seed: &[f64; 7], interrupt| {
+                follow(T, seed, out, threads, |path, seed: &[f64; 7], interrupt| {
                     let six = six.follow_until(path, &robot.others(seed), &options, interrupt)?;
                     let q = six.q.iter().map(|q| q.map(|q| robot.with_others(&q))).collect();
                     let Followed { orientation_error, breaks, .. } = six;
@@ -110,55 +110,48 @@ fn check_through(mode: SingularityMode, name: &str) -> PyResult<()> {
     )))
 }
 
-/// Paths of poses, shape (..., m, 4, 4), each followed from its seed.
+/// Follow paths of poses, shape (..., m, 4, 4), each from its seed by a function.
 #[expect(non_snake_case, reason = "T is the name that users pass")]
-struct Paths<'a, 'py> {
-    T: &'a Bound<'py, PyAny>,
-    seed: &'a Bound<'py, PyAny>,
-    out: Option<&'a Bound<'py, PyAny>>,
+fn follow<const N: usize>(
+    T: &Bound<'_, PyAny>,
+    seeds: &Bound<'_, PyAny>,
+    out: Option<&Bound<'_, PyAny>>,
     threads: Option<NonZeroUsize>,
-}
-
-impl Paths<'_, '_> {
-    /// Follow each path from its seed by a function.
-    fn follow<const N: usize>(
-        &self,
-        follow: impl Fn(&[Pose], &[f64; N], Interrupt<'_>) -> Result<Followed<N>, Error> + Sync + Send,
-    ) -> PyResult<FollowResult> {
-        let py = self.T.py();
-        let has_length = |shape: &[usize]| matches!(shape, [.., _, 4, 4]);
-        let mut rows = Rows::shaped(self.T, || "(..., m, 4, 4)", "T", Fault::Pose, has_length)?;
-        rows.lead.truncate(rows.lead.len() - 3);
-        let mut seeds = Rows::read(self.seed, &[N], "seed", Fault::Joints)?;
-        single_seed::<N>(&seeds)?;
-        together(&mut [&mut rows, &mut seeds])?;
-        let shape = rows.shape()[..=rows.lead.len()].to_vec();
-        let (q_out, errors_out) = match self.out {
-            Some(out) => pair(out)?.ok_or_else(|| {
-                PyTypeError::new_err("out must be a tuple of two arrays: (q, orientation_error)")
-            })?,
-            None => (None, None),
-        };
-        let mut memory = vec![rows.addresses(), seeds.addresses()];
-        let mut q = Output::new(py, q_out.as_ref(), &[&shape[..], &[N]].concat(), &memory)?;
-        memory.push(q.addresses());
-        let mut errors = Output::new(py, errors_out.as_ref(), &shape, &memory)?;
-        let poses = read_path(py, &rows, &shape)?;
-        let starts = checked_joints::<N>("seed", &seeds)?;
-        let length = shape.last().copied().unwrap_or_default();
-        let followed =
-            detached(py, self.threads, |batch| batch.follow(&poses, length, starts, follow))?;
-        let found = followed.iter().flat_map(|path| &path.q);
-        for (to, found) in q.slice()?.as_chunks_mut::<N>().0.iter_mut().zip(found) {
-            *to = found.unwrap_or([f64::NAN; N]);
-        }
-        let found = followed.iter().flat_map(|path| &path.orientation_error);
-        for (to, error) in errors.slice()?.iter_mut().zip(found) {
-            *to = error.unwrap_or(f64::NAN);
-        }
-        let breaks = breaks(py, &rows.lead, &followed)?.unbind();
-        Ok(FollowResult { q: q.array(), orientation_error: errors.array(), breaks })
+    follow: impl Fn(&[Pose], &[f64; N], Interrupt<'_>) -> Result<Followed<N>, Error> + Sync + Send,
+) -> PyResult<FollowResult> {
+    let py = T.py();
+    let has_length = |shape: &[usize]| matches!(shape, [.., _, 4, 4]);
+    let mut rows = Rows::shaped(T, || "(..., m, 4, 4)", "T", Fault::Pose, has_length)?;
+    rows.lead.truncate(rows.lead.len() - 3);
+    let mut seeds = Rows::read(seeds, &[N], "seed", Fault::Joints)?;
+    single_seed::<N>(&seeds)?;
+    together(&mut [&mut rows, &mut seeds])?;
+    let shape = rows.shape()[..=rows.lead.len()].to_vec();
+    let (q_out, errors_out) = match out {
+        Some(out) => pair(out)?.ok_or_else(|| {
+            PyTypeError::new_err("out must be a tuple of two arrays: (q, orientation_error)")
+        })?,
+        None => (None, None),
+    };
+    let mut memory = vec![rows.addresses(), seeds.addresses()];
+    let mut q = Output::new(py, q_out.as_ref(), &[&shape[..], &[N]].concat(), &memory)?;
+    memory.push(q.addresses());
+    let mut errors = Output::new(py, errors_out.as_ref(), &shape, &memory)?;
+    let poses = read_path(py, &rows, &shape)?;
+    let starts = checked_joints::<N>("seed", &seeds)?;
+    let length = shape.last().copied().unwrap_or_default();
+    let followed =
+        detached(py, threads, |batch| batch.follow(&poses, length, starts, follow))?;
+    let found = followed.iter().flat_map(|path| &path.q);
+    for (to, found) in q.slice()?.as_chunks_mut::<N>().0.iter_mut().zip(found) {
+        *to = found.unwrap_or([f64::NAN; N]);
     }
+    let found = followed.iter().flat_map(|path| &path.orientation_error);
+    for (to, error) in errors.slice()?.iter_mut().zip(found) {
+        *to = error.unwrap_or(f64::NAN);
+    }
+    let breaks = breaks(py, &rows.lead, &followed)?.unbind();
+    Ok(FollowResult { q: q.array(), orientation_error: errors.array(), breaks })
 }
 
 /// The breaks of paths with the leading dimensions `lead`.

@@ -5,7 +5,7 @@ use std::time::Instant;
 use pyo3::prelude::*;
 
 use super::arguments::read_seed;
-use super::arm::SharedArm;
+use super::arm::on;
 use super::arrays::{matrix4, vector};
 use super::cell::PyCell;
 use super::errors::{Fault, exception, raised, with_attributes};
@@ -19,8 +19,7 @@ use irbkin::pose::from_rows as pose_from_rows;
 use irbkin_motion::cell::Cell;
 use irbkin_motion::go::{End, GoOptions};
 use irbkin_motion::internal::{GoFault, MotionFault};
-use irbkin_motion::trajectory::Trajectory;
-use irbkin_motion::{Arm, Error};
+use irbkin_motion::Error;
 
 #[pymethods]
 impl PyRobot {
@@ -74,55 +73,37 @@ impl PyRobot {
             let fault = MotionFault::NotPositive { field: "seconds", index: None, value };
             return Err(exception(fault));
         }
-        let asked =
-            GoArguments { ends: [start, goal], seconds, seed, max_velocity, max_acceleration };
         let alone = Cell::default();
         let cell = cell.map_or(&alone, |cell| &cell.get().cell);
-        let motion = match self.arm() {
-            SharedArm::Six(robot) => asked.motion(robot, cell),
-            SharedArm::Seven(robot) => asked.motion(robot, cell),
-        };
-        Ok(PyTrajectory::even(start.py(), motion?, steps)?.with_names(self.file_joint_names()))
+        let py = start.py();
+        let motion = on!(self.arm(), robot => {
+            let (start, goal) = (read_end(start, "start")?, read_end(goal, "goal")?);
+            let options = GoOptions {
+                seed,
+                max_velocity: read_limits(max_velocity, "max_velocity")?,
+                max_acceleration: read_limits(max_acceleration, "max_acceleration")?,
+            };
+            let begun = Instant::now();
+            detached_until(py, |interrupt| {
+                let ends = || begun.elapsed().as_secs_f64() >= seconds || interrupt.is_raised();
+                robot.go(&start, &goal, cell, &options, Interrupt::when(&ends))
+            })?
+        });
+        let motion = motion.map_err(|error| refused(error, seconds))?;
+        Ok(PyTrajectory::even(py, motion, steps)?.with_names(self.file_joint_names()))
     }
 }
 
-/// The arguments of a call.
-struct GoArguments<'a, 'py> {
-    ends: [&'a Bound<'py, PyAny>; 2],
-    seconds: f64,
-    seed: u64,
-    max_velocity: Option<&'a Bound<'py, PyAny>>,
-    max_acceleration: Option<&'a Bound<'py, PyAny>>,
-}
-
-impl GoArguments<'_, '_> {
-    fn motion<const N: usize>(&self, robot: &Arm<N>, cell: &Cell) -> PyResult<Trajectory> {
-        let [start, goal] = self.ends;
-        let (start, goal) = (read_end::<N>(start, "start")?, read_end::<N>(goal, "goal")?);
-        let options = GoOptions {
-            seed: self.seed,
-            max_velocity: read_limits(self.max_velocity, "max_velocity")?,
-            max_acceleration: read_limits(self.max_acceleration, "max_acceleration")?,
-        };
-        let (begun, seconds) = (Instant::now(), self.seconds);
-        let found = detached_until(self.ends[0].py(), |interrupt| {
-            let ends = || begun.elapsed().as_secs_f64() >= seconds || interrupt.is_raised();
-            robot.go(&start, &goal, cell, &options, Interrupt::when(&ends))
-        })?;
-        found.map_err(|error| self.refused(error))
-    }
-
-    /// The exception of an error.
-    fn refused(&self, error: Error) -> PyErr {
-        let Error::NoMotion(fault) = error else { return exception(error) };
-        let message = match &fault {
-            GoFault::NotFound { .. } => format!("{fault} ({} s were given)", self.seconds),
-            _ => fault.to_string(),
-        };
-        with_attributes(raised("UnreachableError", message), |value| {
-            value.setattr("proven", fault.is_proven())
-        })
-    }
+/// The exception of an error, after a search of `seconds`.
+fn refused(error: Error, seconds: f64) -> PyErr {
+    let Error::NoMotion(fault) = error else { return exception(error) };
+    let message = match &fault {
+        GoFault::NotFound { .. } => format!("{fault} ({seconds} s were given)"),
+        _ => fault.to_string(),
+    };
+    with_attributes(raised("UnreachableError", message), |value| {
+        value.setattr("proven", fault.is_proven())
+    })
 }
 
 /// An end of the motion: joint angles or a pose.

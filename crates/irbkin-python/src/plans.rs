@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::arguments::{ORDERS, one_of};
-use super::arm::SharedArm;
+use super::arm::{SharedArm, on};
 use super::arrays::numbers;
 use super::cell::PyCell;
 use super::errors::{Fault, exception, raised, shape_text, with_attributes};
@@ -19,8 +19,7 @@ use super::signals::watched;
 use super::targets::{read_path_poses, read_weights};
 use super::trajectories::read_each;
 use irbkin::pose::to_rows as pose_to_rows;
-use irbkin::{Interrupt, Pose, Robot};
-use irbkin_motion::cell::Cell;
+use irbkin::{Interrupt, Robot};
 use irbkin_motion::plan::{Accept, NoPlan, Plan, PlanError, PlanOptions};
 
 #[pymethods]
@@ -125,131 +124,74 @@ impl PyRobot {
         max_acceleration: Option<&Bound<'py, PyAny>>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<records::Plan> {
-        let asked = PlanArguments {
-            T,
-            rotation,
-            times,
-            start,
-            end,
-            closed,
-            weights,
-            accept,
-            cell: cell.map(|cell| &cell.get().cell),
-            carrier,
-            tolerance,
-            redundancy,
-            order,
-            limit_cost,
-            singularity_cost,
-            objective,
-            max_acceleration,
-            progress,
-        };
-        match self.arm() {
-            SharedArm::Six(_) if redundancy.is_some() => Err(PyTypeError::new_err(
+        if redundancy.is_some() && matches!(self.arm(), SharedArm::Six(_)) {
+            return Err(PyTypeError::new_err(
                 "redundancy is for arms of seven joints: the pose alone determines the six of this \
                  one",
-            )),
-            SharedArm::Six(robot) => asked.plan(robot, |path, options, accept, watch| {
-                robot.planned(path, options, accept, watch)
-            }),
-            SharedArm::Seven(robot) => asked.plan(robot, |path, options, accept, watch| {
-                robot.planned(path, options, accept, watch)
-            }),
+            ));
         }
-    }
-}
-
-/// The arguments of a plan.
-#[expect(non_snake_case, reason = "T is the name that users pass")]
-struct PlanArguments<'a, 'py> {
-    T: &'a Bound<'py, PyAny>,
-    rotation: Option<&'a Bound<'py, PyAny>>,
-    times: Option<&'a Bound<'py, PyAny>>,
-    start: Option<&'a Bound<'py, PyAny>>,
-    end: Option<&'a Bound<'py, PyAny>>,
-    closed: bool,
-    weights: Option<&'a Bound<'py, PyAny>>,
-    accept: Option<&'a Bound<'py, PyAny>>,
-    cell: Option<&'a Arc<Cell>>,
-    carrier: Option<&'a Bound<'py, PyAny>>,
-    tolerance: Option<&'a Bound<'py, PyAny>>,
-    redundancy: Option<&'a Bound<'py, PyAny>>,
-    order: &'a str,
-    limit_cost: f64,
-    singularity_cost: f64,
-    objective: Option<&'a str>,
-    max_acceleration: Option<&'a Bound<'py, PyAny>>,
-    progress: Option<&'a Bound<'py, PyAny>>,
-}
-
-impl PlanArguments<'_, '_> {
-    fn options<const N: usize>(&self) -> PyResult<PlanOptions<N>> {
-        let external = self.carrier.map(read_carrier).transpose()?.unwrap_or_default();
-        let (start, start_external) = read_end(self.start, "start", external.len())?;
-        let (end, end_external) = read_end(self.end, "end", external.len())?;
+        let external = carrier.map(read_carrier).transpose()?.unwrap_or_default();
+        let dof = self.arm().dof() + external.len();
         let read_times = |times| numbers(times, "(m,)", "times", Fault::Motion);
-        let default = PlanOptions::<N>::default();
-        Ok(PlanOptions {
-            redundancy: self.redundancy.map_or(Ok(default.redundancy), read_redundancy)?,
-            rotation: self.rotation.map(read_rotation).transpose()?,
-            times: self.times.map(read_times).transpose()?,
-            start,
-            end,
-            start_external,
-            end_external,
-            cone: self.tolerance.map(read_tolerance).transpose()?,
-            closed: self.closed,
-            weights: read_weights(self.weights)?,
-            order: one_of("order", self.order, &ORDERS)?,
-            limit_cost: self.limit_cost,
-            singularity_cost: self.singularity_cost,
-            max_acceleration: read_objective(
-                self.objective,
-                self.max_acceleration,
-                N + external.len(),
-            )?,
-            external,
-            cell: self.cell.map(Arc::clone),
+        on!(self.arm(), robot => {
+            let (start, start_external) = read_end(start, "start", external.len())?;
+            let (end, end_external) = read_end(end, "end", external.len())?;
+            let redundancy = redundancy.map(read_redundancy).transpose()?;
+            let mut options = PlanOptions {
+                rotation: rotation.map(read_rotation).transpose()?,
+                times: times.map(read_times).transpose()?,
+                start,
+                end,
+                start_external,
+                end_external,
+                cone: tolerance.map(read_tolerance).transpose()?,
+                closed,
+                weights: read_weights(weights)?,
+                order: one_of("order", order, &ORDERS)?,
+                limit_cost,
+                singularity_cost,
+                max_acceleration: read_objective(objective, max_acceleration, dof)?,
+                external,
+                cell: cell.map(|cell| Arc::clone(&cell.get().cell)),
+                ..PlanOptions::default()
+            };
+            options.redundancy = redundancy.unwrap_or(options.redundancy);
+            let path = read_path_poses(T)?;
+            planned(T.py(), robot, accept, progress, |accept, interrupt| {
+                robot.planned(&path, &options, accept, interrupt)
+            })
         })
     }
+}
 
-    /// Plan without the interpreter's lock.
-    fn plan<const N: usize>(
-        &self,
-        robot: &Robot<N>,
-        planned: impl FnOnce(
-            &[Pose],
-            &PlanOptions<N>,
-            Option<&mut Accept<'_, N>>,
-            Interrupt<'_>,
-        ) -> Result<Plan<N>, PlanError<N>>
-        + Send,
-    ) -> PyResult<records::Plan> {
-        let py = self.T.py();
-        let options = self.options::<N>()?;
-        let path = read_path_poses(self.T)?;
-        let accept = self.accept.map(|accept| accept.clone().unbind());
-        let (planned, failure) = watched(py, self.progress, |interrupt| {
-            let mut failure = None;
-            let mut ask = |q: &[[f64; N]]| {
-                let accept = accept.as_ref()?;
-                let accepted = Python::attach(|py| asked(accept.bind(py), q));
-                accepted.map_err(|error| failure = Some(error)).ok()
-            };
-            let ask = accept.is_some().then_some(&mut ask as &mut Accept<'_, N>);
-            let planned = planned(&path, &options, ask, interrupt);
-            (planned, failure)
-        })?;
-        if let Some(failure) = failure {
-            return Err(failure);
-        }
-        match planned {
-            Ok(plan) => plan_record(py, robot, &plan),
-            Err(PlanError::Invalid(error)) => Err(exception(error)),
-            Err(PlanError::NoPlan(gap)) => Err(path_error(robot, &gap)),
-            Err(PlanError::Stopped) => Err(PyValueError::new_err("the plan was stopped")),
-        }
+/// Plan without the interpreter's lock.
+fn planned<const N: usize>(
+    py: Python<'_>,
+    robot: &Robot<N>,
+    accept: Option<&Bound<'_, PyAny>>,
+    progress: Option<&Bound<'_, PyAny>>,
+    plan: impl FnOnce(Option<&mut Accept<'_, N>>, Interrupt<'_>) -> Result<Plan<N>, PlanError<N>> + Send,
+) -> PyResult<records::Plan> {
+    let accept = accept.map(|accept| accept.clone().unbind());
+    let (planned, failure) = watched(py, progress, |interrupt| {
+        let mut failure = None;
+        let mut ask = |q: &[[f64; N]]| {
+            let accept = accept.as_ref()?;
+            let accepted = Python::attach(|py| asked(accept.bind(py), q));
+            accepted.map_err(|error| failure = Some(error)).ok()
+        };
+        let ask = accept.is_some().then_some(&mut ask as &mut Accept<'_, N>);
+        let planned = plan(ask, interrupt);
+        (planned, failure)
+    })?;
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
+    match planned {
+        Ok(plan) => plan_record(py, robot, &plan),
+        Err(PlanError::Invalid(error)) => Err(exception(error)),
+        Err(PlanError::NoPlan(gap)) => Err(path_error(robot, &gap)),
+        Err(PlanError::Stopped) => Err(PyValueError::new_err("the plan was stopped")),
     }
 }
 
