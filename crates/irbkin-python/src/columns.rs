@@ -18,26 +18,86 @@ where
     py.import("irbkin._columns")?.call_method1(function, arguments)
 }
 
+/// Let answers be columns, which a function of `irbkin._columns` makes.
+macro_rules! to_dict {
+    ($($(#[$doc:meta])* $answer:ident: $function:literal,)+) => {$(
+        #[pymethods]
+        impl $answer {
+            $(#[$doc])*
+            fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+                made(slf.py(), $function, (slf,))
+            }
+        }
+    )+};
+}
+
+to_dict! {
+    /// Return the slots as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
+    /// table: a row for each slot of each pose, empty or not.
+    ///
+    /// Returns:
+    ///     Arrays of shape (poses * slots,) by name: `pose`, its index in row-major order; `slot`;
+    ///     `found` and `within_limits`, bool; `status`, uint8; `q1` .. [rad], NaN where the slot is
+    ///     empty.
+    IkBatch: "of_ik_batch",
+
+    /// Return the rows as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a table.
+    ///
+    /// Returns:
+    ///     Arrays of shape (paths * m,) by name: `path`, its index in row-major order; `pose`;
+    ///     `q1` .. [rad] and `orientation_error` [rad], NaN where a pose is not met.
+    FollowResult: "of_follow_result",
+
+    /// Return the plan as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a table.
+    ///
+    /// Returns:
+    ///     Arrays of shape (m,) by name: `q1` .. [rad]; `tool_angle` [rad]; `slot`; `external1` ..
+    ///     [m, rad] and `tolerance1` .. [rad, m] of a plan that has them; `x`, `y`, `z` of `T` [m].
+    Plan: "of_plan",
+
+    /// Return the targets as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
+    /// table.
+    ///
+    /// Returns:
+    ///     Columns of m elements by name: `kind`, `name`, `line`; `q1` .. [rad]; `cf1`, `cf4`,
+    ///     `cf6`, `cfx`; `wrist` and `elbow` [rad], `shoulder` [m]; `finding`, the message or None.
+    TargetTable: "of_targets",
+
+    /// Return the figures of the arm by name, a row of a table: `pandas.DataFrame` and
+    /// `polars.DataFrame` take a list of them, `[irbkin.catalog_entry(name).to_dict() for name in
+    /// irbkin.catalog()]`.
+    ///
+    /// Returns:
+    ///     `name`, `maker`, `dof`, `payload` [kg], `reach` [m], `is_coupled` and `sources`.
+    CatalogEntry: "of_catalog_entry",
+
+    /// Return the samples as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
+    /// table.
+    ///
+    /// Returns:
+    ///     Arrays of shape (m,) by name: `t` [s], `q1` .. [rad], `dq1` .. [rad/s], `ddq1` ..
+    ///     [rad/s^2].
+    PyTrajectory: "of_trajectory",
+}
+
 /// Let answers be written as files.
 macro_rules! to_csv {
-    ($($answer:ty),+) => {
-        $(
-            #[pymethods]
-            impl $answer {
-                /// Write comma-separated values: the columns of `to_dict` under their names, each
-                /// number with all of its digits, nothing for None.
-                ///
-                /// Args:
-                ///     path_or_file: Path of the file, or a file that is open for text.
-                ///
-                /// Raises:
-                ///     OSError: The file cannot be written.
-                fn to_csv(slf: &Bound<'_, Self>, path_or_file: &Bound<'_, PyAny>) -> PyResult<()> {
-                    made(slf.py(), "write_csv", (slf, path_or_file)).map(drop)
-                }
+    ($($answer:ty),+) => {$(
+        #[pymethods]
+        impl $answer {
+            /// Write comma-separated values: the columns of `to_dict` under their names, each
+            /// number with all of its digits, nothing for None.
+            ///
+            /// Args:
+            ///     path_or_file: Path of the file, or a file that is open for text.
+            ///
+            /// Raises:
+            ///     OSError: The file cannot be written.
+            fn to_csv(slf: &Bound<'_, Self>, path_or_file: &Bound<'_, PyAny>) -> PyResult<()> {
+                made(slf.py(), "write_csv", (slf, path_or_file)).map(drop)
             }
-        )+
-    };
+        }
+    )+};
 }
 
 to_csv!(PySolutions, IkBatch, FollowResult, Plan, TargetTable, PyTrajectory);
@@ -70,81 +130,10 @@ impl IkBatch {
     fn within_limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         made(py, "has_flag", (&self.status, Status::WITHIN_LIMITS.bits()))
     }
-
-    /// Return the slots as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
-    /// table: a row for each slot of each pose, empty or not.
-    ///
-    /// Returns:
-    ///     Arrays of shape (poses * slots,) by name: `pose`, its index in row-major order; `slot`;
-    ///     `found` and `within_limits`, bool; `status`, uint8; `q1` .. [rad], NaN where the slot is
-    ///     empty.
-    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        made(slf.py(), "of_ik_batch", (slf,))
-    }
-}
-
-#[pymethods]
-impl FollowResult {
-    /// Return the rows as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a table.
-    ///
-    /// Returns:
-    ///     Arrays of shape (paths * m,) by name: `path`, its index in row-major order; `pose`;
-    ///     `q1` .. [rad] and `orientation_error` [rad], NaN where a pose is not met.
-    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        made(slf.py(), "of_follow_result", (slf,))
-    }
-}
-
-#[pymethods]
-impl Plan {
-    /// Return the plan as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a table.
-    ///
-    /// Returns:
-    ///     Arrays of shape (m,) by name: `q1` .. [rad]; `tool_angle` [rad]; `slot`; `external1` ..
-    ///     [m, rad] and `tolerance1` .. [rad, m] of a plan that has them; `x`, `y`, `z` of `T` [m].
-    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        made(slf.py(), "of_plan", (slf,))
-    }
-}
-
-#[pymethods]
-impl TargetTable {
-    /// Return the targets as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
-    /// table.
-    ///
-    /// Returns:
-    ///     Columns of m elements by name: `kind`, `name`, `line`; `q1` .. [rad]; `cf1`, `cf4`,
-    ///     `cf6`, `cfx`; `wrist` and `elbow` [rad], `shoulder` [m]; `finding`, the message or None.
-    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        made(slf.py(), "of_targets", (slf,))
-    }
-}
-
-#[pymethods]
-impl CatalogEntry {
-    /// Return the figures of the arm by name, a row of a table: `pandas.DataFrame` and
-    /// `polars.DataFrame` take a list of them, `[irbkin.catalog_entry(name).to_dict() for name in
-    /// irbkin.catalog()]`.
-    ///
-    /// Returns:
-    ///     `name`, `maker`, `dof`, `payload` [kg], `reach` [m], `is_coupled` and `sources`.
-    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        made(slf.py(), "of_catalog_entry", (slf,))
-    }
 }
 
 #[pymethods]
 impl PyTrajectory {
-    /// Return the samples as columns, of which `pandas.DataFrame` and `polars.DataFrame` make a
-    /// table.
-    ///
-    /// Returns:
-    ///     Arrays of shape (m,) by name: `t` [s], `q1` .. [rad], `dq1` .. [rad/s], `ddq1` ..
-    ///     [rad/s^2].
-    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        made(slf.py(), "of_trajectory", (slf,))
-    }
-
     /// Return the samples with the fields of ROS' `trajectory_msgs/JointTrajectory`. It needs no
     /// ROS; `rosidl_runtime_py.set_message_fields` fills a message with it.
     ///
