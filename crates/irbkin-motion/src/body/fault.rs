@@ -1,7 +1,6 @@
 //! Shapes, bodies and cells that are refused.
 
-use core::fmt;
-
+use alloc::format;
 use alloc::string::String;
 
 use thiserror::Error;
@@ -43,8 +42,15 @@ pub enum BodyFault {
     Flat { thickness: f64, least: f64 },
     /// `senses`: how many triangles use the edge in one sense and in the other.
     #[error(
-        "the mesh is not closed: {}; {count} edges are open, by more than a micrometer. Close it, fill it by Shape.convex, or \
-         take its surface alone by solid=False", OpenEdge(.edge, *.senses)
+        "the mesh is not closed: the edge from {:?} to {:?} m belongs to {}; {count} edges are open, \
+         by more than a micrometer. Close it, fill it by Shape.convex, or take its surface alone by \
+         solid=False",
+        .edge[0], .edge[1],
+        match .senses[0] + .senses[1] {
+            1 => String::from("one triangle only"),
+            2 => String::from("two triangles that face opposite sides"),
+            count => format!("{count} triangles, {} in one sense", .senses[0]),
+        }
     )]
     Open { edge: [[f64; 3]; 2], senses: [u32; 2], count: usize },
     #[error(
@@ -118,19 +124,4 @@ pub enum BodyFault {
     NoBody,
     #[error("the robot has no body: {why}; or give it one by with_body")]
     NotRead { why: String },
-}
-
-/// An edge that is not used in both senses equally often.
-struct OpenEdge<'a>(&'a [[f64; 3]; 2], [u32; 2]);
-
-impl fmt::Display for OpenEdge<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self([a, b], [along, back]) = self;
-        write!(f, "the edge from {a:?} to {b:?} m ")?;
-        match along + back {
-            1 => f.write_str("belongs to one triangle only"),
-            2 => f.write_str("belongs to two triangles that face opposite sides"),
-            count => write!(f, "belongs to {count} triangles, {along} in one sense"),
-        }
-    }
 }

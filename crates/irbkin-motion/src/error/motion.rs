@@ -1,6 +1,7 @@
 //! Arguments of trajectories and paths that are refused.
 
-use core::fmt;
+use alloc::format;
+use alloc::string::String;
 
 use thiserror::Error;
 
@@ -21,7 +22,7 @@ pub enum MotionFault {
     /// `index`: of one among several.
     #[error(
         "{field}{} is {value:?}, it must be positive{}",
-        At(*.index),
+        .index.map_or_else(String::new, |index| format!("[{index}]")),
         if .index.is_none() { " and finite" } else { "" }
     )]
     NotPositive { field: &'static str, index: Option<usize>, value: f64 },
@@ -167,13 +168,4 @@ pub fn check_most_near<const N: usize>(
         }
     }
     first.filter(|_| far > near).map_or(Ok(()), Err)
-}
-
-/// The index of one among several, in brackets.
-struct At(Option<usize>);
-
-impl fmt::Display for At {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |index| write!(f, "[{index}]"))
-    }
 }

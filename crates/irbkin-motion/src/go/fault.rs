@@ -1,5 +1,6 @@
 //! Free motions that are not found.
 
+use alloc::format;
 use alloc::string::String;
 
 use thiserror::Error;
@@ -28,7 +29,8 @@ pub enum GoFault {
     #[error(
         "{field} collides: {}link {link} with {other}, {:.1} mm deep{}: take another {field}, lower \
          the margin, or leave out pairs that may touch",
-        Tried(*.solutions), 1e3 * .depth, Proof(*.is_proven)
+        tried(*.solutions), 1e3 * .depth,
+        if *.is_proven { " (proven impossible)" } else { " (others were not tried)" }
     )]
     Collides {
         field: &'static str,
@@ -62,25 +64,10 @@ impl GoFault {
 }
 
 /// The solutions of a pose that were tried.
-struct Tried(Option<usize>);
-
-impl core::fmt::Display for Tried {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self.0 {
-            None => Ok(()),
-            Some(1) => f.write_str("of its one solution inside the limits, "),
-            Some(count) => {
-                write!(f, "each of {count} solutions inside the limits, of the nearest ")
-            }
-        }
-    }
-}
-
-/// Whether all solutions were tried.
-struct Proof(bool);
-
-impl core::fmt::Display for Proof {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(if self.0 { " (proven impossible)" } else { " (others were not tried)" })
+fn tried(solutions: Option<usize>) -> String {
+    match solutions {
+        None => String::new(),
+        Some(1) => String::from("of its one solution inside the limits, "),
+        Some(count) => format!("each of {count} solutions inside the limits, of the nearest "),
     }
 }

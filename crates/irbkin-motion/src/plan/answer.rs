@@ -1,6 +1,8 @@
 //! The answer of a plan: joints at each pose, breaks, and the reasons for them.
 
 use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
@@ -47,7 +49,8 @@ pub struct PlanBreak {
 }
 
 /// Where and why a branch ends.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("slot {slot} at pose {pose_index}: {reason}")]
 pub struct StrandEnd {
     /// Its slot.
     pub slot: usize,
@@ -58,12 +61,18 @@ pub struct StrandEnd {
 }
 
 /// Why a branch ends.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StrandReason {
     /// It has no solution inside the limits at that pose.
+    #[error("{0}")]
     Unreachable(Explanation),
     /// The joint would leave its limits.
+    #[error(
+        "J{joint} would have to be at {:.1} deg, its limits are {:.1} to {:.1} deg{}",
+        .value.to_degrees(), .bounds[0].to_degrees(), .bounds[1].to_degrees(),
+        exceeded(*.value, *.bounds)
+    )]
     Limit {
         /// The joint, from 1.
         joint: usize,
@@ -73,6 +82,7 @@ pub enum StrandReason {
         bounds: [f64; 2],
     },
     /// The joint would be faster than its limit.
+    #[error("J{joint} would have to move at {ratio:.2} of its velocity limit")]
     Speed {
         /// The joint, from 1.
         joint: usize,
@@ -80,6 +90,7 @@ pub enum StrandReason {
         ratio: f64,
     },
     /// An external axis would be faster than its limit.
+    #[error("external axis {axis} would have to move at {ratio:.2} of its velocity limit")]
     AxisSpeed {
         /// The axis, from 1.
         axis: usize,
@@ -88,6 +99,14 @@ pub enum StrandReason {
     },
     /// The joint would turn while the tool does not move, or the path leads out of reach between
     /// two poses.
+    #[error(
+        "J{joint} would jump by {:.1} deg{}",
+        .by.to_degrees(),
+        .kinds.word().map_or_else(
+            || String::from(" between two poses"),
+            |kind| format!(" at the {kind} singularity"),
+        )
+    )]
     Jump {
         /// The joint, from 1.
         joint: usize,
@@ -97,12 +116,21 @@ pub enum StrandReason {
         kinds: SingularityKind,
     },
     /// It ends at a singularity or at the edge of reach: other branches reach that pose.
+    #[error("the branch has ended, other branches reach this pose")]
     Ended,
     /// The bound on the work was reached before the motion to that pose was known to be continuous.
+    #[error(
+        "the search was given up before the motion to this pose was known to be continuous"
+    )]
     Unknown,
     /// The caller's own test rejected it.
+    #[error("rejected by accept")]
     Rejected,
     /// It collides.
+    #[error(
+        "link {link} and {near}{}",
+        if *.is_between { ", on the way from the pose before" } else { "" }
+    )]
     Collides {
         /// The link.
         link: usize,
@@ -112,6 +140,7 @@ pub enum StrandReason {
         is_between: bool,
     },
     /// It does not lead to the joint angles that were asked for at the end.
+    #[error("does not lead to the joint angles at the end")]
     NotAtEnd,
 }
 
@@ -129,20 +158,17 @@ pub struct NoPlan<const N: usize = 6> {
 }
 
 /// Why there is no plan.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PlanError<const N: usize = 6> {
     /// The path or the options are invalid.
-    Invalid(Error),
+    #[error(transparent)]
+    Invalid(#[from] Error),
     /// The path cannot be followed without a break.
+    #[error("{0}")]
     NoPlan(Box<NoPlan<N>>),
     /// The caller's own test did not answer.
+    #[error("the plan was stopped")]
     Stopped,
-}
-
-impl<const N: usize> From<Error> for PlanError<N> {
-    fn from(error: Error) -> Self {
-        Self::Invalid(error)
-    }
 }
 
 impl<const N: usize> From<irbkin::Error> for PlanError<N> {
@@ -150,18 +176,6 @@ impl<const N: usize> From<irbkin::Error> for PlanError<N> {
         Self::Invalid(error.into())
     }
 }
-
-impl<const N: usize> fmt::Display for PlanError<N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Invalid(error) => error.fmt(f),
-            Self::NoPlan(gap) => gap.fmt(f),
-            Self::Stopped => f.write_str("the plan was stopped"),
-        }
-    }
-}
-
-impl<const N: usize> core::error::Error for PlanError<N> {}
 
 impl<const N: usize> fmt::Display for NoPlan<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -174,53 +188,11 @@ impl<const N: usize> fmt::Display for NoPlan<N> {
     }
 }
 
-impl fmt::Display for StrandEnd {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "slot {} at pose {}: {}", self.slot, self.pose_index, self.reason)
+/// By how much an angle [rad] exceeds its limits, where both may look equal with one decimal [deg].
+fn exceeded(value: f64, bounds: [f64; 2]) -> String {
+    let [value, lower, upper] = [value, bounds[0], bounds[1]].map(f64::to_degrees);
+    if value < lower - 0.2 || value > upper + 0.2 {
+        return String::new();
     }
-}
-
-impl fmt::Display for StrandReason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unreachable(explanation) => explanation.fmt(f),
-            Self::Limit { joint, value, bounds } => {
-                let [value, lower, upper] = [*value, bounds[0], bounds[1]].map(f64::to_degrees);
-                write!(
-                    f,
-                    "J{joint} would have to be at {value:.1} deg, its limits are {lower:.1} to \
-                     {upper:.1} deg"
-                )?;
-                // With one decimal both may look equal.
-                if value < lower - 0.2 || value > upper + 0.2 {
-                    return Ok(());
-                }
-                write!(f, ", exceeded {} deg", excess(value, [lower, upper]))
-            }
-            Self::Speed { joint, ratio } => {
-                write!(f, "J{joint} would have to move at {ratio:.2} of its velocity limit")
-            }
-            Self::AxisSpeed { axis, ratio } => write!(
-                f,
-                "external axis {axis} would have to move at {ratio:.2} of its velocity limit"
-            ),
-            Self::Jump { joint, by, kinds } => {
-                write!(f, "J{joint} would jump by {:.1} deg", by.to_degrees())?;
-                match kinds.word() {
-                    Some(kind) => write!(f, " at the {kind} singularity"),
-                    None => f.write_str(" between two poses"),
-                }
-            }
-            Self::Ended => f.write_str("the branch has ended, other branches reach this pose"),
-            Self::Unknown => f.write_str(
-                "the search was given up before the motion to this pose was known to be continuous",
-            ),
-            Self::Rejected => f.write_str("rejected by accept"),
-            Self::Collides { link, near, is_between } => {
-                write!(f, "link {link} and {near}")?;
-                f.write_str(if *is_between { ", on the way from the pose before" } else { "" })
-            }
-            Self::NotAtEnd => f.write_str("does not lead to the joint angles at the end"),
-        }
-    }
+    format!(", exceeded {} deg", excess(value, [lower, upper]))
 }

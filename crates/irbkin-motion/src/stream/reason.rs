@@ -1,6 +1,9 @@
 //! Why a reference was refused.
 
-use core::fmt;
+use alloc::format;
+use alloc::string::String;
+
+use thiserror::Error;
 
 use crate::cell::Other;
 use irbkin::internal::excess;
@@ -34,12 +37,14 @@ impl Bound {
 
 /// Why a reference was refused; joints count from 1. What depends on obstacles is in words by
 /// [`Guard::words`](super::Guard::words).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
     /// There was none in this cycle.
+    #[error("no reference in this cycle")]
     Missing,
     /// An angle is not finite.
+    #[error("joint {joint} is {value}, it must be finite")]
     NotFinite {
         /// The joint.
         joint: usize,
@@ -47,8 +52,13 @@ pub enum Reason {
         value: f64,
     },
     /// The pose is not a rigid transform.
+    #[error("the pose is not a rigid transform of finite numbers")]
     NotRigid,
     /// A joint is outside its limits.
+    #[error(
+        "joint {joint} is {value:.6} rad, its limits are {:.6} to {:.6} rad, exceeded {} rad",
+        .limits[0], .limits[1], excess(*.value, *.limits)
+    )]
     Outside {
         /// The joint.
         joint: usize,
@@ -58,11 +68,19 @@ pub enum Reason {
         limits: [f64; 2],
     },
     /// Axes 2 and 3 are, or would while braking be, outside the limits of the linkage.
+    #[error(
+        "the linkage of axes 2 and 3 would be outside its limits by {excess:.2e} rad, here or \
+         while braking"
+    )]
     Linkage {
         /// By how much [rad].
         excess: f64,
     },
     /// A joint would exceed a bound.
+    #[error(
+        "joint {joint} would need {} of {value:.4} {unit}, its bound is {limit:.4} {unit}",
+        .bound.words()[0], unit = .bound.words()[1]
+    )]
     Beyond {
         /// The joint.
         joint: usize,
@@ -74,6 +92,10 @@ pub enum Reason {
         limit: f64,
     },
     /// A joint could not brake inside its limits any more.
+    #[error(
+        "joint {joint} could not brake before {value:.6} rad, its limits are {:.6} to {:.6} rad",
+        .limits[0], .limits[1]
+    )]
     NoWayToBrake {
         /// The joint.
         joint: usize,
@@ -83,11 +105,15 @@ pub enum Reason {
         limits: [f64; 2],
     },
     /// A joint slows down, so that it comes to rest at the reference.
+    #[error("joint {joint} slows down to come to rest at the reference")]
     Arriving {
         /// The joint.
         joint: usize,
     },
     /// The tool is not proven to stay within its speed.
+    #[error(
+        "the tool may reach {value:.4} m/s, here or while braking, its bound is {limit:.4} m/s"
+    )]
     ToolSpeed {
         /// The bound of the speed that is proven [m/s].
         value: f64,
@@ -95,8 +121,14 @@ pub enum Reason {
         limit: f64,
     },
     /// No solution of the pose inside the limits.
+    #[error("{0}")]
     Unreachable(Explanation),
     /// No solution of the pose inside the limits is on the branch of the joints.
+    #[error(
+        "the pose is reached in slot {} only, the joints are in slot {}: no way without a \
+         singularity between them",
+        .to.index(), .from.index()
+    )]
     Branch {
         /// The slot of the joints.
         from: Slot,
@@ -104,81 +136,27 @@ pub enum Reason {
         to: Slot,
     },
     /// No solution of the pose inside the limits continues the joints, of seven.
+    #[error("no solution of the pose inside the limits continues the joints")]
     NotContinued,
     /// The arm has no inverse kinematics.
+    #[error("the arm has no inverse kinematics: give joint angles")]
     NoInverse,
     /// The way to the reference, or the braking motion after it, is not proven free.
+    #[error("{NOT_FREE}{}", too_near(*.pair))]
     Blocked {
         /// A link, and what it comes too near to; `None` if no pair of them was found again.
         pair: Option<(usize, Other)>,
     },
 }
 
-impl fmt::Display for Reason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Missing => f.write_str("no reference in this cycle"),
-            Self::NotFinite { joint, value } => {
-                write!(f, "joint {joint} is {value}, it must be finite")
-            }
-            Self::NotRigid => f.write_str("the pose is not a rigid transform of finite numbers"),
-            Self::Outside { joint, value, limits } => write!(
-                f,
-                "joint {joint} is {value:.6} rad, its limits are {:.6} to {:.6} rad, exceeded {} \
-                 rad",
-                limits[0],
-                limits[1],
-                excess(*value, *limits)
-            ),
-            Self::Linkage { excess } => write!(
-                f,
-                "the linkage of axes 2 and 3 would be outside its limits by {excess:.2e} rad, here \
-                 or while braking"
-            ),
-            Self::Beyond { joint, bound, value, limit } => {
-                let [what, unit] = bound.words();
-                write!(
-                    f,
-                    "joint {joint} would need {what} of {value:.4} {unit}, its bound is {limit:.4} \
-                     {unit}"
-                )
-            }
-            Self::NoWayToBrake { joint, value, limits } => write!(
-                f,
-                "joint {joint} could not brake before {value:.6} rad, its limits are {:.6} to \
-                 {:.6} rad",
-                limits[0], limits[1]
-            ),
-            Self::Arriving { joint } => {
-                write!(f, "joint {joint} slows down to come to rest at the reference")
-            }
-            Self::ToolSpeed { value, limit } => write!(
-                f,
-                "the tool may reach {value:.4} m/s, here or while braking, its bound is {limit:.4} \
-                 m/s"
-            ),
-            Self::Unreachable(explanation) => explanation.fmt(f),
-            Self::Branch { from, to } => write!(
-                f,
-                "the pose is reached in slot {} only, the joints are in slot {}: no way without a \
-                 singularity between them",
-                to.index(),
-                from.index()
-            ),
-            Self::NotContinued => {
-                f.write_str("no solution of the pose inside the limits continues the joints")
-            }
-            Self::NoInverse => f.write_str("the arm has no inverse kinematics: give joint angles"),
-            Self::Blocked { pair: None } => f.write_str(NOT_FREE),
-            Self::Blocked { pair: Some((link, Other::Link(other))) } => {
-                write!(f, "{NOT_FREE}: link {link} and link {other} come too near to each other")
-            }
-            Self::Blocked { pair: Some((link, Other::Obstacle(place))) } => write!(
-                f,
-                "{NOT_FREE}: link {link} and obstacle {place} come too near to each other"
-            ),
-        }
-    }
+/// What comes too near to a link, if it was found again.
+fn too_near(pair: Option<(usize, Other)>) -> String {
+    let Some((link, other)) = pair else { return String::new() };
+    let other = match other {
+        Other::Link(other) => format!("link {other}"),
+        Other::Obstacle(place) => format!("obstacle {place}"),
+    };
+    format!(": link {link} and {other} come too near to each other")
 }
 
 /// How words of what is not proven free begin.

@@ -185,6 +185,7 @@ fn only_root(tree: &Tree<'_>) -> Result<usize, UrdfFault> {
     let mut roots = tree.roots();
     match (roots.next(), roots.next()) {
         (Some(root), None) => Ok(root),
+        (None, _) => Err(UrdfFault::NoLinks),
         _ => Err(UrdfFault::Roots { links: tree.quoted(tree.roots()) }),
     }
 }

@@ -1,7 +1,5 @@
 //! URDF texts that are refused.
 
-use core::fmt;
-
 use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::String;
@@ -79,10 +77,19 @@ pub enum UrdfFault {
     #[error("the links {links} form a loop, they must form a tree")]
     Loop { links: Names },
     /// The links without a parent.
-    #[error("{}", Roots(.links))]
+    #[error("several links have no parent: {links}; base must name the one to begin at")]
     Roots { links: Names },
+    #[error("the robot has no links")]
+    NoLinks,
     /// `field`: "base" or "tip". `links`: all, or those with names that are close.
-    #[error("{field} {name:?} is not a link{}", Close(.links))]
+    #[error(
+        "{field} {name:?} is not a link{}",
+        if .links.is_empty() {
+            String::from(", and no link has a name close to it")
+        } else {
+            format!("; there are {links}")
+        }
+    )]
     NoSuchLink { field: &'static str, name: String, links: Names },
     #[error("tip {tip:?} is not below base {base:?}: no joints lead from base to tip")]
     NotBelow { tip: String, base: String },
@@ -105,7 +112,7 @@ pub enum UrdfFault {
         "{} revolute joints lead from {base:?} to no end of a chain: {ends}{}{}",
         Listed(.wanted, " or "),
         if *.grips { format!("; {most} axes and a gripper") } else { String::new() },
-        TooFew(*.most)
+        too_few(*.most)
     )]
     NoTip { base: String, wanted: Vec<usize>, ends: Names, most: usize, grips: bool },
     /// `chains`: the bases and tips of chains that could be taken.
@@ -126,7 +133,7 @@ pub enum UrdfFault {
     #[error(
         "{found} revolute joints lead from {base:?} to {tip:?}, there must be {} (choose base and \
          tip){}",
-        Listed(.wanted, " or "), TooFew(*.found)
+        Listed(.wanted, " or "), too_few(*.found)
     )]
     JointCount { base: String, tip: String, found: usize, wanted: Vec<usize> },
     #[error("joint {joint:?} is revolute and has no <limit>; a joint without limits is continuous")]
@@ -163,37 +170,9 @@ pub enum UrdfFault {
 }
 
 /// Why so many joints are not enough, of a number that arms have.
-struct TooFew(usize);
-
-impl fmt::Display for TooFew {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            few @ 3..=5 => write!(f, "; {few} are not enough, since a pose has six coordinates"),
-            _ => Ok(()),
-        }
-    }
-}
-
-/// None or several links without a parent.
-struct Roots<'a>(&'a Names);
-
-impl fmt::Display for Roots<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_empty() {
-            return f.write_str("the robot has no links");
-        }
-        write!(f, "several links have no parent: {}; base must name the one to begin at", self.0)
-    }
-}
-
-/// Links instead of one that does not exist.
-struct Close<'a>(&'a Names);
-
-impl fmt::Display for Close<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_empty() {
-            return f.write_str(", and no link has a name close to it");
-        }
-        write!(f, "; there are {}", self.0)
+fn too_few(count: usize) -> String {
+    match count {
+        3..=5 => format!("; {count} are not enough, since a pose has six coordinates"),
+        _ => String::new(),
     }
 }
