@@ -50,7 +50,6 @@ pub enum GoFault {
 
 impl GoFault {
     /// Whether no motion can be.
-    #[doc(hidden)]
     pub fn is_proven(&self) -> bool {
         match self {
             Self::Outside { .. } | Self::Linkage { .. } => true,

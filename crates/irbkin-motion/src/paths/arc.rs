@@ -61,7 +61,6 @@ pub fn arc(
 }
 
 /// An arc through three poses; parts of it are from 0 to 1.
-#[doc(hidden)]
 pub struct Arc {
     circle: Circle,
     turns: Turns,

@@ -51,7 +51,6 @@ pub fn line(
 }
 
 /// A line whose orientation turns evenly about one axis (eq. 17, 18); parts of it are from 0 to 1.
-#[doc(hidden)]
 pub struct Line {
     start: Vector3<f64>,
     way: Vector3<f64>,
@@ -99,7 +98,6 @@ impl Line {
 
 /// A part of the way, exact at both ends.
 #[expect(clippy::cast_precision_loss, reason = "at most 1e7 steps")]
-#[doc(hidden)]
 pub fn part(step: usize, steps: usize) -> f64 {
     step as f64 / steps as f64
 }

@@ -92,7 +92,6 @@ pub struct Zone {
 
 /// ABB's predefined zones: name, tool [mm], orientation [mm], orientation [deg].
 /// Source: the zonedata table of the RAPID reference manual.
-#[doc(hidden)]
 pub const PREDEFINED: [(&str, f64, f64, f64); 15] = [
     ("fine", 0.0, 0.0, 0.0),
     ("z0", 0.3, 0.3, 0.03),
@@ -154,7 +153,6 @@ impl Zone {
 
 /// A line or an arc of the tool; parts of it are from 0 to 1.
 #[expect(clippy::large_enum_variant, reason = "most are lines, one or two at a time")]
-#[doc(hidden)]
 pub enum Leg {
     Line(Line),
     Arc(Arc),
@@ -162,19 +160,16 @@ pub enum Leg {
 
 impl Leg {
     /// A line between two poses; `index` is the pose that an error names.
-    #[doc(hidden)]
     pub fn line([start, end]: [&Pose; 2], index: usize) -> Result<Self, Error> {
         Ok(Self::Line(Line::new([start, end], None, index)?))
     }
 
     /// An arc through three poses.
-    #[doc(hidden)]
     pub fn arc(poses: [&Pose; 3], orientation: ArcOrientation) -> Result<Self, Error> {
         Ok(Self::Arc(Arc::through(poses, orientation)?))
     }
 
     /// Its length [m].
-    #[doc(hidden)]
     pub fn length(&self) -> f64 {
         match self {
             Self::Line(line) => line.length(),
@@ -183,7 +178,6 @@ impl Leg {
     }
 
     /// An angle that the tool does not turn by more than [rad].
-    #[doc(hidden)]
     pub fn angle(&self) -> f64 {
         match self {
             Self::Line(line) => line.angle(),
@@ -219,14 +213,12 @@ impl Leg {
 
 /// The zones of a corner between its neighbors [m].
 #[derive(Clone, Copy, Default)]
-#[doc(hidden)]
 pub struct Corner {
     position: f64,
     orientation: f64,
 }
 
 impl Corner {
-    #[doc(hidden)]
     pub fn new(zone: &Zone, before: &Leg, after: &Leg) -> Self {
         let half = 0.5 * before.length().min(after.length());
         let position = zone.position.min(half);
@@ -240,14 +232,12 @@ impl Corner {
     }
 
     /// Whether the pose at the corner is met.
-    #[doc(hidden)]
     pub fn is_met(&self) -> bool {
         self.position == 0.0 && self.orientation == 0.0
     }
 }
 
 /// A leg with its neighbors behind rounded corners, if it has them.
-#[doc(hidden)]
 pub struct Rounded<'a> {
     pub before: Option<(&'a Leg, Corner)>,
     pub leg: &'a Leg,
@@ -266,7 +256,6 @@ struct ZonePoint<'a> {
 
 impl Rounded<'_> {
     /// The pose at a part of the leg, 0 to 1; at both ends halfway through the corners.
-    #[doc(hidden)]
     pub fn at(&self, part: f64) -> Result<Pose, Error> {
         let position = match self.inside(part, |corner| corner.position) {
             Some(inside) => inside.position(),

@@ -2,7 +2,6 @@
 
 /// Most samples of a trajectory and most poses of a path [1]: they fill gigabytes. More is a step
 /// in another unit.
-#[doc(hidden)]
 pub const MOST_SAMPLES: usize = 10_000_000;
 
 /// Cosine of half the angle below which a turn of the tool is a half turn [1]: both ways are
@@ -17,12 +16,10 @@ pub(crate) const LEAST_ALONG: f64 = 1e-6;
 pub(crate) const LEAST_BEND: f64 = 1e-6;
 
 /// Part of a step of a path that is rounding and takes no step of its own [1].
-#[doc(hidden)]
 pub const STEP_ROUNDING: f64 = 1e-9;
 
 /// Way of the tool below which it stays at one place [m]: a pose that repeats another is known to
 /// rounding, and directions and speeds on such a way are not determined.
-#[doc(hidden)]
 pub const LEAST_WAY: f64 = 1e-9;
 
 /// Turn of the tool below which a pose at the same place repeats the one before it [rad].

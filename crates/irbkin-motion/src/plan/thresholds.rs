@@ -5,7 +5,6 @@
 pub(crate) const FULL_TURN: f64 = 1e-9;
 
 /// Most tool angles of a plan at each pose [1]: a tenth of a degree apart.
-#[doc(hidden)]
 pub const MOST_TOOL_ANGLES: usize = 3600;
 
 /// Most values of an external axis or of a tolerance of a plan [1].

@@ -5,7 +5,6 @@
 pub(crate) const LEAST_DURATION: f64 = 1e-9;
 
 /// Greatest duration of a motion [s]: 30 years.
-#[doc(hidden)]
 pub const MOST_DURATION: f64 = 1e9;
 
 /// How far joints may be apart where one trajectory continues another [rad].
@@ -16,5 +15,4 @@ pub(crate) const JOINED_POSITION: f64 = 1e-9;
 pub(crate) const PATH_DIRECTION: f64 = 1e-6;
 
 /// How far rounding may exceed a limit of a motion, as a part of the limit [1].
-#[doc(hidden)]
 pub const LIMIT_ROUNDING: f64 = 1e-9;

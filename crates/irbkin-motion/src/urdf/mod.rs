@@ -113,7 +113,6 @@ impl AnyArm {
 type Moving = (String, usize, Carrier);
 
 /// The arm of a URDF, with any number of joints.
-#[doc(hidden)]
 pub struct UrdfArm {
     name: String,
     /// Base and tip.

@@ -41,7 +41,6 @@ const MOST_JOINTS: usize = 16;
 
 /// The way of a link that moves with the chain: from the chain outwards, the joints beside it.
 #[derive(Clone)]
-#[doc(hidden)]
 pub struct Carrier {
     /// Number of joints of the chain between the base and the link.
     pub(super) after: usize,
@@ -53,7 +52,6 @@ pub struct Carrier {
 
 /// A joint beside the chain: its axis in its frame, and its limits [rad or m].
 #[derive(Clone)]
-#[doc(hidden)]
 pub struct Sweep {
     direction: Vector3<f64>,
     is_slide: bool,
@@ -63,7 +61,6 @@ pub struct Sweep {
 impl Carrier {
     /// Capsules that contain the given ones of the link wherever the joints are, in the link of the
     /// chain, and by how much they are thicker [m].
-    #[doc(hidden)]
     pub fn swept(&self, capsules: &[Capsule]) -> (Vec<Capsule>, f64) {
         #[expect(clippy::cast_precision_loss, reason = "a few joints")]
         let most = MOST_PIECES.powf(1.0 / self.beside.len().max(1) as f64).floor();
