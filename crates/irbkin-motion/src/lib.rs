@@ -72,6 +72,7 @@ pub mod internal {
     pub use crate::paths::thresholds::{LEAST_WAY, MOST_SAMPLES, STEP_ROUNDING};
     pub use crate::plan::fault::PlanFault;
     pub use crate::plan::thresholds::MOST_TOOL_ANGLES;
+    pub use crate::trajectory::check::check_positive;
     pub use crate::trajectory::thresholds::{LIMIT_ROUNDING, MOST_DURATION};
     pub use crate::trajectory::{evenly, within_times};
     #[cfg(feature = "urdf")]

@@ -18,7 +18,7 @@ use irbkin::Interrupt;
 use irbkin::pose::from_rows as pose_from_rows;
 use irbkin_motion::cell::Cell;
 use irbkin_motion::go::{End, GoOptions};
-use irbkin_motion::internal::{GoFault, MotionFault};
+use irbkin_motion::internal::{GoFault, check_positive};
 use irbkin_motion::Error;
 
 #[pymethods]
@@ -68,11 +68,7 @@ impl PyRobot {
         max_acceleration: Option<&Bound<'_, PyAny>>,
         steps: usize,
     ) -> PyResult<PyTrajectory> {
-        if !(seconds > 0.0 && seconds.is_finite()) {
-            let value = seconds;
-            let fault = MotionFault::NotPositive { field: "seconds", index: None, value };
-            return Err(exception(fault));
-        }
+        check_positive("seconds", seconds).map_err(exception)?;
         let alone = Cell::default();
         let cell = cell.map_or(&alone, |cell| &cell.get().cell);
         let py = start.py();

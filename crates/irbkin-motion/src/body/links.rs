@@ -36,11 +36,14 @@ pub struct LinkHull {
 
 /// Capsules that contain the links of an arm, and hulls that do so more closely.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(remote = "Self"))]
 pub struct Body {
     /// The arm of the catalog whose body it is.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) arm: Option<&'static str>,
     pub(super) links: Vec<LinkCapsule>,
     pub(super) parts: Vec<LinkCapsule>,
+    #[cfg_attr(feature = "serde", serde(default))]
     pub(super) hulls: Vec<LinkHull>,
     pub(super) pairs: Vec<[usize; 2]>,
     pub(super) source: Cow<'static, str>,

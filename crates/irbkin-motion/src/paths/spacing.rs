@@ -7,6 +7,7 @@ use nalgebra::ComplexField as _;
 
 use crate::error::{Error, MotionFault};
 use crate::paths::thresholds::{MOST_SAMPLES, STEP_ROUNDING};
+use crate::trajectory::check::check_positive;
 
 /// How the poses of a path are spaced.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,10 +44,7 @@ impl Spacing {
                 return Err(MotionFault::NotPositive { field, index: None, value }.into());
             }
         }
-        if length.is_infinite() && angle.is_infinite() {
-            let field = "step or turn";
-            return Err(MotionFault::NotPositive { field, index: None, value: length }.into());
-        }
+        check_positive("step or turn", length.min(angle))?;
         Ok(Self(Kind::Step { length, angle }))
     }
 
@@ -60,9 +58,7 @@ impl Spacing {
     /// positive.
     pub fn speed(speed: f64, period: f64, angle: f64) -> Result<Self, Error> {
         for (field, value) in [("speed", speed), ("dt", period), ("speed * dt", speed * period)] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(MotionFault::NotPositive { field, index: None, value }.into());
-            }
+            check_positive(field, value)?;
         }
         Self::step(speed * period, angle)
     }

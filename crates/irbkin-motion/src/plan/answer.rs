@@ -119,9 +119,7 @@ pub enum StrandReason {
     #[error("the branch has ended, other branches reach this pose")]
     Ended,
     /// The bound on the work was reached before the motion to that pose was known to be continuous.
-    #[error(
-        "the search was given up before the motion to this pose was known to be continuous"
-    )]
+    #[error("the search was given up before the motion to this pose was known to be continuous")]
     Unknown,
     /// The caller's own test rejected it.
     #[error("rejected by accept")]

@@ -7,9 +7,10 @@ use super::answer::StrandReason;
 use super::axes::{ExternalAxis, ToolCone, ToolRotation};
 use super::graph::Values;
 use crate::cell::Cell;
-use crate::error::{Error, MotionFault};
+use crate::error::Error;
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::MOST_EXTERNAL;
+use crate::trajectory::check::check_limits;
 use irbkin::Interrupt;
 use irbkin::internal::{check_length, check_weights};
 
@@ -124,10 +125,7 @@ impl PlanOptions {
         if let Some(limits) = &self.max_acceleration {
             let field = "max_acceleration";
             check_length(field, limits.len(), 6 + self.external.len())?;
-            if let Some(index) = limits.iter().position(|limit| limit.is_nan() || *limit <= 0.0) {
-                let (index, value) = (Some(index), limits[index]);
-                return Err(MotionFault::NotPositive { field, index, value }.into());
-            }
+            check_limits(field, limits)?;
             if self.times.is_some() {
                 return Err(PlanFault::TimedTwice.into());
             }

@@ -2,6 +2,7 @@
 
 use super::reason::Reason;
 use crate::error::{Error, MotionFault};
+use crate::trajectory::check::{check_finite, check_limits, check_positive};
 use irbkin::Robot;
 use irbkin::internal::ModelFault;
 
@@ -61,12 +62,7 @@ impl<const N: usize> GuardOptions<N> {
 
     /// Check them, and return the limits of velocity, acceleration and jerk of an arm.
     pub(super) fn checked(&self, robot: &Robot<N>) -> Result<[[f64; N]; 3], Error> {
-        let positive = |field: &'static str, index: Option<usize>, value: f64| {
-            let is_positive = value > 0.0 && (index.is_some() || value.is_finite());
-            let fault = MotionFault::NotPositive { field, index, value };
-            if is_positive { Ok(()) } else { Err(Error::from(fault)) }
-        };
-        positive("cycle", None, self.cycle)?;
+        check_positive("cycle", self.cycle)?;
         if self.cycle > LONGEST_CYCLE {
             return Err(MotionFault::Cycle { value: self.cycle, bound: LONGEST_CYCLE }.into());
         }
@@ -78,17 +74,14 @@ impl<const N: usize> GuardOptions<N> {
         let limits = [velocity, self.max_acceleration, self.max_jerk.unwrap_or([f64::INFINITY; N])];
         let fields = ["max_velocity", "max_acceleration", "max_jerk"];
         for (field, limits) in fields.into_iter().zip(&limits) {
-            for (joint, limit) in limits.iter().enumerate() {
-                positive(field, Some(joint), *limit)?;
-                // Without a jerk limit the accelerations still bound it.
-                if limit.is_infinite() && field != "max_jerk" {
-                    let (index, value) = (joint, *limit);
-                    return Err(MotionFault::NotFinite { field, index, value }.into());
-                }
+            check_limits(field, limits)?;
+            // Without a jerk limit the accelerations still bound it.
+            if field != "max_jerk" {
+                check_finite(field, limits)?;
             }
         }
         if let Some(speed) = self.max_tool_speed {
-            positive("max_tool_speed", None, speed)?;
+            check_positive("max_tool_speed", speed)?;
         }
         Ok(limits)
     }

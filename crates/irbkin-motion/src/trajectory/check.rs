@@ -10,7 +10,7 @@ use irbkin::internal::{JointFault, check_length, check_seed};
 const LEAST_JOINTS: usize = 6;
 
 /// Check that limits are positive; infinity is no limit.
-pub(super) fn check_limits(field: &'static str, limits: &[f64]) -> Result<(), Error> {
+pub(crate) fn check_limits(field: &'static str, limits: &[f64]) -> Result<(), Error> {
     match limits.iter().position(|limit| limit.is_nan() || *limit <= 0.0) {
         None => Ok(()),
         Some(index) => {
@@ -89,11 +89,18 @@ fn in_degrees(field: &'static str, q: &[f64], dof: usize) -> Option<(usize, Join
     Some((row, JointFault::Degrees { field, joint: joint + 1, value, bound }))
 }
 
+/// Check a speed, a time, or another number that must be positive and finite.
+#[doc(hidden)]
+pub fn check_positive(field: &'static str, value: f64) -> Result<(), MotionFault> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(MotionFault::NotPositive { field, index: None, value })
+}
+
 /// Check a duration [s].
 pub(super) fn check_duration(value: f64) -> Result<(), Error> {
-    if value.is_nan() || value <= 0.0 || value.is_infinite() {
-        return Err(MotionFault::NotPositive { field: "duration", index: None, value }.into());
-    }
+    check_positive("duration", value)?;
     let bounds = [LEAST_DURATION, MOST_DURATION];
     if value < bounds[0] || value > bounds[1] {
         return Err(MotionFault::Duration { value, bounds }.into());
@@ -102,7 +109,7 @@ pub(super) fn check_duration(value: f64) -> Result<(), Error> {
 }
 
 /// Check that numbers are finite.
-pub(super) fn check_finite(field: &'static str, numbers: &[f64]) -> Result<(), Error> {
+pub(crate) fn check_finite(field: &'static str, numbers: &[f64]) -> Result<(), Error> {
     match numbers.iter().position(|number| !number.is_finite()) {
         None => Ok(()),
         Some(index) => Err(MotionFault::NotFinite { field, index, value: numbers[index] }.into()),

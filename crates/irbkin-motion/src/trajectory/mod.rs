@@ -17,7 +17,7 @@
 //! ```
 
 mod axis;
-mod check;
+pub(crate) mod check;
 mod extremes;
 mod grid;
 mod jerk;

@@ -7,6 +7,7 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 
 use super::axis::AxisMotion;
+use super::check::check_positive;
 use super::polynomial::{TERMS, derivatives, line, shifted};
 use super::sampling::Samples;
 use crate::error::{Error, MotionFault};
@@ -23,7 +24,7 @@ use irbkin::internal::lanes::run;
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "TrajectoryParts", into = "TrajectoryParts")
+    serde(try_from = "TrajectoryParts")
 )]
 pub struct Trajectory {
     pub(super) dof: usize,
@@ -35,19 +36,12 @@ pub struct Trajectory {
 
 /// A trajectory as it is stored: reading checks it.
 #[cfg(feature = "serde")]
-#[derive(Clone, serde::Serialize, serde::Deserialize)]
+#[derive(serde::Deserialize)]
 #[serde(rename = "Trajectory")]
 struct TrajectoryParts {
     dof: usize,
     knots: Vec<f64>,
     terms: Vec<[f64; TERMS]>,
-}
-
-#[cfg(feature = "serde")]
-impl From<Trajectory> for TrajectoryParts {
-    fn from(Trajectory { dof, knots, terms }: Trajectory) -> Self {
-        Self { dof, knots, terms }
-    }
 }
 
 #[cfg(feature = "serde")]
@@ -238,11 +232,7 @@ impl Trajectory {
     ///
     /// [`Error::InvalidMotion`] when `factor` is not positive and finite.
     pub fn stretched(mut self, factor: f64) -> Result<Self, Error> {
-        if !(factor > 0.0 && factor.is_finite()) {
-            return Err(
-                MotionFault::NotPositive { field: "factor", index: None, value: factor }.into()
-            );
-        }
+        check_positive("factor", factor)?;
         for knot in &mut self.knots {
             *knot *= factor;
         }

@@ -6,12 +6,14 @@ use nalgebra::ComplexField as _;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::check::{check_duration, check_finite, check_limits, check_path_limits, check_rows};
+use super::check::{
+    check_duration, check_finite, check_limits, check_path_limits, check_positive, check_rows,
+};
 use super::grid::{Grid, PaceLimits};
 use super::jerk::paced_with_jerk;
 use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
-use super::tool_speed::{ToolPath, check_speed};
+use super::tool_speed::ToolPath;
 use crate::error::{Error, MotionFault};
 use crate::spline::{Ends, cubic};
 use crate::trajectory::thresholds::PATH_DIRECTION;
@@ -94,7 +96,7 @@ impl<'a> Retiming<'a> {
                 (knots, spline, f64::INFINITY)
             }
             Some((lengths, speed)) => {
-                check_speed("max_tool_speed", speed)?;
+                check_positive("max_tool_speed", speed)?;
                 let path = ToolPath::new(q, lengths, max_velocity, max_acceleration)?;
                 check_steps(q, dof)?;
                 (path.knots, path.terms, speed * speed)

@@ -9,7 +9,7 @@ use nalgebra::ComplexField as _;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::check::{check_duration, check_finite, check_path_limits, check_rows};
+use super::check::{check_duration, check_finite, check_path_limits, check_positive, check_rows};
 use super::piece::Piece;
 use super::piecewise::Trajectory;
 use super::polynomial::TERMS;
@@ -86,7 +86,7 @@ pub fn at_tool_speed(
     max_velocity: &[f64],
     max_acceleration: &[f64],
 ) -> Result<Trajectory, Error> {
-    check_speed("speed", speed)?;
+    check_positive("speed", speed)?;
     let path = ToolPath::new(q, lengths, max_velocity, max_acceleration)?;
     let limits = path.limits(max_velocity, max_acceleration);
     if speed > limits.fastest * (1.0 + LIMIT_ROUNDING) {
@@ -107,14 +107,6 @@ pub fn at_tool_speed(
     let knots = path.knots.iter().map(|knot| knot / speed).collect();
     let motion = Trajectory::new(path.dof, knots, terms.collect());
     check_duration(motion.duration()).and_then(|()| motion.checked())
-}
-
-/// Check a speed of the tool [m/s].
-pub(super) fn check_speed(field: &'static str, value: f64) -> Result<(), Error> {
-    if value > 0.0 && value.is_finite() {
-        return Ok(());
-    }
-    Err(MotionFault::NotPositive { field, index: None, value }.into())
 }
 
 /// A path of joints over the length of the tool's path.

@@ -20,8 +20,8 @@ use super::text::{Hinge, Text};
 use crate::arm::{AnyArm, Arm};
 use crate::body::{Capsule, LinkCapsule};
 use crate::error::Error;
+use irbkin::Pose;
 use irbkin::internal::constant_pose;
-use irbkin::{DhRow, Pose};
 
 /// The first lines of a file without shapes.
 const KINEMATICS: &str =
@@ -84,62 +84,37 @@ impl<const N: usize> Arm<N> {
     }
 
     fn urdf_with(&self, capsules: &[LinkCapsule]) -> String {
-        let mdh = self.mdh();
-        let written = Written {
-            capsules,
-            name: self.name(),
-            base: self.base(),
-            tool: self.tool(),
-            root: &mdh.base,
-            rows: &mdh.rows,
-            flange: &mdh.flange,
-            limits: &self.limits().to_array(),
-            velocity: self.max_velocity().map(|velocity| &velocity[..]),
-            coupling: self.coupling(),
-            linkage: self.limits().linkage(),
-        };
-        written.urdf()
+        Written { arm: self, capsules }.urdf()
     }
 }
 
-/// The written part of a robot, whatever its number of joints.
-struct Written<'a> {
-    name: &'a str,
+/// An arm, and the capsules that are written.
+struct Written<'a, const N: usize> {
+    arm: &'a Arm<N>,
     capsules: &'a [LinkCapsule],
-    base: &'a Pose,
-    tool: &'a Pose,
-    root: &'a Pose,
-    rows: &'a [DhRow],
-    flange: &'a Pose,
-    limits: &'a [[f64; 2]],
-    velocity: Option<&'a [f64]>,
-    /// Factor of joint 2 in joint 3; zero without a coupling.
-    coupling: f64,
-    /// Limits of the linkage [rad].
-    linkage: Option<[f64; 2]>,
 }
 
-impl Written<'_> {
+impl<const N: usize> Written<'_, N> {
     fn urdf(&self) -> String {
-        let mut text = Text::new(self.name);
+        let mut text = Text::new(self.arm.name());
         text.lines(&[if self.capsules.is_empty() { KINEMATICS } else { SHAPES }]);
         text.lines(HEAD);
-        if *self.base != Pose::identity() {
+        if *self.arm.base() != Pose::identity() {
             text.link("world");
-            text.fixed("world-base_link", ["world", "base_link"], self.base);
+            text.fixed("world-base_link", ["world", "base_link"], self.arm.base());
         }
         text.solid_link("base_link", &self.solids(0, &Pose::identity()));
         let (last, t_last_flange) = self.write_chain(&mut text);
         // z of tool0 is x of the flange.
         let turn = constant_pose([0.0; 3], [0.0, FRAC_PI_2, 0.0]);
-        let joint = format!("joint_{}-flange", self.rows.len());
+        let joint = format!("joint_{N}-flange");
         text.link("flange");
         text.fixed(&joint, [&last, "flange"], &(t_last_flange * turn.inverse()));
-        text.solid_link("tool0", &self.solids(self.rows.len() + 1, &Pose::identity()));
+        text.solid_link("tool0", &self.solids(N + 1, &Pose::identity()));
         text.fixed("flange-tool0", ["flange", "tool0"], &turn);
-        if *self.tool != Pose::identity() {
+        if *self.arm.tool() != Pose::identity() {
             text.link("tool");
-            text.fixed("tool0-tool", ["tool0", "tool"], self.tool);
+            text.fixed("tool0-tool", ["tool0", "tool"], self.arm.tool());
         }
         // Last: some programs follow the first joint of each link.
         text.link("base");
@@ -151,8 +126,9 @@ impl Written<'_> {
     fn write_chain(&self, text: &mut Text) -> (String, Pose) {
         let mut parent = "base_link".to_owned();
         // The table's frame in the parent, at zero joint angles.
-        let mut frame = *self.root;
-        for (i, row) in self.rows.iter().enumerate() {
+        let mdh = self.arm.mdh();
+        let mut frame = mdh.base;
+        for (i, row) in mdh.rows.iter().enumerate() {
             let twist = constant_pose([row.a, 0.0, 0.0], [0.0, 0.0, row.alpha]);
             frame *= twist * constant_pose([0.0, 0.0, row.d], [row.theta, 0.0, 0.0]);
             let direction = frame.rotation.matrix().column(2);
@@ -166,12 +142,12 @@ impl Written<'_> {
                 (frame.translation.into(), rotation)
             };
             let mut hinge = self.hinge(i, &frame, turned);
-            if i == 2 && self.coupling != 0.0 {
+            if i == 2 && self.arm.coupling() != 0.0 {
                 let second = self.hinge(1, &frame, turned);
-                let second = Hinge { axis: second.axis * self.coupling, ..second };
+                let second = Hinge { axis: second.axis * self.arm.coupling(), ..second };
                 text.lines(LINKAGE);
                 text.link("linkage");
-                text.linkage([&parent, "linkage"], &second, self.linkage);
+                text.linkage([&parent, "linkage"], &second, self.arm.limits().linkage());
                 "linkage".clone_into(&mut parent);
                 hinge.origin = Pose::identity();
             }
@@ -180,7 +156,7 @@ impl Written<'_> {
             text.hinge(&joint, [&parent, &child], &hinge);
             parent = child;
         }
-        (parent, frame * self.flange)
+        (parent, frame * mdh.flange)
     }
 
     /// The capsules of a link, moved from the table's frame into the text's.
@@ -192,8 +168,8 @@ impl Written<'_> {
     /// Joint `i`, counted from zero, about z of a frame in its link.
     fn hinge(&self, i: usize, frame: &Pose, origin: Pose) -> Hinge {
         let axis = frame.rotation.matrix().column(2).into_owned();
-        let velocity = self.velocity.map(|velocity| velocity[i]);
-        Hinge { origin, axis, limits: self.limits[i], velocity }
+        let velocity = self.arm.max_velocity().map(|velocity| velocity[i]);
+        Hinge { origin, axis, limits: self.arm.limits().to_array()[i], velocity }
     }
 }
 
