@@ -33,6 +33,11 @@ impl Decided {
     pub(super) fn lanes(self) -> u64 {
         self.far | self.near
     }
+
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self { far: self.far | other.far, near: self.near | other.near }
+    }
 }
 
 /// All lanes, as bits.
@@ -156,13 +161,6 @@ impl<S: Simd> Axis<S> {
             part = clamped(part - product / bend);
         }
         decided
-    }
-}
-
-impl Decided {
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        Self { far: self.far | other.far, near: self.near | other.near }
     }
 }
 

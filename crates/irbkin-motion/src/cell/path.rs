@@ -274,7 +274,7 @@ impl<const N: usize> Checker<'_, N> {
             let next = left.split_off(left.len().saturating_sub(LANES));
             let verdicts = self.verdicts(motion, &next, resolution);
             // The start is in the first piece, and free where that is.
-            if replace(&mut is_start_asked, false) && !verdicts[next.len() - 1].is_free() {
+            if replace(&mut is_start_asked, false) && verdicts[next.len() - 1] != Verdict::Free {
                 let start = Part { piece: 0, part: [0.0, 0.0] };
                 if self.touches(&motion.range(start.piece, start.part).middle) {
                     return Some(start);
@@ -392,7 +392,7 @@ fn whole(pieces: usize) -> Vec<Part> {
 }
 
 /// The proof of a part of a motion.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Verdict {
     /// It is proven free.
     Free,
@@ -400,10 +400,4 @@ enum Verdict {
     Open,
     /// It is not, and it is as short as the resolution asks.
     Contact,
-}
-
-impl Verdict {
-    fn is_free(self) -> bool {
-        matches!(self, Self::Free)
-    }
 }

@@ -37,12 +37,12 @@ pub fn line(
         return Err(MotionFault::NotFinite { field: "axis", index, value: axis[index] }.into());
     }
     let line = Line::new([&start, &end], axis.map(Vector3::from).as_ref(), 1)?;
-    let steps = spacing.steps_of_one([line.length(), line.angle()])?;
+    let steps = spacing.steps_of_one([line.length, line.turn.angle])?;
     let mut poses = Vec::with_capacity(steps + 1);
     poses.push(start);
     poses.extend((1..steps).map(|step| {
         let part = part(step, steps);
-        Pose::from_parts(Translation3::from(line.position(part)), line.orientation(part))
+        Pose::from_parts(Translation3::from(line.position(part)), line.turn.at(part))
     }));
     if steps > 0 {
         poses.push(end);
@@ -54,8 +54,9 @@ pub fn line(
 pub struct Line {
     start: Vector3<f64>,
     way: Vector3<f64>,
-    length: f64,
-    turn: Turn,
+    /// Its length [m].
+    pub(super) length: f64,
+    pub(super) turn: Turn,
 }
 
 impl Line {
@@ -70,16 +71,6 @@ impl Line {
         Ok(Self { start: start.translation.vector, way, length: way.norm(), turn })
     }
 
-    /// Its length [m].
-    pub(super) fn length(&self) -> f64 {
-        self.length
-    }
-
-    /// The angle that the tool turns by [rad].
-    pub(super) fn angle(&self) -> f64 {
-        self.turn.angle
-    }
-
     /// The position at a part of the way.
     pub(super) fn position(&self, part: f64) -> Vector3<f64> {
         self.start + self.way * part
@@ -88,11 +79,6 @@ impl Line {
     /// The direction: a vector of length one, or zero of a line without length.
     pub(super) fn direction(&self) -> Vector3<f64> {
         if self.length == 0.0 { self.way } else { self.way / self.length }
-    }
-
-    /// The orientation at a part of the way.
-    pub(super) fn orientation(&self, part: f64) -> Rotation3<f64> {
-        self.turn.at(part)
     }
 }
 

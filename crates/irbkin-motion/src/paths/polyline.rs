@@ -172,7 +172,7 @@ impl Leg {
     /// Its length [m].
     pub fn length(&self) -> f64 {
         match self {
-            Self::Line(line) => line.length(),
+            Self::Line(line) => line.length,
             Self::Arc(arc) => arc.length(),
         }
     }
@@ -180,7 +180,7 @@ impl Leg {
     /// An angle that the tool does not turn by more than [rad].
     pub fn angle(&self) -> f64 {
         match self {
-            Self::Line(line) => line.angle(),
+            Self::Line(line) => line.turn.angle,
             Self::Arc(arc) => arc.angle(),
         }
     }
@@ -205,7 +205,7 @@ impl Leg {
     /// The orientation at a part of the way.
     fn orientation(&self, part: f64) -> Rotation3<f64> {
         match self {
-            Self::Line(line) => line.orientation(part),
+            Self::Line(line) => line.turn.at(part),
             Self::Arc(arc) => arc.orientation(part),
         }
     }

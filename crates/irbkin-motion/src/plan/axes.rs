@@ -23,17 +23,9 @@ pub enum ToolAxis {
 }
 
 impl ToolAxis {
-    pub(super) fn index(self) -> usize {
-        match self {
-            Self::X => 0,
-            Self::Y => 1,
-            Self::Z => 2,
-        }
-    }
-
     /// The other two, so that the three are right-handed.
     pub(super) fn others(self) -> [usize; 2] {
-        [(self.index() + 1) % 3, (self.index() + 2) % 3]
+        [(self as usize + 1) % 3, (self as usize + 2) % 3]
     }
 }
 
@@ -204,7 +196,7 @@ pub(super) enum Carried {
 /// An axis outside of the arm, with the values that a plan may give it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExternalAxis {
-    carried: Carried,
+    pub(super) carried: Carried,
     range: [f64; 2],
     steps: usize,
     max_velocity: f64,
@@ -317,10 +309,6 @@ impl ExternalAxis {
     #[must_use]
     pub fn weight(&self) -> f64 {
         self.weight
-    }
-
-    pub(super) fn carried(&self) -> Carried {
-        self.carried
     }
 }
 

@@ -342,7 +342,7 @@ impl Ladder<'_> {
         states: &TurnStates,
     ) -> Result<JointPath, Vec<usize>> {
         let BestPath { nodes, states: [begin, _], bottleneck, squares, slots } = found;
-        let mut turns = states.turns(begin);
+        let mut turns = states.turns[begin];
         for joint in (0..6).filter(|joint| !states.has(*joint)) {
             turns[joint] = self.turn_along(&nodes, from, joint).ok_or_else(|| vec![joint])?;
         }

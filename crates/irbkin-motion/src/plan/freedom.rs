@@ -94,7 +94,7 @@ impl Freedom {
         let carrier = |axis: &ExternalAxis| FreeAxis {
             velocity: axis.max_velocity(),
             weight: axis.weight(),
-            ..FreeAxis::of_tool(Motion::Carrier(axis.carried()), axis.range(), axis.steps())
+            ..FreeAxis::of_tool(Motion::Carrier(axis.carried), axis.range(), axis.steps())
         };
         let mut axes: Vec<FreeAxis> = external.iter().map(carrier).collect();
         if let Some(cone) = cone {
@@ -247,7 +247,7 @@ impl Freedom {
         let angle = sin.atan2(matrix[(first, first)] + matrix[(second, second)]);
         let angle = if self.rotation().is_some() { angle } else { 0.0 };
         let mut about = Vector3::zeros();
-        about[self.pointing().index()] = -angle;
+        about[self.pointing() as usize] = -angle;
         let tilt = rotation_vector(&(relative * Rotation3::new(about)));
         for (axis, value) in self.axes.iter().zip(&mut values) {
             match axis.motion {

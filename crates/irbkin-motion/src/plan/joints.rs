@@ -30,8 +30,8 @@ pub(super) struct PlannedJoints {
     /// The least and the greatest angle that count as inside [rad].
     low: [f64; 6],
     high: [f64; 6],
-    /// Whether the limits are less than a turn apart.
-    are_narrow: [bool; 6],
+    /// Whether the limits are less than a turn apart: no direction has more than one angle inside.
+    pub(super) are_narrow: [bool; 6],
     /// How many turns an angle may have inside the limits.
     counts: [usize; 6],
     /// The turn around which the turns of a joint without limits are counted.
@@ -111,11 +111,6 @@ impl PlannedJoints {
         if turns == 0.0 { angle } else { angle - TAU * turns }
     }
 
-    /// Whether no direction of a joint has more than one angle inside the limits.
-    pub(super) fn has_one_angle(&self, joint: usize) -> bool {
-        self.are_narrow[joint]
-    }
-
     /// Whether an angle is at an end of limits that are a full turn apart: it may as well be at the
     /// other.
     pub(super) fn is_either_end(&self, joint: usize, angle: f64) -> bool {
@@ -183,11 +178,6 @@ impl PlannedJoints {
     /// Whether a joint vector is inside the limits.
     pub(super) fn contain(&self, q: &[f64; 6]) -> bool {
         (0..6).all(|joint| q[joint] >= self.low[joint] && q[joint] <= self.high[joint])
-    }
-
-    /// How many turns a joint may have.
-    pub(super) fn count(&self, joint: usize) -> usize {
-        self.counts[joint]
     }
 
     /// The limits of a joint [rad].
@@ -261,8 +251,8 @@ impl<'a> NodeCost<'a> {
 pub(super) struct TurnStates {
     /// These joints, with the number of turns of each.
     joints: [Option<usize>; 6],
-    /// The turns of each state; 0 of the other joints.
-    turns: Vec<[i32; 6]>,
+    /// The turn of each joint in each state; 0 of the other joints.
+    pub(super) turns: Vec<[i32; 6]>,
     /// Step of a state's code for a turn of each joint; 0 if its turns are not counted.
     pub(super) strides: [f64; 6],
     /// The code of each state, and the state of each code: there are codes of one turn before the
@@ -300,7 +290,7 @@ impl TurnStates {
 
     /// Count the turns of other joints.
     pub(super) fn add(&mut self, others: &[usize], joints: &PlannedJoints) -> Result<(), Error> {
-        let turns = others.iter().map(|joint| joints.count(*joint));
+        let turns = others.iter().map(|joint| joints.counts[*joint]);
         let found = turns.fold(self.len(), usize::saturating_mul);
         if found > MOST_TURN_STATES {
             #[expect(clippy::cast_precision_loss, reason = "for a message")]
@@ -309,7 +299,7 @@ impl TurnStates {
         }
         let mut counted = self.joints;
         for joint in others {
-            counted[*joint] = Some(joints.count(*joint));
+            counted[*joint] = Some(joints.counts[*joint]);
         }
         *self = Self::new(counted);
         Ok(())
@@ -331,11 +321,6 @@ impl TurnStates {
         self.turns.len()
     }
 
-    /// The turn of each joint in a state; 0 of a joint whose turns are not counted.
-    pub(super) fn turns(&self, state: usize) -> [i32; 6] {
-        self.turns[state]
-    }
-
     /// The state of turns, if they have one.
     pub(super) fn state(&self, turns: &[i32; 6]) -> Option<usize> {
         let (mut state, mut size) = (0, 1);
@@ -350,7 +335,7 @@ impl TurnStates {
 
     /// Whether every joint whose turns are counted may have its turn of a state.
     pub(super) fn holds(&self, joints: &PlannedJoints, q: &[f64; 6], state: usize) -> bool {
-        let turns = self.turns(state);
+        let turns = self.turns[state];
         (0..6).all(|joint| !self.has(joint) || turns[joint] <= joints.last_turn(joint, q[joint]))
     }
 }

@@ -164,7 +164,7 @@ impl PlannedArm<'_> {
                 for joint in 0..6 {
                     let angle = &mut columns[joint][slot % LANES];
                     *angle = q[slot][joint];
-                    if self.joints.has_one_angle(joint) {
+                    if self.joints.are_narrow[joint] {
                         continue;
                     }
                     *angle = self.joints.first_turn(joint, *angle);

@@ -8,13 +8,13 @@ use super::answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd};
 use super::best::JointPath;
 use super::ends::EndNode;
 use super::freedom::Freedom;
-use super::graph::Waypoint;
+use super::graph::{Values, Waypoint};
 use super::joints::{NodeCost, PlannedJoints};
 use super::nodes::PlannedArm;
 use super::options::{Accept, Caller, PlanOptions, Test};
 use super::planner::Planner;
 use super::refine::coarse_to_fine;
-use super::tested::Tests;
+use super::tested::{OfSix, Tests};
 use super::timed::fastest;
 use super::work::Work;
 use crate::arm::Arm;
@@ -72,7 +72,9 @@ impl Arm<6> {
         interrupt: Interrupt<'_>,
     ) -> Result<Plan, PlanError> {
         let mut tests = Tests::new(self, options, accept)?;
-        let tests = tests.is_any().then_some(&mut tests as &mut dyn Test);
+        let is_any = tests.is_any();
+        let mut tests = OfSix { tests: &mut tests, all: |q: &[f64; 6], _: &Values| *q };
+        let tests = is_any.then_some(&mut tests as &mut dyn Test);
         planned(self, path, options, &mut Caller { tests, interrupt })
     }
 }

@@ -140,7 +140,7 @@ impl Search<'_> {
             let amid = joints.amid(&q);
             let own = costs.iter_mut().skip(grid.number(node)).step_by(grid.len());
             for (state, cost) in own.enumerate().filter(|(_, cost)| **cost < f64::INFINITY) {
-                let turns = self.states.turns(state);
+                let turns = self.states.turns[state];
                 // Of a joint whose turns are not counted, no turn costs less than the one amid.
                 let q = core::array::from_fn(|joint| {
                     if !self.states.has(joint) {
@@ -232,7 +232,7 @@ impl Search<'_> {
             let at = (layer - from - 1) * size + state * grid.len() + number;
             number = passed.by[at] as usize;
             let q_before = layers[layer - 1].joints(&grid, grid.node(number)).unwrap_or_default();
-            let turns = self.states.turns(state);
+            let turns = self.states.turns[state];
             let turns_before = core::array::from_fn(|joint| {
                 turns[joint] + joints.step(joint, q_before[joint], q[joint]).1
             });
@@ -356,7 +356,7 @@ impl Search<'_> {
         }
         let [from, to] = edge;
         for state in (0..self.states.len()).filter(|state| self.states.holds(joints, &q, *state)) {
-            let turns = self.states.turns(state);
+            let turns = self.states.turns[state];
             let turns_before = core::array::from_fn(|joint| turns[joint] + carried[joint]);
             let Some(state_before) = self.states.state(&turns_before) else { continue };
             let (before, at) = (state_before * grid.len() + from, state * grid.len() + to);

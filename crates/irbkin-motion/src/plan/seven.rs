@@ -11,7 +11,7 @@ use super::axes::{Carried, ExternalAxis};
 use super::graph::Values;
 use super::options::{Accept, Caller, PlanOptions, Test};
 use super::robot::planned;
-use super::tested::Tests;
+use super::tested::{OfSix, Tests};
 use crate::arm::Arm;
 use crate::error::Error;
 use crate::plan::fault::PlanFault;
@@ -109,35 +109,6 @@ struct Seven<'a> {
     is_free: bool,
 }
 
-/// The tests of seven joints, asked for the six that are planned.
-struct TestsOfSix<'a, 'b, 'c, 'd> {
-    seven: &'a Seven<'b>,
-    tests: &'a mut Tests<'c, 'd, 7>,
-}
-
-impl TestsOfSix<'_, '_, '_, '_> {
-    fn all(&self, q: &[[f64; 6]], values: &[Values]) -> Vec<[f64; 7]> {
-        q.iter().zip(values).map(|(q, values)| self.seven.all(q, values)).collect()
-    }
-}
-
-impl Test for TestsOfSix<'_, '_, '_, '_> {
-    fn postures(&mut self, q: &[[f64; 6]], values: &[Values]) -> Option<Vec<bool>> {
-        let q = self.all(q, values);
-        self.tests.postures(&q)
-    }
-
-    fn motions(&mut self, q: &[[f64; 6]], values: &[Values]) -> Vec<bool> {
-        let q = self.all(q, values);
-        self.tests.motions(&q)
-    }
-
-    fn reason(&mut self, q: &[[f64; 6]], values: &[Values]) -> StrandReason {
-        let q = self.all(q, values);
-        self.tests.reason(&q)
-    }
-}
-
 impl Seven<'_> {
     fn planned(
         &self,
@@ -150,7 +121,8 @@ impl Seven<'_> {
         let six = six.map_err(Error::from)?;
         let options = self.options(options)?;
         let is_any = tests.is_any();
-        let mut tests = TestsOfSix { seven: self, tests };
+        let all = |q: &[f64; 6], values: &Values| self.all(q, values);
+        let mut tests = OfSix { tests, all };
         let tests = is_any.then_some(&mut tests as &mut dyn Test);
         let planned = planned(&six, path, &options, &mut Caller { tests, interrupt });
         planned.map(|plan| self.plan(plan)).map_err(|error| match error {

@@ -57,9 +57,7 @@ impl<'a, 'b, const N: usize> Tests<'a, 'b, N> {
             None => vec![true; q.len().saturating_sub(1)],
         }
     }
-}
 
-impl<const N: usize> Tests<'_, '_, N> {
     /// The reason why a joint vector, or the motion between two, does not pass.
     pub(super) fn reason(&mut self, q: &[[f64; N]]) -> StrandReason {
         match self.checker.as_mut().and_then(|checker| checker.contact(q)) {
@@ -71,16 +69,28 @@ impl<const N: usize> Tests<'_, '_, N> {
     }
 }
 
-impl Test for Tests<'_, '_, 6> {
-    fn postures(&mut self, q: &[[f64; 6]], _: &[Values]) -> Option<Vec<bool>> {
-        self.postures(q)
+/// The tests of the joint vectors that six joints and the values of free axes make.
+pub(super) struct OfSix<'a, 'b, 'c, const N: usize, F> {
+    pub(super) tests: &'a mut Tests<'b, 'c, N>,
+    pub(super) all: F,
+}
+
+impl<const N: usize, F: Fn(&[f64; 6], &Values) -> [f64; N]> OfSix<'_, '_, '_, N, F> {
+    fn all(&self, q: &[[f64; 6]], values: &[Values]) -> Vec<[f64; N]> {
+        q.iter().zip(values).map(|(q, values)| (self.all)(q, values)).collect()
+    }
+}
+
+impl<const N: usize, F: Fn(&[f64; 6], &Values) -> [f64; N]> Test for OfSix<'_, '_, '_, N, F> {
+    fn postures(&mut self, q: &[[f64; 6]], values: &[Values]) -> Option<Vec<bool>> {
+        self.tests.postures(&self.all(q, values))
     }
 
-    fn motions(&mut self, q: &[[f64; 6]], _: &[Values]) -> Vec<bool> {
-        self.motions(q)
+    fn motions(&mut self, q: &[[f64; 6]], values: &[Values]) -> Vec<bool> {
+        self.tests.motions(&self.all(q, values))
     }
 
-    fn reason(&mut self, q: &[[f64; 6]], _: &[Values]) -> StrandReason {
-        self.reason(q)
+    fn reason(&mut self, q: &[[f64; 6]], values: &[Values]) -> StrandReason {
+        self.tests.reason(&self.all(q, values))
     }
 }

@@ -76,6 +76,20 @@ impl Phase {
             second: second + self.third * (steps - 1.0),
         }
     }
+
+    /// The last step before the joint moves the other way.
+    fn turn(&self) -> f64 {
+        let (mut before, mut behind) = (0.0, self.steps);
+        while behind - before > 1.0 {
+            let middle = (0.5 * (before + behind)).floor();
+            if self.after(middle).first * self.from.first > 0.0 {
+                before = middle;
+            } else {
+                behind = middle;
+            }
+        }
+        before
+    }
 }
 
 /// A braking motion of a joint.
@@ -183,22 +197,6 @@ impl Brake {
     pub(super) fn extent(&self) -> [f64; 2] {
         let [low, high] = [self.from.min(self.stop), self.from.max(self.stop)];
         self.turn.map_or([low, high], |(_, point)| [low.min(point), high.max(point)])
-    }
-}
-
-impl Phase {
-    /// The last step before the joint moves the other way.
-    fn turn(&self) -> f64 {
-        let (mut before, mut behind) = (0.0, self.steps);
-        while behind - before > 1.0 {
-            let middle = (0.5 * (before + behind)).floor();
-            if self.after(middle).first * self.from.first > 0.0 {
-                before = middle;
-            } else {
-                behind = middle;
-            }
-        }
-        before
     }
 }
 

@@ -200,16 +200,9 @@ impl AxisMotion {
     /// Stretch the motion to another duration, as long or longer: limits that it keeps are kept.
     #[must_use]
     pub fn stretched(mut self, duration: f64) -> Self {
-        self.stretch(duration);
-        self
-    }
-
-    /// [`Self::stretched`] in place.
-    pub(super) fn stretch(&mut self, duration: f64) {
         let own = self.duration();
         if own == 0.0 {
-            *self = Self::still(self.terms[0][0], duration);
-            return;
+            return Self::still(self.terms[0][0], duration);
         }
         let factor = own / duration;
         for terms in &mut self.terms[..self.count] {
@@ -223,6 +216,7 @@ impl AxisMotion {
             *start /= factor;
         }
         self.starts[self.count] = duration;
+        self
     }
 
     /// A motion from 0 to 1 as one between two positions.

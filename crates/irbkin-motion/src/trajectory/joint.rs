@@ -134,7 +134,7 @@ fn slowed(profile: Profile, start: &[f64], end: &[f64], limits: &[AxisLimits]) -
             let [start, end] = [*start, *end].map(AxisState::at_rest);
             *axis = AxisMotion::quintic(start, end, duration);
         } else {
-            axis.stretch(duration);
+            *axis = axis.stretched(duration);
         }
     }
     axes

@@ -76,7 +76,7 @@ pub fn to_rest(
             *motion = Joint::new(start, *target, limits).slowed(duration);
         }
         if motion.duration() >= duration * (1.0 - SAME_TIME) {
-            motion.stretch(duration);
+            *motion = motion.stretched(duration);
         }
     }
     Ok(duration)
