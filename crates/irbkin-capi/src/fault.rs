@@ -98,14 +98,7 @@ impl Fault {
             Self::Of { error, .. } | Self::Item { error, .. } | Self::Other(error) => {
                 code_of(error)
             }
-            Self::Null { .. }
-            | Self::Misaligned { .. }
-            | Self::Length { .. }
-            | Self::TooLong { .. }
-            | Self::Overlap { .. }
-            | Self::Text { .. }
-            | Self::Choice { .. }
-            | Self::NoHandle { .. } => IrbkinCode::InvalidArgument,
+            _ => IrbkinCode::InvalidArgument,
         }
     }
 }

@@ -251,8 +251,8 @@ impl PyCell {
     ) -> PyResult<Option<CellContact>> {
         let py = motion.py();
         if let Ok(trajectory) = motion.cast::<PyTrajectory>() {
-            let trajectory = trajectory.get().motion();
-            return on!(robot.arm(), robot => self.contact(py, robot, trajectory));
+            let trajectory = &trajectory.get().motion;
+            return on!(robot.arm(), robot => self.contact(py, robot, &**trajectory));
         }
         on!(robot.arm(), robot => {
             if let Some(pair) = copied_pair(motion) {

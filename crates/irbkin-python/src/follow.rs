@@ -140,8 +140,7 @@ fn follow<const N: usize>(
     let poses = read_path(py, &rows, &shape)?;
     let starts = checked_joints::<N>("seed", &seeds)?;
     let length = shape.last().copied().unwrap_or_default();
-    let followed =
-        detached(py, threads, |batch| batch.follow(&poses, length, starts, follow))?;
+    let followed = detached(py, threads, |batch| batch.follow(&poses, length, starts, follow))?;
     let found = followed.iter().flat_map(|path| &path.q);
     for (to, found) in q.slice()?.as_chunks_mut::<N>().0.iter_mut().zip(found) {
         *to = found.unwrap_or([f64::NAN; N]);

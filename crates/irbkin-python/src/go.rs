@@ -16,10 +16,10 @@ use super::trajectories::read_limits;
 use super::trajectory::PyTrajectory;
 use irbkin::Interrupt;
 use irbkin::pose::from_rows as pose_from_rows;
+use irbkin_motion::Error;
 use irbkin_motion::cell::Cell;
 use irbkin_motion::go::{End, GoOptions};
 use irbkin_motion::internal::{GoFault, check_positive};
-use irbkin_motion::Error;
 
 #[pymethods]
 impl PyRobot {

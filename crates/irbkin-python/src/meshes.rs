@@ -107,10 +107,8 @@ impl PyShape {
     ///     InvalidModelError: No shape.
     #[staticmethod]
     fn union(shapes: Vec<PyRef<'_, Self>>) -> PyResult<Self> {
-        Ok(Self(
-            Shape::union(shapes.into_iter().map(|shape| shape.0.clone()).collect())
-                .map_err(exception)?,
-        ))
+        let shapes = shapes.into_iter().map(|shape| shape.0.clone()).collect();
+        Shape::union(shapes).map(Self).map_err(exception)
     }
 
     /// Return the shape moved from a frame, whose pose is given, into the frame of the pose.

@@ -114,19 +114,14 @@ impl PyRobot {
                 1.0 => {}
                 -1.0 => signs[joint] = -1,
                 _ => {
-                    return Err(exception(Error::from(ModelFault::Sign {
-                        joint: joint + 1,
-                        value,
-                    })));
+                    let joint = joint + 1;
+                    return Err(exception(Error::from(ModelFault::Sign { joint, value })));
                 }
             }
         }
         let opw = OpwParameters { a1, a2, b, c1, c2, c3, c4, offsets, signs };
-        named_and_limited(
-            &SharedArm::from(Arm::from(Robot::from_opw(opw).map_err(exception)?)),
-            limits,
-            name,
-        )
+        let robot = Robot::from_opw(opw).map_err(exception)?;
+        named_and_limited(&Arm::from(robot).into(), limits, name)
     }
 
     /// Robot from a URDF: the revolute and continuous joints between two links, with their limits
@@ -164,8 +159,8 @@ impl PyRobot {
         snap: f64,
     ) -> PyResult<Self> {
         let bytes = bytes_of(text_or_path)?;
-        let arm =
-            text_or_path.py().detach(|| arm_of(&bytes, base, tip, snap)).map_err(exception)?;
+        let read = || UrdfArm::read(text_of(&bytes)?, base, tip, &[6, 7])?.any_arm(snap);
+        let arm = SharedArm::from(text_or_path.py().detach(read).map_err(exception)?);
         Ok(if name.is_empty() { arm } else { named(&arm, name)? }.into())
     }
 
@@ -361,15 +356,6 @@ fn text_of(bytes: &[u8]) -> Result<&str, Error> {
     let text =
         str::from_utf8(bytes).map_err(|error| UrdfFault::NotUtf8 { byte: error.valid_up_to() })?;
     Ok(text)
-}
-
-fn arm_of(
-    bytes: &[u8],
-    base: Option<&str>,
-    tip: Option<&str>,
-    snap: f64,
-) -> Result<SharedArm, Error> {
-    UrdfArm::read(text_of(bytes)?, base, tip, &[6, 7])?.any_arm(snap).map(SharedArm::from)
 }
 
 /// The bytes of a text, or of the file at a path. A str that begins with `<`, blanks aside, is a

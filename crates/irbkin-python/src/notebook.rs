@@ -15,30 +15,23 @@ where
     py.import("irbkin.scene._html")?.call_method1(function, arguments)?.extract()
 }
 
-#[pymethods]
-impl PyRobot {
-    fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
-        html(slf.py(), "of_robot", (slf,))
-    }
+/// Let answers have a table, which a function makes of them.
+macro_rules! repr_html {
+    ($($answer:ident: $function:literal,)+) => {$(
+        #[pymethods]
+        impl $answer {
+            fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
+                html(slf.py(), $function, (slf,))
+            }
+        }
+    )+};
 }
+
+repr_html! { PyRobot: "of_robot", Plan: "of_plan", PyTrajectory: "of_trajectory", }
 
 #[pymethods]
 impl PySolutions {
     fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
         html(slf.py(), "of_solutions", (slf, slf.get().robot()))
-    }
-}
-
-#[pymethods]
-impl Plan {
-    fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
-        html(slf.py(), "of_plan", (slf,))
-    }
-}
-
-#[pymethods]
-impl PyTrajectory {
-    fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
-        html(slf.py(), "of_trajectory", (slf,))
     }
 }

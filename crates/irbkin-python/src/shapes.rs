@@ -50,10 +50,8 @@ impl PyShape {
     #[staticmethod]
     #[pyo3(signature = (radius, center))]
     fn sphere(radius: f64, center: &Bound<'_, PyAny>) -> PyResult<Self> {
-        Ok(Self(
-            Shape::sphere(radius, vector::<3>(center, "center", Fault::Model)?)
-                .map_err(exception)?,
-        ))
+        let center = vector(center, "center", Fault::Model)?;
+        Shape::sphere(radius, center).map(Self).map_err(exception)
     }
 
     /// All points within a radius of a line segment.
@@ -101,11 +99,9 @@ impl PyShape {
     #[staticmethod]
     #[pyo3(signature = (normal, point))]
     fn half_space(normal: &Bound<'_, PyAny>, point: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let normal = vector::<3>(normal, "normal", Fault::Model)?;
-        Ok(Self(
-            Shape::half_space(normal, vector::<3>(point, "point", Fault::Model)?)
-                .map_err(exception)?,
-        ))
+        let normal = vector(normal, "normal", Fault::Model)?;
+        let point = vector(point, "point", Fault::Model)?;
+        Shape::half_space(normal, point).map(Self).map_err(exception)
     }
 
     fn __repr__(&self) -> String {
@@ -228,9 +224,8 @@ impl PyBody {
     ) -> PyResult<Self> {
         let body = Body::new(read_capsules(links, capsules)?, pairs).map_err(exception)?;
         let body = body.with_hulls(read_hulls(hulls.unwrap_or_default())?).map_err(exception)?;
-        Ok(Self(
-            body.with_source(source.to_owned(), excess.unwrap_or_default()).map_err(exception)?,
-        ))
+        let excess = excess.unwrap_or_default();
+        body.with_source(source.to_owned(), excess).map(Self).map_err(exception)
     }
 
     /// Return the body with more capsules: a hose, a dress pack. Rods and cylinders that move

@@ -21,7 +21,7 @@ use irbkin_motion::trajectory::{AxisLimits, AxisState, Trajectory};
 /// each joint is a polynomial in time.
 #[pyclass(name = "Trajectory", module = "irbkin.trajectory", frozen)]
 pub(super) struct PyTrajectory {
-    motion: Arc<Trajectory>,
+    pub(super) motion: Arc<Trajectory>,
     /// Names of the joints, of a robot with a file.
     #[pyo3(get, name = "_joint_names")]
     names: Option<Vec<String>>,
@@ -56,10 +56,6 @@ impl PyTrajectory {
     pub(super) fn even(py: Python<'_>, motion: Trajectory, steps: usize) -> PyResult<Self> {
         let times = motion.times(steps).map_err(exception)?;
         Self::new(py, motion, times)
-    }
-
-    pub(super) fn motion(&self) -> &Trajectory {
-        &self.motion
     }
 
     fn times(&self, py: Python<'_>) -> PyResult<Vec<f64>> {

@@ -8,8 +8,7 @@ use nalgebra::{Rotation3, Translation3, Unit, Vector3};
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
 
-use super::line::Turn;
-use super::line::part;
+use super::line::{Turn, part};
 use super::spacing::Spacing;
 use crate::error::{Error, MotionFault};
 use crate::paths::thresholds::LEAST_BEND;

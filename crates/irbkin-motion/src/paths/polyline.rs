@@ -4,8 +4,7 @@ use alloc::vec::Vec;
 
 use nalgebra::{Rotation3, Translation3, Vector3};
 
-use super::arc::Arc;
-use super::arc::ArcOrientation;
+use super::arc::{Arc, ArcOrientation};
 use super::line::{Line, Turn, part};
 use super::spacing::Spacing;
 use crate::error::{Error, MotionFault};

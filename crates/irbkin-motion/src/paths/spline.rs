@@ -6,8 +6,7 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField as _;
 use nalgebra::Vector3;
 
-use super::line::Turn;
-use super::line::{line, part};
+use super::line::{Turn, line, part};
 use super::spacing::Spacing;
 use crate::error::{Error, MotionFault};
 use crate::paths::thresholds::{LEAST_TURN, LEAST_WAY};

@@ -42,7 +42,7 @@ pub(crate) struct Placed {
 
 /// A revolute joint: its axis in the child's frame, limits [rad] and velocity [rad/s].
 pub(crate) struct Motion {
-    direction: Vector3<f64>,
+    pub(super) direction: Vector3<f64>,
     pub(super) limits: [f64; 2],
     pub(super) velocity: Option<f64>,
 }
@@ -50,7 +50,7 @@ pub(crate) struct Motion {
 /// A parallelogram linkage that couples axes 2 and 3, as a joint on axis 3 that takes joint 2 back.
 pub(super) struct Linkage {
     /// The axis about which it turns by -q2.
-    direction: Vector3<f64>,
+    pub(super) direction: Vector3<f64>,
     /// Its angle about that axis where joint 2 is at zero [rad].
     offset: f64,
     /// Limits of the serial joint 3 [rad].
@@ -68,19 +68,7 @@ impl Placed {
     }
 }
 
-impl Motion {
-    /// The axis in the base frame, for the child's frame at zero joint angles.
-    pub(super) fn axis(&self, t_base_child: &Pose, snap: f64) -> JointAxis {
-        axis(self.direction, t_base_child, snap)
-    }
-}
-
 impl Linkage {
-    /// The axis, as in [`Motion`].
-    pub(super) fn axis(&self, t_base_child: &Pose, snap: f64) -> JointAxis {
-        axis(self.direction, t_base_child, snap)
-    }
-
     /// The child's frame, seen from where the joint is at an angle of zero.
     pub(super) fn turned(&self, snap: f64) -> Pose {
         let axis = Unit::new_unchecked(snapped_direction(self.direction, snap));
@@ -89,7 +77,8 @@ impl Linkage {
     }
 }
 
-fn axis(direction: Vector3<f64>, t_base_child: &Pose, snap: f64) -> JointAxis {
+/// An axis of the child in the base frame, for the child's frame at zero joint angles.
+pub(super) fn axis(direction: Vector3<f64>, t_base_child: &Pose, snap: f64) -> JointAxis {
     let direction = t_base_child.rotation * snapped_direction(direction, snap);
     JointAxis { direction: direction.into(), point: t_base_child.translation.vector.into() }
 }

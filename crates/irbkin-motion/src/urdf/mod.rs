@@ -23,7 +23,7 @@ use nalgebra::Vector3;
 
 use self::chain::chain_between;
 use self::collision::{Solid, body_of, carriers, places, remark, shaped, solids};
-use self::joint::{Joint, Motion, Placed};
+use self::joint::{Joint, Motion, Placed, axis};
 pub use self::sweep::Carrier;
 use self::tree::Tree;
 pub use self::tree::read_document;
@@ -279,9 +279,11 @@ impl UrdfArm {
         let mut linkage = None;
         for joint in &self.joints {
             t_base_tip *= joint.origin(snap);
-            axes.extend(joint.motion.as_ref().map(|motion| motion.axis(&t_base_tip, snap)));
+            axes.extend(
+                joint.motion.as_ref().map(|motion| axis(motion.direction, &t_base_tip, snap)),
+            );
             if let Some(found) = &joint.linkage {
-                linkage = Some((found.axis(&t_base_tip, snap), found));
+                linkage = Some((axis(found.direction, &t_base_tip, snap), found));
                 t_base_tip *= found.turned(snap);
             }
         }

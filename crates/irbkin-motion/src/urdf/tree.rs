@@ -113,7 +113,14 @@ impl<'a> Tree<'a> {
             if tree.joint_index.insert(joint.name, tree.joints.len()).is_some() {
                 return Err(UrdfFault::SameName { element: "joint", name: joint.name.to_owned() });
             }
-            tree.add_joint(joint)?;
+            if let Some(other) = tree.above[joint.child] {
+                let joints = [tree.joints[other].name, joint.name].map(str::to_owned);
+                let link = tree.links[joint.child].to_owned();
+                return Err(UrdfFault::TwoParents { link, joints });
+            }
+            tree.above[joint.child] = Some(tree.joints.len());
+            tree.below[joint.parent].push(tree.joints.len());
+            tree.joints.push(joint);
         }
         tree.refuse_loops()?;
         Ok(tree)
@@ -127,17 +134,6 @@ impl<'a> Tree<'a> {
         self.links.push(name);
         self.above.push(None);
         self.below.push(Vec::new());
-        Ok(())
-    }
-
-    fn add_joint(&mut self, joint: Joint<'a>) -> Result<(), UrdfFault> {
-        if let Some(other) = self.above[joint.child] {
-            let joints = [self.joints[other].name, joint.name].map(str::to_owned);
-            return Err(UrdfFault::TwoParents { link: self.links[joint.child].to_owned(), joints });
-        }
-        self.above[joint.child] = Some(self.joints.len());
-        self.below[joint.parent].push(self.joints.len());
-        self.joints.push(joint);
         Ok(())
     }
 

@@ -67,7 +67,7 @@ impl<const N: usize> Arm<N> {
     /// ```
     #[must_use]
     pub fn to_urdf(&self) -> String {
-        self.urdf_with(&[])
+        Written { arm: self, capsules: &[] }.urdf()
     }
 
     /// [`Self::to_urdf`] with the body of the robot as the `visual` and `collision` elements of the
@@ -80,11 +80,7 @@ impl<const N: usize> Arm<N> {
     ///
     /// [`Body::parts`]: crate::body::Body::parts
     pub fn to_urdf_with_body(&self) -> Result<String, Error> {
-        Ok(self.urdf_with(self.needed_body()?.capsules()))
-    }
-
-    fn urdf_with(&self, capsules: &[LinkCapsule]) -> String {
-        Written { arm: self, capsules }.urdf()
+        Ok(Written { arm: self, capsules: self.needed_body()?.capsules() }.urdf())
     }
 }
 

@@ -15,7 +15,7 @@ use crate::error::Error;
 use irbkin::Interrupt;
 
 /// Points, and all that is within a radius of them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
@@ -26,17 +26,11 @@ pub struct Cloud(Arc<CloudData>);
 /// A cloud as serde reads and writes it.
 type Stored = (Vec<[f64; 3]>, f64);
 
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 struct CloudData {
     points: Vec<Vector3<f64>>,
     radius: f64,
     tree: Tree,
-}
-
-impl PartialEq for Cloud {
-    fn eq(&self, other: &Self) -> bool {
-        self.0.radius.to_bits() == other.0.radius.to_bits() && self.0.points == other.0.points
-    }
 }
 
 impl From<Cloud> for Stored {

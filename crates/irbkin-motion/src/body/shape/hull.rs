@@ -16,7 +16,7 @@ use crate::error::Error;
 use irbkin::Interrupt;
 
 /// The convex hull of points.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
@@ -24,16 +24,10 @@ use irbkin::Interrupt;
 )]
 pub struct Hull(Arc<HullData>);
 
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 struct HullData {
     points: Vec<Vector3<f64>>,
     tree: Tree,
-}
-
-impl PartialEq for Hull {
-    fn eq(&self, other: &Self) -> bool {
-        self.0.points == other.0.points
-    }
 }
 
 impl From<Hull> for Vec<[f64; 3]> {

@@ -28,7 +28,7 @@ const DIRECTIONS: [[f64; 3]; 5] = [
 ];
 
 /// Triangles, and what is inside them if the mesh is solid.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
@@ -39,17 +39,11 @@ pub struct Mesh(Arc<MeshData>);
 /// A mesh as serde reads and writes it.
 type Stored = (Vec<[[f64; 3]; 3]>, bool);
 
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 struct MeshData {
     triangles: Vec<Triangle>,
     is_solid: bool,
     tree: Tree,
-}
-
-impl PartialEq for Mesh {
-    fn eq(&self, other: &Self) -> bool {
-        self.0.is_solid == other.0.is_solid && self.0.triangles == other.0.triangles
-    }
 }
 
 impl From<Mesh> for Stored {

@@ -78,7 +78,7 @@ pub(super) fn above(distance: f64) -> f64 {
 }
 
 /// A box and what is in it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 struct Node {
     bounds: Bounds,
     /// Of a leaf, the first of its items; of another node, its second child. The first child is
@@ -89,7 +89,7 @@ struct Node {
 }
 
 /// A tree of boxes around items, each of which is halved along its longest edge.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tree {
     nodes: Vec<Node>,
     /// The items of the leaves, one leaf after another.
