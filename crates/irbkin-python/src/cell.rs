@@ -301,7 +301,10 @@ impl PyCell {
         let found =
             detached_until(py, |it| self.cell.checker(robot)?.until(it).check_motion(motion))?
                 .map_err(exception)?;
-        found.map(|contact| contact_of(py, contact)).transpose()
+        let record = |Contact { at, q, nearest, depth }: Contact<N>| {
+            Ok(CellContact { at, q: array(py, q, &[N])?, pair: names(Some(&nearest)), depth })
+        };
+        found.map(record).transpose()
     }
 
     /// The nearest pair at each row of joint angles, and the gradients of the distances.
@@ -333,9 +336,4 @@ fn names(nearest: Option<&Nearest>) -> (String, String) {
     nearest.map_or_else(Default::default, |nearest| {
         (format!("link {}", nearest.link), nearest.near.to_string())
     })
-}
-
-fn contact_of<const N: usize>(py: Python<'_>, contact: Contact<N>) -> PyResult<CellContact> {
-    let Contact { at, q, nearest, depth } = contact;
-    Ok(CellContact { at, q: array(py, q, &[N])?, pair: names(Some(&nearest)), depth })
 }

@@ -13,6 +13,7 @@ use super::{Arm, ArmBody};
 use crate::body::fault::BodyFault;
 use crate::body::{Body, Capsule, LinkCapsule, Shape};
 use crate::error::Error;
+use crate::paths::line::part;
 use irbkin::internal::thresholds::MOST_TOOL;
 use irbkin::internal::{POSTURES, checked_pose, screw_x};
 use irbkin::{Mdh, Pose};
@@ -105,9 +106,7 @@ impl<const N: usize> Arm<N> {
         }
         let mut capsules = Vec::new();
         for (link, lines) in lines.into_iter().enumerate() {
-            #[expect(clippy::cast_precision_loss, reason = "a few links")]
-            let part = link as f64 / N as f64;
-            let radius = length * (RADII[0] + (RADII[1] - RADII[0]) * part);
+            let radius = length * (RADII[0] + (RADII[1] - RADII[0]) * part(link, N));
             let lines = lines.into_iter().map(|[a, b]| Capsule::known(a.into(), b.into(), radius));
             capsules.extend(lines.map(|capsule| LinkCapsule { link, capsule }));
         }

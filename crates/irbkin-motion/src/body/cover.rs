@@ -56,7 +56,15 @@ impl Shape {
             Self::Cylinder { pose, radius, half } => {
                 (pose, covers_of_cylinder(*radius, *half, most))
             }
-            Self::Union(shapes) => return cover_of_all(shapes, wanted),
+            Self::Union(shapes) => {
+                let mut all = Cover { capsules: Vec::new(), excess: 0.0 };
+                for shape in shapes {
+                    let cover = shape.cover(wanted)?;
+                    all.capsules.extend(cover.capsules);
+                    all.excess = all.excess.max(cover.excess);
+                }
+                return Ok(all);
+            }
             Self::HalfSpace { .. }
             | Self::Convex { .. }
             | Self::Mesh { .. }
@@ -75,17 +83,6 @@ impl Shape {
         let capsules = layout.capsules().map(|capsule| capsule.moved(pose)).collect();
         Ok(Cover { capsules, excess: layout.excess })
     }
-}
-
-/// The covers of several shapes.
-fn cover_of_all(shapes: &[Shape], wanted: Option<f64>) -> Result<Cover, Error> {
-    let mut all = Cover { capsules: Vec::new(), excess: 0.0 };
-    for shape in shapes {
-        let cover = shape.cover(wanted)?;
-        all.capsules.extend(cover.capsules);
-        all.excess = all.excess.max(cover.excess);
-    }
-    Ok(all)
 }
 
 /// A way to lay capsules into a solid around the origin.

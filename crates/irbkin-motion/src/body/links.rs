@@ -142,22 +142,21 @@ impl Body {
     /// The body with capsules that the flange carries, as a link of that number, at most `excess`
     /// outside of what they contain [m].
     pub(crate) fn carrying(
-        mut self,
+        self,
         link: usize,
         capsules: Vec<LinkCapsule>,
         excess: f64,
         pairs: &[[usize; 2]],
     ) -> Self {
-        self.hulls.extend(self.hulls_of(&capsules));
-        self.links.extend(capsules);
-        self.pairs.retain(|pair| !pair.contains(&link));
-        self.pairs.extend(pairs);
-        if self.excess.len() > link {
-            self.excess[link] = self.excess[link].max(excess);
-        } else if self.excess.len() == link {
-            self.excess.push(excess);
+        let mut body = self.with_capsules(capsules);
+        body.pairs.retain(|pair| !pair.contains(&link));
+        body.pairs.extend(pairs);
+        if body.excess.len() > link {
+            body.excess[link] = body.excess[link].max(excess);
+        } else if body.excess.len() == link {
+            body.excess.push(excess);
         }
-        Self { arm: None, ..self }
+        body
     }
 
     /// The body in other frames: each pose moves the shapes of a link into its new one.

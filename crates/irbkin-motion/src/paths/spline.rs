@@ -242,12 +242,12 @@ impl Curve {
             term
         });
         let mut curve = Self { terms, edges: [1.0; PANELS + 1], lengths: [0.0; PANELS] };
-        for part in 0..PARTS {
-            curve.edges[part] = even(part);
+        for number in 0..PARTS {
+            curve.edges[number] = part(number, PARTS);
         }
         let mut next = PARTS;
-        for part in 0..PARTS {
-            if let Some(place) = curve.slowest(even(part), even(part + 1))
+        for number in 0..PARTS {
+            if let Some(place) = curve.slowest(part(number, PARTS), part(number + 1, PARTS))
                 && next < PANELS
             {
                 curve.edges[next] = place;
@@ -336,10 +336,4 @@ impl Curve {
         }
         u
     }
-}
-
-/// Where an even part begins.
-#[expect(clippy::cast_precision_loss, reason = "a small count")]
-fn even(part: usize) -> f64 {
-    part as f64 / PARTS as f64
 }

@@ -315,24 +315,22 @@ impl ExternalAxis {
 impl Carried {
     /// A pose of the tool seen from the robot, the axis at a value.
     pub(super) fn seen(self, pose: &Pose, value: f64) -> Pose {
-        match self {
+        let (position, rotation) = match self {
             Self::Robot(direction) => {
-                let position = pose.translation.vector - direction.into_inner() * value;
-                Pose::from_parts(Translation3::from(position), pose.rotation)
+                (pose.translation.vector - direction.into_inner() * value, pose.rotation)
             }
             Self::Object(direction, point) | Self::Arm(direction, point) => {
                 let is_arm = matches!(self, Self::Arm(..));
                 let turn =
                     Rotation3::from_axis_angle(&direction, if is_arm { -value } else { value });
-                let position = point + turn * (pose.translation.vector - point);
-                Pose::from_parts(Translation3::from(position), turn * pose.rotation)
+                (point + turn * (pose.translation.vector - point), turn * pose.rotation)
             }
             Self::Tool(direction, point) => {
                 let back = Rotation3::from_axis_angle(&direction, -value);
                 let shift = pose.rotation * (point - back * point);
-                let position = pose.translation.vector + shift;
-                Pose::from_parts(Translation3::from(position), pose.rotation * back)
+                (pose.translation.vector + shift, pose.rotation * back)
             }
-        }
+        };
+        Pose::from_parts(Translation3::from(position), rotation)
     }
 }

@@ -292,7 +292,7 @@ impl Ladder<'_> {
         }
         let given = begin.or(end);
         if joints.is_unlimited(joint) {
-            return Some(given.unwrap_or_else(|| joints.no_turn(joint)));
+            return Some(given.unwrap_or_else(|| -joints.offset(joint)));
         }
         match given {
             Some(turn) => (low..=high).contains(&turn).then_some(turn),

@@ -156,12 +156,8 @@ impl PlannedJoints {
         turn - self.offset(joint)
     }
 
-    /// The turn with which an angle stays as it is.
-    pub(super) fn no_turn(&self, joint: usize) -> i32 {
-        -self.offset(joint)
-    }
-
-    fn offset(&self, joint: usize) -> i32 {
+    /// The full turns that an angle takes at turn 0.
+    pub(super) fn offset(&self, joint: usize) -> i32 {
         if self.is_unlimited(joint) { self.middle[joint] - whole(FREE_TURNS / 2) } else { 0 }
     }
 

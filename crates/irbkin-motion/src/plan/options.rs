@@ -8,6 +8,7 @@ use super::axes::{ExternalAxis, ToolCone, ToolRotation};
 use super::graph::Values;
 use crate::cell::Cell;
 use crate::error::Error;
+use crate::paths::line::part;
 use crate::plan::fault::PlanFault;
 use crate::plan::thresholds::MOST_EXTERNAL;
 use crate::trajectory::check::check_limits;
@@ -146,11 +147,9 @@ impl PlanOptions {
 impl<const N: usize> PlanOptions<N> {
     /// The time of each of `count` poses [s].
     pub(super) fn times_of(&self, count: usize) -> Vec<f64> {
-        #[expect(clippy::cast_precision_loss, reason = "counts of poses are small")]
-        let even = |index: usize| index as f64 / (count.max(2) - 1) as f64;
         match &self.times {
             Some(times) => times.clone(),
-            None => (0..count).map(even).collect(),
+            None => (0..count).map(|index| part(index, count.max(2) - 1)).collect(),
         }
     }
 }

@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::answer::{NoPlan, Plan, PlanBreak, PlanError, StrandEnd};
+use super::answer::{NoPlan, Plan, PlanBreak, PlanError};
 use super::best::JointPath;
 use super::ends::EndNode;
 use super::freedom::Freedom;
@@ -136,12 +136,15 @@ pub(super) fn planned(
     }
     let plan = planner.plan_of(&parts)?;
     let end_index = reached_from_the_end(arm, &path, options, caller)?;
-    let (pose_index, ends) = planner.gap(&parts, caller)?;
+    let (pose_index, ends) = match parts.first().filter(|part| part.from == 0) {
+        Some(part) => {
+            let behind = (part.reached() + 1).min(planner.layers.len() - 1);
+            (planner.index_of(behind), planner.branch_ends(part, caller)?)
+        }
+        None => (0, planner.none_at_start(caller)?),
+    };
     Err(PlanError::NoPlan(Box::new(NoPlan { pose_index, end_index, ends, plan })))
 }
-
-/// The first pose that is not reached, and why each branch ends.
-type Gap = (usize, Vec<StrandEnd>);
 
 /// Poses of which the last gap is searched first, and how many times more each next time.
 const FEW: usize = 16;
@@ -270,14 +273,5 @@ impl Planner<'_> {
             plan.breaks.push(PlanBreak { leave, enter: None });
         }
         Ok(plan)
-    }
-
-    /// Where and why the first joint path ends.
-    fn gap(&self, parts: &[JointPath], caller: &mut Caller<'_>) -> Result<Gap, Error> {
-        let Some(part) = parts.first().filter(|part| part.from == 0) else {
-            return Ok((0, self.none_at_start(caller)?));
-        };
-        let pose_index = self.index_of((part.reached() + 1).min(self.layers.len() - 1));
-        Ok((pose_index, self.branch_ends(part, caller)?))
     }
 }

@@ -247,26 +247,18 @@ impl Seven<'_> {
     }
 
     /// The end of a branch, with the numbers of the seven joints.
-    fn end(&self, end: StrandEnd) -> StrandEnd {
+    fn end(&self, mut end: StrandEnd) -> StrandEnd {
         let number = |joint: usize| joint + usize::from(joint > self.joint());
-        let reason = match end.reason {
-            StrandReason::Limit { joint, value, bounds } => {
-                StrandReason::Limit { joint: number(joint), value, bounds }
-            }
-            StrandReason::Speed { joint, ratio } => {
-                StrandReason::Speed { joint: number(joint), ratio }
-            }
+        match &mut end.reason {
+            StrandReason::Limit { joint, .. }
+            | StrandReason::Speed { joint, .. }
+            | StrandReason::Jump { joint, .. } => *joint = number(*joint),
             StrandReason::AxisSpeed { axis: 1, ratio } if self.is_free => {
-                StrandReason::Speed { joint: self.joint() + 1, ratio }
+                end.reason = StrandReason::Speed { joint: self.joint() + 1, ratio: *ratio };
             }
-            StrandReason::AxisSpeed { axis, ratio } => {
-                StrandReason::AxisSpeed { axis: axis - usize::from(self.is_free), ratio }
-            }
-            StrandReason::Jump { joint, by, kinds } => {
-                StrandReason::Jump { joint: number(joint), by, kinds }
-            }
-            other => other,
-        };
-        StrandEnd { reason, ..end }
+            StrandReason::AxisSpeed { axis, .. } => *axis -= usize::from(self.is_free),
+            _ => {}
+        }
+        end
     }
 }

@@ -31,14 +31,9 @@ pub(super) struct Ahead<const N: usize> {
 pub(super) type Middle<const N: usize> = ([f64; N], [f64; N]);
 
 impl<const N: usize> Ahead<N> {
-    /// Steps of the braking motion.
-    pub(super) fn steps(&self) -> f64 {
-        self.brakes.iter().fold(0.0, |most, brake| brake.steps.max(most))
-    }
-
     /// Cycles until the arm is at rest.
     pub(super) fn cycles(&self) -> f64 {
-        self.steps() + 3.0
+        self.brakes.iter().fold(0.0, |most, brake| brake.steps.max(most)) + 3.0
     }
 
     fn point(&self, joint: usize, index: f64) -> f64 {

@@ -19,6 +19,7 @@ use super::piece::{Piece, Strips};
 use super::piecewise::Trajectory;
 use super::polynomial::{TERMS, shifted};
 use crate::error::{Error, MotionFault};
+use crate::paths::line::part;
 use crate::trajectory::thresholds::LIMIT_ROUNDING;
 use irbkin::Interrupt;
 
@@ -96,9 +97,8 @@ impl Grid {
             let terms = &spline[piece * dof..][..dof];
             let parts = parts(piece);
             let mut begin = 0.0;
-            for part in 1..=parts {
-                #[expect(clippy::cast_precision_loss, reason = "counts of parts are small")]
-                let end = (ends[1] - ends[0]) * (part as f64 / parts as f64);
+            for number in 1..=parts {
+                let end = (ends[1] - ends[0]) * part(number, parts);
                 lengths.push(end - begin);
                 grid.extend(terms.iter().map(|terms| shifted(terms, begin)));
                 begin = end;

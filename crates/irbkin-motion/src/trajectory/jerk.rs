@@ -167,7 +167,7 @@ fn averaged(
     window: f64,
     interrupt: Interrupt<'_>,
 ) -> Result<Trajectory, Error> {
-    let mut walk = Walk::new(grid);
+    let mut walk = Walk { grid, piece: 0, place: 0.0, knots: vec![0.0], terms: Vec::new() };
     let (last, mut time) = (grid.lengths.len(), 0.0);
     let (mut front, mut back) = (1, 0);
     while back <= last {
@@ -199,11 +199,7 @@ struct Walk<'a> {
     terms: Vec<[f64; TERMS]>,
 }
 
-impl<'a> Walk<'a> {
-    fn new(grid: &'a Grid) -> Self {
-        Self { grid, piece: 0, place: 0.0, knots: vec![0.0], terms: Vec::new() }
-    }
-
+impl Walk<'_> {
     /// Go on in a phase that begins at the place.
     fn go(&mut self, mut phase: Phase) {
         while phase.duration > 0.0 {

@@ -184,11 +184,6 @@ impl Trajectory {
         self.knots.len() - 1
     }
 
-    /// The piece of a time inside the trajectory; a knot belongs to the piece that begins there.
-    fn piece_at(&self, time: f64) -> usize {
-        self.knots[1..self.pieces()].partition_point(|knot| *knot <= time)
-    }
-
     /// Writes joint angles [rad], velocities [rad/s] and accelerations [rad/s^2] at each of `times`
     /// [s], one row of `dof` numbers a time. Before the start and after the end the joints rest.
     ///
@@ -296,7 +291,8 @@ impl Trajectory {
         if !(0.0 <= start && start < end && end <= bound) {
             return Err(MotionFault::Slice { start, end, bound }.into());
         }
-        let first = self.piece_at(start);
+        // A knot belongs to the piece that begins there.
+        let first = self.knots[1..self.pieces()].partition_point(|knot| *knot <= start);
         let last = self.knots[..self.pieces()].partition_point(|knot| *knot < end) - 1;
         let mut knots = Vec::with_capacity(last - first + 2);
         knots.push(0.0);

@@ -126,15 +126,8 @@ impl Separation {
         Self { distance: length - radii[0] - radii[1], points }
     }
 
-    /// Of a capsule of that radius from a solid: from a point of its axis to the nearest one of the
-    /// solid, which is the same where the axis is in it. `distance` is theirs, or less.
-    pub(super) fn of_axis(distance: f64, [from, to]: [Vector3<f64>; 2], radius: f64) -> Self {
-        let away = if distance > 0.0 { (from - to).normalize() * radius } else { Vector3::zeros() };
-        Self { distance: distance - radius, points: [from - away, to] }
-    }
-
-    /// Of two shapes with radii, by points that are nearest without these; `distance` is theirs, or
-    /// less.
+    /// Of two shapes with radii, by points that are nearest without these, the same where one shape
+    /// is in the other; `distance` is theirs, or less. A solid has no radius.
     pub(super) fn of_rounded(
         distance: f64,
         [from, to]: [Vector3<f64>; 2],

@@ -80,11 +80,6 @@ impl Cloud {
         &self.0.tree
     }
 
-    /// The box around the points.
-    pub(super) fn bounds(&self) -> &Bounds {
-        self.0.tree.bounds()
-    }
-
     /// How far a capsule is from the nearest ball.
     pub(super) fn separation(&self, capsule: &Capsule) -> Separation {
         let (_, points) = self.nearest(&capsule.ends, f64::INFINITY, |_| false);

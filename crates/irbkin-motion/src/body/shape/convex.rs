@@ -51,7 +51,7 @@ pub(super) fn of_convex(
     }
     let (_, from, to) = best;
     let square = ((from - to).norm_squared() - rest).max(0.0);
-    Separation::of_axis(square.sqrt(), [from, to], capsule.radius)
+    Separation::of_rounded(square.sqrt(), [from, to], [capsule.radius, 0.0])
 }
 
 /// The point of a box around the origin, of half that size, that is nearest to a point.

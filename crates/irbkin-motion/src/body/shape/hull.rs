@@ -70,7 +70,7 @@ impl Hull {
     /// How far a capsule is from it.
     pub(super) fn separation(&self, capsule: &Capsule) -> Separation {
         let (distance, points) = self.nearest(capsule, DistanceQuery::DISTANCE);
-        Separation::of_axis(distance, points, capsule.radius)
+        Separation::of_rounded(distance, points, [capsule.radius, 0.0])
     }
 
     /// Whether a capsule is as near to it as a distance [m], or nearer.

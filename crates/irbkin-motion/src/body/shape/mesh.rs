@@ -101,20 +101,15 @@ impl Mesh {
         &self.0.tree
     }
 
-    /// The box around it.
-    pub(super) fn bounds(&self) -> &Bounds {
-        self.0.tree.bounds()
-    }
-
     /// How far a capsule is from it.
     pub(super) fn separation(&self, capsule: &Capsule) -> Separation {
         let axis = &capsule.ends;
         // If the axis is not inside as a whole, it goes through a triangle or is outside.
         if self.0.is_solid && self.holds(&axis[0]) {
-            return Separation::of_axis(0.0, [axis[0]; 2], capsule.radius);
+            return Separation::of_rounded(0.0, [axis[0]; 2], [capsule.radius, 0.0]);
         }
         let (square, points) = self.nearest(axis, f64::INFINITY, |_| false);
-        Separation::of_axis(square.sqrt(), points, capsule.radius)
+        Separation::of_rounded(square.sqrt(), points, [capsule.radius, 0.0])
     }
 
     /// Whether a capsule is as near to it as a distance [m], or nearer.
@@ -139,7 +134,7 @@ impl Mesh {
 
     /// Whether a point is inside, or so near to the surface that rounding decides.
     pub(super) fn holds(&self, point: &Vector3<f64>) -> bool {
-        self.bounds().contains(point) && {
+        self.0.tree.bounds().contains(point) && {
             let ways = DIRECTIONS.map(Vector3::from);
             let winding = ways.iter().find_map(|way| self.winding(point, way));
             winding.is_none_or(|winding| winding != 0)

@@ -272,8 +272,8 @@ impl Shape {
             }
             Self::HalfSpace { .. } => return None,
             Self::Convex { pose, hull } => around(pose, hull.bounds(), 0.0),
-            Self::Mesh { pose, mesh } => around(pose, mesh.bounds(), 0.0),
-            Self::Points { pose, cloud } => around(pose, cloud.bounds(), cloud.radius()),
+            Self::Mesh { pose, mesh } => around(pose, mesh.tree().bounds(), 0.0),
+            Self::Points { pose, cloud } => around(pose, cloud.tree().bounds(), cloud.radius()),
             Self::Union(parts) => {
                 let mut around = Bounds::of([]);
                 for part in parts {
