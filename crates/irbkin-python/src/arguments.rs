@@ -6,7 +6,7 @@ use pyo3::exceptions::{PyOverflowError, PyValueError};
 use pyo3::prelude::*;
 
 use super::arrays::Rows;
-use super::errors::{Fault, shape_text};
+use super::errors::Fault;
 use irbkin::JacobianFrame;
 use irbkin::follow::SingularityMode;
 use irbkin_motion::internal::MOST_SAMPLES;
@@ -119,12 +119,6 @@ pub(super) fn read_angle_limits(
     dof: usize,
 ) -> PyResult<Option<Vec<[f64; 2]>>> {
     let Some(value) = value else { return Ok(None) };
-    let rows = Rows::shaped(
-        value,
-        || shape_text(&[dof, 2]),
-        "limits",
-        Fault::Motion,
-        |shape| shape == [dof, 2],
-    )?;
+    let rows = Rows::exact(value, &[dof, 2], "limits", Fault::Motion)?;
     Ok(Some(rows.data()?.as_chunks().0.to_vec()))
 }

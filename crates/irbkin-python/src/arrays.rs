@@ -275,11 +275,8 @@ fn readable<'py>(
     if let Ok(array) = value.cast::<PyArrayDyn<f64>>() {
         let array = array.try_readonly().map_err(|_| written())?;
         if array.is_c_contiguous() && array.as_slice().is_ok() {
-            return if is_free(&addresses(&array), Access::Read) {
-                Ok(array)
-            } else {
-                Err(written())
-            };
+            let is_free = is_free(&addresses(&array), Access::Read);
+            return if is_free { Ok(array) } else { Err(written()) };
         }
     }
     let array = as_array(value).map_err(|cause| {

@@ -74,11 +74,8 @@ impl PyRobot {
         let (py, robot) = (q.py(), seven_joints(self.arm())?);
         let rows = joints(self.arm(), q)?;
         if let Some(q) = rows.single()? {
-            return robot
-                .arm_angle(q)
-                .map_err(exception)?
-                .unwrap_or(f64::NAN)
-                .into_bound_py_any(py);
+            let angle = robot.arm_angle(q).map_err(exception)?;
+            return angle.unwrap_or(f64::NAN).into_bound_py_any(py);
         }
         let mut angles = Output::new(py, None, &rows.lead, &[])?;
         let (data, slice) = (rows.data()?, angles.slice()?);
@@ -218,13 +215,9 @@ impl<'py, const N: usize> SelectionArguments<'py, N> {
             return Ok(None);
         }
         let arm_angle = self.arm_angles.as_ref().map_or(Ok(&[][..]), Rows::data)?.first().copied();
+        let or_nearest = self.or_nearest;
         let request = |&configuration: &Configuration| {
-            let request = ConfigurationRequest {
-                configuration,
-                arm_angle,
-                seed,
-                or_nearest: self.or_nearest,
-            };
+            let request = ConfigurationRequest { configuration, arm_angle, seed, or_nearest };
             request.check().map(|()| request)
         };
         let configurations = read_configurations(&self.configurations)?;
@@ -254,11 +247,8 @@ impl<'py, const N: usize> SelectionArguments<'py, N> {
     ) -> PyResult<Bound<'py, PyAny>> {
         let mut poses = Rows::read(given, &[4, 4], "T", Fault::Pose)?;
         if let (Some(pose), Some(request)) = (single_pose(&poses)?, self.single()?) {
-            return answer_row(
-                given,
-                out,
-                &robot.configured_checked(pose, &request).map_err(exception)?.q,
-            );
+            let found = robot.configured_checked(pose, &request).map_err(exception)?;
+            return answer_row(given, out, &found.q);
         }
         let mut arguments = vec![&mut poses, &mut self.configurations];
         arguments.extend([&mut self.arm_angles, &mut self.seeds].into_iter().flatten());

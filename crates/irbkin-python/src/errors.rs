@@ -53,10 +53,7 @@ pub(super) fn with_attributes(
     error: PyErr,
     set: impl FnOnce(&Bound<'_, PyBaseException>) -> PyResult<()>,
 ) -> PyErr {
-    match Python::attach(|py| set(error.value(py))) {
-        Ok(()) => error,
-        Err(failure) => failure,
-    }
+    Python::attach(|py| set(error.value(py))).err().unwrap_or(error)
 }
 
 /// The exception of an error of the core.

@@ -116,11 +116,9 @@ impl PyRobot {
         let status_shape = poses.shape_with(&[slots]);
         let mut status = Output::new(py, status_out.as_ref(), &status_shape, &inputs)?;
         let (data, to_q, to_status) = (poses.data()?, q.slice()?, status.slice()?);
-        detached(
-            py,
-            threads,
-            |batch| on!(arm, robot => batch.ik_with(robot, data, &angles, to_q, to_status)),
-        )?;
+        on!(arm, robot => {
+            detached(py, threads, |batch| batch.ik_with(robot, data, &angles, to_q, to_status))?;
+        });
         Ok(IkBatch { q: q.array(), status: status.array() })
     }
 
@@ -156,14 +154,12 @@ impl PyRobot {
         let mut margin = Output::new(py, None, &poses.lead, &[])?;
         let mut singularities = Output::new(py, None, &poses.lead, &[])?;
         let mut solutions = Output::new(py, None, &poses.lead, &[])?;
-        let (data, answers) = (
-            poses.data()?,
-            Margins {
-                margin: margin.slice()?,
-                singularities: singularities.slice()?,
-                solutions: solutions.slice()?,
-            },
-        );
+        let data = poses.data()?;
+        let answers = Margins {
+            margin: margin.slice()?,
+            singularities: singularities.slice()?,
+            solutions: solutions.slice()?,
+        };
         on!(arm, arm => detached(py, threads, |batch| match cell {
             None => Ok(batch.ik_margin(arm, data, &angles, answers)?),
             Some(cell) => cell.ik_margin_batch(batch, arm, data, &angles, answers),

@@ -140,11 +140,9 @@ impl PyRobot {
         });
         let mut found = vec![None; lead.iter().product()];
         let to = &mut found[..];
-        detached(
-            py,
-            threads,
-            |batch| on!(self.arm(), robot => batch.singularity(robot, data, to)),
-        )?;
+        on!(self.arm(), robot => {
+            detached(py, threads, |batch| batch.singularity(robot, data, to))?;
+        });
         let number = |of: &dyn Fn(&irbkin::Singularity) -> f64| {
             array(py, found.iter().map(|it| it.as_ref().map_or(f64::NAN, of)), lead)
         };
@@ -194,11 +192,9 @@ impl PyRobot {
         let mut limits = Output::new(py, None, &rows.lead, &[])?;
         let mut singularities = Output::new(py, None, &rows.lead, &[])?;
         let (q, to_limits, to) = (rows.data()?, limits.slice()?, singularities.slice()?);
-        detached(
-            py,
-            threads,
-            |batch| on!(self.arm(), robot => batch.margin(robot, q, to_limits, to)),
-        )?;
+        on!(self.arm(), robot => {
+            detached(py, threads, |batch| batch.margin(robot, q, to_limits, to))?;
+        });
         Ok(Margin { limits: limits.array(), singularities: singularities.array() })
     }
 }

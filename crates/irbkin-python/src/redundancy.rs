@@ -132,14 +132,13 @@ pub(super) fn read_poses_with_q7<'py>(
 
 /// An arm of six joints has no joint 7.
 pub(super) fn no_q7(given: bool) -> PyResult<()> {
-    if given {
-        Err(PyTypeError::new_err(
-            "q7 is joint 7 of an arm of seven joints: this one has six (for the solution nearest \
-             to a seed take ik_nearest(T, seed))",
-        ))
-    } else {
-        Ok(())
+    if !given {
+        return Ok(());
     }
+    Err(PyTypeError::new_err(
+        "q7 is joint 7 of an arm of seven joints: this one has six (for the solution nearest to a \
+         seed take ik_nearest(T, seed))",
+    ))
 }
 
 /// The angle of one joint [rad]; a seed is not one.

@@ -13,7 +13,7 @@ use super::trajectories::{check_turns, inside, read_each, read_rows};
 use super::trajectory::PyTrajectory;
 use irbkin::Interrupt;
 use irbkin_motion::Error;
-use irbkin_motion::trajectory::{Retiming, Trajectory, tool_lengths};
+use irbkin_motion::trajectory::{self, Retiming, Trajectory, tool_lengths};
 
 /// A path of joints with their limits.
 struct Path {
@@ -182,7 +182,7 @@ pub(super) fn at_tool_speed(
     let path = Path::read(q, max_velocity, max_acceleration)?;
     let lengths = path.read_lengths(T)?;
     path.timed(q.py(), limits, steps, |Path { q, max_velocity, max_acceleration }, _| {
-        irbkin_motion::trajectory::at_tool_speed(q, &lengths, speed, max_velocity, max_acceleration)
+        trajectory::at_tool_speed(q, &lengths, speed, max_velocity, max_acceleration)
     })
 }
 
@@ -217,16 +217,8 @@ pub(super) fn tool_speed_limits(
     let path = Path::read(q, max_velocity, max_acceleration)?;
     let lengths = path.read_lengths(T)?;
     let Path { q, max_velocity, max_acceleration } = &path;
-    let limits = py
-        .detach(|| {
-            irbkin_motion::trajectory::tool_speed_limits(
-                q,
-                &lengths,
-                max_velocity,
-                max_acceleration,
-            )
-        })
-        .map_err(exception)?;
+    let found = || trajectory::tool_speed_limits(q, &lengths, max_velocity, max_acceleration);
+    let limits = py.detach(found).map_err(exception)?;
     let joints = limits.joint.iter().map(|joint| i64::try_from(*joint).unwrap_or_default());
     Ok(ToolSpeedLimits {
         joint: column(py, joints),

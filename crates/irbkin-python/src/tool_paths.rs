@@ -33,22 +33,17 @@ fn read_spacing(
     [step, turn, speed, dt]: [Option<f64>; 4],
 ) -> PyResult<Spacing> {
     let most = turn.unwrap_or(f64::INFINITY);
-    Ok(match (steps, step, turn, speed, dt) {
-        (Some(steps), None, None, None, None) => {
-            Spacing::count(read_steps(steps)?).map_err(exception)?
-        }
-        (None, Some(step), _, None, None) => Spacing::step(step, most).map_err(exception)?,
-        (None, None, Some(turn), None, None) => {
-            Spacing::step(f64::INFINITY, turn).map_err(exception)?
-        }
-        (None, None, _, Some(speed), Some(dt)) => {
-            Spacing::speed(speed, dt, most).map_err(exception)?
-        }
+    let spacing = match (steps, step, turn, speed, dt) {
+        (Some(steps), None, None, None, None) => Spacing::count(read_steps(steps)?),
+        (None, Some(step), _, None, None) => Spacing::step(step, most),
+        (None, None, Some(turn), None, None) => Spacing::step(f64::INFINITY, turn),
+        (None, None, _, Some(speed), Some(dt)) => Spacing::speed(speed, dt, most),
         _ => {
             let message = "give steps, or step [m] and turn [rad], or speed [m/s] with dt [s]";
             return Err(PyValueError::new_err(message));
         }
-    })
+    };
+    spacing.map_err(exception)
 }
 
 /// Move the tool on a straight line, its orientation turning evenly about one axis (slerp).

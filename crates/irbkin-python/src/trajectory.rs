@@ -292,9 +292,6 @@ pub(super) fn between(
     let limit =
         |[velocity, acceleration, jerk]: [f64; 3]| AxisLimits { velocity, acceleration, jerk };
     let limits: Vec<_> = limits.into_iter().map(limit).collect();
-    PyTrajectory::even(
-        py,
-        irbkin_motion::trajectory::state::between(&start, &end, &limits).map_err(exception)?,
-        2,
-    )
+    let motion = irbkin_motion::trajectory::state::between(&start, &end, &limits);
+    PyTrajectory::even(py, motion.map_err(exception)?, 2)
 }

@@ -151,8 +151,9 @@ impl Group {
         let far = |capsule: &Capsule| capsule.ends.map(|end| (end - around.center).norm());
         let spread = own.iter().flat_map(far).fold(0.0, f64::max);
         let has_hulls = !hulls.is_empty();
-        let farthest = hulls.iter().map(|hull| hull.spread_from(&around.center));
-        let beyond = (farthest.fold(0.0, f64::max) - spread).max(0.0);
+        let points = hulls.iter().flat_map(RoundedHull::points).map(Vector3::from);
+        let farthest = points.map(|point| (point - around.center).norm()).fold(0.0, f64::max);
+        let beyond = (farthest - spread).max(0.0);
         let link = number.min(last);
         Self { link, number, capsules: range, around, spread, has_hulls, hulls, cores, beyond }
     }

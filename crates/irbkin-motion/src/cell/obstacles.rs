@@ -121,12 +121,7 @@ impl Cell {
                 links.push((format!("{name}, link {link}"), Shape::union(shapes)?));
             }
         }
-        self.with_obstacles(links)
-    }
-
-    /// The cell with more obstacles.
-    pub(super) fn with_obstacles(self, more: Vec<(String, Shape)>) -> Result<Self, Error> {
-        let obstacles = [self.obstacles, more].concat();
+        let obstacles = [self.obstacles, links].concat();
         Ok(Self { may_touch: self.may_touch, ..Self::new(obstacles, self.margin)? })
     }
 

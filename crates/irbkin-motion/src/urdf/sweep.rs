@@ -114,13 +114,9 @@ impl Sweep {
         let way = upper - lower;
         let slid = self.direction * way;
         let is_across = self.is_slide && slid.norm() > along.norm();
+        let off = |end: &Vector3<f64>| self.direction.cross(end).norm();
         let length = match (self.is_slide, is_across) {
-            (false, _) => {
-                way * [a, b]
-                    .map(|end| self.direction.cross(&end).norm())
-                    .into_iter()
-                    .fold(0.0, f64::max)
-            }
+            (false, _) => way * off(&a).max(off(&b)),
             (true, false) => way,
             (true, true) => along.norm(),
         };

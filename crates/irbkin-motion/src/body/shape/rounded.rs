@@ -153,11 +153,6 @@ impl RoundedHull {
         self.0.spread + self.0.radius
     }
 
-    /// How far the points are from another one at most [m].
-    pub(crate) fn spread_from(&self, center: &Vector3<f64>) -> f64 {
-        self.points().map(|point| (Vector3::from(point) - center).norm()).fold(0.0, f64::max)
-    }
-
     /// The hull in another frame.
     pub(crate) fn moved(&self, pose: &Pose) -> Self {
         let points: Vec<_> = self.points().map(|point| placed(pose, &point.into())).collect();
