@@ -1,9 +1,9 @@
 //! A program: modules that know each other, and the moves of their routines in the order in which
 //! they are executed, with the values that arguments, assignments and loops give them.
 //!
-//! Nothing is executed on a controller's terms: conditions are not evaluated, signals not read. A
-//! branch begins with what is known before it, and behind it is known what all of its parts agree
-//! on. A value that is not determined by the text stays unknown, with the reason.
+//! Signals are not read. A condition on known numbers decides; else each part of a branch begins with
+//! what is known before it, and behind it each datum has one of the values that the parts give it,
+//! in a case. A value that is not determined by the text stays unknown, with the reason.
 
 pub(super) mod arguments;
 mod calls;
