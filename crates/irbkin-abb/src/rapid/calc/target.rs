@@ -5,9 +5,12 @@
 //! axis 7, `eax_a` of its robtarget the arm angle. Of other arms it is a track or a positioner.
 
 use super::frames::{Frames, pose_in, rapid_pose};
-use super::units::MOST_DEGREES;
+use super::units::{EXTERNAL_AXES, MOST_DEGREES, Units};
 use crate::Error;
+use crate::rapid::data::moves::Target;
 use crate::rapid::data::records::{JointTarget, RapidPose, RobTarget, ToolData, WobjData};
+use crate::rapid::expression::names::ToolIn;
+use crate::rapid::text::fault::FrameFault;
 use irbkin::internal::JointFault;
 use irbkin::report::ConfigurationRule;
 use irbkin::thresholds::CONFIGURATION_EDGE;
@@ -87,6 +90,40 @@ pub fn calc_rob_t<const N: usize>(
     let extax = with_arm_angle(robot, &q, joints.extax)?;
     let RapidPose { trans_mm, rot } = rapid_pose(&frames.tool(&with_flange(robot)?.fk(&q)));
     Ok(RobTarget { trans_mm, rot, robconf, extax })
+}
+
+/// The robot as a program calculates with it: a target in a tool and a work object as it is in
+/// others or, without these, as joints. Units of external axes may carry the robot.
+pub(in crate::rapid) fn converter<const N: usize>(
+    robot: &Robot<N>,
+    units: &Units,
+) -> impl Fn(&Target, &ToolIn, Option<&ToolIn>) -> Result<Target, Error> {
+    |target, at, to| {
+        let (Target::RobTarget(RobTarget { extax, .. })
+        | Target::JointTarget(JointTarget { extax, .. })) = target;
+        let carried = || match units.unknown(extax).filter(|_| N < 7) {
+            Some(external) => {
+                Err(Error::from(FrameFault::Carried { unit: EXTERNAL_AXES[external].into() }))
+            }
+            None => Ok(robot.clone().with_base(&(units.carried(extax)? * robot.base()))?),
+        };
+        let frames = |(tool, wobj): &ToolIn| Frames::new(robot, Some(tool), Some(wobj));
+        match (target, to) {
+            (Target::JointTarget(_), None) => Ok(target.clone()),
+            (Target::RobTarget(_), Some(to)) if to == at => Ok(target.clone()),
+            (Target::JointTarget(joints), Some((tool, wobj))) => {
+                calc_rob_t(&carried()?, joints, Some(tool), Some(wobj)).map(Target::RobTarget)
+            }
+            (Target::RobTarget(target), None) => {
+                calc_joint_t(&carried()?, target, Some(&at.0), Some(&at.1)).map(Target::JointTarget)
+            }
+            (Target::RobTarget(target), Some(to)) => {
+                let flange = frames(at)?.flange(&target_pose(target)?);
+                let RapidPose { trans_mm, rot } = rapid_pose(&frames(to)?.tool(&flange));
+                Ok(Target::RobTarget(RobTarget { trans_mm, rot, ..*target }))
+            }
+        }
+    }
 }
 
 /// The robot with the flange as its tool, and with limits that take the rounding of a target's

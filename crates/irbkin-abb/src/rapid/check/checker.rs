@@ -12,7 +12,7 @@ use super::findings::{Seen, add_once, sorted};
 use super::fixes::{Demand, Finder};
 use super::undeclared::undeclared;
 use crate::Error;
-use crate::rapid::calc::target::with_flange;
+use crate::rapid::calc::target::{converter, with_flange};
 use crate::rapid::calc::units::Units;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
@@ -114,8 +114,9 @@ pub fn check<const N: usize>(
     let max_velocity = velocities(arm, &options.motion)?.unwrap_or([f64::INFINITY; N]);
     let flange = with_flange(arm)?;
     let (modules, sources): (Vec<&Module>, Vec<&str>) = modules.iter().copied().unzip();
-    let program = Program::new(&modules);
-    let units = Units::default();
+    let units = options.units.unwrap_or(const { &Units(Vec::new()) });
+    let convert = converter(&flange, units);
+    let program = Program::new(&modules, &convert);
     let (runs, notes) = runs(&program, options.takes_last, options.interrupt)?;
     let carried = options.carried.unwrap_or(const { &Carried::new() });
     let arms = options.cell.map(|_| carriers(arm, &runs, carried)).transpose()?;
@@ -129,7 +130,7 @@ pub fn check<const N: usize>(
     let mut checker = Checker {
         robots: [arm, &flange],
         options: options.motion,
-        units: options.units.unwrap_or(&units),
+        units,
         max_velocity,
         carrying,
         carried,
@@ -220,7 +221,9 @@ impl<const N: usize> Checker<'_, '_, N> {
         for finding in findings {
             let (index, mut finding) = (finding.move_index, finding.clone());
             let (Some(goal), Some(made)) = (goals.get(index), made.get(index)) else { continue };
-            if goal.place.is_none() {
+            if goal.place.is_none()
+                && !matches!(finding.code, Code::OutOfReach | Code::OutsideLimits)
+            {
                 unchecked[index].get_or_insert(finding.code);
             }
             let is_wrong = matches!(

@@ -9,7 +9,7 @@ use core::ops::Range;
 use crate::rapid::data::finding::{Edit, Finding};
 use crate::rapid::data::module::Content;
 use crate::rapid::data::moves::Move;
-use crate::rapid::expression::functions::Displacement;
+use crate::rapid::expression::functions::displaces;
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Expression, Form};
 use crate::rapid::program::whole::Program;
@@ -158,7 +158,7 @@ impl<'a, 'm> Finder<'a, 'm> {
                 self.of_name(reference.name, &reference.indices, at, names)
             }
             // A displaced target keeps its confdata.
-            Form::Call(call) if Displacement::named(call.name).is_some() => {
+            Form::Call(call) if displaces(call.name) => {
                 self.of_value(call.arguments.required.first()?, begin, at, names)
             }
             _ => None,

@@ -278,6 +278,9 @@ impl Finding {
                     .caused_by(name.to_lowercase())
             }
             Reason::NoSuchElement { .. } => Self::new(Code::NoSuchElement, words),
+            Reason::Robot { code: code @ (Code::OutOfReach | Code::OutsideLimits), .. } => {
+                Self::new(*code, words)
+            }
             _ => Self::new(Code::UnknownValue, words),
         }
     }

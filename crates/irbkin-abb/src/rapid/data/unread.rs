@@ -30,6 +30,8 @@ pub enum Reason {
     OwnFunction { name: String },
     #[error("{name} with {argument} is not evaluated")]
     FunctionArgument { name: String, argument: String },
+    #[error("{name}: {words}")]
+    Robot { name: String, code: super::finding::Code, words: String },
     /// An array is declared as a copy of another one.
     #[error("refers to {name}, and arrays are not copied")]
     CopiedArray { name: String },

@@ -1,6 +1,4 @@
-//! RAPID's functions of numbers, vectors, rotations, poses and targets: one table, a line each.
-//!
-//! Functions of the robot's state, such as `CRobT` and `CalcJointT`, have no value here.
+//! RAPID's functions of numbers, vectors, rotations, poses, targets and the robot: one table.
 
 #[cfg(not(feature = "std"))]
 use nalgebra::{ComplexField as _, RealField as _};
@@ -14,25 +12,22 @@ use super::geometry::{
     cross, def_frame, difference, dot, euler_zyx, length, mir_pos, normalized, offs, orient_zyx,
     pose_inv, pose_mult, pose_vect, rel_tool,
 };
-use super::names::Lookup;
+use super::names::{Lookup, Question};
 use super::tree::{Call, Expression};
+use crate::rapid::data::moves::Target;
 use crate::rapid::data::records::{RobTarget, WobjData};
+use crate::rapid::data::table::Entry;
 use crate::rapid::data::types::{
-    Atom, Atoms, NUM, ORIENT, POS, POSE, Part, ROBTARGET, Shape, Type, WOBJDATA,
+    Atom, Atoms, JOINTTARGET, NUM, ORIENT, POS, POSE, Part, ROBTARGET, Shape, TOOLDATA, Type,
+    WOBJDATA,
 };
 use crate::rapid::data::unread::Reason;
 use crate::rapid::text::fault::RapidFaultKind;
 use irbkin::internal::constant_sin_cos;
 
-/// A function that displaces a target and keeps its confdata.
-pub(crate) struct Displacement;
-
-impl Displacement {
-    /// The function of a name, in any case.
-    pub(crate) fn named(name: &str) -> Option<Self> {
-        let names = ["Offs", "RelTool"];
-        names.iter().any(|own| own.eq_ignore_ascii_case(name)).then_some(Self)
-    }
+/// Whether the function of a name, in any case, displaces a target and keeps its confdata.
+pub(crate) fn displaces(name: &str) -> bool {
+    ["Offs", "RelTool"].iter().any(|own| own.eq_ignore_ascii_case(name))
 }
 
 /// A function of RAPID.
@@ -44,6 +39,8 @@ pub(super) struct Function {
     pub(super) result: &'static Type,
     /// The result; `None` where it is not defined.
     apply: fn(&Arguments) -> Option<Atoms>,
+    /// What it asks the robot instead.
+    ask: Option<fn(&Arguments) -> Option<Question>>,
 }
 
 /// The arguments of a function.
@@ -60,11 +57,12 @@ impl Arguments {
     }
 
     /// An optional argument; the default if it is not there.
-    fn or<T: Part>(&self, place: usize, default: T) -> Option<T> {
-        match self.optional.get(place)? {
-            Some(atoms) => T::take(&mut atoms.clone().into_iter()),
-            None => Some(default),
-        }
+    fn or<T: Part>(&self, place: usize, default: T) -> T {
+        self.option(place).unwrap_or(default)
+    }
+
+    fn option<T: Part>(&self, place: usize) -> Option<T> {
+        T::take(&mut self.optional.get(place)?.clone()?.into_iter())
     }
 
     fn has(&self, place: usize) -> bool {
@@ -87,7 +85,7 @@ const fn line(
     result: &'static Type,
     apply: fn(&Arguments) -> Option<Atoms>,
 ) -> Function {
-    Function { name, required, optional, result, apply }
+    Function { name, required, optional, result, apply, ask: None }
 }
 
 static ONE_NUMBER: [&Type; 1] = [&NUM];
@@ -99,7 +97,7 @@ const fn of_number(name: &'static str, apply: fn(&Arguments) -> Option<Atoms>) -
 
 /// A number to some decimals, 0 without `\Dec`.
 fn to_decimals(given: &Arguments, whole: fn(f64) -> f64) -> Option<Atoms> {
-    let unit = 10_f64.powf(given.or(0, 0.0)?);
+    let unit = 10_f64.powf(given.or(0, 0.0));
     made(whole(given.at::<f64>(0)? * unit) / unit)
 }
 
@@ -109,7 +107,7 @@ fn shift(given: &Arguments) -> Option<[f64; 3]> {
 }
 
 fn turned(given: &Arguments) -> Option<Atoms> {
-    let turns = [given.or(0, 0.0)?, given.or(1, 0.0)?, given.or(2, 0.0)?];
+    let turns = [given.or(0, 0.0), given.or(1, 0.0), given.or(2, 0.0)];
     made(rel_tool(&given.at(0)?, shift(given)?, turns))
 }
 
@@ -122,12 +120,12 @@ fn euler_angle(given: &Arguments) -> Option<Atoms> {
 
 fn frame_of_points(given: &Arguments) -> Option<Atoms> {
     let point = |place| given.at::<RobTarget>(place).map(|target| target.trans_mm);
-    made(def_frame([point(0)?, point(1)?, point(2)?], given.or(0, 1.0)?)?)
+    made(def_frame([point(0)?, point(1)?, point(2)?], given.or(0, 1.0))?)
 }
 
 fn mirrored(given: &Arguments) -> Option<Atoms> {
     let (target, plane): (RobTarget, WobjData) = (given.at(0)?, given.at(1)?);
-    made(mir_pos(&target, &plane, &given.or(0, WobjData::WOBJ0)?, given.has(1)))
+    made(mir_pos(&target, &plane, &given.or(0, WobjData::WOBJ0), given.has(1)))
 }
 
 fn sin_cos(given: &Arguments) -> Option<(f64, f64)> {
@@ -147,45 +145,40 @@ static FUNCTIONS: &[Function] = &[
     line("NOrient", &[&ORIENT], &[], &ORIENT, |it| made(normalized(it.at(0)?))),
     line("DefFrame", &[&ROBTARGET, &ROBTARGET, &ROBTARGET], &[("Origin", Some(&NUM))], &POSE, frame_of_points),
     line("MirPos", &[&ROBTARGET, &WOBJDATA], &[("WObj", Some(&WOBJDATA)), ("MirY", None)], &ROBTARGET, mirrored),
+    Function { ask: Some(|it| Some(Question::Here(Some((it.option(0), it.option(1)))))), ..line("CRobT", &[], &[("Tool", Some(&TOOLDATA)), ("WObj", Some(&WOBJDATA))], &ROBTARGET, |_| None) },
+    // The first atoms of the robtarget.
+    Function { ask: Some(|it| Some(Question::Here(Some((it.option(0), it.option(1)))))), ..line("CPos", &[], &[("Tool", Some(&TOOLDATA)), ("WObj", Some(&WOBJDATA))], &POS, |_| None) },
+    Function { ask: Some(|_| Some(Question::Here(None))), ..line("CJointT", &[], &[], &JOINTTARGET, |_| None) },
+    Function { ask: Some(|it| Some(Question::Converted(Target::JointTarget(it.at(0)?), (it.at(1)?, it.or(0, WobjData::WOBJ0))))), ..line("CalcRobT", &[&JOINTTARGET, &TOOLDATA], &[("WObj", Some(&WOBJDATA))], &ROBTARGET, |_| None) },
+    Function { ask: Some(|it| Some(Question::Converted(Target::RobTarget(it.at(0)?), (it.at(1)?, it.or(0, WobjData::WOBJ0))))), ..line("CalcJointT", &[&ROBTARGET, &TOOLDATA], &[("WObj", Some(&WOBJDATA))], &JOINTTARGET, |_| None) },
     line("Distance", &[&POS, &POS], &[], &NUM, |it| made(length(difference(it.at(0)?, it.at(1)?)))),
     line("DotProd", &[&POS, &POS], &[], &NUM, |it| made(dot(it.at(0)?, it.at(1)?))),
     line("CrossProd", &[&POS, &POS], &[], &POS, |it| made(cross(it.at(0)?, it.at(1)?))),
     line("VectMagn", &[&POS], &[], &NUM, |it| made(length(it.at(0)?))),
     of_number("Abs", |it| made(it.at::<f64>(0)?.abs())),
-    of_number("AbsDnum", |it| made(it.at::<f64>(0)?.abs())),
     of_number("NumToDnum", |it| made(it.at::<f64>(0)?)),
     of_number("Sqrt", |it| made(it.at::<f64>(0)?.sqrt())),
-    of_number("SqrtDnum", |it| made(it.at::<f64>(0)?.sqrt())),
     of_number("Exp", |it| made(it.at::<f64>(0)?.exp())),
     of_number("Sin", |it| made(sin_cos(it)?.0)),
-    of_number("SinDnum", |it| made(sin_cos(it)?.0)),
     of_number("Cos", |it| made(sin_cos(it)?.1)),
-    of_number("CosDnum", |it| made(sin_cos(it)?.1)),
     of_number("Tan", |it| sin_cos(it).and_then(|(sin, cos)| made(sin / cos))),
-    of_number("TanDnum", |it| sin_cos(it).and_then(|(sin, cos)| made(sin / cos))),
     of_number("ASin", |it| made(it.at::<f64>(0)?.asin().to_degrees())),
-    of_number("ASinDnum", |it| made(it.at::<f64>(0)?.asin().to_degrees())),
     of_number("ACos", |it| made(it.at::<f64>(0)?.acos().to_degrees())),
-    of_number("ACosDnum", |it| made(it.at::<f64>(0)?.acos().to_degrees())),
     of_number("ATan", |it| made(it.at::<f64>(0)?.atan().to_degrees())),
-    of_number("ATanDnum", |it| made(it.at::<f64>(0)?.atan().to_degrees())),
     line("ATan2", &[&NUM, &NUM], &[], &NUM, |it| made(it.at::<f64>(0)?.atan2(it.at(1)?).to_degrees())),
-    line("ATan2Dnum", &[&NUM, &NUM], &[], &NUM, |it| made(it.at::<f64>(0)?.atan2(it.at(1)?).to_degrees())),
     line("Pow", &[&NUM, &NUM], &[], &NUM, |it| made(it.at::<f64>(0)?.powf(it.at(1)?))),
-    line("PowDnum", &[&NUM, &NUM], &[], &NUM, |it| made(it.at::<f64>(0)?.powf(it.at(1)?))),
     line("Max", &[&NUM, &NUM], &[], &NUM, |it| made(it.at::<f64>(0)?.max(it.at(1)?))),
     line("Min", &[&NUM, &NUM], &[], &NUM, |it| made(it.at::<f64>(0)?.min(it.at(1)?))),
     line("Round", &[&NUM], &[("Dec", Some(&NUM))], &NUM, |it| to_decimals(it, f64::round)),
-    line("RoundDnum", &[&NUM], &[("Dec", Some(&NUM))], &NUM, |it| to_decimals(it, f64::round)),
     line("Trunc", &[&NUM], &[("Dec", Some(&NUM))], &NUM, |it| to_decimals(it, f64::trunc)),
-    line("TruncDnum", &[&NUM], &[("Dec", Some(&NUM))], &NUM, |it| to_decimals(it, f64::trunc)),
     line("DnumToNum", &[&NUM], &[("Integer", None)], &NUM, |it| made(it.at::<f64>(0)?)),
 ];
 
 impl Function {
-    /// The function of a name, in any case.
+    /// The function of a name, in any case; one of a dnum is a num's.
     fn named(name: &str) -> Option<&'static Self> {
-        FUNCTIONS.iter().find(|it| it.name.eq_ignore_ascii_case(name))
+        let entry = Entry::function(name)?;
+        FUNCTIONS.iter().find(|it| it.name == entry.name)
     }
 }
 
@@ -225,7 +218,14 @@ impl Evaluator<'_, '_> {
         }
         let given = self.given(expression, call, function)?;
         let nothing = || Atoms::from_iter([Atom::Num(f64::NAN)]);
-        let result = (function.apply)(&given).unwrap_or_else(nothing);
+        let question = function.ask.and_then(|ask| ask(&given));
+        let answer = question.map(|it| self.names.ask(function.name, it)).transpose()?;
+        let result = match answer {
+            Some(Target::RobTarget(target)) => made(target),
+            Some(Target::JointTarget(joints)) => made(joints),
+            None => (function.apply)(&given),
+        };
+        let result = result.unwrap_or_else(nothing);
         for atom in &result {
             if let Atom::Num(number) = atom {
                 self.finite(expression, *number)?;

@@ -9,8 +9,9 @@ use core::ops::Range;
 
 use super::tree::Expression;
 use crate::rapid::data::module::Content;
+use crate::rapid::data::moves::Target;
 use crate::rapid::data::records::{LoadData, SpeedData, ToolData, WobjData, ZoneData};
-use crate::rapid::data::unread::{AssignedBy, Unresolved};
+use crate::rapid::data::unread::{AssignedBy, Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
 use irbkin_motion::internal::PREDEFINED as ZONES;
 
@@ -37,6 +38,22 @@ pub(crate) trait Names {
             _ => None,
         }
     }
+
+    /// The value of a function of the robot, which is known where a program is followed.
+    fn ask(&self, function: &str, _question: Question) -> Result<Target, Reason> {
+        Err(Reason::Function { name: function.to_string() })
+    }
+}
+
+/// A tool, and the work object that it is seen in.
+pub(crate) type ToolIn = (ToolData, WobjData);
+
+/// What a function of the robot asks.
+pub(crate) enum Question {
+    /// Where the robot is: in a tool and a work object, by default the last move's, or in joints.
+    Here(Option<(Option<ToolData>, Option<WobjData>)>),
+    /// The joints of a robtarget, or the robtarget of joints.
+    Converted(Target, ToolIn),
 }
 
 /// Where a name is used.

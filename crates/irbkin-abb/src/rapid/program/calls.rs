@@ -95,6 +95,7 @@ impl<'m> Walk<'_, 'm> {
             (why, _) => {
                 let assigned = program.effects.assigned_by(&[(home, name)], MOST_CALLED);
                 self.state.forget_globals(assigned.as_ref());
+                self.state.place = Err("a call before it is not followed");
                 if acts.moves {
                     let words = why.unwrap_or_else(|| "its arguments are not read".to_string());
                     self.not_followed(skipped, words);

@@ -15,6 +15,7 @@ use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::lookup::written_argument;
 use crate::rapid::data::module::Parameter;
 use crate::rapid::data::moves::Move;
+use crate::rapid::data::table::Entry;
 use crate::rapid::data::value::DataType;
 use crate::rapid::resolve::resolver::atoms_of;
 
@@ -32,7 +33,7 @@ type Name = (usize, String);
 pub(super) struct Acts {
     /// Whether it moves the robot, displaces targets or sets how moves are made.
     pub(super) moves: bool,
-    /// Whether it assigns data.
+    /// Whether it assigns data, or the robot may be elsewhere behind it.
     assigns: bool,
     /// The data that it assigns by itself.
     own: BTreeSet<DatumId>,
@@ -299,6 +300,14 @@ pub(super) fn written_by(step: &Move) -> Option<String> {
     Some(argument.text.split(|c| !is_of_name(c)).next()?.to_lowercase())
 }
 
+/// Whether an instruction lets the robot be moved by hand, or nothing declares it.
+pub(super) fn releases(names: &Index<'_>, module: usize, instruction: &Instruction<'_>) -> bool {
+    let Some(name) = &instruction.name else { return true };
+    let is_of_rapid = Entry::instruction(name).is_some() || Entry::grouped(name, false).is_some();
+    let is_known = is_of_rapid || names.procedure(module, name).is_some();
+    instruction.effect == Effect::Stops || name == "setleadthrough" || !is_known
+}
+
 /// Add an assignment of a datum.
 fn add(
     all: &mut BTreeMap<DatumId, Assigned>,
@@ -359,6 +368,7 @@ impl<'e, 'm> Reader<'e, 'm> {
                     instruction.effect,
                     Effect::Moves | Effect::Displaces(_) | Effect::Offsets(_) | Effect::Sets
                 );
+                self.acts.assigns |= releases(self.names, self.module, instruction);
                 if let Some((name, components)) = &instruction.written {
                     self.assign(name, components.clone(), line);
                 }

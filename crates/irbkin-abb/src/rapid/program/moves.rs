@@ -1,9 +1,11 @@
 //! Moves with the values that they have at a place, and what displaces their targets there.
 
 use alloc::borrow::Cow;
+use alloc::format;
+use alloc::rc::Rc;
 
 use super::frame::Frame;
-use super::state::{Displacement, Offsets, State};
+use super::state::{Displacement, Offsets, Place, State};
 use super::statement::Instruction;
 use super::values::Scope;
 use crate::Error;
@@ -12,10 +14,11 @@ use crate::rapid::calc::target::target_pose;
 use crate::rapid::calc::units::MOST_DEGREES;
 use crate::rapid::data::instructions::Shift;
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
-use crate::rapid::data::records::{RapidPose, RobTarget};
+use crate::rapid::data::records::{RapidPose, RobTarget, WobjData};
 use crate::rapid::data::types::Record;
 use crate::rapid::data::unread::{AssignedBy, Reason, Skipped, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
+use crate::rapid::expression::tree::Expression;
 use irbkin::Pose;
 
 impl Scope<'_, '_> {
@@ -90,6 +93,7 @@ impl Scope<'_, '_> {
             Err(reason) => {
                 let is_assigned =
                     matches!(reason, Reason::Reference { why: Unresolved::Assigned { .. }, .. });
+                let is_of_robot = matches!(reason, Reason::Robot { .. });
                 let is_named = matches!(
                     &argument.value,
                     Err(Reason::Reference {
@@ -100,7 +104,7 @@ impl Scope<'_, '_> {
                 let is_better = is_parameter(&argument.value)
                     || is_assigned && !is_named
                     || matches!(reason, Reason::NoSuchElement { .. });
-                if argument.value.is_ok() || is_better {
+                if argument.value.is_ok() || is_better || is_of_robot {
                     argument.value = Err(frame.named(reason));
                 }
             }
@@ -161,7 +165,16 @@ impl Scope<'_, '_> {
     ) -> Offsets {
         match shift {
             Shift::Off => Ok([0.0; 6]),
-            Shift::Between => Err(skipped.line),
+            Shift::Between => {
+                let arguments = instruction.arguments.as_ref().ok_or(skipped.line)?;
+                let from = self.first(skipped, instruction, DataType::RobTarget);
+                match (from, self.record::<RobTarget>("CRobT()")) {
+                    (Some(Value::RobTarget(from)), Ok(to)) if arguments.optional.is_empty() => {
+                        Ok(core::array::from_fn(|axis| to.extax[axis] - from.extax[axis]))
+                    }
+                    _ => Err(skipped.line),
+                }
+            }
             Shift::Given => match self.first(skipped, instruction, DataType::ExtJoint) {
                 Some(Value::ExtJoint(offsets)) => Ok(offsets),
                 _ => Err(skipped.line),
@@ -186,13 +199,16 @@ impl Scope<'_, '_> {
         let arguments = instruction.arguments.as_ref()?;
         let has =
             |name: &str| arguments.optional.iter().find(|(own, _)| own.eq_ignore_ascii_case(name));
-        let pose =
-            |expression| match self.value(&skipped.text, expression, DataType::RobTarget).ok()? {
-                Value::RobTarget(target) => target_pose(&target).ok(),
-                _ => None,
-            };
-        let executed: Pose = pose(has("ExeP")?.1.as_ref()?)?;
-        let programmed: Pose = pose(arguments.required.first()?)?;
+        let text = |it: &Expression<'_>| skipped.text.get(it.start..it.end);
+        let pose = |text: &str| target_pose(&self.record(text).ok()?).ok();
+        let executed: Pose = if let Some((_, executed)) = has("ExeP") {
+            pose(text(executed.as_ref()?)?)?
+        } else {
+            let wobj = has("WObj").map_or(Some("wobj0"), |(_, wobj)| text(wobj.as_ref()?))?;
+            let tool = text(arguments.required.get(1)?)?;
+            pose(&format!("CRobT(\\Tool:={tool}\\WObj:={wobj})"))?
+        };
+        let programmed: Pose = pose(text(arguments.required.first()?)?)?;
         if has("Rot").is_some() {
             return Some(rapid_pose(&(executed * programmed.inverse())));
         }
@@ -250,6 +266,22 @@ impl State {
                 }
             }
         }
+    }
+}
+
+/// Where the robot is behind a move, which has the name of `written`.
+pub(super) fn place_behind(step: &Move, written: &Move) -> Place {
+    let has = |name| step.options.iter().any(|it| it.name.eq_ignore_ascii_case(name));
+    // Others are searches and processes with sensors.
+    let name = written.instruction.to_lowercase();
+    let meets = name.starts_with("move") || name.starts_with("trigg");
+    let stops = has("Inpos") || step.zone_data.as_ref().is_ok_and(|zone| zone.finep);
+    let wobj = step.wobj.as_ref().map_or(Ok(WobjData::WOBJ0), |wobj| wobj.value.clone());
+    match (&step.target.value, &step.tool.value, wobj, step.displaced) {
+        _ if !meets || has("Conc") || has("Corr") => Err("the move before it may end elsewhere"),
+        _ if !stops => Err("the move before it has a zone"),
+        (Ok(target), Ok(tool), Ok(wobj), None) => Ok(Rc::new((target.clone(), (*tool, wobj)))),
+        _ => Err("the target of the move before it is not known"),
     }
 }
 

@@ -11,10 +11,12 @@ use super::cases::{Case, Known, Questions};
 use super::index::DatumId;
 use super::whole::Program;
 use crate::rapid::data::module::Content;
+use crate::rapid::data::moves::Target;
 use crate::rapid::data::records::RapidPose;
 use crate::rapid::data::settings::MotionSettings;
 use crate::rapid::data::unread::Unresolved;
 use crate::rapid::data::value::{DataType, Value};
+use crate::rapid::expression::names::ToolIn;
 
 /// Most assigned data, and most names of a routine, whose contents are followed: copies at branches
 /// stay small.
@@ -31,6 +33,9 @@ pub(super) enum Here {
     /// Nowhere: the routine was left.
     Left,
 }
+
+/// Where the robot is, or why that is unknown; while ConfL or ConfJ is off with the written confdata.
+pub(super) type Place = Result<Rc<(Target, ToolIn)>, &'static str>;
 
 /// The displacement of the targets of moves.
 #[derive(Clone, Copy, PartialEq)]
@@ -73,6 +78,7 @@ pub(super) type Locals = BTreeMap<String, Local>;
 #[derive(Clone, PartialEq)]
 pub(super) struct State {
     pub(super) here: Here,
+    pub(super) place: Place,
     pub(super) settings: MotionSettings,
     pub(super) displacement: Displacement,
     pub(super) offsets: Offsets,
@@ -87,6 +93,7 @@ impl State {
     pub(super) fn new() -> Self {
         Self {
             here: Here::Unknown,
+            place: Err("no move before it is known"),
             settings: MotionSettings::default(),
             displacement: Displacement::Nothing,
             offsets: Ok([0.0; 6]),
@@ -184,6 +191,9 @@ impl State {
         for (_, end) in &ends[1..] {
             if end.here != all.here {
                 all.here = Here::Unknown;
+            }
+            if end.place != all.place {
+                all.place = Err("it depends on a branch, a loop or a label");
             }
             all.settings = lenient(all.settings, end.settings);
             if end.displacement != all.displacement {

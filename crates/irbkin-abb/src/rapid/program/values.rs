@@ -9,15 +9,18 @@ use core::ops::Range;
 use super::cases::{Choices, Known, MOST_CASES, Questions};
 use super::frame::Frame;
 use super::index::DatumId;
-use super::state::{State, words_of};
+use super::state::{Displacement, State, words_of};
 use super::walker::Walk;
 use super::whole::Program;
+use crate::rapid::calc::wrong::not_solved;
+use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::{Content, Datum, Storage};
+use crate::rapid::data::moves::Target;
 use crate::rapid::data::types::{Atoms, Record};
 use crate::rapid::data::unread::{Reason, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
 use crate::rapid::expression::evaluate::{Evaluator, Stop};
-use crate::rapid::expression::names::{At, By, Cause, Lookup, Names, lower, predefined};
+use crate::rapid::expression::names::{At, By, Cause, Lookup, Names, Question, lower, predefined};
 use crate::rapid::expression::reader::ExpressionReader;
 use crate::rapid::expression::tree::{Expression, Form};
 use crate::rapid::text::fault::{RapidFault, RapidFaultKind};
@@ -113,6 +116,35 @@ impl Names for Scope<'_, '_> {
             .choices
             .answer(question, size, |from_zero| format!("{} is {}", index.trim(), from_zero + 1));
         element.filter(|element| *element < size)
+    }
+
+    fn ask(&self, function: &str, question: Question) -> Result<Target, Reason> {
+        let refused = |code, words| Reason::Robot { name: function.to_string(), code, words };
+        let unknown = |why: &str| refused(Code::UnknownValue, why.to_string());
+        let State { displacement, offsets, place, settings, .. } = self.state;
+        if (displacement, offsets) != (&Displacement::Nothing, &Ok([0.0; 6])) {
+            return Err(unknown("targets are displaced"));
+        }
+        let (target, at, to) = match question {
+            Question::Here(to) => {
+                let (target, at) = place.as_deref().map_err(|why| unknown(why))?.clone();
+                let are_calculated = to.is_none() && matches!(target, Target::RobTarget(_));
+                if are_calculated && !(settings.conf_l && settings.conf_j) {
+                    return Err(unknown("ConfL or ConfJ is off"));
+                }
+                let to =
+                    to.map(|(tool, wobj)| (tool.unwrap_or(at.0), wobj.unwrap_or(at.1.clone())));
+                (target, at, to)
+            }
+            Question::Converted(target, at) => {
+                let to = matches!(target, Target::JointTarget(_)).then(|| at.clone());
+                (target, at, to)
+            }
+        };
+        (self.program.convert)(&target, &at, to.as_ref()).map_err(|error| {
+            let Finding { code, message, .. } = not_solved(&error);
+            refused(code, message)
+        })
     }
 }
 

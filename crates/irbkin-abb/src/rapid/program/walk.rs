@@ -8,9 +8,10 @@ use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
-use super::cases::{Case, Known, Way};
-use super::effects::written_by;
+use super::cases::{Case, Choices, Known, Way};
+use super::effects::{releases, written_by};
 use super::frame::Frame;
+use super::moves::place_behind;
 use super::state::{Displacement, Here, State};
 use super::statement::{Action, Condition, Instruction};
 use super::tree::{Block, Node, Part};
@@ -21,7 +22,8 @@ use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Storage;
 use crate::rapid::data::moves::{Move, MoveKind};
 use crate::rapid::data::settings::Setting;
-use crate::rapid::data::unread::Skipped;
+use crate::rapid::data::unread::{Reason, Skipped};
+use crate::rapid::data::value::DataType;
 use crate::rapid::expression::names::lower;
 use crate::rapid::expression::tree::Expression;
 use irbkin::{Interrupt, Interrupted};
@@ -273,6 +275,7 @@ impl<'m> Walk<'_, 'm> {
     fn step(&mut self, index: usize, written: &'m Move) {
         // The robot stays.
         if written.kind == MoveKind::MoveExtJ {
+            self.state.place = Err("external axes move before it");
             return;
         }
         let mut ways = self.in_each_case(|scope| {
@@ -282,12 +285,14 @@ impl<'m> Walk<'_, 'm> {
         });
         let mut steps = Vec::with_capacity(ways.len());
         for Way { case, words, value: (own, is_passed_on, takes_last) } in ways.drain(..) {
-            let step = self.stepped((index, own), is_passed_on, takes_last, self.case(&words));
+            let case_words = self.case(&words);
+            let step = self.stepped((index, written), own, is_passed_on, takes_last, case_words);
             steps.push((case, step));
         }
         match steps.pop() {
             Some((_, only)) if steps.is_empty() => self.push(only),
             Some(last) => {
+                self.state.place = Err("the target before it has one of several values");
                 steps.push(last);
                 self.push_each(steps);
             }
@@ -309,7 +314,8 @@ impl<'m> Walk<'_, 'm> {
     /// A step of a move with the values that it has here, which settings and displacements change.
     fn stepped(
         &mut self,
-        (index, mut own): (usize, Cow<'m, Move>),
+        (index, written): (usize, &'m Move),
+        mut own: Cow<'m, Move>,
         is_passed_on: bool,
         takes_last: bool,
         case: String,
@@ -318,6 +324,7 @@ impl<'m> Walk<'_, 'm> {
             own.to_mut().settings = self.state.settings;
         }
         self.state.displace(&mut own);
+        self.state.place = place_behind(&own, written);
         let (mut module, mut chain) = (self.frame.module, 0);
         if is_passed_on && let Some(site) = self.frame.site.clone() {
             (module, chain) = (site.module, self.frame.chain);
@@ -359,18 +366,36 @@ impl<'m> Walk<'_, 'm> {
             }
             Action::Assign { target, value, to } => {
                 let ways = self.in_each_case(|scope| scope.assigned(&skipped.text, target, value));
+                if ways.iter().any(|way| way.value.is_none()) {
+                    self.note_out_of_reach(skipped, value);
+                }
                 let written = skipped.text.trim_end_matches(';').split_once(":=");
                 let words = written.map(|(to, value)| format!("{} is {}", to.trim(), value.trim()));
-                self.put(
-                    &to.0,
-                    Known::of_ways(ways, |content| content, &words.unwrap_or_default()),
-                );
+                let words = words.unwrap_or_default();
+                self.put(&to.0, Known::of_ways(ways, |content| content, &words));
             }
             Action::Instruct(instruction) => self.instruct(skipped, instruction),
         }
     }
 
+    /// Report a calculated target that the robot does not reach.
+    fn note_out_of_reach(&mut self, skipped: &'m Skipped, value: &Expression<'m>) {
+        let scope = self.scope(Choices::off());
+        if let Err(reason @ Reason::Robot { .. }) =
+            scope.value(&skipped.text, value, DataType::JointTarget)
+        {
+            let found = Finding::unknown(Code::UnknownTarget, &reason, reason.to_string());
+            self.notes.push(found.in_module(self.frame.module).at_skipped(skipped, 0));
+        }
+    }
+
     fn instruct(&mut self, skipped: &'m Skipped, instruction: &Instruction<'m>) {
+        if releases(self.program, self.frame.module, instruction) {
+            self.state.place = Err("the robot may be moved by hand or by a call before it");
+        }
+        if let Some((name, _)) = &instruction.written {
+            self.put(name, None);
+        }
         match instruction.effect {
             Effect::Moves => {
                 let name = instruction.name.as_deref();
@@ -404,12 +429,7 @@ impl<'m> Walk<'_, 'm> {
             Effect::Waits | Effect::Stops => {
                 self.halt(&format!("{} on line {}", skipped.what.word(), skipped.line));
             }
-            Effect::Nothing => {
-                if let Some((name, _)) = &instruction.written {
-                    self.put(name, None);
-                }
-                self.call(skipped, instruction);
-            }
+            Effect::Nothing => self.call(skipped, instruction),
         }
     }
 }

@@ -236,6 +236,7 @@ impl<'p, 'm> Walk<'p, 'm> {
 
     /// Forget the data that a block assigns.
     pub(super) fn forget(&mut self, block: &Block<'m>) {
+        self.state.place = Err("it depends on a branch, a loop or a label");
         self.spend(size(block));
         if self.steps_left == 0 {
             self.state.forget_globals(None);
@@ -356,6 +357,7 @@ impl<'p, 'm> Walk<'p, 'm> {
     /// Something that may move the robot and is not followed.
     pub(super) fn not_followed(&mut self, skipped: &'m Skipped, words: String) {
         let module = self.frame.module;
+        self.state.place = Err("what may move the robot before it is not followed");
         self.push(Step::NotFollowed { module, skipped, words });
     }
 

@@ -4,21 +4,28 @@ use core::ops::Deref;
 
 use super::effects::Effects;
 use super::index::{DatumId, Index};
+use crate::Error;
 use crate::rapid::data::module::Module;
+use crate::rapid::data::moves::Target;
 use crate::rapid::data::value::DataType;
+use crate::rapid::expression::names::ToolIn;
 use crate::rapid::resolve::resolver::atoms_of;
+
+/// The robot, as [`converter`](crate::rapid::calc::target::converter) has it.
+type Convert<'r> = &'r dyn Fn(&Target, &ToolIn, Option<&ToolIn>) -> Result<Target, Error>;
 
 /// Modules that know each other.
 pub(in crate::rapid) struct Program<'m> {
     index: Index<'m>,
     pub(super) effects: Effects,
+    pub(super) convert: Convert<'m>,
 }
 
 impl<'m> Program<'m> {
-    pub(in crate::rapid) fn new(modules: &[&'m Module]) -> Self {
+    pub(in crate::rapid) fn new(modules: &[&'m Module], convert: Convert<'m>) -> Self {
         let index = Index::new(modules);
         let effects = Effects::of(&index);
-        Self { index, effects }
+        Self { index, effects, convert }
     }
 
     /// Whether the program assigns a target with its confdata.

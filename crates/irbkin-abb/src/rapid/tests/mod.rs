@@ -9,6 +9,7 @@ mod functions;
 mod motion;
 mod moves;
 mod names;
+mod place;
 mod program;
 mod records;
 mod recovery;

@@ -13,9 +13,9 @@ use crate::rapid::{
 use irbkin::Pose;
 use irbkin_motion::Arm;
 
-const FAR: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";
+pub(super) const FAR: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";
 
-fn data() -> String {
+pub(super) fn data() -> String {
     format!(
         "PERS tooldata t:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
         PERS tooldata u:=[TRUE,[[0,0,180],[1,0,0,0]],[2,[0,0,50],[1,0,0,0],0,0,0]];
@@ -51,12 +51,12 @@ pub(super) fn of(body: &str) -> Checked {
     checked(&[&text(body)], &CheckOptions::default())
 }
 
-fn codes(found: &[Finding]) -> Vec<Code> {
+pub(super) fn codes(found: &[Finding]) -> Vec<Code> {
     found.iter().map(|it| it.code).collect()
 }
 
 /// The codes of a body, and how many of its places are checked.
-fn outcome(body: &str) -> (Vec<Code>, usize, usize) {
+pub(super) fn outcome(body: &str) -> (Vec<Code>, usize, usize) {
     let found = of(body);
     let known = found.moves.iter().filter(|it| it.unchecked.is_none()).count();
     (codes(&found.findings), known, found.moves.len())
@@ -123,6 +123,7 @@ fn assigned_values_are_known_behind_their_assignments() {
           ENDPROC PROC read(INOUT robtarget y) y:=CRobT();",
             0,
         ),
+        ("VAR num n; n:=5; TPReadNum n,\"n\"; MoveJ Offs(a,n,0,0),v100,fine,t;", 0),
         // A component of a tool that nothing else assigns, and its load.
         ("v.tframe:=PoseMult(u.tframe,u.tframe); MoveJ Offs(a,0,0,-180),v100,fine,v;", 1),
         ("v.tload.mass:=5; MoveJ a,v100,fine,v;", 1),
@@ -294,8 +295,9 @@ fn external_axes_are_not_checked_unless_their_units_are_known() {
     // At zero nothing is displaced, unless an offset is added.
     assert_eq!(outcome("MoveJ e,v100,fine,t;"), (Vec::new(), 1, 1));
     assert_eq!(outcome("EOffsSet [1500,0,0,0,0,0]; MoveJ e,v100,fine,t;").1, 0);
-    assert_eq!(outcome("EOffsOn \\ExeP:=a, b; MoveJ e,v100,fine,t;").1, 0);
-    assert_eq!(outcome("EOffsOn \\ExeP:=a, b; EOffsOff; MoveJ e,v100,fine,t;").1, 1);
+    assert_eq!(outcome("EOffsOn \\ExeP:=f, e; MoveJ e,v100,fine,t;").1, 0);
+    assert_eq!(outcome("EOffsOn \\ExeP:=a, e; MoveJ e,v100,fine,t;").1, 0);
+    assert_eq!(outcome("EOffsOn \\ExeP:=f, e; EOffsOff; MoveJ e,v100,fine,t;").1, 1);
     // On a track each target has its own base.
     let (units, both) = (track(), text("MoveJ e,v100,fine,t; MoveL f,v100,fine,t;"));
     let options = CheckOptions { units: Some(&units), ..CheckOptions::default() };

@@ -245,7 +245,7 @@ fn unknown_statements_are_skipped_and_listed() {
         "RECORD r is not read",
         "ALIAS length is not read",
         "b: type bool is not read",
-        "p: CRobT is not evaluated",
+        "p: refers to t, a routine",
         "b is assigned a value, which is not followed",
         "a is assigned a value, which is not followed",
         "IF is not executed",
