@@ -31,11 +31,12 @@ pub(crate) fn parts(arguments: &str) -> impl Iterator<Item = (u8, &str)> {
 pub(crate) struct Fit<'s> {
     name: &'s str,
     /// The parameters of the routine; `None` if it is not known.
-    arguments: Option<&'s str>,
+    pub(crate) arguments: Option<&'s str>,
     required: usize,
     /// The optional arguments that were given, by a bit for each with its alternatives.
     given: u64,
-    wrong: Option<String>,
+    /// What is wrong with an optional argument.
+    pub(crate) wrong: Option<String>,
 }
 
 impl<'s> Fit<'s> {
@@ -49,15 +50,6 @@ impl<'s> Fit<'s> {
 
     pub(crate) fn with(name: &'s str, arguments: Option<&'s str>) -> Self {
         Self { name, arguments, required: 0, given: 0, wrong: None }
-    }
-
-    /// Whether an optional argument is wrong.
-    pub(crate) fn has_wrong(&self) -> bool {
-        self.wrong.is_some()
-    }
-
-    pub(crate) fn is_unknown(&self) -> bool {
-        self.arguments.is_none()
     }
 
     /// Take a required argument; its number.

@@ -265,21 +265,8 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         } else {
             Vec::new()
         };
-        let components = self.components()?;
+        let components = self.tokens.components()?;
         Ok(Form::Reference(Box::new(Reference { name, indices, components })))
-    }
-
-    /// The names of components, each after its point.
-    fn components(&mut self) -> Result<Vec<&'a str>, RapidFault> {
-        let mut components = Vec::new();
-        while self.tokens.take_if(b'.')? {
-            if self.tokens.peek().kind != TokenKind::Name {
-                return Err(self.tokens.lacking("the name of a component"));
-            }
-            let component = self.tokens.take()?;
-            components.push(self.tokens.text_of(component));
-        }
-        Ok(components)
     }
 
     fn call(&mut self, token: Token, open: Token) -> Result<Call<'a>, RapidFault> {
@@ -306,7 +293,7 @@ impl<'t, 'a> ExpressionReader<'t, 'a> {
         }
         self.close(open, b')')?;
         note(self.tokens, token, true, fit);
-        Ok(Call { name, arguments, components: self.components()? })
+        Ok(Call { name, arguments, components: self.tokens.components()? })
     }
 
     /// A required argument: its value, perhaps after its name and `:=`. The name is not kept:

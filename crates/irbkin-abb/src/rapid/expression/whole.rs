@@ -135,12 +135,7 @@ impl<'t, 'a> WholeReader<'t, 'a> {
         if self.tokens.peek().is(b'{') {
             self.list(b'}')?;
         }
-        while self.tokens.take_if(b'.')? {
-            if self.tokens.peek().kind != TokenKind::Name {
-                return Err(self.tokens.lacking("the name of a component"));
-            }
-            self.tokens.take()?;
-        }
+        while self.tokens.component()?.is_some() {}
         Ok(())
     }
 
@@ -251,7 +246,7 @@ impl<'t, 'a> WholeReader<'t, 'a> {
 pub(crate) fn note(tokens: &mut Tokens<'_>, name: Token, is_function: bool, fit: Fit<'_>) {
     let quote = usize::from(name.kind == TokenKind::Text);
     let name = name.start + quote..name.end - quote;
-    if fit.is_unknown() {
+    if fit.arguments.is_none() {
         tokens.calls.push(Called { name, is_function, wrong: None });
     } else if let Some(wrong) = fit.finished() {
         tokens.calls.push(Called { name, is_function, wrong: Some(wrong) });

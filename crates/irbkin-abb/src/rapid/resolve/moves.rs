@@ -127,7 +127,9 @@ impl<'a> Resolver<'a> {
         for (index, step) in written.iter_mut().enumerate() {
             self.faults.interrupt.check(index)?;
             let name = step.name.to_string();
-            let made = if self.is_call(step) { Ok(None) } else { self.step(step, routines) };
+            // A routine may have the name of an instruction.
+            let is_call = !step.instruction.is_basic() && self.is_routine(step.name);
+            let made = if is_call { Ok(None) } else { self.step(step, routines) };
             let what = match made {
                 Ok(Some(made)) => {
                     moves.push(made);
@@ -150,11 +152,6 @@ impl<'a> Resolver<'a> {
             });
         }
         Ok((moves, others))
-    }
-
-    /// Whether a move is a call of a routine that has the name of an instruction.
-    fn is_call(&self, step: &WrittenMove<'a>) -> bool {
-        !step.instruction.is_basic() && self.is_routine(step.name)
     }
 
     /// Name the calls of routines among the instructions that move and are not read.

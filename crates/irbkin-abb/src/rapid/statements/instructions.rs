@@ -235,14 +235,6 @@ impl<'a> StatementReader<'a> {
         if self.tokens.peek().is(b'{') {
             WholeReader::new(&mut self.tokens, 0).list(b'}')?;
         }
-        let mut components = Vec::new();
-        while self.tokens.take_if(b'.')? {
-            if self.tokens.peek().kind != TokenKind::Name {
-                return Err(self.tokens.lacking("the name of a component"));
-            }
-            let component = self.tokens.take()?;
-            components.push(self.tokens.text_of(component));
-        }
-        Ok(components)
+        self.tokens.components()
     }
 }

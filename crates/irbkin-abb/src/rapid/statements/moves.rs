@@ -121,7 +121,7 @@ pub(crate) fn read_move<'a>(
         };
         return Err(tokens.fault(start, kind));
     }
-    if fit.has_wrong() || !instruction.is_basic() {
+    if fit.wrong.is_some() || !instruction.is_basic() {
         for _ in &required {
             fit.required();
         }

@@ -22,7 +22,6 @@ pub(crate) const LONGEST_STRING: usize = 2048;
 /// Characters at the end of a file: blanks, and what some systems append to the text.
 const END_OF_FILE: [char; 8] = ['\0', '\u{1a}', ' ', '\t', '\r', '\n', '\u{b}', '\u{c}'];
 
-/// The kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TokenKind {
     /// An identifier or a reserved word.
@@ -166,12 +165,32 @@ impl<'a> Tokens<'a> {
         Ok(is)
     }
 
+    /// Read the name of a component behind a point, if there is a point.
+    pub(crate) fn component(&mut self) -> Result<Option<&'a str>, RapidFault> {
+        if !self.take_if(b'.')? {
+            return Ok(None);
+        }
+        if self.next.kind != TokenKind::Name {
+            return Err(self.lacking("the name of a component"));
+        }
+        let component = self.take()?;
+        Ok(Some(self.text_of(component)))
+    }
+
+    /// The names of components, each behind its point.
+    pub(crate) fn components(&mut self) -> Result<Vec<&'a str>, RapidFault> {
+        let mut components = Vec::new();
+        while let Some(component) = self.component()? {
+            components.push(component);
+        }
+        Ok(components)
+    }
+
     /// Read the symbol, or report what is in its place.
     pub(crate) fn demand(&mut self, symbol: u8, wanted: &'static str) -> Result<(), RapidFault> {
         if self.take_if(symbol)? { Ok(()) } else { Err(self.lacking(wanted)) }
     }
 
-    /// The text of a token.
     pub(crate) fn text_of(&self, token: Token) -> &'a str {
         &self.text[token.start..token.end]
     }
