@@ -88,7 +88,6 @@ fields! {
     String: "a str";
 }
 
-/// A finite number.
 fn finite(given: &Bound<'_, PyAny>) -> Option<f64> {
     given.extract().ok().filter(|number: &f64| number.is_finite())
 }

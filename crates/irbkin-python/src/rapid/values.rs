@@ -16,7 +16,6 @@ use irbkin_abb::rapid::{Content, JointTarget, NOT_THERE, Value};
 /// Most dimensions of an array.
 const MOST_DIMENSIONS: usize = 3;
 
-/// The Python record of a value.
 pub(super) fn record<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
     Ok(match value {
         Value::RobTarget(target) => Bound::new(py, class::RobTarget(*target))?.into_any(),

@@ -152,7 +152,6 @@ fn known<'m, T>(argument: &'m Argument<T>, code: Code, what: &str) -> OrFinding<
     })
 }
 
-/// The value of a target.
 pub(in crate::rapid) fn target_of<T>(argument: &Argument<T>) -> OrFinding<&T> {
     let value = argument.value.as_ref();
     value.map_err(|reason| Finding::unknown(Code::UnknownTarget, reason, reason.to_string()).into())

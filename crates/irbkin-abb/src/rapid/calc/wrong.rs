@@ -16,7 +16,6 @@ use irbkin::{Error as RobotError, Explanation, Robot, SingularityKind};
 use irbkin_motion::Error as MotionError;
 use irbkin_motion::internal::MotionFault;
 
-/// A result or a finding.
 pub(in crate::rapid) type OrFinding<T> = Result<T, Box<Finding>>;
 
 /// RAPID's name of an error of [`calc_joint_t`](crate::rapid::calc_joint_t): `ERR_OUTSIDE_REACH` if

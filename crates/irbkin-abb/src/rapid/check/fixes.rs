@@ -26,7 +26,6 @@ pub(super) struct Demand {
     pub(super) finding: Option<usize>,
 }
 
-/// A correction of one confdata.
 struct Correction<'d> {
     written: &'d Written,
     from: Configuration,

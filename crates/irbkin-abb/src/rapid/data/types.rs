@@ -7,7 +7,6 @@ use core::fmt;
 
 use irbkin::Configuration;
 
-/// A type of RAPID.
 #[derive(Debug)]
 pub(crate) struct Type {
     /// Its name in RAPID.

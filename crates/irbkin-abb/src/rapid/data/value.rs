@@ -46,8 +46,7 @@ macro_rules! values {
                 }
             }
 
-            /// Its atoms.
-            pub(crate) fn atoms(&self) -> Atoms {
+                    pub(crate) fn atoms(&self) -> Atoms {
                 let mut atoms = Atoms::new();
                 match self {
                     $(Self::$Name(value) => value.put(&mut atoms),)*

@@ -43,7 +43,6 @@ pub(super) struct Function {
     ask: Option<fn(&Arguments) -> Option<Question>>,
 }
 
-/// The arguments of a function.
 struct Arguments {
     required: Vec<Atoms>,
     /// In the order of the function's own; a switch that is there has no atoms.

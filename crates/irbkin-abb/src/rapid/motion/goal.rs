@@ -28,7 +28,6 @@ pub(in crate::rapid) enum Place<const N: usize> {
     Joints([f64; N]),
 }
 
-/// A move.
 pub(in crate::rapid) struct Goal<'m, const N: usize> {
     pub(in crate::rapid) step: &'m Move,
     /// Where it is made, and what is known of that.
@@ -215,7 +214,6 @@ fn left_out(field: &str, value: f64, wanted: &str) -> Finding {
     Finding::new(Code::InvalidNumber, words)
 }
 
-/// The speed of a move.
 fn speed_of(step: &Move, found: &mut impl FnMut(Finding)) -> [f64; 2] {
     match &step.speed_data {
         Ok(speed) => {

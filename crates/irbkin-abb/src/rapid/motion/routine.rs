@@ -170,7 +170,6 @@ impl<'m, const N: usize> Followed<'m, N> {
     }
 }
 
-/// Check the options.
 pub(in crate::rapid) fn check<const N: usize>(options: &MotionOptions<N>) -> Result<(), Error> {
     if let Some(start) = &options.start {
         check_seed("start", start)?;

@@ -12,7 +12,6 @@ pub(crate) struct Types<'a> {
     pub(crate) context: &'a [&'a Module],
 }
 
-/// The kind of a type.
 pub(crate) enum TypeKind<'t> {
     Read(DataType),
     Record(&'t [(String, String)]),

@@ -96,7 +96,6 @@ pub(crate) fn is_conflict_marker(text: &str, byte: usize) -> bool {
     is_first && CONFLICT_MARKERS.iter().any(|marker| text[byte..].starts_with(marker))
 }
 
-/// The end of the line of a byte.
 pub(crate) fn end_of_line(text: &str, byte: usize) -> usize {
     text[byte..].find(['\n', '\r']).map_or(text.len(), |length| byte + length)
 }
