@@ -1325,6 +1325,8 @@ class CheckedMove(_Record):
     def confdata(self) -> Configuration | None: ...
     @property
     def unchecked(self) -> str | None: ...
+    @property
+    def assumed(self) -> bool: ...
     def __new__(
         cls,
         module: int,
@@ -1335,6 +1337,7 @@ class CheckedMove(_Record):
         q: _Floats | None,
         confdata: Configuration | None,
         unchecked: str | None,
+        assumed: bool,
     ) -> CheckedMove: ...
 
 @final
@@ -1489,6 +1492,7 @@ def check_program(
     units: Sequence[tuple[str, bool, bool, Sequence[tuple[int, npt.ArrayLike, bool]]]]
     | None = None,
     last_values: bool = False,
+    tools: Mapping[str | None, ToolData | npt.ArrayLike] | None = None,
     whole: bool | None = None,
     of_system: Sequence[int] | None = None,
     carried: Mapping[str, Shape | Sequence[Shape]] | None = None,

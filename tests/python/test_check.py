@@ -50,11 +50,11 @@ def check(file, *arguments):
 
 @pytest.mark.parametrize("code", [code for code in BLOCKS if code != "E001"])
 def test_the_example_of_a_code_has_it(code, tmp_path):
-    robot, last_values = YUMI if code == "C205" else ROBOT, code == "U805"
+    robot = YUMI if code == "C205" else ROBOT
     own = [line for line in BLOCKS[code].splitlines(True) if line.startswith("PERS ")]
     text = module(BLOCKS[code].replace("".join(own), ""), DATA + "".join(own))
     if code in CODES:
-        options = {"codes": [code], "cell": CELL, "last_values": last_values}
+        options = {"codes": [code], "cell": CELL}
         found = check_program(robot, [rapid.parse(text)], **options).findings
     else:
         (tmp_path / "cell.toml").write_text("[tool.tGun]\nsphere = 0.01\n")
@@ -306,7 +306,6 @@ def test_codes_are_selected_and_ignored(tmp_path):
         "U801",
         "U802",
         "U803",
-        "U805",
         "U807",
     }
     assert selected(["ALL"], []) == {*files, *tools, *CODES}
@@ -551,6 +550,7 @@ def test_the_verdict_has_the_nearest_limit_and_singularity_of_each_routine(tmp_p
         [
             "routine",
             "moves",
+            "assumed",
             "not",
             "checked",
             "errors",

@@ -96,7 +96,7 @@ impl From<&rapid::Finding> for Finding {
         Self {
             code: finding.code.id(),
             name: finding.code.name(),
-            severity: finding.code.severity().id(),
+            severity: finding.severity().id(),
             shown: finding.code.is_default(),
             module: finding.module,
             line: finding.line,

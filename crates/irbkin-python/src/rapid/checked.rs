@@ -70,6 +70,8 @@ record! {
         /// The code of the finding for which it is not checked; None if its target, tool and work
         /// object are known in each pass.
         unchecked: Option<String>,
+        /// Whether it is checked with the saved value of a PERS or with a given tool in some pass.
+        assumed: bool,
     }
 }
 
@@ -107,7 +109,7 @@ impl Finding {
             code: code.id().into(),
             name: code.name().into(),
             module,
-            severity: code.severity().id().into(),
+            severity: finding.severity().id().into(),
             line,
             column,
             routine: finding.routine.clone(),
@@ -124,11 +126,11 @@ impl Finding {
 
 impl CheckedMove {
     pub(super) fn of<const N: usize>(py: Python<'_>, step: rapid::CheckedMove<N>) -> Self {
-        let rapid::CheckedMove { module, line, column, routine, target, q, confdata, unchecked } =
-            step;
+        let rapid::CheckedMove { module, line, column, routine, target, assumed, .. } = step;
+        let rapid::CheckedMove { q, confdata, unchecked, .. } = step;
         let q = q.map(|q| column_of(py, q));
         let unchecked = unchecked.map(|code| code.id().into());
         let confdata = confdata.map(Configuration::from);
-        Self { module, line, column, routine, target, q, confdata, unchecked }
+        Self { module, line, column, routine, target, q, confdata, unchecked, assumed }
     }
 }

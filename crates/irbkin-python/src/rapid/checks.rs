@@ -7,6 +7,7 @@ use pyo3::pybacked::PyBackedStr;
 use pyo3::types::PyTuple;
 
 use super::checked::{Checked, CheckedMove, Finding};
+use super::class;
 use super::module::{RapidModule, close_names};
 use crate::arm::on;
 use crate::bodies::Shapes;
@@ -14,11 +15,12 @@ use crate::cell::PyCell;
 use crate::errors::{Fault, exception};
 use crate::robot::PyRobot;
 use crate::signals::detached_until;
-use crate::targets::read_pose;
+use crate::targets::{read_frame, read_pose};
 use crate::trajectories::read_limits;
 use irbkin_abb::rapid;
+use irbkin_abb::rapid::internal::rapid_pose;
 use irbkin_abb::rapid::{
-    Carried, CheckOptions, Code, Module, MotionOptions, Unit, UnitAxis, Units,
+    CheckOptions, Code, Module, MotionOptions, ToolData, Unit, UnitAxis, Units,
 };
 use irbkin_motion::Arm;
 
@@ -63,12 +65,14 @@ pub(crate) fn check<'py>(
     let py = robot.py();
     let context = module.get().context.iter().map(|other| other.bind(py).clone());
     let modules: Vec<_> = core::iter::once(module.clone()).chain(context).collect();
+    let given =
+        CheckOptions { cell: cell.map(|cell| &*cell.get().cell), ..CheckOptions::default() };
     let options = (max_velocity, step, turn);
     let codes = codes.map(read_codes).transpose()?;
-    let (mut findings, _) = checked(robot, &modules, options, cell, &Extent::default())?;
-    add_unused(&mut findings, &modules, codes.as_deref());
-    let own = findings.into_iter().filter(|finding| finding.module == 0);
-    records(py, own, &modules, codes.as_deref())
+    let arm = robot.get().arm();
+    let found = on!(arm, arm => checked(py, arm, &modules, options, &given, codes.as_deref()))?;
+    let is_own = |it: &Bound<'_, PyAny>| it.cast::<Finding>().is_ok_and(|it| it.get().module == 0);
+    PyTuple::new(py, found.findings.bind(py).iter().filter(is_own).collect::<Vec<_>>())
 }
 
 /// Check every move of a program: modules that know each other.
@@ -85,7 +89,10 @@ pub(crate) fn check<'py>(
 ///         robot, whether its axes are determined, and its axes: tuples of the external axis from
 ///         0, the frame of shape (4, 4) [m], and whether it turns about its z axis or else moves
 ///         along its x axis. An external axis of no unit, which is not at zero, is not checked.
-///     last_values: Whether a PERS that the program assigns has the value of its declaration.
+///     last_values: Whether a PERS that the program assigns has the value of its declaration, which
+///         it had when it was saved; what is found with it is a note.
+///     tools: A ToolData or a pose of the TCP in the flange, shape (4, 4) [m], for each tool that
+///         nothing declares, by its name; None is for all others. What is found with it is a note.
 ///     carried: Shapes in the flange frame, by the name of the tool or work object they move with.
 ///     whole: Whether every module of the task is given: a call of what none declares is an error
 ///         then, and a note if some are missing. None if it is not known.
@@ -101,7 +108,7 @@ pub(crate) fn check<'py>(
 ///     InvalidModelError: As of `check`.
 #[pyfunction]
 #[pyo3(signature = (robot, modules, *, codes=None, max_velocity=None, step=0.005, turn=None,
-    cell=None, units=None, last_values=false, whole=None, of_system=None,
+    cell=None, units=None, last_values=false, tools=None, whole=None, of_system=None,
     carried=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of one call")]
 #[expect(clippy::needless_pass_by_value, reason = "a sequence is extracted by value")]
@@ -115,6 +122,7 @@ pub(crate) fn check_program<'py>(
     cell: Option<&Bound<'py, PyCell>>,
     units: Option<Vec<GivenUnit<'py>>>,
     last_values: bool,
+    tools: Option<BTreeMap<Option<String>, Bound<'py, PyAny>>>,
     whole: Option<bool>,
     of_system: Option<Vec<usize>>,
     carried: Option<BTreeMap<String, Shapes<'py>>>,
@@ -125,15 +133,22 @@ pub(crate) fn check_program<'py>(
     let options = (max_velocity, step, turn);
     let carried = carried.into_iter().flatten();
     let carried = carried.map(|(name, shapes)| (name.to_lowercase(), shapes.read())).collect();
-    let of_system = of_system.unwrap_or_default();
-    let extent = Extent { units, takes_last: last_values, is_whole: whole, of_system, carried };
+    let tools = tools.into_iter().flatten();
+    let tools = tools.map(|(name, it)| Ok((name.map(|name| name.to_lowercase()), read_tool(&it)?)));
+    let tools = tools.collect::<PyResult<BTreeMap<_, _>>>()?;
+    let given = CheckOptions {
+        cell: cell.map(|cell| &*cell.get().cell),
+        units: Some(&units),
+        takes_last: last_values,
+        tools: Some(&tools),
+        is_whole: whole,
+        of_system: of_system.as_deref().unwrap_or_default(),
+        carried: Some(&carried),
+        ..CheckOptions::default()
+    };
     let codes = codes.map(read_codes).transpose()?;
-    let (mut findings, moves) = checked(robot, &modules, options, cell, &extent)?;
-    add_unused(&mut findings, &modules, codes.as_deref());
-    Ok(Checked {
-        findings: records(py, findings.into_iter(), &modules, codes.as_deref())?.unbind(),
-        moves: PyTuple::new(py, moves)?.unbind(),
-    })
+    let arm = robot.get().arm();
+    on!(arm, arm => checked(py, arm, &modules, options, &given, codes.as_deref()))
 }
 
 /// A unit as Python gives it.
@@ -152,87 +167,56 @@ fn read_unit((name, is_carrier, is_determined, axes): GivenUnit<'_>) -> PyResult
     Ok(Unit { name: name.clone(), axes, is_carrier, is_determined })
 }
 
-/// The surroundings that a check takes into account.
-#[derive(Default)]
-struct Extent {
-    units: Units,
-    takes_last: bool,
-    is_whole: Option<bool>,
-    of_system: Vec<usize>,
-    carried: Carried,
+/// A tooldata, or one of a pose.
+fn read_tool(given: &Bound<'_, PyAny>) -> PyResult<ToolData> {
+    if let Ok(tool) = given.cast::<class::ToolData>() {
+        return Ok(tool.get().0);
+    }
+    let tframe = rapid_pose(&read_frame(given, "check_program")?);
+    Ok(ToolData { tframe, ..ToolData::TOOL0 })
 }
 
-/// Findings and moves of a check.
-fn checked(
-    robot: &Bound<'_, PyRobot>,
-    modules: &[Bound<'_, RapidModule>],
-    options: (Option<&Bound<'_, PyAny>>, f64, Option<f64>),
-    cell: Option<&Bound<'_, PyCell>>,
-    extent: &Extent,
-) -> PyResult<(Vec<rapid::Finding>, Vec<CheckedMove>)> {
-    let (py, arm) = (robot.py(), robot.get().arm());
-    on!(arm, robot => robot.configuration_rule().map(drop)).map_err(exception)?;
-    on!(arm, arm => checked_arm(py, arm, modules, options, cell, extent))
-}
-
-fn checked_arm<const N: usize>(
+/// A check, with the findings of the wanted codes; `given` are its options for any arm.
+fn checked<const N: usize>(
     py: Python<'_>,
     arm: &Arm<N>,
     modules: &[Bound<'_, RapidModule>],
     (max_velocity, step, turn): (Option<&Bound<'_, PyAny>>, f64, Option<f64>),
-    cell: Option<&Bound<'_, PyCell>>,
-    extent: &Extent,
-) -> PyResult<(Vec<rapid::Finding>, Vec<CheckedMove>)> {
+    given: &CheckOptions<'_>,
+    codes: Option<&[Code]>,
+) -> PyResult<Checked> {
     let max_velocity = read_limits(max_velocity, "max_velocity")?;
     let turn = turn.unwrap_or(MotionOptions::<N>::default().turn);
     let options = CheckOptions {
         motion: MotionOptions { max_velocity, step, turn, ..MotionOptions::default() },
-        cell: cell.map(|cell| &*cell.get().cell),
-        units: Some(&extent.units),
-        takes_last: extent.takes_last,
-        is_whole: extent.is_whole,
-        of_system: &extent.of_system,
-        carried: Some(&extent.carried),
+        cell: given.cell,
+        units: given.units,
+        takes_last: given.takes_last,
+        tools: given.tools,
+        is_whole: given.is_whole,
+        of_system: given.of_system,
+        carried: given.carried,
         ..CheckOptions::default()
     };
     let own: Vec<&RapidModule> = modules.iter().map(Bound::get).collect();
     let texts: Vec<_> = own.iter().map(|it| (&it.module, it.source.as_str())).collect();
-    let rapid::Checked { findings, moves } = detached_until(py, |interrupt| {
+    let rapid::Checked { mut findings, moves } = detached_until(py, |interrupt| {
         rapid::check(arm, &texts, &CheckOptions { interrupt, ..options })
     })?
     .map_err(exception)?;
-    let moves = moves.into_iter().map(|step| CheckedMove::of(py, step));
-    Ok((findings, moves.collect()))
-}
-
-/// Add what nothing in the program names, if that is asked for.
-fn add_unused(
-    findings: &mut Vec<rapid::Finding>,
-    modules: &[Bound<'_, RapidModule>],
-    codes: Option<&[Code]>,
-) {
-    if codes.is_none_or(|codes| !codes.contains(&Code::Unused)) {
-        return;
+    if codes.is_some_and(|codes| codes.contains(&Code::Unused)) {
+        findings.extend(rapid::unused(&texts));
+        findings.sort_by_key(|it| (it.module, it.line, it.column));
     }
-    let own = modules.iter().map(Bound::get);
-    let texts: Vec<_> = own.map(|it| (&it.module, it.source.as_str())).collect();
-    findings.extend(rapid::unused(&texts));
-    findings.sort_by_key(|it| (it.module, it.line, it.column));
-}
-
-/// Findings of the wanted codes.
-fn records<'py>(
-    py: Python<'py>,
-    found: impl Iterator<Item = rapid::Finding>,
-    modules: &[Bound<'py, RapidModule>],
-    codes: Option<&[Code]>,
-) -> PyResult<Bound<'py, PyTuple>> {
-    let modules: Vec<&Module> = modules.iter().map(|it| &it.get().module).collect();
-    let is_wanted = |code: Code| codes.is_none_or(|codes| codes.contains(&code));
-    let wanted = found.filter(|finding| is_wanted(finding.code));
+    findings.retain(|it| codes.is_none_or(|codes| codes.contains(&it.code)));
+    let modules: Vec<&Module> = own.iter().map(|it| &it.module).collect();
     let mut left = MOST_COMPARED;
-    let records = wanted.map(|finding| record(py, finding, &modules, &mut left));
-    PyTuple::new(py, records.collect::<PyResult<Vec<_>>>()?)
+    let findings = findings.into_iter().map(|it| record(py, it, &modules, &mut left));
+    let moves = moves.into_iter().map(|step| CheckedMove::of(py, step));
+    Ok(Checked {
+        findings: PyTuple::new(py, findings.collect::<PyResult<Vec<_>>>()?)?.unbind(),
+        moves: PyTuple::new(py, moves)?.unbind(),
+    })
 }
 
 /// Pairs of letters of unknown and of known names that are compared [1]: 0.1 s. Of many unknown
@@ -269,6 +253,8 @@ fn record(
         let close = close_names(unknown, &names);
         if !close.is_empty() {
             finding.message = format!("{}; did you mean {}?", finding.message, close.join(", "));
+        } else if finding.code == Code::UnknownTool {
+            finding.message = format!("{}; give it with --tool {unknown}=X Y Z", finding.message);
         }
     }
     Finding::of(py, &finding)

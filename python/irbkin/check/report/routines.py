@@ -13,9 +13,10 @@ from irbkin.check.report import Report, counted
 from irbkin.rapid import CheckedMove
 
 HEADINGS = (
-    "routine", "moves", "not checked", "errors", "warnings", "nearest limit", "nearest singularity"
+    "routine", "moves", "assumed", "not checked", "errors", "warnings", "nearest limit",
+    "nearest singularity",
 )  # fmt: skip
-COUNTS = 5
+COUNTS = 6
 """End of the numeric columns, which begin at 1."""
 KINDS = {
     "robtarget": "target",
@@ -36,9 +37,10 @@ def routines(report: Report) -> dict[str, list[tuple[str, ...]]]:
             groups.setdefault((move.module, move.routine or ""), []).append(move)
         for (module, routine), moves in groups.items():
             file = shown(job.program.files[module].path)
+            assumed = sum(move.assumed for move in moves)
             left = sum(move.unchecked is not None for move in moves)
             wrong = [counts[file, routine, level] for level in ("error", "warning")]
-            numbers = [str(count or "") for count in (len(moves), left, *wrong)]
+            numbers = [str(count or "") for count in (len(moves), assumed, left, *wrong)]
             near = _nearest(job.robot, [move for move in moves if move.q is not None])
             tables.setdefault(f"{file} ({job.title})", []).append((routine, *numbers, *near))
     return tables

@@ -17,6 +17,7 @@ use crate::rapid::calc::units::Units;
 use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::module::Module;
 use crate::rapid::data::moves::Move;
+use crate::rapid::data::records::GivenTools;
 use crate::rapid::motion::drive::MotionOptions;
 use crate::rapid::motion::goal::{Goal, Place};
 use crate::rapid::motion::joints::{Conf, nearest_written};
@@ -42,8 +43,11 @@ pub struct CheckOptions<'a, const N: usize = 6> {
     /// The units that the external axes of targets belong to.
     pub units: Option<&'a Units>,
     /// Whether a PERS that the program assigns has the value that its text has, the last one that
-    /// it had when the program was saved; each such move has a finding.
+    /// it had when the program was saved; what is found with it is a note.
     pub takes_last: bool,
+    /// Tools for those that nothing declares, by their names in lower case, without a name for all
+    /// others; what is found with them is a note.
+    pub tools: Option<&'a GivenTools>,
     /// Whether every module of the program is here; if that is not known, calls by calculated names
     /// lead to others. A routine that nothing declares is an error in a whole program.
     pub is_whole: Option<bool>,
@@ -56,7 +60,7 @@ pub struct CheckOptions<'a, const N: usize = 6> {
 
 /// A move of the program: an instruction, and the chain of calls to it where it moves to what they
 /// pass on; its place is the first of these calls then.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct CheckedMove<const N: usize = 6> {
     /// The module among those that are checked, from 0.
     pub module: usize,
@@ -74,6 +78,8 @@ pub struct CheckedMove<const N: usize = 6> {
     pub confdata: Option<Configuration>,
     /// Why it is not checked; `None` if its target, tool and work object are known in each pass.
     pub unchecked: Option<Code>,
+    /// Whether it is checked with the saved value of a PERS or with a given tool in some pass.
+    pub assumed: bool,
 }
 
 /// The result of a check.
@@ -117,7 +123,7 @@ pub fn check<const N: usize>(
     let units = options.units.unwrap_or(const { &Units(Vec::new()) });
     let convert = converter(&flange, units);
     let program = Program::new(&modules, &convert);
-    let (runs, notes) = runs(&program, options.takes_last, options.interrupt)?;
+    let (runs, notes) = runs(&program, options.takes_last, options.tools, options.interrupt)?;
     let carried = options.carried.unwrap_or(const { &Carried::new() });
     let arms = options.cell.map(|_| carriers(arm, &runs, carried)).transpose()?;
     let arms = arms.unwrap_or_default();
@@ -148,39 +154,46 @@ pub fn check<const N: usize>(
     checker.found.extend(notes);
     let CheckOptions { is_whole, of_system, interrupt, .. } = *options;
     checker.found.extend(undeclared(&modules, &sources, is_whole, of_system, interrupt)?);
-    let Checker { found, demands, moves, .. } = checker;
+    let Checker { found, demands, mut moves, .. } = checker;
     let mut cases = BTreeMap::new();
-    for ((place, [_, module, index]), _) in &moves {
-        *cases.entry((*place, (*module, *index))).or_insert(0) += 1;
+    for ([_, home, index], it) in &moves {
+        let place = [it.module, it.line, it.column];
+        *cases.entry((place, (*home, *index))).or_insert(0) += 1;
     }
-    Ok(Checked { findings: sorted(found, &demands, &cases), moves: each_once(moves) })
+    // A move is not checked if it is not in one of its passes.
+    let place = |it: &CheckedMove<N>| (it.module, it.line, it.column);
+    moves.sort_by_key(|(by, it)| {
+        (place(it), *by, it.unchecked.is_none(), it.unchecked, !it.assumed)
+    });
+    moves.dedup_by_key(|(by, it)| (place(it), *by));
+    let moves = moves.into_iter().map(|(_, it)| it).collect();
+    Ok(Checked { findings: sorted(found, &demands, &cases), moves })
 }
 
-/// The identity of a move: its place, then the chain of calls, the module and the index
-/// of the instruction.
-type Key = ([usize; 3], [usize; 3]);
-
-/// Moves in the order of the text, each once: not checked if it is not in one of its passes.
-fn each_once<const N: usize>(mut moves: Vec<(Key, CheckedMove<N>)>) -> Vec<CheckedMove<N>> {
-    moves.sort_by_key(|(key, it)| (*key, it.unchecked.is_none(), it.unchecked));
-    moves.dedup_by_key(|(key, _)| *key);
-    moves.into_iter().map(|(_, it)| it).collect()
-}
-
-/// A move that is not followed, as one that is not checked.
-fn unfollowed_move<const N: usize>(finding: &Finding) -> (Key, CheckedMove<N>) {
-    let own = CheckedMove {
-        module: finding.module,
-        line: finding.line,
-        column: finding.column,
-        routine: finding.routine.clone(),
-        target: finding.subject.clone(),
-        q: None,
-        confdata: None,
-        unchecked: Some(finding.code),
+/// A finding on a goal in its module, with what it rests on: values of the move and, on the way to
+/// its target, of the move before it. Names, speeds and zones rest on nothing.
+fn resting<const N: usize>(
+    finding: Finding,
+    goals: &[Goal<'_, N>],
+    before: Option<&String>,
+) -> Finding {
+    let (index, id) = (finding.move_index, finding.code.id());
+    let of = |index: usize| goals.get(index).and_then(|goal| goal.stepped.assumed.clone());
+    let start = || if index == 0 { before.cloned() } else { of(index - 1) };
+    let assumed = match id {
+        "D702" | "Z502" => None,
+        _ if finding.unknown.is_some() || id.starts_with('U') => None,
+        "C202" | "R103" | "R104" | "R105" | "R107" => of(index).or_else(start),
+        _ if id.starts_with(['K', 'S', 'V', 'Z']) => of(index).or_else(start),
+        _ => of(index),
     };
-    (([own.module, own.line, own.column], [0, own.module, usize::MAX]), own)
+    let Some(Goal { stepped, .. }) = goals.get(index) else { return finding };
+    let (module, instruction) = (stepped.module, stepped.instruction);
+    Finding { module, assumed, instruction, case: stepped.case.clone(), ..finding }
 }
+
+/// The joints at the target of a move, and what it rests on.
+type End<const N: usize> = (Option<[f64; N]>, Option<String>);
 
 struct Checker<'a, 'm, const N: usize> {
     /// The robot, and the same with the flange as its tool.
@@ -193,25 +206,35 @@ struct Checker<'a, 'm, const N: usize> {
     carried: &'a Carried,
     interrupt: Interrupt<'a>,
     finder: Finder<'a, 'm>,
-    /// The joints at the targets of the moves of each run.
-    ends: Vec<Vec<Option<[f64; N]>>>,
+    /// The ends of the moves of each run.
+    ends: Vec<Vec<End<N>>>,
     found: Vec<Finding>,
     seen: Seen,
     demands: Vec<Demand>,
-    moves: Vec<(Key, CheckedMove<N>)>,
+    /// The moves with the chain of calls, the module and the index of the instruction.
+    moves: Vec<([usize; 3], CheckedMove<N>)>,
 }
 
 impl<const N: usize> Checker<'_, '_, N> {
     fn add(&mut self, run: &Run<'_>) -> Result<(), Error> {
-        let start =
-            run.from.and_then(|(run, moves)| *self.ends.get(run)?.get(moves.checked_sub(1)?)?);
+        let end = run.from.and_then(|(run, moves)| self.ends.get(run)?.get(moves.checked_sub(1)?));
+        let (start, assumed) = end.cloned().unwrap_or_default();
         let options = MotionOptions { start, max_acceleration: None, ..self.options };
         let mut followed =
             Followed::new(self.robots, &run.steps, &options, Some(self.units), self.interrupt)?;
         followed.check_speeds(&self.max_velocity);
         let Followed { goals, made, findings, unfollowed, .. } = &followed;
-        self.moves.extend(unfollowed.iter().map(unfollowed_move));
         for finding in unfollowed {
+            let own = CheckedMove {
+                module: finding.module,
+                line: finding.line,
+                column: finding.column,
+                routine: finding.routine.clone(),
+                target: finding.subject.clone(),
+                unchecked: Some(finding.code),
+                ..CheckedMove::default()
+            };
+            self.moves.push(([0, own.module, usize::MAX], own));
             add_once(&mut self.found, &mut self.seen, finding.clone());
         }
         // Where the confdata of a move is wrong.
@@ -234,8 +257,7 @@ impl<const N: usize> Checker<'_, '_, N> {
                 wrong[index] = Some(self.found.len());
                 finding = with_nearest(self.robots[1], finding, goal, &q);
             }
-            let finding = self.worded(finding, goal, is_wrong).in_module(goal.stepped.module);
-            let finding = finding.in_case(goal.stepped.instruction, &goal.stepped.case);
+            let finding = resting(self.worded(finding, goal, is_wrong), goals, assumed.as_ref());
             if is_wrong {
                 self.found.push(finding);
             } else {
@@ -247,9 +269,9 @@ impl<const N: usize> Checker<'_, '_, N> {
         {
             self.interrupt.check(0)?;
             let finding = self.collision(goal.step, followed.along(index));
-            let placed = finding.map(|it| it.at(goal.step, index).in_module(goal.stepped.module));
-            self.found
-                .extend(placed.map(|it| it.in_case(goal.stepped.instruction, &goal.stepped.case)));
+            let placed =
+                finding.map(|it| resting(it.at(goal.step, index), goals, assumed.as_ref()));
+            self.found.extend(placed);
         }
         let zones = Zones { flange: self.robots[1], goals, made };
         for (index, goal) in goals.iter().enumerate() {
@@ -268,22 +290,14 @@ impl<const N: usize> Checker<'_, '_, N> {
                     _ => None,
                 },
                 unchecked: unchecked[index],
+                assumed: unchecked[index].is_none() && goal.stepped.assumed.is_some(),
             };
-            let by = [goal.stepped.chain, home, instruction];
-            self.moves.push((([module, line, column], by), own));
+            self.moves.push(([goal.stepped.chain, home, instruction], own));
             let mut found = |finding: Finding| {
-                let finding = finding.at(goal.step, index).in_module(goal.stepped.module);
-                add_once(
-                    &mut self.found,
-                    &mut self.seen,
-                    finding.in_case(goal.stepped.instruction, &goal.stepped.case),
-                );
+                let finding = resting(finding.at(goal.step, index), goals, assumed.as_ref());
+                add_once(&mut self.found, &mut self.seen, finding);
             };
             zones.checked(index).for_each(&mut found);
-            if goal.stepped.takes_last {
-                let words = "a PERS that the program assigns has its last value here";
-                found(Finding::new(Code::LastValue, words));
-            }
             let (Some(Place::Tool(_, wanted)), Some(q)) = (goal.place, made[index].q) else {
                 continue;
             };
@@ -299,21 +313,26 @@ impl<const N: usize> Checker<'_, '_, N> {
                 continue;
             }
             let written = self.finder.of(goal.stepped.module, goal.step);
-            self.demands.push(Demand {
-                written,
-                from: wanted.configuration,
-                to,
-                finding: wrong[index],
-            });
+            let (from, finding) = (wanted.configuration, wrong[index]);
+            self.demands.push(Demand { written, from, to, finding });
         }
-        self.ends.push(made.iter().map(|made| made.q).collect());
+        let ends =
+            made.iter().zip(goals).map(|(made, goal)| (made.q, goal.stepped.assumed.clone()));
+        self.ends.push(ends.collect());
         Ok(())
     }
 
     /// A finding on a goal with what the program has to do with it.
     fn worded(&self, mut finding: Finding, goal: &Goal<'_, N>, is_wrong: bool) -> Finding {
         if is_wrong && !finding.cause.is_empty() {
-            finding.cause = self.cause_at(goal, &finding);
+            let routine = goal.step.routine.as_deref().unwrap_or_default();
+            // In a routine, or in the run that is added.
+            finding.cause = match finding.code {
+                Code::NearConfdata => {
+                    format!("{} {routine} {}", goal.stepped.module, finding.cause)
+                }
+                _ => format!("{} {}", self.ends.len(), finding.cause),
+            };
         }
         if let Some(name) = &finding.unknown {
             let words = format!("{name} is not declared");
@@ -323,16 +342,6 @@ impl<const N: usize> Checker<'_, '_, N> {
             finding.message = format!("{} (displaced on line {line})", finding.message);
         }
         finding
-    }
-
-    /// The cause of a finding on confdata: in a routine, or in the run that is added.
-    fn cause_at(&self, goal: &Goal<'_, N>, finding: &Finding) -> String {
-        let (module, routine, cause) =
-            (goal.stepped.module, goal.step.routine.as_deref(), &finding.cause);
-        match finding.code {
-            Code::NearConfdata => format!("{module} {} {cause}", routine.unwrap_or_default()),
-            _ => format!("{} {cause}", self.ends.len()),
-        }
     }
 
     /// Whether a configuration belongs to the joints nearest to the written one of a goal: any other

@@ -8,13 +8,15 @@ use alloc::vec::Vec;
 use super::fixes::{Demand, correct};
 use crate::rapid::data::finding::{Code, Finding};
 
-/// The places, codes, words and cases of findings.
-pub(super) type Seen = BTreeSet<([usize; 3], Code, String, String)>;
+/// The places, codes, words and cases of findings, and whether they rest on something.
+pub(super) type Seen = BTreeSet<([usize; 3], Code, bool, String, String)>;
 
 /// Add a finding that is new: routines are followed again for each of their callers.
 pub(super) fn add_once(found: &mut Vec<Finding>, seen: &mut Seen, finding: Finding) {
     let place = [finding.module, finding.line, finding.column];
-    if seen.insert((place, finding.code, finding.message.clone(), finding.case.clone())) {
+    let is_assumed = finding.assumed.is_some();
+    let words = (finding.message.clone(), finding.case.clone());
+    if seen.insert((place, finding.code, is_assumed, words.0, words.1)) {
         found.push(finding);
     }
 }
@@ -30,12 +32,13 @@ pub(super) fn sorted(
     cases: &BTreeMap<Cased, usize>,
 ) -> Vec<Finding> {
     correct(demands, &mut found);
-    found.sort_by_key(identity);
+    // Of those that say the same, one that rests on nothing stays.
+    found.sort_by_key(|it| (identity(it), it.assumed.is_some()));
     let mut found = of_all_cases(&found, cases);
     // Nothing is said of the way to a target that cannot be met.
     let (mut unmet, mut without_path) = (None, None);
     found.retain(|it| {
-        let place = (it.module, it.line, it.column);
+        let place = (it.module, it.line, it.column, it.assumed.is_some());
         match it.code {
             Code::OutOfReach | Code::OutsideLimits => unmet = Some(place),
             Code::NoPath => without_path = Some(place),
@@ -85,7 +88,8 @@ fn of_one_cause(found: Vec<Finding>) -> Vec<Finding> {
     for mut finding in found {
         let cause = core::mem::take(&mut finding.cause);
         if !cause.is_empty() {
-            let first = *firsts.entry((finding.code, cause)).or_insert(kept.len());
+            let of = (finding.code, cause, finding.assumed.is_some());
+            let first = *firsts.entry(of).or_insert(kept.len());
             if let Some(first) = kept.get_mut(first) {
                 // Passes of a loop are at one place.
                 let place = (finding.module, finding.line, finding.column);
@@ -102,6 +106,9 @@ fn of_one_cause(found: Vec<Finding>) -> Vec<Finding> {
     for finding in &mut kept {
         finding.edits.sort_by_key(|edit| (edit.module, edit.span.start));
         finding.edits.dedup();
+        if let Some(words) = &finding.assumed {
+            finding.message = format!("{} (with {words})", finding.message);
+        }
         let more = finding.related.len();
         if more > 0 {
             let moves = if more == 1 { "move" } else { "moves" };

@@ -23,7 +23,7 @@ macro_rules! codes {
 
         impl Code {
             /// Every code.
-            pub const ALL: [Self; 38] = [$(Self::$Code),*];
+            pub const ALL: [Self; 37] = [$(Self::$Code),*];
 
             /// The code: a letter for its group and three digits.
             #[must_use]
@@ -116,8 +116,6 @@ codes! {
     ConfdataEdge "U803" "confdata-edge";
     /// A mechanical unit that carries the robot or moves a work object is not known.
     UnknownUnit "U804" "unknown-unit";
-    /// A PERS that the program assigns is taken to have its last value.
-    LastValue "U805" "last-value";
     /// Statements that are never executed.
     NeverRun "U806" "never-run";
     /// Nothing in a program names a target, a tool, a work object or a routine of it.
@@ -174,7 +172,6 @@ impl Code {
                 | Self::NotFollowed
                 | Self::ZoneTooLarge
                 | Self::ConfdataEdge
-                | Self::LastValue
                 | Self::Unused
         )
     }
@@ -233,6 +230,8 @@ pub struct Finding {
     pub bound: Option<f64>,
     /// The name that nothing declares.
     pub unknown: Option<String>,
+    /// What it rests on that the program does not determine, as its message says: it is a note.
+    pub assumed: Option<String>,
     /// Findings of one code and one cause are one; empty if it stands alone.
     pub(crate) cause: String,
     /// The pass of a loop, or which of the values that data may have, in words; empty of the only
@@ -262,6 +261,7 @@ impl Finding {
             value: None,
             bound: None,
             unknown: None,
+            assumed: None,
             cause: String::new(),
             case: String::new(),
             instruction: (0, 0),
@@ -285,7 +285,12 @@ impl Finding {
         }
     }
 
-    /// With its cause.
+    /// How much it matters.
+    #[must_use]
+    pub fn severity(&self) -> Severity {
+        if self.assumed.is_some() { Severity::Note } else { self.code.severity() }
+    }
+
     pub(crate) fn caused_by(self, cause: String) -> Self {
         Self { cause, ..self }
     }
@@ -312,17 +317,10 @@ impl Finding {
         }
     }
 
-    /// In one case of several of an instruction, by its module and its index.
-    pub(crate) fn in_case(self, instruction: (usize, usize), case: &str) -> Self {
-        Self { instruction, case: case.into(), ..self }
-    }
-
-    /// In a module.
     pub(crate) fn in_module(self, module: usize) -> Self {
         Self { module, ..self }
     }
 
-    /// At a move.
     pub(crate) fn at(self, step: &Move, move_index: usize) -> Self {
         let what = format!("{} {}", step.instruction, step.target.text);
         let routine = step.routine.clone();

@@ -1,5 +1,6 @@
 //! RAPID's records, as they are written: nothing is normalized.
 
+use alloc::collections::BTreeMap;
 use alloc::string::String;
 use core::fmt;
 
@@ -176,6 +177,9 @@ impl ToolData {
     pub const TOOL0: Self =
         Self { robhold: true, tframe: RapidPose::IDENTITY, tload: LoadData::LOAD0 };
 }
+
+/// The type of [`tools`](crate::rapid::CheckOptions::tools).
+pub(in crate::rapid) type GivenTools = BTreeMap<Option<String>, ToolData>;
 
 impl WobjData {
     /// RAPID's `wobj0`, the world.

@@ -167,7 +167,8 @@ impl<'m> Walk<'_, 'm> {
         if is_circular || does_more || self.above.len() >= DEEPEST_CALLS || self.is_spent() {
             return None;
         }
-        let mut walk = Self::new(program, self.takes_last, self.interrupt);
+        let mut walk = Self::new(program, self.interrupt);
+        walk.takes_last = self.takes_last;
         (walk.state, walk.frame) = (self.state.clone(), self.frame.clone());
         walk.above.clone_from(&self.above);
         walk.above.push((self.frame.module, self.frame.routine.clone()));

@@ -98,6 +98,8 @@ impl Questions {
 struct Candidate {
     case: Case,
     words: Rc<str>,
+    /// What it rests on that the program does not determine, in words.
+    assumed: Option<Rc<str>>,
     content: Content,
 }
 
@@ -114,11 +116,13 @@ impl PartialEq for Known {
 impl Known {
     /// The only content, with the assignment in words.
     pub(super) fn certain(content: Content, words: &str) -> Self {
-        Self(Rc::new(Vec::from([Candidate {
-            case: Case::default(),
-            words: words.into(),
-            content,
-        }])))
+        Self::resting_on(None, content, words)
+    }
+
+    /// The only content, with what it rests on.
+    pub(super) fn resting_on(assumed: Option<Rc<str>>, content: Content, words: &str) -> Self {
+        let own = Candidate { case: Case::default(), words: words.into(), assumed, content };
+        Self(Rc::new(Vec::from([own])))
     }
 
     /// The contents of the ways in which a statement is evaluated; `None` if one is not known.
@@ -128,19 +132,11 @@ impl Known {
         words: &str,
     ) -> Option<Self> {
         let is_certain = ways.len() == 1;
-        let candidate = |Way { case, words: own, value }: Way<T>| {
+        let candidate = |Way { case, words: own, assumed, value }: Way<T>| {
             let words = if is_certain { words } else { &own };
-            Some(Candidate { case, words: words.into(), content: content(value)? })
+            Some(Candidate { case, words: words.into(), assumed, content: content(value)? })
         };
         Some(Self(Rc::new(ways.into_iter().map(candidate).collect::<Option<_>>()?)))
-    }
-
-    /// The content that the datum has in every case.
-    pub(super) fn only(&self) -> Option<&Content> {
-        match self.0.as_slice() {
-            [only] => Some(&only.content),
-            _ => None,
-        }
     }
 
     /// How many values it has, at least one.
@@ -192,6 +188,8 @@ pub(super) struct Way<T> {
     pub(super) case: Case,
     /// The case in words; empty of the only one.
     pub(super) words: String,
+    /// What it rests on that the program does not determine, in words.
+    pub(super) assumed: Option<Rc<str>>,
     pub(super) value: T,
 }
 
@@ -203,6 +201,7 @@ pub(super) struct Choices {
     next: Cell<usize>,
     case: RefCell<Case>,
     words: RefCell<Vec<Rc<str>>>,
+    assumed: RefCell<Option<Rc<str>>>,
     /// Whether what is not certain is unknown.
     is_off: bool,
 }
@@ -215,8 +214,12 @@ impl Choices {
 
     /// The content of a datum on this way; `None` if it is not known.
     pub(super) fn content<'k>(&self, known: &'k Known) -> Option<&'k Content> {
-        if known.0.len() == 1 || self.is_off {
-            return known.only();
+        if let [only] = known.0.as_slice() {
+            self.rest_on(only);
+            return Some(&only.content);
+        }
+        if self.is_off {
+            return None;
         }
         let own = self.case.borrow().clone();
         let possible = known.0.iter().filter(|candidate| !own.excludes(&candidate.case));
@@ -226,7 +229,19 @@ impl Choices {
             self.words.borrow_mut().push(chosen.words.clone());
         }
         *self.case.borrow_mut() = own.with(&chosen.case)?;
+        self.rest_on(chosen);
         Some(&chosen.content)
+    }
+
+    fn rest_on(&self, candidate: &Candidate) {
+        if let Some(assumed) = &candidate.assumed {
+            self.assume(|| assumed.clone());
+        }
+    }
+
+    /// Rest on something that the program does not determine.
+    pub(super) fn assume(&self, words: impl FnOnce() -> Rc<str>) {
+        self.assumed.borrow_mut().get_or_insert_with(words);
     }
 
     /// An answer to a question that has so many, in words if it is a new one.
@@ -264,7 +279,7 @@ impl Choices {
     /// End a way with its value.
     pub(super) fn end<T>(&self, value: T) -> Way<T> {
         let words = self.words.take().join(" and ");
-        Way { case: self.case.take(), words, value }
+        Way { case: self.case.take(), words, assumed: self.assumed.take(), value }
     }
 
     /// Begin the next way; false if there is none.

@@ -4,8 +4,10 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
 
+use super::cases::Known;
 use super::tree::{Body, bodies};
-use crate::rapid::data::module::{Datum, Module, Parameter, Routine, RoutineKind, Scope};
+use super::values::saved_value;
+use crate::rapid::data::module::{Datum, Module, Parameter, Routine, RoutineKind, Scope, Storage};
 use crate::rapid::data::unread::{NotRead, Unresolved};
 use crate::rapid::data::value::DataType;
 
@@ -123,10 +125,20 @@ impl<'m> Index<'m> {
         at(module).or_else(|| at(*self.global_data.get(lower)?))
     }
 
+    fn declared(&self, DatumId { module, datum }: DatumId) -> Option<&'m Datum> {
+        self.modules.get(module)?.data.get(datum)
+    }
+
     /// The name of a datum, as it is declared.
-    pub(super) fn name(&self, DatumId { module, datum }: DatumId) -> &'m str {
-        let data = self.modules.get(module).map(|it| it.data.as_slice());
-        data.and_then(|data| data.get(datum)).map_or("", |it| &it.name)
+    pub(super) fn name(&self, datum: DatumId) -> &'m str {
+        self.declared(datum).map_or("", |it| &it.name)
+    }
+
+    /// The saved value of a datum, if it is a PERS.
+    pub(super) fn saved(&self, datum: DatumId) -> Option<Known> {
+        let own = self.declared(datum).filter(|it| it.storage == Storage::Pers)?;
+        let words = saved_value(&own.name);
+        Some(Known::resting_on(Some(words), own.content.clone(), ""))
     }
 
     /// The data of a routine, by its name in lower case.

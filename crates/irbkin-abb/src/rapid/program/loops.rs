@@ -29,7 +29,9 @@ impl<'m> Walk<'_, 'm> {
         let before = self.state.locals.get(name).cloned();
         let of = |walk: &mut Self, bound: &Option<Expression<'_>>| {
             let bound = bound.as_ref()?;
-            walk.in_all_cases(|scope| scope.number(&head.text, bound).ok())
+            let (number, assumed) =
+                walk.in_all_cases(|scope| scope.number(&head.text, bound).ok())?;
+            assumed.is_none().then_some(number)
         };
         let passes = values_of(counter.bounds.each_ref().map(|bound| of(self, bound)));
         if !passes.is_empty() && self.affords(passes.len(), body) && (self.is_one || is_counted) {

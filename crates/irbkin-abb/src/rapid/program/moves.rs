@@ -4,17 +4,16 @@ use alloc::borrow::Cow;
 use alloc::format;
 use alloc::rc::Rc;
 
-use super::frame::Frame;
 use super::state::{Displacement, Offsets, Place, State};
 use super::statement::Instruction;
-use super::values::Scope;
+use super::values::{Scope, argument};
 use crate::Error;
 use crate::rapid::calc::frames::{pose_in, rapid_pose};
 use crate::rapid::calc::target::target_pose;
 use crate::rapid::calc::units::MOST_DEGREES;
 use crate::rapid::data::instructions::Shift;
 use crate::rapid::data::moves::{Argument, Move, MoveKind, Target};
-use crate::rapid::data::records::{RapidPose, RobTarget, WobjData};
+use crate::rapid::data::records::{RapidPose, RobTarget, ToolData, WobjData};
 use crate::rapid::data::types::Record;
 use crate::rapid::data::unread::{AssignedBy, Reason, Skipped, Unresolved};
 use crate::rapid::data::value::{DataType, Value};
@@ -25,7 +24,6 @@ impl Scope<'_, '_> {
     /// Fill a move with the values that it has here. Whether its target depends on what the call of
     /// its routine passes on.
     pub(super) fn fill(&self, own: &mut Cow<'_, Move>) -> bool {
-        let frame = self.frame;
         let is_known = own.target.value.is_ok()
             && own.via.as_ref().is_none_or(|via| via.value.is_ok())
             && own.tool.value.is_ok()
@@ -40,44 +38,46 @@ impl Scope<'_, '_> {
         let mut is_passed_on = is_parameter(&step.target.value);
         if let Some(via) = &mut step.via {
             is_passed_on |= is_parameter(&via.value);
-            self.argument(via, frame);
+            self.argument(via);
         }
         if step.kind == MoveKind::MoveAbsJ {
-            self.target(&mut step.target, frame, Target::JointTarget);
+            self.target(&mut step.target, Target::JointTarget);
         } else {
-            self.target(&mut step.target, frame, Target::RobTarget);
+            self.target(&mut step.target, Target::RobTarget);
         }
-        self.argument(&mut step.tool, frame);
+        // Joint angles hold without their tool, and a move is checked without its speed and zone.
+        let takes_last = self.takes_last.get();
+        let is_joints = step.kind == MoveKind::MoveAbsJ;
+        self.takes_last.set(takes_last && !is_joints);
+        self.argument(&mut step.tool);
+        self.give(&mut step.tool, is_joints);
         let absent = step.wobj.as_ref().and_then(|wobj| wobj.text.strip_prefix('?'));
-        if absent.is_some_and(|name| frame.absent.contains(&name.trim().to_lowercase())) {
+        if absent.is_some_and(|name| self.frame.absent.contains(&name.trim().to_lowercase())) {
             step.wobj = None;
         }
         if let Some(wobj) = &mut step.wobj {
-            self.argument(wobj, frame);
+            self.argument(wobj);
         }
-        self.pace(step, frame);
+        self.takes_last.set(false);
+        self.pace(step);
+        self.takes_last.set(takes_last);
         is_passed_on
     }
 
     /// A target of another type than others.
-    fn target<T: Record>(
-        &self,
-        target: &mut Argument<Target>,
-        frame: &Frame,
-        made: fn(T) -> Target,
-    ) {
+    fn target<T: Record>(&self, target: &mut Argument<Target>, made: fn(T) -> Target) {
         if target.value.is_ok() && !self.is_stale(&target.text) {
             return;
         }
         let reason = target.value.as_ref().err().cloned().unwrap_or(Reason::Unfinished);
         let (text, span) = (target.text.clone(), target.span.clone());
         let mut own: Argument<T> = Argument { text, span, value: Err(reason) };
-        self.argument(&mut own, frame);
+        self.argument(&mut own);
         target.value = own.value.map(made);
     }
 
     /// An argument that its declarations do not determine, where it is determined here.
-    fn argument<T: Record>(&self, argument: &mut Argument<T>, frame: &Frame) {
+    fn argument<T: Record>(&self, argument: &mut Argument<T>) {
         if argument.value.is_ok() && !self.is_stale(&argument.text) {
             return;
         }
@@ -85,7 +85,7 @@ impl Scope<'_, '_> {
         match self.record(text) {
             Ok(value) => {
                 argument.value = Ok(value);
-                if let Some((given, ..)) = frame.texts.get(&text.trim().to_lowercase()) {
+                if let Some((given, ..)) = self.frame.texts.get(&text.trim().to_lowercase()) {
                     argument.text.clone_from(given);
                 }
             }
@@ -105,24 +105,38 @@ impl Scope<'_, '_> {
                     || is_assigned && !is_named
                     || matches!(reason, Reason::NoSuchElement { .. });
                 if argument.value.is_ok() || is_better || is_of_robot {
-                    argument.value = Err(frame.named(reason));
+                    argument.value = Err(self.frame.named(reason));
                 }
             }
         }
     }
 
+    /// Put in the tool that is given for one that nothing declares.
+    fn give(&self, tool: &mut Argument<ToolData>, is_joints: bool) {
+        let Err(Reason::Reference { name, why: Unresolved::NotDeclared }) = &tool.value else {
+            return;
+        };
+        let given = |name| self.walk.tools.and_then(|tools| tools.get(&name));
+        if let Some(given) = given(Some(name.to_lowercase())).or_else(|| given(None)) {
+            if !is_joints {
+                self.choices.assume(|| "the tool of --tool".into());
+            }
+            tool.value = Ok(*given);
+        }
+    }
+
     /// Speed, zone and duration.
-    fn pace(&self, step: &mut Move, frame: &Frame) {
+    fn pace(&self, step: &mut Move) {
         let has = |step: &Move, name: &str| {
             step.options.iter().any(|option| option.name.eq_ignore_ascii_case(name))
         };
         if step.speed_data.is_err() && !has(step, "V") {
             let known = self.record(&step.speed);
-            step.speed_data = known.map_err(|reason| frame.named(reason));
+            step.speed_data = known.map_err(|reason| self.frame.named(reason));
         }
         if step.zone_data.is_err() && !has(step, "Z") {
             let known = self.record(&step.zone);
-            step.zone_data = known.map_err(|reason| frame.named(reason));
+            step.zone_data = known.map_err(|reason| self.frame.named(reason));
         }
         if !matches!(step.time, Some(Err(_))) {
             return;
@@ -130,11 +144,11 @@ impl Scope<'_, '_> {
         let option = step.options.iter().find(|option| option.name.eq_ignore_ascii_case("T"));
         let Some(text) = option.and_then(|option| option.text.as_deref()) else { return };
         let passed = text.strip_prefix('?').map(|name| name.trim().to_lowercase());
-        if passed.is_some_and(|name| frame.absent.contains(&name)) {
+        if passed.is_some_and(|name| self.frame.absent.contains(&name)) {
             step.time = None;
         } else {
-            let number: Result<f64, Reason> = self.number_of(text.trim_start_matches('?'));
-            step.time = Some(number);
+            let text = text.trim_start_matches('?');
+            step.time = Some(argument(text).and_then(|it| self.number(text, &it)));
         }
     }
 
@@ -285,7 +299,6 @@ pub(super) fn place_behind(step: &Move, written: &Move) -> Place {
     }
 }
 
-/// The external axes of a move's target.
 fn external_axes(step: &mut Move) -> Option<&mut [f64; 6]> {
     match step.target.value.as_mut().ok()? {
         Target::RobTarget(target) => Some(&mut target.extax),

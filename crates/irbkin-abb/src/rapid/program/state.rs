@@ -82,6 +82,8 @@ pub(super) struct State {
     pub(super) settings: MotionSettings,
     pub(super) displacement: Displacement,
     pub(super) offsets: Offsets,
+    /// What displacement and offsets rest on that the program does not determine, in words.
+    pub(super) assumed_shift: Option<Rc<str>>,
     /// Assigned data of which something is known here; all others are unknown.
     globals: Rc<BTreeMap<DatumId, Known>>,
     pub(super) locals: Rc<Locals>,
@@ -97,6 +99,7 @@ impl State {
             settings: MotionSettings::default(),
             displacement: Displacement::Nothing,
             offsets: Ok([0.0; 6]),
+            assumed_shift: None,
             globals: Rc::default(),
             locals: Rc::default(),
             asked: Questions::default(),
@@ -180,6 +183,7 @@ impl State {
     /// depend on the answer.
     pub(super) fn joined(
         program: &Program<'_>,
+        takes_last: bool,
         entry: Self,
         mut ends: Vec<(usize, Self)>,
         (question, line): (usize, usize),
@@ -202,33 +206,38 @@ impl State {
             if end.offsets != all.offsets {
                 all.offsets = Err(line);
             }
+            all.assumed_shift = all.assumed_shift.or_else(|| end.assumed_shift.clone());
             all.asked.keep_shared(&end.asked);
         }
         let depending = Cell::new(0);
-        let behind = |parts: Vec<Option<&Known>>, name: &str| {
-            let parts: Vec<&Known> = parts.into_iter().collect::<Option<_>>()?;
+        let behind = |parts: Vec<Option<Known>>, name: &str| {
+            let parts: Vec<Known> = parts.into_iter().collect::<Option<_>>()?;
             if parts.iter().all(|part| *part == parts[0]) {
                 return Some(parts[0].clone());
             }
-            let parts = ends.iter().map(|(answer, _)| *answer).zip(parts);
+            let parts = ends.iter().map(|(answer, _)| *answer).zip(&parts);
             let unchanged = || format!("{name} is unchanged on line {line}");
             let known = Known::joined(question, parts, unchanged)?;
             depending.update(|count| count + known.size());
             Some(known)
         };
         if ends.iter().any(|(_, end)| !Rc::ptr_eq(&all.globals, &end.globals)) {
-            let of = |datum: &DatumId| {
-                let parts = ends.iter().map(|(_, end)| end.globals.get(datum)).collect();
-                Some((*datum, behind(parts, program.name(*datum))?))
+            let saved = |datum: DatumId| program.saved(datum).filter(|_| takes_last);
+            let of = |datum: DatumId| {
+                let known = |(_, end): &(usize, Self)| end.globals.get(&datum).cloned();
+                let parts = ends.iter().map(|end| known(end).or_else(|| saved(datum)));
+                Some((datum, behind(parts.collect(), program.name(datum))?))
             };
-            all.globals = Rc::new(all.globals.keys().filter_map(of).collect());
+            let data: BTreeSet<DatumId> =
+                ends.iter().flat_map(|(_, end)| end.globals.keys().copied()).collect();
+            all.globals = Rc::new(data.into_iter().filter_map(of).collect());
         }
         if ends.iter().any(|(_, end)| !Rc::ptr_eq(&all.locals, &end.locals)) {
             let known = Rc::make_mut(&mut all.locals).iter_mut();
             for (name, local) in known.filter(|(_, local)| local.content.is_ok()) {
-                let parts = ends.iter().map(|(_, end)| end.locals.get(name)?.content.as_ref().ok());
-                let parts = parts.collect();
-                local.content = behind(parts, name).ok_or(Unresolved::ValueNotKnown);
+                let known = |(_, end): &(usize, Self)| end.locals.get(name)?.content.clone().ok();
+                let parts = ends.iter().map(known);
+                local.content = behind(parts.collect(), name).ok_or(Unresolved::ValueNotKnown);
             }
         }
         (all, depending.get())

@@ -2,6 +2,7 @@
 
 use alloc::collections::BTreeMap;
 use alloc::format;
+use alloc::rc::Rc;
 use alloc::string::{String, ToString};
 use core::cell::{Cell, RefCell};
 use core::ops::Range;
@@ -33,8 +34,8 @@ pub(super) struct Scope<'s, 'm> {
     pub(super) program: &'s Program<'m>,
     pub(super) state: &'s State,
     pub(super) frame: &'s Frame,
-    /// Whether a last value was taken.
-    pub(super) has_taken: Cell<bool>,
+    /// Whether a PERS that the program assigns has its saved value, which the text has.
+    pub(super) takes_last: Cell<bool>,
     /// What is taken of several values.
     pub(super) choices: Choices,
     /// What calls of functions return, by their texts.
@@ -76,10 +77,7 @@ impl Names for Scope<'_, '_> {
             return chosen(several);
         }
         match self.cause(id, datum) {
-            Ok(Some(_)) | Err(_) if self.walk.takes_last && datum.storage == Storage::Pers => {
-                self.has_taken.set(true);
-                known(&datum.content)
-            }
+            Err(_) if self.is_saved(datum) => known(&datum.content),
             Ok(cause) => Lookup::Datum { content: &datum.content, can_change: false, cause },
             Err(why) => Lookup::Unknown(why),
         }
@@ -89,7 +87,8 @@ impl Names for Scope<'_, '_> {
         let Lookup::Datum { cause: Some(cause), .. } = self.find(at, name) else { return None };
         let (id, datum) = self.program.datum(self.frame.module, &lower(name))?;
         let assigned = self.program.effects.assigned(id)?;
-        assigned.meets(datum.data_type, &atoms).then_some(cause)
+        let is_open = assigned.meets(datum.data_type, &atoms) && !self.is_saved(datum);
+        is_open.then_some(cause)
     }
 
     fn returned(&self, text: &str, expression: &Expression<'_>) -> Option<Value> {
@@ -194,6 +193,15 @@ impl<'s> Scope<'s, '_> {
         if is_expression { Err(Unresolved::ValueNotKnown) } else { Ok(None) }
     }
 
+    /// Whether a datum that the program assigns has its saved value, which is taken then.
+    fn is_saved(&self, datum: &Datum) -> bool {
+        let is_saved = self.takes_last.get() && datum.storage == Storage::Pers;
+        if is_saved {
+            self.choices.assume(|| saved_value(&datum.name));
+        }
+        is_saved
+    }
+
     fn evaluator<'a>(&'s self, text: &'a str) -> Evaluator<'s, 'a> {
         Evaluator {
             text,
@@ -206,7 +214,6 @@ impl<'s> Scope<'s, '_> {
         }
     }
 
-    /// The record that a text is.
     pub(super) fn record<T: Record>(&self, text: &str) -> Result<T, Reason> {
         known(self.evaluator(text).record(&argument(text)?))
     }
@@ -224,11 +231,6 @@ impl<'s> Scope<'s, '_> {
     /// The number that an expression of a statement is.
     pub(super) fn number(&self, text: &str, expression: &Expression<'_>) -> Result<f64, Reason> {
         known(self.evaluator(text).number(expression))
-    }
-
-    /// The number that a text is.
-    pub(super) fn number_of(&self, text: &str) -> Result<f64, Reason> {
-        self.number(text, &argument(text)?)
     }
 
     /// Whether what the declarations say of a text may not hold: it is passed to a routine that
@@ -271,7 +273,10 @@ impl<'s> Scope<'s, '_> {
                 content => matches!(content, Content::Single(_)),
             };
             let known = self.state.global(id);
+            let saved = || self.is_saved(datum).then_some(&datum.content);
             let content = known.map_or(declared, |known| self.choices.content(known));
+            let is_part = !indices.is_empty() || !components.is_empty();
+            let content = if is_part { content.or_else(saved) } else { content };
             (Some(datum.data_type), content, !is_single)
         };
         let data_type = data_type?;
@@ -331,8 +336,7 @@ impl<'s> Scope<'s, '_> {
     }
 }
 
-/// The expression that a text is.
-fn argument(text: &str) -> Result<Expression<'_>, Reason> {
+pub(super) fn argument(text: &str) -> Result<Expression<'_>, Reason> {
     let invalid = |_| Reason::NoAggregate;
     let mut tokens = Tokens::new(text).map_err(invalid)?;
     ExpressionReader::new(&mut tokens).argument().map_err(invalid)
@@ -360,4 +364,9 @@ fn known<T>(value: Result<T, Stop>) -> Result<T, Reason> {
         }
         Stop::Fault(_) => Reason::NoAggregate,
     })
+}
+
+/// What a move rests on that has the saved value of a PERS.
+pub(super) fn saved_value(name: &str) -> Rc<str> {
+    format!("the saved value of {name}").into()
 }

@@ -5,6 +5,7 @@ use alloc::borrow::Cow;
 use alloc::boxed::Box;
 use alloc::collections::BTreeSet;
 use alloc::format;
+use alloc::rc::Rc;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 
@@ -21,6 +22,7 @@ use crate::rapid::data::finding::{Code, Finding};
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::module::Storage;
 use crate::rapid::data::moves::{Move, MoveKind};
+use crate::rapid::data::records::GivenTools;
 use crate::rapid::data::settings::Setting;
 use crate::rapid::data::unread::{Reason, Skipped};
 use crate::rapid::data::value::DataType;
@@ -31,13 +33,17 @@ use irbkin::{Interrupt, Interrupted};
 /// The runs of a program: of its main routine, then of every routine that was not called; and what
 /// is never executed.
 ///
-/// With `takes_last`, a PERS that the program assigns has the value that the text has.
+/// With `takes_last`, a PERS that the program assigns has the value that the text has; `tools` are
+/// for those that nothing declares.
 pub(in crate::rapid) fn runs<'m>(
     program: &Program<'m>,
     takes_last: bool,
+    tools: Option<&GivenTools>,
     interrupt: Interrupt<'_>,
 ) -> Result<(Vec<Run<'m>>, Vec<Finding>), Interrupted> {
-    let mut walk = Walk::new(program, takes_last, interrupt);
+    let mut walk = Walk::new(program, interrupt);
+    walk.takes_last = takes_last;
+    walk.tools = tools;
     let mains = (0..program.modules.len()).map(|module| (module, "main".to_string()));
     let all = program.routines().into_iter();
     for (module, routine) in mains.chain(all) {
@@ -56,7 +62,7 @@ pub(in crate::rapid) fn steps<'m>(
     program: &Program<'m>,
     routine: &str,
 ) -> (Vec<Step<'m>>, Option<Uncertain>) {
-    let mut walk = Walk::new(program, false, Interrupt::none());
+    let mut walk = Walk::new(program, Interrupt::none());
     walk.is_one = true;
     walk.root((0, routine.to_lowercase()));
     let steps = walk.runs.into_iter().flat_map(|run| run.steps);
@@ -216,7 +222,8 @@ impl<'m> Walk<'_, 'm> {
         if !names.iter().all(is_certain) {
             return None;
         }
-        self.in_all_cases(|scope| scope.number(text, expression).ok())
+        let (number, assumed) = self.in_all_cases(|scope| scope.number(text, expression).ok())?;
+        assumed.is_none().then_some(number)
     }
 
     /// A block that the call that is followed does not execute.
@@ -278,15 +285,15 @@ impl<'m> Walk<'_, 'm> {
             self.state.place = Err("external axes move before it");
             return;
         }
-        let mut ways = self.in_each_case(|scope| {
+        let ways = self.in_each_case(|scope| {
             let mut own = Cow::Borrowed(written);
             let is_passed_on = scope.fill(&mut own);
-            (own, is_passed_on, scope.has_taken.take())
+            (own, is_passed_on)
         });
         let mut steps = Vec::with_capacity(ways.len());
-        for Way { case, words, value: (own, is_passed_on, takes_last) } in ways.drain(..) {
+        for Way { case, words, assumed, value: (own, is_passed_on) } in ways {
             let case_words = self.case(&words);
-            let step = self.stepped((index, written), own, is_passed_on, takes_last, case_words);
+            let step = self.stepped((index, written), own, is_passed_on, assumed, case_words);
             steps.push((case, step));
         }
         match steps.pop() {
@@ -317,9 +324,10 @@ impl<'m> Walk<'_, 'm> {
         (index, written): (usize, &'m Move),
         mut own: Cow<'m, Move>,
         is_passed_on: bool,
-        takes_last: bool,
+        assumed: Option<Rc<str>>,
         case: String,
     ) -> Step<'m> {
+        let assumed = assumed.or_else(|| self.state.assumed_shift.clone());
         if own.settings != self.state.settings {
             own.to_mut().settings = self.state.settings;
         }
@@ -341,13 +349,14 @@ impl<'m> Walk<'_, 'm> {
             Cow::Owned(step) => Filled::Other(Box::new(step)),
         };
         self.spend_move(&step);
+        let assumed = assumed.map(|it| it.to_string());
         Step::Move(Box::new(Stepped {
             module,
             instruction,
             step,
             chain,
             case,
-            takes_last,
+            assumed,
             halt,
             displaced_on,
         }))
@@ -418,11 +427,13 @@ impl<'m> Walk<'_, 'm> {
             Effect::Displaces(shift) => {
                 let known =
                     self.in_all_cases(|it| Some(it.displacement(skipped, instruction, shift)));
-                self.state.displacement = known.unwrap_or(Displacement::Unknown(skipped.line));
+                let unknown = (Displacement::Unknown(skipped.line), None);
+                (self.state.displacement, self.state.assumed_shift) = known.unwrap_or(unknown);
             }
             Effect::Offsets(shift) => {
                 let known = self.in_all_cases(|it| Some(it.offsets(skipped, instruction, shift)));
-                self.state.offsets = known.unwrap_or(Err(skipped.line));
+                let unknown = (Err(skipped.line), None);
+                (self.state.offsets, self.state.assumed_shift) = known.unwrap_or(unknown);
             }
             Effect::Sets => self.not_followed(skipped, skipped.what.to_string()),
             Effect::Stops if self.is_one => self.state.here = Here::Left,

@@ -20,6 +20,7 @@ use super::whole::Program;
 use crate::rapid::data::finding::Finding;
 use crate::rapid::data::instructions::Effect;
 use crate::rapid::data::moves::{Move, MoveKind, Target};
+use crate::rapid::data::records::GivenTools;
 use crate::rapid::data::unread::Skipped;
 use irbkin::Interrupt;
 
@@ -55,8 +56,8 @@ pub(in crate::rapid) struct Stepped<'m> {
     pub(in crate::rapid) chain: usize,
     /// Which of its values these are, in words; empty of the only ones.
     pub(in crate::rapid) case: String,
-    /// Whether a value is the last one that a PERS had.
-    pub(in crate::rapid) takes_last: bool,
+    /// The first value that it rests on although the program does not determine it, in words.
+    pub(in crate::rapid) assumed: Option<String>,
     /// The statement behind it at which the program may wait, in words.
     pub(in crate::rapid) halt: Option<String>,
     /// The line of what displaces its target by a known pose.
@@ -98,6 +99,7 @@ pub(super) struct Walk<'p, 'm> {
     /// The first place that decides on steps.
     pub(super) uncertain: Option<Uncertain>,
     pub(super) takes_last: bool,
+    pub(super) tools: Option<&'p GivenTools>,
     pub(super) runs: Vec<Run<'m>>,
     pub(super) notes: Vec<Finding>,
     /// Moves, by module and index, that some call does not execute.
@@ -130,17 +132,14 @@ pub(super) struct Walk<'p, 'm> {
 }
 
 impl<'p, 'm> Walk<'p, 'm> {
-    pub(super) fn new(
-        program: &'p Program<'m>,
-        takes_last: bool,
-        interrupt: Interrupt<'p>,
-    ) -> Self {
+    pub(super) fn new(program: &'p Program<'m>, interrupt: Interrupt<'p>) -> Self {
         let bytes: usize = program.modules.iter().map(|it| it.text_length).sum();
         Self {
             program,
             is_one: false,
             uncertain: None,
-            takes_last,
+            takes_last: false,
+            tools: None,
             runs: Vec::new(),
             notes: Vec::new(),
             left: BTreeMap::new(),
@@ -209,7 +208,8 @@ impl<'p, 'm> Walk<'p, 'm> {
     ) -> bool {
         self.spend(ends.iter().map(|(_, end)| end.copied(&entry) / COPIED).sum());
         let depending;
-        (self.state, depending) = State::joined(self.program, entry, ends, (question, line));
+        (self.state, depending) =
+            State::joined(self.program, self.takes_last, entry, ends, (question, line));
         self.spend(depending);
         depending > 0
     }
@@ -255,7 +255,7 @@ impl<'p, 'm> Walk<'p, 'm> {
             program: self.program,
             state: &self.state,
             frame: &self.frame,
-            has_taken: Cell::new(false),
+            takes_last: Cell::new(self.takes_last),
             choices,
             returned: RefCell::default(),
             asked: RefCell::new(self.state.asked.clone()),
@@ -283,14 +283,15 @@ impl<'p, 'm> Walk<'p, 'm> {
         ways
     }
 
-    /// What something is whatever the case.
+    /// What something is whatever the case, and what it rests on.
     pub(super) fn in_all_cases<T: PartialEq>(
         &mut self,
         evaluate: impl Fn(&Scope<'_, 'm>) -> Option<T>,
-    ) -> Option<T> {
-        let mut values = self.in_each_case(evaluate).into_iter().map(|way| way.value);
-        let first = values.next()?;
-        values.all(|value| value == first).then_some(first)?
+    ) -> Option<(T, Option<Rc<str>>)> {
+        let mut ways = self.in_each_case(evaluate).into_iter();
+        let first = ways.next()?;
+        let are_same = ways.all(|way| (&way.value, &way.assumed) == (&first.value, &first.assumed));
+        Some((first.value.filter(|_| are_same)?, first.assumed))
     }
 
     pub(super) fn push(&mut self, step: Step<'m>) {

@@ -1,5 +1,6 @@
 //! Programs followed: calls with arguments, assignments, loops, displacements, units.
 
+use std::collections::BTreeMap;
 use std::format;
 use std::string::{String, ToString};
 use std::vec;
@@ -7,8 +8,8 @@ use std::vec::Vec;
 
 use crate::rapid::data::module::Parameter;
 use crate::rapid::{
-    CheckOptions, Checked, Code, DataType, Finding, Module, Unit, UnitAxis, Units, check, parse,
-    read,
+    CheckOptions, Checked, Code, DataType, Finding, Module, RapidPose, Severity, ToolData, Unit,
+    UnitAxis, Units, check, parse, read,
 };
 use irbkin::Pose;
 use irbkin_motion::Arm;
@@ -246,12 +247,124 @@ fn components_of_records_are_passed_on() {
 }
 
 #[test]
-fn the_last_value_of_a_pers_is_taken_on_request_and_said() {
-    let body = text("MoveJ a,v100,fine,v; v:=u;");
+fn what_is_found_with_the_saved_value_of_a_pers_is_a_note() {
     let options = CheckOptions { takes_last: true, ..CheckOptions::default() };
-    let found = checked(&[&body], &options);
-    assert_eq!(codes(&found.findings), [Code::LastValue]);
-    assert_eq!(found.moves[0].unchecked, None);
+    for (body, wanted, is_assumed) in [
+        ("MoveJ a,v100,fine,v; v:=u;", vec![], true),
+        ("MoveJ s,v100,fine,t; s:=a;", vec![(Code::OutOfReach, "s")], true),
+        ("s:=a; MoveJ s,v100,fine,t;", vec![], false),
+        // Below calls, also where a call passes on what it was given.
+        (
+            "s:=a; far s; read s; far s; ENDPROC PROC far(robtarget p) MoveJ p,v100,fine,t; ENDPROC \
+          PROC read(INOUT robtarget p) p:=CRobT(\\TaskName:=\"T2\");",
+            vec![(Code::OutOfReach, "s")],
+            true,
+        ),
+        (
+            "up s; s:=a; ENDPROC PROC up(robtarget p) far p; ENDPROC PROC far(robtarget q) \
+          MoveL Offs(q,0,0,9),v100,fine,t;",
+            vec![(Code::OutOfReach, "s")],
+            true,
+        ),
+        // What is calculated of it before the move, too.
+        (
+            "VAR robtarget x; x:=Offs(s,0,0,9); MoveJ x,v100,fine,t; s:=a;",
+            vec![(Code::OutOfReach, "s")],
+            true,
+        ),
+        (
+            "go s; s:=a; ENDPROC PROC go(robtarget p) p:=CRobT(); MoveJ p,v100,fine,t;",
+            vec![],
+            false,
+        ),
+        // The load of a tool, its use with joint angles, and speeds matter nothing.
+        ("MoveJ out,v100,fine,v; v.tload.mass:=5;", vec![(Code::OutOfReach, "")], false),
+        (
+            "MoveAbsJ [[999,0,0,0,30,0],%],v100,fine,v; v:=u;",
+            vec![(Code::OutsideLimits, "")],
+            false,
+        ),
+        ("MoveJ out,vs,fine,t; vs:=v50;", vec![(Code::OutOfReach, "")], false),
+        // A tool that nothing declares is an error with them, too.
+        ("MoveJ s,v100,fine,no; s:=a;", vec![(Code::UnknownTool, "")], false),
+    ] {
+        let data = format!(
+            "PERS robtarget s:=[[2900,300,500],[0,0,1,0],[0,0,0,0],{FAR}];
+            PERS speeddata vs:=[50,500,5000,1000];\n"
+        );
+        let body =
+            text(&body.replace('%', FAR)).replacen("MODULE M\n", &format!("MODULE M\n{data}"), 1);
+        let found = checked(&[&body], &options);
+        let own: Vec<_> =
+            found.findings.iter().filter(|it| it.code != Code::UnknownValue).collect();
+        assert_eq!(own.len(), wanted.len(), "{body}: {own:?}");
+        for (finding, (code, name)) in own.iter().zip(wanted) {
+            let words = format!("(with the saved value of {name})");
+            let severity = if name.is_empty() { Severity::Error } else { Severity::Note };
+            assert_eq!((finding.code, finding.severity()), (code, severity), "{body}");
+            assert_eq!(finding.message.ends_with(&words), !name.is_empty(), "{}", finding.message);
+        }
+        assert_eq!(found.moves.iter().any(|it| it.assumed), is_assumed, "{body}");
+    }
+}
+
+#[test]
+fn an_error_without_a_saved_value_stays() {
+    let options = CheckOptions { takes_last: true, ..CheckOptions::default() };
+    let far = format!("[[2900,300,500],[0,0,1,0],[0,0,0,0],{FAR}]");
+    let side = format!("[[900,300,500],[0,0,1,0],[0,0,0,0],{FAR}]");
+    let behind = format!("[[-900,-200,500],[0,0,1,0],[-2,0,-2,0],{FAR}]");
+    for (declared, body, wanted) in [
+        // At one place a call has the value and another one does not.
+        (&far, "go; s:=out; go; ENDPROC PROC go() MoveJ s,v100,fine,t;", Severity::Error),
+        // The way from the value is as uncertain as it is, also behind a branch.
+        (&side, "MoveJ s,v100,fine,t; MoveL %,v100,fine,t; s:=a;", Severity::Note),
+        (&side, "MoveJ s,v100,fine,t; IF go THEN MoveL %,v100,fine,t; ENDIF s:=a;", Severity::Note),
+        (&side, "s:=b; MoveJ s,v100,fine,t; MoveL %,v100,fine,t;", Severity::Error),
+    ] {
+        let data = format!("MODULE M\nPERS robtarget s:={declared};\n");
+        let text = text(&body.replace('%', &behind)).replacen("MODULE M\n", &data, 1);
+        let found = checked(&[&text], &options);
+        let severities: Vec<_> = found.findings.iter().map(Finding::severity).collect();
+        assert_eq!(severities, [wanted], "{body}: {:?}", found.findings);
+        assert_eq!(found.moves[0].assumed, !body.starts_with("s:="), "{body}");
+    }
+}
+
+#[test]
+fn a_given_tool_stands_for_one_that_nothing_declares() {
+    let long = ToolData {
+        tframe: RapidPose { trans_mm: [0.0, 0.0, 9e3], ..RapidPose::IDENTITY },
+        ..ToolData::TOOL0
+    };
+    let tools = BTreeMap::from([(None, ToolData::TOOL0), (Some("tlong".to_string()), long)]);
+    let options = CheckOptions { tools: Some(&tools), ..CheckOptions::default() };
+    for (body, wanted, is_assumed) in [
+        ("MoveJ a,v100,fine,no;", vec![], true),
+        ("MoveJ a,v100,fine,tLong;", vec![Severity::Note], true),
+        (
+            "go tLong; ENDPROC PROC go(PERS tooldata own) MoveJ a,v100,fine,own;",
+            vec![Severity::Note],
+            true,
+        ),
+        ("MoveJ out,v100,fine,t;", vec![Severity::Error], false),
+        // A tool that is assigned is declared, and joint angles hold without one.
+        (
+            "v:=u; read v; MoveJ a,v100,fine,v; ENDPROC PROC read(INOUT tooldata x) x:=CTool();",
+            vec![],
+            false,
+        ),
+        ("MoveAbsJ [[0,0,0,0,30,0],%],v100,fine,tLong;", vec![], false),
+    ] {
+        let found = checked(&[&text(&body.replace('%', FAR))], &options);
+        let own = found.findings.iter().filter(|it| it.code != Code::UnknownValue);
+        let severities: Vec<_> = own.clone().map(Finding::severity).collect();
+        assert_eq!(severities, wanted, "{body}: {:?}", found.findings);
+        let is_said = |it: &Finding| it.message.ends_with("(with the tool of --tool)");
+        assert!(own.clone().all(|it| is_said(it) == is_assumed), "{body}");
+        assert_eq!(found.moves[0].assumed, is_assumed, "{body}");
+    }
+    assert_eq!(codes(&of("MoveJ a,v100,fine,tLong;").findings), [Code::UnknownTool]);
 }
 
 #[test]
